@@ -1,0 +1,231 @@
+// SPDX-License-Identifier: MIT
+#include "meshes/triangle_mesh.h"
+
+#include "meshes/errors.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+#include <sstream>
+#include <unordered_map>
+
+namespace homespun::meshes
+{
+namespace
+{
+std::uint64_t key(const int from, const int to)
+{
+  return (static_cast<std::uint64_t>(static_cast<std::uint32_t>(from)) << 32) |
+         static_cast<std::uint32_t>(to);
+}
+
+/// Keeps the first few messages of a kind and counts the rest.
+class FaultList
+{
+public:
+  explicit FaultList(std::string name)
+      : name(std::move(name))
+  {
+  }
+
+  void add(const std::string &kind, const std::string &message)
+  {
+    const int n = ++count[kind];
+    if (n <= 3)
+      faults.push_back(name + ": " + message);
+  }
+
+  std::vector<std::string> take()
+  {
+    for (const auto &[kind, n] : count)
+      if (n > 3)
+        faults.push_back(name + ": and " + std::to_string(n - 3) + " more " + kind);
+    return std::move(faults);
+  }
+
+private:
+  std::string name;
+  std::map<std::string, int> count;
+  std::vector<std::string> faults;
+};
+
+std::string at(const TriangleMesh &mesh, const int vertex)
+{
+  std::ostringstream text;
+  text << '(' << mesh.vertices(vertex, 0) << ", " << mesh.vertices(vertex, 1) << ") m";
+  return text.str();
+}
+} // namespace
+
+Eigen::VectorXd signed_areas(const TriangleMesh &mesh)
+{
+  Eigen::VectorXd areas(mesh.n_triangles());
+  for (int t = 0; t < mesh.n_triangles(); ++t)
+  {
+    const Eigen::RowVector2d x0    = mesh.vertices.row(mesh.triangles(t, 0));
+    const Eigen::RowVector2d edge1 = mesh.vertices.row(mesh.triangles(t, 1)) - x0;
+    const Eigen::RowVector2d edge2 = mesh.vertices.row(mesh.triangles(t, 2)) - x0;
+    areas(t)                       = 0.5 * (edge1(0) * edge2(1) - edge1(1) * edge2(0));
+  }
+  return areas;
+}
+
+std::vector<std::array<int, 2>> boundary_edges(const TriangleMesh &mesh)
+{
+  std::unordered_map<std::uint64_t, int> triangle_of_edge;
+  triangle_of_edge.reserve(3 * static_cast<std::size_t>(mesh.n_triangles()));
+  for (int t = 0; t < mesh.n_triangles(); ++t)
+    for (int k = 0; k < 3; ++k)
+    {
+      const int from = mesh.triangles(t, k), to = mesh.triangles(t, (k + 1) % 3);
+      const auto [place, is_new] = triangle_of_edge.emplace(key(from, to), t);
+      if (!is_new)
+        throw BadInput("the edge from vertex " + std::to_string(from) + " to vertex " +
+                       std::to_string(to) + " is traversed the same way by triangles " +
+                       std::to_string(place->second) + " and " + std::to_string(t) +
+                       "; expected one triangle on each side: remove the duplicate triangle or "
+                       "turn the inverted one");
+    }
+  std::vector<std::array<int, 2>> edges;
+  for (int t = 0; t < mesh.n_triangles(); ++t)
+    for (int k = 0; k < 3; ++k)
+    {
+      const int from = mesh.triangles(t, k), to = mesh.triangles(t, (k + 1) % 3);
+      if (triangle_of_edge.count(key(to, from)) == 0)
+        edges.push_back({from, to});
+    }
+  return edges;
+}
+
+std::vector<std::vector<int>> boundary_loops(const TriangleMesh &mesh)
+{
+  const std::vector<std::array<int, 2>> edges = boundary_edges(mesh);
+  std::unordered_map<int, std::vector<std::size_t>> leaving;
+  for (std::size_t e = 0; e < edges.size(); ++e)
+    leaving[edges[e][0]].push_back(e);
+
+  // Where loops touch, several edges leave a vertex: the one that turns most to the left, seen from
+  // the edge that arrives, keeps the two loops apart on the side of the mesh.
+  const auto direction = [&](const std::size_t e) -> Eigen::RowVector2d
+  { return mesh.vertices.row(edges[e][1]) - mesh.vertices.row(edges[e][0]); };
+  const auto turn = [&](const std::size_t from, const std::size_t to)
+  {
+    const Eigen::RowVector2d a = direction(from), b = direction(to);
+    return std::atan2(a(0) * b(1) - a(1) * b(0), a.dot(b));
+  };
+
+  std::vector<char> used(edges.size(), 0);
+  std::vector<std::vector<int>> loops;
+  for (std::size_t first = 0; first < edges.size(); ++first)
+  {
+    if (used[first])
+      continue;
+    std::vector<int> loop;
+    std::size_t edge = first;
+    while (true)
+    {
+      used[edge] = 1;
+      loop.push_back(edges[edge][0]);
+      const std::vector<std::size_t> &candidates = leaving[edges[edge][1]];
+      std::size_t next                           = edges.size();
+      for (const std::size_t candidate : candidates)
+        if (!used[candidate] || candidate == first)
+          if (next == edges.size() || turn(edge, candidate) > turn(edge, next))
+            next = candidate;
+      if (next == edges.size() || next == first)
+        break;
+      edge = next;
+    }
+    loops.push_back(std::move(loop));
+  }
+  return loops;
+}
+
+std::vector<std::string> faults_of(const TriangleMesh &mesh, const std::string &name)
+{
+  FaultList faults(name);
+  if (mesh.n_triangles() == 0)
+    faults.add("empty meshes", "no triangle found; expected at least one");
+  if (mesh.material.size() != mesh.n_triangles())
+    faults.add("sizes", std::to_string(mesh.material.size()) + " material numbers for " +
+                          std::to_string(mesh.n_triangles()) + " triangles; expected as many");
+
+  bool usable = true;
+  for (int v = 0; v < mesh.n_vertices(); ++v)
+    if (!mesh.vertices.row(v).allFinite())
+    {
+      faults.add("vertices that are not finite",
+                 "vertex " + std::to_string(v) + " has coordinates that are not finite numbers");
+      usable = false;
+    }
+  for (int t = 0; t < mesh.n_triangles(); ++t)
+    for (int k = 0; k < 3; ++k)
+      if (mesh.triangles(t, k) < 0 || mesh.triangles(t, k) >= mesh.n_vertices())
+      {
+        faults.add("indices out of range", "triangle " + std::to_string(t) + " names vertex " +
+                                             std::to_string(mesh.triangles(t, k)) +
+                                             "; expected 0 to " +
+                                             std::to_string(mesh.n_vertices() - 1));
+        usable = false;
+      }
+  if (!usable)
+    return faults.take();
+
+  const Eigen::VectorXd areas = signed_areas(mesh);
+  for (int t = 0; t < mesh.n_triangles(); ++t)
+  {
+    double longest = 0.;
+    for (int k = 0; k < 3; ++k)
+      longest = std::max(longest, (mesh.vertices.row(mesh.triangles(t, (k + 1) % 3)) -
+                                   mesh.vertices.row(mesh.triangles(t, k)))
+                                    .squaredNorm());
+    std::ostringstream text;
+    text << "triangle " << t << " near " << at(mesh, mesh.triangles(t, 0));
+    // 1e-10 of the square of its longest edge: beyond that, gradients lose half their digits.
+    if (std::abs(areas(t)) <= 1e-10 * longest)
+    {
+      text << " has area " << areas(t) << " m^2 with a longest edge of " << std::sqrt(longest)
+           << " m; expected a proper triangle: merge its vertices or remesh";
+      faults.add("triangles without area", text.str());
+    }
+    else if (areas(t) < 0.)
+    {
+      text << " is inverted (area " << areas(t)
+           << " m^2); expected vertices in counter-clockwise order: reverse it, or untangle "
+              "the mesh there";
+      faults.add("inverted triangles", text.str());
+    }
+  }
+
+  std::map<std::array<int, 3>, int> first_with;
+  std::unordered_map<std::uint64_t, int> sharing;
+  std::vector<char> is_used(static_cast<std::size_t>(mesh.n_vertices()), 0);
+  for (int t = 0; t < mesh.n_triangles(); ++t)
+  {
+    std::array<int, 3> corners = {mesh.triangles(t, 0), mesh.triangles(t, 1), mesh.triangles(t, 2)};
+    std::sort(corners.begin(), corners.end());
+    const auto [place, is_new] = first_with.emplace(corners, t);
+    if (!is_new)
+      faults.add("duplicate triangles", "triangle " + std::to_string(t) + " repeats triangle " +
+                                          std::to_string(place->second) +
+                                          "; expected each once: delete one");
+    for (int k = 0; k < 3; ++k)
+    {
+      is_used[static_cast<std::size_t>(corners[static_cast<std::size_t>(k)])] = 1;
+      const int from = mesh.triangles(t, k), to = mesh.triangles(t, (k + 1) % 3);
+      if (++sharing[key(std::min(from, to), std::max(from, to))] == 3)
+        faults.add("edges with more than two triangles",
+                   "the edge between vertices " + std::to_string(from) + " and " +
+                     std::to_string(to) + " near " + at(mesh, from) +
+                     " belongs to more than two triangles; expected one or two: triangles "
+                     "overlap there");
+    }
+  }
+  for (int v = 0; v < mesh.n_vertices(); ++v)
+    if (!is_used[static_cast<std::size_t>(v)])
+      faults.add("isolated vertices", "vertex " + std::to_string(v) + " at " + at(mesh, v) +
+                                        " belongs to no triangle; expected none such: remove it");
+  return faults.take();
+}
+} // namespace homespun::meshes
