@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: MIT
+// Strain and lift of the coarse cloth, per triangle and blended to the vertices; and the definition
+// of an up-sampled position, one point at a time. The Upsampler computes the same for all points.
+//
+//   x = sum_k b_k x_k + L w,   w = −(E11 chi_11 + E22 chi_22 + gamma12 chi_12)   (paper Eqs. 9, 12)
+//
+// F = [x1 − x0, x2 − x0] Dm^-1 (dim x 2), C = F^T F, J = det F (dim = 2) or |f1 × f2| (dim = 3),
+// s = sqrt(tr C + 2 J):  U = (C + J I)/s,  R = (F + cof F)/s  with cof F = dJ/dF, E = U − I. In the
+// plane R is the proper rotation nearest to F, also where a triangle is inverted.
+// Where a triangle is collapsed to a line cof F counts as zero; to a point, U = 0 and R = 0. Both are
+// finite and need no branch.
+#pragma once
+
+#include "localization/options.h"
+#include "meshes/homogenized_cell.h"
+#include "meshes/triangle_mesh.h"
+
+#include <Eigen/Core>
+
+#include <vector>
+
+namespace homespun::localization
+{
+/// Strain and lift at one place.
+template <int dim>
+struct Frame
+{
+  Eigen::Vector3d strain;             ///< E11, E22, gamma12 [-]
+  Eigen::Matrix<double, dim, 2> lift; ///< [-]
+};
+
+/// Strains and lifts of a coarse mesh in motion.
+template <int dim>
+class CoarseFrames
+{
+public:
+  /// Components of a frame in a row of values(): strain (3), then lift, row by row (2 dim).
+  static constexpr int n_components = 3 + 2 * dim;
+
+  /// Prepares the rest state and the weights of the average.
+  /// @throws BadInput where the mesh is not sound, or Strain::linear is asked for in space
+  CoarseFrames(const meshes::TriangleMesh &coarse_rest, const UpsamplerOptions &options);
+
+  /// Frames at the given positions: one row per coarse vertex (Blend::continuous) or per coarse
+  /// triangle (Blend::piecewise). Writes into work space of the object: one thread at a time.
+  /// @param current (n,dim) [m], finite
+  /// @return (rows, n_components), valid until the next call
+  const Eigen::Matrix<double, Eigen::Dynamic, n_components, Eigen::RowMajor> &
+  values(const Positions<dim> &current) const;
+
+  /// What values() returned last.
+  const Eigen::Matrix<double, Eigen::Dynamic, n_components, Eigen::RowMajor> &last_values() const
+  {
+    return frames;
+  }
+
+  /// Frame of one coarse triangle without any blending, the definition.
+  Frame<dim> of_triangle(int triangle, const Positions<dim> &current) const;
+
+  /// Frame at a point of a coarse triangle, interpolated from values().
+  /// @param weights barycentric coordinates of the point in the triangle
+  Frame<dim> at(int triangle, const Eigen::Vector3d &weights, const Positions<dim> &current) const;
+
+  const meshes::TriangleMesh &rest() const
+  {
+    return mesh;
+  }
+
+private:
+  void evaluate_triangles(const Positions<dim> &current) const;
+
+  meshes::TriangleMesh mesh;
+  UpsamplerOptions options;
+  std::vector<int> corners;                 ///< (3, m): triangles, corner by corner
+  std::vector<double> inverse_rest;         ///< (4, m): entries of Dm^-1
+  std::vector<int> first, owner;            ///< triangles around a vertex
+  std::vector<double> share;                ///< weight of each of them in the average
+  mutable std::vector<double> per_triangle; ///< (n_components, m)
+  mutable Eigen::Matrix<double, Eigen::Dynamic, n_components, Eigen::RowMajor> frames;
+};
+
+/// Position of one fine point: the formula on top of this file.
+/// @param weights barycentric coordinates of its rest position in the coarse triangle
+/// @param chi its row of the characteristic displacements, column 2 a + c [m]
+/// @return (dim) [m]
+template <int dim>
+Eigen::Matrix<double, dim, 1>
+fine_position(const CoarseFrames<dim> &frames, int triangle, const Eigen::Vector3d &weights,
+              const Eigen::Matrix<double, 1, 6> &chi, const Positions<dim> &current);
+
+/// Characteristic displacements with the chosen constant.
+/// @return (n,6) [m]: minus their values at the anchor, or minus their mean over the cell
+/// @throws BadInput where shapes do not match or a value is not finite
+meshes::CharacteristicDisplacements anchored(const meshes::HomogenizedCell &cell, Anchor anchor);
+} // namespace homespun::localization

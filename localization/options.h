@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: MIT
+// The choices of localization (METHOD 3), each with what it means. The defaults are the method; the
+// others are there so that a report can show what each choice costs.
+#pragma once
+
+#include <Eigen/Core>
+
+namespace homespun::localization
+{
+/// Positions of vertices, one per row, shape (n,dim) [m].
+template <int dim>
+using Positions = Eigen::Matrix<double, Eigen::Dynamic, dim, Eigen::RowMajor>;
+
+/// Macro strain of a coarse triangle, Voigt (E11, E22, gamma12 = 2 E12) in the sheet's rest frame.
+enum class Strain
+{
+  biot,  ///< U − I, U = sqrt(F^T F): the measure of the solver and of the `biot` reference
+  linear ///< sym(F − I), dim = 2 only; implies the lift `identity`
+};
+
+/// How a fluctuation in the rest plane becomes a displacement of the current cloth.
+enum class Lift
+{
+  rotation, ///< R = F U^-1, the tangential rotation: what linear theory gives
+  affine,   ///< F, what paper Eq. 12 prints
+  identity  ///< none, the columns of the unit matrix
+};
+
+/// Which constant chi carries.
+enum class Anchor
+{
+  lattice, ///< zero at the lattice points, so that these stay on the coarse mesh (paper Eq. 12)
+  mean     ///< mean zero over the cell
+};
+
+/// How strain and lift vary over the coarse mesh.
+enum class Blend
+{
+  continuous, ///< averaged to the coarse vertices (weighted by rest area), linear in between
+  piecewise   ///< constant in each coarse triangle: jumps across its edges
+};
+
+/// Which way through the data.
+enum class Path
+{
+  automatic, ///< the aligned one where the coarse mesh is the sheet's own lattice, else the general
+  general    ///< with point location, on any coarse mesh
+};
+
+struct UpsamplerOptions
+{
+  bool microscopic = true; ///< false: the coarse motion interpolated, the baseline `affine`
+  Strain strain    = Strain::biot;
+  Lift lift        = Lift::rotation;
+  Anchor anchor    = Anchor::lattice;
+  Blend blend      = Blend::continuous;
+  Path path        = Path::automatic;
+};
+} // namespace homespun::localization

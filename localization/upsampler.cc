@@ -1,0 +1,311 @@
+// SPDX-License-Identifier: MIT
+#include "localization/upsampler.h"
+
+#include "localization/kernel.h"
+#include "localization/point_location.h"
+#include "meshes/errors.h"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+namespace homespun::localization
+{
+namespace
+{
+/// A coarse mesh is the sheet's lattice if its vertices agree to this part of the cell size. Far below
+/// image_tolerance: what agrees less well is up-sampled by the general path, right to all digits.
+constexpr double aligned_tolerance = 1e-10;
+
+bool is_lattice_of(const meshes::Sheet &sheet, const meshes::TriangleMesh &coarse)
+{
+  const meshes::TriangleMesh lattice =
+    meshes::coarse_sheet(sheet.origin, sheet.lattice.vectors, sheet.n1, sheet.n2);
+  return coarse.n_vertices() == lattice.n_vertices() &&
+         coarse.triangles.rows() == lattice.triangles.rows() &&
+         coarse.triangles == lattice.triangles &&
+         (coarse.vertices - lattice.vertices).cwiseAbs().maxCoeff() <=
+           aligned_tolerance * std::sqrt(sheet.lattice.area());
+}
+
+std::vector<std::string> faults_between(const meshes::HomogenizedCell &cell,
+                                        const meshes::Sheet &sheet)
+{
+  std::vector<std::string> faults;
+  const int n = sheet.mesh.n_vertices();
+  if (sheet.n1 < 1 || sheet.n2 < 1 || sheet.n_per_cell < 1 || sheet.n_below < 0 ||
+      sheet.n_below > sheet.n_per_cell || n < sheet.n1 * sheet.n2 * sheet.n_per_cell)
+    faults.push_back("fine sheet: its numbers of cells and of vertices per cell do not fit its " +
+                     std::to_string(n) + " vertices; make it by meshes::tile()");
+  if (sheet.cell_vertex.size() != n)
+    faults.push_back("fine sheet: has " + std::to_string(sheet.cell_vertex.size()) +
+                     " entries in cell_vertex; expected " + std::to_string(n) + ", one per vertex");
+  else if (n > 0 && (sheet.cell_vertex.minCoeff() < 0 ||
+                     sheet.cell_vertex.maxCoeff() >= cell.mesh.n_vertices()))
+    faults.push_back("fine sheet: names cell vertex " +
+                     std::to_string(sheet.cell_vertex.minCoeff() < 0
+                                      ? sheet.cell_vertex.minCoeff()
+                                      : sheet.cell_vertex.maxCoeff()) +
+                     "; expected 0 ... " + std::to_string(cell.mesh.n_vertices() - 1) +
+                     ": it was tiled from another cell");
+  const double gap = (cell.lattice.vectors - sheet.lattice.vectors).cwiseAbs().maxCoeff();
+  if (!(gap <= meshes::image_tolerance * std::sqrt(sheet.lattice.area())))
+  {
+    std::ostringstream text;
+    text << "fine sheet: its lattice vectors differ from the cell's by " << gap
+         << " m; expected the same cell in both";
+    faults.push_back(text.str());
+  }
+  return faults;
+}
+} // namespace
+
+template <int dim, typename Scalar>
+void Upsampler<dim, Scalar>::Table::append(const Eigen::Vector3d &barycentric,
+                                           const Eigen::Matrix<double, 1, 6> &chi)
+{
+  for (std::size_t k = 0; k < 2; ++k)
+    weights[k].push_back(static_cast<Scalar>(barycentric(static_cast<Eigen::Index>(k) + 1)));
+  for (std::size_t k = 0; k < 6; ++k)
+    modes[k].push_back(static_cast<Scalar>(-chi(static_cast<Eigen::Index>(k))));
+}
+
+template <int dim, typename Scalar>
+void Upsampler<dim, Scalar>::Table::pad()
+{
+  while (size() % lanes != 0)
+    append(Eigen::Vector3d::Zero(), Eigen::Matrix<double, 1, 6>::Zero());
+}
+
+template <int dim, typename Scalar>
+int Upsampler<dim, Scalar>::Table::size() const
+{
+  return static_cast<int>(weights[0].size());
+}
+
+template <int dim, typename Scalar>
+Upsampler<dim, Scalar>::Upsampler(const meshes::HomogenizedCell &cell,
+                                  const meshes::TriangleMesh &coarse_rest,
+                                  const meshes::Sheet &fine, const UpsamplerOptions &options)
+    : frames(coarse_rest, options)
+    , options(options)
+{
+  if (const auto faults = faults_between(cell, fine); !faults.empty())
+    throw meshes::BadInput(faults);
+  const meshes::CharacteristicDisplacements chi =
+    options.microscopic
+      ? anchored(cell, options.anchor)
+      : meshes::CharacteristicDisplacements::Zero(cell.mesh.n_vertices(), 6).eval();
+  n_total = fine.mesh.n_vertices();
+  aligned = options.path == Path::automatic && is_lattice_of(fine, coarse_rest);
+  if (aligned)
+  {
+    n_cells = fine.n1 * fine.n2;
+    n_block = fine.n_per_cell;
+    n_below = fine.n_below;
+    for (int v = 0; v < n_block; ++v)
+    {
+      // s along a1 and t along a2: below, corners (0,0) (1,0) (1,1); above, (0,0) (1,1) (0,1).
+      const Eigen::RowVector2d f = fine.lattice.fractional(fine.mesh.vertices.row(v) - fine.origin);
+      const double s = f(0), t = f(1);
+      if (v == n_below)
+        shared.pad();
+      shared.append(v < n_below ? Eigen::Vector3d(1. - s, s - t, t)
+                                : Eigen::Vector3d(1. - t, s, t - s),
+                    chi.row(fine.cell_vertex(v)));
+    }
+    shared.pad();
+  }
+  place(chi, fine, n_cells * n_block);
+  records.resize(static_cast<std::size_t>(coarse_rest.n_vertices()) * record_size);
+}
+
+template <int dim, typename Scalar>
+void Upsampler<dim, Scalar>::place(const meshes::CharacteristicDisplacements &chi,
+                                   const meshes::Sheet &fine, const int from)
+{
+  const PointLocation location(frames.rest());
+  // Points on a coarse edge belong to the triangle at their upper right and below the diagonal, as in
+  // the order of the sheet; without blending it matters.
+  const Eigen::RowVector2d towards =
+    1e-5 * Eigen::RowVector2d(2. / 3., 1. / 3.) * fine.lattice.vectors;
+  std::vector<std::vector<std::pair<int, Eigen::Vector3d>>> in_triangle(
+    static_cast<std::size_t>(frames.rest().n_triangles()));
+  std::vector<std::string> faults;
+  for (int v = from; v < n_total && faults.size() < 3; ++v)
+  {
+    const Eigen::RowVector2d point = fine.mesh.vertices.row(v);
+    const Location found           = location.locate(point, towards);
+    if (found.triangle >= 0)
+    {
+      in_triangle[static_cast<std::size_t>(found.triangle)].emplace_back(v, found.weights);
+      continue;
+    }
+    std::ostringstream text;
+    text << "fine vertex " << v << " at (" << point(0) << ", " << point(1)
+         << ") m: lies in no coarse triangle; expected a coarse mesh that covers the whole sheet";
+    faults.push_back(text.str());
+  }
+  if (!faults.empty())
+    throw meshes::BadInput(faults);
+  for (std::size_t t = 0; t < in_triangle.size(); ++t)
+  {
+    if (in_triangle[t].empty())
+      continue;
+    groups.push_back({static_cast<int>(t), own.size(), static_cast<int>(in_triangle[t].size())});
+    for (const auto &[v, weights] : in_triangle[t])
+    {
+      own.append(weights, chi.row(fine.cell_vertex(v)));
+      target.push_back(v);
+    }
+    own.pad();
+    target.resize(static_cast<std::size_t>(own.size()), -1);
+  }
+  if (!options.microscopic)
+    for (std::size_t k = 0; k < 6; ++k)
+    {
+      shared.modes[k] = {};
+      own.modes[k]    = {};
+    }
+}
+
+template <int dim, typename Scalar>
+bool Upsampler<dim, Scalar>::is_aligned() const
+{
+  return aligned;
+}
+
+template <int dim, typename Scalar>
+int Upsampler<dim, Scalar>::n_fine() const
+{
+  return n_total;
+}
+
+template <int dim, typename Scalar>
+std::size_t Upsampler<dim, Scalar>::table_bytes() const
+{
+  const std::size_t numbers = options.microscopic ? 8 : 2;
+  return numbers * sizeof(Scalar) * static_cast<std::size_t>(shared.size() + own.size()) +
+         sizeof(int) * target.size();
+}
+
+template <int dim, typename Scalar>
+void Upsampler<dim, Scalar>::fill_records(const Positions<dim> &coarse_current) const
+{
+  const Eigen::Index n = coarse_current.rows();
+  for (Eigen::Index v = 0; v < n; ++v)
+    for (int i = 0; i < dim; ++i)
+      records[static_cast<std::size_t>(v * record_size + i)] =
+        static_cast<Scalar>(coarse_current(v, i));
+  if (!options.microscopic)
+    return;
+  const auto &values = frames.values(coarse_current);
+  if (options.blend == Blend::continuous)
+    for (Eigen::Index v = 0; v < n; ++v)
+      for (int c = 0; c < frames.n_components; ++c)
+        records[static_cast<std::size_t>(v * record_size + dim + c)] =
+          static_cast<Scalar>(values(v, c));
+}
+
+template <int dim, typename Scalar>
+template <int terms>
+void Upsampler<dim, Scalar>::evaluate(const Table &table, const int triangle, const int begin,
+                                      const int count, Scalar *const out) const
+{
+  Corners<Scalar> corners;
+  const auto record = [&](const int k)
+  {
+    return records.data() +
+           static_cast<std::size_t>(frames.rest().triangles(triangle, k)) * record_size;
+  };
+  const Scalar *const r0 = record(0), *const r1 = record(1), *const r2 = record(2);
+  for (int c = 0; c < record_size; ++c)
+  {
+    corners.at0[c] = r0[c];
+    corners.to1[c] = r1[c] - r0[c];
+    corners.to2[c] = r2[c] - r0[c];
+  }
+  if constexpr (terms == constant || terms == constant_plane)
+    for (int c = 0; c < CoarseFrames<dim>::n_components; ++c)
+      corners.at0[dim + c] = static_cast<Scalar>(frames.last_values()(triangle, c));
+  // Without modes the pointers are never read.
+  const auto mode = [&](const std::size_t k)
+  { return terms == affine ? table.weights[0].data() : table.modes[k].data() + begin; };
+  fine_positions<dim, terms, Scalar>(
+    corners, table.weights[0].data() + begin, table.weights[1].data() + begin, mode(0), mode(1),
+    mode(2), mode(3), mode(4), mode(5), (count + lanes - 1) / lanes * lanes, out);
+}
+
+template <int dim, typename Scalar>
+template <int terms>
+void Upsampler<dim, Scalar>::run(Scalar *const fine_current) const
+{
+  // A run is computed in whole blocks of lanes. What it writes too much lies in the run after it, which
+  // is written later; at the end of the output it goes through a buffer.
+  constexpr int chunk = 8 * lanes;
+  Scalar buffer[chunk * dim];
+  const int begin_above = (n_below + lanes - 1) / lanes * lanes;
+  const auto block      = [&](const int triangle, const int begin, const int first, const int count)
+  {
+    if (first + count + lanes <= n_total)
+      evaluate<terms>(shared, triangle, begin, count, fine_current + first * dim);
+    else
+      for (int done = 0; done < count; done += chunk)
+      {
+        const int part = std::min(chunk, count - done);
+        evaluate<terms>(shared, triangle, begin + done, part, buffer);
+        std::copy_n(buffer, part * dim, fine_current + (first + done) * dim);
+      }
+  };
+  for (int cell = 0; cell < n_cells; ++cell)
+  {
+    block(2 * cell, 0, cell * n_block, n_below);
+    block(2 * cell + 1, begin_above, cell * n_block + n_below, n_block - n_below);
+  }
+  for (const Group &group : groups)
+    for (int done = 0; done < group.count; done += chunk)
+    {
+      const int part = std::min(chunk, group.count - done);
+      evaluate<terms>(own, group.triangle, group.begin + done, part, buffer);
+      const int *const to = target.data() + group.begin + done;
+      for (int k = 0; k < part; ++k)
+        for (int i = 0; i < dim; ++i)
+          fine_current[to[k] * dim + i] = buffer[k * dim + i];
+    }
+}
+
+template <int dim, typename Scalar>
+void Upsampler<dim, Scalar>::upsample(const Positions<dim> &coarse_current,
+                                      Fine &fine_current) const
+{
+  if (coarse_current.rows() != frames.rest().n_vertices())
+    throw meshes::BadInput("coarse positions: have " + std::to_string(coarse_current.rows()) +
+                           " rows; expected " + std::to_string(frames.rest().n_vertices()) +
+                           ", one per coarse vertex");
+  if (!coarse_current.allFinite())
+    for (Eigen::Index v = 0; v < coarse_current.rows(); ++v)
+      if (!coarse_current.row(v).allFinite())
+        throw meshes::BadInput(
+          "coarse vertex " + std::to_string(v) +
+          ": its position is not finite; the coarse solver should have refused it");
+  fine_current.resize(n_total, dim);
+  fill_records(coarse_current);
+  const bool in_plane  = options.lift == Lift::identity || options.strain == Strain::linear;
+  const bool is_smooth = options.blend == Blend::continuous;
+  if (!options.microscopic)
+    run<affine>(fine_current.data());
+  else if (is_smooth && in_plane)
+    run<blended_plane>(fine_current.data());
+  else if (is_smooth)
+    run<blended>(fine_current.data());
+  else if (in_plane)
+    run<constant_plane>(fine_current.data());
+  else
+    run<constant>(fine_current.data());
+}
+
+template class Upsampler<2, float>;
+template class Upsampler<2, double>;
+template class Upsampler<3, float>;
+template class Upsampler<3, double>;
+} // namespace homespun::localization

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: MIT
+// Fine positions from coarse positions (paper Section 2.3, Eqs. 9-12, repaired as in METHOD 3): what
+// runs every frame. Everything that does not change with the motion is done in the constructor:
+// location of the fine vertices, barycentric coordinates, anchored modes; after that a frame is
+// linear in (coarse data) x (constants per vertex), about 36 multiply-adds per vertex in space and
+// 28 in the plane, without branches.
+//
+// Aligned path, where the coarse mesh is the lattice of the sheet: all cells share one table, two runs
+//   of consecutive vertices per cell, no index per vertex. The table (8 numbers per vertex of one cell)
+//   stays in the first-level cache, so that the output is all that moves through memory.
+// General path, on any coarse mesh that covers the sheet: vertices grouped by coarse triangle, with
+//   8 numbers and an index per vertex.
+// Terms that the options leave out have loops of their own without them.
+#pragma once
+
+#include "localization/coarse_frames.h"
+#include "localization/options.h"
+#include "meshes/homogenized_cell.h"
+#include "meshes/sheet.h"
+
+#include <Eigen/Core>
+
+#include <array>
+#include <vector>
+
+namespace homespun::localization
+{
+/// @tparam dim 2: in-plane scenes carry two components; 3: cloth in space
+/// @tparam Scalar of the fine positions; the coarse positions and their strains are double
+template <int dim, typename Scalar = float>
+class Upsampler
+{
+public:
+  /// Fine positions, one vertex per row, components side by side (x y z x y z ...): what vertex buffers
+  /// and files take as it is. Shape (n_fine, dim) [m].
+  using Fine = Eigen::Matrix<Scalar, Eigen::Dynamic, dim, Eigen::RowMajor>;
+
+  /// Places the fine vertices on the coarse mesh.
+  /// @param cell homogenized cell whose modes are superposed; its stiffness is not used
+  /// @param coarse_rest coarse mesh at rest, in the plane of the sheet
+  /// @param fine resolved sheet of that cell
+  /// @throws BadInput where the coarse mesh is not sound or does not hold a fine vertex (which is named),
+  ///   where cell and sheet do not belong together, or where options contradict each other
+  Upsampler(const meshes::HomogenizedCell &cell, const meshes::TriangleMesh &coarse_rest,
+            const meshes::Sheet &fine, const UpsamplerOptions &options = {});
+
+  /// Whether the fast path is taken: the coarse mesh is meshes::coarse_sheet() of the sheet's own
+  /// lattice, two triangles per cell.
+  bool is_aligned() const;
+
+  /// Number of fine vertices.
+  int n_fine() const;
+
+  /// Fine positions of the current coarse positions. Uses work space of the object: one thread at a
+  /// time. Collapsed or inverted coarse triangles give finite positions (coarse_frames.h).
+  /// @param coarse_current (n_coarse,dim) [m]
+  /// @param fine_current (n_fine,dim) [m]; resized if need be, else nothing is allocated
+  /// @throws BadInput where a coarse position is not finite or their number is wrong
+  void upsample(const Positions<dim> &coarse_current, Fine &fine_current) const;
+
+  /// Bytes of the constants that a frame reads, for benchmarks.
+  std::size_t table_bytes() const;
+
+private:
+  /// Constants per vertex, one array each, in groups padded to whole blocks of lanes.
+  struct Table
+  {
+    std::array<std::vector<Scalar>, 2> weights; ///< barycentric coordinates of corners 1 and 2
+    std::array<std::vector<Scalar>, 6> modes;   ///< −chi, column 2 a + c [m]
+
+    void append(const Eigen::Vector3d &weights, const Eigen::Matrix<double, 1, 6> &chi);
+    void pad();
+    int size() const;
+  };
+  /// Consecutive rows of a table that lie in one coarse triangle.
+  struct Group
+  {
+    int triangle, begin, count;
+  };
+
+  void place(const meshes::CharacteristicDisplacements &chi, const meshes::Sheet &fine, int from);
+  void fill_records(const Positions<dim> &coarse_current) const;
+  template <int terms>
+  void run(Scalar *fine_current) const;
+  template <int terms>
+  void evaluate(const Table &table, int triangle, int begin, int count, Scalar *out) const;
+
+  CoarseFrames<dim> frames;
+  UpsamplerOptions options;
+  bool aligned = false;
+  int n_cells  = 0;                    ///< aligned: cells, each with one block of vertices
+  int n_block  = 0;                    ///< aligned: vertices per block
+  int n_below  = 0;                    ///< aligned: of these, below the diagonal
+  int n_total  = 0;                    ///< fine vertices
+  Table shared;                        ///< aligned: below the diagonal, then above
+  Table own;                           ///< of all vertices that stand in no block
+  std::vector<Group> groups;           ///< of `own`
+  std::vector<int> target;             ///< fine vertex of each row of `own`, −1 for padding
+  mutable std::vector<Scalar> records; ///< of each coarse vertex: position, strain, lift
+};
+} // namespace homespun::localization
