@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: MIT
+#include "homogenization/elastic_solver.h"
+
+#include "meshes/errors.h"
+
+#include <deal.II/dofs/dof_tools.h>
+#include <deal.II/lac/dynamic_sparsity_pattern.h>
+#include <deal.II/lac/sparsity_tools.h>
+#include <deal.II/lac/trilinos_sparsity_pattern.h>
+
+#include <Epetra_MultiVector.h>
+#include <Teuchos_ParameterList.hpp>
+
+#include <cmath>
+
+namespace homespun::homogenization
+{
+using namespace dealii;
+
+namespace
+{
+/// The two translations and the rotation about the centre, mode after mode, on the owned DoFs. The
+/// rotation is scaled by the size of the mesh so that the modes do not depend on the unit of length.
+std::vector<double> rigid_body_modes(const Discretization &discretization)
+{
+  const IndexSet &owned            = discretization.locally_owned;
+  const std::size_t n              = owned.n_elements();
+  const meshes::TriangleMesh &mesh = discretization.mesh;
+  const Eigen::RowVector2d lowest  = mesh.vertices.colwise().minCoeff();
+  const Eigen::RowVector2d highest = mesh.vertices.colwise().maxCoeff();
+  const Eigen::RowVector2d centre  = 0.5 * (lowest + highest);
+  const double size                = (highest - lowest).maxCoeff();
+
+  std::vector<double> modes(3 * n, 0.);
+  std::vector<types::global_dof_index> dofs(discretization.element.n_dofs_per_cell());
+  for (const auto &cell : discretization.dof_handler.active_cell_iterators())
+  {
+    if (!cell->is_locally_owned())
+      continue;
+    cell->get_dof_indices(dofs);
+    const auto triangle = mesh.triangles.row(Discretization::triangle_of(cell));
+    for (unsigned int shape = 0; shape < dofs.size() / 2; ++shape)
+    {
+      Eigen::RowVector2d point = mesh.vertices.row(triangle(shape % 3));
+      if (shape >= 3) // the midpoint of edge (k, k + 1)
+        point = 0.5 * (point + mesh.vertices.row(triangle((shape + 1) % 3)));
+      const Eigen::RowVector2d arm = (point - centre) / size;
+      for (unsigned int c = 0; c < 2; ++c)
+        if (owned.is_element(dofs[2 * shape + c]))
+        {
+          const std::size_t row = owned.index_within_set(dofs[2 * shape + c]);
+          modes[c * n + row]    = 1.;
+          modes[2 * n + row]    = c == 0 ? -arm(1) : arm(0);
+        }
+    }
+  }
+  return modes;
+}
+} // namespace
+
+ElasticSolver::ElasticSolver(const Discretization &discretization,
+                             const AffineConstraints<double> &constraints)
+    : discretization(discretization)
+{
+  const IndexSet rows = constraints.get_local_lines();
+  DynamicSparsityPattern pattern(discretization.dof_handler.n_dofs(),
+                                 discretization.dof_handler.n_dofs(), rows);
+  DoFTools::make_sparsity_pattern(discretization.dof_handler, pattern, constraints, false);
+  SparsityTools::distribute_sparsity_pattern(pattern, discretization.locally_owned,
+                                             discretization.communicator, rows);
+  matrix.reinit(discretization.locally_owned, discretization.locally_owned, pattern,
+                discretization.communicator);
+  rigid_modes = rigid_body_modes(discretization);
+}
+
+ElasticSolver::Vector ElasticSolver::owned_vector() const
+{
+  return Vector(discretization.locally_owned, discretization.communicator);
+}
+
+void ElasticSolver::build_preconditioner()
+{
+  // Measured on cells of 47,000 to 740,000 DoFs: with the constant modes alone and a V-cycle the
+  // iterations grow from 40 to 57; with the rotation as a third mode and a W-cycle they stay at 32.
+  TrilinosWrappers::PreconditionAMG::AdditionalData options;
+  options.elliptic              = true;
+  options.higher_order_elements = discretization.order > 1;
+  options.smoother_sweeps       = discretization.order > 1 ? 3 : 2;
+  options.aggregation_threshold = 0.;
+  options.w_cycle               = true;
+
+  Teuchos::ParameterList parameters;
+  std::unique_ptr<Epetra_MultiVector> unused_modes;
+  options.set_parameters(parameters, unused_modes, matrix);
+  parameters.set("null space: type", "pre-computed");
+  parameters.set("null space: dimension", 3);
+  parameters.set("null space: vectors", rigid_modes.data());
+  preconditioner = std::make_unique<TrilinosWrappers::PreconditionAMG>();
+  preconditioner->initialize(matrix, parameters);
+}
+
+unsigned int ElasticSolver::solve(Vector &solution, const Vector &right_hand_side,
+                                  const double tolerance, const unsigned int max_iterations)
+{
+  // Written out, because deal.II's SolverCG neither notices a direction of negative curvature nor
+  // hands out its residual history.
+  Vector residual(right_hand_side), image(right_hand_side);
+  matrix.vmult(image, solution);
+  residual -= image;
+  std::vector<double> history = {residual.l2_norm()};
+  if (history.back() <= tolerance)
+    return 0;
+
+  Vector preconditioned(residual), direction(residual);
+  double product = 0.;
+  for (unsigned int iteration = 1; iteration <= max_iterations; ++iteration)
+  {
+    preconditioner->vmult(preconditioned, residual);
+    const double old_product = product;
+    product                  = residual * preconditioned;
+    if (!(product > 0.) || !std::isfinite(product))
+      throw meshes::NotConverged("conjugate gradients: the preconditioner is not positive definite",
+                                 history);
+    if (iteration == 1)
+      direction = preconditioned;
+    else
+      direction.sadd(product / old_product, preconditioned);
+    matrix.vmult(image, direction);
+    const double curvature = direction * image;
+    if (!(curvature > 0.) || !std::isfinite(curvature))
+      throw meshes::NotConverged("conjugate gradients: the matrix is not positive definite",
+                                 history);
+    const double step = product / curvature;
+    solution.add(step, direction);
+    residual.add(-step, image);
+    history.push_back(residual.l2_norm());
+    if (history.back() <= tolerance)
+      return iteration;
+  }
+  throw meshes::NotConverged("conjugate gradients did not reach " + std::to_string(tolerance) +
+                               " in " + std::to_string(max_iterations) + " iterations",
+                             history);
+}
+} // namespace homespun::homogenization

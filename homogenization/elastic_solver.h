@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: MIT
+// The linear algebra that cell problems and references share: a distributed stiffness matrix,
+// Trilinos' algebraic multigrid with the rigid body modes, conjugate gradients.
+#pragma once
+
+#include "homogenization/discretization.h"
+
+#include <deal.II/lac/affine_constraints.h>
+#include <deal.II/lac/trilinos_precondition.h>
+#include <deal.II/lac/trilinos_sparse_matrix.h>
+#include <deal.II/lac/trilinos_vector.h>
+
+namespace homespun::homogenization
+{
+/// Elasticity with the preconditioner kept between solves, because nearby matrices (the steps of
+/// Newton's method) can share one.
+class ElasticSolver
+{
+public:
+  using Vector = dealii::TrilinosWrappers::MPI::Vector;
+
+  /// Lays out the matrix for the given constraints (whose masters may live on another rank).
+  ElasticSolver(const Discretization &discretization,
+                const dealii::AffineConstraints<double> &constraints);
+
+  /// A vector of the DoFs that this rank owns, zero.
+  Vector owned_vector() const;
+
+  /// Builds the multigrid hierarchy from the present matrix.
+  void build_preconditioner();
+
+  bool has_preconditioner() const
+  {
+    return preconditioner != nullptr;
+  }
+
+  /// Conjugate gradients from the given start until |b − A x| <= tolerance.
+  /// @param tolerance absolute, in the unit of the right-hand side
+  /// @return number of iterations
+  /// @throws NotConverged with the residual history after `max_iterations`, or where the matrix or
+  ///   the preconditioner turns out not to be positive definite
+  unsigned int solve(Vector &solution, const Vector &right_hand_side, double tolerance,
+                     unsigned int max_iterations = 2000);
+
+  dealii::TrilinosWrappers::SparseMatrix matrix;
+
+private:
+  const Discretization &discretization;
+  std::vector<double> rigid_modes;
+  std::unique_ptr<dealii::TrilinosWrappers::PreconditionAMG> preconditioner;
+};
+} // namespace homespun::homogenization

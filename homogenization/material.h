@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: MIT
+// The phases of a unit cell and their membrane stiffness in plane stress.
+#pragma once
+
+#include <Eigen/Core>
+
+#include <string>
+#include <vector>
+
+namespace homespun::homogenization
+{
+/// One material of a unit cell. An isotropic phase has E1 = E2 = E, nu12 = nu,
+/// G12 = E / (2 (1 + nu)).
+struct Phase
+{
+  std::string name;
+  double E1        = 0.; ///< Young's modulus along its first axis [Pa]
+  double E2        = 0.; ///< Young's modulus along its second axis [Pa]
+  double nu12      = 0.; ///< contraction along 2 under stress along 1
+  double G12       = 0.; ///< shear modulus [Pa]
+  double angle     = 0.; ///< from the x axis to its first axis [deg]
+  double thickness = 0.; ///< [m]
+  double density   = 0.; ///< [kg/m^3]
+};
+
+/// An isotropic phase from Young's modulus [Pa] and Poisson's ratio.
+Phase isotropic(const std::string &name, double E, double nu, double thickness, double density);
+
+/// Thickness times the plane-stress stiffness, c = t Q(angle).
+///
+/// In its own axes Q11 = E1/(1 − nu12 nu21), Q22 = E2/(1 − nu12 nu21), Q12 = nu12 Q22, Q66 = G12,
+/// with nu21 = nu12 E2/E1; turned by the angle as c_ab = T_ap Q_pq T_bq.
+/// @return (3,3) [N/m], Voigt order 11, 22, 12 with engineering shear
+Eigen::Matrix3d plane_stress_stiffness(const Phase &phase);
+
+/// The matrix T that turns a stiffness in Voigt order by an angle: C' = T C T^T.
+/// @param angle from the old to the new first axis of the material [rad]
+Eigen::Matrix3d stiffness_rotation(double angle);
+
+/// What makes a phase impossible, each as a sentence that names the phase; empty where it is sound:
+/// moduli, thickness and density that are not positive, |nu| >= 1, an orthotropic law whose energy
+/// is not positive (nu12^2 >= E1/E2).
+std::vector<std::string> faults_of(const Phase &phase);
+} // namespace homespun::homogenization
