@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The inner loop of up-sampling: fine positions in one coarse triangle. Private to upsampler.cc.
+// The inner loop of up-sampling: fine positions in one coarse triangle. Private to upsampler.
 #pragma once
 
 namespace homespun::localization
@@ -12,62 +12,88 @@ constexpr int record_size = 16;
 /// What a loop computes; each is compiled on its own, so that what is left out costs nothing.
 enum Terms
 {
-  affine,         ///< coarse motion only
-  constant,       ///< one strain and lift per triangle
-  constant_plane, ///< the same without lift: the fluctuation stays in the rest plane
-  blended,        ///< strain and lift linear in the triangle
-  blended_plane
+  affine,           ///< coarse motion only
+  constant,         ///< one strain and lift per triangle
+  constant_plane,   ///< the same without lift: the fluctuation stays in the rest plane
+  blended,          ///< strain and lift linear in the triangle
+  blended_plane,    ///< the same without lift
+  blended_rotation, ///< dim = 2 with Lift::rotation: the lift has the form [c −s; s c]
 };
 
-/// Values at the corner 0 of a coarse triangle and their differences to corners 1 and 2, in the order
-/// of a record.
+/// Barycentric coordinates of a block of fine vertices, for the corners 1 and 2.
 template <typename Scalar>
-struct Corners
+struct alignas(64) Weights
+{
+  Scalar corner1[lanes], corner2[lanes];
+};
+
+/// −chi of a block of fine vertices, column 2 a + c [m].
+template <typename Scalar>
+struct alignas(64) Modes
+{
+  Scalar column[6][lanes];
+};
+
+/// Records of a coarse triangle: values at corner 0, and their differences to corners 1 and 2.
+template <typename Scalar>
+struct alignas(64) Corners
 {
   Scalar at0[record_size], to1[record_size], to2[record_size];
 };
 
-/// Positions x = P + L w for `count` vertices, a multiple of `lanes`.
-/// @param b1, b2 barycentric coordinates
-/// @param modes −chi, column 2 a + c
-/// @param out (count,dim), components side by side
+/// Positions x = P + L w in blocks of `lanes` vertices.
+///
+/// Not inlined, so that the coefficients are broadcast from memory and not taken apart from the
+/// registers in which the caller made them: they are 36 for at most a dozen blocks.
+/// @param out (n_blocks * lanes, dim), components side by side
 template <int dim, int terms, typename Scalar>
-inline void fine_positions(const Corners<Scalar> &corners, const Scalar *__restrict b1,
-                           const Scalar *__restrict b2, const Scalar *__restrict mode0,
-                           const Scalar *__restrict mode1, const Scalar *__restrict mode2,
-                           const Scalar *__restrict mode3, const Scalar *__restrict mode4,
-                           const Scalar *__restrict mode5, const int count, Scalar *__restrict out)
+[[gnu::noinline]] void
+fine_positions(const Corners<Scalar> &corners, const Weights<Scalar> *__restrict weights,
+               const Modes<Scalar> *__restrict modes, const int n_blocks, Scalar *__restrict out)
 {
-  const Corners<Scalar> c    = corners; // a local copy, which no store can change
-  constexpr bool is_blended  = terms == blended || terms == blended_plane;
-  constexpr bool is_in_plane = terms == constant_plane || terms == blended_plane;
-  const auto linear          = [&](const int k, const Scalar u, const Scalar v)
-  { return c.at0[k] + u * c.to1[k] + v * c.to2[k]; };
-  const auto frame = [&](const int k, const Scalar u, const Scalar v)
-  { return is_blended ? linear(dim + k, u, v) : c.at0[dim + k]; };
-#pragma GCC ivdep
-  for (int n = 0; n < count; ++n)
+  constexpr bool is_blended =
+    terms == blended || terms == blended_plane || terms == blended_rotation;
+  constexpr bool is_in_plane         = terms == constant_plane || terms == blended_plane;
+  const Scalar *const __restrict at0 = corners.at0;
+  const Scalar *const __restrict to1 = corners.to1;
+  const Scalar *const __restrict to2 = corners.to2;
+  for (int block = 0; block < n_blocks; ++block)
   {
-    const Scalar u = b1[n], v = b2[n];
-    Scalar x[dim];
-    for (int i = 0; i < dim; ++i)
-      x[i] = linear(i, u, v);
-    if constexpr (terms != affine)
+    const Weights<Scalar> &b      = weights[block];
+    Scalar *const __restrict rows = out + block * lanes * dim;
+#pragma GCC ivdep
+    for (int n = 0; n < lanes; ++n)
     {
-      const Scalar e0 = frame(0, u, v), e1 = frame(1, u, v), e2 = frame(2, u, v);
-      const Scalar w0 = e0 * mode0[n] + e1 * mode2[n] + e2 * mode4[n],
-                   w1 = e0 * mode1[n] + e1 * mode3[n] + e2 * mode5[n];
-      if constexpr (is_in_plane)
+      const Scalar u = b.corner1[n], v = b.corner2[n];
+      const auto linear = [&](const int k) { return at0[k] + u * to1[k] + v * to2[k]; };
+      const auto frame  = [&](const int k) { return is_blended ? linear(dim + k) : at0[dim + k]; };
+      Scalar x[dim];
+      for (int i = 0; i < dim; ++i)
+        x[i] = linear(i);
+      if constexpr (terms != affine)
       {
-        x[0] += w0;
-        x[1] += w1;
+        const auto &mode = modes[block].column;
+        const Scalar e0 = frame(0), e1 = frame(1), e2 = frame(2);
+        const Scalar w0 = e0 * mode[0][n] + e1 * mode[2][n] + e2 * mode[4][n],
+                     w1 = e0 * mode[1][n] + e1 * mode[3][n] + e2 * mode[5][n];
+        if constexpr (is_in_plane)
+        {
+          x[0] += w0;
+          x[1] += w1;
+        }
+        else if constexpr (terms == blended_rotation)
+        {
+          const Scalar cosine = frame(3), sine = frame(5);
+          x[0] = x[0] + cosine * w0 - sine * w1;
+          x[1] = x[1] + sine * w0 + cosine * w1;
+        }
+        else
+          for (int i = 0; i < dim; ++i)
+            x[i] = x[i] + frame(3 + 2 * i) * w0 + frame(4 + 2 * i) * w1;
       }
-      else
-        for (int i = 0; i < dim; ++i)
-          x[i] += frame(3 + 2 * i, u, v) * w0 + frame(4 + 2 * i, u, v) * w1;
+      for (int i = 0; i < dim; ++i)
+        rows[dim * n + i] = x[i];
     }
-    for (int i = 0; i < dim; ++i)
-      out[dim * n + i] = x[i];
   }
 }
 } // namespace homespun::localization

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "localization/upsampler.h"
 
-#include "localization/kernel.h"
 #include "localization/point_location.h"
 #include "meshes/errors.h"
 
@@ -64,23 +63,22 @@ template <int dim, typename Scalar>
 void Upsampler<dim, Scalar>::Table::append(const Eigen::Vector3d &barycentric,
                                            const Eigen::Matrix<double, 1, 6> &chi)
 {
-  for (std::size_t k = 0; k < 2; ++k)
-    weights[k].push_back(static_cast<Scalar>(barycentric(static_cast<Eigen::Index>(k) + 1)));
-  for (std::size_t k = 0; k < 6; ++k)
-    modes[k].push_back(static_cast<Scalar>(-chi(static_cast<Eigen::Index>(k))));
+  if (size % lanes == 0)
+  {
+    weights.push_back({});
+    modes.push_back({});
+  }
+  const int lane               = size++ % lanes;
+  weights.back().corner1[lane] = static_cast<Scalar>(barycentric(1));
+  weights.back().corner2[lane] = static_cast<Scalar>(barycentric(2));
+  for (int k = 0; k < 6; ++k)
+    modes.back().column[k][lane] = static_cast<Scalar>(-chi(k));
 }
 
 template <int dim, typename Scalar>
 void Upsampler<dim, Scalar>::Table::pad()
 {
-  while (size() % lanes != 0)
-    append(Eigen::Vector3d::Zero(), Eigen::Matrix<double, 1, 6>::Zero());
-}
-
-template <int dim, typename Scalar>
-int Upsampler<dim, Scalar>::Table::size() const
-{
-  return static_cast<int>(weights[0].size());
+  size = (size + lanes - 1) / lanes * lanes;
 }
 
 template <int dim, typename Scalar>
@@ -152,21 +150,18 @@ void Upsampler<dim, Scalar>::place(const meshes::CharacteristicDisplacements &ch
   {
     if (in_triangle[t].empty())
       continue;
-    groups.push_back({static_cast<int>(t), own.size(), static_cast<int>(in_triangle[t].size())});
+    groups.push_back({static_cast<int>(t), own.size, static_cast<int>(in_triangle[t].size())});
     for (const auto &[v, weights] : in_triangle[t])
     {
       own.append(weights, chi.row(fine.cell_vertex(v)));
       target.push_back(v);
     }
     own.pad();
-    target.resize(static_cast<std::size_t>(own.size()), -1);
+    target.resize(static_cast<std::size_t>(own.size), -1);
   }
   if (!options.microscopic)
-    for (std::size_t k = 0; k < 6; ++k)
-    {
-      shared.modes[k] = {};
-      own.modes[k]    = {};
-    }
+    for (Table *table : {&shared, &own})
+      table->modes = std::vector<Modes<Scalar>>();
 }
 
 template <int dim, typename Scalar>
@@ -184,9 +179,11 @@ int Upsampler<dim, Scalar>::n_fine() const
 template <int dim, typename Scalar>
 std::size_t Upsampler<dim, Scalar>::table_bytes() const
 {
-  const std::size_t numbers = options.microscopic ? 8 : 2;
-  return numbers * sizeof(Scalar) * static_cast<std::size_t>(shared.size() + own.size()) +
-         sizeof(int) * target.size();
+  std::size_t bytes = sizeof(int) * target.size();
+  for (const Table *table : {&shared, &own})
+    bytes +=
+      sizeof(Weights<Scalar>) * table->weights.size() + sizeof(Modes<Scalar>) * table->modes.size();
+  return bytes;
 }
 
 template <int dim, typename Scalar>
@@ -228,12 +225,10 @@ void Upsampler<dim, Scalar>::evaluate(const Table &table, const int triangle, co
   if constexpr (terms == constant || terms == constant_plane)
     for (int c = 0; c < CoarseFrames<dim>::n_components; ++c)
       corners.at0[dim + c] = static_cast<Scalar>(frames.last_values()(triangle, c));
-  // Without modes the pointers are never read.
-  const auto mode = [&](const std::size_t k)
-  { return terms == affine ? table.weights[0].data() : table.modes[k].data() + begin; };
-  fine_positions<dim, terms, Scalar>(
-    corners, table.weights[0].data() + begin, table.weights[1].data() + begin, mode(0), mode(1),
-    mode(2), mode(3), mode(4), mode(5), (count + lanes - 1) / lanes * lanes, out);
+  const int block = begin / lanes;
+  fine_positions<dim, terms, Scalar>(corners, table.weights.data() + block,
+                                     terms == affine ? nullptr : table.modes.data() + block,
+                                     (count + lanes - 1) / lanes, out);
 }
 
 template <int dim, typename Scalar>
@@ -296,6 +291,8 @@ void Upsampler<dim, Scalar>::upsample(const Positions<dim> &coarse_current,
     run<affine>(fine_current.data());
   else if (is_smooth && in_plane)
     run<blended_plane>(fine_current.data());
+  else if (is_smooth && dim == 2 && options.lift == Lift::rotation)
+    run<dim == 2 ? blended_rotation : blended>(fine_current.data());
   else if (is_smooth)
     run<blended>(fine_current.data());
   else if (in_plane)

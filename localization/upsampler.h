@@ -14,13 +14,13 @@
 #pragma once
 
 #include "localization/coarse_frames.h"
+#include "localization/kernel.h"
 #include "localization/options.h"
 #include "meshes/homogenized_cell.h"
 #include "meshes/sheet.h"
 
 #include <Eigen/Core>
 
-#include <array>
 #include <vector>
 
 namespace homespun::localization
@@ -62,15 +62,15 @@ public:
   std::size_t table_bytes() const;
 
 private:
-  /// Constants per vertex, one array each, in groups padded to whole blocks of lanes.
+  /// Constants per vertex, in groups padded to whole blocks of lanes.
   struct Table
   {
-    std::array<std::vector<Scalar>, 2> weights; ///< barycentric coordinates of corners 1 and 2
-    std::array<std::vector<Scalar>, 6> modes;   ///< −chi, column 2 a + c [m]
+    std::vector<Weights<Scalar>> weights;
+    std::vector<Modes<Scalar>> modes;
+    int size = 0; ///< rows, padding included
 
     void append(const Eigen::Vector3d &weights, const Eigen::Matrix<double, 1, 6> &chi);
     void pad();
-    int size() const;
   };
   /// Consecutive rows of a table that lie in one coarse triangle.
   struct Group

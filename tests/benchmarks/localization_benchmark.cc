@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: MIT
+// Up-sampling at the paper's size, 20 x 20 cells of 18 x 20 x 2 triangles (144,761 vertices), one
+// thread, beside a copy of the same output. Counters: bytes that must be written, flops, and the
+// part of the copy's bandwidth that the writing alone reaches.
+#include "localization/upsampler.h"
+#include "tests/meshes/shapes.h"
+
+#include <benchmark/benchmark.h>
+
+#include <chrono>
+#include <cmath>
+#include <cstring>
+
+using namespace homespun;
+using namespace homespun::localization;
+
+namespace
+{
+/// Smooth periodic modes, zero at the lattice points.
+meshes::HomogenizedCell smooth_cell(const int n1, const int n2)
+{
+  meshes::HomogenizedCell cell;
+  cell.lattice = tests::square_lattice(0.01);
+  cell.mesh    = tests::parallelogram(cell.lattice, n1, n2);
+  cell.chi.resize(cell.mesh.n_vertices(), 6);
+  for (int v = 0; v < cell.mesh.n_vertices(); ++v)
+  {
+    const Eigen::RowVector2d f = 2. * M_PI * cell.lattice.fractional(cell.mesh.vertices.row(v));
+    for (int k = 0; k < 6; ++k)
+      cell.chi(v, k) = 1e-4 * (std::sin(f(k % 2)) + (k - 2) * std::sin(f(0) + f(1)));
+  }
+  return cell;
+}
+
+template <int dim>
+Positions<dim> bent(const meshes::TriangleMesh &coarse)
+{
+  Positions<dim> current(coarse.n_vertices(), dim);
+  for (int v = 0; v < coarse.n_vertices(); ++v)
+  {
+    const double x = coarse.vertices(v, 0), y = coarse.vertices(v, 1);
+    current(v, 0) = 1.05 * x + 0.1 * y * y;
+    current(v, 1) = 0.98 * y + 0.2 * x * y;
+    if constexpr (dim == 3)
+      current(v, 2) = 0.02 * std::sin(20. * x) * std::cos(30. * y);
+  }
+  return current;
+}
+
+/// Bytes per second of a copy of so many bytes, the best of some tens.
+double copy_bandwidth(const std::size_t bytes)
+{
+  std::vector<char> from(bytes, 1), to(bytes, 0);
+  double best = 1e9;
+  for (int k = 0; k < 50; ++k)
+  {
+    const auto start = std::chrono::steady_clock::now();
+    std::memcpy(to.data(), from.data(), bytes);
+    benchmark::DoNotOptimize(to.data());
+    benchmark::ClobberMemory();
+    best = std::min(
+      best, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+  }
+  return static_cast<double>(bytes) / best;
+}
+
+template <int dim, typename Scalar>
+void upsample(benchmark::State &state, const UpsamplerOptions &options,
+              const double flops_per_vertex)
+{
+  const meshes::HomogenizedCell cell = smooth_cell(18, 20);
+  const meshes::Sheet sheet          = meshes::tile(cell.mesh, cell.lattice, 20, 20);
+  const meshes::TriangleMesh coarse =
+    meshes::coarse_sheet(sheet.origin, sheet.lattice.vectors, sheet.n1, sheet.n2);
+  const Upsampler<dim, Scalar> upsampler(cell, coarse, sheet, options);
+  const Positions<dim> current = bent<dim>(coarse);
+  typename Upsampler<dim, Scalar>::Fine fine;
+  for (auto _ : state)
+  {
+    upsampler.upsample(current, fine);
+    benchmark::DoNotOptimize(fine.data());
+    benchmark::ClobberMemory();
+  }
+  const double n = sheet.mesh.n_vertices(), bytes = n * dim * sizeof(Scalar);
+  const auto rate = [&](const double amount)
+  { return benchmark::Counter(amount, benchmark::Counter::kIsIterationInvariantRate); };
+  state.counters["vertices"] = n;
+  state.counters["written"]  = bytes;
+  state.counters["tables"]   = static_cast<double>(upsampler.table_bytes());
+  state.counters["flops"]    = n * flops_per_vertex;
+  state.counters["flop/s"]   = rate(n * flops_per_vertex);
+  state.counters["B/s"]      = rate(bytes);
+  state.counters["of_copy"]  = rate(bytes / copy_bandwidth(static_cast<std::size_t>(bytes)));
+}
+
+template <int dim, typename Scalar>
+void copy(benchmark::State &state)
+{
+  const std::size_t bytes = 144761 * dim * sizeof(Scalar);
+  std::vector<char> from(bytes, 1), to(bytes, 0);
+  for (auto _ : state)
+  {
+    std::memcpy(to.data(), from.data(), bytes);
+    benchmark::DoNotOptimize(to.data());
+    benchmark::ClobberMemory();
+  }
+  state.counters["written"] = static_cast<double>(bytes);
+  state.counters["B/s"] =
+    benchmark::Counter(static_cast<double>(bytes), benchmark::Counter::kIsIterationInvariantRate);
+}
+
+UpsamplerOptions general()
+{
+  UpsamplerOptions options;
+  options.path = Path::general;
+  return options;
+}
+
+UpsamplerOptions without_modes()
+{
+  UpsamplerOptions options;
+  options.microscopic = false;
+  return options;
+}
+
+UpsamplerOptions general_without_modes()
+{
+  UpsamplerOptions options = without_modes();
+  options.path             = Path::general;
+  return options;
+}
+
+UpsamplerOptions piecewise()
+{
+  UpsamplerOptions options;
+  options.blend = Blend::piecewise;
+  return options;
+}
+
+UpsamplerOptions in_plane()
+{
+  UpsamplerOptions options;
+  options.strain = Strain::linear;
+  return options;
+}
+
+template <int dim, typename Scalar>
+void add_upsampling(const std::string &type)
+{
+  const std::string name = std::to_string(dim) + "d_" + type;
+  const auto add =
+    [&](const std::string &variant, const UpsamplerOptions &options, const double multiply_adds)
+  {
+    benchmark::RegisterBenchmark(("upsample/" + variant + "/" + name).c_str(),
+                                 [=](benchmark::State &state)
+                                 { upsample<dim, Scalar>(state, options, 2. * multiply_adds); })
+      ->Unit(benchmark::kMicrosecond);
+  };
+  benchmark::RegisterBenchmark(("copy/" + name).c_str(), copy<dim, Scalar>)
+    ->Unit(benchmark::kMicrosecond);
+  // Strain 6, fluctuation 6, position 2 dim; lift 4 dim and its product 2 dim.
+  add("aligned", {}, 12 + 8 * dim);
+  add("general", general(), 12 + 8 * dim);
+  add("piecewise", piecewise(), 6 + 4 * dim);
+  add("without_modes", without_modes(), 2 * dim);
+  add("general_without_modes", general_without_modes(), 2 * dim);
+  if (dim == 2)
+    add("linear_strain", in_plane(), 12 + 2 * dim + 1);
+}
+
+const bool added = []
+{
+  add_upsampling<2, float>("float");
+  add_upsampling<3, float>("float");
+  add_upsampling<2, double>("double");
+  add_upsampling<3, double>("double");
+  return true;
+}();
+} // namespace
