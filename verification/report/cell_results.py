@@ -1,0 +1,162 @@
+# SPDX-License-Identifier: MIT
+"""Reads the results of one cell: homogenize.json, cell.json, cell.h5 and the stored sheets."""
+import glob
+import os
+from dataclasses import dataclass, field
+
+import h5py
+import numpy
+
+AGAIN = "Run `homespun homogenize` or `homespun strain` again."
+
+
+@dataclass
+class Cell:
+    """A homogenized cell. What the folder does not hold is None."""
+    name: str
+    folder: str = ""
+    homogenize: dict = None  # homogenize.json
+    phases: list = None      # of cell.json, in the order of the material numbers
+    file: str = ""           # the .prm it came from
+    vertices: numpy.ndarray = None   # (n,2) [m]
+    triangles: numpy.ndarray = None  # (m,3)
+    material: numpy.ndarray = None   # (m)
+    lattice: numpy.ndarray = None    # (2,2) [m], rows a1, a2
+    chi: numpy.ndarray = None        # (n,2,3) [m] per unit strain
+    field_files: list = field(default_factory=list)
+
+    @property
+    def side(self):
+        """sqrt(|Y|) [m], or None."""
+        if self.lattice is not None:
+            return float(abs(numpy.linalg.det(self.lattice))) ** 0.5
+        area = (self.homogenize or {}).get("area")
+        return area ** 0.5 if area else None
+
+    def stiffness(self, key="C"):
+        """A 3 x 3 matrix of homogenize.json [N/m], or None."""
+        value = (self.homogenize or {}).get(key)
+        return None if value is None else numpy.array(value, dtype=float)
+
+
+def datasets(path, shapes, faults):
+    """Reads datasets of an HDF5 file and holds them against their shapes.
+
+    @param shapes name -> (shape, kind); a letter in the shape is a size that must agree everywhere
+    @return name -> array, plus the attributes under "attributes"; None with a fault
+    """
+    values, sizes = {}, {}
+    try:
+        with h5py.File(path, "r") as file:
+            for name, (shape, kind) in shapes.items():
+                if name not in file:
+                    faults.append(f"{path}: dataset `/{name}` is missing. {AGAIN}")
+                    return None
+                values[name] = numpy.asarray(file[name][()])
+            values["attributes"] = {key: value.decode() if isinstance(value, bytes) else value
+                                    for key, value in file.attrs.items()}
+    except OSError as error:
+        faults.append(f"{path}: not a readable HDF5 file, perhaps truncated ({error}). {AGAIN}")
+        return None
+    for name, (shape, kind) in shapes.items():
+        array = values[name]
+        expected = tuple(sizes.setdefault(s, array.shape[i] if i < array.ndim else None)
+                         if isinstance(s, str) else s for i, s in enumerate(shape))
+        if array.shape != expected:
+            faults.append(f"{path}: `/{name}` has shape {array.shape}, expected {expected}. {AGAIN}")
+            return None
+        if kind == "real" and not numpy.isfinite(array).all():
+            faults.append(f"{path}: `/{name}` has values that are not finite. {AGAIN}")
+            return None
+    return values
+
+
+def triangles_in_range(path, name, triangles, vertices, faults):
+    """Whether all triangles refer to vertices that exist."""
+    if triangles.size and (triangles.min() < 0 or triangles.max() >= len(vertices)):
+        faults.append(f"{path}: `/{name}` refers to vertex {triangles.max()}, but there are "
+                      f"{len(vertices)} vertices. {AGAIN}")
+        return False
+    return True
+
+
+def check_homogenize(value, path, faults):
+    """homogenize.json with matrices of shape 3 x 3; anything else in it is shown as it stands."""
+    for key in ("C", "C_lower", "C_upper", "voigt", "reuss"):
+        matrix = value.get(key)
+        if matrix is None:
+            continue
+        try:
+            array = numpy.array(matrix, dtype=float)
+        except (TypeError, ValueError):
+            array = numpy.empty(0)
+        if array.shape != (3, 3) or not numpy.isfinite(array).all():
+            faults.append(f"{path}: key `{key}` is not a 3 x 3 matrix of finite numbers. {AGAIN}")
+            value = {**value, key: None}
+    for key, kind in (("engineering", dict), ("checks", list)):
+        if value.get(key) is not None and not isinstance(value[key], kind):
+            faults.append(f"{path}: key `{key}` is not {'an object' if kind is dict else 'a list'}. {AGAIN}")
+            value = {**value, key: None}
+    return value
+
+
+def read_cell(name, folder, read_json, faults, missing):
+    """Reads the folder of one cell; what is absent is noted in `missing`."""
+    cell = Cell(name, folder)
+
+    def path_of(file, consequence):
+        path = os.path.join(folder, file)
+        if os.path.isfile(path):
+            return path
+        missing.append({"what": f"{name}: {consequence}", "why": f"{path} does not exist"})
+        return None
+
+    if path := path_of("homogenize.json", "effective stiffness"):
+        if value := read_json(path, faults):
+            cell.homogenize = check_homogenize(value, path, faults)
+    if path := path_of("cell.json", "names and moduli of the phases"):
+        if value := read_json(path, faults):
+            cell.file = str(value.get("file", ""))
+            phases = value.get("phases")
+            if isinstance(phases, list) and all(isinstance(phase, dict) for phase in phases):
+                cell.phases = phases
+            else:
+                faults.append(f"{path}: key `phases` is missing or not a list of objects. {AGAIN}")
+    if path := path_of("cell.h5", "pictures of the cell and its characteristic displacements"):
+        values = datasets(path, {"vertices": (("n", 2), "real"), "triangles": (("m", 3), "index"),
+                                 "material": (("m",), "index"), "lattice": ((2, 2), "real"),
+                                 "chi": (("n", 2, 3), "real")}, faults)
+        if values and triangles_in_range(path, "triangles", values["triangles"], values["vertices"], faults):
+            for key in ("vertices", "triangles", "material", "lattice", "chi"):
+                setattr(cell, key, values[key])
+    cell.field_files = sorted(glob.glob(os.path.join(glob.escape(folder), "fields-*.h5")))
+    if not cell.field_files:
+        missing.append({"what": f"{name}: pictures of the sheet",
+                        "why": f"{os.path.join(folder, 'fields-LOAD.h5')} does not exist"})
+    return cell
+
+
+def read_fields(path, faults):
+    """One stored sheet: name -> array and attributes load, strain, reference, method; None with a fault."""
+    values = datasets(path, {"rest": (("n", 2), "real"), "triangles": (("m", 3), "index"),
+                             "material": (("m",), "index"), "reference": (("n", 2), "real"),
+                             "upsampled": (("n", 2), "real"), "coarse_rest": (("k", 2), "real"),
+                             "coarse_triangles": (("l", 3), "index"), "coarse": (("k", 2), "real")}, faults)
+    if values is None:
+        return None
+    attributes = values["attributes"]
+    for key in ("load", "strain", "reference", "method"):
+        if key not in attributes:
+            faults.append(f"{path}: attribute `{key}` is missing. {AGAIN}")
+            return None
+    try:
+        values["strain"] = float(attributes["strain"])
+    except (TypeError, ValueError):
+        faults.append(f"{path}: attribute `strain` is `{attributes['strain']}`, expected a number. {AGAIN}")
+        return None
+    values["load"], values["method"] = str(attributes["load"]), str(attributes["method"])
+    values["reference_law"] = str(attributes["reference"])  # `reference` is the positions
+    sound = triangles_in_range(path, "triangles", values["triangles"], values["rest"], faults)
+    sound &= triangles_in_range(path, "coarse_triangles", values["coarse_triangles"],
+                                values["coarse_rest"], faults)
+    return values if sound else None

@@ -1,0 +1,215 @@
+# SPDX-License-Identifier: MIT
+"""What stands in the report, in its order: draws the figures, fills the tables, words the sentences."""
+import math
+
+import style
+import tables
+from cell_results import read_fields
+from figures_cell import characteristic_figure, phase_figure
+from figures_sheet import sheet_figure
+from figures_stiffness import polar_figure
+from figures_strain import error_figure
+from figures_time import error_time_figure, run_time_figure, step_figure
+from results import BadResults, cell_side
+from style import percent, seconds, three
+
+HEADINGS = {
+    "verdicts": "Verdicts",
+    "short": "In short",
+    "strain": "Error and run time against strain",
+    "stiffness": "Effective stiffness",
+    "cells": "The unit cells",
+    "chi": "Characteristic displacements",
+    "sheets": "Reference, up-sampled sheet and error per vertex",
+    "time": "Error against run time",
+    "errors": "Errors at chosen strains",
+    "uncertainty": "Uncertainty of the references",
+    "left-out": "What was left out, and why",
+    "checks": "Checks of the homogenization",
+    "provenance": "Provenance",
+}
+MARKS = {"PASS": "✓", "FAIL": "✗", "INCONCLUSIVE": "?"}
+MAIN_METHODS = ("affine", "localized")
+
+
+def page_contents(results, gallery):
+    """Everything the template shows.
+
+    @param gallery where figures are saved
+    @throws BadResults where a stored sheet cannot be read
+    """
+    cells = [cell_contents(results, name, gallery) for name in results.cells]
+    reasons = {key: [] for key in ("verdicts", "short", "strain", "uncertainty")}
+    words = {"verdicts": "verdicts", "strain": "error against strain", "uncertainty": "error bar"}
+    for key, word in words.items():
+        reasons[key] = [item for item in results.missing if item["what"].startswith(word)]
+    reasons["strain"] += [item for item in results.missing if item["what"] == "time per load step"]
+    short = [s for s in (tables.in_short(results, name) for name in results.cells) if s]
+    if not short:
+        reasons["short"] = [{"what": "the summary of errors", "why": "it needs rows of `affine` and "
+                             "`localized` in strain.csv"}]
+    verdicts = [verdict_contents(v) for study in results.studies for v in study.verdicts]
+    unreached = tables.unreached_notes(results.unreached())
+    return {
+        "title": "homespun: " + ", ".join(results.cells),
+        "summary": summary(results),
+        "commands": [s.info["command"] for s in results.studies if s.info.get("command")],
+        "headings": HEADINGS,
+        "contents": list(HEADINGS.items()),
+        "verdicts": verdicts,
+        "verdict_sentence": verdict_sentence(verdicts),
+        "in_short": short,
+        "cells": cells,
+        "notes": [str(note) for study in results.studies for note in study.info.get("notes") or []],
+        "steps": tables.step_rows(results.steps),
+        "uncertainty": tables.uncertainty_rows(results.uncertainty),
+        "all_left_out": [item for s in results.studies for item in s.info.get("left_out") or []]
+        + unreached + results.missing,
+        "reasons": reasons,
+        "provenance": provenance(results),
+    }
+
+
+def summary(results):
+    """Size and cost of the studies, in one sentence each."""
+    sentences = []
+    for study in results.studies:
+        info, parts = study.info, []
+        rows = [r for r in results.strain if r["fine_triangles"] > 0]
+        if info.get("cells_per_side") is not None:
+            parts.append(f"{info['cells_per_side']} × {info['cells_per_side']} cells")
+        if rows and len(results.studies) == 1:
+            parts.append(f"{int(max(r['coarse_triangles'] for r in rows)):,} coarse and "
+                         f"{int(max(r['fine_triangles'] for r in rows)):,} fine triangles")
+        if info.get("ranks") is not None:
+            parts.append(f"{info['ranks']} rank{'s' if info['ranks'] != 1 else ''}")
+        if info.get("seconds_total") is not None:
+            parts.append(f"{seconds(float(info['seconds_total']))} in all")
+        if info.get("peak_memory_bytes") is not None:
+            parts.append(f"{three(info['peak_memory_bytes'] / 2. ** 30)} GiB of memory at most")
+        if parts:
+            name = f"{study.name}: " if len(results.studies) > 1 else ""
+            sentences.append(name + ", ".join(parts) + ".")
+    return " ".join(sentences)
+
+
+def verdict_contents(verdict):
+    value = verdict.get("value")
+    return {"claim": verdict["claim"], "verdict": verdict["verdict"], "mark": MARKS[verdict["verdict"]],
+            "value": "–" if value is None else tables.shown(value), "limit": tables.shown(verdict.get("limit", "")),
+            "command": verdict.get("command", "")}
+
+
+def verdict_sentence(verdicts):
+    count = {key: sum(v["verdict"] == key for v in verdicts) for key in MARKS}
+    words = [f"{count['PASS']} of {len(verdicts)} claims hold"]
+    if count["FAIL"]:
+        words.append(f"{count['FAIL']} fail{'s' if count['FAIL'] == 1 else ''}")
+    if count["INCONCLUSIVE"]:
+        words.append(f"{count['INCONCLUSIVE']} cannot be judged")
+    return ", ".join(words) + "."
+
+
+def check_contents(check):
+    verdict = check.get("verdict") if check.get("verdict") in MARKS else "INCONCLUSIVE"
+    return {"name": check.get("name", "?"), "value": tables.shown(check.get("value")),
+            "limit": tables.shown(check.get("limit", "")), "verdict": verdict, "mark": MARKS[verdict]}
+
+
+def provenance(results):
+    """(name, [(key, value)]) of each study, and of cells homogenized on their own."""
+    blocks = [(study.folder, study.info["provenance"]) for study in results.studies
+              if study.info.get("provenance")]
+    if not blocks:
+        blocks = [(cell.name, cell.homogenize["provenance"]) for cell in results.cells.values()
+                  if (cell.homogenize or {}).get("provenance")]
+    return [(name, list(value.items()) if isinstance(value, dict) else [("provenance", value)])
+            for name, value in blocks]
+
+
+def cell_contents(results, name, gallery):
+    """Figures and tables of one cell; what has no data is None or empty."""
+    cell = results.cells[name]
+    rows, side = results.reached(name), cell_side(results, name)
+    steps = [row for row in results.steps if row["cell"] == name]
+    contents = {"name": name, "file": cell.file, "error": None, "error_share": None, "variants": None,
+                "run_time": None, "steps": None, "polar": None, "phases_picture": None, "chi": None,
+                "error_time": None, "sheets": []}
+    methods = style.ordered_methods(row["method"] for row in rows)
+    reference = tables.main_reference(rows)
+    if rows:
+        draw_strain(contents, rows, methods, reference, side, gallery)
+    if figure := run_time_figure(rows, reference):
+        contents["run_time"] = gallery.add(
+            figure, f"{name}-run-time", f"{name}: run time against strain. Solid: full resolution ({reference}); "
+            "dashed: coarse solve and up-sampling.")
+    if figure := step_figure(steps):
+        contents["steps"] = gallery.add(
+            figure, f"{name}-load-step", f"{name}: the parts of one load step; the number is full resolution "
+            "over coarse solve and up-sampling.")
+    if cell.stiffness() is not None:
+        contents["polar"] = gallery.add(
+            polar_figure(cell), f"{name}-directional-modulus", f"{name}: modulus of uniaxial tension along "
+            "each direction, between the bounds of Voigt and Reuss.")
+    if cell.vertices is not None:
+        contents["phases_picture"] = gallery.add(
+            phase_figure(cell), f"{name}-cell", f"{name}: the unit cell, {len(cell.triangles):,} triangles, "
+            f"{len(cell.vertices):,} vertices, coloured by phase, light is soft; arrows are lattice vectors.")
+        contents["chi"] = gallery.add(
+            characteristic_figure(cell), f"{name}-characteristic-displacements",
+            f"{name}: characteristic displacements, exaggerated so that the largest is a tenth of the cell "
+            "side. White lines: edges of the phases; dashed: the cell at rest.")
+    for path in cell.field_files:
+        contents["sheets"].append(sheet_picture(cell, path, side, gallery))
+    strains = tables.nearest_strains([row for row in rows if row["reference"] == reference])
+    if figure := error_time_figure(rows, methods, reference, strains, side):
+        contents["error_time"] = gallery.add(
+            figure, f"{name}-error-time", f"{name}: mean error against run time; lower left is better. "
+            "Full resolution stands at its own uncertainty, where that is known.")
+    contents["round_off"] = tables.round_off_sentences(rows, name)
+    contents["error_tables"] = tables.error_tables(rows, methods)
+    contents["stiffness"] = tables.stiffness_table(cell)
+    contents["phases"] = tables.phase_rows(cell)
+    contents["checks"] = [check_contents(c) for c in (cell.homogenize or {}).get("checks") or []
+                          if isinstance(c, dict)]
+    return contents
+
+
+def draw_strain(contents, rows, methods, reference, side, gallery):
+    """The three error figures of one cell."""
+    name = contents["name"]
+    main = [method for method in MAIN_METHODS if method in methods] or methods
+    references = style.ordered_references(row["reference"] for row in rows)
+    floor = (f" Triangles at the lower edge: below {three(style.ROUND_OFF)} cell sides, zero to round-off.")
+    figure, at_floor = error_figure(rows, main, references, side)
+    contents["error"] = gallery.add(
+        figure, f"{name}-error-strain", f"{name}: mean error per vertex, in cell sides, against strain. "
+        "Grey: an error in this area is not larger than the reference's own uncertainty (the largest of the laws "
+        "shown)." + (floor if at_floor else ""))
+    figure, at_floor = error_figure(rows, main, references, side, "error_mean_per_fluctuation")
+    contents["error_share"] = gallery.add(
+        figure, f"{name}-error-strain-fluctuation", f"{name}: the same in percent of the mean fluctuation "
+        "of the reference." + (floor if at_floor else ""))
+    variants = [method for method in methods if method not in MAIN_METHODS]
+    if variants:
+        shown = [method for method in methods if method != "affine"]
+        figure, at_floor = error_figure(rows, shown, [reference], side)
+        contents["variants"] = gallery.add(
+            figure, f"{name}-variants", f"{name}: variants of localization (lift, anchor, blending) against "
+            f"{reference}." + (floor if at_floor else ""))
+
+
+def sheet_picture(cell, path, side, gallery):
+    """Picture of one stored sheet, with its numbers in the caption."""
+    faults = []
+    sheet = read_fields(path, faults)
+    if sheet is None:
+        raise BadResults(faults)
+    size = side or math.sqrt(float(abs(sheet["rest"].ptp(axis=0).prod())))
+    figure, numbers = sheet_figure(cell, sheet, size)
+    caption = (f"{cell.name}, {sheet['load']} at {percent(sheet['strain'])} strain, {len(sheet['triangles']):,} "
+               f"triangles: {sheet['method']} against {sheet['reference_law']}. Mean error "
+               f"{tables.length(numbers['error_mean'])}, largest {tables.length(numbers['error_max'])}; mean "
+               f"fluctuation {tables.length(numbers['fluctuation_mean'])}. Colour bars end at the 99.5th "
+               "percentile. True scale, not exaggerated. Below: the framed cells.")
+    return gallery.add(figure, f"{cell.name}-sheet-{sheet['load']}", caption, as_image=True)

@@ -1,0 +1,79 @@
+# SPDX-License-Identifier: MIT
+"""Saves figures as PDF and SVG, and inlines them into the page."""
+import base64
+import io
+import os
+import re
+from dataclasses import dataclass
+
+from matplotlib import pyplot
+from PIL import Image
+
+PAD = 0.04      # inches around a figure
+PAGE_DPI = 130  # of images on the page; the saved files are finer
+
+
+@dataclass
+class Picture:
+    """A drawn figure as the template shows it."""
+    name: str     # file name without ending
+    source: str   # data URI
+    caption: str
+    width: int    # CSS pixels
+
+
+def short_svg(svg):
+    """An SVG with coordinates of two decimals (1/7200 inch) and without metadata: half the size.
+
+    Only paths, positions and shifts are rounded; scale factors keep their digits.
+    """
+    svg = re.sub(r"<metadata>.*?</metadata>", "", svg, flags=re.S)
+
+    def rounded(match):
+        return re.sub(r"(\d+\.\d{2})\d+", r"\1", match.group(0))
+    svg = re.sub(r'\b(?:d|x|y|points)="[^"]*"|translate\([^)]*\)', rounded, svg)
+    return re.sub(r"\s*\n\s*", "\n", svg)
+
+
+def small_png(figure, box):
+    """A PNG with a palette: pictures of sheets have few colours, and thousands of edges."""
+    buffer = io.BytesIO()
+    figure.savefig(buffer, format="png", dpi=PAGE_DPI, bbox_inches=box)
+    picture = Image.open(buffer).convert("RGB").quantize(192, dither=Image.Dither.NONE)
+    buffer = io.BytesIO()
+    picture.save(buffer, format="png", optimize=True)
+    return buffer.getvalue()
+
+
+class Gallery:
+    """Saves figures into a folder and keeps them as data URIs for the page."""
+
+    def __init__(self, folder):
+        self.folder = folder
+        os.makedirs(folder, exist_ok=True)
+        self.names = set()
+
+    def add(self, figure, name, caption, as_image=False):
+        """Saves `name`.pdf and `name`.svg and closes the figure.
+
+        @param as_image whether the page shows an image of dots; else the SVG itself
+        @return Picture
+        """
+        name = re.sub(r"[^A-Za-z0-9._-]+", "-", name).strip("-.")
+        while name in self.names:
+            name += "-2"
+        self.names.add(name)
+        figure.draw_without_rendering()    # lays the figure out, once for all formats
+        figure.set_layout_engine("none")
+        box = figure.get_tightbbox().padded(PAD)
+        for kind, metadata in (("pdf", {"CreationDate": None, "Producer": None, "Creator": "homespun"}),
+                               ("svg", {"Date": None, "Creator": "homespun"})):
+            figure.savefig(os.path.join(self.folder, f"{name}.{kind}"), metadata=metadata, bbox_inches=box)
+        if as_image:
+            kind, data = "png", small_png(figure, box)
+        else:
+            with open(os.path.join(self.folder, name + ".svg"), encoding="utf-8") as file:
+                kind, data = "svg+xml", short_svg(file.read()).encode()
+        pyplot.close(figure)
+        source = f"data:image/{kind};base64," + base64.b64encode(data).decode("ascii")
+        return Picture(name, source, caption, round(105. * box.width))

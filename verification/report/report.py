@@ -1,0 +1,81 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: MIT
+"""Makes report.html, one self-contained page, and the figures as PDF and SVG from stored results.
+
+    report.py DIR [DIR...] --output FOLDER
+
+Exit status: 0 the report is written; 2 the results cannot be used, one message per fault on stderr.
+FOLDER/report.html and FOLDER/figures/ appear when all of them are complete, or not at all.
+"""
+import argparse
+import os
+import shutil
+import sys
+import tempfile
+
+import style
+
+style.use()  # before anything draws
+
+# pylint: disable=wrong-import-position
+from contents import page_contents  # noqa: E402
+from gallery import Gallery  # noqa: E402
+from page import render  # noqa: E402
+from results import BadResults, read_results  # noqa: E402
+
+
+def write_report(folders, output):
+    """Reads result folders and writes the report.
+
+    @return the path of report.html
+    @throws BadResults naming every file, line or key that is wrong
+    """
+    results = read_results(folders)
+    if os.path.exists(output) and not os.path.isdir(output):
+        raise BadResults([f"{output}: is a file, expected a folder. Give another --output."])
+    created = not os.path.isdir(output)
+    try:
+        os.makedirs(output, exist_ok=True)
+        workplace = tempfile.mkdtemp(prefix=".report-", dir=output)
+    except OSError as error:
+        raise BadResults([f"{output}: cannot be written ({error}). Give another --output."]) from error
+    try:
+        gallery = Gallery(os.path.join(workplace, "figures"))
+        html = render(page_contents(results, gallery))
+        with open(os.path.join(workplace, "report.html"), "w", encoding="utf-8") as file:
+            file.write(html)
+        os.makedirs(os.path.join(output, "figures"), exist_ok=True)
+        for name in sorted(os.listdir(gallery.folder)):
+            os.replace(os.path.join(gallery.folder, name), os.path.join(output, "figures", name))
+        os.replace(os.path.join(workplace, "report.html"), os.path.join(output, "report.html"))
+        created = False
+    finally:
+        shutil.rmtree(workplace, ignore_errors=True)
+        if created:  # nothing was written: leave no empty folder behind
+            try:
+                os.rmdir(output)
+            except OSError:
+                pass
+    return os.path.join(output, "report.html")
+
+
+def main(arguments=None):
+    parser = argparse.ArgumentParser(prog="homespun report", description=__doc__.splitlines()[0])
+    parser.add_argument("folders", nargs="+", metavar="DIR", help="output folder of `homespun strain` or "
+                        "`homespun homogenize`")
+    parser.add_argument("--output", required=True, metavar="FOLDER", help="where report.html and figures/ go")
+    parser.add_argument("--quiet", action="store_true", help="say nothing unless something is wrong")
+    options = parser.parse_args(arguments)
+    try:
+        path = write_report(options.folders, options.output)
+    except BadResults as error:
+        for fault in error.faults:
+            print(f"error: {fault}", file=sys.stderr)
+        return 2
+    if not options.quiet:
+        print(f"{path} ({os.path.getsize(path) / 1e6:.1f} MB)")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
