@@ -1,0 +1,30 @@
+# SPDX-License-Identifier: MIT
+# The house has floors: meshes, shell and localization know no deal.II, the siblings do not include each
+# other, and meshes includes nothing above it. Run as: cmake -D ROOT=... -P floors.cmake
+set(violations "")
+function(forbid folder pattern why)
+  file(GLOB_RECURSE sources "${ROOT}/${folder}/*.h" "${ROOT}/${folder}/*.cc" "${ROOT}/${folder}/CMakeLists.txt")
+  list(LENGTH sources n)
+  if(n EQUAL 0)
+    message(FATAL_ERROR "${ROOT}/${folder}: no sources found; the check would be empty")
+  endif()
+  foreach(source IN LISTS sources)
+    file(STRINGS "${source}" lines REGEX "${pattern}")
+    foreach(line IN LISTS lines)
+      string(APPEND violations "\n  ${source}: ${line} (${why})")
+    endforeach()
+  endforeach()
+  set(violations "${violations}" PARENT_SCOPE)
+endfunction()
+
+foreach(folder meshes shell localization)
+  forbid(${folder} "^[ \t]*#[ \t]*include[ \t]*[<\"]deal\\.II|DEAL_II|deal_ii" "${folder} builds without deal.II")
+  forbid(${folder} "^[ \t]*#[ \t]*include[ \t]*[<\"](homogenization|verification)/|homespun::(homogenization|verification)"
+         "${folder} lies below it")
+endforeach()
+forbid(meshes "^[ \t]*#[ \t]*include[ \t]*[<\"](shell|localization)/|homespun::(shell|localization)[ )]" "meshes is the lowest floor")
+forbid(shell "^[ \t]*#[ \t]*include[ \t]*[<\"]localization/|homespun::localization[ )]" "siblings do not include each other")
+forbid(localization "^[ \t]*#[ \t]*include[ \t]*[<\"]shell/|homespun::shell[ )]" "siblings do not include each other")
+if(violations)
+  message(FATAL_ERROR "a folder includes what it may not use:${violations}")
+endif()
