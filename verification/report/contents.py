@@ -166,7 +166,7 @@ def cell_contents(results, name, gallery):
         contents["error_time"] = gallery.add(
             figure, f"{name}-error-time", f"{name}: mean error against run time; lower left is better. "
             "Full resolution stands at its own uncertainty, where that is known.")
-    contents["round_off"] = tables.round_off_sentences(rows, name)
+    contents["round_off"] = tables.round_off_sentences(rows)
     contents["error_tables"] = tables.error_tables(rows, methods)
     contents["stiffness"] = tables.stiffness_table(cell)
     contents["phases"] = tables.phase_rows(cell)
@@ -180,7 +180,7 @@ def draw_strain(contents, rows, methods, reference, side, gallery):
     name = contents["name"]
     main = [method for method in MAIN_METHODS if method in methods] or methods
     references = style.ordered_references(row["reference"] for row in rows)
-    floor = (f" Triangles at the lower edge: below {three(style.ROUND_OFF)} cell sides, zero to round-off.")
+    floor = (f" Triangles at the lower edge: below {style.ROUND_OFF_TEXT}, zero to round-off.")
     figure, at_floor = error_figure(rows, main, references, side)
     contents["error"] = gallery.add(
         figure, f"{name}-error-strain", f"{name}: mean error per vertex, in cell sides, against strain. "

@@ -91,7 +91,7 @@ def characteristic_figure(cell):
             axes.add_collection(LineCollection(CM * points[outline], colors="#777777", linewidths=0.8,
                                                linestyles=[line]))
         mesh = PolyCollection(CM * moved[cell.triangles], array=CM * face, cmap="viridis",
-                              edgecolors="face", linewidths=0.1, rasterized=True)
+                              edgecolors="#FFFFFF60", linewidths=0.3, rasterized=True)
         mesh.set_clim(0., CM * largest if not vanishes else 1.)
         axes.add_collection(mesh)
         axes.add_collection(LineCollection(CM * moved[phase_edges(cell)], colors="white", linewidths=0.9))

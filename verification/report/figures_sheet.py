@@ -7,12 +7,13 @@ on the axes, so that the files stay small and quick.
 from types import SimpleNamespace
 
 import numpy
-from matplotlib import pyplot, tri
+from matplotlib import colormaps, pyplot, tri
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.collections import LineCollection, PolyCollection
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch, Rectangle
+from matplotlib.transforms import Affine2D
 
 import style
 from figures_cell import CM, phase_edges, phase_legend
@@ -26,13 +27,12 @@ def raster(points, triangles, values, largest, cmap, extent):
     left, right, bottom, top = extent
     longer = max(right - left, top - bottom)
     size = [PIXELS * (right - left) / longer / 100., PIXELS * (top - bottom) / longer / 100.]
-    figure = Figure(figsize=size, dpi=100, facecolor="none")
-    canvas = FigureCanvasAgg(figure)
-    axes = figure.add_axes([0, 0, 1, 1])
-    axes.axis("off")
-    axes.tripcolor(*points.T, triangles, values, shading="gouraud", cmap=cmap, vmin=0., vmax=largest or 1.)
-    axes.set(xlim=(left, right), ylim=(bottom, top))
-    canvas.draw()
+    canvas = FigureCanvasAgg(Figure(figsize=size, dpi=100, facecolor="none"))
+    renderer = canvas.get_renderer()
+    pixels = (points - [left, bottom]) * (PIXELS / longer)
+    colours = colormaps[cmap](values / (largest or 1.))
+    # Straight to the renderer: an artist would make an object of each triangle first, ten times slower.
+    renderer.draw_gouraud_triangles(renderer.new_gc(), pixels[triangles], colours[triangles], Affine2D())
     return numpy.array(canvas.buffer_rgba())
 
 
@@ -154,8 +154,8 @@ def draw_close_up(figure, line, cell, sheet, close, extent):
     faces = [colour[int(k)] for k in sheet["material"][close]]
     edges = phase_edges(SimpleNamespace(triangles=triangles, material=sheet["material"][close]))
     for axes, key, title in zip(line, ("reference", "upsampled"), ("close-up: reference", "close-up: up-sampled")):
-        axes.add_collection(PolyCollection(CM * sheet[key][triangles], facecolors=faces, edgecolors="#55555580",
-                                           linewidths=0.15, rasterized=True))
+        axes.add_collection(PolyCollection(CM * sheet[key][triangles], facecolors=faces, edgecolors="face",
+                                           linewidths=0.5, rasterized=True))
         axes.set_title(title, loc="left")
     line[2].add_collection(LineCollection(CM * sheet["reference"][edges], colors=style.BLACK, linewidths=1.8))
     line[2].add_collection(LineCollection(CM * sheet["upsampled"][edges], colors=style.ORANGE, linewidths=0.9))

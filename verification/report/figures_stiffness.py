@@ -43,9 +43,12 @@ def polar_figure(cell):
     axes.set_rlabel_position(67.5)
     axes.yaxis.set_major_locator(pyplot.MaxNLocator(4, prune="lower"))
     axes.tick_params(axis="y", labelsize=7.5, colors="#444444")
-    axes.set_thetagrids(range(0, 360, 45), ["0° (axis 1)", "45°", "90° (axis 2)", "135°", "180°", "225°",
+    axes.set_thetagrids(range(0, 360, 45), ["0° = axis 1", "45°", "90° = axis 2", "135°", "180°", "225°",
                                              "270°", "315°"])
+    axes.tick_params(axis="x", pad=4)
     axes.spines["polar"].set_color("#BDBDBD")
+    axes.get_xticklabels()[0].set_horizontalalignment("left")
+    axes.get_xticklabels()[4].set_horizontalalignment("right")
     axes.text(0.5, -0.12, "modulus $E(\\theta)$ [N/m]", transform=axes.transAxes, ha="center")
     figure.legend(loc="upper left", bbox_to_anchor=(1., 0.95))
     return figure

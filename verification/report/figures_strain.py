@@ -83,7 +83,7 @@ def draw_panel(axes, rows, load, methods, references, key, factor, floor, side):
         if len(strain) > 1 and not low.any():
             slope_triangle(axes, strain, value, 2)
     axes.axvline(100 * MARKED_STRAIN, color="#888888", lw=0.9, ls=(0, (1, 1.5)), zorder=1)
-    axes.set(xscale="log", yscale="log")
+    style.log_axes(axes)
     axes.set_title(load, loc="left", fontweight="bold")
     axes.xaxis.set_major_formatter(lambda x, _: f"{x:g}")
     return at_floor

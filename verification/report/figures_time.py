@@ -41,16 +41,16 @@ def run_time_figure(rows, reference):
                 axes.plot(100 * strain, value, line, color=style.load_colour(load),
                           marker=style.load_marker(load), markerfacecolor="white")
         ratios = [row["seconds_reference"] / row["seconds_method"] for row in rows if row["load"] in group]
-        axes.set_title(f"{title}: {median(ratios):,.0f} times faster (median)", loc="left")
-        axes.set(xscale="log", yscale="log", xlabel="strain [%]")
+        axes.set_title(f"{title}: {style.three(float(median(ratios)))} times faster", loc="left")
+        style.log_axes(axes)
+        axes.set_xlabel("strain [%]")
         axes.xaxis.set_major_formatter(lambda x, _: f"{x:g}")
-        axes.legend(handles=[Line2D([], [], color=style.load_colour(load), marker=style.load_marker(load),
-                                    markerfacecolor="white", label=load) for load in group],
-                    loc="upper left", bbox_to_anchor=(0., 0.62))
     grid[0][0].set_ylabel("time per strain level [s]")
-    figure.legend(handles=[Line2D([], [], color="#444444", label=f"full resolution ({reference})"),
-                           Line2D([], [], color="#444444", ls="--", label="coarse solve and up-sampling")],
-                  loc="lower center", bbox_to_anchor=(0.5, 1.), ncol=2, handlelength=2.8)
+    handles = [Line2D([], [], color="#444444", label=f"full resolution ({reference})"),
+               Line2D([], [], color="#444444", ls="--", label="coarse solve and up-sampling")]
+    handles += [Line2D([], [], color=style.load_colour(load), marker=style.load_marker(load),
+                       markerfacecolor="white", label=load) for load in loads]
+    figure.legend(handles=handles, loc="lower center", bbox_to_anchor=(0.5, 1.), ncol=4, handlelength=2.8)
     return figure
 
 
@@ -59,28 +59,35 @@ def step_figure(steps):
     steps = positive(steps, "seconds_coarse_solve", "seconds_upsample", "seconds_fine_step")
     if not steps:
         return None
-    names = [(load, reference) for load in style.ordered_loads(s["load"] for s in steps)
-             for reference in style.ordered_references(s["reference"] for s in steps if s["load"] == load)]
-    parts = (("seconds_coarse_solve", "coarse solve", style.BLUE),
-             ("seconds_upsample", "up-sampling", style.SKY),
-             ("seconds_fine_step", "full resolution", style.VERMILLION))
-    figure, axes = pyplot.subplots(figsize=(9.2, 0.9 + 0.36 * len(names)), layout="constrained")
-    lowest = min(step[key] for step in steps for key, _, _ in parts)
-    lower = 10. ** math.floor(math.log10(lowest) - 0.3)
-    for i, (load, reference) in enumerate(names):
-        some = [s for s in steps if s["load"] == load and s["reference"] == reference]
-        values = {key: median(s[key] for s in some) for key, _, _ in parts}
-        for k, (key, _, colour) in enumerate(parts):
-            axes.barh(i + (k - 1) * 0.26, values[key] - lower, 0.24, left=lower, color=colour)
-        ratio = values["seconds_fine_step"] / (values["seconds_coarse_solve"] + values["seconds_upsample"])
-        axes.annotate(f"{ratio:,.0f} x", (values["seconds_fine_step"], i + 0.26), xytext=(4, 0),
-                      textcoords="offset points", va="center", fontsize=7.5)
-    axes.set(xscale="log", xlabel="median time per load step [s]", xlim=(lower, None),
-             ylim=(len(names) - 0.4, -0.6))
-    axes.set_yticks(range(len(names)), [f"{load}, {reference}" for load, reference in names])
+    loads = style.ordered_loads(step["load"] for step in steps)
+    references = style.ordered_references(step["reference"] for step in steps)
+    shades = ["#F2B48C", style.VERMILLION, "#8A3A00"]
+    bars = [("seconds_coarse_solve", None, "coarse solve", style.BLUE),
+            ("seconds_upsample", None, "up-sampling", style.SKY)]
+    bars += [("seconds_fine_step", reference, f"full resolution, {reference}", shades[i % len(shades)])
+             for i, reference in enumerate(references)]
+    height = 0.8 / len(bars)
+    figure, axes = pyplot.subplots(figsize=(9.2, 0.8 + 0.13 * (len(bars) + 1.5) * len(loads)),
+                                   layout="constrained")
+    lower = 10. ** math.floor(math.log10(min(step[key] for step in steps for key, *_ in bars)) - 0.3)
+    for i, load in enumerate(loads):
+        some = [step for step in steps if step["load"] == load]
+        light = median(s["seconds_coarse_solve"] + s["seconds_upsample"] for s in some)
+        for k, (key, reference, _, colour) in enumerate(bars):
+            values = [s[key] for s in some if reference in (None, s["reference"])]
+            if not values:
+                continue
+            value, y = median(values), i - 0.4 + (k + 0.5) * height
+            axes.barh(y, value - lower, 0.9 * height, left=lower, color=colour)
+            if reference:
+                axes.annotate(f"{style.three(float(value / light))} ×", (value, y), xytext=(4, 0),
+                              textcoords="offset points", va="center", fontsize=7.5)
+    axes.set(xscale="log", xlabel="median time per load step [s]", ylim=(len(loads) - 0.4, -0.6))
+    axes.set_xlim(left=lower)
+    axes.set_yticks(range(len(loads)), loads)
     axes.grid(axis="y", visible=False)
-    figure.legend(handles=[Patch(color=colour, label=label) for _, label, colour in parts],
-                  loc="lower center", bbox_to_anchor=(0.5, 1.), ncol=3)
+    figure.legend(handles=[Patch(color=colour, label=label) for _, _, label, colour in bars],
+                  loc="lower center", bbox_to_anchor=(0.5, 1.), ncol=len(bars))
     return figure
 
 
@@ -101,7 +108,8 @@ def error_time_figure(rows, methods, reference, strains, side):
     values = [row["error_mean_per_cell"] for row in shown if row["error_mean_per_cell"] > style.ROUND_OFF]
     values += [row["reference_uncertainty_m"] / side for row in shown
                if side and row["reference_uncertainty_m"] / side > style.ROUND_OFF]
-    floor = 10. ** math.floor(math.log10(min(values)) - 0.5) if values else style.ROUND_OFF
+    values = values or [style.ROUND_OFF]
+    floor = 10. ** math.floor(math.log10(min(values)) - 0.5)
     clipped = full = False
     for axes, strain in zip(grid[0], strains):
         for row in (row for row in shown if row["strain"] == strain):
@@ -109,16 +117,19 @@ def error_time_figure(rows, methods, reference, strains, side):
             low = error < style.ROUND_OFF
             clipped |= low
             axes.plot(row["seconds_method"], floor if low else error, style.load_marker(row["load"]),
-                      color=style.method_colour(row["method"], methods), ms=6, mew=1.1, clip_on=False,
-                      markerfacecolor="none" if low else None, alpha=0.9)
+                      ms=7, clip_on=False, markerfacecolor="none" if low else style.method_colour(row["method"], methods),
+                      markeredgecolor=style.method_colour(row["method"], methods) if low else "white",
+                      mew=1.2 if low else 0.6)
             if row["method"] == METHOD and row["seconds_reference"] > 0 and side \
                     and row["reference_uncertainty_m"] > 0:
                 full = True
                 axes.plot(row["seconds_reference"], max(floor, row["reference_uncertainty_m"] / side),
-                          style.load_marker(row["load"]), color="#666666", ms=6, clip_on=False)
+                          style.load_marker(row["load"]), color="#666666", ms=7, mew=0.6,
+                          markeredgecolor="white", clip_on=False)
         axes.set_title(f"{style.percent(strain)} strain, against {reference}", loc="left")
-        axes.set(xscale="log", yscale="log", xlabel="time per strain level [s]")
-        axes.set_ylim(bottom=floor)
+        style.log_axes(axes)
+        axes.set_xlabel("time per strain level [s]")
+    grid[0][0].set_ylim(floor, 10. ** math.ceil(math.log10(2. * max(values))))
     grid[0][0].set_ylabel("mean error [cell sides]")
     handles = [Line2D([], [], ls="", marker="o", color=style.method_colour(m, methods), label=m)
                for m in methods if any(row["method"] == m for row in shown)]

@@ -7,7 +7,7 @@ cell go from light to dark with stiffness, so that they survive a black-and-whit
 import math
 
 import matplotlib
-from matplotlib import colors
+from matplotlib import colors, ticker
 
 matplotlib.use("Agg")  # no display on a compute node
 
@@ -33,6 +33,7 @@ LOAD_MARKERS = dict(zip(LOADS, ("v", "^", "D", "s", "o", "P")))
 # Two errors that differ by less than this part of a cell side are the same in double precision:
 # positions of a sheet of 20 cells carry 16 digits, and solvers stop some digits earlier.
 ROUND_OFF = 1e-11
+ROUND_OFF_TEXT = "10⁻¹¹ cell sides"
 
 RC = {
     "font.family": "DejaVu Sans",
@@ -112,6 +113,13 @@ def phase_colours(stiffnesses):
     return result
 
 
+def log_axes(axes):
+    """Logarithmic on both axes, strain or time in plain numbers where that is short."""
+    axes.set(xscale="log", yscale="log")
+    axes.xaxis.set_minor_formatter(ticker.NullFormatter())
+    axes.yaxis.set_minor_locator(ticker.NullLocator())  # ten decades of minor ticks are only grey and slow
+
+
 def three(value):
     """A number with three significant digits, for print: 0.0123, 4.56e-7 as 4.56 × 10⁻⁷."""
     if value is None or (isinstance(value, float) and math.isnan(value)):
@@ -124,7 +132,8 @@ def three(value):
         return "∞" if value > 0 else "−∞"
     if isinstance(value, int) and abs(value) < 10 ** 9:
         return f"{value:,}".replace(",", "\u202f").replace("-", "−")
-    exponent = math.floor(math.log10(abs(float(f"{value:.2e}"))))
+    value = float(f"{value:.2e}")
+    exponent = math.floor(math.log10(abs(value)))
     if -4 < exponent < 6:
         return f"{value:.{max(0, 2 - exponent)}f}".replace("-", "−")
     superscript = str(exponent).translate(str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹"))

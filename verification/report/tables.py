@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 """The tables of the report and its sentences in words: results in, rows of text out."""
 import math
+from statistics import median
 
 import numpy
 
@@ -135,15 +136,21 @@ def uncertainty_rows(rows):
 
 
 def step_rows(rows):
-    """steps.csv as text, with the ratio of full resolution to coarse solve and up-sampling."""
-    result = []
+    """steps.csv as text, medians over its strains, with the ratio of fine step to the coarse one."""
+    groups = {}
     for row in rows:
-        light = row["seconds_coarse_solve"] + row["seconds_upsample"]
-        ratio = row["seconds_fine_step"] / light if light > 0 else math.nan
-        result.append([row["cell"], row["load"], row["reference"], percent(row["strain"]),
-                       seconds(row["seconds_coarse_solve"]), seconds(row["seconds_upsample"]),
-                       seconds(row["seconds_fine_step"]), three(ratio), integer(row["coarse_iterations"]),
-                       integer(row["fine_iterations"]), integer(row["fine_dofs"]), integer(row["ranks"])])
+        groups.setdefault((row["cell"], row["load"], row["reference"]), []).append(row)
+    result = []
+    for (cell, load, reference), some in groups.items():
+        def middle(key, some=some):
+            values = [row[key] for row in some if not math.isnan(row[key])]
+            return median(values) if values else math.nan
+        light = middle("seconds_coarse_solve") + middle("seconds_upsample")
+        ratio = middle("seconds_fine_step") / light if light > 0 else math.nan
+        result.append([cell, load, reference, three(len(some)), seconds(middle("seconds_coarse_solve")),
+                       seconds(middle("seconds_upsample")), seconds(middle("seconds_fine_step")), three(ratio),
+                       integer(middle("coarse_iterations")), integer(middle("fine_iterations")),
+                       integer(middle("fine_dofs")), integer(middle("ranks"))])
     return result
 
 
@@ -162,7 +169,7 @@ def unreached_notes(rows):
             for (cell, load, reference), strains in groups.items()]
 
 
-def round_off_sentences(rows, cell):
+def round_off_sentences(rows):
     """Where the localized error vanishes, in words: such a curve has no slope to read."""
     sentences = []
     for load in style.ordered_loads(row["load"] for row in rows):
@@ -170,8 +177,8 @@ def round_off_sentences(rows, cell):
                 if errors_are_round_off([r for r in rows if r["load"] == load and r["method"] == METHOD
                                          and r["reference"] == reference])]
         if zero:
-            sentences.append(f"{cell}, {load}: the error of {METHOD} is zero to round-off (below "
-                             f"{three(style.ROUND_OFF)} cell sides) against {', '.join(zero)}.")
+            sentences.append(f"{load}: the error of {METHOD} is zero to round-off (below "
+                             f"{style.ROUND_OFF_TEXT}) against {', '.join(zero)}.")
     return sentences
 
 

@@ -1,0 +1,234 @@
+# SPDX-License-Identifier: MIT
+"""Tests of the report: /usr/bin/python3 -m unittest discover -s verification/report"""
+import contextlib
+import io
+import json
+import os
+import re
+import shutil
+import sys
+import tempfile
+import unittest
+
+import h5py
+import numpy
+
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+import report  # noqa: E402
+import results  # noqa: E402
+import style  # noqa: E402
+from contents import HEADINGS  # noqa: E402
+from figures_sheet import coarse_positions  # noqa: E402
+from figures_stiffness import directional_modulus  # noqa: E402
+
+SIDE = 0.01
+LAMINATE = numpy.array([[2839.91, 299.7, 0.], [299.7, 999.001, 0.], [0., 0., 349.65]])
+
+
+def square_mesh(n, size):
+    """n x n squares of two triangles over a square; rows of squares alternate between two materials."""
+    grid = numpy.linspace(0., size, n + 1)
+    vertices = numpy.array([[x, y] for y in grid for x in grid])
+    corners = [j * (n + 1) + i for j in range(n) for i in range(n)]
+    triangles = numpy.array([t for a in corners for t in ([a, a + 1, a + n + 2], [a, a + n + 2, a + n + 1])])
+    material = numpy.array([1 + (j % 2) for j in range(n) for _ in range(2 * n)])
+    return vertices, triangles, material
+
+
+def strain_rows():
+    """Rows of strain.csv for one cell: a load with slope 2, one that vanishes, one not reached."""
+    rows = []
+    for load in ("periodic-22", "shear-frame"):
+        for strain in (0.001, 0.01, 0.1):
+            for method in ("affine", "localized", "localized-piecewise"):
+                error = 0.2 * strain
+                if method != "affine":
+                    error *= 0. if load == "periodic-22" else 4. * strain
+                rows.append(f"stripes,{load},{strain},biot,{method},2,8,32,{error * SIDE},{error * SIDE},"
+                            f"{error * SIDE},{error},{error / 0.2 / strain},{1e-4 * strain * SIDE},0.001,1.5")
+    rows.append("stripes,shear-frame,0.2,green,unreached,2,8,32,,,nan,,,,,")
+    return rows
+
+
+def write_results(folder):
+    """A complete result folder of one cell and a sheet of 2 x 2 cells."""
+    os.makedirs(os.path.join(folder, "stripes"))
+
+    def write(name, text):
+        with open(os.path.join(folder, name), "w", encoding="utf-8") as file:
+            file.write(text)
+    write("strain.csv", "\n".join([",".join(results.STRAIN_HEADER)] + strain_rows()) + "\n")
+    write("uncertainty.csv", ",".join(results.UNCERTAINTY_HEADER)
+          + "\nstripes,shear-frame,biot,0.01,2,1e-6,1.2e-6,2e-7,0.012\n")
+    write("steps.csv", ",".join(results.STEPS_HEADER)
+          + "\nstripes,shear-frame,biot,0.01,0.002,0.0001,6.5,3,25,578,2\n")
+    write("study.json", json.dumps({
+        "command": "homespun strain stripes.prm", "cells_per_side": 2, "ranks": 2, "seconds_total": 3.5,
+        "peak_memory_bytes": 1e9, "left_out": [{"what": "bending", "why": "the load is in-plane"}],
+        "notes": ["a note <of> the study"], "provenance": {"homespun": "0.1.0", "git": "abc1234"}}))
+    write("verdicts.json", json.dumps({"verdicts": [
+        {"claim": "slope 2", "verdict": "PASS", "value": 2.01, "limit": "2 ± 0.1", "command": "homespun strain"},
+        {"claim": "bar", "verdict": "INCONCLUSIVE", "value": None, "limit": "", "command": ""}]}))
+    write("stripes/homogenize.json", json.dumps({
+        "C": LAMINATE.tolist(), "C_lower": None, "C_upper": None, "voigt": (2. * LAMINATE).tolist(),
+        "reuss": (0.5 * LAMINATE).tolist(), "area": SIDE ** 2, "areal_density": 0.2,
+        "engineering": {"E1": 2750., "E2": 967.}, "dofs": 18, "iterations": [3, 3, 3], "seconds": 0.1,
+        "checks": [{"name": "two forms agree", "value": 1e-12, "limit": "1e-9", "verdict": "PASS"}],
+        "provenance": "homespun 0.1.0"}))
+    write("stripes/cell.json", json.dumps({"name": "stripes", "file": "stripes.prm", "phases": [
+        {"name": "hard", "E1": 1e7, "thickness": 5e-4}, {"name": "soft", "E1": 1e6, "thickness": 5e-4}]}))
+    vertices, triangles, material = square_mesh(2, SIDE)
+    with h5py.File(os.path.join(folder, "stripes", "cell.h5"), "w") as file:
+        for key, value in {"vertices": vertices, "triangles": triangles, "material": material,
+                           "lattice": SIDE * numpy.eye(2), "C": LAMINATE,
+                           "chi": numpy.repeat(0.1 * vertices[:, :, None], 3, axis=2)}.items():
+            file[key] = value
+    rest, fine, material = square_mesh(4, 2. * SIDE)
+    coarse, coarse_triangles, _ = square_mesh(2, 2. * SIDE)
+    motion = numpy.array([[1., 0.1], [0., 1.]])
+    with h5py.File(os.path.join(folder, "stripes", "fields-shear-frame.h5"), "w") as file:
+        for key, value in {"rest": rest, "triangles": fine, "material": material, "reference": rest @ motion.T,
+                           "upsampled": rest @ motion.T + 1e-5, "coarse_rest": coarse,
+                           "coarse_triangles": coarse_triangles, "coarse": coarse @ motion.T}.items():
+            file[key] = value
+        file.attrs.update(load="shear-frame", strain=0.1, reference="biot", method="localized")
+
+
+class ReportTest(unittest.TestCase):
+    def setUp(self):
+        self.place = tempfile.mkdtemp()
+        self.addCleanup(shutil.rmtree, self.place)
+        self.folder, self.output = (os.path.join(self.place, name) for name in ("results", "out"))
+        write_results(self.folder)
+
+    def run_report(self):
+        """(exit status, text on stderr)"""
+        errors = io.StringIO()
+        with contextlib.redirect_stderr(errors):
+            status = report.main([self.folder, "--output", self.output, "--quiet"])
+        return status, errors.getvalue()
+
+    def page(self):
+        with open(os.path.join(self.output, "report.html"), encoding="utf-8") as file:
+            return file.read()
+
+    def edit(self, name, change):
+        path = os.path.join(self.folder, name)
+        with open(path, encoding="utf-8") as file:
+            text = file.read()
+        with open(path, "w", encoding="utf-8") as file:
+            file.write(change(text))
+
+    def assert_refused(self, *words):
+        """Exit status 2, every word in the message, and nothing written."""
+        status, errors = self.run_report()
+        self.assertEqual(status, 2)
+        for word in words:
+            self.assertIn(word, errors)
+        self.assertFalse(os.path.exists(self.output))
+
+    def test_complete_results_make_every_section_and_figure_in_one_file(self):
+        self.assertEqual(self.run_report(), (0, ""))
+        page = self.page()
+        places = [page.index(f'<h2 id="{key}">') for key in HEADINGS]
+        self.assertEqual(places, sorted(places))
+        figures = set(os.listdir(os.path.join(self.output, "figures")))
+        for name in ("error-strain", "error-strain-fluctuation", "variants", "run-time", "load-step",
+                     "directional-modulus", "cell", "characteristic-displacements", "sheet-shear-frame",
+                     "error-time"):
+            self.assertLessEqual({f"stripes-{name}.pdf", f"stripes-{name}.svg"}, figures)
+            self.assertIn(f'id="stripes-{name}"', page)
+        self.assertFalse(re.search(r'(src|href)="(?!data:|#)', page), "the page must stand alone")
+        self.assertIn("a note &lt;of&gt; the study", page)
+        self.assertIn("stripes, shear-frame, reference green at 20 %", page)
+        self.assertIn("periodic-22: the error of localized is zero to round-off", page)
+        self.assertEqual(sorted(os.listdir(self.output)), ["figures", "report.html"])
+
+    def test_missing_pieces_are_named_and_the_report_is_written(self):
+        for name in ("study.json", "verdicts.json", "uncertainty.csv", "steps.csv", "stripes/cell.h5",
+                     "stripes/homogenize.json", "stripes/cell.json", "stripes/fields-shear-frame.h5"):
+            os.remove(os.path.join(self.folder, name))
+        self.edit("strain.csv", lambda text: "\n".join(text.splitlines()[:2]) + "\n")  # a single row
+        self.assertEqual(self.run_report(), (0, ""))
+        page = self.page()
+        for name in ("study.json", "verdicts.json", "uncertainty.csv", "steps.csv"):
+            self.assertIn(f"{name} does not exist", page)
+        for what in ("Left out: verdicts", "Left out: picture of stripes", "Left out: sheets of stripes",
+                     "Left out: effective stiffness of stripes", "Left out: provenance"):
+            self.assertIn(what, page)
+
+    def test_interrupted_last_line_is_left_out_and_said(self):
+        self.edit("strain.csv", lambda text: text + "stripes,shear-frame,0.2,biot,localized,2,8,32,0.00")
+        found = results.read_results([self.folder])
+        self.assertEqual(len(found.strain), len(strain_rows()))
+        self.assertTrue(any("--resume" in item["why"] for item in found.missing))
+
+    def test_number_that_is_none_is_refused_with_its_line(self):
+        self.edit("strain.csv", lambda text: text.replace("shear-frame,0.01", "shear-frame,one", 1))
+        line = 2 + next(i for i, row in enumerate(strain_rows()) if "shear-frame,0.01" in row)
+        self.assert_refused(f"strain.csv, line {line}", "`strain` is `one`", "--resume")
+
+    def test_row_with_a_field_too_few_is_refused_with_its_line(self):
+        self.edit("strain.csv", lambda text: text.replace(",localized,", ",", 1))
+        self.assert_refused("strain.csv, line 3", "15 fields, expected 16")
+
+    def test_wrong_header_is_refused(self):
+        self.edit("strain.csv", lambda text: text.replace("error_mean_m", "error", 1))
+        self.assert_refused("strain.csv, line 1", "expected the header")
+
+    def test_all_faults_are_named_at_once(self):
+        self.edit("study.json", lambda text: text[:40])
+        self.edit("stripes/homogenize.json", lambda text: text.replace("299.7", "null"))
+        self.edit("verdicts.json", lambda text: text.replace("PASS", "MAYBE"))
+        self.assert_refused("study.json, line 1", "not valid JSON", "homogenize.json: key `C`", "verdicts[0]")
+
+    def test_truncated_cell_file_is_refused(self):
+        path = os.path.join(self.folder, "stripes", "cell.h5")
+        os.truncate(path, os.path.getsize(path) // 2)
+        self.assert_refused("cell.h5: not a readable HDF5 file")
+
+    def test_sheet_with_wrong_shape_is_refused_and_nothing_is_written(self):
+        self.edit("strain.csv", lambda text: "\n".join(text.splitlines()[:2]) + "\n")
+        with h5py.File(os.path.join(self.folder, "stripes", "fields-shear-frame.h5"), "a") as file:
+            del file["upsampled"]
+            file["upsampled"] = numpy.zeros((3, 2))
+        self.assert_refused("fields-shear-frame.h5: `/upsampled` has shape (3, 2), expected (25, 2)")
+
+    def test_folder_without_results_is_refused(self):
+        shutil.rmtree(self.folder)
+        self.assert_refused("no such folder")
+        os.makedirs(self.folder)
+        self.assert_refused("holds no results")
+
+
+class NumbersTest(unittest.TestCase):
+    def test_three_digits_in_print(self):
+        for value, text in ((0.012345, "0.0123"), (2839.91, "2840"), (1.999, "2.00"), (9.996, "10.0"),
+                            (4.567e-7, "4.57 × 10⁻⁷"), (-1.234, "−1.23"), (0., "0"), (float("nan"), "–")):
+            self.assertEqual(style.three(value), text)
+
+    def test_modulus_along_the_axes_is_the_inverse_compliance(self):
+        compliance = numpy.linalg.inv(LAMINATE)
+        along = directional_modulus(LAMINATE, numpy.array([0., numpy.pi / 2.]))
+        numpy.testing.assert_allclose(along, [1. / compliance[0, 0], 1. / compliance[1, 1]], rtol=1e-14)
+
+    def test_modulus_turns_with_the_stiffness(self):
+        """E(theta) of the material turned by beta is E(theta − beta): catches signs of S16 and S26."""
+        beta, theta = 0.4, numpy.linspace(0., 3., 7)
+        c, s = numpy.cos(beta), numpy.sin(beta)
+        strain = numpy.array([[c * c, s * s, c * s], [s * s, c * c, -c * s],
+                              [-2 * c * s, 2 * c * s, c * c - s * s]])  # strain in the turned axes
+        turned = strain.T @ LAMINATE @ strain
+        numpy.testing.assert_allclose(directional_modulus(turned, theta),
+                                      directional_modulus(LAMINATE, theta - beta), rtol=1e-12)
+
+    def test_coarse_motion_is_linear_in_each_triangle(self):
+        rest, _, _ = square_mesh(5, 1.)
+        coarse, triangles, _ = square_mesh(2, 1.)
+        motion = numpy.array([[1.1, 0.3], [-0.2, 0.9]])
+        sheet = {"rest": rest, "coarse_rest": coarse, "coarse_triangles": triangles, "coarse": coarse @ motion.T}
+        numpy.testing.assert_allclose(coarse_positions(sheet), rest @ motion.T, atol=1e-14)
+
+
+if __name__ == "__main__":
+    unittest.main()
