@@ -158,7 +158,7 @@ def cell_contents(results, name, gallery):
         contents["chi"] = gallery.add(
             characteristic_figure(cell), f"{name}-characteristic-displacements",
             f"{name}: characteristic displacements, exaggerated so that the largest is a tenth of the cell "
-            "side. White lines: edges of the phases; dashed: the cell at rest.")
+            "side. White lines: edges of the phases; dashed: the cell at rest.", as_image=True)
     for path in cell.field_files:
         contents["sheets"].append(sheet_picture(cell, path, side, gallery))
     strains = tables.nearest_strains([row for row in rows if row["reference"] == reference])

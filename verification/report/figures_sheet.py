@@ -78,7 +78,8 @@ def close_up_triangles(sheet, side):
     size = numpy.minimum(CELLS_IN_CLOSE_UP * side, high - low)
     start = low + side * numpy.round((high - low - size) / 2. / side)
     middle = rest[sheet["triangles"]].mean(axis=1)
-    return numpy.flatnonzero(((middle > start) & (middle < start + size)).all(axis=1))
+    inside = numpy.flatnonzero(((middle > start) & (middle < start + size)).all(axis=1))
+    return inside if inside.size else numpy.arange(len(middle))
 
 
 def image(axes, pixels, extent):

@@ -11,6 +11,7 @@ from PIL import Image
 
 PAD = 0.04      # inches around a figure
 PAGE_DPI = 130  # of images on the page; the saved files are finer
+FULL_IMAGES = 6  # that the page takes at this resolution; more of them become coarser
 
 
 @dataclass
@@ -35,10 +36,10 @@ def short_svg(svg):
     return re.sub(r"\s*\n\s*", "\n", svg)
 
 
-def small_png(figure, box):
+def small_png(figure, box, dpi):
     """A PNG for the page. Colours keep 6 bits per channel, which no eye misses and which halves the file."""
     buffer = io.BytesIO()
-    figure.savefig(buffer, format="png", dpi=PAGE_DPI, bbox_inches=box)
+    figure.savefig(buffer, format="png", dpi=dpi, bbox_inches=box)
     picture = Image.open(buffer).convert("RGB").point([(v & 0xFC) | (v >> 6) for v in range(256)] * 3)
     buffer = io.BytesIO()
     picture.save(buffer, format="png", optimize=True)
@@ -48,8 +49,10 @@ def small_png(figure, box):
 class Gallery:
     """Saves figures into a folder and keeps them as data URIs for the page."""
 
-    def __init__(self, folder):
+    def __init__(self, folder, images=0):
+        """@param images how many images of dots will come: with many of them each is kept smaller"""
         self.folder = folder
+        self.dpi = PAGE_DPI * min(1., (FULL_IMAGES / max(1, images)) ** 0.5)
         os.makedirs(folder, exist_ok=True)
         self.names = set()
 
@@ -70,7 +73,7 @@ class Gallery:
                                ("svg", {"Date": None, "Creator": "homespun"})):
             figure.savefig(os.path.join(self.folder, f"{name}.{kind}"), metadata=metadata, bbox_inches=box)
         if as_image:
-            kind, data = "png", small_png(figure, box)
+            kind, data = "png", small_png(figure, box, self.dpi)
         else:
             with open(os.path.join(self.folder, name + ".svg"), encoding="utf-8") as file:
                 kind, data = "svg+xml", short_svg(file.read()).encode()

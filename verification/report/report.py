@@ -40,7 +40,8 @@ def write_report(folders, output):
     except OSError as error:
         raise BadResults([f"{output}: cannot be written ({error}). Give another --output."]) from error
     try:
-        gallery = Gallery(os.path.join(workplace, "figures"))
+        sheets = sum(len(cell.field_files) for cell in results.cells.values())
+        gallery = Gallery(os.path.join(workplace, "figures"), sheets)
         html = render(page_contents(results, gallery))
         with open(os.path.join(workplace, "report.html"), "w", encoding="utf-8") as file:
             file.write(html)

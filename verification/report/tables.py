@@ -129,7 +129,7 @@ def phase_rows(cell):
 
 def uncertainty_rows(rows):
     """uncertainty.csv as text."""
-    return [[row["cell"], row["load"], row["reference"], percent(row["strain"]), shown(row["cells"]),
+    return [[row["cell"], row["load"], row["reference"], percent(row["strain"]), integer(row["cells"]),
              length(row["p1_minus_p2_m"]), length(row["p1_minus_refined_p2_m"]),
              length(row["p2_minus_refined_p2_m"]), three(row["uncertainty_per_strain_and_side"])]
             for row in rows]
