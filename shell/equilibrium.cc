@@ -61,7 +61,7 @@ template <int dim>
 struct Residual
 {
   Positions<dim> free_gradient; ///< held rows zero
-  double norm = 0., accepted = 0., round_off = 0.;
+  double norm = 0., accepted = 0., energy_round_off = 0.;
 };
 
 template <int dim>
@@ -73,10 +73,10 @@ Residual<dim> residual_at(const Membrane &membrane, const std::vector<bool> &is_
     if (is_held[v])
       force.gradient.row(static_cast<Eigen::Index>(v)).setZero();
   Residual<dim> residual;
-  residual.norm          = force.gradient.norm();
-  residual.round_off     = force.round_off.norm();
-  residual.accepted      = relative_tolerance * force.magnitude.norm() + residual.round_off;
-  residual.free_gradient = std::move(force.gradient);
+  residual.norm             = force.gradient.norm();
+  residual.accepted         = relative_tolerance * force.magnitude.norm() + force.round_off.norm();
+  residual.energy_round_off = force.energy_round_off;
+  residual.free_gradient    = std::move(force.gradient);
   return residual;
 }
 
@@ -230,8 +230,7 @@ Equilibrium<dim> MembraneSolver<dim>::solve_equilibrium(const Positions<dim> &st
     {
       const Positions<dim> trial = result.positions + length * step;
       const double energy        = membrane_energy<dim>(membrane, trial);
-      const double slack =
-        16. * epsilon * result.energy + residual.round_off * length * step.norm();
+      const double slack         = 16. * epsilon * result.energy + residual.energy_round_off;
       if (energy <= result.energy + 1e-4 * length * slope + slack)
       {
         accepted         = true;

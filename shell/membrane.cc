@@ -150,6 +150,7 @@ MembraneGradient<dim> membrane_gradient(const Membrane &membrane, const Position
       result.gradient.row(v) += gradient.row(k);
       result.magnitude(v) += gradient.row(k).norm();
       result.round_off(v) += rounding * hats(k);
+      result.energy_round_off += epsilon * gradient.row(k).norm() * (sizes(k) + 1. / hats(k));
     }
   }
   return result;

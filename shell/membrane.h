@@ -39,13 +39,14 @@ Membrane membrane(const meshes::TriangleMesh &mesh, const std::vector<Eigen::Mat
 template <int dim>
 double membrane_energy(const Membrane &membrane, const Positions<dim> &positions);
 
-/// Gradient of the energy with the two scales that make its smallness a question without units.
+/// Gradient of the energy, with the scales that make its smallness a question without units.
 template <int dim>
 struct MembraneGradient
 {
   Positions<dim> gradient;   ///< (n,dim) [N]; the elastic forces are its negative
   Eigen::VectorXd magnitude; ///< (n) sum of |element forces| at each vertex [N]
   Eigen::VectorXd round_off; ///< (n) change of the forces when positions move by one rounding [N]
+  double energy_round_off = 0.; ///< change of the energy when positions move by one rounding [J]
 };
 
 /// Gradient of membrane_energy(); every triangle's contributions sum to zero.

@@ -198,6 +198,26 @@ TEST(bound_equilibrium, bad_starts_end_in_an_equilibrium_or_a_refusal)
   }
 }
 
+TEST(bound_equilibrium, converges_to_round_off_at_any_strain_contrast_origin_and_tolerance)
+{
+  const int n = 6;
+  for (const double origin : {0., 1e4})
+    for (const double strain : {1e-8, 1e-5, 1e-3, 0.1, -0.05})
+      for (const double contrast : {1., 1e6})
+        for (const double tolerance : {1e-8, 1e-12})
+        {
+          meshes::TriangleMesh mesh = tests::irregular_sheet(n, 0.2);
+          mesh.vertices.array() += origin;
+          for (int t = 0; t < mesh.n_triangles(); ++t)
+            mesh.material(t) = (t / (2 * n)) % 2;
+          const MembraneSolver<2> solver(
+            mesh, {tests::isotropic(1., 0.3), tests::isotropic(contrast, 0.3)}, two_edges(n));
+          const Positions<2> start = solver.solve_linear(pulled(mesh, n, 0.2 * strain));
+          EXPECT_LE(solver.solve_equilibrium(start, {tolerance, 50}).iterations, 8)
+            << origin << ' ' << strain << ' ' << contrast << ' ' << tolerance;
+        }
+}
+
 TEST(exact_equilibrium, in_the_plane_an_inverted_start_unfolds)
 {
   const int n                     = 4;
