@@ -102,6 +102,33 @@ unsigned int Discretization::triangle_of(const DoFHandler<2>::active_cell_iterat
   return static_cast<unsigned int>(cell->id().get_coarse_cell_id());
 }
 
+std::vector<Node> Discretization::owned_nodes() const
+{
+  std::vector<Node> nodes;
+  nodes.reserve(locally_owned.n_elements() / 2);
+  std::vector<char> is_listed(locally_owned.n_elements(), 0);
+  std::vector<types::global_dof_index> dofs(element.n_dofs_per_cell());
+  for (const auto &cell : dof_handler.active_cell_iterators())
+  {
+    if (!cell->is_locally_owned())
+      continue;
+    cell->get_dof_indices(dofs);
+    const auto triangle = mesh.triangles.row(triangle_of(cell));
+    for (unsigned int shape = 0; shape < dofs.size() / 2; ++shape)
+    {
+      const types::global_dof_index dof = dofs[2 * shape];
+      if (!locally_owned.is_element(dof) || is_listed[locally_owned.index_within_set(dof)])
+        continue;
+      is_listed[locally_owned.index_within_set(dof)] = 1;
+      Eigen::RowVector2d point                       = mesh.vertices.row(triangle(shape % 3));
+      if (shape >= 3) // the midpoint of edge (k, k + 1)
+        point = 0.5 * (point + mesh.vertices.row(triangle((shape + 1) % 3)));
+      nodes.push_back({dof, dofs[2 * shape + 1], point});
+    }
+  }
+  return nodes;
+}
+
 std::vector<Node> Discretization::boundary_nodes() const
 {
   // Doubles carry the DoF indices through one gather; they are exact up to 2^53.

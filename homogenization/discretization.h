@@ -44,6 +44,9 @@ public:
   /// The index in the mesh of the triangle that a cell is.
   static unsigned int triangle_of(const dealii::DoFHandler<2>::active_cell_iterator &cell);
 
+  /// The nodes that this rank owns.
+  std::vector<Node> owned_nodes() const;
+
   /// The nodes on the boundary of the mesh, of all ranks, sorted by DoF.
   std::vector<Node> boundary_nodes() const;
 

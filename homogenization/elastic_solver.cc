@@ -32,27 +32,15 @@ std::vector<double> rigid_body_modes(const Discretization &discretization)
   const double size                = (highest - lowest).maxCoeff();
 
   std::vector<double> modes(3 * n, 0.);
-  std::vector<types::global_dof_index> dofs(discretization.element.n_dofs_per_cell());
-  for (const auto &cell : discretization.dof_handler.active_cell_iterators())
+  for (const Node &node : discretization.owned_nodes())
   {
-    if (!cell->is_locally_owned())
-      continue;
-    cell->get_dof_indices(dofs);
-    const auto triangle = mesh.triangles.row(Discretization::triangle_of(cell));
-    for (unsigned int shape = 0; shape < dofs.size() / 2; ++shape)
-    {
-      Eigen::RowVector2d point = mesh.vertices.row(triangle(shape % 3));
-      if (shape >= 3) // the midpoint of edge (k, k + 1)
-        point = 0.5 * (point + mesh.vertices.row(triangle((shape + 1) % 3)));
-      const Eigen::RowVector2d arm = (point - centre) / size;
-      for (unsigned int c = 0; c < 2; ++c)
-        if (owned.is_element(dofs[2 * shape + c]))
-        {
-          const std::size_t row = owned.index_within_set(dofs[2 * shape + c]);
-          modes[c * n + row]    = 1.;
-          modes[2 * n + row]    = c == 0 ? -arm(1) : arm(0);
-        }
-    }
+    const Eigen::RowVector2d arm = (node.point - centre) / size;
+    const std::size_t first      = owned.index_within_set(node.first_dof);
+    const std::size_t second     = owned.index_within_set(node.second_dof);
+    modes[first]                 = 1.;
+    modes[n + second]            = 1.;
+    modes[2 * n + first]         = -arm(1);
+    modes[2 * n + second]        = arm(0);
   }
   return modes;
 }

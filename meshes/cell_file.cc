@@ -2,6 +2,7 @@
 #include "meshes/cell_file.h"
 
 #include "meshes/errors.h"
+#include "meshes/hdf5_writer.h"
 
 #include <Eigen/Eigenvalues>
 
@@ -18,7 +19,7 @@ namespace homespun::meshes
 {
 namespace
 {
-/// An open HDF5 file; silences the library's own error printing, faults are reported by us.
+/// An open HDF5 file.
 class File
 {
 public:
@@ -36,11 +37,6 @@ public:
   const hid_t id;
 };
 
-void silence_hdf5()
-{
-  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
-}
-
 std::string shape_text(const std::vector<hsize_t> &shape)
 {
   std::ostringstream text;
@@ -55,22 +51,6 @@ void require(const bool condition, const std::string &message)
 {
   if (!condition)
     throw BadInput(message);
-}
-
-void write(const File &file, const char *name, const std::vector<hsize_t> &shape,
-           const double *values, const char *unit)
-{
-  require(H5LTmake_dataset_double(file.id, name, static_cast<int>(shape.size()), shape.data(),
-                                  values) >= 0 &&
-            H5LTset_attribute_string(file.id, name, "unit", unit) >= 0,
-          std::string("cannot write dataset ") + name);
-}
-
-void write(const File &file, const char *name, const std::vector<hsize_t> &shape, const int *values)
-{
-  require(
-    H5LTmake_dataset_int(file.id, name, static_cast<int>(shape.size()), shape.data(), values) >= 0,
-    std::string("cannot write dataset ") + name);
 }
 
 /// The shape of a dataset, which must have the given number of axes; 0 in `expected` is free.
@@ -155,50 +135,32 @@ void write_cell(const HomogenizedCell &cell, const std::string &path)
   if (!faults.empty())
     throw BadInput(faults);
 
-  silence_hdf5();
-  const std::string temporary = path + ".part";
-  try
-  {
-    const File file(H5Fcreate(temporary.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT));
-    require(file.id >= 0,
-            path + ": cannot be written; expected a folder that exists and is writable");
-    const auto n = static_cast<hsize_t>(cell.mesh.n_vertices());
-    const auto m = static_cast<hsize_t>(cell.mesh.n_triangles());
-    write(file, "/vertices", {n, 2}, cell.mesh.vertices.data(), "m");
-    write(file, "/triangles", {m, 3}, cell.mesh.triangles.data());
-    write(file, "/material", {m}, cell.mesh.material.data());
-    const Eigen::Matrix<double, 2, 2, Eigen::RowMajor> lattice = cell.lattice.vectors;
-    write(file, "/lattice", {2, 2}, lattice.data(), "m");
-    // Stored as (vertex, component, load); in memory a row is load-major.
-    std::vector<double> chi(6 * static_cast<std::size_t>(n));
-    for (Eigen::Index v = 0; v < cell.chi.rows(); ++v)
-      for (int a = 0; a < 3; ++a)
-        for (int c = 0; c < 2; ++c)
-          chi[static_cast<std::size_t>(6 * v + 3 * c + a)] = cell.chi(v, 2 * a + c);
-    write(file, "/chi", {n, 2, 3}, chi.data(), "m");
-    require(H5LTset_attribute_int(file.id, "/chi", "anchor", &cell.anchor, 1) >= 0 &&
-              H5LTset_attribute_string(
-                file.id, "/chi", "convention",
-                "w = -(E11 chi_11 + E22 chi_22 + gamma12 chi_12), engineering shear; "
-                "axes: vertex, component, load (11, 22, 12)") >= 0,
-            path + ": cannot write the attributes of /chi");
-    const Eigen::Matrix<double, 3, 3, Eigen::RowMajor> stiffness = cell.stiffness;
-    write(file, "/C", {3, 3}, stiffness.data(), "N/m");
-    require(H5LTset_attribute_string(file.id, "/C", "convention",
-                                     "Voigt 11, 22, 12 with engineering shear") >= 0,
-            path + ": cannot write the attributes of /C");
-    write(file, "/areal_density", {1}, &cell.areal_density, "kg/m^2");
-    require(H5LTset_attribute_string(file.id, "/", "provenance", cell.provenance.c_str()) >= 0,
-            path + ": cannot write the provenance");
-    require(H5Fflush(file.id, H5F_SCOPE_GLOBAL) >= 0,
-            path + ": cannot be written: is the disk full?");
-  }
-  catch (...)
-  {
-    std::remove(temporary.c_str());
-    throw;
-  }
-  std::filesystem::rename(temporary, path);
+  Hdf5Writer file(path);
+  const auto n = static_cast<unsigned long long>(cell.mesh.n_vertices());
+  const auto m = static_cast<unsigned long long>(cell.mesh.n_triangles());
+  file.write("/vertices", {n, 2}, cell.mesh.vertices.data(), "m");
+  file.write("/triangles", {m, 3}, cell.mesh.triangles.data());
+  file.write("/material", {m}, cell.mesh.material.data());
+  const Eigen::Matrix<double, 2, 2, Eigen::RowMajor> lattice = cell.lattice.vectors;
+  file.write("/lattice", {2, 2}, lattice.data(), "m");
+  // Stored as (vertex, component, load); in memory a row is load-major.
+  std::vector<double> chi(6 * static_cast<std::size_t>(n));
+  for (Eigen::Index v = 0; v < cell.chi.rows(); ++v)
+    for (int a = 0; a < 3; ++a)
+      for (int c = 0; c < 2; ++c)
+        chi[static_cast<std::size_t>(6 * v + 3 * c + a)] = cell.chi(v, 2 * a + c);
+  file.write("/chi", {n, 2, 3}, chi.data(), "m");
+  file.attribute("/chi", "anchor", cell.anchor);
+  file.attribute(
+    "/chi", "convention",
+    "w = -(E11 chi_11 + E22 chi_22 + gamma12 chi_12), engineering shear; axes: vertex, "
+    "component, load (11, 22, 12)");
+  const Eigen::Matrix<double, 3, 3, Eigen::RowMajor> stiffness = cell.stiffness;
+  file.write("/C", {3, 3}, stiffness.data(), "N/m");
+  file.attribute("/C", "convention", "Voigt 11, 22, 12 with engineering shear");
+  file.write("/areal_density", {1}, &cell.areal_density, "kg/m^2");
+  file.attribute("/", "provenance", cell.provenance);
+  file.finish();
 }
 
 HomogenizedCell read_cell(const std::string &path)

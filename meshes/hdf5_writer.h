@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: MIT
+// An HDF5 file that appears whole or not at all: it is written beside its name and takes it last.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace homespun::meshes
+{
+/// Writes datasets and attributes; finish() gives the file its name, otherwise nothing is left.
+class Hdf5Writer
+{
+public:
+  /// @throws BadInput where the folder is absent or not writable
+  explicit Hdf5Writer(const std::string &path);
+  Hdf5Writer(const Hdf5Writer &)            = delete;
+  Hdf5Writer &operator=(const Hdf5Writer &) = delete;
+  ~Hdf5Writer();
+
+  using Shape = std::vector<unsigned long long>;
+
+  /// @param values row-major, as many as the shape says
+  /// @param unit stored as the attribute `unit` of the dataset
+  void write(const std::string &name, const Shape &shape, const double *values,
+             const std::string &unit);
+  void write(const std::string &name, const Shape &shape, const int *values);
+
+  /// @param object "/" for the file itself, or a dataset
+  void attribute(const std::string &object, const std::string &name, const std::string &value);
+  void attribute(const std::string &object, const std::string &name, int value);
+  void attribute(const std::string &object, const std::string &name, double value);
+
+  /// Closes the file and renames it to its path.
+  void finish();
+
+private:
+  const std::string path, temporary;
+  std::int64_t file; ///< HDF5's hid_t
+};
+
+/// Stops the HDF5 library from printing its own errors; ours are thrown.
+void silence_hdf5();
+} // namespace homespun::meshes

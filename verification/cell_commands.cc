@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: MIT
+// homespun check, homogenize, cells: what concerns a cell alone.
+#include "meshes/errors.h"
+#include "verification/build_info.h"
+#include "verification/cell_output.h"
+#include "verification/commands.h"
+#include "verification/progress.h"
+
+#include <deal.II/base/mpi.h>
+
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+#include <CLI/Option.hpp>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <memory>
+
+namespace homespun::verification
+{
+using homogenization::UnitCell;
+
+namespace
+{
+bool is_root()
+{
+  return dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0;
+}
+
+int check(const std::vector<std::string> &files)
+{
+  std::vector<std::string> faults;
+  for (const std::string &file : files)
+    try
+    {
+      const UnitCell cell = homogenization::read_unit_cell(file);
+      if (!is_root())
+        continue;
+      const double side = std::sqrt(cell.lattice.area());
+      std::cout << file << ": sound. " << cell.mesh.n_triangles() << " triangles, "
+                << cell.mesh.n_vertices() << " vertices, cell of " << side * 100.
+                << " cm (|Y| = " << cell.lattice.area() << " m^2), lattice ("
+                << cell.lattice.vectors.row(0) << ") and (" << cell.lattice.vectors.row(1)
+                << ") m, " << cell.areal_density() << " kg/m^2\n";
+      const Eigen::VectorXd areas = meshes::signed_areas(cell.mesh);
+      for (std::size_t p = 0; p < cell.phases.size(); ++p)
+      {
+        double area = 0.;
+        for (int t = 0; t < cell.mesh.n_triangles(); ++t)
+          if (cell.mesh.material(t) == static_cast<int>(p))
+            area += areas(t);
+        const homogenization::Phase &phase = cell.phases[p];
+        std::cout << "  " << phase.name << ": " << 100. * area / cell.lattice.area()
+                  << " % of the area, E " << phase.E1;
+        if (phase.E2 != phase.E1)
+          std::cout << " and " << phase.E2;
+        std::cout << " Pa, nu " << phase.nu12 << ", thickness " << phase.thickness << " m\n";
+      }
+      const double covered = areas.sum() / cell.lattice.area();
+      if (covered < 1. - 1e-9)
+        std::cout << "  holes: " << 100. * (1. - covered) << " % of the area\n";
+    }
+    catch (const meshes::BadInput &bad)
+    {
+      faults.insert(faults.end(), bad.faults().begin(), bad.faults().end());
+    }
+  if (!faults.empty())
+    throw meshes::BadInput(faults);
+  return 0;
+}
+
+struct HomogenizeArguments
+{
+  std::string file, output;
+  homogenization::HomogenizationOptions options;
+  bool quiet = false;
+};
+
+int homogenize(const HomogenizeArguments &arguments)
+{
+  const UnitCell cell      = homogenization::read_unit_cell(arguments.file);
+  const std::string folder = arguments.output.empty() ? "out/" + cell.name : arguments.output;
+  if (is_root())
+    std::filesystem::create_directories(folder);
+  Progress progress(is_root() && !arguments.quiet, 1);
+  progress.begin(cell.name + ": three cell problems, and once more refined for the error bar");
+  const AssessedCell assessed = assess(cell, arguments.options, 4000000, MPI_COMM_WORLD);
+  progress.done();
+  if (is_root())
+  {
+    write_cell_results(cell, assessed, dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD),
+                       folder);
+    if (!arguments.quiet)
+      progress.note(summary(cell, assessed) + "Written to " + folder +
+                    ": homogenize.json, cell.h5, cell.json, characteristic-displacements.vtu");
+  }
+  return any_failed(assessed.checks) ? 1 : 0;
+}
+
+/// The comment lines at the head of a cell file: its story.
+std::string story_of(const std::string &file)
+{
+  std::ifstream input(file);
+  std::string line, story;
+  while (std::getline(input, line) && line.rfind("#", 0) == 0)
+    story += "    " + line.substr(std::min<std::size_t>(2, line.size())) + "\n";
+  return story;
+}
+
+int list_cells()
+{
+  if (!is_root())
+    return 0;
+  std::vector<std::string> files;
+  for (const auto &entry : std::filesystem::directory_iterator(cells_folder()))
+    if (entry.path().extension() == ".prm")
+      files.push_back(entry.path().string());
+  std::sort(files.begin(), files.end());
+  for (const std::string &file : files)
+    std::cout << file << "\n" << story_of(file);
+  return 0;
+}
+} // namespace
+
+std::string cells_folder()
+{
+  const std::string in_sources = std::string(HOMESPUN_SOURCE_DIR) + "/meshes/cells";
+  return std::filesystem::is_directory(in_sources) ? in_sources
+                                                   : std::string(HOMESPUN_DATA_DIR) + "/cells";
+}
+
+void add_check_command(CLI::App &app, Action &action)
+{
+  CLI::App *command =
+    app.add_subcommand("check", "Read and validate cells; name every fault at once; solve nothing");
+  const auto files = std::make_shared<std::vector<std::string>>();
+  command->add_option("CELL.prm", *files, "Cell files")->required();
+  command->footer("Keys of a cell file:\n\n" + homogenization::unit_cell_keys());
+  command->callback([&action, files]() { action = [files]() { return check(*files); }; });
+}
+
+void add_homogenize_command(CLI::App &app, Action &action, const std::string &)
+{
+  CLI::App *command = app.add_subcommand(
+    "homogenize", "C^H with its error bar, characteristic displacements, moduli: cell.h5, "
+                  "homogenize.json, a .vtu for ParaView");
+  const auto arguments = std::make_shared<HomogenizeArguments>();
+  command->add_option("CELL.prm", arguments->file, "Cell file")->required();
+  command
+    ->add_option("--order", arguments->options.order,
+                 "Order of the elements, 1 (solves on the mesh as given) or 2")
+    ->check(CLI::Range(1, 2))
+    ->capture_default_str();
+  command
+    ->add_option("--refine", arguments->options.refine,
+                 "Uniform refinements of the mesh; each makes four triangles of one")
+    ->check(CLI::Range(0, 8))
+    ->capture_default_str();
+  command->add_option("--output", arguments->output, "Folder of the results (default out/NAME)");
+  command->add_flag("--quiet", arguments->quiet, "Print nothing but faults");
+  command->footer("Example:\n  homespun homogenize meshes/cells/layered.prm\n"
+                  "  mpirun -n 2 homespun homogenize mycell.prm --refine 2");
+  command->callback([&action, arguments]()
+                    { action = [arguments]() { return homogenize(*arguments); }; });
+}
+
+void add_cells_command(CLI::App &app, Action &action)
+{
+  CLI::App *command = app.add_subcommand("cells", "List the shipped cells");
+  command->callback([&action]() { action = list_cells; });
+}
+} // namespace homespun::verification

@@ -1,0 +1,227 @@
+// SPDX-License-Identifier: MIT
+#include "verification/cell_output.h"
+
+#include "homogenization/discretization.h"
+#include "meshes/cell_file.h"
+#include "verification/provenance.h"
+#include "verification/result_files.h"
+
+#include <deal.II/numerics/data_out.h>
+
+#include <Eigen/Eigenvalues>
+
+#include <cstdio>
+#include <sstream>
+
+namespace homespun::verification
+{
+using homogenization::Homogenization;
+using homogenization::UnitCell;
+using nlohmann::ordered_json;
+
+namespace
+{
+/// The smallest eigenvalue of upper − lower: not negative where lower <= upper as quadratic forms.
+double smallest_difference(const Eigen::Matrix3d &lower, const Eigen::Matrix3d &upper)
+{
+  return Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(upper - lower).eigenvalues()(0);
+}
+
+Verdict at_most(const std::string &claim, const double value, const double limit)
+{
+  std::ostringstream text;
+  text << "<= " << limit;
+  return {claim, value <= limit ? Outcome::pass : Outcome::fail, value, text.str()};
+}
+
+std::vector<Verdict> checks_of(const UnitCell &cell, const Homogenization &result)
+{
+  const double size = result.stiffness.cwiseAbs().maxCoeff();
+  const double gap  = (result.stiffness - result.stiffness_by_flux).cwiseAbs().maxCoeff() / size;
+  return {
+    at_most("Hill-Mandel: energy form and mean stress of C^H agree (relative gap)", gap, 1e-8),
+    at_most("C^H <= Voigt bound (relative violation)",
+            std::max(0., -smallest_difference(result.stiffness, result.voigt)) / size, 1e-9),
+    at_most("C^H >= Reuss bound (relative violation)",
+            std::max(0., -smallest_difference(result.reuss, result.stiffness)) / size, 1e-9),
+    at_most("periodic constraints tie exact lattice images (largest gap / cell side)",
+            result.audit.largest_gap / std::sqrt(cell.lattice.area()), meshes::image_tolerance)};
+}
+
+ordered_json json_matrix(const Eigen::Matrix3d &matrix)
+{
+  ordered_json rows = ordered_json::array();
+  for (int i = 0; i < 3; ++i)
+    rows.push_back({matrix(i, 0), matrix(i, 1), matrix(i, 2)});
+  return rows;
+}
+
+/// chi as three vector fields, for ParaView.
+void write_vtu(const UnitCell &cell, const Homogenization &result, const std::string &path)
+{
+  const homogenization::Discretization linear(cell.mesh, 1, MPI_COMM_SELF);
+  const auto dofs = linear.vertex_dofs();
+  std::array<dealii::Vector<double>, 3> chi;
+  dealii::DataOut<2> output;
+  output.attach_dof_handler(linear.dof_handler);
+  const std::array<const char *, 3> names = {"chi_11", "chi_22", "chi_12"};
+  for (int a = 0; a < 3; ++a)
+  {
+    chi[a].reinit(linear.dof_handler.n_dofs());
+    for (int v = 0; v < cell.mesh.n_vertices(); ++v)
+      for (int c = 0; c < 2; ++c)
+        chi[a](dofs(v, c)) = result.chi(v, 2 * a + c);
+    output.add_data_vector(chi[a], std::vector<std::string>(2, names[a]),
+                           dealii::DataOut<2>::type_dof_data,
+                           {2, dealii::DataComponentInterpretation::component_is_part_of_vector});
+  }
+  dealii::Vector<float> material(static_cast<unsigned int>(cell.mesh.n_triangles()));
+  for (const auto &dealii_cell : linear.dof_handler.active_cell_iterators())
+    material(dealii_cell->active_cell_index()) = static_cast<float>(
+      cell.mesh.material(homogenization::Discretization::triangle_of(dealii_cell)));
+  output.add_data_vector(material, "material");
+  output.build_patches(linear.element.reference_cell().template get_default_linear_mapping<2>());
+  std::ostringstream text;
+  output.write_vtu(text);
+  write_whole(path, text.str());
+}
+
+ordered_json cell_json(const UnitCell &cell)
+{
+  ordered_json phases = ordered_json::array();
+  for (const homogenization::Phase &phase : cell.phases)
+    phases.push_back({{"name", phase.name},
+                      {"E1", phase.E1},
+                      {"E2", phase.E2},
+                      {"nu12", phase.nu12},
+                      {"G12", phase.G12},
+                      {"angle", phase.angle},
+                      {"thickness", phase.thickness},
+                      {"density", phase.density},
+                      {"C", json_matrix(homogenization::plane_stress_stiffness(phase))}});
+  return {{"name", cell.name},
+          {"file", cell.file},
+          {"vertices", cell.mesh.n_vertices()},
+          {"triangles", cell.mesh.n_triangles()},
+          {"phases", phases}};
+}
+
+ordered_json homogenize_json(const UnitCell &cell, const AssessedCell &assessed,
+                             const unsigned int n_ranks)
+{
+  const Homogenization &result = assessed.result;
+  const auto engineering       = homogenization::engineering_constants(result.stiffness);
+  ordered_json checks          = ordered_json::array();
+  for (const Verdict &check : assessed.checks)
+    checks.push_back({{"name", check.claim},
+                      {"value", json_number(check.value)},
+                      {"limit", check.limit},
+                      {"verdict", name_of(check.outcome)}});
+  return {
+    {"cell", cell.name},
+    {"convention", "N/m; Voigt order 11, 22, 12 with engineering shear"},
+    {"C", json_matrix(result.stiffness)},
+    {"C_uncertainty", assessed.uncertainty ? json_matrix(*assessed.uncertainty) : ordered_json()},
+    {"C_by_mean_stress", json_matrix(result.stiffness_by_flux)},
+    // A conforming displacement field bounds the energy from above; no lower bracket yet.
+    {"C_lower", nullptr},
+    {"C_upper", json_matrix(result.stiffness)},
+    {"voigt", json_matrix(result.voigt)},
+    {"reuss", json_matrix(result.reuss)},
+    {"area", cell.lattice.area()},
+    {"areal_density", cell.areal_density()},
+    {"engineering",
+     {{"E1", engineering.E1},
+      {"E2", engineering.E2},
+      {"G12", engineering.G12},
+      {"nu12", engineering.nu12},
+      {"nu21", engineering.nu21}}},
+    {"order", assessed.options.order},
+    {"refine", assessed.options.refine},
+    {"dofs", result.n_dofs},
+    {"iterations", result.iterations},
+    {"seconds",
+     {{"setup", result.seconds.setup},
+      {"assembly", result.seconds.assembly},
+      {"preconditioner", result.seconds.preconditioner},
+      {"solve", result.seconds.solve},
+      {"evaluation", result.seconds.evaluation}}},
+    {"checks", checks},
+    {"provenance", provenance(n_ranks)}};
+}
+} // namespace
+
+AssessedCell assess(const UnitCell &cell, const homogenization::HomogenizationOptions &options,
+                    const unsigned long max_dofs_of_estimate, const MPI_Comm communicator)
+{
+  AssessedCell assessed{homogenization::homogenize(cell, options, communicator), options, {}, {}};
+  homogenization::HomogenizationOptions finer = options;
+  finer.order                                 = 2;
+  ++finer.refine;
+  const unsigned long growth = options.order == 1 ? 16 : 4;
+  if (growth * assessed.result.n_dofs <= max_dofs_of_estimate)
+    assessed.uncertainty =
+      (homogenization::homogenize(cell, finer, communicator).stiffness - assessed.result.stiffness)
+        .cwiseAbs();
+  assessed.checks = checks_of(cell, assessed.result);
+  return assessed;
+}
+
+void write_cell_results(const UnitCell &cell, const AssessedCell &assessed,
+                        const unsigned int n_ranks, const std::string &folder)
+{
+  meshes::write_cell(homogenization::homogenized_cell(cell, assessed.result, provenance_line()),
+                     folder + "/cell.h5");
+  write_vtu(cell, assessed.result, folder + "/characteristic-displacements.vtu");
+  write_whole(folder + "/cell.json", cell_json(cell).dump(2) + "\n");
+  write_whole(folder + "/homogenize.json", homogenize_json(cell, assessed, n_ranks).dump(2) + "\n");
+}
+
+std::string summary(const UnitCell &cell, const AssessedCell &assessed)
+{
+  const Homogenization &result = assessed.result;
+  std::ostringstream text;
+  char line[160];
+  text << cell.name << ": " << cell.mesh.n_triangles() << " triangles, " << cell.phases.size()
+       << " phases, P" << assessed.options.order << ", " << result.n_dofs << " DoFs, "
+       << result.iterations[0] << "/" << result.iterations[1] << "/" << result.iterations[2]
+       << " iterations\n";
+  text << "C^H [N/m], Voigt 11, 22, 12 with engineering shear";
+  text << (assessed.uncertainty ? ", +- distance to P2 on the refined mesh:\n"
+                                : " (no error bar: the finer mesh would be too large):\n");
+  for (int i = 0; i < 3; ++i)
+  {
+    for (int j = 0; j < 3; ++j)
+      if (assessed.uncertainty)
+      {
+        // Digits down to the error bar's first; round-off of the largest entry at most.
+        const double scale = result.stiffness.cwiseAbs().maxCoeff();
+        const double bar   = std::max((*assessed.uncertainty)(i, j), 1e-9 * scale);
+        const int decimals =
+          std::min(9, std::max(0, static_cast<int>(std::ceil(-std::log10(bar)))));
+        std::snprintf(line, sizeof(line), "  %16.*f +- %-8.1g", decimals, result.stiffness(i, j),
+                      bar);
+        text << line;
+      }
+      else
+      {
+        std::snprintf(line, sizeof(line), "  %16.6g", result.stiffness(i, j));
+        text << line;
+      }
+    text << "\n";
+  }
+  const auto engineering = homogenization::engineering_constants(result.stiffness);
+  std::snprintf(line, sizeof(line),
+                "E1 %.6g N/m, E2 %.6g N/m, G12 %.6g N/m, nu12 %.4f, nu21 %.4f; %.4g kg/m^2\n",
+                engineering.E1, engineering.E2, engineering.G12, engineering.nu12, engineering.nu21,
+                cell.areal_density());
+  text << line;
+  for (const Verdict &check : assessed.checks)
+  {
+    std::snprintf(line, sizeof(line), "%-4s %s: %.2g (%s)\n", name_of(check.outcome).c_str(),
+                  check.claim.c_str(), check.value, check.limit.c_str());
+    text << line;
+  }
+  return text.str();
+}
+} // namespace homespun::verification

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+// A homogenized cell with its error bar and its checks, on disk and on the terminal.
+#pragma once
+
+#include "homogenization/homogenize.h"
+#include "verification/verdict.h"
+
+#include <mpi.h>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace homespun::verification
+{
+/// A homogenization and how far it may be from the limit of fine meshes.
+struct AssessedCell
+{
+  homogenization::Homogenization result;
+  homogenization::HomogenizationOptions options;
+  /// |C − C of P2 on the once more refined mesh|, entry by entry [N/m]; nothing where that mesh
+  /// would exceed the limit of DoFs.
+  std::optional<Eigen::Matrix3d> uncertainty;
+  std::vector<Verdict> checks;
+};
+
+/// Homogenizes a cell and judges the result: Hill-Mandel gap, Voigt and Reuss as matrix
+/// inequalities, audit of the periodic constraints.
+/// @param max_dofs_of_estimate a finer solve for the error bar is made up to this size
+AssessedCell assess(const homogenization::UnitCell &cell,
+                    const homogenization::HomogenizationOptions &options,
+                    unsigned long max_dofs_of_estimate, MPI_Comm communicator);
+
+/// Writes homogenize.json, cell.h5, cell.json and characteristic-displacements.vtu into a folder.
+/// To be called on one rank.
+void write_cell_results(const homogenization::UnitCell &cell, const AssessedCell &assessed,
+                        unsigned int n_ranks, const std::string &folder);
+
+/// C^H and its engineering moduli as a table, with as many digits as the error bar justifies.
+std::string summary(const homogenization::UnitCell &cell, const AssessedCell &assessed);
+} // namespace homespun::verification

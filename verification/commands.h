@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MIT
+// The commands of the program. Each adds itself to the command line and, when chosen, leaves what is
+// to be run; the exit status is what that returns.
+#pragma once
+
+#include <CLI/App.hpp>
+
+#include <functional>
+
+namespace homespun::verification
+{
+/// What the chosen command does, made by the command line.
+using Action = std::function<int()>;
+
+void add_check_command(CLI::App &app, Action &action);
+void add_homogenize_command(CLI::App &app, Action &action, const std::string &command_line);
+void add_strain_command(CLI::App &app, Action &action, const std::string &command_line);
+void add_report_command(CLI::App &app, Action &action);
+void add_cells_command(CLI::App &app, Action &action);
+
+/// Makes report.html from folders of results, with Debian's Python.
+/// @return exit status of the report
+int make_report(const std::vector<std::string> &folders, const std::string &output, bool quiet);
+
+/// The folder of the shipped cells: where the sources are, or where they were installed.
+std::string cells_folder();
+} // namespace homespun::verification

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: MIT
+// The resolved solution that an up-sampled cloth is held against: every triangle of the sheet, or of
+// one cell of an infinite cloth, with its own stiffness. Newton's method with line search, load
+// stepping with warm start, multigrid kept between steps.
+#pragma once
+
+#include "homogenization/elastic_solver.h"
+#include "meshes/sheet.h"
+#include "verification/laws.h"
+#include "verification/loads.h"
+
+#include <mpi.h>
+
+#include <memory>
+#include <vector>
+
+namespace homespun::verification
+{
+/// One solved strain level.
+struct ReferenceStep
+{
+  double strain = 0.;
+  bool reached  = false;         ///< false: no equilibrium found, `why` says where it stopped
+  std::string why;               ///< reason where it was not reached
+  meshes::Points positions;      ///< (n,2) at the vertices of the sheet, on every rank [m]
+  unsigned int n_newton    = 0;  ///< Newton steps
+  unsigned int n_linear    = 0;  ///< iterations of conjugate gradients, all Newton steps
+  double relative_residual = 0.; ///< |forces on free nodes| / size of the element forces
+  double seconds           = 0.; ///< wall time of this level, slowest rank
+};
+
+struct ReferenceOptions
+{
+  unsigned int order  = 1;    ///< P1 or P2
+  unsigned int refine = 0;    ///< uniform refinements of the sheet's mesh
+  double tolerance    = 1e-9; ///< of |residual| relative to the size of the element forces
+};
+
+/// A resolved sheet under one load and one law, brought from strain to strain.
+class FineReference
+{
+public:
+  /// @param sheet n1 x n2 cells; of periodic loads one cell is solved (n1 = n2 = 1)
+  /// @param stiffness_of_phase (3,3) [N/m]
+  FineReference(const meshes::Sheet &sheet, std::vector<Eigen::Matrix3d> stiffness_of_phase,
+                const ReferenceOptions &options, MPI_Comm communicator);
+
+  /// Takes up a load and a law, and forgets earlier levels. The first call for a load lays out the
+  /// matrix.
+  void start(const Load &load, Law law);
+
+  /// Solves at a strain, from the levels solved before: u(s) is extrapolated, u/s linear in s. A
+  /// step that does not converge is cut in two, up to six times; after that the level counts as not
+  /// reached, and the ones solved before stay.
+  ReferenceStep advance(double strain);
+
+  unsigned long n_dofs() const;
+
+private:
+  using Vector = homogenization::ElasticSolver::Vector;
+  struct State
+  {
+    double energy     = 0.; ///< [J]
+    double residual   = 0.; ///< norm over free DoFs [N]
+    double force_size = 0.; ///< norm of the element forces before they cancel [N]
+  };
+
+  void constrain(const Load &load);
+  Eigen::RowVector2d fraction(const Eigen::RowVector2d &point) const;
+  Vector affine(double strain) const;
+  Vector guess(double strain) const;
+  void solve(Vector &displacement, double strain, ReferenceStep &step);
+  State evaluate(const Vector &displacement, const Eigen::Matrix2d &mean_gradient, Vector &residual,
+                 bool with_matrix, bool projected);
+  template <int n_shapes>
+  State assemble(const Vector &displacement, const Eigen::Matrix2d &mean_gradient, Vector &residual,
+                 bool with_matrix, bool projected);
+  meshes::Points positions_of(const Vector &displacement, double strain) const;
+
+  const meshes::Sheet &sheet;
+  const std::vector<Eigen::Matrix3d> stiffness_of_phase;
+  const ReferenceOptions options;
+  const homogenization::Discretization discretization;
+  Eigen::Matrix<dealii::types::global_dof_index, Eigen::Dynamic, 2, Eigen::RowMajor> vertex_dofs;
+  std::vector<homogenization::Node> boundary;
+
+  std::unique_ptr<Load> load;
+  Law law = Law::linear;
+  dealii::AffineConstraints<double> constraints; ///< homogeneous: held nodes, periodic images
+  std::unique_ptr<homogenization::ElasticSolver> solver;
+  unsigned int linear_iterations_when_new = 0; ///< of the present preconditioner
+
+  struct Level
+  {
+    double strain;
+    Vector displacement;
+  };
+  std::vector<Level> levels; ///< the last two
+};
+} // namespace homespun::verification

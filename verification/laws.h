@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: MIT
+// The membrane laws of the fine-scale references, in the plane, as functions of the deformation
+// gradient F. Written apart from the coarse cloth's element, which one of them must equal.
+#pragma once
+
+#include <Eigen/Core>
+
+#include <string>
+#include <vector>
+
+namespace homespun::verification
+{
+/// linear: W = ½ e:C:e,            e = sym(F − I)
+/// biot:   W = ½ (U−I):C:(U−I),    U = sqrt(F^T F)
+/// green:  W = ½ E:C:E,            E = ½ (F^T F − I)  (St. Venant-Kirchhoff)
+enum class Law
+{
+  linear,
+  biot,
+  green
+};
+
+std::string name_of(Law law);
+
+/// @throws BadInput listing the names, where it is none of them
+Law law_of(const std::string &name);
+
+/// Energy per area and its derivatives by the entries of F in the order F11, F12, F21, F22.
+struct Response
+{
+  double energy;           ///< W [N/m]
+  Eigen::Vector4d stress;  ///< P = dW/dF, the first Piola-Kirchhoff membrane force [N/m]
+  Eigen::Matrix4d tangent; ///< dP/dF [N/m]
+};
+
+/// The response of a law at a deformation gradient.
+///
+/// biot: with a = F11 + F22, b = F21 − F12, r = |(a, b)| the rotation of the polar decomposition is
+/// R = (a, −b; b, a)/r and U = R^T F, valid for det F > 0. For r = 0 the energy is infinite, which
+/// makes a line search step back.
+/// @param C membrane stiffness (3,3) [N/m], Voigt 11, 22, 12 with engineering shear
+/// @param F deformation gradient (2,2)
+Response response(Law law, const Eigen::Matrix3d &C, const Eigen::Matrix2d &F);
+
+/// The tangent with its negative eigenvalues set to zero, for Newton steps away from stability.
+Eigen::Matrix4d positive_part(const Eigen::Matrix4d &tangent);
+} // namespace homespun::verification

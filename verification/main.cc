@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: MIT
+// The program: a command line, and what its exit status means.
+#include "meshes/errors.h"
+#include "verification/commands.h"
+#include "verification/provenance.h"
+
+#include <deal.II/base/mpi.h>
+
+#include <CLI/App.hpp>
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+
+#include <iostream>
+
+namespace
+{
+/// Runs the chosen action; every rank meets the same faults, the first one tells.
+int guarded(const homespun::verification::Action &action, const bool tells)
+{
+  try
+  {
+    return action();
+  }
+  catch (const homespun::meshes::BadInput &bad)
+  {
+    if (tells)
+      for (const std::string &fault : bad.faults())
+        std::cerr << "homespun: " << fault << "\n";
+    return 2;
+  }
+  catch (const homespun::meshes::NotConverged &failure)
+  {
+    if (tells)
+      std::cerr << "homespun: " << failure.what() << "\n";
+    return 3;
+  }
+}
+} // namespace
+
+int main(int argc, char **argv)
+{
+  using namespace homespun::verification;
+  dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+  const bool is_root = dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0;
+
+  std::string command_line = "homespun";
+  for (int k = 1; k < argc; ++k)
+    command_line += std::string(" ") + argv[k];
+  const unsigned int n_ranks = dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD);
+  if (n_ranks > 1)
+    command_line = "mpirun -n " + std::to_string(n_ranks) + " " + command_line;
+
+  CLI::App app(
+    "homespun tells how far an up-sampled cloth is from the truth, and where the error comes "
+    "from.\nA periodic unit cell is homogenized once, a coarse cloth moves with the effective "
+    "stiffness, the fine\nmesh is restored from it and held against the resolved solution.",
+    "homespun");
+  app.set_version_flag("--version", version_text());
+  app.require_subcommand(1);
+  app.footer(
+    "Exit status: 0 all verdicts pass; 1 a verdict failed; 2 bad input; 3 a solver did not "
+    "converge.\n`homespun COMMAND --help` teaches a command; `mpirun -n N homespun ...` works for "
+    "every command that solves.");
+  Action action;
+  add_check_command(app, action);
+  add_homogenize_command(app, action, command_line);
+  add_strain_command(app, action, command_line);
+  add_report_command(app, action);
+  add_cells_command(app, action);
+  try
+  {
+    app.parse(argc, argv);
+  }
+  catch (const CLI::ParseError &error)
+  {
+    const bool is_fault = error.get_exit_code() != 0;
+    if (is_root)
+      app.exit(error, std::cout, std::cerr);
+    return is_fault ? 2 : 0;
+  }
+  return guarded(action, is_root);
+}

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: MIT
+// Where a result comes from: versions, flags, machine, date, revision.
+#pragma once
+
+#include <nlohmann/json.hpp>
+
+#include <string>
+
+namespace homespun::verification
+{
+/// Versions of homespun and of every library, compiler, flags, host, processor, date (UTC), ranks.
+nlohmann::ordered_json provenance(unsigned int n_ranks);
+
+/// The same in one line, for the attribute of a file.
+std::string provenance_line();
+
+/// The text of `homespun --version`.
+std::string version_text();
+} // namespace homespun::verification

@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: MIT
+#include "verification/result_files.h"
+
+#include "meshes/errors.h"
+
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include <unistd.h>
+
+namespace homespun::verification
+{
+namespace
+{
+std::string joined(const std::vector<std::string> &fields)
+{
+  std::string line;
+  for (const std::string &field : fields)
+    line += (line.empty() ? "" : ",") + field;
+  return line;
+}
+
+std::vector<std::string> fields_of(const std::string &line)
+{
+  std::vector<std::string> fields(1);
+  for (const char c : line)
+    if (c == ',')
+      fields.emplace_back();
+    else
+      fields.back() += c;
+  return fields;
+}
+
+/// Writes text and waits until it is on the disk.
+void put(const std::string &path, const char *mode, const std::string &text)
+{
+  std::FILE *file = std::fopen(path.c_str(), mode);
+  if (file == nullptr)
+    throw meshes::BadInput(path +
+                           ": cannot be written; expected a folder that exists and is writable");
+  const bool good = std::fwrite(text.data(), 1, text.size(), file) == text.size() &&
+                    std::fflush(file) == 0 && fsync(fileno(file)) == 0;
+  if (std::fclose(file) != 0 || !good)
+    throw meshes::BadInput(path + ": cannot be written: is the disk full?");
+}
+} // namespace
+
+void write_whole(const std::string &path, const std::string &text)
+{
+  put(path + ".part", "w", text);
+  std::filesystem::rename(path + ".part", path);
+}
+
+std::string csv_number(const double value)
+{
+  if (!std::isfinite(value))
+    return "";
+  char text[32];
+  std::snprintf(text, sizeof(text), "%.6g", value);
+  return text;
+}
+
+ResultTable::ResultTable(const std::string &path, const std::vector<std::string> &columns,
+                         const std::size_t n_keys, const bool resume)
+    : path(path)
+    , n_keys(n_keys)
+{
+  if (!resume || !std::filesystem::exists(path))
+  {
+    write_whole(path, joined(columns) + "\n");
+    return;
+  }
+  std::ifstream input(path);
+  std::stringstream content;
+  content << input.rdbuf();
+  std::string text      = content.str();
+  const std::size_t end = text.rfind('\n');
+  const bool was_cut    = end == std::string::npos || end + 1 != text.size();
+  text.resize(end == std::string::npos ? 0 : end + 1);
+
+  std::istringstream lines(text);
+  std::string line;
+  if (!std::getline(lines, line) || line != joined(columns))
+    throw meshes::BadInput(path + ":1: found the header `" + line + "`; expected `" +
+                           joined(columns) + "`: choose another --output, or leave out --resume");
+  for (int number = 2; std::getline(lines, line); ++number)
+  {
+    std::vector<std::string> fields = fields_of(line);
+    if (fields.size() != columns.size())
+      throw meshes::BadInput(path + ":" + std::to_string(number) + ": found " +
+                             std::to_string(fields.size()) + " fields; expected " +
+                             std::to_string(columns.size()) + ": delete that line");
+    row_of_keys[{fields.begin(), fields.begin() + static_cast<long>(n_keys)}] = all_rows.size();
+    all_rows.push_back(std::move(fields));
+  }
+  if (was_cut)
+    write_whole(path, text);
+}
+
+bool ResultTable::contains(const std::vector<std::string> &keys) const
+{
+  return row_of_keys.count(keys) != 0;
+}
+
+void ResultTable::append(const std::vector<std::string> &fields)
+{
+  put(path, "a", joined(fields) + "\n");
+  row_of_keys[{fields.begin(), fields.begin() + static_cast<long>(n_keys)}] = all_rows.size();
+  all_rows.push_back(fields);
+}
+} // namespace homespun::verification

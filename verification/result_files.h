@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+// How results reach the disk: whole files by renaming, tables row by row. A table survives a kill
+// with all rows but the one in progress, and is taken up again.
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+namespace homespun::verification
+{
+/// Writes a file whole or not at all.
+/// @throws BadInput where the folder is absent or not writable
+void write_whole(const std::string &path, const std::string &text);
+
+/// A number as results print it: six digits, "nan" never; an empty field where it is not finite.
+std::string csv_number(double value);
+
+/// A CSV file that grows by rows. Every row is on the disk when append() returns.
+class ResultTable
+{
+public:
+  /// Takes up a file, or begins a new one.
+  /// @param n_keys the first columns name a row
+  /// @param resume false: an existing file is begun anew; true: its whole rows are kept, a last line
+  ///   that was cut is dropped
+  /// @throws BadInput where the file has another header
+  ResultTable(const std::string &path, const std::vector<std::string> &columns, std::size_t n_keys,
+              bool resume);
+
+  /// Whether a row with these keys is there.
+  bool contains(const std::vector<std::string> &keys) const;
+
+  void append(const std::vector<std::string> &fields);
+
+  /// All rows, those that were there before and those appended.
+  const std::vector<std::vector<std::string>> &rows() const
+  {
+    return all_rows;
+  }
+
+private:
+  const std::string path;
+  const std::size_t n_keys;
+  std::vector<std::vector<std::string>> all_rows;
+  std::map<std::vector<std::string>, std::size_t> row_of_keys;
+};
+} // namespace homespun::verification

@@ -1,0 +1,435 @@
+// SPDX-License-Identifier: MIT
+#include "verification/strain_study.h"
+
+#include "meshes/errors.h"
+#include "meshes/hdf5_writer.h"
+#include "verification/cell_output.h"
+#include "verification/fine_reference.h"
+#include "verification/lightweight_cloth.h"
+#include "verification/progress.h"
+#include "verification/provenance.h"
+#include "verification/reference_uncertainty.h"
+#include "verification/result_files.h"
+#include "verification/strain_verdicts.h"
+
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <filesystem>
+#include <limits>
+
+#include <sys/resource.h>
+
+namespace homespun::verification
+{
+using homogenization::UnitCell;
+
+const std::vector<std::string> &strain_columns()
+{
+  static const std::vector<std::string> columns = {"cell",
+                                                   "load",
+                                                   "strain",
+                                                   "reference",
+                                                   "method",
+                                                   "cells",
+                                                   "coarse_triangles",
+                                                   "fine_triangles",
+                                                   "error_mean_m",
+                                                   "error_rms_m",
+                                                   "error_max_m",
+                                                   "error_mean_per_cell",
+                                                   "error_mean_per_fluctuation",
+                                                   "reference_uncertainty_m",
+                                                   "seconds_method",
+                                                   "seconds_reference"};
+  return columns;
+}
+
+namespace
+{
+const std::vector<std::string> step_columns = {"cell",
+                                               "load",
+                                               "reference",
+                                               "strain",
+                                               "seconds_coarse_solve",
+                                               "seconds_upsample",
+                                               "seconds_fine_step",
+                                               "coarse_iterations",
+                                               "fine_iterations",
+                                               "fine_dofs",
+                                               "ranks"};
+
+class StrainStudy
+{
+public:
+  StrainStudy(const StrainStudyOptions &options, const MPI_Comm communicator)
+      : options(options)
+      , communicator(communicator)
+      , n_ranks(dealii::Utilities::MPI::n_mpi_processes(communicator))
+      , is_root(dealii::Utilities::MPI::this_mpi_process(communicator) == 0)
+      , begin(std::chrono::steady_clock::now())
+      , progress(is_root && !options.quiet,
+                 static_cast<int>(options.cell_files.size() * options.loads.size() *
+                                  (1 + options.references.size() * options.strains.size())))
+  {
+  }
+
+  std::vector<Verdict> run()
+  {
+    for (const std::string &file : options.cell_files)
+      cells.push_back(homogenization::read_unit_cell(file));
+    refuse_equal_names();
+    open_tables();
+    for (const UnitCell &cell : cells)
+      study_cell(cell);
+    return conclude();
+  }
+
+private:
+  void refuse_equal_names() const
+  {
+    for (std::size_t a = 0; a < cells.size(); ++a)
+      for (std::size_t b = 0; b < a; ++b)
+        if (cells[a].name == cells[b].name)
+          throw meshes::BadInput(cells[a].file + " and " + cells[b].file +
+                                 " would both be called `" + cells[a].name +
+                                 "` in the results; expected different file names: rename one");
+  }
+
+  /// Tables live on the first rank alone.
+  void open_tables()
+  {
+    if (!is_root)
+      return;
+    std::filesystem::create_directories(options.output);
+    const auto open =
+      [&](const char *name, const std::vector<std::string> &columns, const std::size_t n_keys)
+    {
+      return std::make_unique<ResultTable>(options.output + "/" + name, columns, n_keys,
+                                           options.resume);
+    };
+    strain_table      = open("strain.csv", strain_columns(), 5);
+    step_table        = open("steps.csv", step_columns, 4);
+    uncertainty_table = open("uncertainty.csv", uncertainty_columns(), 5);
+  }
+
+  void study_cell(const UnitCell &cell)
+  {
+    progress.begin(cell.name + ": homogenization", true);
+    homogenization::HomogenizationOptions p1;
+    p1.order                    = 1;
+    const AssessedCell assessed = assess(cell, p1, 300000, communicator);
+    for (Verdict check : assessed.checks)
+    {
+      check.claim = cell.name + ": " + check.claim;
+      verdicts.push_back(check);
+    }
+    folder = options.output + "/" + cell.name;
+    if (is_root)
+    {
+      std::filesystem::create_directories(folder);
+      write_cell_results(cell, assessed, n_ranks, folder);
+    }
+    const meshes::HomogenizedCell homogenized =
+      homogenization::homogenized_cell(cell, assessed.result, provenance_line());
+    const meshes::Sheet one_cell = meshes::tile(cell.mesh, cell.lattice, 1, 1);
+    const meshes::Sheet full =
+      meshes::tile(cell.mesh, cell.lattice, options.n_cells, options.n_cells);
+
+    // One discretization serves all loads of a sheet.
+    std::unique_ptr<FineReference> of_cell, of_sheet;
+    for (const std::string &name : options.loads)
+    {
+      const Load load(name);
+      const meshes::Sheet &sheet                = load.is_periodic() ? one_cell : full;
+      std::unique_ptr<FineReference> &reference = load.is_periodic() ? of_cell : of_sheet;
+      study_load(cell, homogenized, sheet, load, reference);
+    }
+  }
+
+  void study_load(const UnitCell &cell, const meshes::HomogenizedCell &homogenized,
+                  const meshes::Sheet &sheet, const Load &load,
+                  std::unique_ptr<FineReference> &reference)
+  {
+    std::vector<Law> laws;
+    for (const std::string &name : options.references)
+      laws.push_back(law_of(name));
+    std::vector<bool> law_is_done;
+    for (const Law law : laws)
+      law_is_done.push_back(missing_strains(cell, load, law).empty());
+    const int n_steps = 1 + static_cast<int>(laws.size() * options.strains.size());
+    if (std::all_of(law_is_done.begin(), law_is_done.end(), [](const bool done) { return done; }))
+    {
+      progress.begin(cell.name + ", " + load.name + ": all rows are there", true);
+      for (int k = 0; k < n_steps; ++k)
+        progress.done();
+      return;
+    }
+
+    progress.begin(cell.name + ", " + load.name + ": error bar of the reference", true);
+    const ReferenceUncertainty uncertainty(
+      cell, load, laws, options.n_cells, options.n_cells_of_error_bar, uncertainty_table.get(),
+      communicator,
+      [&](const std::string &what) { progress.begin(cell.name + ", " + load.name + ": " + what); });
+    progress.done();
+
+    if (!reference)
+      reference = std::make_unique<FineReference>(sheet, cell.stiffness_of_phase(),
+                                                  ReferenceOptions(), communicator);
+    LightweightCloth cloth(homogenized, sheet, load);
+    for (std::size_t k = 0; k < laws.size(); ++k)
+    {
+      const std::vector<double> missing = missing_strains(cell, load, laws[k]);
+      for (std::size_t done = missing.size(); done < options.strains.size(); ++done)
+        progress.done();
+      if (missing.empty())
+        continue;
+      reference->start(load, laws[k]);
+      bool is_reached = true;
+      for (const double strain : missing)
+      {
+        progress.begin(cell.name + ", " + load.name + ": " + name_of(laws[k]) +
+                         " reference, strain " + csv_number(strain),
+                       true);
+        if (is_reached)
+          is_reached = study_strain(cell, sheet, load, laws[k], strain, *reference, cloth,
+                                    uncertainty.at(laws[k], strain));
+        else
+          append_unreached(cell, sheet, load, laws[k], strain);
+        progress.done();
+      }
+    }
+  }
+
+  /// The levels of which a row is missing, told to all ranks.
+  std::vector<double> missing_strains(const UnitCell &cell, const Load &load, const Law law) const
+  {
+    std::vector<char> is_missing(options.strains.size(), 0);
+    if (is_root)
+      for (std::size_t k = 0; k < options.strains.size(); ++k)
+      {
+        const auto is_there = [&](const std::string &method)
+        {
+          return strain_table->contains(
+            {cell.name, load.name, csv_number(options.strains[k]), name_of(law), method});
+        };
+        if (!is_there("unreached"))
+          for (const std::string &method : options.methods)
+            if (Method(method).has_meaning(law) && !is_there(method))
+              is_missing[k] = 1;
+      }
+    MPI_Bcast(is_missing.data(), static_cast<int>(is_missing.size()), MPI_CHAR, 0, communicator);
+    std::vector<double> missing;
+    for (std::size_t k = 0; k < options.strains.size(); ++k)
+      if (is_missing[k])
+        missing.push_back(options.strains[k]);
+    return missing;
+  }
+
+  bool study_strain(const UnitCell &cell, const meshes::Sheet &sheet, const Load &load,
+                    const Law law, const double strain, FineReference &reference,
+                    LightweightCloth &cloth, const double uncertainty)
+  {
+    const ReferenceStep fine = reference.advance(strain);
+    if (!fine.reached)
+    {
+      append_unreached(cell, sheet, load, law, strain);
+      progress.note(cell.name + ", " + load.name + ", " + name_of(law) + " reference at strain " +
+                    csv_number(strain) + " not reached: " + fine.why.substr(0, 200));
+      return false;
+    }
+    largest_residual = std::max(largest_residual, fine.relative_residual);
+    if (is_root)
+      compare(cell, sheet, load, law, strain, fine, reference.n_dofs(), cloth, uncertainty);
+    MPI_Barrier(communicator);
+    return true;
+  }
+
+  void compare(const UnitCell &cell, const meshes::Sheet &sheet, const Load &load, const Law law,
+               const double strain, const ReferenceStep &fine, const unsigned long n_dofs,
+               LightweightCloth &cloth, const double uncertainty)
+  {
+    const CoarseStep coarse = cloth.solve(law, strain);
+    const meshes::Points coarse_motion =
+      cloth.upsample(Method("affine"), law, coarse.positions).positions;
+    const double fluctuation = (fine.positions - coarse_motion).rowwise().norm().mean();
+    const double side        = std::sqrt(cell.lattice.area());
+    for (const std::string &name : options.methods)
+    {
+      const Method method(name);
+      const std::vector<std::string> keys = {cell.name, load.name, csv_number(strain), name_of(law),
+                                             name};
+      if (!method.has_meaning(law) || strain_table->contains(keys))
+        continue;
+      const UpsampledSheet upsampled = cloth.upsample(method, law, coarse.positions);
+      const Eigen::VectorXd distance = (upsampled.positions - fine.positions).rowwise().norm();
+      if (!distance.allFinite())
+        throw meshes::NotConverged(
+          cell.name + ", " + load.name + ", " + name + ": positions that are not finite", {});
+      std::vector<std::string> row = keys;
+      for (const std::string &field :
+           {std::to_string(sheet.n1), std::to_string(cloth.coarse.n_triangles()),
+            std::to_string(sheet.mesh.n_triangles()), csv_number(distance.mean()),
+            csv_number(std::sqrt(distance.squaredNorm() / static_cast<double>(distance.size()))),
+            csv_number(distance.maxCoeff()), csv_number(distance.mean() / side),
+            csv_number(fluctuation > 0. ? distance.mean() / fluctuation
+                                        : std::numeric_limits<double>::quiet_NaN()),
+            csv_number(uncertainty), csv_number(coarse.seconds + upsampled.seconds),
+            csv_number(fine.seconds)})
+        row.push_back(field);
+      strain_table->append(row);
+      if (name == "localized")
+      {
+        step_table->append({cell.name, load.name, name_of(law), csv_number(strain),
+                            csv_number(coarse.seconds), csv_number(upsampled.seconds),
+                            csv_number(fine.seconds), std::to_string(coarse.iterations),
+                            std::to_string(fine.n_newton), std::to_string(n_dofs),
+                            std::to_string(n_ranks)});
+        if (is_pictured(load, law, strain))
+          write_fields(sheet, load, law, strain, fine.positions, upsampled.positions, cloth,
+                       coarse.positions);
+      }
+    }
+  }
+
+  /// One picture per sheet load: at the level nearest to 10 %, against biot if it is there.
+  bool is_pictured(const Load &load, const Law law, const double strain) const
+  {
+    const auto &laws     = options.references;
+    const bool has_biot  = std::find(laws.begin(), laws.end(), "biot") != laws.end();
+    const double nearest = *std::min_element(
+      options.strains.begin(), options.strains.end(),
+      [](double a, double b) { return std::abs(std::log(a / 0.1)) < std::abs(std::log(b / 0.1)); });
+    return !load.is_periodic() && strain == nearest &&
+           (has_biot ? law == Law::biot : name_of(law) == laws.front());
+  }
+
+  void write_fields(const meshes::Sheet &sheet, const Load &load, const Law law,
+                    const double strain, const meshes::Points &reference,
+                    const meshes::Points &upsampled, const LightweightCloth &cloth,
+                    const meshes::Points &coarse) const
+  {
+    meshes::Hdf5Writer file(folder + "/fields-" + load.name + ".h5");
+    const auto n        = static_cast<unsigned long long>(sheet.mesh.n_vertices());
+    const auto m        = static_cast<unsigned long long>(sheet.mesh.n_triangles());
+    const auto n_coarse = static_cast<unsigned long long>(cloth.coarse.n_vertices());
+    const auto m_coarse = static_cast<unsigned long long>(cloth.coarse.n_triangles());
+    file.write("/rest", {n, 2}, sheet.mesh.vertices.data(), "m");
+    file.write("/triangles", {m, 3}, sheet.mesh.triangles.data());
+    file.write("/material", {m}, sheet.mesh.material.data());
+    file.write("/reference", {n, 2}, reference.data(), "m");
+    file.write("/upsampled", {n, 2}, upsampled.data(), "m");
+    file.write("/coarse_rest", {n_coarse, 2}, cloth.coarse.vertices.data(), "m");
+    file.write("/coarse_triangles", {m_coarse, 3}, cloth.coarse.triangles.data());
+    file.write("/coarse", {n_coarse, 2}, coarse.data(), "m");
+    file.attribute("/", "load", load.name);
+    file.attribute("/", "strain", strain);
+    file.attribute("/", "reference", name_of(law));
+    file.attribute("/", "method", std::string("localized"));
+    file.finish();
+  }
+
+  void append_unreached(const UnitCell &cell, const meshes::Sheet &sheet, const Load &load,
+                        const Law law, const double strain)
+  {
+    if (!is_root)
+      return;
+    std::vector<std::string> row = {cell.name,
+                                    load.name,
+                                    csv_number(strain),
+                                    name_of(law),
+                                    "unreached",
+                                    std::to_string(sheet.n1),
+                                    std::to_string(2 * sheet.n1 * sheet.n2),
+                                    std::to_string(sheet.mesh.n_triangles())};
+    row.resize(strain_columns().size());
+    strain_table->append(row);
+  }
+
+  std::vector<Verdict> conclude()
+  {
+    const double seconds =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    rusage usage;
+    getrusage(RUSAGE_SELF, &usage);
+    const double peak_memory =
+      dealii::Utilities::MPI::sum(static_cast<double>(usage.ru_maxrss) * 1024., communicator);
+    if (is_root)
+    {
+      for (const Verdict &verdict : strain_verdicts(strain_table->rows()))
+        verdicts.push_back(verdict);
+      verdicts.push_back(
+        {"every fine reference is solved: residual relative to the element forces",
+         largest_residual <= ReferenceOptions().tolerance ? Outcome::pass : Outcome::fail,
+         largest_residual, "<= 1e-9"});
+      write_whole(options.output + "/verdicts.json",
+                  to_json(verdicts, options.command).dump(2) + "\n");
+      write_whole(options.output + "/study.json", study_json(seconds, peak_memory).dump(2) + "\n");
+    }
+    return verdicts;
+  }
+
+  nlohmann::ordered_json study_json(const double seconds, const double peak_memory) const
+  {
+    const auto left_out = [](const char *what, const char *why) {
+      return nlohmann::ordered_json{{"what", what}, {"why", why}};
+    };
+    return {
+      {"command", options.command},
+      {"strains", options.strains},
+      {"loads", options.loads},
+      {"references", options.references},
+      {"methods", options.methods},
+      {"cells_per_side", options.n_cells},
+      {"ranks", n_ranks},
+      {"threads_per_rank", 1},
+      {"seconds_total", seconds},
+      {"peak_memory_bytes", peak_memory},
+      {"left_out",
+       {left_out("mass, damping, time integration", "the loads are static"),
+        left_out("third displacement component, bending, rotation out of the plane",
+                 "the loads act in the plane: coarse cloth and reference carry two components"),
+        left_out("contact", "no obstacle in the scene"),
+        left_out("per-vertex coarse index of the up-sampling",
+                 "the coarse mesh is aligned with the lattice: all cells share one table"),
+        left_out("resolved sheet of the periodic loads",
+                 "an infinite cloth repeats one cell: one cell with periodic constraints is exact"),
+        left_out("localized-affine-lift against the linear reference",
+                 "linear theory knows no lift")}},
+      {"notes",
+       {"The cell is homogenized with P1 on its given mesh, the discretization of the reference: "
+        "the figure shows the error of the method; the error bar shows how far P1 is from the limit "
+        "of fine meshes.",
+        "Errors are computed from positions in double precision; times of up-sampling are those of "
+        "single precision, median of five runs on one thread, beside the coarse solve on one thread.",
+        "Stripes under periodic-11 and periodic-22: biot is linear in the stretches, and these loads "
+        "only stretch along the axes of the laminate, without rotation. The finite solution is "
+        "the linear one, and the localized error vanishes to round-off.",
+        "Error bar of the reference: |P1 - refined P2| + |P2 - refined P2| at the same vertices on a "
+        "small sheet, carried to the full sheet by the measured ratio of |P1 - P2| (linear law) of "
+        "the two sizes; between small strain and 10 % linear in strain."}},
+      {"provenance", provenance(n_ranks)}};
+  }
+
+  const StrainStudyOptions options;
+  const MPI_Comm communicator;
+  const unsigned int n_ranks;
+  const bool is_root;
+  const std::chrono::steady_clock::time_point begin;
+  Progress progress;
+  std::vector<UnitCell> cells;
+  std::unique_ptr<ResultTable> strain_table, step_table, uncertainty_table;
+  std::string folder; ///< of the present cell
+  std::vector<Verdict> verdicts;
+  double largest_residual = 0.;
+};
+} // namespace
+
+std::vector<Verdict> run_strain_study(const StrainStudyOptions &options,
+                                      const MPI_Comm communicator)
+{
+  return StrainStudy(options, communicator).run();
+}
+} // namespace homespun::verification

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+// Error against strain (the paper's Figure 3): for each cell, load, reference law and strain the
+// resolved solution, and the distance of every method from it at every vertex.
+#pragma once
+
+#include "verification/verdict.h"
+
+#include <mpi.h>
+
+#include <string>
+#include <vector>
+
+namespace homespun::verification
+{
+struct StrainStudyOptions
+{
+  std::vector<std::string> cell_files;
+  int n_cells = 20;            ///< per side of the sheet
+  std::vector<double> strains; ///< as fractions, ascending
+  std::vector<std::string> loads;
+  std::vector<std::string> references;
+  std::vector<std::string> methods;
+  int n_cells_of_error_bar = 4; ///< per side of the small sheet of the references' error bar
+  std::string output;
+  std::string command; ///< that reproduces the study
+  bool resume = false;
+  bool quiet  = false;
+};
+
+/// Runs a study and writes, into the output folder, strain.csv, steps.csv, uncertainty.csv,
+/// verdicts.json, study.json and per cell what homogenize writes and fields-LOAD.h5. Rows are on the
+/// disk as they come; with `resume` what is there is not computed again.
+///
+/// The cell is homogenized with P1 on its given mesh, the discretization of the reference, so that
+/// the figure shows the error of the method and not of two different meshes.
+/// @throws BadInput, NotConverged
+std::vector<Verdict> run_strain_study(const StrainStudyOptions &options, MPI_Comm communicator);
+
+/// The columns of strain.csv.
+const std::vector<std::string> &strain_columns();
+} // namespace homespun::verification

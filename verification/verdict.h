@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: MIT
+// A claim and whether it held: data, never an exception.
+#pragma once
+
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+namespace homespun::verification
+{
+enum class Outcome
+{
+  pass,
+  fail,
+  inconclusive
+};
+
+inline std::string name_of(const Outcome outcome)
+{
+  return outcome == Outcome::pass ? "PASS" : outcome == Outcome::fail ? "FAIL" : "INCONCLUSIVE";
+}
+
+/// A claim, the measured figure, the limit that was written down before, and the outcome.
+struct Verdict
+{
+  std::string claim;
+  Outcome outcome = Outcome::inconclusive;
+  double value    = 0.;
+  std::string limit;
+};
+
+/// A number as JSON; null where it is not finite.
+inline nlohmann::ordered_json json_number(const double value)
+{
+  return std::isfinite(value) ? nlohmann::ordered_json(value) : nlohmann::ordered_json();
+}
+
+/// {"verdicts": [{claim, verdict, value, limit, command}]}
+inline nlohmann::ordered_json to_json(const std::vector<Verdict> &verdicts,
+                                      const std::string &command)
+{
+  nlohmann::ordered_json list = nlohmann::ordered_json::array();
+  for (const Verdict &verdict : verdicts)
+    list.push_back({{"claim", verdict.claim},
+                    {"verdict", name_of(verdict.outcome)},
+                    {"value", json_number(verdict.value)},
+                    {"limit", verdict.limit},
+                    {"command", command}});
+  return {{"verdicts", list}};
+}
+
+/// Whether any claim failed.
+inline bool any_failed(const std::vector<Verdict> &verdicts)
+{
+  for (const Verdict &verdict : verdicts)
+    if (verdict.outcome == Outcome::fail)
+      return true;
+  return false;
+}
+} // namespace homespun::verification
