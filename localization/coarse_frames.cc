@@ -5,17 +5,34 @@
 
 #include <cmath>
 #include <string>
+#include <type_traits>
 
 namespace homespun::localization
 {
 namespace
 {
+/// Calls action(strain, lift) with the two choices as compile-time constants, so that no loop asks.
+template <typename Action>
+void with_choices(const UpsamplerOptions &options, const Action &action)
+{
+  const auto biot = std::integral_constant<Strain, Strain::biot>();
+  if (options.strain == Strain::linear)
+    action(std::integral_constant<Strain, Strain::linear>(),
+           std::integral_constant<Lift, Lift::identity>());
+  else if (options.lift == Lift::rotation)
+    action(biot, std::integral_constant<Lift, Lift::rotation>());
+  else if (options.lift == Lift::affine)
+    action(biot, std::integral_constant<Lift, Lift::affine>());
+  else
+    action(biot, std::integral_constant<Lift, Lift::identity>());
+}
+
 /// As in the file's head; branches are selections only, so that the loop over triangles vectorises.
 /// @param f1, f2 columns of F
 /// @param frame 3 + 2 dim values, `stride` apart
-template <int dim>
-inline void frame_of(const double (&f1)[dim], const double (&f2)[dim],
-                     const UpsamplerOptions &options, double *const frame, const std::size_t stride)
+template <int dim, Strain strain, Lift lift>
+inline void frame_of(const double (&f1)[dim], const double (&f2)[dim], double *const frame,
+                     const std::size_t stride)
 {
   double C11 = 0., C22 = 0., C12 = 0.;
   for (int i = 0; i < dim; ++i)
@@ -54,7 +71,7 @@ inline void frame_of(const double (&f1)[dim], const double (&f2)[dim],
   }
   const bool has_size = q > 1e-28 * (C11 + C22);
   const double root = 1. / std::sqrt(has_size ? q : 1.), p = has_size ? root : 0.;
-  if (options.strain == Strain::linear)
+  if constexpr (strain == Strain::linear)
   {
     frame[0 * stride] = f1[0] - 1.;
     frame[1 * stride] = f2[1] - 1.;
@@ -66,19 +83,18 @@ inline void frame_of(const double (&f1)[dim], const double (&f2)[dim],
     frame[1 * stride] = p * (C22 + J) - 1.;
     frame[2 * stride] = 2. * p * C12;
   }
-  const bool is_identity = options.lift == Lift::identity || options.strain == Strain::linear;
   for (std::size_t i = 0; i < dim; ++i)
   {
-    double l1 = p * (f1[i] + cofactor1[i]), l2 = p * (f2[i] + cofactor2[i]);
-    if (options.lift == Lift::affine)
+    double l1 = i == 0 ? 1. : 0., l2 = i == 1 ? 1. : 0.;
+    if constexpr (lift == Lift::rotation)
+    {
+      l1 = p * (f1[i] + cofactor1[i]);
+      l2 = p * (f2[i] + cofactor2[i]);
+    }
+    if constexpr (lift == Lift::affine)
     {
       l1 = f1[i];
       l2 = f2[i];
-    }
-    if (is_identity)
-    {
-      l1 = i == 0 ? 1. : 0.;
-      l2 = i == 1 ? 1. : 0.;
     }
     frame[(3 + 2 * i) * stride] = l1;
     frame[(4 + 2 * i) * stride] = l2;
@@ -111,6 +127,7 @@ CoarseFrames<dim>::CoarseFrames(const meshes::TriangleMesh &coarse_rest,
   const auto m = static_cast<std::size_t>(mesh.n_triangles());
   corners.resize(3 * m);
   inverse_rest.resize(4 * m);
+  edges.resize(2 * dim * m);
   per_triangle.resize(n_components * m);
   const Eigen::VectorXd areas = meshes::signed_areas(mesh);
   first.assign(static_cast<std::size_t>(mesh.n_vertices()) + 1, 0);
@@ -159,25 +176,39 @@ CoarseFrames<dim>::CoarseFrames(const meshes::TriangleMesh &coarse_rest,
 template <int dim>
 void CoarseFrames<dim>::evaluate_triangles(const Positions<dim> &current) const
 {
+  // First the edges, which must be collected one by one; then arithmetic on consecutive numbers.
   const auto m                        = static_cast<std::size_t>(mesh.n_triangles());
   const double *const __restrict x    = current.data();
   const int *const __restrict corner  = corners.data();
+  double *const __restrict edge       = edges.data();
   const double *const __restrict rest = inverse_rest.data();
   double *const __restrict frame      = per_triangle.data();
-  const UpsamplerOptions choice       = options;
-#pragma GCC ivdep
   for (std::size_t t = 0; t < m; ++t)
   {
-    double f1[dim], f2[dim];
-    for (int i = 0; i < dim; ++i)
+    const double *const x0 = x + dim * corner[t], *const x1 = x + dim * corner[m + t],
+                        *const x2 = x + dim * corner[2 * m + t];
+    for (std::size_t i = 0; i < dim; ++i)
     {
-      const double x0 = x[dim * corner[t] + i], e1 = x[dim * corner[m + t] + i] - x0,
-                   e2 = x[dim * corner[2 * m + t] + i] - x0;
-      f1[i]           = e1 * rest[t] + e2 * rest[2 * m + t];
-      f2[i]           = e1 * rest[m + t] + e2 * rest[3 * m + t];
+      edge[i * m + t]         = x1[i] - x0[i];
+      edge[(dim + i) * m + t] = x2[i] - x0[i];
     }
-    frame_of<dim>(f1, f2, choice, frame + t, m);
   }
+  with_choices(options,
+               [=](const auto strain, const auto lift)
+               {
+#pragma GCC ivdep
+                 for (std::size_t t = 0; t < m; ++t)
+                 {
+                   double f1[dim], f2[dim];
+                   for (std::size_t i = 0; i < dim; ++i)
+                   {
+                     const double e1 = edge[i * m + t], e2 = edge[(dim + i) * m + t];
+                     f1[i] = e1 * rest[t] + e2 * rest[2 * m + t];
+                     f2[i] = e1 * rest[m + t] + e2 * rest[3 * m + t];
+                   }
+                   frame_of<dim, strain(), lift()>(f1, f2, frame + t, m);
+                 }
+               });
 }
 
 template <int dim>
@@ -224,7 +255,8 @@ Frame<dim> CoarseFrames<dim>::of_triangle(const int triangle, const Positions<di
     f2[i]           = e1 * inverse_rest[m + t] + e2 * inverse_rest[3 * m + t];
   }
   Eigen::Matrix<double, n_components, 1> row;
-  frame_of<dim>(f1, f2, options, row.data(), 1);
+  with_choices(options, [&](const auto strain, const auto lift)
+               { frame_of<dim, strain(), lift()>(f1, f2, row.data(), 1); });
   return to_frame<dim>(row);
 }
 

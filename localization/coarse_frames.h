@@ -75,6 +75,7 @@ private:
   std::vector<double> inverse_rest;         ///< (4, m): entries of Dm^-1
   std::vector<int> first, owner;            ///< triangles around a vertex
   std::vector<double> share;                ///< weight of each of them in the average
+  mutable std::vector<double> edges;        ///< (2 dim, m): current edges of each triangle
   mutable std::vector<double> per_triangle; ///< (n_components, m)
   mutable Eigen::Matrix<double, Eigen::Dynamic, n_components, Eigen::RowMajor> frames;
 };
