@@ -147,6 +147,11 @@ ConstraintAudit audit_periodic_constraints(const Discretization &discretization,
     {
       check_line(k, nodes[k].first_dof);
       check_line(k, nodes[k].second_dof);
+      if (constraints.is_constrained(nodes[k].first_dof) !=
+          constraints.is_constrained(nodes[k].second_dof))
+        throw std::logic_error(
+          "audit of the periodic constraints: " + text_of(nodes[k], nodes[k].first_dof) +
+          ": only one of its components is tied");
     }
   const auto sum = [&](const unsigned int value)
   { return dealii::Utilities::MPI::sum(value, discretization.communicator); };

@@ -96,41 +96,46 @@ std::optional<std::vector<double>> numbers(const std::string &text)
   return values;
 }
 
+/// The key of a line `set KEY = VALUE`, with single blanks; empty where the line is none.
+std::string key_of(const std::string &line)
+{
+  const std::size_t equal = line.find('=');
+  std::istringstream words(line.substr(0, equal));
+  std::string word, key;
+  words >> word;
+  if (word != "set" || equal == std::string::npos)
+    return "";
+  while (words >> word)
+    key += (key.empty() ? "" : " ") + word;
+  return key;
+}
+
 /// deal.II stops at the first unknown key; this finds all, with their lines.
 void find_unknown_keys(const std::string &file, const dealii::ParameterHandler &keys,
                        Faults &faults)
 {
+  std::stringstream declared;
+  keys.print_parameters(declared, dealii::ParameterHandler::ShortPRM);
+  std::set<std::string> known;
+  std::string line, expected;
+  while (std::getline(declared, line))
+    if (!key_of(line).empty())
+      known.insert(key_of(line));
+  for (const std::string &key : known)
+    expected += (expected.empty() ? "" : ", ") + key;
+
   std::ifstream input(file);
-  std::string line;
   for (int number = 1; std::getline(input, line); ++number)
   {
     line = trimmed(line.substr(0, line.find('#')));
-    std::istringstream words(line);
-    std::string first;
-    words >> first;
-    if (first.empty())
+    if (line.empty())
       continue;
     const std::string place = file + ":" + std::to_string(number) + ": ";
-    const std::size_t equal = line.find('=');
-    if (first != "set" || equal == std::string::npos)
+    const std::string key   = key_of(line);
+    if (key.empty())
       faults.push_back(place + "found `" + line + "`; expected `set KEY = VALUE` or a # comment");
-    else
-    {
-      std::istringstream name(line.substr(3, equal - 3));
-      std::string key, word;
-      while (name >> word)
-        key += (key.empty() ? "" : " ") + word;
-      try
-      {
-        keys.get(key);
-      }
-      catch (const std::exception &)
-      {
-        faults.push_back(place + "unknown key `" + key +
-                         "`; expected one of Mesh, Length unit, Young's modulus, Poisson's ratio, "
-                         "Thickness, Density, Orthotropic, Lattice vectors");
-      }
-    }
+    else if (known.count(key) == 0)
+      faults.push_back(place + "unknown key `" + key + "`; expected one of " + expected);
   }
 }
 
