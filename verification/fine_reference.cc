@@ -8,8 +8,11 @@
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/timer.h>
 
+#include <Eigen/LU>
+
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace homespun::verification
 {
@@ -162,6 +165,8 @@ FineReference::State FineReference::assemble(const Vector &displacement,
         F.row(1) += values[static_cast<std::size_t>(2 * i + 1)] * g.transpose();
       }
       const double weight  = reference.weights[q] * triangle.determinant;
+      if (law != Law::linear && !(F.determinant() > 0.))
+        state.energy = std::numeric_limits<double>::infinity();
       const Response local = response(law, C, F);
       state.energy += weight * local.energy;
       f.noalias() += weight * D.transpose() * local.stress;
@@ -199,6 +204,26 @@ FineReference::State FineReference::evaluate(const Vector &displacement,
            : assemble<6>(displacement, mean_gradient, residual, with_matrix, projected);
 }
 
+/// Conjugate gradients with the multigrid hierarchy of an earlier matrix, as long as that serves.
+unsigned int FineReference::solve_linearized(Vector &increment, const Vector &forces,
+                                             const double target)
+{
+  const bool is_new = !solver->has_preconditioner() || preconditioner_is_old;
+  if (is_new)
+    solver->build_preconditioner();
+  // Should this solve fail, the next one has a hierarchy of its own.
+  preconditioner_is_old   = true;
+  increment               = 0.;
+  const unsigned int used = solver->solve(increment, forces, target, 300);
+  // A hierarchy serves until it costs half as much again, per digit gained.
+  const double digits    = std::log10(std::max(10., forces.l2_norm() / target));
+  const double per_digit = (used + 1) / digits;
+  if (is_new)
+    iterations_per_digit_when_new = per_digit;
+  preconditioner_is_old = per_digit > 1.5 * iterations_per_digit_when_new;
+  return used;
+}
+
 /// Newton's method from `displacement`, which carries the prescribed values of this strain.
 /// @throws NotConverged
 void FineReference::solve(Vector &displacement, const double strain, ReferenceStep &step)
@@ -210,6 +235,8 @@ void FineReference::solve(Vector &displacement, const double strain, ReferenceSt
   State state  = evaluate(displacement, mean_gradient, residual, false, false);
   std::vector<double> history;
   constexpr unsigned int most_steps = 30;
+  // Once the exact tangent was found indefinite, the projected one serves to the end of this solve.
+  bool projected = false;
   for (unsigned int newton = 0; newton <= most_steps; ++newton)
   {
     history.push_back(state.residual / state.force_size);
@@ -219,7 +246,7 @@ void FineReference::solve(Vector &displacement, const double strain, ReferenceSt
     // A sheet without load has no forces at all.
     if (state.residual <= options.tolerance * state.force_size)
       return;
-    if (newton == most_steps)
+    if (newton == most_steps || (newton >= 10 && history[newton] > 0.5 * history[newton - 6]))
       break;
 
     // As exact as the next step of Newton's method can use; a linear law needs one step.
@@ -227,30 +254,18 @@ void FineReference::solve(Vector &displacement, const double strain, ReferenceSt
     const double target = law == Law::linear ? needed : std::max(needed, 1e-3 * state.residual);
     residual *= -1.;
     const Vector forces = residual;
-    for (const bool projected : {false, true})
+    while (true)
       try
       {
         evaluate(displacement, mean_gradient, trial, true, projected);
-        const bool is_new = !solver->has_preconditioner() || linear_iterations_when_new == 0;
-        if (is_new)
-          solver->build_preconditioner();
-        increment               = 0.;
-        const unsigned int used = solver->solve(increment, forces, target, 500);
-        step.n_linear += used;
-        // A preconditioner of an earlier step serves until it costs half as much again.
-        const double digits  = std::log10(std::max(10., state.residual / target));
-        const auto per_digit = static_cast<unsigned int>(std::ceil(10. * (used + 1) / digits));
-        if (is_new)
-          linear_iterations_when_new = per_digit;
-        else if (per_digit > linear_iterations_when_new * 3 / 2)
-          linear_iterations_when_new = 0;
+        step.n_linear += solve_linearized(increment, forces, target);
         break;
       }
       catch (const meshes::NotConverged &)
       {
-        linear_iterations_when_new = 0;
         if (projected)
           throw;
+        projected = true;
       }
     constraints.distribute(increment);
     ++step.n_newton;
@@ -273,8 +288,7 @@ void FineReference::solve(Vector &displacement, const double strain, ReferenceSt
     displacement = trial;
     state        = next;
   }
-  throw meshes::NotConverged(
-    "Newton's method did not converge in " + std::to_string(most_steps) + " steps", history);
+  throw meshes::NotConverged("Newton's method stalls", history);
 }
 
 ReferenceStep FineReference::advance(const double strain)
@@ -286,7 +300,7 @@ ReferenceStep FineReference::advance(const double strain)
   double reached   = levels.empty() ? 0. : levels.back().strain;
   double next      = strain;
   unsigned int cut = 0;
-  while (!step.reached && cut <= 6)
+  while (!step.reached && cut <= 4)
   {
     Vector displacement = guess(next);
     try

@@ -50,8 +50,9 @@ public:
   void start(const Load &load, Law law);
 
   /// Solves at a strain, from the levels solved before: u(s) is extrapolated, u/s linear in s. A
-  /// step that does not converge is cut in two, up to six times; after that the level counts as not
-  /// reached, and the ones solved before stay.
+  /// step that does not converge is cut in two, up to four times; after that the level counts as not
+  /// reached, and the ones solved before stay. A state with an inverted triangle (det F <= 0) has
+  /// infinite energy under biot and green: such a law has nothing to say there.
   ReferenceStep advance(double strain);
 
   unsigned long n_dofs() const;
@@ -70,6 +71,7 @@ private:
   Vector affine(double strain) const;
   Vector guess(double strain) const;
   void solve(Vector &displacement, double strain, ReferenceStep &step);
+  unsigned int solve_linearized(Vector &increment, const Vector &forces, double target);
   State evaluate(const Vector &displacement, const Eigen::Matrix2d &mean_gradient, Vector &residual,
                  bool with_matrix, bool projected);
   template <int n_shapes>
@@ -88,7 +90,8 @@ private:
   Law law = Law::linear;
   dealii::AffineConstraints<double> constraints; ///< homogeneous: held nodes, periodic images
   std::unique_ptr<homogenization::ElasticSolver> solver;
-  unsigned int linear_iterations_when_new = 0; ///< of the present preconditioner
+  bool preconditioner_is_old           = false;
+  double iterations_per_digit_when_new = 0.; ///< of the present preconditioner
 
   struct Level
   {

@@ -43,7 +43,7 @@ struct DiscretizationDistance
 class ReferenceUncertainty
 {
 public:
-  static constexpr double small_strain = 1e-3, large_strain = 0.1;
+  static constexpr double small_strain = 1e-3, large_strain = 0.05;
 
   /// @param n_cells of the full sheet per side
   /// @param n_small of the small sheet per side

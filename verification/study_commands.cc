@@ -58,8 +58,10 @@ void check_arguments(StrainStudyOptions &study)
       }
   };
   collect("--loads", study.loads, [](const std::string &name) { static_cast<void>(Load(name)); });
-  collect("--references", study.references, [](const std::string &name) { static_cast<void>(law_of(name)); });
-  collect("--methods", study.methods, [](const std::string &name) { static_cast<void>(Method(name)); });
+  collect("--references", study.references,
+          [](const std::string &name) { static_cast<void>(law_of(name)); });
+  collect("--methods", study.methods,
+          [](const std::string &name) { static_cast<void>(Method(name)); });
   if (study.strains.empty())
     faults.push_back("--strains: found nothing; expected at least one fraction");
   if (!faults.empty())
