@@ -1,0 +1,37 @@
+# SPDX-License-Identifier: MIT
+"""What the tests of the program share: running it, and folders that go away."""
+import os
+import pathlib
+import shutil
+import subprocess
+import tempfile
+import unittest
+
+PROGRAM = os.environ["HOMESPUN"]
+MPIEXEC = os.environ.get("MPIEXEC", "mpiexec")
+CELLS = pathlib.Path(__file__).resolve().parents[2] / "meshes" / "cells"
+
+
+def run(*arguments, ranks=1, **options):
+    """Runs homespun and returns the finished process, with its output as text."""
+    command = [PROGRAM, *map(str, arguments)]
+    if ranks > 1:
+        command = [MPIEXEC, "--oversubscribe", "-n", str(ranks), *command]
+    return subprocess.run(command, capture_output=True, text=True, timeout=240, check=False, **options)
+
+
+class InFolder(unittest.TestCase):
+    """A test with an empty folder of its own."""
+
+    def setUp(self):
+        self.folder = pathlib.Path(tempfile.mkdtemp(prefix="homespun-"))
+        self.addCleanup(shutil.rmtree, self.folder, ignore_errors=True)
+
+    def cell_with(self, before, after, name="layered"):
+        """A copy of a shipped cell, with one piece of its .prm replaced."""
+        shutil.copy(CELLS / f"{name}.msh", self.folder)
+        text = (CELLS / f"{name}.prm").read_text(encoding="utf-8")
+        self.assertIn(before, text)
+        path = self.folder / f"{name}.prm"
+        path.write_text(text.replace(before, after), encoding="utf-8")
+        return path

@@ -1,0 +1,95 @@
+# SPDX-License-Identifier: MIT
+"""The program as a user meets it: help, results, and what it says to broken input."""
+import json
+import unittest
+
+from cli import CELLS, InFolder, run
+
+
+class Help(unittest.TestCase):
+    def test_help_names_the_commands_and_the_exit_status(self):
+        text = run("--help").stdout
+        for word in ("check", "homogenize", "strain", "report", "cells", "Exit status"):
+            self.assertIn(word, text)
+
+    def test_every_command_has_help(self):
+        for command in ("check", "homogenize", "strain", "report", "cells"):
+            result = run(command, "--help")
+            self.assertEqual(result.returncode, 0)
+            self.assertIn(command, result.stdout)
+
+    def test_version_names_every_library(self):
+        text = run("--version").stdout
+        for word in ("homespun", "dealii", "trilinos", "hdf5", "eigen", "CLI11", "nlohmann-json", "flags"):
+            self.assertIn(word, text)
+
+    def test_an_unknown_command_or_option_is_bad_input(self):
+        self.assertEqual(run("knit").returncode, 2)
+        self.assertEqual(run("check", "--purl", CELLS / "layered.prm").returncode, 2)
+        self.assertEqual(run().returncode, 2)
+
+    def test_the_shipped_cells_are_listed_and_sound(self):
+        listing = run("cells").stdout
+        for name in ("layered", "three-stiffness"):
+            self.assertIn(name, listing)
+            self.assertEqual(run("check", CELLS / f"{name}.prm").returncode, 0)
+
+
+class Homogenize(InFolder):
+    def test_results_have_the_names_that_other_programs_read(self):
+        result = run("homogenize", CELLS / "layered.prm", "--output", self.folder)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        found = json.loads((self.folder / "homogenize.json").read_text())
+        for key in ("C", "C_lower", "C_upper", "voigt", "reuss", "area", "areal_density", "engineering",
+                    "dofs", "iterations", "seconds", "checks", "provenance"):
+            self.assertIn(key, found)
+        # 500 N/m x (E = 1, 10; unit thickness)
+        self.assertAlmostEqual(found["C"][0][0], 500 * 5.67982018, delta=1e-5)
+        self.assertAlmostEqual(found["C"][1][1], 500 * 1.99800200, delta=1e-5)
+        self.assertAlmostEqual(found["C"][2][2], 500 * 0.699300699, delta=1e-6)
+        self.assertEqual({check["verdict"] for check in found["checks"]}, {"PASS"})
+        self.assertTrue((self.folder / "cell.h5").exists())
+        self.assertIn("chi_12", (self.folder / "characteristic-displacements.vtu").read_text())
+
+
+class BadInput(InFolder):
+    def refused(self, *arguments, says):
+        result = run(*arguments)
+        self.assertEqual(result.returncode, 2, result.stdout + result.stderr)
+        for part in says:
+            self.assertIn(part, result.stderr)
+        self.assertNotIn("terminate", result.stderr)
+
+    def test_a_missing_file_is_named(self):
+        for command in ("check", "homogenize", "strain"):
+            self.refused(command, self.folder / "none.prm", says=["none.prm: no such file"])
+
+    def test_all_faults_come_at_once(self):
+        cell = self.cell_with("soft: 1e6, hard: 1e7", "soft: -1e6")
+        self.refused("check", cell, says=["Young's modulus -1e+06 Pa", "group `hard`"])
+
+    def test_poissons_ratio_of_one_is_refused_and_half_is_not(self):
+        self.refused("check", self.cell_with("soft: 0.3", "soft: 1"), says=["Poisson's ratio 1"])
+        self.assertEqual(run("check", self.cell_with("soft: 0.3", "soft: 0.5")).returncode, 0)
+
+    def test_a_truncated_mesh_is_refused_and_leaves_nothing_behind(self):
+        cell = self.cell_with("soft", "soft")
+        mesh = self.folder / "layered.msh"
+        mesh.write_bytes(mesh.read_bytes()[:9000])
+        output = self.folder / "out"
+        self.refused("homogenize", cell, "--output", output, says=["layered.msh: cannot be read"])
+        self.refused("strain", cell, "--quick", "--output", output, says=["layered.msh: cannot be read"])
+        self.assertFalse(output.exists())
+
+    def test_unknown_loads_methods_and_strains_are_refused_together(self):
+        self.refused("strain", CELLS / "layered.prm", "--loads", "strip-3", "--methods", "magic",
+                     "--references", "hooke", "--strains", "0.1,-2",
+                     says=["`strip-3`", "`magic`", "`hooke`", "-2"])
+
+    def test_two_cells_of_one_name_are_refused(self):
+        self.refused("strain", CELLS / "layered.prm", self.cell_with("soft", "soft"), "--output",
+                     self.folder / "out", says=["rename one"])
+
+
+if __name__ == "__main__":
+    unittest.main()

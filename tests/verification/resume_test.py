@@ -1,0 +1,61 @@
+# SPDX-License-Identifier: MIT
+"""A study that was killed loses the row in progress, and ends as one that was not."""
+import csv
+import json
+import os
+import signal
+import subprocess
+import time
+import unittest
+
+from cli import CELLS, PROGRAM, InFolder, run
+
+STUDY = ["strain", CELLS / "layered.prm", "--cells", "3", "--strains", "0.01,0.05,0.1", "--loads",
+         "periodic-12,strip-2", "--references", "linear,biot", "--no-report", "--quiet"]
+TIMES = {"seconds_method", "seconds_reference"}
+
+
+def rows_of(folder):
+    with open(folder / "strain.csv", newline="", encoding="utf-8") as file:
+        return [{key: value for key, value in row.items() if key not in TIMES} for row in csv.DictReader(file)]
+
+
+class Resume(InFolder):
+    def assert_same_errors(self, found, expected):
+        self.assertEqual(len(found), len(expected))
+        for one, two in zip(found, expected):
+            self.assertEqual([one[key] for key in ("load", "strain", "reference", "method")],
+                             [two[key] for key in ("load", "strain", "reference", "method")])
+            error = float(two["error_mean_m"])
+            self.assertAlmostEqual(float(one["error_mean_m"]), error, delta=2e-5 * error + 1e-15)
+
+    def test_a_study_cut_at_any_row_is_completed(self):
+        whole = self.folder / "whole"
+        self.assertEqual(run(*STUDY, "--output", whole).returncode, 0)
+        text = (whole / "strain.csv").read_text()
+        for part in (0.35, 0.8):
+            (whole / "strain.csv").write_text(text[:int(part * len(text))])
+            self.assertEqual(run(*STUDY, "--output", whole, "--resume").returncode, 0)
+            resumed = rows_of(whole)
+            (whole / "strain.csv").write_text(text)
+            self.assert_same_errors(resumed, rows_of(whole))
+            self.assertIn("verdicts", json.loads((whole / "verdicts.json").read_text()))
+
+    def test_a_killed_study_leaves_whole_rows(self):
+        output = self.folder / "killed"
+        with subprocess.Popen([PROGRAM, *map(str, STUDY), "--output", str(output)],
+                              stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL) as process:
+            deadline = time.monotonic() + 60
+            table = output / "strain.csv"
+            while time.monotonic() < deadline and process.poll() is None:
+                if table.exists() and table.read_text().count("\n") > 5:
+                    break
+                time.sleep(0.01)
+            os.kill(process.pid, signal.SIGKILL)
+        text = table.read_text()
+        self.assertTrue(text.endswith("\n"))
+        self.assertEqual({line.count(",") for line in text.splitlines()}, {15})
+
+
+if __name__ == "__main__":
+    unittest.main()

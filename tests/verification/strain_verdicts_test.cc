@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: MIT
+// The judge, on synthetic rows: it must pass what is right and fail what is planted.
+#include "verification/result_files.h"
+#include "verification/strain_verdicts.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+using namespace homespun::verification;
+
+namespace
+{
+using Rows = std::vector<std::vector<std::string>>;
+
+std::vector<std::string> row(const std::string &load, const double strain,
+                             const std::string &method, const double error_m,
+                             const double uncertainty_m = 1e-12)
+{
+  return {"cell",
+          load,
+          csv_number(strain),
+          "biot",
+          method,
+          "20",
+          "800",
+          "288000",
+          csv_number(error_m),
+          "",
+          "",
+          csv_number(error_m / 0.01),
+          "",
+          csv_number(uncertainty_m),
+          "",
+          ""};
+}
+
+Rows periodic(const double order)
+{
+  Rows rows;
+  for (const double strain : {1e-3, 1e-2, 1e-1})
+    rows.push_back(row("periodic-12", strain, "localized", 1e-4 * std::pow(strain, order)));
+  return rows;
+}
+
+Rows sheet(const double affine, const double localized, const double uncertainty)
+{
+  return {row("strip-1", 0.01, "affine", affine, uncertainty),
+          row("strip-1", 0.01, "localized", localized, uncertainty)};
+}
+} // namespace
+
+TEST(exact_verdicts, the_slope_of_a_power_law_is_its_exponent)
+{
+  for (const double order : {1., 2., 3.5})
+    EXPECT_NEAR(strain_verdicts(periodic(order))[0].value, order, 1e-5);
+}
+
+TEST(tripwire_verdicts, only_the_second_order_passes)
+{
+  EXPECT_EQ(strain_verdicts(periodic(2.))[0].outcome, Outcome::pass);
+  EXPECT_EQ(strain_verdicts(periodic(1.))[0].outcome, Outcome::fail); // a lost or turned chi
+  EXPECT_EQ(strain_verdicts(periodic(3.))[0].outcome, Outcome::fail);
+}
+
+TEST(tripwire_verdicts, two_levels_decide_nothing)
+{
+  Rows rows = periodic(2.);
+  rows.pop_back();
+  EXPECT_EQ(strain_verdicts(rows)[0].outcome, Outcome::inconclusive);
+}
+
+TEST(exact_verdicts, round_off_is_recognised_as_zero)
+{
+  Rows rows;
+  for (const double strain : {1e-3, 1e-2, 1e-1})
+    rows.push_back(row("periodic-11", strain, "localized", 1e-17));
+  EXPECT_EQ(strain_verdicts(rows)[0].outcome, Outcome::pass);
+  EXPECT_NE(strain_verdicts(rows)[0].claim.find("round-off"), std::string::npos);
+}
+
+TEST(tripwire_verdicts, a_gain_within_the_error_bar_is_no_gain)
+{
+  EXPECT_EQ(strain_verdicts(sheet(2e-5, 1e-5, 1e-7))[0].outcome, Outcome::pass);
+  EXPECT_EQ(strain_verdicts(sheet(1e-5, 2e-5, 1e-7))[0].outcome, Outcome::fail);
+  EXPECT_EQ(strain_verdicts(sheet(2e-5, 1.95e-5, 1e-6))[0].outcome, Outcome::inconclusive);
+}
+
+TEST(exact_verdicts, levels_that_were_not_reached_are_not_judged)
+{
+  Rows rows = periodic(2.);
+  rows.push_back({"cell", "periodic-12", "0.05", "biot", "unreached", "20", "800", "288000", "", "",
+                  "", "", "", "", "", ""});
+  EXPECT_EQ(strain_verdicts(rows).size(), 1u);
+  EXPECT_EQ(strain_verdicts(rows)[0].outcome, Outcome::pass);
+}
