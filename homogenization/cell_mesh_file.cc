@@ -41,8 +41,8 @@ std::map<std::string, int> physical_names(const std::string &file)
       break;
   return number_of_name;
 }
+} // namespace
 
-/// The sentence of a deal.II exception, without its frame of dashes and source lines.
 std::string reason_of(const std::exception &exception)
 {
   std::istringstream text(exception.what());
@@ -60,7 +60,6 @@ std::string reason_of(const std::exception &exception)
   }
   return reason.empty() ? "no reason given" : reason;
 }
-} // namespace
 
 CellMeshFile read_cell_mesh(const std::string &file)
 {

@@ -4,6 +4,7 @@
 
 #include "meshes/triangle_mesh.h"
 
+#include <exception>
 #include <map>
 #include <string>
 
@@ -16,7 +17,10 @@ struct CellMeshFile
   std::map<std::string, int> number_of_name; ///< physical names of a .msh file
 };
 
-/// Reads a mesh; quadrilaterals are cut in two along the diagonal from their first vertex.
+/// Reads a mesh; quadrilaterals are cut in two along a diagonal.
 /// @throws BadInput naming the file and deal.II's reason
 CellMeshFile read_cell_mesh(const std::string &file);
+
+/// The sentence of a deal.II exception, without its frame of dashes and source lines.
+std::string reason_of(const std::exception &exception);
 } // namespace homespun::homogenization

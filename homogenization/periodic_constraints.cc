@@ -160,13 +160,9 @@ ConstraintAudit audit_periodic_constraints(const Discretization &discretization,
   dealii::Utilities::MPI::max(is_tied, discretization.communicator, is_tied);
   dealii::Utilities::MPI::max(is_master, discretization.communicator, is_master);
 
-  std::size_t n_accounted = 0, n_tied = 0;
+  std::size_t n_accounted = 0;
   for (std::size_t k = 0; k < nodes.size(); ++k)
-  {
-    n_tied += is_tied[k];
     n_accounted += (is_tied[k] | is_master[k]);
-  }
-  audit.n_classes = static_cast<unsigned int>(n_accounted - n_tied);
   if (n_accounted < n_outline_nodes(discretization))
     throw std::logic_error("audit of the periodic constraints: " +
                            std::to_string(n_outline_nodes(discretization) - n_accounted) +

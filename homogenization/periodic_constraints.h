@@ -15,7 +15,6 @@ namespace homespun::homogenization
 struct ConstraintAudit
 {
   unsigned int n_constrained = 0;  ///< DoFs tied to an image
-  unsigned int n_classes     = 0;  ///< classes of image nodes on the outline
   double largest_gap         = 0.; ///< between tied nodes, modulo the lattice [m]
 };
 

@@ -6,6 +6,8 @@
 
 #include <deal.II/base/parameter_handler.h>
 
+#include <Eigen/LU>
+
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -25,20 +27,18 @@ using Faults = std::vector<std::string>;
 struct CellKeys
 {
   std::string mesh;
-  double length_unit = 0.01;
+  std::string length_unit = "0.01";
   std::string young, poisson, thickness, density, orthotropic;
   std::string lattice = "auto";
 
   void declare(dealii::ParameterHandler &keys)
   {
-    using namespace dealii::Patterns;
     keys.add_parameter(
       "Mesh", mesh,
       "Mesh of one periodic cell, a path relative to this file; anything deal.II's GridIn "
       "reads, with triangles or quadrilaterals.");
     keys.add_parameter("Length unit", length_unit,
-                       "Metres per mesh unit [m]; 0.01 for a mesh in centimetres.",
-                       Double(1e-30, 1e30));
+                       "Metres per mesh unit [m], positive; 0.01 for a mesh in centimetres.");
     keys.add_parameter(
       "Young's modulus", young,
       "[Pa] One value per group of the mesh, `group: value, ...`; a group is a physical name "
@@ -163,7 +163,8 @@ std::map<std::string, std::vector<double>> group_values(const std::string &file,
 }
 
 meshes::Lattice lattice_from(const std::string &file, const CellKeys &keys,
-                             const meshes::TriangleMesh &mesh, Faults &faults)
+                             const double length_unit, const meshes::TriangleMesh &mesh,
+                             Faults &faults)
 {
   meshes::Lattice lattice;
   if (trimmed(keys.lattice) == "auto")
@@ -190,7 +191,12 @@ meshes::Lattice lattice_from(const std::string &file, const CellKeys &keys,
   if (!good)
     faults.push_back(file + ": key `Lattice vectors`: found `" + keys.lattice +
                      "`; expected `auto` or two vectors in mesh units like `1 0; 0.5 0.866`");
-  lattice.vectors *= keys.length_unit;
+  lattice.vectors *= length_unit;
+  if (good && lattice.vectors.determinant() < 0.)
+    faults.push_back(
+      file + ": key `Lattice vectors`: found `" + keys.lattice +
+      "`, with the second vector to the right of the first; expected it to the left: "
+      "exchange the two");
   return lattice;
 }
 
@@ -329,12 +335,17 @@ UnitCell read_unit_cell(const std::string &prm_file)
     }
     catch (const std::exception &exception)
     {
-      std::string reason = exception.what();
-      reason.erase(std::remove(reason.begin(), reason.end(), '\n'), reason.end());
-      faults.push_back(prm_file + ": key `Length unit` or another cannot be understood: " + reason);
+      faults.push_back(prm_file + ": cannot be understood: " + reason_of(exception));
     }
+  const auto unit = numbers(keys.length_unit);
+  const bool unit_is_sound =
+    unit && unit->size() == 1 && (*unit)[0] > 0. && std::isfinite((*unit)[0]);
+  if (!unit_is_sound)
+    faults.push_back(prm_file + ": key `Length unit`: found `" + keys.length_unit +
+                     "`; expected metres per mesh unit as one positive number like `0.01`");
   if (!faults.empty())
     throw meshes::BadInput(faults);
+  const double length_unit = (*unit)[0];
 
   UnitCell cell;
   cell.file = prm_file;
@@ -344,7 +355,7 @@ UnitCell read_unit_cell(const std::string &prm_file)
   const std::string mesh_path =
     (std::filesystem::path(prm_file).parent_path() / trimmed(keys.mesh)).string();
   CellMeshFile mesh_file = read_cell_mesh(mesh_path);
-  mesh_file.mesh.vertices *= keys.length_unit;
+  mesh_file.mesh.vertices *= length_unit;
 
   faults      = meshes::faults_of(mesh_file.mesh, mesh_path);
   cell.phases = assign_phases(prm_file, keys, mesh_file, faults);
@@ -352,7 +363,7 @@ UnitCell read_unit_cell(const std::string &prm_file)
   try
   {
     const std::size_t n_before = faults.size();
-    cell.lattice               = lattice_from(prm_file, keys, cell.mesh, faults);
+    cell.lattice               = lattice_from(prm_file, keys, length_unit, cell.mesh, faults);
     if (faults.size() == n_before)
       for (const std::string &fault :
            meshes::periodicity_faults(cell.mesh, cell.lattice, mesh_path))

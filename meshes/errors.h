@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The two failures that a user of homespun can meet: input that makes no sense, and a solver that
-// did not converge. Every part throws these and nothing else across its border; the program turns
-// them into exit status 2 and 3.
+// did not converge. The program turns them into exit status 2 and
+// 3. A std::logic_error is a bug of homespun, found by one of its own audits.
 #pragma once
 
 #include <stdexcept>

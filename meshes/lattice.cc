@@ -157,11 +157,6 @@ Lattice lattice_of_outline(const TriangleMesh &mesh)
     throw BadInput("the outline of the cell has the corners" + found.str() +
                    " in m, which miss a parallelogram by " + std::to_string(gap.norm()) + " m" +
                    remedy);
-  // A square turned by 45 degrees and an upright one are both served by "flatter first".
-  const auto steepness = [&](const int row)
-  { return std::abs(std::atan2(lattice.vectors(row, 1), lattice.vectors(row, 0))); };
-  if (steepness(1) < steepness(0) - 1e-9)
-    lattice.vectors.row(0).swap(lattice.vectors.row(1));
   return lattice;
 }
 

@@ -50,7 +50,7 @@ ImageClasses match_images(const Points &points, const Lattice &lattice,
                           double relative_tolerance = image_tolerance);
 
 /// The lattice of a cell whose outline is a parallelogram: its two sides that leave the lowest
-/// corner, the flatter one first.
+/// corner, counter-clockwise, so that a1 x a2 > 0.
 /// @param mesh whose outer loop is searched for four corners
 /// @throws BadInput where the outline is not a parallelogram, with the corners that were found
 Lattice lattice_of_outline(const TriangleMesh &mesh);

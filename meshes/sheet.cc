@@ -11,6 +11,16 @@
 
 namespace homespun::meshes
 {
+Eigen::RowVector2d Sheet::fraction(const Eigen::RowVector2d &point) const
+{
+  return lattice.fractional(point - origin).cwiseQuotient(Eigen::RowVector2d(n1, n2));
+}
+
+Eigen::Matrix2d Sheet::sides() const
+{
+  return Eigen::Vector2d(n1, n2).asDiagonal() * lattice.vectors;
+}
+
 Sheet tile(const TriangleMesh &cell_mesh, const Lattice &lattice, const int n1, const int n2)
 {
   const int n        = cell_mesh.n_vertices();
@@ -41,7 +51,7 @@ Sheet tile(const TriangleMesh &cell_mesh, const Lattice &lattice, const int n1, 
       text << "vertex " << v << " at (" << cell_mesh.vertices.row(v)
            << ") m lies outside the parallelogram of the lattice vectors at (" << sheet.origin
            << ") m; expected all inside: a sheet with straight edges needs a cell whose outline is "
-              "that parallelogram (periodic loads do not)";
+              "that parallelogram ";
       throw BadInput(text.str());
     }
     if (classes.representative[index] == v)
@@ -55,6 +65,15 @@ Sheet tile(const TriangleMesh &cell_mesh, const Lattice &lattice, const int n1, 
     static_cast<int>(std::count_if(representatives.begin(), representatives.end(), is_below));
   for (int k = 0; k < sheet.n_per_cell; ++k)
     place_in_cell[static_cast<std::size_t>(representatives[static_cast<std::size_t>(k)])] = k;
+
+  const double n_triangles = static_cast<double>(n1) * n2 * cell_mesh.n_triangles();
+  if (n_triangles > 5e8)
+  {
+    std::ostringstream text;
+    text << "a sheet of " << n1 << " x " << n2 << " cells has " << n_triangles
+         << " triangles; expected at most 5e8: take fewer cells or a coarser cell";
+    throw BadInput(text.str());
+  }
 
   // Nodes of cells (0..n1-1, 0..n2-1) are numbered by blocks; those that close the sheet on demand.
   const int n_blocks = n1 * n2 * sheet.n_per_cell;

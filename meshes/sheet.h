@@ -29,6 +29,12 @@ struct Sheet
   Eigen::VectorXi cell_vertex; ///< (n) vertex of the cell mesh it is an image of
   Eigen::Matrix<int, Eigen::Dynamic, 2>
     cell; ///< (n,2) cell whose lower-left half-open area holds it
+
+  /// Coordinates of a point on the sheet, 0 to 1 from edge to edge.
+  Eigen::RowVector2d fraction(const Eigen::RowVector2d &point) const;
+
+  /// The sides of the sheet, rows n1 a1 and n2 a2 [m].
+  Eigen::Matrix2d sides() const;
 };
 
 /// Tiles a periodic cell whose outline is the parallelogram of its lattice.

@@ -4,6 +4,7 @@
 #include "verification/build_info.h"
 #include "verification/cell_output.h"
 #include "verification/commands.h"
+#include "verification/on_root.h"
 #include "verification/progress.h"
 
 #include <deal.II/base/mpi.h>
@@ -24,11 +25,6 @@ using homogenization::UnitCell;
 
 namespace
 {
-bool is_root()
-{
-  return dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0;
-}
-
 int check(const std::vector<std::string> &files)
 {
   std::vector<std::string> faults;
@@ -36,7 +32,7 @@ int check(const std::vector<std::string> &files)
     try
     {
       const UnitCell cell = homogenization::read_unit_cell(file);
-      if (!is_root())
+      if (!is_root(MPI_COMM_WORLD))
         continue;
       const double side = std::sqrt(cell.lattice.area());
       std::cout << file << ": sound. " << cell.mesh.n_triangles() << " triangles, "
@@ -82,20 +78,20 @@ int homogenize(const HomogenizeArguments &arguments)
 {
   const UnitCell cell      = homogenization::read_unit_cell(arguments.file);
   const std::string folder = arguments.output.empty() ? "out/" + cell.name : arguments.output;
-  if (is_root())
-    std::filesystem::create_directories(folder);
-  Progress progress(is_root() && !arguments.quiet, 1);
+  on_root(MPI_COMM_WORLD, [&]() { std::filesystem::create_directories(folder); });
+  Progress progress(is_root(MPI_COMM_WORLD) && !arguments.quiet, 1);
   progress.begin(cell.name + ": three cell problems, and once more refined for the error bar");
   const AssessedCell assessed = assess(cell, arguments.options, 4000000, MPI_COMM_WORLD);
   progress.done();
-  if (is_root())
-  {
-    write_cell_results(cell, assessed, dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD),
-                       folder);
-    if (!arguments.quiet)
-      progress.note(summary(cell, assessed) + "Written to " + folder +
-                    ": homogenize.json, cell.h5, cell.json, characteristic-displacements.vtu");
-  }
+  on_root(MPI_COMM_WORLD,
+          [&]()
+          {
+            write_cell_results(cell, assessed,
+                               dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD), folder);
+          });
+  if (is_root(MPI_COMM_WORLD) && !arguments.quiet)
+    progress.note(summary(cell, assessed) + "Written to " + folder +
+                  ": homogenize.json, cell.h5, cell.json, characteristic-displacements.vtu");
   return any_failed(assessed.checks) ? 1 : 0;
 }
 
@@ -111,7 +107,7 @@ std::string story_of(const std::string &file)
 
 int list_cells()
 {
-  if (!is_root())
+  if (!is_root(MPI_COMM_WORLD))
     return 0;
   std::vector<std::string> files;
   for (const auto &entry : std::filesystem::directory_iterator(cells_folder()))
@@ -141,7 +137,7 @@ void add_check_command(CLI::App &app, Action &action)
   command->callback([&action, files]() { action = [files]() { return check(*files); }; });
 }
 
-void add_homogenize_command(CLI::App &app, Action &action, const std::string &)
+void add_homogenize_command(CLI::App &app, Action &action)
 {
   CLI::App *command = app.add_subcommand(
     "homogenize", "C^H with its error bar, characteristic displacements, moduli: cell.h5, "

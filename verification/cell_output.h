@@ -25,7 +25,7 @@ struct AssessedCell
 };
 
 /// Homogenizes a cell and judges the result: Hill-Mandel gap, Voigt and Reuss as matrix
-/// inequalities, audit of the periodic constraints.
+/// inequalities.
 /// @param max_dofs_of_estimate a finer solve for the error bar is made up to this size
 AssessedCell assess(const homogenization::UnitCell &cell,
                     const homogenization::HomogenizationOptions &options,

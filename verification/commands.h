@@ -13,14 +13,14 @@ namespace homespun::verification
 using Action = std::function<int()>;
 
 void add_check_command(CLI::App &app, Action &action);
-void add_homogenize_command(CLI::App &app, Action &action, const std::string &command_line);
+void add_homogenize_command(CLI::App &app, Action &action);
 void add_strain_command(CLI::App &app, Action &action, const std::string &command_line);
 void add_report_command(CLI::App &app, Action &action);
 void add_cells_command(CLI::App &app, Action &action);
 
 /// Makes report.html from folders of results, with Debian's Python.
-/// @return exit status of the report
-int make_report(const std::vector<std::string> &folders, const std::string &output, bool quiet);
+/// @throws BadInput where the results cannot be read or drawn
+void make_report(const std::vector<std::string> &folders, const std::string &output, bool quiet);
 
 /// The folder of the shipped cells: where the sources are, or where they were installed.
 std::string cells_folder();

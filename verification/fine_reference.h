@@ -26,6 +26,7 @@ struct ReferenceStep
   unsigned int n_newton    = 0;  ///< Newton steps
   unsigned int n_linear    = 0;  ///< iterations of conjugate gradients, all Newton steps
   double relative_residual = 0.; ///< |forces on free nodes| / size of the element forces
+  unsigned int n_inverted  = 0;  ///< triangles with det F <= 0, under biot and green
   double seconds           = 0.; ///< wall time of this level, slowest rank
 };
 
@@ -50,9 +51,10 @@ public:
   void start(const Load &load, Law law);
 
   /// Solves at a strain, from the levels solved before: u(s) is extrapolated, u/s linear in s. A
-  /// step that does not converge is cut in two, up to four times; after that the level counts as not
-  /// reached, and the ones solved before stay. A state with an inverted triangle (det F <= 0) has
-  /// infinite energy under biot and green: such a law has nothing to say there.
+  /// step that does not converge is cut in two, up to three times; after that the level counts as not
+  /// reached, and the ones solved before stay. Under green a state with an inverted triangle
+  /// (det F <= 0) has infinite energy, because that law would reward it; under biot it is allowed (its
+  /// energy is that of the coarse cloth, smooth through the collapse) and counted.
   ReferenceStep advance(double strain);
 
   unsigned long n_dofs() const;
@@ -61,13 +63,13 @@ private:
   using Vector = homogenization::ElasticSolver::Vector;
   struct State
   {
-    double energy     = 0.; ///< [J]
-    double residual   = 0.; ///< norm over free DoFs [N]
-    double force_size = 0.; ///< norm of the element forces before they cancel [N]
+    double energy           = 0.; ///< [J]
+    unsigned int n_inverted = 0;  ///< triangles with det F <= 0
+    double residual         = 0.; ///< norm over free DoFs [N]
+    double force_size       = 0.; ///< norm of the element forces before they cancel [N]
   };
 
   void constrain(const Load &load);
-  Eigen::RowVector2d fraction(const Eigen::RowVector2d &point) const;
   Vector affine(double strain) const;
   Vector guess(double strain) const;
   void solve(Vector &displacement, double strain, ReferenceStep &step);
@@ -90,6 +92,7 @@ private:
   Law law = Law::linear;
   dealii::AffineConstraints<double> constraints; ///< homogeneous: held nodes, periodic images
   std::unique_ptr<homogenization::ElasticSolver> solver;
+  double seconds_of_linear_solve       = 0.;
   bool preconditioner_is_old           = false;
   double iterations_per_digit_when_new = 0.; ///< of the present preconditioner
 

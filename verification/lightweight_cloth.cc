@@ -46,15 +46,6 @@ bool Method::has_meaning(const Law law) const
   return law != Law::linear || name != "localized-affine-lift";
 }
 
-namespace
-{
-Eigen::RowVector2d fraction(const meshes::Sheet &sheet, const Eigen::RowVector2d &point)
-{
-  return sheet.lattice.fractional(point - sheet.origin)
-    .cwiseQuotient(Eigen::RowVector2d(sheet.n1, sheet.n2));
-}
-} // namespace
-
 LightweightCloth::LightweightCloth(const meshes::HomogenizedCell &cell, const meshes::Sheet &sheet,
                                    const Load &load)
     : coarse(meshes::coarse_sheet(sheet.origin, sheet.lattice.vectors, sheet.n1, sheet.n2))
@@ -66,7 +57,7 @@ LightweightCloth::LightweightCloth(const meshes::HomogenizedCell &cell, const me
     return;
   std::vector<int> held;
   for (int v = 0; v < coarse.n_vertices(); ++v)
-    if (load.holds(fraction(sheet, coarse.vertices.row(v))))
+    if (load.holds(sheet.fraction(coarse.vertices.row(v))))
       held.push_back(v);
   solver = std::make_unique<shell::MembraneSolver<2>>(
     coarse, std::vector<Eigen::Matrix3d>{cell.stiffness}, held);
@@ -75,16 +66,14 @@ LightweightCloth::LightweightCloth(const meshes::HomogenizedCell &cell, const me
 /// The affine motion that agrees with what is prescribed.
 shell::Positions<2> LightweightCloth::prescribed(const double strain) const
 {
-  Eigen::Matrix2d sides = sheet.lattice.vectors;
-  sides.row(0) *= sheet.n1;
-  sides.row(1) *= sheet.n2;
   shell::Positions<2> positions = coarse.vertices;
   for (int v = 0; v < coarse.n_vertices(); ++v)
     if (load.is_periodic())
       positions.row(v) =
         sheet.origin + (coarse.vertices.row(v) - sheet.origin) * load.gradient(strain).transpose();
     else
-      positions.row(v) += load.displacement(fraction(sheet, coarse.vertices.row(v)), sides, strain);
+      positions.row(v) +=
+        load.displacement(sheet.fraction(coarse.vertices.row(v)), sheet.sides(), strain);
   return positions;
 }
 
@@ -101,7 +90,7 @@ CoarseStep LightweightCloth::solve(const Law law, const double strain)
     // The prescribed motion is proportional to strain, so held vertices end where they should.
     start = coarse.vertices + strain / last_strain * last_displacement;
     for (int v = 0; v < coarse.n_vertices(); ++v)
-      if (load.holds(fraction(sheet, coarse.vertices.row(v))))
+      if (load.holds(sheet.fraction(coarse.vertices.row(v))))
         start.row(v) = step.positions.row(v);
   }
   step.seconds = median_seconds(

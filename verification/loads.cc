@@ -47,7 +47,7 @@ int Load::clamped_axis() const
 
 bool Load::holds(const Eigen::RowVector2d &fraction) const
 {
-  constexpr double close = 1e-7;
+  constexpr double close = 1e-5; // far below a mesh width, far above the tolerance of images
   const double f         = fraction(clamped_axis());
   return f < close || f > 1. - close;
 }

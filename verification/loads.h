@@ -19,7 +19,9 @@ namespace homespun::verification
 ///   that axis by strain times length, the other two edges free
 /// - shear-frame: the two edges normal to axis 2 clamped, the upper moved along axis 1 by strain
 ///   times length, sides free
-/// In a lattice that is not rectangular the axes are the lattice vectors.
+/// The axes of periodic loads are x and y. Those of sheets are the sides of the sheet: on a lattice
+/// that is not rectangular the clamped edges are those that a2 (strip-1) or a1 joins, and move along a1
+/// or a2.
 class Load
 {
 public:

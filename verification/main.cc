@@ -10,6 +10,7 @@
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
 
+#include <filesystem>
 #include <iostream>
 
 namespace
@@ -26,6 +27,14 @@ int guarded(const homespun::verification::Action &action, const bool tells)
     if (tells)
       for (const std::string &fault : bad.faults())
         std::cerr << "homespun: " << fault << "\n";
+    return 2;
+  }
+  catch (const std::filesystem::filesystem_error &error)
+  {
+    if (tells)
+      std::cerr << "homespun: " << error.what()
+                << "; expected a folder that can be written: choose "
+                << "another --output\n";
     return 2;
   }
   catch (const homespun::meshes::NotConverged &failure)
@@ -63,7 +72,7 @@ int main(int argc, char **argv)
     "every command that solves.");
   Action action;
   add_check_command(app, action);
-  add_homogenize_command(app, action, command_line);
+  add_homogenize_command(app, action);
   add_strain_command(app, action, command_line);
   add_report_command(app, action);
   add_cells_command(app, action);

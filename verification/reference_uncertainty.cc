@@ -80,7 +80,9 @@ ReferenceUncertainty::ReferenceUncertainty(const homogenization::UnitCell &cell,
     double stored[4]                    = {0., 0., 0., 0.};
     if (table)
       for (const std::vector<std::string> &row : table->rows())
-        if (std::equal(keys.begin(), keys.end(), row.begin()))
+        // A row without refined P2 does not answer a request with it, unless P1 was not reached.
+        if (std::equal(keys.begin(), keys.end(), row.begin()) &&
+            (!with_refined || !row[6].empty() || row[5].empty()))
         {
           stored[0] = 1.;
           for (std::size_t k = 0; k < 3; ++k)
@@ -113,12 +115,12 @@ ReferenceUncertainty::ReferenceUncertainty(const homogenization::UnitCell &cell,
   };
 
   const DiscretizationDistance small = distance(n_measured, Law::linear, small_strain, true);
-  linear_bar                         = small.uncertainty();
+  const double unknown               = std::numeric_limits<double>::quiet_NaN();
+  linear_bar                         = small.reached ? small.uncertainty() : unknown;
   if (n_full != n_measured)
   {
     const DiscretizationDistance full = distance(n_full, Law::linear, small_strain, false);
-    if (small.p1_to_p2 > 0.)
-      carry_over = full.p1_to_p2 / small.p1_to_p2;
+    carry_over = full.reached && small.p1_to_p2 > 0. ? full.p1_to_p2 / small.p1_to_p2 : unknown;
   }
   for (const Law law : laws)
     if (law != Law::linear)

@@ -37,7 +37,9 @@ struct DiscretizationDistance
 ///
 /// Measured on a small sheet with P1, P2 and refined P2: the linear law, which all laws approach at
 /// small strain, and each nonlinear law at `large_strain`. In between, and beyond, the bar per strain
-/// runs linearly in strain, never below half of its small-strain value. To carry over to the full
+/// runs linearly in strain, never below half of the smaller of the two. A law that is not reached at
+/// `large_strain` keeps its small-strain bar; a bar that cannot be measured at all is not a number,
+/// and empty in the results. To carry over to the full
 /// sheet it is multiplied by the ratio of |P1 − P2|, linear law, at full size and on the small sheet,
 /// both measured. Of periodic loads the cell itself is measured and nothing carries over.
 class ReferenceUncertainty

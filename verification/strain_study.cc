@@ -2,14 +2,15 @@
 #include "verification/strain_study.h"
 
 #include "meshes/errors.h"
-#include "meshes/hdf5_writer.h"
 #include "verification/cell_output.h"
 #include "verification/fine_reference.h"
 #include "verification/lightweight_cloth.h"
+#include "verification/on_root.h"
 #include "verification/progress.h"
 #include "verification/provenance.h"
 #include "verification/reference_uncertainty.h"
 #include "verification/result_files.h"
+#include "verification/sheet_fields.h"
 #include "verification/strain_verdicts.h"
 
 #include <deal.II/base/mpi.h>
@@ -17,7 +18,10 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <cstdio>
 #include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <limits>
 
 #include <sys/resource.h>
@@ -68,7 +72,7 @@ public:
       : options(options)
       , communicator(communicator)
       , n_ranks(dealii::Utilities::MPI::n_mpi_processes(communicator))
-      , is_root(dealii::Utilities::MPI::this_mpi_process(communicator) == 0)
+      , is_root(verification::is_root(communicator))
       , begin(std::chrono::steady_clock::now())
       , progress(is_root && !options.quiet,
                  static_cast<int>(options.cell_files.size() * options.loads.size() *
@@ -80,16 +84,25 @@ public:
   {
     for (const std::string &file : options.cell_files)
       cells.push_back(homogenization::read_unit_cell(file));
-    refuse_equal_names();
-    open_tables();
+    refuse_bad_names();
+    for (const UnitCell &cell : cells)
+      meshes::tile(cell.mesh, cell.lattice, 1,
+                   1); // refuses cells that make no sheet, before any file
+    on_root(communicator, [&]() { open_tables(); });
     for (const UnitCell &cell : cells)
       study_cell(cell);
     return conclude();
   }
 
 private:
-  void refuse_equal_names() const
+  /// A cell's name is a field of a table and a folder.
+  void refuse_bad_names() const
   {
+    for (const UnitCell &cell : cells)
+      if (cell.name.find_first_of(",\"\n\r") != std::string::npos)
+        throw meshes::BadInput(
+          cell.file + ": the file's name holds a comma, a quote or a line break; expected none, "
+                      "because it becomes a field of strain.csv: rename it");
     for (std::size_t a = 0; a < cells.size(); ++a)
       for (std::size_t b = 0; b < a; ++b)
         if (cells[a].name == cells[b].name)
@@ -101,9 +114,8 @@ private:
   /// Tables live on the first rank alone.
   void open_tables()
   {
-    if (!is_root)
-      return;
     std::filesystem::create_directories(options.output);
+    check_inputs();
     const auto open =
       [&](const char *name, const std::vector<std::string> &columns, const std::size_t n_keys)
     {
@@ -113,6 +125,54 @@ private:
     strain_table      = open("strain.csv", strain_columns(), 5);
     step_table        = open("steps.csv", step_columns, 4);
     uncertainty_table = open("uncertainty.csv", uncertainty_columns(), 5);
+    note_table        = open("notes.csv", {"cell", "load", "reference", "strain", "note"}, 4);
+  }
+
+  /// Rows of different inputs must not stand in one table: what the rows depend on is stored with
+  /// them, and a study is only taken up with the same.
+  void check_inputs() const
+  {
+    const std::string path = options.output + "/inputs.json";
+    nlohmann::ordered_json inputs;
+    inputs["cells_per_side"]              = options.n_cells;
+    inputs["cells_per_side_of_error_bar"] = options.n_cells_of_error_bar;
+    for (const UnitCell &cell : cells)
+      inputs["cells"][cell.name] = fingerprint(cell);
+    const std::string text = json_text(inputs);
+    if (options.resume && std::filesystem::exists(options.output + "/strain.csv"))
+    {
+      std::ifstream input(path);
+      const std::string found((std::istreambuf_iterator<char>(input)),
+                              std::istreambuf_iterator<char>());
+      if (found != text)
+        throw meshes::BadInput(
+          path + ": the rows there belong to other cells, materials, meshes or sizes than "
+                 "this study; expected the same to resume: leave out --resume to begin "
+                 "anew, or choose another --output");
+    }
+    write_whole(path, text);
+  }
+
+  /// A hash of all that a cell says (FNV-1a over mesh, lattice and stiffness).
+  static std::string fingerprint(const UnitCell &cell)
+  {
+    std::uint64_t hash = 14695981039346656037u;
+    const auto add     = [&](const void *data, const std::size_t bytes)
+    {
+      for (std::size_t k = 0; k < bytes; ++k)
+        hash = (hash ^ static_cast<const unsigned char *>(data)[k]) * 1099511628211u;
+    };
+    const auto size_of = [](const auto &matrix)
+    { return static_cast<std::size_t>(matrix.size()) * sizeof(matrix.data()[0]); };
+    add(cell.mesh.vertices.data(), size_of(cell.mesh.vertices));
+    add(cell.mesh.triangles.data(), size_of(cell.mesh.triangles));
+    add(cell.mesh.material.data(), size_of(cell.mesh.material));
+    add(cell.lattice.vectors.data(), size_of(cell.lattice.vectors));
+    for (const Eigen::Matrix3d &stiffness : cell.stiffness_of_phase())
+      add(stiffness.data(), size_of(stiffness));
+    char text[20];
+    std::snprintf(text, sizeof(text), "%016llx", static_cast<unsigned long long>(hash));
+    return text;
   }
 
   void study_cell(const UnitCell &cell)
@@ -127,23 +187,26 @@ private:
       verdicts.push_back(check);
     }
     folder = options.output + "/" + cell.name;
-    if (is_root)
-    {
-      std::filesystem::create_directories(folder);
-      write_cell_results(cell, assessed, n_ranks, folder);
-    }
+    on_root(communicator,
+            [&]()
+            {
+              std::filesystem::create_directories(folder);
+              write_cell_results(cell, assessed, n_ranks, folder);
+            });
     const meshes::HomogenizedCell homogenized =
       homogenization::homogenized_cell(cell, assessed.result, provenance_line());
     const meshes::Sheet one_cell = meshes::tile(cell.mesh, cell.lattice, 1, 1);
-    const meshes::Sheet full =
-      meshes::tile(cell.mesh, cell.lattice, options.n_cells, options.n_cells);
+    std::unique_ptr<meshes::Sheet> full; // made where a load asks for it
 
     // One discretization serves all loads of a sheet.
     std::unique_ptr<FineReference> of_cell, of_sheet;
     for (const std::string &name : options.loads)
     {
       const Load load(name);
-      const meshes::Sheet &sheet                = load.is_periodic() ? one_cell : full;
+      if (!load.is_periodic() && !full)
+        full = std::make_unique<meshes::Sheet>(
+          meshes::tile(cell.mesh, cell.lattice, options.n_cells, options.n_cells));
+      const meshes::Sheet &sheet                = load.is_periodic() ? one_cell : *full;
       std::unique_ptr<FineReference> &reference = load.is_periodic() ? of_cell : of_sheet;
       study_load(cell, homogenized, sheet, load, reference);
     }
@@ -187,7 +250,8 @@ private:
       if (missing.empty())
         continue;
       reference->start(load, laws[k]);
-      bool is_reached = true;
+      // Above a level that was not reached none is tried, now or when a study is taken up again.
+      bool is_reached = !is_unreached_below(cell, load, laws[k], missing.front());
       for (const double strain : missing)
       {
         progress.begin(cell.name + ", " + load.name + ": " + name_of(laws[k]) +
@@ -197,7 +261,7 @@ private:
           is_reached = study_strain(cell, sheet, load, laws[k], strain, *reference, cloth,
                                     uncertainty.at(laws[k], strain));
         else
-          append_unreached(cell, sheet, load, laws[k], strain);
+          on_root(communicator, [&]() { write_unreached(cell, sheet, load, laws[k], strain); });
         progress.done();
       }
     }
@@ -228,6 +292,19 @@ private:
     return missing;
   }
 
+  bool is_unreached_below(const UnitCell &cell, const Load &load, const Law law,
+                          const double strain) const
+  {
+    int answer = 0;
+    if (is_root)
+      for (const double lower : options.strains)
+        if (lower < strain && strain_table->contains({cell.name, load.name, csv_number(lower),
+                                                      name_of(law), "unreached"}))
+          answer = 1;
+    MPI_Bcast(&answer, 1, MPI_INT, 0, communicator);
+    return answer == 1;
+  }
+
   bool study_strain(const UnitCell &cell, const meshes::Sheet &sheet, const Load &load,
                     const Law law, const double strain, FineReference &reference,
                     LightweightCloth &cloth, const double uncertainty)
@@ -235,15 +312,38 @@ private:
     const ReferenceStep fine = reference.advance(strain);
     if (!fine.reached)
     {
-      append_unreached(cell, sheet, load, law, strain);
-      progress.note(cell.name + ", " + load.name + ", " + name_of(law) + " reference at strain " +
-                    csv_number(strain) + " not reached: " + fine.why.substr(0, 200));
+      on_root(communicator,
+              [&]()
+              {
+                write_note(cell, load, law, strain, "no equilibrium found; " + fine.why);
+                write_unreached(cell, sheet, load, law, strain);
+              });
       return false;
     }
+    if (fine.n_inverted > 0)
+      on_root(communicator,
+              [&]()
+              {
+                write_note(cell, load, law, strain,
+                           std::to_string(fine.n_inverted) +
+                             " triangles of the fine reference are inverted (det F <= 0)");
+              });
     largest_residual = std::max(largest_residual, fine.relative_residual);
-    if (is_root)
-      compare(cell, sheet, load, law, strain, fine, reference.n_dofs(), cloth, uncertainty);
-    MPI_Barrier(communicator);
+    on_root(communicator,
+            [&]()
+            {
+              try
+              {
+                compare(cell, sheet, load, law, strain, fine, reference.n_dofs(), cloth,
+                        uncertainty);
+              }
+              catch (const meshes::NotConverged &failure)
+              {
+                write_note(cell, load, law, strain,
+                           std::string("the coarse cloth found no equilibrium; ") + failure.what());
+                write_unreached(cell, sheet, load, law, strain);
+              }
+            });
     return true;
   }
 
@@ -279,18 +379,21 @@ private:
             csv_number(uncertainty), csv_number(coarse.seconds + upsampled.seconds),
             csv_number(fine.seconds)})
         row.push_back(field);
-      strain_table->append(row);
+      // The row comes last: where it is there, so is all that belongs to it.
       if (name == "localized")
       {
-        step_table->append({cell.name, load.name, name_of(law), csv_number(strain),
-                            csv_number(coarse.seconds), csv_number(upsampled.seconds),
-                            csv_number(fine.seconds), std::to_string(coarse.iterations),
-                            std::to_string(fine.n_newton), std::to_string(n_dofs),
-                            std::to_string(n_ranks)});
         if (is_pictured(load, law, strain))
-          write_fields(sheet, load, law, strain, fine.positions, upsampled.positions, cloth,
-                       coarse.positions);
+          write_sheet_fields(folder + "/fields-" + load.name + ".h5", sheet, cloth.coarse,
+                             {load.name, strain, name_of(law), name, fine.positions,
+                              upsampled.positions, coarse.positions});
+        if (!step_table->contains({cell.name, load.name, name_of(law), csv_number(strain)}))
+          step_table->append({cell.name, load.name, name_of(law), csv_number(strain),
+                              csv_number(coarse.seconds), csv_number(upsampled.seconds),
+                              csv_number(fine.seconds), std::to_string(coarse.iterations),
+                              std::to_string(fine.n_newton), std::to_string(n_dofs),
+                              std::to_string(n_ranks)});
       }
+      strain_table->append(row);
     }
   }
 
@@ -306,36 +409,22 @@ private:
            (has_biot ? law == Law::biot : name_of(law) == laws.front());
   }
 
-  void write_fields(const meshes::Sheet &sheet, const Load &load, const Law law,
-                    const double strain, const meshes::Points &reference,
-                    const meshes::Points &upsampled, const LightweightCloth &cloth,
-                    const meshes::Points &coarse) const
+  /// A remark on a level, for the terminal and the report.
+  void write_note(const UnitCell &cell, const Load &load, const Law law, const double strain,
+                  std::string text)
   {
-    meshes::Hdf5Writer file(folder + "/fields-" + load.name + ".h5");
-    const auto n        = static_cast<unsigned long long>(sheet.mesh.n_vertices());
-    const auto m        = static_cast<unsigned long long>(sheet.mesh.n_triangles());
-    const auto n_coarse = static_cast<unsigned long long>(cloth.coarse.n_vertices());
-    const auto m_coarse = static_cast<unsigned long long>(cloth.coarse.n_triangles());
-    file.write("/rest", {n, 2}, sheet.mesh.vertices.data(), "m");
-    file.write("/triangles", {m, 3}, sheet.mesh.triangles.data());
-    file.write("/material", {m}, sheet.mesh.material.data());
-    file.write("/reference", {n, 2}, reference.data(), "m");
-    file.write("/upsampled", {n, 2}, upsampled.data(), "m");
-    file.write("/coarse_rest", {n_coarse, 2}, cloth.coarse.vertices.data(), "m");
-    file.write("/coarse_triangles", {m_coarse, 3}, cloth.coarse.triangles.data());
-    file.write("/coarse", {n_coarse, 2}, coarse.data(), "m");
-    file.attribute("/", "load", load.name);
-    file.attribute("/", "strain", strain);
-    file.attribute("/", "reference", name_of(law));
-    file.attribute("/", "method", std::string("localized"));
-    file.finish();
+    std::replace(text.begin(), text.end(), ',', ';');
+    std::replace(text.begin(), text.end(), '\n', ' ');
+    text = text.substr(0, text.find("; residual norms"));
+    if (!note_table->contains({cell.name, load.name, name_of(law), csv_number(strain)}))
+      note_table->append({cell.name, load.name, name_of(law), csv_number(strain), text});
+    progress.note(cell.name + ", " + load.name + ", " + name_of(law) + " reference at strain " +
+                  csv_number(strain) + ": " + text);
   }
 
-  void append_unreached(const UnitCell &cell, const meshes::Sheet &sheet, const Load &load,
-                        const Law law, const double strain)
+  void write_unreached(const UnitCell &cell, const meshes::Sheet &sheet, const Load &load,
+                       const Law law, const double strain)
   {
-    if (!is_root)
-      return;
     std::vector<std::string> row = {cell.name,
                                     load.name,
                                     csv_number(strain),
@@ -356,19 +445,48 @@ private:
     getrusage(RUSAGE_SELF, &usage);
     const double peak_memory =
       dealii::Utilities::MPI::sum(static_cast<double>(usage.ru_maxrss) * 1024., communicator);
-    if (is_root)
-    {
-      for (const Verdict &verdict : strain_verdicts(strain_table->rows()))
-        verdicts.push_back(verdict);
-      verdicts.push_back(
-        {"every fine reference is solved: residual relative to the element forces",
-         largest_residual <= ReferenceOptions().tolerance ? Outcome::pass : Outcome::fail,
-         largest_residual, "<= 1e-9"});
-      write_whole(options.output + "/verdicts.json",
-                  to_json(verdicts, options.command).dump(2) + "\n");
-      write_whole(options.output + "/study.json", study_json(seconds, peak_memory).dump(2) + "\n");
-    }
+    on_root(communicator,
+            [&]()
+            {
+              for (const Verdict &verdict : strain_verdicts(strain_table->rows()))
+                verdicts.push_back(verdict);
+              const double n_unreached = static_cast<double>(
+                std::count_if(strain_table->rows().begin(), strain_table->rows().end(),
+                              [](const auto &row) { return row[4] == "unreached"; }));
+              verdicts.push_back(
+                {"every level of every reference has an equilibrium (levels without)",
+                 n_unreached == 0. ? Outcome::pass : Outcome::inconclusive, n_unreached, "0"});
+              write_whole(options.output + "/verdicts.json",
+                          json_text(to_json(verdicts, options.command)));
+              write_whole(options.output + "/study.json",
+                          json_text(study_json(seconds, peak_memory)));
+            });
+    // Every rank ends with the status of the first.
+    int failed = any_failed(verdicts);
+    MPI_Bcast(&failed, 1, MPI_INT, 0, communicator);
+    if (failed && !any_failed(verdicts))
+      verdicts.push_back({"the first rank saw a failure", Outcome::fail, 1., "0"});
     return verdicts;
+  }
+
+  nlohmann::ordered_json notes() const
+  {
+    nlohmann::ordered_json list = {
+      "The cell is homogenized with P1 on its given mesh, the discretization of the reference: "
+      "the figure shows the error of the method; the error bar shows how far P1 is from the limit "
+      "of fine meshes.",
+      "Errors are computed from positions in double precision; times of up-sampling are those of "
+      "single precision, median of five runs on one thread, beside the coarse solve on one thread.",
+      "Stripes under periodic-11 and periodic-22: biot is linear in the stretches, and these loads "
+      "only stretch along the axes of the laminate, without rotation. The finite solution is "
+      "the linear one, and the localized error vanishes to round-off.",
+      "Error bar of the reference: |P1 - refined P2| + |P2 - refined P2| at the same vertices on a "
+      "small sheet, carried to the full sheet by the measured ratio of |P1 - P2| (linear law) of "
+      "the two sizes; between small strain and 5 % linear in strain, and beyond on the same line."};
+    for (const std::vector<std::string> &row : note_table->rows())
+      list.push_back(row[0] + ", " + row[1] + ", " + row[2] + " at strain " + row[3] + ": " +
+                     row[4]);
+    return list;
   }
 
   nlohmann::ordered_json study_json(const double seconds, const double peak_memory) const
@@ -386,6 +504,7 @@ private:
       {"ranks", n_ranks},
       {"threads_per_rank", 1},
       {"seconds_total", seconds},
+      {"largest_relative_residual", largest_residual},
       {"peak_memory_bytes", peak_memory},
       {"left_out",
        {left_out("mass, damping, time integration", "the loads are static"),
@@ -398,18 +517,7 @@ private:
                  "an infinite cloth repeats one cell: one cell with periodic constraints is exact"),
         left_out("localized-affine-lift against the linear reference",
                  "linear theory knows no lift")}},
-      {"notes",
-       {"The cell is homogenized with P1 on its given mesh, the discretization of the reference: "
-        "the figure shows the error of the method; the error bar shows how far P1 is from the limit "
-        "of fine meshes.",
-        "Errors are computed from positions in double precision; times of up-sampling are those of "
-        "single precision, median of five runs on one thread, beside the coarse solve on one thread.",
-        "Stripes under periodic-11 and periodic-22: biot is linear in the stretches, and these loads "
-        "only stretch along the axes of the laminate, without rotation. The finite solution is "
-        "the linear one, and the localized error vanishes to round-off.",
-        "Error bar of the reference: |P1 - refined P2| + |P2 - refined P2| at the same vertices on a "
-        "small sheet, carried to the full sheet by the measured ratio of |P1 - P2| (linear law) of "
-        "the two sizes; between small strain and 10 % linear in strain."}},
+      {"notes", notes()},
       {"provenance", provenance(n_ranks)}};
   }
 
@@ -420,7 +528,7 @@ private:
   const std::chrono::steady_clock::time_point begin;
   Progress progress;
   std::vector<UnitCell> cells;
-  std::unique_ptr<ResultTable> strain_table, step_table, uncertainty_table;
+  std::unique_ptr<ResultTable> strain_table, step_table, uncertainty_table, note_table;
   std::string folder; ///< of the present cell
   std::vector<Verdict> verdicts;
   double largest_residual = 0.;

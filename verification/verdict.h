@@ -37,6 +37,12 @@ inline nlohmann::ordered_json json_number(const double value)
   return std::isfinite(value) ? nlohmann::ordered_json(value) : nlohmann::ordered_json();
 }
 
+/// Text of a JSON file; names that are not UTF-8 are written with replacement characters.
+inline std::string json_text(const nlohmann::ordered_json &json)
+{
+  return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+}
+
 /// {"verdicts": [{claim, verdict, value, limit, command}]}
 inline nlohmann::ordered_json to_json(const std::vector<Verdict> &verdicts,
                                       const std::string &command)

@@ -58,7 +58,7 @@ class BadInput(InFolder):
         self.assertEqual(result.returncode, 2, result.stdout + result.stderr)
         for part in says:
             self.assertIn(part, result.stderr)
-        self.assertNotIn("terminate", result.stderr)
+        self.assertNotIn("terminate called", result.stderr)
 
     def test_a_missing_file_is_named(self):
         for command in ("check", "homogenize", "strain"):
@@ -85,6 +85,31 @@ class BadInput(InFolder):
         self.refused("strain", CELLS / "layered.prm", "--loads", "strip-3", "--methods", "magic",
                      "--references", "hooke", "--strains", "0.1,-2",
                      says=["`strip-3`", "`magic`", "`hooke`", "-2"])
+
+    def test_an_output_that_cannot_be_written_is_named(self):
+        for ranks in (1, 2):
+            result = run("homogenize", CELLS / "layered.prm", "--quiet", "--output", "/proc/nowhere", ranks=ranks)
+            self.assertNotEqual(result.returncode, 0)
+            self.assertIn("/proc/nowhere", result.stderr)
+            self.assertNotIn("terminate called", result.stderr)
+
+    def test_a_length_with_its_unit_is_refused_in_one_line(self):
+        cell = self.cell_with("= 0.01 ", "= 1 cm ")
+        result = run("check", cell)
+        self.assertEqual(result.returncode, 2)
+        self.assertIn("key `Length unit`: found `1 cm`", result.stderr)
+        self.assertEqual(result.stderr.count("\n"), 1)
+
+    def test_left_handed_lattice_vectors_are_refused(self):
+        self.refused("check", self.cell_with("= auto", "= 0 1; 1 0"), says=["exchange the two"])
+
+    def test_a_name_that_breaks_a_table_is_refused(self):
+        cell = self.cell_with("soft", "soft")
+        self.refused("strain", cell.rename(self.folder / "a,b.prm"), "--output", self.folder / "out",
+                     says=["comma"])
+
+    def test_options_with_lists_leave_the_cell_alone(self):
+        self.refused("strain", "--strains", "0.01", self.folder / "none.prm", says=["none.prm: no such file"])
 
     def test_two_cells_of_one_name_are_refused(self):
         self.refused("strain", CELLS / "layered.prm", self.cell_with("soft", "soft"), "--output",

@@ -106,8 +106,8 @@ TEST(order_fine_reference, the_localized_error_of_periodic_loads_falls_as_strain
       const ReferenceStep fine = reference.advance(strain);
       ASSERT_TRUE(fine.reached) << fine.why;
       ASSERT_TRUE(fine.reached) << fine.why;
-      const auto coarse        = cloth.solve(Law::biot, strain).positions;
-      const auto error         = [&](const char *method)
+      const auto coarse = cloth.solve(Law::biot, strain).positions;
+      const auto error  = [&](const char *method)
       {
         return (cloth.upsample(Method(method), Law::biot, coarse).positions - fine.positions)
           .rowwise()

@@ -41,6 +41,23 @@ class Resume(InFolder):
             self.assert_same_errors(resumed, rows_of(whole))
             self.assertIn("verdicts", json.loads((whole / "verdicts.json").read_text()))
 
+    def test_rows_of_another_study_are_not_mixed_in(self):
+        output = self.folder / "other"
+        small = ["strain", CELLS / "layered.prm", "--loads", "periodic-12", "--strains", "0.01", "--references",
+                 "biot", "--no-report", "--quiet", "--output", output]
+        self.assertEqual(run(*small, "--cells", 2).returncode, 0)
+        for ranks in (1, 2):
+            result = run(*small, "--cells", 3, "--resume", ranks=ranks)
+            self.assertNotEqual(result.returncode, 0)
+            self.assertIn("leave out --resume", result.stderr)
+        self.assertEqual(run(*small, "--cells", 2, "--resume").returncode, 0)
+
+    def test_a_single_level_outside_the_window_of_the_verdicts_ends_well(self):
+        result = run("strain", CELLS / "layered.prm", "--loads", "periodic-12", "--strains", "0.2", "--references",
+                     "biot", "--methods", "localized", "--no-report", "--output", self.folder / "one")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertIn("INCONCLUSIVE", result.stdout)
+
     def test_a_killed_study_leaves_whole_rows(self):
         output = self.folder / "killed"
         with subprocess.Popen([PROGRAM, *map(str, STUDY), "--output", str(output)],

@@ -70,6 +70,28 @@ TEST(tripwire_verdicts, two_levels_decide_nothing)
   EXPECT_EQ(strain_verdicts(rows)[0].outcome, Outcome::inconclusive);
 }
 
+TEST(tripwire_verdicts, no_level_in_the_window_decides_nothing_and_does_not_crash)
+{
+  const Rows rows = {row("periodic-12", 0.2, "localized", 1e-5)};
+  EXPECT_EQ(strain_verdicts(rows)[0].outcome, Outcome::inconclusive);
+}
+
+TEST(tripwire_verdicts, a_small_true_error_at_small_strain_is_not_taken_for_round_off)
+{
+  Rows rows;
+  for (const double strain : {1e-4, 2e-4, 4e-4})
+    rows.push_back(row("periodic-12", strain, "localized", 0.01 * 1e-3 * strain * strain));
+  EXPECT_EQ(strain_verdicts(rows)[0].claim.find("round-off"), std::string::npos);
+  EXPECT_EQ(strain_verdicts(rows)[0].outcome, Outcome::pass);
+}
+
+TEST(tripwire_verdicts, without_an_error_bar_a_gain_is_inconclusive)
+{
+  Rows rows = sheet(2e-5, 1e-5, 1e-7);
+  rows[1][13].clear();
+  EXPECT_EQ(strain_verdicts(rows)[0].outcome, Outcome::inconclusive);
+}
+
 TEST(exact_verdicts, round_off_is_recognised_as_zero)
 {
   Rows rows;

@@ -48,7 +48,8 @@ def page_contents(results, gallery):
     if not short:
         reasons["short"] = [{"what": "the summary of errors", "why": "it needs rows of `affine` and "
                              "`localized` in strain.csv"}]
-    verdicts = [verdict_contents(v) for study in results.studies for v in study.verdicts]
+    commands = [s.info.get("command") for s in results.studies]
+    verdicts = [verdict_contents(v, commands) for study in results.studies for v in study.verdicts]
     unreached = tables.unreached_notes(results.unreached())
     return {
         "title": "homespun: " + ", ".join(results.cells),
@@ -93,11 +94,12 @@ def summary(results):
     return " ".join(sentences)
 
 
-def verdict_contents(verdict):
+def verdict_contents(verdict, commands):
+    """One row; its command only where it is not among those at the head of the page."""
     value = verdict.get("value")
     return {"claim": verdict["claim"], "verdict": verdict["verdict"], "mark": MARKS[verdict["verdict"]],
             "value": "–" if value is None else tables.shown(value), "limit": tables.shown(verdict.get("limit", "")),
-            "command": verdict.get("command", "")}
+            "command": "" if verdict.get("command") in commands else verdict.get("command", "")}
 
 
 def verdict_sentence(verdicts):
