@@ -74,15 +74,20 @@ struct HomogenizeArguments
   bool quiet = false;
 };
 
+/// DoFs up to which the finer problem of the error bar is solved.
+constexpr unsigned long largest_error_bar = 4000000;
+
 int homogenize(const HomogenizeArguments &arguments)
 {
   const UnitCell cell      = homogenization::read_unit_cell(arguments.file);
   const std::string folder = arguments.output.empty() ? "out/" + cell.name : arguments.output;
   on_root(MPI_COMM_WORLD, [&]() { std::filesystem::create_directories(folder); });
-  Progress progress(is_root(MPI_COMM_WORLD) && !arguments.quiet, 1);
-  progress.begin(cell.name + ": three cell problems, and once more refined for the error bar");
-  const AssessedCell assessed = assess(cell, arguments.options, 4000000, MPI_COMM_WORLD);
-  progress.done();
+  const AssessedCell assessed = [&]()
+  {
+    Progress progress(is_root(MPI_COMM_WORLD) && !arguments.quiet, 1);
+    progress.begin(cell.name + ": three cell problems, and once more refined for the error bar");
+    return assess(cell, arguments.options, largest_error_bar, MPI_COMM_WORLD);
+  }();
   on_root(MPI_COMM_WORLD,
           [&]()
           {
@@ -90,8 +95,8 @@ int homogenize(const HomogenizeArguments &arguments)
                                dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD), folder);
           });
   if (is_root(MPI_COMM_WORLD) && !arguments.quiet)
-    progress.note(summary(cell, assessed) + "Written to " + folder +
-                  ": homogenize.json, cell.h5, cell.json, characteristic-displacements.vtu");
+    std::cout << summary(cell, assessed) << "Written to " << folder
+              << ": homogenize.json, cell.h5, cell.json, characteristic-displacements.vtu\n";
   return any_failed(assessed.checks) ? 1 : 0;
 }
 

@@ -12,16 +12,15 @@
 #include "verification/result_files.h"
 #include "verification/sheet_fields.h"
 #include "verification/strain_verdicts.h"
+#include "verification/study_description.h"
+#include "verification/study_inputs.h"
 
 #include <deal.II/base/mpi.h>
 
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <cstdio>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <limits>
 
 #include <sys/resource.h>
@@ -84,7 +83,7 @@ public:
   {
     for (const std::string &file : options.cell_files)
       cells.push_back(homogenization::read_unit_cell(file));
-    refuse_bad_names();
+    check_names(cells);
     for (const UnitCell &cell : cells)
       meshes::tile(cell.mesh, cell.lattice, 1,
                    1); // refuses cells that make no sheet, before any file
@@ -95,27 +94,12 @@ public:
   }
 
 private:
-  /// A cell's name is a field of a table and a folder.
-  void refuse_bad_names() const
-  {
-    for (const UnitCell &cell : cells)
-      if (cell.name.find_first_of(",\"\n\r") != std::string::npos)
-        throw meshes::BadInput(
-          cell.file + ": the file's name holds a comma, a quote or a line break; expected none, "
-                      "because it becomes a field of strain.csv: rename it");
-    for (std::size_t a = 0; a < cells.size(); ++a)
-      for (std::size_t b = 0; b < a; ++b)
-        if (cells[a].name == cells[b].name)
-          throw meshes::BadInput(cells[a].file + " and " + cells[b].file +
-                                 " would both be called `" + cells[a].name +
-                                 "` in the results; expected different file names: rename one");
-  }
-
   /// Tables live on the first rank alone.
   void open_tables()
   {
     std::filesystem::create_directories(options.output);
-    check_inputs();
+    check_inputs(cells, options.n_cells, options.n_cells_of_error_bar, options.output,
+                 options.resume);
     const auto open =
       [&](const char *name, const std::vector<std::string> &columns, const std::size_t n_keys)
     {
@@ -126,53 +110,6 @@ private:
     step_table        = open("steps.csv", step_columns, 4);
     uncertainty_table = open("uncertainty.csv", uncertainty_columns(), 5);
     note_table        = open("notes.csv", {"cell", "load", "reference", "strain", "note"}, 4);
-  }
-
-  /// Rows of different inputs must not stand in one table: what the rows depend on is stored with
-  /// them, and a study is only taken up with the same.
-  void check_inputs() const
-  {
-    const std::string path = options.output + "/inputs.json";
-    nlohmann::ordered_json inputs;
-    inputs["cells_per_side"]              = options.n_cells;
-    inputs["cells_per_side_of_error_bar"] = options.n_cells_of_error_bar;
-    for (const UnitCell &cell : cells)
-      inputs["cells"][cell.name] = fingerprint(cell);
-    const std::string text = json_text(inputs);
-    if (options.resume && std::filesystem::exists(options.output + "/strain.csv"))
-    {
-      std::ifstream input(path);
-      const std::string found((std::istreambuf_iterator<char>(input)),
-                              std::istreambuf_iterator<char>());
-      if (found != text)
-        throw meshes::BadInput(
-          path + ": the rows there belong to other cells, materials, meshes or sizes than "
-                 "this study; expected the same to resume: leave out --resume to begin "
-                 "anew, or choose another --output");
-    }
-    write_whole(path, text);
-  }
-
-  /// A hash of all that a cell says (FNV-1a over mesh, lattice and stiffness).
-  static std::string fingerprint(const UnitCell &cell)
-  {
-    std::uint64_t hash = 14695981039346656037u;
-    const auto add     = [&](const void *data, const std::size_t bytes)
-    {
-      for (std::size_t k = 0; k < bytes; ++k)
-        hash = (hash ^ static_cast<const unsigned char *>(data)[k]) * 1099511628211u;
-    };
-    const auto size_of = [](const auto &matrix)
-    { return static_cast<std::size_t>(matrix.size()) * sizeof(matrix.data()[0]); };
-    add(cell.mesh.vertices.data(), size_of(cell.mesh.vertices));
-    add(cell.mesh.triangles.data(), size_of(cell.mesh.triangles));
-    add(cell.mesh.material.data(), size_of(cell.mesh.material));
-    add(cell.lattice.vectors.data(), size_of(cell.lattice.vectors));
-    for (const Eigen::Matrix3d &stiffness : cell.stiffness_of_phase())
-      add(stiffness.data(), size_of(stiffness));
-    char text[20];
-    std::snprintf(text, sizeof(text), "%016llx", static_cast<unsigned long long>(hash));
-    return text;
   }
 
   void study_cell(const UnitCell &cell)
@@ -469,56 +406,26 @@ private:
     return verdicts;
   }
 
-  nlohmann::ordered_json notes() const
-  {
-    nlohmann::ordered_json list = {
-      "The cell is homogenized with P1 on its given mesh, the discretization of the reference: "
-      "the figure shows the error of the method; the error bar shows how far P1 is from the limit "
-      "of fine meshes.",
-      "Errors are computed from positions in double precision; times of up-sampling are those of "
-      "single precision, median of five runs on one thread, beside the coarse solve on one thread.",
-      "Stripes under periodic-11 and periodic-22: biot is linear in the stretches, and these loads "
-      "only stretch along the axes of the laminate, without rotation. The finite solution is "
-      "the linear one, and the localized error vanishes to round-off.",
-      "Error bar of the reference: |P1 - refined P2| + |P2 - refined P2| at the same vertices on a "
-      "small sheet, carried to the full sheet by the measured ratio of |P1 - P2| (linear law) of "
-      "the two sizes; between small strain and 5 % linear in strain, and beyond on the same line."};
-    for (const std::vector<std::string> &row : note_table->rows())
-      list.push_back(row[0] + ", " + row[1] + ", " + row[2] + " at strain " + row[3] + ": " +
-                     row[4]);
-    return list;
-  }
-
   nlohmann::ordered_json study_json(const double seconds, const double peak_memory) const
   {
-    const auto left_out = [](const char *what, const char *why) {
-      return nlohmann::ordered_json{{"what", what}, {"why", why}};
-    };
-    return {
-      {"command", options.command},
-      {"strains", options.strains},
-      {"loads", options.loads},
-      {"references", options.references},
-      {"methods", options.methods},
-      {"cells_per_side", options.n_cells},
-      {"ranks", n_ranks},
-      {"threads_per_rank", 1},
-      {"seconds_total", seconds},
-      {"largest_relative_residual", largest_residual},
-      {"peak_memory_bytes", peak_memory},
-      {"left_out",
-       {left_out("mass, damping, time integration", "the loads are static"),
-        left_out("third displacement component, bending, rotation out of the plane",
-                 "the loads act in the plane: coarse cloth and reference carry two components"),
-        left_out("contact", "no obstacle in the scene"),
-        left_out("per-vertex coarse index of the up-sampling",
-                 "the coarse mesh is aligned with the lattice: all cells share one table"),
-        left_out("resolved sheet of the periodic loads",
-                 "an infinite cloth repeats one cell: one cell with periodic constraints is exact"),
-        left_out("localized-affine-lift against the linear reference",
-                 "linear theory knows no lift")}},
-      {"notes", notes()},
-      {"provenance", provenance(n_ranks)}};
+    nlohmann::ordered_json notes = notes_on_the_method();
+    for (const std::vector<std::string> &row : note_table->rows())
+      notes.push_back(row[0] + ", " + row[1] + ", " + row[2] + " at strain " + row[3] + ": " +
+                      row[4]);
+    return {{"command", options.command},
+            {"strains", options.strains},
+            {"loads", options.loads},
+            {"references", options.references},
+            {"methods", options.methods},
+            {"cells_per_side", options.n_cells},
+            {"ranks", n_ranks},
+            {"threads_per_rank", 1},
+            {"seconds_total", seconds},
+            {"largest_relative_residual", largest_residual},
+            {"peak_memory_bytes", peak_memory},
+            {"left_out", what_was_left_out()},
+            {"notes", notes},
+            {"provenance", provenance(n_ranks)}};
   }
 
   const StrainStudyOptions options;

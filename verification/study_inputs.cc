@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: MIT
+#include "verification/study_inputs.h"
+
+#include "meshes/errors.h"
+#include "verification/result_files.h"
+#include "verification/verdict.h"
+
+#include <cstdint>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+
+namespace homespun::verification
+{
+using homogenization::UnitCell;
+
+namespace
+{
+/// FNV-1a over the numbers of a matrix, taken up from an earlier hash.
+template <typename Matrix>
+std::uint64_t hashed(std::uint64_t hash, const Matrix &matrix)
+{
+  const auto *bytes   = reinterpret_cast<const unsigned char *>(matrix.data());
+  const std::size_t n = static_cast<std::size_t>(matrix.size()) * sizeof(typename Matrix::Scalar);
+  for (std::size_t k = 0; k < n; ++k)
+    hash = (hash ^ bytes[k]) * 1099511628211u;
+  return hash;
+}
+
+std::string fingerprint(const UnitCell &cell)
+{
+  std::uint64_t hash = 14695981039346656037u;
+  hash               = hashed(hash, cell.mesh.vertices);
+  hash               = hashed(hash, cell.mesh.triangles);
+  hash               = hashed(hash, cell.mesh.material);
+  hash               = hashed(hash, cell.lattice.vectors);
+  for (const Eigen::Matrix3d &stiffness : cell.stiffness_of_phase())
+    hash = hashed(hash, stiffness);
+  char text[20];
+  std::snprintf(text, sizeof(text), "%016llx", static_cast<unsigned long long>(hash));
+  return text;
+}
+} // namespace
+
+void check_names(const std::vector<UnitCell> &cells)
+{
+  for (std::size_t a = 0; a < cells.size(); ++a)
+  {
+    if (cells[a].name.find_first_of(",\"\n\r") != std::string::npos)
+      throw meshes::BadInput(
+        cells[a].file + ": the file's name holds a comma, a quote or a line break; expected none, "
+                        "because it becomes a field of strain.csv: rename it");
+    for (std::size_t b = 0; b < a; ++b)
+      if (cells[a].name == cells[b].name)
+        throw meshes::BadInput(cells[a].file + " and " + cells[b].file + " would both be called `" +
+                               cells[a].name +
+                               "` in the results; expected different file names: rename one");
+  }
+}
+
+void check_inputs(const std::vector<UnitCell> &cells, const int n_cells,
+                  const int n_cells_of_error_bar, const std::string &folder, const bool resume)
+{
+  const std::string path = folder + "/inputs.json";
+  nlohmann::ordered_json inputs;
+  inputs["cells_per_side"]              = n_cells;
+  inputs["cells_per_side_of_error_bar"] = n_cells_of_error_bar;
+  for (const UnitCell &cell : cells)
+    inputs["cells"][cell.name] = fingerprint(cell);
+  const std::string text = json_text(inputs);
+  if (resume && std::filesystem::exists(folder + "/strain.csv"))
+  {
+    std::ifstream input(path);
+    const std::string found((std::istreambuf_iterator<char>(input)),
+                            std::istreambuf_iterator<char>());
+    if (found != text)
+      throw meshes::BadInput(
+        path + ": the rows there belong to other cells, materials, meshes or sizes than "
+               "this study; expected the same to resume: leave out --resume to begin "
+               "anew, or choose another --output");
+  }
+  write_whole(path, text);
+}
+} // namespace homespun::verification

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: MIT
+// What the rows of a study depend on, stored beside them, so that rows of different inputs never
+// stand in one table.
+#pragma once
+
+#include "homogenization/unit_cell.h"
+
+#include <string>
+#include <vector>
+
+namespace homespun::verification
+{
+/// A cell's name becomes a field of a table and a folder.
+/// @throws BadInput where two cells share one, or one holds a comma, a quote or a line break
+void check_names(const std::vector<homogenization::UnitCell> &cells);
+
+/// Writes inputs.json into a folder of results: sizes of the sheets, and for each cell a hash of its
+/// mesh, lattice and stiffness.
+/// @param resume true: what is there must be the same
+/// @throws BadInput where a study is to be resumed with other inputs
+void check_inputs(const std::vector<homogenization::UnitCell> &cells, int n_cells,
+                  int n_cells_of_error_bar, const std::string &folder, bool resume);
+} // namespace homespun::verification
