@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: MIT
 """What stands in the report, in its order: draws the figures, fills the tables, words the sentences."""
 import math
+import os
+from concurrent.futures import ProcessPoolExecutor
 
 import style
 import tables
@@ -10,6 +12,7 @@ from figures_sheet import sheet_figure
 from figures_stiffness import polar_figure
 from figures_strain import error_figure
 from figures_time import error_time_figure, run_time_figure, step_figure
+from gallery import file_name
 from results import BadResults, cell_side
 from style import percent, seconds, three
 
@@ -38,7 +41,7 @@ def page_contents(results, gallery):
     @param gallery where figures are saved
     @throws BadResults where a stored sheet cannot be read
     """
-    cells = [cell_contents(results, name, gallery) for name in results.cells]
+    cells = contents_of_cells(results, gallery)
     reasons = {key: [] for key in ("verdicts", "short", "strain", "uncertainty")}
     words = {"verdicts": "verdicts", "strain": "error against strain", "uncertainty": "error bar"}
     for key, word in words.items():
@@ -127,6 +130,16 @@ def provenance(results):
                   if (cell.homogenize or {}).get("provenance")]
     return [(name, list(value.items()) if isinstance(value, dict) else [("provenance", value)])
             for name, value in blocks]
+
+
+def contents_of_cells(results, gallery):
+    """Cells share nothing, so that each is drawn by a process of its own."""
+    names = list(results.cells)
+    files = {file_name(name) for name in names}
+    if len(names) < 2 or len(files) < len(names):  # names that differ in odd characters only: one gallery
+        return [cell_contents(results, name, gallery) for name in names]
+    with ProcessPoolExecutor(max_workers=min(len(names), os.cpu_count() or 1)) as pool:
+        return list(pool.map(cell_contents, [results] * len(names), names, [gallery] * len(names)))
 
 
 def cell_contents(results, name, gallery):

@@ -46,6 +46,11 @@ def small_png(figure, box, dpi):
     return buffer.getvalue()
 
 
+def file_name(name):
+    """A name without characters that file systems and links dislike."""
+    return re.sub(r"[^A-Za-z0-9._-]+", "-", name).strip("-.")
+
+
 class Gallery:
     """Saves figures into a folder and keeps them as data URIs for the page."""
 
@@ -62,7 +67,7 @@ class Gallery:
         @param as_image whether the page shows an image of dots; else the SVG itself
         @return Picture
         """
-        name = re.sub(r"[^A-Za-z0-9._-]+", "-", name).strip("-.")
+        name = file_name(name)
         while name in self.names:
             name += "-2"
         self.names.add(name)

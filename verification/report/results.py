@@ -34,6 +34,9 @@ class BadResults(Exception):
         super().__init__("\n".join(faults))
         self.faults = list(faults)
 
+    def __reduce__(self):  # so that the faults survive the way between processes
+        return BadResults, (self.faults,)
+
 
 @dataclass
 class Study:
