@@ -12,10 +12,15 @@ namespace homespun::verification
 /// What the chosen command does, made by the command line.
 using Action = std::function<int()>;
 
+/// What is left to do when MPI has ended, on the first rank: the report, which is drawn by several
+/// processes and needs the cores that idle ranks would keep busy.
+using Afterwards = std::function<void()>;
+
 void add_check_command(CLI::App &app, Action &action);
 void add_homogenize_command(CLI::App &app, Action &action);
-void add_strain_command(CLI::App &app, Action &action, const std::string &command_line);
-void add_report_command(CLI::App &app, Action &action);
+void add_strain_command(CLI::App &app, Action &action, Afterwards &afterwards,
+                        const std::string &command_line);
+void add_report_command(CLI::App &app, Action &action, Afterwards &afterwards);
 void add_cells_command(CLI::App &app, Action &action);
 
 /// Makes report.html from folders of results, with Debian's Python.

@@ -44,9 +44,9 @@ int guarded(const homespun::verification::Action &action, const bool tells)
     return 3;
   }
 }
-} // namespace
-
-int main(int argc, char **argv)
+/// All that happens while MPI runs.
+/// @param afterwards receives what is left to do when it has ended
+int run(int argc, char **argv, homespun::verification::Afterwards &afterwards)
 {
   using namespace homespun::verification;
   dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
@@ -73,8 +73,8 @@ int main(int argc, char **argv)
   Action action;
   add_check_command(app, action);
   add_homogenize_command(app, action);
-  add_strain_command(app, action, command_line);
-  add_report_command(app, action);
+  add_strain_command(app, action, afterwards, command_line);
+  add_report_command(app, action, afterwards);
   add_cells_command(app, action);
   try
   {
@@ -88,4 +88,20 @@ int main(int argc, char **argv)
     return is_fault ? 2 : 0;
   }
   return guarded(action, is_root);
+}
+} // namespace
+
+int main(int argc, char **argv)
+{
+  homespun::verification::Afterwards afterwards;
+  const int status = run(argc, argv, afterwards);
+  if (!afterwards)
+    return status;
+  return guarded(
+    [&]()
+    {
+      afterwards();
+      return status;
+    },
+    true);
 }

@@ -14,10 +14,12 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <cstring>
 #include <filesystem>
 #include <iostream>
 #include <memory>
 
+#include <sched.h>
 #include <spawn.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -68,7 +70,7 @@ void check_arguments(StrainStudyOptions &study)
     throw meshes::BadInput(faults);
 }
 
-int run_strain(StrainArguments arguments)
+int run_strain(StrainArguments arguments, Afterwards &afterwards)
 {
   StrainStudyOptions &study = arguments.study;
   check_arguments(study);
@@ -84,7 +86,8 @@ int run_strain(StrainArguments arguments)
         std::printf("%-12s %s: %.3g (%s)\n", name_of(verdict.outcome).c_str(),
                     verdict.claim.c_str(), verdict.value, verdict.limit.c_str());
     if (!arguments.no_report)
-      make_report({study.output}, study.output, study.quiet);
+      afterwards = [output = study.output, quiet = study.quiet]()
+      { make_report({output}, output, quiet); };
   }
   return any_failed(verdicts) ? 1 : 0;
 }
@@ -106,6 +109,11 @@ void make_report(const std::vector<std::string> &folders, const std::string &out
     arguments.push_back(word.data());
   arguments.push_back(nullptr);
 
+  // mpirun binds a rank to one core, and a child inherits that.
+  cpu_set_t all_cores;
+  std::memset(&all_cores, 0xff, sizeof(all_cores));
+  sched_setaffinity(0, sizeof(all_cores), &all_cores);
+
   pid_t child = 0;
   int status  = 0;
   if (posix_spawn(&child, HOMESPUN_PYTHON, nullptr, nullptr, arguments.data(), environ) != 0 ||
@@ -121,7 +129,8 @@ void make_report(const std::vector<std::string> &folders, const std::string &out
     std::printf("Report: %s/report.html\n", output.c_str());
 }
 
-void add_strain_command(CLI::App &app, Action &action, const std::string &command_line)
+void add_strain_command(CLI::App &app, Action &action, Afterwards &afterwards,
+                        const std::string &command_line)
 {
   CLI::App *command = app.add_subcommand(
     "strain", "Error against strain (Figure 3): up-sampled cloth held against the resolved one");
@@ -170,7 +179,7 @@ void add_strain_command(CLI::App &app, Action &action, const std::string &comman
     "Example:\n  homespun strain mycell.prm --quick\n"
     "  mpirun -n 2 homespun strain mycell.prm --loads strip-2,shear-frame --strains 0.01,0.1");
   command->callback(
-    [&action, arguments, cells, strains]()
+    [&action, &afterwards, arguments, cells, strains]()
     {
       if (arguments->quick)
       {
@@ -180,11 +189,11 @@ void add_strain_command(CLI::App &app, Action &action, const std::string &comman
           arguments->study.strains = {0.001, 0.01, 0.1};
         arguments->study.n_cells_of_error_bar = 2;
       }
-      action = [arguments]() { return run_strain(*arguments); };
+      action = [&afterwards, arguments]() { return run_strain(*arguments, afterwards); };
     });
 }
 
-void add_report_command(CLI::App &app, Action &action)
+void add_report_command(CLI::App &app, Action &action, Afterwards &afterwards)
 {
   CLI::App *command =
     app.add_subcommand("report", "Make report.html and the figures again from stored results");
@@ -200,15 +209,17 @@ void add_report_command(CLI::App &app, Action &action)
                       "Folder of the report (default the first DIR)");
   command->add_flag("--quiet", arguments->quiet, "Print nothing but faults");
   command->callback(
-    [&action, arguments]()
+    [&action, &afterwards, arguments]()
     {
-      action = [arguments]()
+      action = [&afterwards, arguments]()
       {
-        if (dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) != 0)
-          return 0;
-        make_report(arguments->folders,
-                    arguments->output.empty() ? arguments->folders[0] : arguments->output,
-                    arguments->quiet);
+        if (dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0)
+          afterwards = [arguments]()
+          {
+            make_report(arguments->folders,
+                        arguments->output.empty() ? arguments->folders[0] : arguments->output,
+                        arguments->quiet);
+          };
         return 0;
       };
     });
