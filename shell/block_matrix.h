@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: MIT
+// A symmetric sparse matrix of 3 x 3 blocks over the vertices of a cloth. Order and sparsity are laid
+// out once; a step writes values into places that the terms looked up beforehand.
+//
+// Free vertices stand in a fill-reducing order (approximate minimum degree), held ones after them. Only
+// columns of free vertices are kept: their diagonal block, then the blocks below it. Blocks in rows of
+// held vertices carry the pull of moving handles; nothing couples two held vertices.
+#pragma once
+
+#include <Eigen/Core>
+
+#include <array>
+#include <vector>
+
+namespace homespun::shell
+{
+/// One vector per vertex (n,3): positions, velocities, forces.
+using Vectors = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>;
+
+class BlockMatrix
+{
+public:
+  using Block = Eigen::Matrix3d;
+
+  /// @param couplings pairs of different vertices, in any order, repeated or not
+  /// @param is_held (n) vertices that are no unknowns
+  BlockMatrix(const std::vector<std::array<int, 2>> &couplings, const std::vector<bool> &is_held);
+
+  /// Where the block of a pair is stored.
+  struct Place
+  {
+    int block       = -1;    ///< −1: nowhere, both vertices are held
+    bool transposed = false; ///< what is stored is the block (second, first)
+  };
+
+  /// Place of the block (first, second), which may be the same vertex twice.
+  /// @throws std::logic_error where the pair was not among the couplings
+  Place place(int first, int second) const;
+
+  /// Sets all values to zero.
+  void clear();
+
+  /// Adds the block (first, second) at its place; the one across the diagonal is implied. A diagonal
+  /// block must be symmetric.
+  template <typename Values>
+  void add(const Place &where, const Eigen::MatrixBase<Values> &block)
+  {
+    if (where.block < 0)
+      return;
+    Block &stored = blocks[static_cast<std::size_t>(where.block)];
+    if (where.transposed)
+      stored += block.transpose();
+    else
+      stored += block;
+  }
+
+  /// Matrix times vectors, over the free vertices: held rows of x count as zero, those of y are zero.
+  void multiply(const Vectors &x, Vectors &y) const;
+
+  /// y −= (rows of free vertices, columns of held ones) x: what a moving handle pulls.
+  void subtract_held(const Vectors &x, Vectors &y) const;
+
+  /// Diagonal block of a free vertex.
+  const Block &diagonal(int vertex) const
+  {
+    return blocks[static_cast<std::size_t>(first[static_cast<std::size_t>(
+      place_of[static_cast<std::size_t>(vertex)])])];
+  }
+
+  int n_vertices() const
+  {
+    return static_cast<int>(place_of.size());
+  }
+  int n_free() const
+  {
+    return static_cast<int>(first.size()) - 1;
+  }
+  bool is_free(const int vertex) const
+  {
+    return place_of[static_cast<std::size_t>(vertex)] < n_free();
+  }
+  /// Bytes of values and indices.
+  std::size_t bytes() const;
+
+  // The storage, for the solvers. Column c holds blocks first[c] ... first[c + 1] − 1 in ascending rows
+  // from the diagonal on; rows and columns are places.
+  std::vector<int> place_of;  ///< (n) place of a vertex
+  std::vector<int> vertex_at; ///< (n) vertex at a place
+  std::vector<int> first;     ///< (n_free + 1)
+  std::vector<int> row;       ///< place of each block's row
+  std::vector<Block> blocks;  ///< values [N/m]
+};
+} // namespace homespun::shell

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: MIT
+// What a moving cloth is made of. Each physical effect is a term that a scene adds or leaves out: a
+// function of the positions with a gradient and a Hessian. The cloth (cloth.h) sums the terms that are
+// there; of one that is not, nothing is called, allocated or coupled.
+//
+// A time step minimises  Σ m/(2 h²) |x − x_n − h v_n|² + Σ_terms E(x)  (implicit Euler), or takes one
+// Newton step of it from x_n (linearly implicit Euler). What a term freezes over the step (the
+// direction of friction, the wind's relative speed) it freezes in begin_step(), so that E is a function
+// of x alone.
+#pragma once
+
+#include "shell/block_matrix.h"
+#include "shell/corotational_energy.h"
+
+#include <Eigen/Core>
+
+#include <array>
+#include <string>
+#include <vector>
+
+namespace homespun::shell
+{
+
+/// State at the beginning of a step, and how long it is.
+struct StepStart
+{
+  const Vectors &positions;  ///< x_n (n,3) [m]
+  const Vectors &velocities; ///< v_n (n,3) [m/s]
+  double time = 0.;          ///< at the beginning of the step [s]
+  double step = 0.;          ///< h [s]; infinity for an equilibrium
+};
+
+class Term
+{
+public:
+  virtual ~Term() = default;
+
+  /// As a scene file and a report call it.
+  virtual std::string name() const = 0;
+
+  /// Appends the pairs of different vertices that the Hessian couples, in any order, repeated or not.
+  /// Default: none, the Hessian is block diagonal.
+  virtual void couple(std::vector<std::array<int, 2>> & /*pairs*/) const
+  {
+  }
+
+  /// Called once when the matrix is laid out, so that places of blocks are looked up only once.
+  virtual void attach(const BlockMatrix & /*matrix*/)
+  {
+  }
+
+  /// Called before each step.
+  virtual void begin_step(const StepStart & /*start*/)
+  {
+  }
+
+  /// E(x) [J], up to a constant that does not change within a step.
+  virtual double energy(const Vectors &positions) const = 0;
+
+  /// Adds dE/dx [N]; the forces are its negative.
+  virtual void add_gradient(const Vectors &positions, Vectors &gradient) const = 0;
+
+  /// Adds dE/dx and d²E/dx² in one pass. A projected Hessian is positive semi-definite.
+  virtual void add_derivatives(const Vectors &positions, Hessian kind, Vectors &gradient,
+                               BlockMatrix &matrix) const = 0;
+
+  /// Whether E is energy stored in the cloth or a field (gravity), not a dissipation or a load that
+  /// does work: what an energy balance counts.
+  virtual bool stores_energy() const
+  {
+    return true;
+  }
+
+  /// Bytes that the term keeps, for the table of what leaving it out saves.
+  virtual std::size_t bytes() const = 0;
+};
+} // namespace homespun::shell
