@@ -20,6 +20,8 @@
 
 #include <Eigen/Core>
 
+#include <array>
+
 namespace homespun::shell
 {
 /// Derivative of the current position with respect to the rest position, columns f1, f2.
@@ -30,7 +32,10 @@ using DeformationGradient = Eigen::Matrix<double, dim, 2>;
 template <int dim>
 using GradientHessian = Eigen::Matrix<double, 2 * dim, 2 * dim>;
 
-/// Whether a Hessian is exact, or its element contributions are projected to positive semi-definite.
+/// Whether a Hessian is exact, or its element contributions are made positive semi-definite: the
+/// geometric term out of the plane keeps its tension only, and in the plane the stiffness against
+/// turning is raised to the least value that makes the 4 x 4 form positive semi-definite (a Schur
+/// complement, one number). A Hessian that is positive semi-definite is not changed.
 enum class Hessian
 {
   exact,
@@ -57,13 +62,20 @@ template <int dim>
 DeformationGradient<dim> energy_gradient(const DeformationGradient<dim> &F,
                                          const Eigen::Matrix3d &D);
 
-/// Tangent d²W/dF², by default exact. The projected one has its negative eigenvalues set to zero.
+/// Tangent d²W/dF², by default exact.
 /// @param F (dim,2) [-]
 /// @param D (3,3) [N/m]
 /// @return (2 dim, 2 dim) [N/m]
 template <int dim>
 GradientHessian<dim> energy_hessian(const DeformationGradient<dim> &F, const Eigen::Matrix3d &D,
                                     Hessian kind = Hessian::exact);
+
+/// A membrane stiffness [N/m] and its inverse, which the projected Hessian asks for.
+struct MembraneStiffness
+{
+  MembraneStiffness(const Eigen::Matrix3d &D); // NOLINT: a stiffness is a matrix
+  Eigen::Matrix3d D, inverse;
+};
 
 /// What an element keeps of its rest triangle.
 struct RestTriangle
@@ -95,10 +107,27 @@ Eigen::Matrix<double, 3, dim> triangle_gradient(const RestTriangle &rest,
                                                 const Eigen::Matrix<double, 3, dim> &corners,
                                                 const Eigen::Matrix3d &D);
 
+/// Gradient and Hessian of a triangle, for assembly by blocks.
+template <int dim>
+struct TriangleDerivatives
+{
+  Eigen::Matrix<double, 3, dim> gradient; ///< [N]
+  /// Blocks of the corners (0,0) (0,1) (0,2) (1,1) (1,2) (2,2) [N/m].
+  std::array<Eigen::Matrix<double, dim, dim>, 6> blocks;
+};
+
+/// Gradient and Hessian of triangle_energy() in one pass.
+/// @param initial_stress T0 [N/m]: derivatives of area (½ e·D·e + T0·e)
+template <int dim>
+TriangleDerivatives<dim>
+triangle_derivatives(const RestTriangle &rest, const Eigen::Matrix<double, 3, dim> &corners,
+                     const MembraneStiffness &stiffness, Hessian kind = Hessian::exact,
+                     const Eigen::Vector3d &initial_stress = Eigen::Vector3d::Zero());
+
 /// Hessian of triangle_energy(); component i of corner k is unknown k dim + i.
 /// @return (3 dim, 3 dim) [N/m]
 template <int dim>
 Eigen::Matrix<double, 3 * dim, 3 * dim>
 triangle_hessian(const RestTriangle &rest, const Eigen::Matrix<double, 3, dim> &corners,
-                 const Eigen::Matrix3d &D, Hessian kind = Hessian::exact);
+                 const MembraneStiffness &stiffness, Hessian kind = Hessian::exact);
 } // namespace homespun::shell

@@ -53,7 +53,7 @@ Eigen::Matrix<double, 3, dim> corners_of(const Membrane &membrane, const Positio
   return corners;
 }
 
-const Eigen::Matrix3d &stiffness_of(const Membrane &membrane, const int t)
+const MembraneStiffness &stiffness_of(const Membrane &membrane, const int t)
 {
   return membrane.stiffness[static_cast<std::size_t>(membrane.phase[static_cast<std::size_t>(t)])];
 }
@@ -76,7 +76,7 @@ Membrane membrane(const meshes::TriangleMesh &mesh, const std::vector<Eigen::Mat
   Membrane result;
   result.vertices  = mesh.vertices;
   result.triangles = mesh.triangles;
-  result.stiffness = stiffness;
+  result.stiffness.assign(stiffness.begin(), stiffness.end());
   result.rest.resize(static_cast<std::size_t>(mesh.n_triangles()));
   result.phase.assign(mesh.material.data(), mesh.material.data() + mesh.material.size());
   for (int t = 0; t < mesh.n_triangles(); ++t)
@@ -122,7 +122,7 @@ double membrane_energy(const Membrane &membrane, const Positions<dim> &positions
   for (int t = 0; t < static_cast<int>(membrane.triangles.rows()); ++t)
     energy +=
       triangle_energy<dim>(membrane.rest[static_cast<std::size_t>(t)],
-                           corners_of<dim>(membrane, positions, t), stiffness_of(membrane, t));
+                           corners_of<dim>(membrane, positions, t), stiffness_of(membrane, t).D);
   return energy;
 }
 
@@ -138,7 +138,7 @@ MembraneGradient<dim> membrane_gradient(const Membrane &membrane, const Position
   {
     const RestTriangle &rest                     = membrane.rest[static_cast<std::size_t>(t)];
     const auto corners                           = corners_of<dim>(membrane, positions, t);
-    const Eigen::Matrix3d &D                     = stiffness_of(membrane, t);
+    const Eigen::Matrix3d &D                     = stiffness_of(membrane, t).D;
     const Eigen::Matrix<double, 3, dim> gradient = triangle_gradient<dim>(rest, corners, D);
     const Eigen::Vector3d hats                   = rest.shape_gradients.rowwise().norm();
     const Eigen::Vector3d sizes                  = corners.rowwise().norm();

@@ -25,7 +25,7 @@ struct Membrane
   meshes::Triangles triangles;            ///< (m,3)
   std::vector<RestTriangle> rest;         ///< (m)
   std::vector<int> phase;                 ///< (m) index into stiffness
-  std::vector<Eigen::Matrix3d> stiffness; ///< Voigt 11, 22, 12, engineering shear [N/m]
+  std::vector<MembraneStiffness> stiffness; ///< Voigt 11, 22, 12, engineering shear [N/m]
 };
 
 /// Prepares the rest state of a membrane, mesh.material being the phase of each triangle.
