@@ -54,6 +54,13 @@ public:
       stored += block;
   }
 
+  /// Adds a multiple of the identity.
+  void add_multiple(const Place &where, const double value)
+  {
+    if (where.block >= 0)
+      blocks[static_cast<std::size_t>(where.block)].diagonal().array() += value;
+  }
+
   /// Matrix times vectors, over the free vertices: held rows of x count as zero, those of y are zero.
   void multiply(const Vectors &x, Vectors &y) const;
 

@@ -201,10 +201,11 @@ double energy_density(const DeformationGradient<dim> &F, const Eigen::Matrix3d &
 
 template <int dim>
 DeformationGradient<dim> energy_gradient(const DeformationGradient<dim> &F,
-                                         const Eigen::Matrix3d &D)
+                                         const Eigen::Matrix3d &D,
+                                         const Eigen::Vector3d &initial_stress)
 {
   const Polar<dim> polar = polar_of<dim>(F);
-  return polar.R * turned_stress(D * strain_of(polar), turning_of(polar));
+  return polar.R * turned_stress(D * strain_of(polar) + initial_stress, turning_of(polar));
 }
 
 template <int dim>
@@ -313,7 +314,8 @@ triangle_hessian(const RestTriangle &rest, const Eigen::Matrix<double, 3, dim> &
   template Eigen::Vector3d biot_strain<dim>(const DeformationGradient<dim> &);                    \
   template double energy_density<dim>(const DeformationGradient<dim> &, const Eigen::Matrix3d &); \
   template DeformationGradient<dim> energy_gradient<dim>(const DeformationGradient<dim> &,        \
-                                                         const Eigen::Matrix3d &);                \
+                                                         const Eigen::Matrix3d &,                 \
+                                                         const Eigen::Vector3d &);                \
   template GradientHessian<dim> energy_hessian<dim>(const DeformationGradient<dim> &,             \
                                                     const Eigen::Matrix3d &, Hessian);            \
   template DeformationGradient<dim> deformation_gradient<dim>(                                    \

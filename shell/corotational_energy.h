@@ -57,10 +57,12 @@ double energy_density(const DeformationGradient<dim> &F, const Eigen::Matrix3d &
 /// First Piola-Kirchhoff stress P = dW/dF.
 /// @param F (dim,2) [-]
 /// @param D (3,3) [N/m]
+/// @param initial_stress T0 [N/m]: the gradient of W + T0·e
 /// @return (dim,2) [N/m]
 template <int dim>
-DeformationGradient<dim> energy_gradient(const DeformationGradient<dim> &F,
-                                         const Eigen::Matrix3d &D);
+DeformationGradient<dim>
+energy_gradient(const DeformationGradient<dim> &F, const Eigen::Matrix3d &D,
+                const Eigen::Vector3d &initial_stress = Eigen::Vector3d::Zero());
 
 /// Tangent d²W/dF², by default exact.
 /// @param F (dim,2) [-]

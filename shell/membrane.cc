@@ -115,6 +115,14 @@ Membrane membrane(const meshes::TriangleMesh &mesh, const std::vector<Eigen::Mat
   return result;
 }
 
+Membrane membrane(const meshes::ClothMesh &cloth, const std::vector<Eigen::Matrix3d> &stiffness)
+{
+  Membrane result = membrane(cloth.rest, stiffness);
+  result.vertices.resize(0, 2);
+  result.triangles = cloth.triangles;
+  return result;
+}
+
 template <int dim>
 double membrane_energy(const Membrane &membrane, const Positions<dim> &positions)
 {

@@ -4,6 +4,7 @@
 // keep no state, so that a solver adds further terms beside it or leaves this one out.
 #pragma once
 
+#include "meshes/cloth_mesh.h"
 #include "meshes/triangle_mesh.h"
 #include "shell/corotational_energy.h"
 #include "shell/free_vertex_matrix.h"
@@ -21,7 +22,7 @@ using Positions = Eigen::Matrix<double, Eigen::Dynamic, dim, Eigen::RowMajor>;
 /// A membrane at rest.
 struct Membrane
 {
-  meshes::Points vertices;                ///< (n,2) rest positions [m]
+  meshes::Points vertices;                ///< (n,2) rest positions [m]; empty of a sewn cloth
   meshes::Triangles triangles;            ///< (m,3)
   std::vector<RestTriangle> rest;         ///< (m)
   std::vector<int> phase;                 ///< (m) index into stiffness
@@ -33,6 +34,9 @@ struct Membrane
 /// @throws BadInput with all faults: indices, coordinates or stiffness that are not finite, triangles
 ///   without positive area, phases out of range, a stiffness that is not symmetric positive definite
 Membrane membrane(const meshes::TriangleMesh &mesh, const std::vector<Eigen::Matrix3d> &stiffness);
+
+/// The same of a cloth sewn from panels: triangles connect vertices in space, vertices are left empty.
+Membrane membrane(const meshes::ClothMesh &cloth, const std::vector<Eigen::Matrix3d> &stiffness);
 
 /// Total energy, sum of area times W [J].
 /// @param positions (n,dim) [m]

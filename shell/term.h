@@ -64,9 +64,29 @@ public:
   virtual void add_derivatives(const Vectors &positions, Hessian kind, Vectors &gradient,
                                BlockMatrix &matrix) const = 0;
 
-  /// Whether E is energy stored in the cloth or a field (gravity), not a dissipation or a load that
-  /// does work: what an energy balance counts.
-  virtual bool stores_energy() const
+  /// The part of E that the cloth or a field (gravity) stores and gives back [J]: what an energy balance
+  /// counts. Zero of a dissipation and of a load that does work. Default: E itself.
+  virtual double stored_energy(const Vectors &positions) const
+  {
+    return energy(positions);
+  }
+
+  /// Whether the gradient is one: false of forces that have no energy, for which energy() is zero and
+  /// nothing can be minimised.
+  virtual bool has_energy() const
+  {
+    return true;
+  }
+
+  /// Whether the term may bring energy into the cloth beyond what stored_energy() gives back: wind, a
+  /// moving obstacle. Where none does and no handle moves, a step may not raise the energy.
+  virtual bool does_work() const
+  {
+    return false;
+  }
+
+  /// Whether the forces act between the vertices of the cloth alone, without sum and torque.
+  virtual bool is_internal() const
   {
     return true;
   }

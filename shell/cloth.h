@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: MIT
+// A moving cloth: masses, held vertices, and the terms that a scene adds (term.h). What is absent is never
+// called.
+//
+// One step minimises the incremental potential of implicit Euler,
+//   Φ(x) = Σ m/(2 h²) |x − x_n − h v_n|² + Σ_terms E(x),   v_{n+1} = (x_{n+1} − x_n)/h.
+// linearly implicit: one Newton step from x_n with the positive semi-definite Hessian; one assembly, one
+//   factorisation (Baraff & Witkin 1998). Should it raise the energy of a cloth on which nothing does work,
+//   or otherwise Φ, Newton's method goes on with a line search.
+// implicit: Newton's method with line search to a tolerance; the exact Hessian where it is positive
+//   definite, else the projected one.
+// A step that fails is cut in two, up to a number of times, and repeated; a state that is not finite stops
+// the run.
+//
+// Implicit Euler keeps the linear momentum to round-off, the angular momentum only to O(h) over time.
+// Where no vertex is held, a rigid rotation is added to the velocities that restores the balance
+//   L_{n+1} = L_n + h · torque of the external terms at x_{n+1},
+// exactly (as in Dinev et al. 2018): a spinning sheet keeps spinning. Where still the energy of a closed
+// cloth grew, the motion beside the rigid one is slowed until it did not, so that both momenta stay.
+#pragma once
+
+#include "shell/block_cholesky.h"
+#include "shell/conjugate_gradients.h"
+#include "shell/term.h"
+
+#include <Eigen/Core>
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+namespace homespun::shell
+{
+enum class Integrator
+{
+  linearly_implicit,
+  implicit
+};
+
+enum class LinearSolver
+{
+  automatic, ///< direct up to direct_limit free vertices
+  direct,    ///< block Cholesky factorisation
+  iterative  ///< conjugate gradients with incomplete Cholesky, warm start
+};
+
+struct ClothOptions
+{
+  Integrator integrator     = Integrator::linearly_implicit;
+  LinearSolver solver       = LinearSolver::automatic;
+  int direct_limit          = 6000; ///< free vertices; measured, see shell/README.md
+  double newton_tolerance   = 1e-8; ///< |gradient of Φ| over the size of the forces it is made of [-]
+  int max_newton_iterations = 40;
+  double linear_tolerance   = 1e-6; ///< of conjugate gradients, |r| / |right side| [-]
+  int max_linear_iterations = 5000;
+  int max_cuts              = 8; ///< halvings of a step that fails
+};
+
+/// What a step took.
+struct StepReport
+{
+  int newton_iterations = 0; ///< factorisations or preconditioners
+  int linear_iterations = 0; ///< of conjugate gradients
+  int cuts              = 0; ///< halvings of the step
+  int guarded           = 0; ///< linearly implicit steps that went on with a line search
+};
+
+/// What an equilibrium took.
+struct ClothEquilibrium
+{
+  int iterations  = 0;
+  double residual = 0.;                 ///< |gradient| over the free vertices [N]
+  std::vector<double> residual_history; ///< before each iteration and at the end [N]
+};
+
+class Cloth
+{
+public:
+  /// @param positions (n,3) at the beginning, velocities are zero [m]
+  /// @param masses (n) [kg]
+  /// @param held vertices that are moved by prescribe() or stay
+  /// @throws BadInput where sizes do not match, a number is not finite, a mass not positive, a held vertex
+  ///   does not exist
+  Cloth(const Vectors &positions, const Eigen::VectorXd &masses,
+        const std::vector<int> &held_vertices, const ClothOptions &options = {});
+
+  /// Adds a term. The matrix is laid out anew at the next step.
+  void add(std::unique_ptr<Term> term);
+
+  /// Where a held vertex is to be at the end of the next step [m]. Stays so until told otherwise.
+  void prescribe(int vertex, const Eigen::RowVector3d &position);
+
+  /// One time step.
+  /// @param h > 0 [s]
+  /// @throws BadInput for another h; NotConverged where cutting does not help, with the step, the vertex and
+  ///   what to try. The state is then that before the step.
+  StepReport step(double h);
+
+  /// Static equilibrium of the stored energy under the prescribed positions: pseudo-transient continuation
+  /// (implicit Euler steps without memory of the velocity, whose length grows as the residual falls:
+  /// Kelley & Keyes 1998), then Newton's method with the exact Hessian. Velocities become zero.
+  /// @param relative_tolerance of |gradient| over the sum of the absolute forces at the vertices [-]
+  /// @throws NotConverged with the residual history
+  ClothEquilibrium solve_equilibrium(double relative_tolerance = 1e-8, int max_iterations = 400);
+
+  const Vectors &positions() const
+  {
+    return x;
+  }
+  const Vectors &velocities() const
+  {
+    return v;
+  }
+  /// @throws BadInput where not finite or of another size
+  void set_state(const Vectors &positions, const Vectors &velocities, double time);
+
+  double time() const
+  {
+    return now;
+  }
+  double kinetic_energy() const;
+  /// Sum of the terms' stored energies [J].
+  double stored_energy() const;
+  Eigen::RowVector3d momentum() const;
+  /// About the centre of mass [kg m^2/s].
+  Eigen::RowVector3d angular_momentum() const;
+  /// Sum of all terms' gradients (n,3) [N]; the forces are its negative.
+  Vectors gradient() const;
+
+  const std::vector<std::unique_ptr<Term>> &terms() const
+  {
+    return all_terms;
+  }
+  const Eigen::VectorXd &masses() const
+  {
+    return m;
+  }
+  /// Whether the steps are solved by factorisation.
+  bool is_direct() const;
+  /// Bytes of terms, matrix and factors.
+  std::size_t bytes() const;
+
+private:
+  void lay_out();
+  void set_held(Vectors &positions) const;
+  bool is_closed() const;
+  void try_step(double h, bool may_fail, StepReport &report);
+  Vectors linear_step(const Vectors &inertial, double h, StepReport &report);
+  void limit_energy(double before, bool may_fail);
+  Eigen::RowVector3d spin_of(const Eigen::RowVector3d &angular) const;
+  double sum_of_stored_energies(const Vectors &positions) const;
+  double incremental_potential(const Vectors &positions, const Vectors &inertial, double h) const;
+  bool solve_linear(const Vectors &right_side, Vectors &result, StepReport &report);
+  /// Norms over the free vertices: of the gradient, of the forces before they cancel, and of what one
+  /// rounding of the positions changes [N].
+  struct Residual
+  {
+    double norm = 0., size = 0., round_off = 0.;
+  };
+  Residual assemble(const Vectors &positions, const Vectors &inertial, double inverse_square,
+                    Hessian kind);
+  void newton(const Vectors &inertial, double h, Vectors &positions, int max_iterations,
+              bool must_converge, StepReport &report);
+  bool has_energy() const;
+  void restore_angular_momentum(const Eigen::RowVector3d &before, double h);
+  void check_finite(const Vectors &positions, double h) const;
+
+  Vectors x, v, target;
+  const Eigen::VectorXd m;
+  std::vector<bool> is_held;
+  std::vector<int> held;
+  const ClothOptions options;
+  double now  = 0.;
+  long n_step = 0;
+  std::vector<std::unique_ptr<Term>> all_terms;
+  std::unique_ptr<BlockMatrix> matrix;
+  std::unique_ptr<BlockCholesky> cholesky;
+  std::unique_ptr<IncompleteCholesky> preconditioner;
+  std::vector<BlockMatrix::Place> diagonal;
+  mutable std::optional<double> stored; ///< energy of x, where known
+  Vectors work_gradient, work_step;
+};
+} // namespace homespun::shell
