@@ -2,6 +2,7 @@
 #include "homogenization/unit_cell.h"
 
 #include "homogenization/cell_mesh_file.h"
+#include "homogenization/parameter_text.h"
 #include "meshes/errors.h"
 
 #include <deal.II/base/parameter_handler.h>
@@ -21,8 +22,6 @@ namespace homespun::homogenization
 {
 namespace
 {
-using Faults = std::vector<std::string>;
-
 /// The keys of a cell file; every key is said here once.
 struct CellKeys
 {
@@ -57,87 +56,6 @@ struct CellKeys
       "`auto` finds the sides of a parallelogram; or `x1 y1; x2 y2` in mesh units.");
   }
 };
-
-std::string trimmed(const std::string &text)
-{
-  const std::size_t first = text.find_first_not_of(" \t\r"), last = text.find_last_not_of(" \t\r");
-  return first == std::string::npos ? "" : text.substr(first, last - first + 1);
-}
-
-std::vector<std::string> split(const std::string &text, const char separator)
-{
-  std::vector<std::string> parts;
-  std::istringstream input(text);
-  std::string part;
-  while (std::getline(input, part, separator))
-    parts.push_back(trimmed(part));
-  return parts;
-}
-
-std::optional<std::vector<double>> numbers(const std::string &text)
-{
-  std::istringstream input(text);
-  std::string word;
-  std::vector<double> values;
-  while (input >> word)
-  {
-    std::size_t used = 0;
-    try
-    {
-      values.push_back(std::stod(word, &used));
-    }
-    catch (const std::exception &)
-    {
-      return std::nullopt;
-    }
-    if (used != word.size())
-      return std::nullopt;
-  }
-  return values;
-}
-
-/// The key of a line `set KEY = VALUE`, with single blanks; empty where the line is none.
-std::string key_of(const std::string &line)
-{
-  const std::size_t equal = line.find('=');
-  std::istringstream words(line.substr(0, equal));
-  std::string word, key;
-  words >> word;
-  if (word != "set" || equal == std::string::npos)
-    return "";
-  while (words >> word)
-    key += (key.empty() ? "" : " ") + word;
-  return key;
-}
-
-/// deal.II stops at the first unknown key; this finds all, with their lines.
-void find_unknown_keys(const std::string &file, const dealii::ParameterHandler &keys,
-                       Faults &faults)
-{
-  std::stringstream declared;
-  keys.print_parameters(declared, dealii::ParameterHandler::ShortPRM);
-  std::set<std::string> known;
-  std::string line, expected;
-  while (std::getline(declared, line))
-    if (!key_of(line).empty())
-      known.insert(key_of(line));
-  for (const std::string &key : known)
-    expected += (expected.empty() ? "" : ", ") + key;
-
-  std::ifstream input(file);
-  for (int number = 1; std::getline(input, line); ++number)
-  {
-    line = trimmed(line.substr(0, line.find('#')));
-    if (line.empty())
-      continue;
-    const std::string place = file + ":" + std::to_string(number) + ": ";
-    const std::string key   = key_of(line);
-    if (key.empty())
-      faults.push_back(place + "found `" + line + "`; expected `set KEY = VALUE` or a # comment");
-    else if (known.count(key) == 0)
-      faults.push_back(place + "unknown key `" + key + "`; expected one of " + expected);
-  }
-}
 
 /// `group: values, ...` as a map; malformed entries become faults.
 std::map<std::string, std::vector<double>> group_values(const std::string &file,
@@ -327,16 +245,7 @@ UnitCell read_unit_cell(const std::string &prm_file)
   CellKeys keys;
   dealii::ParameterHandler handler;
   keys.declare(handler);
-  find_unknown_keys(prm_file, handler, faults);
-  if (faults.empty())
-    try
-    {
-      handler.parse_input(prm_file, "", true);
-    }
-    catch (const std::exception &exception)
-    {
-      faults.push_back(prm_file + ": cannot be understood: " + reason_of(exception));
-    }
+  parse_parameters(prm_file, handler, faults);
   const auto unit = numbers(keys.length_unit);
   const bool unit_is_sound =
     unit && unit->size() == 1 && (*unit)[0] > 0. && std::isfinite((*unit)[0]);
