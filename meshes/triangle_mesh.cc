@@ -2,9 +2,11 @@
 #include "meshes/triangle_mesh.h"
 
 #include "meshes/errors.h"
+#include "meshes/fault_list.h"
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <map>
 #include <set>
 #include <sstream>
@@ -19,36 +21,6 @@ std::uint64_t key(const int from, const int to)
   return (static_cast<std::uint64_t>(static_cast<std::uint32_t>(from)) << 32) |
          static_cast<std::uint32_t>(to);
 }
-
-/// Keeps the first few messages of a kind and counts the rest.
-class FaultList
-{
-public:
-  explicit FaultList(std::string name)
-      : name(std::move(name))
-  {
-  }
-
-  void add(const std::string &kind, const std::string &message)
-  {
-    const int n = ++count[kind];
-    if (n <= 3)
-      faults.push_back(name + ": " + message);
-  }
-
-  std::vector<std::string> take()
-  {
-    for (const auto &[kind, n] : count)
-      if (n > 3)
-        faults.push_back(name + ": and " + std::to_string(n - 3) + " more " + kind);
-    return std::move(faults);
-  }
-
-private:
-  std::string name;
-  std::map<std::string, int> count;
-  std::vector<std::string> faults;
-};
 
 std::string at(const TriangleMesh &mesh, const int vertex)
 {
