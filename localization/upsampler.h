@@ -10,12 +10,18 @@
 //   stays in the first-level cache, so that the output is all that moves through memory.
 // General path, on any coarse mesh that covers the sheet: vertices grouped by coarse triangle, with
 //   8 numbers and an index per vertex.
+// A garment (meshes::FineCloth) takes the general path: vertices in space are gathered to the rest vertices
+//   of the panels, so that each panel has strains in its own rest frame and averages over its own triangles
+//   only. The modes turn with the grain of the panel, and fade to zero at its seams (not at free edges): there
+//   both sides lie on the same coarse edge, and the seam stays closed.
 // Terms that the options leave out have loops of their own without them.
 #pragma once
 
 #include "localization/coarse_frames.h"
 #include "localization/kernel.h"
 #include "localization/options.h"
+#include "meshes/cloth_mesh.h"
+#include "meshes/fine_cloth.h"
 #include "meshes/homogenized_cell.h"
 #include "meshes/sheet.h"
 
@@ -44,12 +50,22 @@ public:
   Upsampler(const meshes::HomogenizedCell &cell, const meshes::TriangleMesh &coarse_rest,
             const meshes::Sheet &fine, const UpsamplerOptions &options = {});
 
+  /// Places the fine cloth of a garment on its coarse cloth.
+  /// @param coarse panels at rest and how they are sewn; its positions are not used
+  /// @param fine made by meshes::fine_cloth() from that cell and that coarse cloth
+  /// @throws BadInput where the coarse cloth has faults, or the three do not belong together
+  Upsampler(const meshes::HomogenizedCell &cell, const meshes::ClothMesh &coarse,
+            const meshes::FineCloth &fine, const UpsamplerOptions &options = {});
+
   /// Whether the fast path is taken: the coarse mesh is meshes::coarse_sheet() of the sheet's own
   /// lattice, two triangles per cell.
   bool is_aligned() const;
 
   /// Number of fine vertices.
   int n_fine() const;
+
+  /// Number of coarse vertices: of the garment in space, or of the coarse mesh.
+  int n_coarse() const;
 
   /// Fine positions of the current coarse positions. Uses work space of the object: one thread at a
   /// time. Collapsed or inverted coarse triangles give finite positions (coarse_frames.h).
@@ -78,7 +94,17 @@ private:
     int triangle, begin, count;
   };
 
+  /// A fine vertex in a coarse triangle.
+  struct Member
+  {
+    int vertex;
+    Eigen::Vector3d weights;
+  };
+
   void place(const meshes::CharacteristicDisplacements &chi, const meshes::Sheet &fine, int from);
+  template <typename ModesOf>
+  void tabulate(const std::vector<std::vector<Member>> &in_triangle, const ModesOf &modes_of);
+  const Positions<dim> &gathered(const Positions<dim> &coarse_current) const;
   void fill_records(const Positions<dim> &coarse_current) const;
   template <int terms>
   void run(Scalar *fine_current) const;
@@ -87,15 +113,18 @@ private:
 
   CoarseFrames<dim> frames;
   UpsamplerOptions options;
+  std::vector<int> space_of_rest; ///< garment: vertex in space of each rest vertex; else empty
+  int n_space  = 0;               ///< coarse vertices
   bool aligned = false;
-  int n_cells  = 0;                    ///< aligned: cells, each with one block of vertices
-  int n_block  = 0;                    ///< aligned: vertices per block
-  int n_below  = 0;                    ///< aligned: of these, below the diagonal
-  int n_total  = 0;                    ///< fine vertices
-  Table shared;                        ///< aligned: below the diagonal, then above
-  Table own;                           ///< of all vertices that stand in no block
-  std::vector<Group> groups;           ///< of `own`
-  std::vector<int> target;             ///< fine vertex of each row of `own`, −1 for padding
-  mutable std::vector<Scalar> records; ///< of each coarse vertex: position, strain, lift
+  int n_cells  = 0;                        ///< aligned: cells, each with one block of vertices
+  int n_block  = 0;                        ///< aligned: vertices per block
+  int n_below  = 0;                        ///< aligned: of these, below the diagonal
+  int n_total  = 0;                        ///< fine vertices
+  Table shared;                            ///< aligned: below the diagonal, then above
+  Table own;                               ///< of all vertices that stand in no block
+  std::vector<Group> groups;               ///< of `own`
+  std::vector<int> target;                 ///< fine vertex of each row of `own`, −1 for padding
+  mutable Positions<dim> at_rest_vertices; ///< garment: positions by rest vertex
+  mutable std::vector<Scalar> records;     ///< of each coarse vertex: position, strain, lift
 };
 } // namespace homespun::localization

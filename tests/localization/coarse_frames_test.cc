@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "localization/coarse_frames.h"
-#include "localization/point_location.h"
 #include "meshes/errors.h"
+#include "meshes/point_location.h"
 #include "tests/localization/localization_cases.h"
 
 #include <gtest/gtest.h>
@@ -115,7 +115,7 @@ TEST(exact_point_location, every_point_of_a_shaken_mesh_is_found_with_its_coordi
   const meshes::Lattice lattice = tests::skewed_lattice();
   meshes::TriangleMesh mesh     = tests::parallelogram(lattice, 9, 7);
   tests::shake(mesh, lattice, 2e-4);
-  const PointLocation location(mesh);
+  const meshes::PointLocation location(mesh);
   std::mt19937 generator(32);
   std::uniform_real_distribution<double> random(0.01, 0.49);
   for (int t = 0; t < mesh.n_triangles(); ++t)
@@ -125,7 +125,7 @@ TEST(exact_point_location, every_point_of_a_shaken_mesh_is_found_with_its_coordi
     Eigen::RowVector2d point = Eigen::RowVector2d::Zero();
     for (int k = 0; k < 3; ++k)
       point += b(k) * mesh.vertices.row(mesh.triangles(t, k));
-    const Location found = location.locate(point, Eigen::RowVector2d::Zero());
+    const meshes::Location found = location.locate(point, Eigen::RowVector2d::Zero());
     EXPECT_EQ(found.triangle, t);
     EXPECT_LT((found.weights - b).norm(), 1e-12);
   }

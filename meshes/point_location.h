@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Which coarse triangle holds a point of the rest plane: a uniform grid over the triangles' boxes,
-// about one triangle per bucket, so that a query costs a handful of them. Used once, at set-up.
+// Which triangle holds a point of the rest plane: a uniform grid over the triangles' boxes, about one
+// triangle per bucket, so that a query costs a handful of them. Used once, at set-up.
 #pragma once
 
 #include "meshes/triangle_mesh.h"
@@ -9,7 +9,7 @@
 
 #include <vector>
 
-namespace homespun::localization
+namespace homespun::meshes
 {
 /// A point in a triangle.
 struct Location
@@ -22,7 +22,10 @@ class PointLocation
 {
 public:
   /// Sorts the triangles into the grid.
-  explicit PointLocation(const meshes::TriangleMesh &mesh);
+  explicit PointLocation(const TriangleMesh &mesh);
+
+  /// The same with some of the triangles only, such as those of one panel.
+  PointLocation(const TriangleMesh &mesh, const std::vector<int> &some_triangles);
 
   /// The triangle that holds a point. A point counts as inside a triangle where its barycentric
   /// coordinates are above −1e-6, which is what files with eight digits need.
@@ -35,9 +38,9 @@ private:
   Eigen::Vector3d weights(int triangle, const Eigen::RowVector2d &point) const;
   int bucket(double coordinate, int axis) const;
 
-  meshes::TriangleMesh mesh;
+  TriangleMesh mesh;
   Eigen::RowVector2d low, width; ///< lower-left corner of the grid, size of a bucket [m]
   int n_buckets[2] = {1, 1};
   std::vector<int> first, members; ///< triangles of each bucket
 };
-} // namespace homespun::localization
+} // namespace homespun::meshes

@@ -1,22 +1,43 @@
 // SPDX-License-Identifier: MIT
-#include "localization/point_location.h"
+#include "meshes/point_location.h"
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <numeric>
 
-namespace homespun::localization
+namespace homespun::meshes
 {
 namespace
 {
 constexpr double tolerance = 1e-6; // of barycentric coordinates
+
+std::vector<int> all_triangles(const TriangleMesh &mesh)
+{
+  std::vector<int> triangles(static_cast<std::size_t>(mesh.n_triangles()));
+  std::iota(triangles.begin(), triangles.end(), 0);
+  return triangles;
+}
+} // namespace
+
+PointLocation::PointLocation(const TriangleMesh &mesh)
+    : PointLocation(mesh, all_triangles(mesh))
+{
 }
 
-PointLocation::PointLocation(const meshes::TriangleMesh &mesh)
+PointLocation::PointLocation(const TriangleMesh &mesh, const std::vector<int> &some_triangles)
     : mesh(mesh)
 {
-  const int m                   = mesh.n_triangles();
-  low                           = mesh.vertices.colwise().minCoeff();
-  const Eigen::RowVector2d size = mesh.vertices.colwise().maxCoeff() - low;
+  const auto m = static_cast<double>(some_triangles.size());
+  low.setConstant(std::numeric_limits<double>::infinity());
+  Eigen::RowVector2d high = -low;
+  for (const int t : some_triangles)
+    for (int k = 0; k < 3; ++k)
+    {
+      low  = low.cwiseMin(mesh.vertices.row(mesh.triangles(t, k)));
+      high = high.cwiseMax(mesh.vertices.row(mesh.triangles(t, k)));
+    }
+  const Eigen::RowVector2d size = high - low;
   const double side             = std::sqrt(size(0) * size(1) / m);
   for (int axis = 0; axis < 2; ++axis)
   {
@@ -27,7 +48,7 @@ PointLocation::PointLocation(const meshes::TriangleMesh &mesh)
   first.assign(static_cast<std::size_t>(n_buckets[0] * n_buckets[1]) + 1, 0);
   const auto visit = [&](const auto &&action)
   {
-    for (int t = 0; t < m; ++t)
+    for (const int t : some_triangles)
     {
       Eigen::RowVector2d from = mesh.vertices.row(mesh.triangles(t, 0)), to = from;
       for (int k = 1; k < 3; ++k)
@@ -90,4 +111,4 @@ Location PointLocation::locate(const Eigen::RowVector2d &point,
   }
   return best;
 }
-} // namespace homespun::localization
+} // namespace homespun::meshes
