@@ -1,11 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "meshes/cut_mesh.h"
 
-#include "meshes/errors.h"
-
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 
 namespace homespun::meshes
 {
@@ -68,11 +65,7 @@ void CutMesh::copy_triangle(const int triangle, const std::array<int, 3> &corner
 
 void CutMesh::refuse(const Eigen::RowVector2d &x) const
 {
-  std::ostringstream text;
-  text << "fine cloth: the outline of the panel is too intricate near (" << x(0) << ", " << x(1)
-       << ") m from the panel's first lattice point: it cannot be told from the fine mesh within "
-       << tolerance << " m; expected edges much longer than that: move the origin of the cells";
-  throw BadInput(text.str());
+  throw Conflict{x};
 }
 
 int CutMesh::triangle_left_of(const int a, const int b) const

@@ -49,8 +49,15 @@ public:
   /// @param near edges of the outline that may cross the triangle, or come nearer than the tolerance
   void add_triangle(const std::array<int, 3> &corners, int parent, std::vector<int> near);
 
+  /// Thrown where the outline cannot become edges of the mesh: it crosses itself, or has details smaller
+  /// than the tolerance.
+  struct Conflict
+  {
+    Eigen::RowVector2d x; ///< near there [m]
+  };
+
   /// Cuts. The triangles near the outline must be there, conforming, and cover it.
-  /// @throws BadInput where the outline is too intricate for the tolerance
+  /// @throws Conflict
   void cut();
 
   /// Vertices along an edge of the outline in the order of their parts, both ends included.
@@ -74,7 +81,7 @@ public:
 
   /// For every triangle: 1 inside the panel, 0 outside, −1 where its part of the mesh does not touch
   /// the outline.
-  /// @throws BadInput where the outline contradicts itself
+  /// @throws Conflict
   std::vector<int> sides_of_outline() const;
 
   std::vector<Vertex> vertices;

@@ -28,6 +28,17 @@ double cross(const Eigen::RowVector2d &a, const Eigen::RowVector2d &b)
   return a(0) * b(1) - a(1) * b(0);
 }
 
+/// What a conflict of the outline means to whoever drew the panel.
+[[noreturn]] void refuse_outline(const std::size_t panel, const Eigen::RowVector2d &x)
+{
+  std::ostringstream text;
+  text << "fine cloth: the outline of panel " << panel
+       << " is at odds with itself near the rest point (" << x(0) << ", " << x(1)
+       << ") m; expected a panel that does not overlap itself at rest, without details below a "
+          "millionth of a cell: unwrap it without overlaps";
+  throw BadInput(text.str());
+}
+
 std::size_t at(const Eigen::Index index)
 {
   return static_cast<std::size_t>(index);
@@ -279,8 +290,9 @@ void match_seams(std::vector<Panel> &panels, const std::vector<SeamEdge> &seams,
 }
 
 /// The triangles of a panel that stay, and what was lost.
-std::vector<Kept> kept_triangles(const Panel &panel, const double cell_area,
-                                 const PointLocation &location, FineCloth &fine)
+std::vector<Kept> kept_triangles(const Panel &panel, const std::size_t index,
+                                 const double cell_area, const PointLocation &location,
+                                 FineCloth &fine)
 {
   const TriangleMesh &sheet = panel.sheet.mesh;
   const CutMesh &cut        = *panel.cut;
@@ -288,7 +300,15 @@ std::vector<Kept> kept_triangles(const Panel &panel, const double cell_area,
   for (const int t : panel.whole)
     kept.push_back({{sheet.triangles(t, 0), sheet.triangles(t, 1), sheet.triangles(t, 2)}, t});
 
-  std::vector<int> sides = cut.sides_of_outline();
+  std::vector<int> sides;
+  try
+  {
+    sides = cut.sides_of_outline();
+  }
+  catch (const CutMesh::Conflict &conflict)
+  {
+    refuse_outline(index, conflict.x + panel.base);
+  }
   struct Fate
   {
     int n_inside = 0, n_outside = 0;
@@ -656,7 +676,14 @@ FineCloth fine_cloth(const TriangleMesh &cell_mesh, const Lattice &lattice, cons
     for (const int t : panel.triangles)
       panel.area += areas(t);
     locations.emplace_back(local, panel.triangles);
-    clip(panel, lattice, cloth, grain_of(p), locations.back());
+    try
+    {
+      clip(panel, lattice, cloth, grain_of(p), locations.back());
+    }
+    catch (const CutMesh::Conflict &conflict)
+    {
+      refuse_outline(p, conflict.x + panel.base);
+    }
     for (std::size_t e = 0; e < panel.outline.size(); ++e)
       edge_of_side[{panel.outline[e].triangle, panel.outline[e].side}] = static_cast<int>(e);
   }
@@ -680,7 +707,7 @@ FineCloth fine_cloth(const TriangleMesh &cell_mesh, const Lattice &lattice, cons
           segments.push_back({cloth.rest.vertices.row(ends[0]) - panel.base,
                               cloth.rest.vertices.row(ends[1]) - panel.base});
         }
-    const std::vector<Kept> kept = kept_triangles(panel, cell_area, locations[p], fine);
+    const std::vector<Kept> kept = kept_triangles(panel, p, cell_area, locations[p], fine);
     const std::size_t before     = collected.triangles.size();
     // Points on a coarse edge belong to the triangle at their upper right, as in the Upsampler.
     const Eigen::RowVector2d towards = 1e-5 * Eigen::RowVector2d(2. / 3., 1. / 3.) *
