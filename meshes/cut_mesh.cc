@@ -14,10 +14,6 @@ std::uint64_t key(const int a, const int b)
          static_cast<std::uint32_t>(b);
 }
 
-double cross(const Eigen::RowVector2d &a, const Eigen::RowVector2d &b)
-{
-  return a(0) * b(1) - a(1) * b(0);
-}
 } // namespace
 
 CutMesh::CutMesh(std::vector<Eigen::RowVector2d> points, std::vector<std::array<int, 2>> edges,

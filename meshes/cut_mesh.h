@@ -16,6 +16,12 @@
 
 namespace homespun::meshes
 {
+/// a1 b2 − a2 b1: twice the area of the triangle between a and b.
+inline double cross(const Eigen::RowVector2d &a, const Eigen::RowVector2d &b)
+{
+  return a(0) * b(1) - a(1) * b(0);
+}
+
 class CutMesh
 {
 public:
