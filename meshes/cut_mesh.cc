@@ -70,6 +70,14 @@ int CutMesh::triangle_left_of(const int a, const int b) const
   return found == left.end() ? -1 : found->second;
 }
 
+double CutMesh::area(const int triangle) const
+{
+  const auto [a, b, c]         = triangles[static_cast<std::size_t>(triangle)].corners;
+  const Eigen::RowVector2d &x0 = vertices[static_cast<std::size_t>(a)].x;
+  return 0.5 * cross(vertices[static_cast<std::size_t>(b)].x - x0,
+                     vertices[static_cast<std::size_t>(c)].x - x0);
+}
+
 bool CutMesh::lies_on(const int vertex, const int edge) const
 {
   for (const Place &place : vertices[static_cast<std::size_t>(vertex)].outline)

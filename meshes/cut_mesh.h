@@ -85,6 +85,9 @@ public:
   /// The triangle on the left of the mesh edge from a to b, −1: none.
   int triangle_left_of(int a, int b) const;
 
+  /// Signed area of a triangle [m^2].
+  double area(int triangle) const;
+
   /// For every triangle: 1 inside the panel, 0 outside, −1 where its part of the mesh does not touch
   /// the outline.
   /// @throws Conflict

@@ -105,7 +105,9 @@ void cover(FinePanel &panel, const TriangleMesh &cell_mesh, const Lattice &latti
 
 /// Sorts the triangles of the sheet: away from the outline inside or outside, or near it; and cuts the last.
 /// @param tolerance of the outline [m]
-void clip(FinePanel &panel, const Lattice &lattice, const ClothMesh &cloth, const double tolerance)
+/// @return how many pieces are slivers
+/// @throws CutMesh::Conflict
+int clip(FinePanel &panel, const Lattice &lattice, const ClothMesh &cloth, const double tolerance)
 {
   const Eigen::Matrix2d rotation = panel.grain.rotation();
   std::map<int, int> point_of; // rest vertex on the outline
@@ -194,9 +196,43 @@ void clip(FinePanel &panel, const Lattice &lattice, const ClothMesh &cloth, cons
     }
   }
   panel.cut->cut();
-  panel.cut->sides_of_outline(); // throws where they contradict each other
+  const std::vector<int> sides = panel.cut->sides_of_outline();
+  int n_slivers                = 0;
+  for (std::size_t t = 0; t < sides.size(); ++t)
+    n_slivers +=
+      sides[t] == 1 && panel.cut->area(static_cast<int>(t)) < sliver * lattice.area() ? 1 : 0;
+  return n_slivers;
 }
 
+/// Cuts with a tolerance that suits the panel. Where vertices lie about as far from the outline as the
+/// tolerance, slivers arise, and rounding may not tell the order of crossings; with another tolerance
+/// they lie clearly on it or off it.
+void settle(FinePanel &panel, const Lattice &lattice, const ClothMesh &cloth)
+{
+  const double unit = outline_tolerance * std::sqrt(lattice.area());
+  int fewest        = std::numeric_limits<int>::max();
+  double best       = 0.;
+  Eigen::RowVector2d conflict_at;
+  for (const double factor : {1., 4., 0.25, 16.})
+    try
+    {
+      const int n_slivers = clip(panel, lattice, cloth, factor * unit);
+      if (n_slivers == 0)
+        return;
+      if (n_slivers < fewest)
+      {
+        fewest = n_slivers;
+        best   = factor;
+      }
+    }
+    catch (const CutMesh::Conflict &conflict)
+    {
+      conflict_at = conflict.x;
+    }
+  if (best == 0.)
+    refuse_outline(panel, conflict_at);
+  clip(panel, lattice, cloth, best * unit);
+}
 } // namespace
 
 int FinePanel::cut_vertex_of(const int corner) const
@@ -222,21 +258,7 @@ std::vector<FinePanel> fine_panels(const TriangleMesh &cell_mesh, const Lattice 
     const Eigen::VectorXd areas = signed_areas(local);
     for (const int t : panel.triangles)
       panel.area += areas(t);
-    // Where vertices lie about as far from the outline as the tolerance, rounding may not tell the order of
-    // crossings; with another tolerance they lie clearly on it or off it.
-    const std::array<double, 4> tolerances = {1., 4., 0.25, 16.}; // in outline_tolerance
-    for (std::size_t attempt = 0; attempt < tolerances.size(); ++attempt)
-      try
-      {
-        clip(panel, lattice, cloth,
-             tolerances[attempt] * outline_tolerance * std::sqrt(lattice.area()));
-        break;
-      }
-      catch (const CutMesh::Conflict &conflict)
-      {
-        if (attempt + 1 == tolerances.size())
-          refuse_outline(panel, conflict.x);
-      }
+    settle(panel, lattice, cloth);
   }
   return panels;
 }
@@ -305,9 +327,7 @@ KeptTriangles kept_triangles(const FinePanel &panel, const Outline outline, cons
     if (sides[t] != 1)
       continue;
     const auto [a, b, c] = cut.triangles[t].corners;
-    const double area    = 0.5 * cross(cut.vertices[at(b)].x - cut.vertices[at(a)].x,
-                                       cut.vertices[at(c)].x - cut.vertices[at(a)].x);
-    if (area < sliver * cell_area)
+    if (cut.area(static_cast<int>(t)) < sliver * cell_area)
       ++result.n_slivers;
     else
       kept.push_back({{corner_of(a), corner_of(b), corner_of(c)}, cut.triangles[t].parent});

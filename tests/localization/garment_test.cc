@@ -101,10 +101,8 @@ TEST(exact_garment, without_modes_an_affine_motion_is_reproduced_at_every_fine_v
   for (int v = 0; v < garment.fine.n_vertices(); ++v)
   {
     // From the rest frame of the panel back to where the panels fit together.
-    Eigen::RowVector2d flat = garment.fine.rest.vertices.row(v);
-    if (garment.fine.panel(v) == 1)
-      flat = (flat - Eigen::RowVector2d(0.3, -0.2)) * tests::turn(tests::TwoPanels::angle) +
-             Eigen::RowVector2d(0.1, 0.);
+    const Eigen::RowVector2d flat =
+      tests::TwoPanels::flat_of(garment.fine.panel(v), garment.fine.rest.vertices.row(v));
     EXPECT_LT((fine.row(v) - tests::affine_motion<3>(flat, F)).norm(), 1e-15);
   }
 }
@@ -131,9 +129,8 @@ TEST(exact_garment, under_a_uniform_strain_each_panel_follows_the_closed_form_in
         panel == 0 ? Eigen::Matrix2d::Identity().eval() : tests::turn(tests::TwoPanels::angle);
       const Eigen::Matrix2d cell_turn =
         garment.fine.grains[static_cast<std::size_t>(panel)].rotation();
-      Eigen::RowVector2d flat = garment.fine.rest.vertices.row(v);
-      if (panel == 1)
-        flat = (flat - Eigen::RowVector2d(0.3, -0.2)) * panel_turn + Eigen::RowVector2d(0.1, 0.);
+      const Eigen::RowVector2d flat =
+        tests::TwoPanels::flat_of(panel, garment.fine.rest.vertices.row(v));
       const Eigen::Matrix<double, 3, 2> F_cell = F * panel_turn.transpose() * cell_turn;
       const Frame<3> frame                     = tests::frame_by_svd<3>(F_cell);
       const Eigen::Matrix<double, 3, 2> L      = lift == Lift::rotation ? frame.lift : F_cell;

@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include <limits>
+#include <random>
 #include <string>
 
 using namespace homespun;
@@ -145,6 +146,30 @@ TEST(exact_fine_cloth,
   const FineCloth fine = fine_cloth(cell, lattice, cloth);
   EXPECT_EQ(fine.rest.n_triangles(), 12 * cell.n_triangles());
   EXPECT_LT(missing_area(fine, cloth), 1e-14);
+}
+
+TEST(exact_fine_cloth, outlines_at_any_small_distance_from_the_lattice_lines_are_covered)
+{
+  // Distances of 1e-4 to 1e-12 of a cell: some vertices move onto the outline, some do not.
+  std::mt19937 generator(7);
+  std::uniform_real_distribution<double> random(0., 1.);
+  for (int k = 0; k < 300; ++k)
+  {
+    const Lattice lattice   = k % 2 == 0 ? tests::square_lattice(0.01) : tests::skewed_lattice();
+    const TriangleMesh cell = shaken_cell(lattice, 1 + k % 6, 1 + k / 6 % 6);
+    TriangleMesh coarse     = coarse_sheet({0., 0.}, lattice.vectors / (1 + k % 3), 5, 4);
+    const double distance   = 0.01 * std::pow(10., -4. - 8. * random(generator));
+    for (int v = 0; v < coarse.n_vertices(); ++v)
+      coarse.vertices.row(v) +=
+        distance * Eigen::RowVector2d(random(generator) - 0.5, random(generator) - 0.5);
+    const ClothMesh cloth =
+      placed_sheet(coarse, Eigen::Matrix<double, 3, 2>::Identity(), {0., 0., 0.});
+    const FineCloth fine = fine_cloth(cell, lattice, cloth);
+    EXPECT_LT(missing_area(fine, cloth), 1e-14);
+    EXPECT_GT(signed_areas(fine.rest).minCoeff(), 1e-12 * lattice.area());
+    EXPECT_EQ(tests::topology_of(fine.rest.triangles).euler, 1);
+    EXPECT_EQ(fine.n_slivers, 0);
+  }
 }
 
 TEST(exact_fine_cloth, panels_smaller_than_a_fine_triangle_are_covered)

@@ -36,6 +36,15 @@ struct TwoPanels
            Eigen::RowVector2d(0.3, -0.2);
   }
 
+  /// The flat point of rest coordinates.
+  static Eigen::RowVector2d flat_of(const int panel, const Eigen::RowVector2d &rest)
+  {
+    if (panel == 0)
+      return rest;
+    const double x = rest(0) - 0.3, y = rest(1) + 0.2, c = std::cos(angle), s = std::sin(angle);
+    return {c * x + s * y + 0.1, c * y - s * x};
+  }
+
   TwoPanels()
   {
     constexpr int columns = 10, rows = 5, seam = 6;
