@@ -244,6 +244,31 @@ TEST(invariant_garment, seams_stay_closed_to_round_off_whatever_the_motion)
   }
 }
 
+TEST(invariant_garment, one_panel_sewn_to_itself_is_a_closed_tube)
+{
+  // 13 columns that do not fit the cells; the first and the last column of vertices are one in space.
+  constexpr int columns = 13, rows = 4;
+  const meshes::TriangleMesh flat = meshes::coarse_sheet(
+    {0.001, 0.002}, Eigen::Vector2d(0.0091, 0.0087).asDiagonal(), columns, rows);
+  meshes::ClothMesh tube;
+  tube.rest = flat;
+  tube.positions.resize(columns * (rows + 1), 3);
+  for (int j = 0; j <= rows; ++j)
+    for (int i = 0; i < columns; ++i)
+    {
+      const double angle = 2. * M_PI * i / columns;
+      tube.positions.row(j * columns + i) << 0.019 * std::cos(angle), 0.019 * std::sin(angle),
+        0.0087 * j;
+    }
+  tube.triangles = flat.triangles.unaryExpr(
+    [](const int v) { return v / (columns + 1) * columns + v % (columns + 1) % columns; });
+  const Garment garment(tube);
+  EXPECT_EQ(meshes::seam_edges(tube).size(), 4u);
+  EXPECT_EQ(tests::topology_of(garment.fine.rest.triangles).euler, 1);
+  EXPECT_EQ(tests::topology_of(garment.fine.sewn_triangles()).euler, 0);
+  EXPECT_LT(garment.seam_gap(garment.upsampled(random_motion(tube, 8))), 1e-16);
+}
+
 TEST(tripwire_garment, without_the_fade_the_seams_gape)
 {
   const Garment garment = skirt();
