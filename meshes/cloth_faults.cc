@@ -106,7 +106,7 @@ void add_edge_faults(FaultList &faults, const SpacePoints &positions, const Tria
     {
       std::string list;
       for (const auto &owner : owners)
-        list += (list.empty() ? "" : ", ") + std::to_string(owner.first);
+        list.append(list.empty() ? "" : ", ").append(std::to_string(owner.first));
       faults.add("edges with more than two triangles",
                  place + " belongs to " + std::to_string(owners.size()) + " triangles (" + list +
                    "); expected one or two: separate the layers that meet there");

@@ -160,8 +160,9 @@ int clip(FinePanel &panel, const Lattice &lattice, const ClothMesh &cloth, const
   for (int cell = 0; cell < n1 * n2; ++cell)
   {
     const std::vector<int> &candidates = edges_of_cell[at(cell)];
+    const int i = cell % n1, j = cell / n1;
     const Eigen::RowVector2d middle =
-      Eigen::RowVector2d(cell % n1 + 0.5, cell / n1 + 0.5) * lattice.vectors * rotation.transpose();
+      Eigen::RowVector2d(i + 0.5, j + 0.5) * lattice.vectors * rotation.transpose();
     if (candidates.empty() && !holds(middle))
       continue;
     for (int t = cell * n_per_cell; t < (cell + 1) * n_per_cell; ++t)
