@@ -20,13 +20,13 @@
 // Only sides of the rest triangles enter, each pair unfolded about its edge: panels sewn together may
 // lie anywhere and turned in the rest plane; directions 1 and 2 are those of each triangle's own panel.
 //
-// Limits. The energy of a constant curvature is exact on any mesh, but in equilibrium an irregular one is
-// somewhat too soft: 1 to 3 % where vertices are displaced by a quarter of the mesh width, below 0.5 %
-// for a tenth. Along free edges the energy of a shape that the cloth would not take by itself misses a
-// strip of half a cell. Six points on a conic determine no quadric: singular values of G are kept
-// above a fifth. The model knows isometric bending: a stretch that varies from triangle to triangle
-// costs bending energy too, little beside its membrane energy. The resistance of a hinge grows with
-// sin(theta): it is largest at 90° and vanishes in a complete fold.
+// Limits. The energy of a constant curvature is exact on any mesh, but in equilibrium an irregular
+// one is somewhat too soft: 1 to 3 % where vertices are displaced by a quarter of the mesh width,
+// below 0.5 % for a tenth. Along free edges the energy of a shape that the cloth would not take by
+// itself misses a strip of half a cell. Six points on a conic determine no quadric: singular values
+// of G are kept above a fifth. The model knows isometric bending: a stretch that varies from
+// triangle to triangle costs bending energy too, little beside its membrane energy. The resistance
+// of a hinge grows with sin(theta): it is largest at 90° and vanishes in a complete fold.
 #pragma once
 
 #include "meshes/cloth_mesh.h"
@@ -61,15 +61,17 @@ struct PlateStiffness
 std::unique_ptr<Term> bending_term(const meshes::ClothMesh &mesh,
                                    const std::vector<PlateStiffness> &stiffness);
 
-/// What turns the flat rest shape of bending_term() into a curved one; to be used beside it with the same
-/// stiffness. Per hinge it adds −(stiffness) tan(theta0) sin(theta), sin(theta) from the volume of
-/// its four vertices, a cubic of the positions (Garg et al., "Cubic shells", SCA 2007). With the
-/// quadratic energy, (stiffness) (1 − cos(theta)), this is one of −cos(theta − theta0): the hinge rests
-/// at theta0 against isometric motions; forces in the plane, small beside membrane forces, remain.
-/// Where hinges are coupled the rest shape is met to the second order of their angles.
+/// What turns the flat rest shape of bending_term() into a curved one; to be used beside it with
+/// the same stiffness. Per hinge it adds −(stiffness) tan(theta0) sin(theta), sin(theta) from the
+/// volume of its four vertices, a cubic of the positions (Garg et al., "Cubic shells", SCA 2007).
+/// With the quadratic energy, (stiffness) (1 − cos(theta)), this is one of −cos(theta − theta0):
+/// the hinge rests at theta0 against isometric motions; forces in the plane, small beside membrane
+/// forces, remain. Where hinges are coupled the rest shape is met to the second order of their
+/// angles.
 /// @param curved_rest_positions (n,3) where the cloth is without moments; its triangles should have
 ///   the shapes of those at rest [m]
-/// @throws BadInput as bending_term(), for positions that are not finite, and for hinges that are bent by more than 80°
+/// @throws BadInput as bending_term(), for positions that are not finite, and for hinges that are
+///   bent by more than 80°
 std::unique_ptr<Term> curved_rest_term(const meshes::ClothMesh &mesh,
                                        const std::vector<PlateStiffness> &stiffness,
                                        const Vectors &curved_rest_positions);

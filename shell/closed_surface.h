@@ -39,8 +39,8 @@ public:
   /// @param vertices (n,3) [m]
   /// @param triangles (m,3) counter-clockwise seen from outside
   /// @param name put before each message, usually the file
-  /// @throws BadInput with all faults: coordinates, indices, triangles without area, edges that do not have
-  ///   exactly two triangles traversing them in opposite ways, normals that point inwards
+  /// @throws BadInput with all faults: coordinates, indices, triangles without area, edges that do
+  ///   not have two triangles traversing them in opposite ways, normals that point inwards
   ClosedSurface(const meshes::SpacePoints &vertices, const meshes::Triangles &triangles,
                 const std::string &name);
 

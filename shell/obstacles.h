@@ -9,24 +9,27 @@
 //    nearest point; where it then slides into another face, that of the face too;
 //  - x_n + h v_n would go through the surface or end within the thickness: that of the point of entry
 //    or of the nearest point. A body thinner than the way of one step stops a vertex all the same;
-//  - only with h² g it would, and v_n does not lead away: the same half-space, but with a spring of m/h²
-//    that just catches the vertex in free fall. A cloth that hangs beside the body feels at most some m g.
-// These act in both directions for this step, so that a vertex on its way lands on them; a vertex that
-// would leave is let go, and one that something pulls away is pulled back for one step at most. Other
-// vertices nearby have a one-sided half-space, for solvers that iterate, as all have in an equilibrium.
+//  - only with h² g it would, and v_n does not lead away: the same half-space, but with a spring of
+//    m/h² that just catches the vertex in free fall. A cloth that hangs beside the body feels at
+//    most some m g.
+// These act in both directions for this step, so that a vertex on its way lands on them; a vertex
+// that would leave is let go, and one that something pulls away is pulled back for one step at
+// most. Other vertices nearby have a one-sided half-space, for solvers that iterate, as all have in
+// an equilibrium.
 //
-// Friction is lagged: normal force and tangent plane are those at x_n. With slip speed s its force is
-// mu λ f(s), f(s) = s/e (2 − s/e) below a small speed e and 1 above (Li et al., "Incremental potential
-// contact", SIGGRAPH 2020, Eq. 14), in secant form with f(s)/s frozen: ½ c |tangential way|², positive
-// semi-definite, never reverses a motion. A vertex that sticks creeps by less than e. One that slides
-// changes its speed by s/(s + mu λ h/m) of what it should, the whole once it is faster than gravity makes
-// it in a step.
+// Friction is lagged: normal force and tangent plane are those at x_n. With slip speed s its force
+// is mu λ f(s), f(s) = s/e (2 − s/e) below a small speed e and 1 above (Li et al., "Incremental
+// potential contact", SIGGRAPH 2020), in secant form with f(s)/s frozen: ½ c |tangential
+// way|², positive semi-definite, never reverses a motion. A vertex that sticks creeps by less than
+// e. One that slides changes its speed by s/(s + mu λ h/m) of what it should, the whole once it is
+// faster than gravity makes it in a step.
 //
-// Limits. Vertices only: a corner of a body can poke through a triangle. A vertex that turns round within
-// one step, at the top of a bounce lower than h² g, dips into the body by up to h² g for one step. What other forces than gravity
-// push into a body within a step is seen one step late. A vertex on its way to the body lands on it
-// even if something would have stopped it within the step. A load of N vertex masses upon one vertex
-// rests N g h²/1000 deep with the default stiffness. Not an energy that is conserved: half-spaces change.
+// Limits. Vertices only: a corner of a body can poke through a triangle. A vertex that turns round
+// within one step, at the top of a bounce lower than h² g, dips into the body by up to h² g for one
+// step. What other forces than gravity push into a body within a step is seen one step late. A
+// vertex on its way to the body lands on it even if something would have stopped it within the
+// step. A load of N vertex masses upon one vertex rests N g h²/1000 deep with the default
+// stiffness. Not an energy that is conserved: half-spaces change.
 #pragma once
 
 #include "shell/closed_surface.h"
@@ -88,7 +91,8 @@ struct ContactParameters
 
 /// The contact of all vertices with one body.
 /// @param masses (n) per vertex [kg], positive
-/// @throws BadInput with all faults of the parameters; begin_step() throws it where a stiffness is needed
+/// @throws BadInput with all faults of the parameters; begin_step() throws it where a stiffness is
+///   needed
 std::unique_ptr<Term> obstacle_term(const Obstacle &obstacle, const Eigen::VectorXd &masses,
                                     const ContactParameters &parameters);
 } // namespace homespun::shell

@@ -3,11 +3,11 @@
 //
 // Drag, per corner of a triangle with a third of its area A, from the velocity u relative to the air:
 //   F = −½ rho A/3 (Cn |u_n| u_n + Ct |u_t| u_t),   u_n = (n·u) n,  u_t = u − u_n.
-// The first part is the pressure on a plate, quadratic in the normal speed (Newton's sine-square law);
-// across the wind it is the lift of an inclined triangle. The second is friction along it.
-// begin_step() freezes the speeds |u|, normals and areas at x_n; the rest is linear in the velocity at
-// the end of the step: E = ½ h (u·B u) with B >= 0 and block diagonal, so that no wind and no step can make it
-// unstable, and a steady state, where speeds no longer change, has the full quadratic drag.
+// The first part is the pressure on a plate, quadratic in the normal speed (Newton's sine-square
+// law); across the wind it is the lift of an inclined triangle. The second is friction along it.
+// begin_step() freezes the speeds |u|, normals and areas at x_n; the rest is linear in the velocity at the end
+// of the step: E = ½ h (u·B u) with B >= 0 and block diagonal, so that no wind and no step can make
+// it unstable, and a steady state, where speeds no longer change, has the full quadratic drag.
 //
 // A triangle collapsed to a line or a point has no normal and feels nothing. Neither term is an energy
 // of the cloth.
