@@ -71,23 +71,33 @@ ReferenceElement reference_element(const FiniteElement<2> &element, const Quadra
 } // namespace
 
 Discretization::Discretization(const meshes::TriangleMesh &mesh, const unsigned int order,
-                               const MPI_Comm communicator)
+                               const MPI_Comm communicator, const unsigned int n_components)
     : mesh(mesh)
     , order(order)
+    , n_components(n_components)
     , communicator(communicator)
     , triangulation(make_triangulation(mesh, communicator))
-    , element(FE_SimplexP<2>(order), 2)
+    , element(FE_SimplexP<2>(order), n_components)
     , dof_handler(*triangulation)
 {
   dof_handler.distribute_dofs(element);
   locally_owned = dof_handler.locally_owned_dofs();
   DoFTools::extract_locally_relevant_dofs(dof_handler, locally_relevant);
 
-  // The assembly counts on node-wise numbering inside an element: DoF 2 i + c is component c of
-  // shape i.
+  // The assembly counts on node-wise numbering inside an element, DoF n_components i + c being
+  // component c of shape i, and in the whole: the components of a node follow one another.
   for (unsigned int i = 0; i < element.n_dofs_per_cell(); ++i)
-    AssertThrow(element.system_to_component_index(i) == std::make_pair(i % 2, i / 2),
+    AssertThrow(element.system_to_component_index(i) ==
+                  std::make_pair(i % n_components, i / n_components),
                 ExcInternalError());
+  std::vector<types::global_dof_index> dofs(element.n_dofs_per_cell());
+  for (const auto &cell : dof_handler.active_cell_iterators())
+    if (!cell->is_artificial())
+    {
+      cell->get_dof_indices(dofs);
+      for (unsigned int i = 0; i < dofs.size(); ++i)
+        AssertThrow(dofs[i] == dofs[i - i % n_components] + i % n_components, ExcInternalError());
+    }
   const FE_SimplexP<2> scalar(order);
   const Quadrature<2> three_points({{1. / 6., 1. / 6.}, {2. / 3., 1. / 6.}, {1. / 6., 2. / 3.}},
                                    {1. / 6., 1. / 6., 1. / 6.});
@@ -102,10 +112,20 @@ unsigned int Discretization::triangle_of(const DoFHandler<2>::active_cell_iterat
   return static_cast<unsigned int>(cell->id().get_coarse_cell_id());
 }
 
+Eigen::RowVector2d Discretization::point_of(const DoFHandler<2>::active_cell_iterator &cell,
+                                            const unsigned int shape) const
+{
+  const auto triangle            = mesh.triangles.row(triangle_of(cell));
+  const Eigen::RowVector2d point = mesh.vertices.row(triangle(shape % 3));
+  if (shape < 3)
+    return point;
+  return 0.5 * (point + mesh.vertices.row(triangle((shape + 1) % 3))); // of edge (k, k + 1)
+}
+
 std::vector<Node> Discretization::owned_nodes() const
 {
   std::vector<Node> nodes;
-  nodes.reserve(locally_owned.n_elements() / 2);
+  nodes.reserve(locally_owned.n_elements() / n_components);
   std::vector<char> is_listed(locally_owned.n_elements(), 0);
   std::vector<types::global_dof_index> dofs(element.n_dofs_per_cell());
   for (const auto &cell : dof_handler.active_cell_iterators())
@@ -113,17 +133,13 @@ std::vector<Node> Discretization::owned_nodes() const
     if (!cell->is_locally_owned())
       continue;
     cell->get_dof_indices(dofs);
-    const auto triangle = mesh.triangles.row(triangle_of(cell));
-    for (unsigned int shape = 0; shape < dofs.size() / 2; ++shape)
+    for (unsigned int shape = 0; shape < dofs.size() / n_components; ++shape)
     {
-      const types::global_dof_index dof = dofs[2 * shape];
+      const types::global_dof_index dof = dofs[n_components * shape];
       if (!locally_owned.is_element(dof) || is_listed[locally_owned.index_within_set(dof)])
         continue;
       is_listed[locally_owned.index_within_set(dof)] = 1;
-      Eigen::RowVector2d point                       = mesh.vertices.row(triangle(shape % 3));
-      if (shape >= 3) // the midpoint of edge (k, k + 1)
-        point = 0.5 * (point + mesh.vertices.row(triangle((shape + 1) % 3)));
-      nodes.push_back({dof, dofs[2 * shape + 1], point});
+      nodes.push_back({dof, dof + 1, point_of(cell, shape)});
     }
   }
   return nodes;
@@ -136,33 +152,32 @@ std::vector<Node> Discretization::boundary_nodes() const
   std::vector<types::global_dof_index> dofs(element.n_dofs_per_cell());
   const auto emit = [&](const unsigned int shape, const Eigen::RowVector2d &point)
   {
-    if (locally_owned.is_element(dofs[2 * shape]))
-      mine.insert(mine.end(), {static_cast<double>(dofs[2 * shape]),
-                               static_cast<double>(dofs[2 * shape + 1]), point(0), point(1)});
+    const types::global_dof_index dof = dofs[n_components * shape];
+    if (locally_owned.is_element(dof))
+      mine.insert(mine.end(), {static_cast<double>(dof), point(0), point(1)});
   };
   for (const auto &cell : dof_handler.active_cell_iterators())
     if (!cell->is_artificial() && cell->at_boundary())
     {
       cell->get_dof_indices(dofs);
-      const auto triangle = mesh.triangles.row(triangle_of(cell));
       for (const unsigned int face : cell->face_indices())
         if (cell->face(face)->at_boundary())
         {
           // Face k of a triangle runs from vertex k to vertex k + 1.
-          const int from = triangle(face), to = triangle((face + 1) % 3);
-          emit(face, mesh.vertices.row(from));
-          emit((face + 1) % 3, mesh.vertices.row(to));
+          emit(face, point_of(cell, face));
+          emit((face + 1) % 3, point_of(cell, (face + 1) % 3));
           if (order == 2)
-            emit(3 + face, 0.5 * (mesh.vertices.row(from) + mesh.vertices.row(to)));
+            emit(3 + face, point_of(cell, 3 + face));
         }
     }
 
   std::vector<Node> nodes;
   for (const std::vector<double> &part : Utilities::MPI::all_gather(communicator, mine))
-    for (std::size_t k = 0; k < part.size(); k += 4)
-      nodes.push_back({static_cast<types::global_dof_index>(part[k]),
-                       static_cast<types::global_dof_index>(part[k + 1]),
-                       {part[k + 2], part[k + 3]}});
+    for (std::size_t k = 0; k < part.size(); k += 3)
+    {
+      const auto dof = static_cast<types::global_dof_index>(part[k]);
+      nodes.push_back({dof, dof + 1, {part[k + 1], part[k + 2]}});
+    }
   std::sort(nodes.begin(), nodes.end(),
             [](const Node &a, const Node &b) { return a.first_dof < b.first_dof; });
   nodes.erase(std::unique(nodes.begin(), nodes.end(),
@@ -171,20 +186,19 @@ std::vector<Node> Discretization::boundary_nodes() const
   return nodes;
 }
 
-Eigen::Matrix<types::global_dof_index, Eigen::Dynamic, 2, Eigen::RowMajor>
-Discretization::vertex_dofs() const
+DofTable Discretization::vertex_dofs() const
 {
-  Eigen::Matrix<types::global_dof_index, Eigen::Dynamic, 2, Eigen::RowMajor> of_vertex;
-  of_vertex.setZero(mesh.n_vertices(), 2);
+  DofTable of_vertex;
+  of_vertex.setZero(mesh.n_vertices(), n_components);
   std::vector<types::global_dof_index> dofs(element.n_dofs_per_cell());
   for (const auto &cell : dof_handler.active_cell_iterators())
     if (cell->is_locally_owned())
     {
       cell->get_dof_indices(dofs);
       for (int k = 0; k < 3; ++k)
-        for (int c = 0; c < 2; ++c)
+        for (unsigned int c = 0; c < n_components; ++c)
           of_vertex(mesh.triangles(triangle_of(cell), k), c) =
-            dofs[static_cast<std::size_t>(2 * k + c)];
+            dofs[n_components * static_cast<unsigned int>(k) + c];
     }
   // Ranks that share a vertex agree on its DoF; the others hold zero.
   MPI_Allreduce(MPI_IN_PLACE, of_vertex.data(), static_cast<int>(of_vertex.size()),

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Displacement finite elements on a plane triangle mesh, distributed over MPI ranks by METIS: the
-// ground on which both the cell problems and the fine-scale references stand.
+// ground on which the cell problems and the fine-scale references stand. Displacements have two
+// components in the plane, or three for a sheet that moves in space above its flat rest mesh.
 #pragma once
 
 #include "meshes/triangle_mesh.h"
@@ -24,13 +25,18 @@ struct ReferenceElement
   std::vector<std::vector<Eigen::Vector2d>> gradients; ///< (q, shape)
 };
 
-/// A point that carries the two displacement components of one node.
+/// A point that carries the displacement components of one node. Component c has the DoF
+/// first_dof + c, which the constructor of Discretization audits.
 struct Node
 {
-  dealii::types::global_dof_index first_dof; ///< component 1; component 2 is second_dof
-  dealii::types::global_dof_index second_dof;
-  Eigen::RowVector2d point; ///< [m]
+  dealii::types::global_dof_index first_dof;
+  dealii::types::global_dof_index second_dof; ///< of component 2
+  Eigen::RowVector2d point;                   ///< [m]
 };
+
+/// The DoFs of vertices, (n, components).
+using DofTable =
+  Eigen::Matrix<dealii::types::global_dof_index, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
 /// P1 or P2 displacements on a mesh. With one rank the triangulation is serial; with more it is
 /// fully distributed, in the parts that METIS makes.
@@ -39,10 +45,16 @@ class Discretization
 public:
   /// @param mesh read by every rank; triangle t of it is cell t
   /// @param order 1 or 2
-  Discretization(const meshes::TriangleMesh &mesh, unsigned int order, MPI_Comm communicator);
+  /// @param n_components of the displacement: 2 in the plane, 3 in space
+  Discretization(const meshes::TriangleMesh &mesh, unsigned int order, MPI_Comm communicator,
+                 unsigned int n_components = 2);
 
   /// The index in the mesh of the triangle that a cell is.
   static unsigned int triangle_of(const dealii::DoFHandler<2>::active_cell_iterator &cell);
+
+  /// The point of a shape of a cell: a vertex of the triangle, then the midpoints of its edges (P2).
+  Eigen::RowVector2d point_of(const dealii::DoFHandler<2>::active_cell_iterator &cell,
+                              unsigned int shape) const;
 
   /// The nodes that this rank owns.
   std::vector<Node> owned_nodes() const;
@@ -50,12 +62,12 @@ public:
   /// The nodes on the boundary of the mesh, of all ranks, sorted by DoF.
   std::vector<Node> boundary_nodes() const;
 
-  /// The DoFs of all mesh vertices, (n,2), on every rank.
-  Eigen::Matrix<dealii::types::global_dof_index, Eigen::Dynamic, 2, Eigen::RowMajor>
-  vertex_dofs() const;
+  /// The DoFs of all mesh vertices, (n, n_components), on every rank.
+  DofTable vertex_dofs() const;
 
   const meshes::TriangleMesh mesh;
   const unsigned int order;
+  const unsigned int n_components;
   const MPI_Comm communicator;
 
   const std::unique_ptr<dealii::Triangulation<2>> triangulation;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The linear algebra that cell problems and references share: a distributed stiffness matrix,
-// Trilinos' algebraic multigrid with the rigid body modes, conjugate gradients.
+// Trilinos' algebraic multigrid with the rigid body modes (in space: the translations), conjugate
+// gradients.
 #pragma once
 
 #include "homogenization/discretization.h"

@@ -85,7 +85,7 @@ private:
   const std::vector<Eigen::Matrix3d> stiffness_of_phase;
   const ReferenceOptions options;
   const homogenization::Discretization discretization;
-  Eigen::Matrix<dealii::types::global_dof_index, Eigen::Dynamic, 2, Eigen::RowMajor> vertex_dofs;
+  homogenization::DofTable vertex_dofs;
   std::vector<homogenization::Node> boundary;
 
   std::unique_ptr<Load> load;
