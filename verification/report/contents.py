@@ -7,13 +7,16 @@ from concurrent.futures import ProcessPoolExecutor
 import style
 import tables
 from cell_results import read_fields
+from drape_contents import drape_contents
 from figures_cell import characteristic_figure, phase_figure
+from figures_cloth import workers
 from figures_sheet import sheet_figure
 from figures_stiffness import polar_figure
 from figures_strain import error_figure
 from figures_time import error_time_figure, run_time_figure, step_figure
 from gallery import file_name
 from results import BadResults, cell_side
+from stress_results import MARKS, stress_contents
 from style import percent, seconds, three
 
 HEADINGS = {
@@ -31,16 +34,21 @@ HEADINGS = {
     "checks": "Checks of the homogenization",
     "provenance": "Provenance",
 }
-MARKS = {"PASS": "✓", "FAIL": "✗", "INCONCLUSIVE": "?"}
+COMMON = ("verdicts", "left-out", "provenance")  # headings of every page; the others are those of `homespun strain`
 MAIN_METHODS = ("affine", "localized")
 
 
-def page_contents(results, gallery):
+def page_contents(results, gallery, output):
     """Everything the template shows.
 
     @param gallery where figures are saved
-    @throws BadResults where a stored sheet cannot be read
+    @param output folder of the page, for links to frames
+    @throws BadResults where a stored sheet or frame cannot be read
     """
+    stress = [{**stress_contents(s), "id": f"stress-{i}"} for i, s in enumerate(results.stress, 1)]
+    drapes = contents_of_drapes(results, gallery, output)
+    strain_shown = bool(results.cells) or not (drapes or stress)
+    headings = headings_of(drapes, stress, strain_shown)
     cells = contents_of_cells(results, gallery)
     reasons = {key: [] for key in ("verdicts", "short", "strain", "uncertainty")}
     words = {"verdicts": "verdicts", "strain": "error against strain", "uncertainty": "error bar"}
@@ -55,11 +63,16 @@ def page_contents(results, gallery):
     verdicts = [verdict_contents(v, commands) for study in results.studies for v in study.verdicts]
     unreached = tables.unreached_notes(results.unreached())
     return {
-        "title": "homespun: " + ", ".join(results.cells),
+        "title": "homespun: " + ", ".join([d["scene"] for d in drapes] + (["stress"] if stress else []) + list(results.cells)),
+        "lead": lead(bool(drapes), bool(stress), strain_shown),
+        "drapes": drapes,
+        "stress": stress,
+        "strain_shown": strain_shown,
         "summary": summary(results),
         "commands": [s.info["command"] for s in results.studies if s.info.get("command")],
         "headings": HEADINGS,
-        "contents": list(HEADINGS.items()),
+        "shown_headings": headings,
+        "contents": list(headings.items()),
         "verdicts": verdicts,
         "verdict_sentence": verdict_sentence(verdicts),
         "in_short": short,
@@ -72,6 +85,41 @@ def page_contents(results, gallery):
         "reasons": reasons,
         "provenance": provenance(results),
     }
+
+
+def contents_of_drapes(results, gallery, output):
+    """The scenes one after the other; frames are rendered by all cores."""
+    if not results.drapes:
+        return []
+    with workers() as pool:
+        return [{**drape_contents(drape, gallery, output, pool), "id": f"scene-{i}"} for i, drape in enumerate(results.drapes, 1)]
+
+
+def headings_of(drapes, stress, strain_shown):
+    """id -> heading of the sections that this page has, in their order."""
+    headings = {"verdicts": HEADINGS["verdicts"]}
+    if drapes:
+        headings["drape-short"] = "In short: cloth in motion" if strain_shown else "In short"
+    headings.update((d["id"], f"Drape: {d['scene']}") for d in drapes)
+    headings.update((s["id"], "Stress cases" + (f": {s['name']}" if len(stress) > 1 else "")) for s in stress)
+    headings.update((key, text) for key, text in HEADINGS.items() if strain_shown or key in COMMON)
+    return headings
+
+
+def lead(drape, stress, strain):
+    """What the page is about."""
+    sentences = []
+    if strain:
+        sentences.append("How far an up-sampled cloth is from the resolved one: a coarse sheet with homogenized stiffness, its fine mesh "
+                         "restored by characteristic displacements, held against fine-scale finite elements, vertex by vertex.")
+    if drape:
+        sentences.append("Cloth in motion: a coarse cloth with homogenized stiffness is run through time and up-sampled"
+                         + (", and so held against the resolved cloth." if strain else ", and held against a cloth that is resolved by "
+                            "fine-scale finite elements, vertex by vertex."))
+    if stress:
+        sentences.append("Numerical stability: stiff, degenerate and extreme cases, each of which must end in a finite answer or in a refusal "
+                         "that names the fault.")
+    return " ".join(sentences)
 
 
 def summary(results):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Saves figures as PDF and SVG, and inlines them into the page."""
+"""Saves figures as PDF and SVG, animations as WebP, and inlines them into the page."""
 import base64
 import io
 import os
@@ -21,6 +21,7 @@ class Picture:
     source: str   # data URI
     caption: str
     width: int    # CSS pixels
+    ending: str = ".pdf"  # of the file that the caption names
 
 
 def short_svg(svg):
@@ -61,16 +62,21 @@ class Gallery:
         os.makedirs(folder, exist_ok=True)
         self.names = set()
 
+    def own_name(self, name):
+        """A file name that no other figure has."""
+        name = file_name(name)
+        while name in self.names:
+            name += "-2"
+        self.names.add(name)
+        return name
+
     def add(self, figure, name, caption, as_image=False):
         """Saves `name`.pdf and `name`.svg and closes the figure.
 
         @param as_image whether the page shows an image of dots; else the SVG itself
         @return Picture
         """
-        name = file_name(name)
-        while name in self.names:
-            name += "-2"
-        self.names.add(name)
+        name = self.own_name(name)
         figure.draw_without_rendering()    # lays the figure out, once for all formats
         figure.set_layout_engine("none")
         box = figure.get_tightbbox().padded(PAD)
@@ -85,3 +91,13 @@ class Gallery:
         pyplot.close(figure)
         source = f"data:image/{kind};base64," + base64.b64encode(data).decode("ascii")
         return Picture(name, source, caption, round(105. * box.width))
+
+    def add_animation(self, data, name, width, caption):
+        """Saves `name`.webp, a looping picture of so many pixels' width.
+
+        @return Picture
+        """
+        name = self.own_name(name)
+        with open(os.path.join(self.folder, name + ".webp"), "wb") as file:
+            file.write(data)
+        return Picture(name, "data:image/webp;base64," + base64.b64encode(data).decode("ascii"), caption, width, ".webp")
