@@ -9,7 +9,7 @@ import tables
 from cell_results import read_fields
 from drape_contents import drape_contents
 from figures_cell import characteristic_figure, phase_figure
-from figures_cloth import workers
+from figures_cloth import MOVING_BYTES, workers
 from figures_sheet import sheet_figure
 from figures_stiffness import polar_figure
 from figures_strain import error_figure
@@ -59,7 +59,7 @@ def page_contents(results, gallery, output):
     if not short:
         reasons["short"] = [{"what": "the summary of errors", "why": "it needs rows of `affine` and "
                              "`localized` in strain.csv"}]
-    commands = [s.info.get("command") for s in results.studies]
+    commands = list(dict.fromkeys(c for c in map(command_of, results.studies) if c))
     verdicts = [verdict_contents(v, commands) for study in results.studies for v in study.verdicts]
     unreached = tables.unreached_notes(results.unreached())
     return {
@@ -69,7 +69,7 @@ def page_contents(results, gallery, output):
         "stress": stress,
         "strain_shown": strain_shown,
         "summary": summary(results),
-        "commands": [s.info["command"] for s in results.studies if s.info.get("command")],
+        "commands": commands,
         "headings": HEADINGS,
         "shown_headings": headings,
         "contents": list(headings.items()),
@@ -91,8 +91,9 @@ def contents_of_drapes(results, gallery, output):
     """The scenes one after the other; frames are rendered by all cores."""
     if not results.drapes:
         return []
+    limit = min(MOVING_BYTES, 2 * MOVING_BYTES // max(1, sum(len(drape.cells) for drape in results.drapes)))
     with workers() as pool:
-        return [{**drape_contents(drape, gallery, output, pool), "id": f"scene-{i}"} for i, drape in enumerate(results.drapes, 1)]
+        return [{**drape_contents(drape, gallery, output, limit, pool), "id": f"scene-{i}"} for i, drape in enumerate(results.drapes, 1)]
 
 
 def headings_of(drapes, stress, strain_shown):
@@ -143,6 +144,12 @@ def summary(results):
             name = f"{study.name}: " if len(results.studies) > 1 else ""
             sentences.append(name + ", ".join(parts) + ".")
     return " ".join(sentences)
+
+
+def command_of(study):
+    """The command that made a folder; where none is stored, the one that all its verdicts name."""
+    named = {v.get("command") for v in study.verdicts}
+    return study.info.get("command") or (named.pop() if len(named) == 1 else None)
 
 
 def verdict_contents(verdict, commands):

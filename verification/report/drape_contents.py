@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """What the page says of one scene: sentences first, then pictures, curves and tables."""
+import json
 import math
 import os
 
@@ -16,20 +17,21 @@ from vtu import BadFrame
 METHOD = "localized"
 
 
-def drape_contents(drape, gallery, output, pool):
+def drape_contents(drape, gallery, output, limit, pool):
     """One scene as the template shows it.
 
     @param output folder of the page, for links to the frames
+    @param limit bytes of one animation
     @param pool of processes that render
     @throws BadResults where a frame cannot be read
     """
     info = drape.info
     return {"scene": drape.scene, "story": info.get("story") or "", "facts": facts(info),
-            "cells": [cell_contents(drape, cell, gallery, output, pool) for cell in drape.cells],
+            "cells": [cell_contents(drape, cell, gallery, output, limit, pool) for cell in drape.cells],
             "terms": [[term["name"], "present" if term["present"] else "left out",
                        str((term.get("parameters") if term["present"] else term.get("why")) or "–")] for term in info.get("terms") or []],
             "costs": [cost_row(cell.name, row) for cell in drape.cells for row in cell.terms],
-            "parameters": [(key, tables.shown(value)) for key, value in drape.parameters()]}
+            "parameters": [(key, exactly(value)) for key, value in drape.parameters()]}
 
 
 def facts(info):
@@ -49,10 +51,9 @@ def facts(info):
     return ", ".join(parts) + "." if parts else ""
 
 
-def main_reference(cell):
-    """The reference that pictures show: shell if there is one."""
-    names = ordered_references([r["reference"] for r in cell.references] + [row["reference"] for row in cell.errors])
-    return names[0] if names else None
+def exactly(value):
+    """A parameter with all its digits: whoever repeats the run needs them."""
+    return value if isinstance(value, str) else json.dumps(value, ensure_ascii=False)
 
 
 def sentences(cell):
@@ -162,7 +163,7 @@ def size_of(value):
     return f"{three(float(value * 1e-9))} GB"
 
 
-def cell_contents(drape, cell, gallery, output, pool):
+def cell_contents(drape, cell, gallery, output, limit, pool):
     """Pictures, curves and tables of one cell in the scene; what has no data is None or empty."""
     name, info = f"{drape.scene}-{cell.name}", cell.info
     contents = {"name": cell.name, "sentences": sentences(cell), "pictures": None, "animation": None, "error": None, "height": None,
@@ -171,7 +172,7 @@ def cell_contents(drape, cell, gallery, output, pool):
                 "side": tables.length(info["cell_side_m"]) if info.get("cell_side_m") else None,
                 "density": f"{three(float(info['areal_density']))} kg/m²" if info.get("areal_density") else None,
                 "links": [(os.path.relpath(path, drape.folder), os.path.relpath(path, output)) for path in cell.lists]}
-    draw_cloth(contents, drape, cell, name, gallery, pool)
+    draw_cloth(contents, drape, cell, name, gallery, limit, pool)
     if figure := error_time_curves(cell.errors):
         contents["error"] = gallery.add(
             figure, f"{name}-error-time", f"{drape.scene}, {cell.name}: mean error over all fine vertices against time, for each "
@@ -179,8 +180,8 @@ def cell_contents(drape, cell, gallery, output, pool):
             "uncertainty.")
     if drawn := height_figure(cell.motion, drape.up(), drape.gravity()):
         figure, falling = drawn
-        words = (f" {' and '.join(falling)} move{'s' if len(falling) == 1 else ''} more than three times as far as the least one: the right "
-                 "panel leaves that out." if falling else "")
+        words = (f" {' and '.join(falling)} move{'s' if len(falling) == 1 else ''} more than three times as far as the first cloth "
+                 "and the references; the right panel leaves that out." if falling else "")
         if any(variant.startswith("printed") for variant in falling):
             words += " The force of the printed Eq. 8 has no part along the normal, so that nothing holds the cloth up."
         contents["height"] = gallery.add(figure, f"{name}-height", f"{drape.scene}, {cell.name}: height of the centre of mass.{words}")
@@ -193,22 +194,24 @@ def cell_contents(drape, cell, gallery, output, pool):
     return contents
 
 
-def draw_cloth(contents, drape, cell, name, gallery, pool):
+def draw_cloth(contents, drape, cell, name, gallery, limit, pool):
     """The rendered pictures and the animation of a cell."""
     variants = ordered_variants(run["variant"] for run in cell.runs)
     film = film_of(cell, variants, ordered_references(r["reference"] for r in cell.references), drape.info.get("duration_s"))
     if film is None:
         return
     try:
-        figure, camera, phases, numbers = cloth_figure(film, drape.up(), pool)
+        figure, camera, phases, numbers = cloth_figure(film, drape.up(), cell.info.get("cell_side_m"), pool)
         words = ""
         if numbers["largest"] > 0.:
-            words = (f" Error: distance of the up-sampled vertices from {'those of ' + film.reference if film.reference else 'the reference'}"
+            words = (" Error: distance of each up-sampled vertex from its place in the reference"
                      + ("; the colour bar, common to all times, ends at the 99.5th percentile." if numbers["capped"] else "."))
+        if numbers["close"]:
+            words += " Below: the framed part of the last time."
         contents["pictures"] = gallery.add(
             figure, f"{name}-cloth", f"{drape.scene}, {cell.name}, {film.variant} cloth. One camera for all; parallel projection, true scale, "
-            f"not exaggerated.{words}", as_image=True)
-        if moving := animation(film, camera, phases, pool):
+            f"not exaggerated.{words}", as_image="webp")
+        if moving := animation(film, camera, phases, limit, pool):
             data, width, loop, (first, last) = moving
             contents["animation"] = gallery.add_animation(
                 data, f"{name}-motion", width, f"{drape.scene}, {cell.name}: from {three(float(first))} s to {three(float(last))} s"

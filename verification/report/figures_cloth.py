@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Cloth in motion: coarse, up-sampled, reference and error side by side at some times, and the same as an animation."""
+"""Cloth in motion: coarse, up-sampled, reference and error side by side at some times and close up, and an animation."""
 import io
 import os
 from concurrent.futures import ProcessPoolExecutor
@@ -8,12 +8,14 @@ from dataclasses import dataclass, field
 import matplotlib
 import numpy
 from matplotlib import colormaps, pyplot
-from matplotlib.patches import Patch
+from matplotlib.colors import to_rgb
+from matplotlib.patches import Patch, Rectangle
+from matplotlib.patheffects import withStroke
 from PIL import Image, ImageDraw, ImageFont
 
 import style
 from figures_sheet import unit_of
-from rendering import camera_for, render
+from rendering import best_axes, bounds, camera_around, close_up, render
 from vtu import read_vtu
 
 FRAMES = 4            # in the figure
@@ -24,7 +26,10 @@ ERROR_MAP = "magma_r"             # as for sheets: light to dark for any colour 
 ERROR_CONTRAST = 0.35             # little shading, so that a colour is found in its bar again
 MOVING_FRAMES = 32
 MOVING_PIXELS = 430
-MOVING_BYTES = 1500000            # of one animation
+MOVING_BYTES = 1500000            # of one animation, and of all of a page twice as much
+CELLS_ACROSS = 5.                 # in the close-up
+PALER = 0.3                       # part of white in the colour of a phase, so that shading is seen on dark phases too
+HALO = [withStroke(linewidth=2.5, foreground="white")]  # so that it is read on cloth too
 
 
 @dataclass
@@ -59,15 +64,14 @@ def film_of(cell, variants, references, duration):
 
 
 def spread(items, number):
-    """At most so many items, evenly spread, the last one among them."""
-    if len(items) <= number:
-        return items
-    return [items[round(i * (len(items) - 1) / (number - 1))] for i in range(number)] if number > 1 else items[-1:]
+    """At most so many items, at the ends of equal parts, the last one among them."""
+    number = max(1, min(number, len(items)))
+    return [items[round((i + 1) * len(items) / number) - 1] for i in range(number)]
 
 
 def error_of(surface, reference):
-    """Distance to the reference at each vertex (n) [m]: what the file says, else vertex by vertex; None if neither is possible."""
-    if reference is not None and reference.points.shape == surface.points.shape:
+    """Distance to the reference at each vertex (n) [m], vertex by vertex; what the file says where the meshes differ; or None."""
+    if reference is not None and numpy.array_equal(reference.triangles, surface.triangles):
         return numpy.linalg.norm(surface.points - reference.points, axis=1)
     stored = surface.point_data.get("error")
     return None if stored is None else stored.reshape(-1).astype(float)
@@ -76,16 +80,16 @@ def error_of(surface, reference):
 def phase_colour_map(surfaces):
     """Material number -> (colour, label), light to dark in the order of the numbers; empty without materials."""
     numbers = sorted({int(n) for s in surfaces if s.material() is not None for n in numpy.unique(s.material())})
-    return {n: (colour, f"material {n}") for n, colour in zip(numbers, style.phase_colours(numbers))}
+    return {n: (numpy.array(to_rgb(colour)) * (1. - PALER) + PALER, f"material {n}")
+            for n, colour in zip(numbers, style.phase_colours(numbers))}
 
 
 def fine_colours(surface, phases):
     material = surface.material()
     if material is None or not phases:
         return numpy.tile(FINE_COLOUR, (len(surface.triangles), 1))
-    table = {number: matplotlib.colors.to_rgb(colour) for number, (colour, _) in phases.items()}
     numbers, place = numpy.unique(material, return_inverse=True)
-    return numpy.array([table.get(int(n), FINE_COLOUR) for n in numbers])[place]
+    return numpy.array([phases[int(n)][0] if int(n) in phases else FINE_COLOUR for n in numbers])[place]
 
 
 def panel(surface, kind, camera, pixels, phases, error=None, largest=1.):
@@ -100,15 +104,28 @@ def panel(surface, kind, camera, pixels, phases, error=None, largest=1.):
     return numpy.round(255. * image).astype(numpy.uint8)
 
 
-def cloth_figure(film, up, pool):
-    """Rows are times, columns are coarse, up-sampled, reference and error, all through one camera.
+def bounds_of(path, axes):
+    return bounds(read_vtu(path), axes)
 
-    @return (figure, camera, phases, {"largest" [m], "capped": whether errors exceed the colour bar})
+
+def moving_shots(film):
+    """The times of the animation: the first, and the ends of equal parts."""
+    return film.shots[:1] + spread(film.shots[1:], MOVING_FRAMES) if len(film.shots) > 1 else film.shots
+
+
+def cloth_figure(film, up, side, pool):
+    """Rows are times, columns are coarse, up-sampled, reference and error, all through one camera; last a close-up.
+
+    @param side of a cell [m], or None: no close-up
+    @return (figure, camera, phases, {"largest" [m], "capped": whether errors exceed the colour bar, "close": whether there
+            is a close-up})
     @throws BadFrame
     """
     shots = spread(film.shots[1:] or film.shots, FRAMES)  # the first frame is the start, alike for all
     surfaces = [{kind: read_vtu(shot[kind]) for kind in ("coarse", "fine", "reference") if shot[kind]} for shot in shots]
-    camera = camera_for([s for kinds in surfaces for s in kinds.values()], up)
+    axes = best_axes([s for kinds in surfaces for s in kinds.values()], up)
+    paths = {path for shot in shots + moving_shots(film) for path in (shot["coarse"], shot["fine"], shot["reference"]) if path}
+    camera = camera_around(axes, list(pool.map(bounds_of, sorted(paths), [axes] * len(paths))))
     fine = [kinds[kind] for kinds in surfaces for kind in ("fine", "reference") if kind in kinds]
     phases = phase_colour_map(fine)
     errors = [error_of(kinds["fine"], kinds.get("reference")) if "fine" in kinds else None for kinds in surfaces]
@@ -120,19 +137,24 @@ def cloth_figure(film, up, pool):
                if any(kind in kinds for kinds in surfaces)]
     if known:
         columns.append(("error", "error per vertex"))
+    rows = [(f"t = {style.three(float(shot['time']))} s", kinds, error, camera) for shot, kinds, error in zip(shots, surfaces, errors)]
+    near = None
+    if side and "fine" in surfaces[-1] and CELLS_ACROSS * side < 0.7 * camera.extent[0]:
+        near = close_up(camera, surfaces[-1]["fine"], CELLS_ACROSS * side)
+        rows.append((rows[-1][0] + ", framed part", surfaces[-1], errors[-1], near))
     jobs = {}
-    for row, (kinds, error) in enumerate(zip(surfaces, errors)):
+    for row, (_, kinds, error, view) in enumerate(rows):
         for kind, _ in columns:
             source = kinds.get("fine" if kind == "error" else kind)
             if source is not None and (kind != "error" or error is not None):
-                jobs[row, kind] = pool.submit(panel, source, kind, camera, PIXELS, phases, error, largest)
+                jobs[row, kind] = pool.submit(panel, source, kind, view, PIXELS, phases, error, largest)
     ratio = camera.extent[1] / camera.extent[0]
     width = 10.2 / 4.
-    figure, grid = pyplot.subplots(len(shots), len(columns), squeeze=False, layout="constrained",
-                                   figsize=(width * len(columns) + 0.3, (width * ratio + 0.04) * len(shots) + 0.75))
+    figure, grid = pyplot.subplots(len(rows), len(columns), squeeze=False, layout="constrained",
+                                   figsize=(width * len(columns) + 0.3, (width * ratio + 0.04) * len(rows) + 0.75))
     figure.get_layout_engine().set(w_pad=0.01, h_pad=0.01, wspace=0., hspace=0.)
-    half = 0.5 * camera.extent
-    for row, shot in enumerate(shots):
+    for row, (label, _, _, view) in enumerate(rows):
+        half = 0.5 * view.extent
         for column, (kind, title) in enumerate(columns):
             axes = grid[row][column]
             axes.set(xticks=[], yticks=[], xlim=(-half[0], half[0]), ylim=(-half[1], half[1]), aspect="equal")
@@ -145,8 +167,12 @@ def cloth_figure(film, up, pool):
                 axes.text(0., 0., "no frame", ha="center", va="center", color="#666666")
             if row == 0:
                 axes.set_title(title, loc="left", fontweight="bold")
-        grid[row][0].set_ylabel(f"t = {style.three(float(shot['time']))} s")
-    scale_bar(grid[-1][0], half)
+            if near is not None and row == len(rows) - 2:
+                axes.add_patch(Rectangle(near.centre - camera.centre - 0.5 * near.extent, *near.extent, fill=False,
+                                         edgecolor=style.BLACK, lw=1.))
+        grid[row][0].set_ylabel(label)
+        if view is near or row == len(shots) - 1:
+            scale_bar(grid[row][0], half)
     if known:
         factor, unit = unit_of(largest)
         scale = pyplot.Normalize(0., factor * largest if largest > 0. else 1.)
@@ -156,18 +182,18 @@ def cloth_figure(film, up, pool):
     if len(phases) > 1:
         figure.legend(handles=[Patch(facecolor=colour, edgecolor="#555555", label=label) for colour, label in phases.values()],
                       loc="lower left", bbox_to_anchor=(0.01, 0.), ncol=len(phases))
-    return figure, camera, phases, {"largest": largest, "capped": capped, "times": [shot["time"] for shot in shots]}
+    return figure, camera, phases, {"largest": largest, "capped": capped, "close": near is not None}
 
 
 def scale_bar(axes, half):
     """A bar of 1, 2 or 5 times a power of ten, about a quarter of the panel."""
     power = 10. ** numpy.floor(numpy.log10(0.6 * half[0]))
-    length = max(f * power for f in (1., 2., 5.) if f * power <= 0.6 * half[0])
+    length = max(f * power for f in (1., 2., 5.) if f * power <= 0.6 * half[0] * (1. + 1e-9))
     factor, unit = (100., "cm") if 0.01 <= length < 1. else unit_of(length)
     left, low = -0.93 * half[0], -half[1] + 0.07 * min(half)
-    axes.plot([left, left + length], [low, low], color=style.BLACK, lw=2., solid_capstyle="butt")
+    axes.plot([left, left + length], [low, low], color=style.BLACK, lw=2., solid_capstyle="butt", path_effects=HALO)
     axes.annotate(f"{factor * length:.3g} {unit}", (left + 0.5 * length, low), xytext=(0, 2.5), textcoords="offset points",
-                  ha="center", fontsize=7.5)
+                  ha="center", fontsize=7.5, path_effects=HALO)
 
 
 def moving_panels(shot, kinds, camera, phases):
@@ -175,15 +201,16 @@ def moving_panels(shot, kinds, camera, phases):
     return [panel(read_vtu(shot[kind]), kind, camera, MOVING_PIXELS, phases) if shot[kind] else None for kind in kinds]
 
 
-def animation(film, camera, phases, pool):
+def animation(film, camera, phases, limit, pool):
     """A looping WebP: up-sampled cloth and the reference beside it.
 
+    @param limit bytes that it may take
     @return (bytes, width in pixels, seconds of one loop, times shown), or None with fewer than two frames
     @throws BadFrame
     """
     kinds = [kind for kind in ("fine", "reference") if any(shot[kind] for shot in film.shots)] or ["coarse"]
     titles = {"coarse": "coarse cloth", "fine": "up-sampled", "reference": f"reference ({film.reference})"}
-    shots = spread(film.shots, MOVING_FRAMES)
+    shots = moving_shots(film)
     if len(shots) < 2:
         return None
     font = os.path.join(matplotlib.get_data_path(), "fonts", "ttf", "DejaVuSans.ttf")
@@ -211,7 +238,7 @@ def animation(film, camera, phases, pool):
         some[0].save(buffer, format="webp", save_all=True, append_images=some[1:], loop=0, quality=quality, method=4,
                      duration=[pause] * (len(some) - 1) + [pause + 700])  # a rest before it starts again
         data = buffer.getvalue()
-        if len(data) <= MOVING_BYTES:
+        if len(data) <= limit:
             break
     return data, pictures[0].width, duration, (shots[0]["time"], shots[-1]["time"])
 

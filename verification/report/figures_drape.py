@@ -52,14 +52,17 @@ def error_time_curves(rows):
     variants = ordered_variants(row["variant"] for row in rows)
     references = ordered_references(row["reference"] for row in rows)
     methods = style.ordered_methods(row["method"] for row in rows)
-    factor, unit = unit_of(max(row["error_mean_m"] for row in rows))
+    largest = [max(row["error_mean_m"] for row in rows if row["variant"] == variant) for variant in variants]
+    factor, unit = unit_of(largest[0])
     bars = [row["reference_uncertainty_m"] for row in rows if row["reference_uncertainty_m"] > 0.]
-    values = [row["error_mean_m"] for row in rows]
-    # The first steps from a common start are arbitrarily small: five decades below the largest are enough.
-    lower = max(min(values + bars), 1e-5 * max(values), 0.)
-    lower, upper = 10. ** math.floor(math.log10(factor * lower)), 10. ** math.ceil(math.log10(1.2 * factor * max(values)))
+    # The first steps from a common start are arbitrarily small: four decades below the best cloth's largest are enough.
+    lower = max(min([row["error_mean_m"] for row in rows] + bars), 1e-4 * min(largest))
+    lower = 10. ** math.floor(math.log10(factor * lower) - 0.2)
+    upper = 10. ** math.ceil(math.log10(1.2 * factor * max(largest)))
     figure, grid = pyplot.subplots(len(references), len(variants), squeeze=False, sharex=True, sharey=True, layout="constrained",
                                    figsize=(0.9 + max(2.3 * len(variants), 4.2), 0.5 + 2.5 * len(references)))
+    for axes in grid[-1]:
+        axes.set_xlabel("time [s]")
     for line, reference in zip(grid, references):
         for axes, variant in zip(line, variants):
             here = [r for r in rows if r["variant"] == variant and r["reference"] == reference]
@@ -70,7 +73,7 @@ def error_time_curves(rows):
                 time, value = curve([r for r in here if r["method"] == method], "error_mean_m", factor)
                 if len(time):
                     axes.plot(time, value, color=style.method_colour(method, methods), marker="o" if len(time) < 12 else "")
-            axes.set(yscale="log", ylim=(lower, upper), xlabel="time [s]")
+            axes.set(yscale="log", ylim=(lower, upper))
             axes.yaxis.set_minor_locator(ticker.NullLocator())
             axes.set_title(variant if len(references) == 1 else f"{variant} against {reference}", loc="left", fontweight="bold",
                            fontsize=9 if len(variants) < 4 else 7.5)
@@ -129,8 +132,8 @@ def height_figure(rows, up, gravity):
     for name in members(rows):
         heights = [row["height"] for row in rows if row["variant"] == name]
         span[name] = max(heights) - min(heights)
-    usual = min(span.values())
-    falling = [name for name in span if name not in REFERENCES and span[name] > FALL * max(usual, 1e-12)] if len(span) > 1 else []
+    usual = max(span[name] for name in span if name in REFERENCES or name == members(rows)[0])
+    falling = [name for name in span if name not in REFERENCES and span[name] > FALL * max(usual, 1e-12)]
     staying = [row for row in rows if row["variant"] not in falling]
     figure, grid = pyplot.subplots(1, 2 if falling else 1, squeeze=False, figsize=(9.6 if falling else 5.6, 3.1), layout="constrained")
     parabola = free_fall(rows, gravity)

@@ -49,8 +49,8 @@ def areas(points, triangles):
     return numpy.cross(corner[:, 1] - corner[:, 0], corner[:, 2] - corner[:, 0])
 
 
-def camera_for(surfaces, up):
-    """The camera that sees most of the cloth: one for all frames and panels.
+def best_axes(surfaces, up):
+    """Camera axes (3,3) that see most of the cloth: one view for all frames and panels.
 
     Of some azimuths it takes the one with the largest projected area, summed over the surfaces; folds count as
     often as they overlap, which is what a viewer wants to see.
@@ -58,14 +58,32 @@ def camera_for(surfaces, up):
     normals = [areas(s.points, s.triangles) for s in surfaces]
     candidates = [axes_of(azimuth, ELEVATION, up) for azimuth in AZIMUTHS]
     seen = [sum(float(numpy.abs(normal @ axes[2]).sum()) for normal in normals) for axes in candidates]
-    best = max(range(len(candidates)), key=lambda i: (round(seen[i] / (max(seen) or 1.), 6), -i))
-    axes = candidates[best]
-    corners = numpy.vstack([(s.points @ axes.T)[:, :2] for s in surfaces])
-    low, high = corners.min(axis=0), corners.max(axis=0)
+    return candidates[max(range(len(candidates)), key=lambda i: (round(seen[i] / (max(seen) or 1.), 6), -i))]
+
+
+def bounds(surface, axes):
+    """Lowest and highest place in the picture (2,2) [m]."""
+    flat = surface.points @ axes[:2].T
+    return numpy.array([flat.min(axis=0), flat.max(axis=0)])
+
+
+def camera_around(axes, boxes):
+    """The camera along some axes that shows everything within some bounds."""
+    low, high = numpy.min([b[0] for b in boxes], axis=0), numpy.max([b[1] for b in boxes], axis=0)
     size = high - low
+    size = size if size.max() > 0. else numpy.ones(2)  # all in one point
     pad = 0.03 * float(size.max())
     # Not narrower than a third of its other side: a falling cloth would else be a ribbon in the page.
     return Camera(axes, 0.5 * (low + high), numpy.maximum(size + 2. * pad, (size.max() + 2. * pad) / 3.))
+
+
+def close_up(camera, surface, width):
+    """The same view of so many metres' width, about the visible vertex at the middle of a surface."""
+    projected = camera.project(surface.points)
+    off = numpy.linalg.norm(projected[:, :2] - projected[:, :2].mean(axis=0), axis=1)
+    near = numpy.flatnonzero(off <= max(0.25 * width, off.min()))
+    middle = projected[near[numpy.argmax(projected[near, 2])], :2]
+    return Camera(camera.axes, middle, camera.extent * (width / camera.extent[0]))
 
 
 def vertex_normals(points, triangles):
@@ -139,7 +157,7 @@ def render(surface, camera, pixels, colours, per_vertex=False, edge=0., contrast
         colour = numpy.einsum("ki,kic->kc", weights, colours[corner]) if per_vertex else colours[owner]
         colour = colour * shade(normal @ camera.axes.T, contrast)[:, None]
         if edge > 0.:
-            colour[on_edge(corners, owner, weights, 0.5 * edge * SAMPLES)] *= 0.25
+            colour[on_edge(corners, owner, weights, 0.5 * edge * SAMPLES)] *= 0.35
         image[shown, :3], image[shown, 3] = numpy.clip(colour, 0., 1.), 1.
     return smaller(image.reshape(height, width, 4))
 
@@ -150,16 +168,20 @@ def shade(normal, contrast):
     normal = normal / numpy.where(length > 0., length, 1.)[:, None]
     normal = normal * numpy.where(normal[:, 2] < 0., -1., 1.)[:, None]
     lamp = numpy.clip(normal @ (LIGHT / numpy.linalg.norm(LIGHT)), 0., 1.)
-    return 1. - contrast * (0.62 - 0.47 * lamp - 0.15 * normal[:, 2])
+    return 1. - contrast * (0.56 - 0.43 * lamp - 0.13 * normal[:, 2])
 
 
 def on_edge(corners, owner, weights, half_width):
-    """Samples closer to an edge of their triangle than half its width: weight times height is the distance."""
+    """Samples closer to an edge of their triangle than half its width: weight times height is the distance.
+
+    Of a triangle seen nearly on edge the lines stay thinner, or they would fill it.
+    """
     a, b, c = (corners[:, i] for i in range(3))
     double = abs((b - a)[:, 0] * (c - a)[:, 1] - (b - a)[:, 1] * (c - a)[:, 0])
     heights = numpy.column_stack([double / numpy.maximum(numpy.linalg.norm(p - q, axis=1), 1e-300)
                                   for p, q in ((b, c), (c, a), (a, b))])
-    return (weights * heights[owner] < half_width).any(axis=1)
+    reach = numpy.minimum(half_width, 0.07 * heights.min(axis=1))[owner, None]
+    return (weights * heights[owner] < reach).any(axis=1)
 
 
 def smaller(image):

@@ -40,7 +40,7 @@ def write_report(folders, output):
     except OSError as error:
         raise BadResults([f"{output}: cannot be written ({error}). Give another --output."]) from error
     try:
-        sheets = sum(len(cell.field_files) for cell in results.cells.values()) + sum(len(d.cells) for d in results.drapes)
+        sheets = sum(len(cell.field_files) for cell in results.cells.values())
         gallery = Gallery(os.path.join(workplace, "figures"), sheets)
         html = render(page_contents(results, gallery, output))
         with open(os.path.join(workplace, "report.html"), "w", encoding="utf-8") as file:

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """Reads stress.csv, the cases of `homespun stress`, and orders them: what failed comes first."""
+import math
 from collections import Counter
 from dataclasses import dataclass, field
 
@@ -33,7 +34,7 @@ def read_stress(folder, name, path, faults, missing):
 
 
 def number_or_text(value):
-    """A figure with three digits where it is one number; a limit may be words."""
+    """A figure with three digits where it is one number; it may be words."""
     try:
         return three(float(value))
     except ValueError:
@@ -45,7 +46,7 @@ def case_of(row):
     repeats = row["repeats"]
     return {"group": row["group"], "case": row["case"], "expected": row["expected"], "outcome": row["outcome"],
             "figure": number_or_text(row["figure"]) if row["figure"] else "–",
-            "limit": number_or_text(row["limit"]) if row["limit"] else "–", "verdict": row["verdict"],
+            "limit": row["limit"] or "–", "verdict": row["verdict"],
             "mark": MARKS[row["verdict"]], "repeats": "–" if repeats != repeats else three(int(repeats)),
             "seconds": seconds(row["seconds"])}
 
@@ -68,12 +69,12 @@ def stress_contents(stress):
     for name in dict.fromkeys(row["group"] for row in rows):
         some = sorted((row for row in rows if row["group"] == name), key=lambda row: ORDER[row["verdict"]])
         count = Counter(row["verdict"] for row in some)
-        groups.append({"name": name, "cases": [case_of(row) for row in some], "sentence": words_of(count),
+        groups.append({"name": name, "cases": [case_of(row) for row in some],
                        "counts": [name] + [three(int(v)) for v in (len(some), count["PASS"], count["FAIL"],
                                                               count["INCONCLUSIVE"])]
-                       + [seconds(sum(row["seconds"] for row in some if row["seconds"] > 0))],
+                       + [seconds(sum(row["seconds"] for row in some if row["seconds"] > 0) or math.nan)],
                        "worst": min(ORDER[row["verdict"]] for row in some)})
     groups.sort(key=lambda group: group["worst"])  # stable: the order of the file among equals
     not_held = sorted((row for row in rows if row["verdict"] != "PASS"), key=lambda row: ORDER[row["verdict"]])
     return {"name": stress.name, "sentence": words_of(Counter(row["verdict"] for row in rows)) + ".",
-            "groups": groups, "failures": [case_of(row) for row in not_held]}
+            "groups": groups, "cases": [case for group in groups for case in group["cases"]], "failures": [case_of(row) for row in not_held]}

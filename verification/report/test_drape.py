@@ -18,7 +18,7 @@ import drape_results  # noqa: E402
 import report  # noqa: E402
 import stress_results  # noqa: E402
 import vtu  # noqa: E402
-from rendering import Camera, axes_of, camera_for, render  # noqa: E402
+from rendering import Camera, axes_of, best_axes, bounds, camera_around, render  # noqa: E402
 from test_report import square_mesh, write_results  # noqa: E402
 
 SIDE = 0.01
@@ -168,3 +168,258 @@ def write_stress(folder):
     with open(os.path.join(folder, "verdicts.json"), "w", encoding="utf-8") as file:
         json.dump({"verdicts": [{"claim": "every case ends finite or refused", "verdict": "FAIL", "value": 1,
                                  "limit": "0 cases", "command": "homespun stress"}]}, file)
+
+
+class DrapePageTest(unittest.TestCase):
+    def setUp(self):
+        self.place = tempfile.mkdtemp()
+        self.addCleanup(shutil.rmtree, self.place)
+        self.folder, self.output = (os.path.join(self.place, name) for name in ("results", "out"))
+
+    def run_report(self, *folders):
+        """(exit status, text on stderr)"""
+        errors = io.StringIO()
+        with contextlib.redirect_stderr(errors):
+            status = report.main([*(folders or (self.folder,)), "--output", self.output, "--quiet"])
+        return status, errors.getvalue()
+
+    def page(self):
+        with open(os.path.join(self.output, "report.html"), encoding="utf-8") as file:
+            return file.read()
+
+    def edit(self, name, change):
+        path = os.path.join(self.folder, name)
+        with open(path, encoding="utf-8") as file:
+            text = file.read()
+        with open(path, "w", encoding="utf-8") as file:
+            file.write(change(text))
+
+    def assert_refused(self, *words):
+        """Exit status 2, every word in the message, and nothing written."""
+        status, errors = self.run_report()
+        self.assertEqual(status, 2)
+        for word in words:
+            self.assertIn(word, errors)
+        self.assertFalse(os.path.exists(self.output))
+
+    def test_complete_scene_makes_every_section_figure_and_link(self):
+        write_drape(self.folder)
+        self.assertEqual(self.run_report(), (0, ""))
+        page = self.page()
+        places = [page.index(f'id="{key}"') for key in ("verdicts", "drape-short", "scene-1", "scene-1-1", "scene-1-1-error",
+                                                       "scene-1-1-motion", "scene-1-1-time", "scene-1-terms",
+                                                       "scene-1-parameters", "scene-1-frames", "left-out", "provenance")]
+        self.assertEqual(places, sorted(places))
+        self.assertLess(page.index("homespun drape swing.prm"), places[0])  # the command before the verdicts
+        figures = set(os.listdir(os.path.join(self.output, "figures")))
+        for name in ("cloth", "error-time", "height", "energies", "step"):
+            self.assertLessEqual({f"swing-layered-{name}.pdf", f"swing-layered-{name}.svg"}, figures)
+            self.assertIn(f'id="swing-layered-{name}"', page)
+        with Image.open(os.path.join(self.output, "figures", "swing-layered-motion.webp")) as moving:
+            self.assertEqual((moving.n_frames, moving.info["loop"]), (4, 0))
+        for text in ("1.10 ms and its up-sampling 90.0 µs on 1 thread", "<b>1090 times</b> as long", "the uncertainty of the reference is 10.0 µm",
+                     "the uncertainty of the reference is not known", "let go &lt;level&gt;", "the scene does not ask for it", "+13.6 %",
+                     "+23.5 %", "solver/tolerance", "1e-08", "without printed-nodal-warping"[8:], "abc1234"):
+            self.assertIn(text, page)
+        links = re.findall(r'href="([^"#][^"]*)"', page)
+        self.assertEqual(len(links), 2 * len(VARIANTS) + len(REFERENCES))
+        for link in links:
+            self.assertTrue(os.path.isfile(os.path.join(self.output, link)), link)
+        self.assertFalse(re.search(r'src="(?!data:)', page), "the page must stand alone")
+        self.assertLess(os.path.getsize(os.path.join(self.output, "report.html")), 8e6)
+
+    def test_scene_without_references_frames_and_terms_is_reported_and_what_is_absent_is_named(self):
+        write_drape(self.folder, variants=VARIANTS[:1], references=())
+        shutil.rmtree(os.path.join(self.folder, "layered-corotational"))
+        os.remove(os.path.join(self.folder, "terms.csv"))
+        self.assertEqual(self.run_report(), (0, ""))
+        page = self.page()
+        for text in ("No reference was asked for", "Left out: pictures of layered", "Left out: error of layered",
+                     "Left out: what absent terms would have cost", "fine.pvd does not exist", "drape.csv does not exist",
+                     "Left out: links to frames"):
+            self.assertIn(text, page)
+
+    def test_scene_of_which_only_the_description_is_left_is_reported(self):
+        write_drape(self.folder, variants=VARIANTS[:1], references=REFERENCES[:1])
+        for name in ("drape.csv", "motion.csv", "terms.csv", "verdicts.json"):
+            os.remove(os.path.join(self.folder, name))
+        self.edit("drape.json", lambda text: json.dumps({"scene": "swing", "cells": [{"cell": "layered"}]}))
+        self.assertEqual(self.run_report(), (0, ""))
+        page = self.page()
+        for text in ("drape.json lists no run", "Left out: height and energies", "Left out: time per step", "Left out: terms of the solver",
+                     "Left out: parameters", "Left out: provenance", "Left out: verdicts"):
+            self.assertIn(text, page)
+
+    def test_frames_without_material_error_or_reference_are_drawn(self):
+        write_drape(self.folder, variants=VARIANTS[:1], references=())
+        path = os.path.join(self.folder, "layered-corotational", "fine")
+        for name in os.listdir(path):
+            frame = vtu.read_vtu(os.path.join(path, name))
+            write_vtu(os.path.join(path, name), frame.points, frame.triangles)
+        self.assertEqual(self.run_report(), (0, ""))
+        self.assertIn('id="swing-layered-cloth"', self.page())
+
+    def test_report_of_a_strain_study_two_scenes_and_stress_cases_is_one_page(self):
+        folders = [os.path.join(self.place, name) for name in ("strain", "one", "two", "stress")]
+        write_results(folders[0])
+        write_drape(folders[1], variants=VARIANTS[:1], references=REFERENCES[:1], frames=2)
+        write_drape(folders[2], variants=VARIANTS[:1], references=(), frames=2)
+        write_stress(folders[3])
+        self.assertEqual(self.run_report(*folders), (0, ""))
+        page = self.page()
+        for key in ("drape-short", "scene-1", "scene-2", "stress-1", "strain", "stiffness", "chi"):
+            self.assertEqual(page.count(f'<h2 id="{key}">'), 1)
+        self.assertIn("homespun: swing, swing, stress, stripes", page)
+
+    def test_the_same_results_give_the_same_page(self):
+        write_drape(self.folder, variants=VARIANTS[:1], references=REFERENCES[:1], frames=2)
+        self.assertEqual(self.run_report(), (0, ""))
+        first = self.page()
+        self.assertEqual(self.run_report(), (0, ""))
+        self.assertEqual(self.page(), first)
+
+    def test_truncated_frame_is_refused_by_name(self):
+        write_drape(self.folder, variants=VARIANTS[:1], references=REFERENCES[:1])
+        path = os.path.join(self.folder, "layered-shell", "fine", "0003.vtu")
+        os.truncate(path, os.path.getsize(path) - 600)
+        self.assert_refused("layered-shell/fine/0003.vtu", "is truncated")
+
+    def test_frame_with_a_vertex_that_is_not_a_number_is_refused(self):
+        write_drape(self.folder, variants=VARIANTS[:1], references=())
+        path = os.path.join(self.folder, "layered-corotational", "fine", "0003.vtu")
+        frame = vtu.read_vtu(path)
+        points = frame.points.copy()
+        points[5, 1] = numpy.nan
+        write_vtu(path, points, frame.triangles)
+        self.assert_refused("0003.vtu: vertex 5 is at", "expected finite numbers")
+
+    def test_all_faults_of_a_scene_are_named_at_once(self):
+        write_drape(self.folder, variants=VARIANTS[:1], references=REFERENCES[:1])
+        self.edit("drape.csv", lambda text: text.replace("localized,0,", "localized,", 1))
+        self.edit("motion.csv", lambda text: text.replace("layered,shell,1,", "layered,shell,one,", 1))
+        self.edit("terms.csv", lambda text: text.replace("wind,false", "wind,perhaps"))
+        self.edit("layered-shell/fine.pvd", lambda text: text[:100])
+        self.assert_refused("drape.csv, line 3: found 12 fields, expected 13", "`frame` is `one`", "`present` is `perhaps`",
+                            "fine.pvd: not a readable .pvd")
+
+    def test_description_with_keys_of_the_wrong_type_is_refused(self):
+        for old, new, message in (('"scene": "swing"', '"scene": 3', "key `scene` is `3`"),
+                                  ('"present": true', '"present": 1', "term `membrane` has `present` = `1`"),
+                                  ('"time_step_s": 0.001', '"time_step_s": "1 ms"', "key `time_step_s` is `1 ms`"),
+                                  ('[2839.91, 299.7, 0.0]', '[2839.91]', "key `C` is not a 3 x 3 matrix"),
+                                  ('"variant": "corotational", ', '', "runs[0] has `variant` = `None`"),
+                                  ('"seconds_per_step": 1.3', '"seconds_per_step": "long"', "`seconds_per_step` = `long`")):
+            with self.subTest(message):
+                write_drape(self.folder, variants=VARIANTS[:1], references=REFERENCES[:1], frames=2)
+                self.edit("drape.json", lambda text, old=old, new=new: text.replace(old, new, 1))
+                self.assert_refused("drape.json", message, "homespun drape")
+
+    def test_tables_without_their_description_are_refused(self):
+        write_drape(self.folder, variants=VARIANTS[:1], references=())
+        os.remove(os.path.join(self.folder, "drape.json"))
+        self.assert_refused("drape.json: does not exist")
+
+    def test_stress_cases_that_do_not_hold_come_first(self):
+        write_stress(self.folder)
+        self.assertEqual(self.run_report(), (0, ""))
+        page = self.page()
+        self.assertIn("2 of 4 cases hold, 1 fails, 1 cannot be judged.", page)
+        self.assertLess(page.index("sliver, 1e-6"), page.index("energy does not grow"))
+        self.assertLess(page.index("energy does not grow"), page.index("contrast 1e12"))
+        self.assertLess(page.rindex("sliver, 1e-6"), page.index("contrast 1e12"))
+        self.assertLess(page.index("homespun stress"), page.index('id="verdicts"'))
+
+    def test_stress_case_with_an_unknown_verdict_is_refused(self):
+        write_stress(self.folder)
+        self.edit("stress.csv", lambda text: text.replace("FAIL", "BAD"))
+        self.assert_refused("stress.csv, line 3: `verdict` is `BAD`", "homespun stress")
+
+
+class FramesTest(unittest.TestCase):
+    def setUp(self):
+        self.place = tempfile.mkdtemp()
+        self.addCleanup(shutil.rmtree, self.place)
+        self.path = os.path.join(self.place, "frame.vtu")
+
+    def test_frame_is_read_as_it_was_written_with_either_header(self):
+        flat, triangles, material = square_mesh(3, 0.1)
+        points = numpy.column_stack([flat, flat[:, 0] ** 2]).astype("f4")
+        for header in ("UInt32", "UInt64"):
+            write_vtu(self.path, points, triangles, {"error": points[:, 2]}, {"material": material}, header)
+            frame = vtu.read_vtu(self.path)
+            numpy.testing.assert_array_equal(frame.points, points)
+            numpy.testing.assert_array_equal(frame.triangles, triangles)
+            numpy.testing.assert_array_equal(frame.material(), material)
+            numpy.testing.assert_array_equal(frame.point_data["error"], points[:, 2])
+
+    def test_other_cells_than_triangles_and_vertices_that_do_not_exist_are_refused(self):
+        flat, triangles, _ = square_mesh(1, 1.)
+        write_vtu(self.path, numpy.column_stack([flat, 0. * flat[:, 0]]), triangles + 1)
+        with self.assertRaisesRegex(vtu.BadFrame, "refers to vertex 4, but there are 4"):
+            vtu.read_vtu(self.path)
+        with open(self.path, "wb") as file:
+            file.write(b"<VTKFile><UnstructuredGrid/></VTKFile>")
+        with self.assertRaisesRegex(vtu.BadFrame, "expected arrays appended as raw bytes"):
+            vtu.read_vtu(self.path)
+
+
+class RenderingTest(unittest.TestCase):
+    """A camera above the plane of the first two axes, one unit wide, in pictures of 100 pixels."""
+
+    def setUp(self):
+        self.camera = Camera(numpy.eye(3), numpy.array([0.5, 0.5]), numpy.ones(2))
+
+    def triangle(self, depth, size=1.):
+        return [[0., 0., depth], [size, 0., depth], [0., size, depth]]
+
+    def picture(self, points, triangles, colours, **options):
+        return render(vtu.Surface(numpy.array(points), numpy.array(triangles)), self.camera, 100, numpy.array(colours, float), **options)
+
+    def test_covered_area_is_the_area_of_the_triangle(self):
+        image = self.picture(self.triangle(0.), [[0, 1, 2]], [[1., 1., 1.]])
+        self.assertEqual(image.shape, (100, 100, 4))
+        self.assertAlmostEqual(image[..., 3].mean(), 0.5, delta=0.005)
+        self.assertEqual(image[99, 0, 3], 1.)  # the lower left corner of the plane is that of the picture
+        self.assertEqual(image[0, 99, 3], 0.)
+
+    def test_mesh_has_no_gaps_between_triangles(self):
+        flat, triangles, _ = square_mesh(37, 1.)
+        image = self.picture(numpy.column_stack([flat, 0. * flat[:, 0]]), triangles, numpy.ones((len(triangles), 3)))
+        self.assertEqual(image[..., 3].min(), 1.)
+
+    def test_the_nearer_of_two_triangles_is_seen_whatever_their_order(self):
+        points = self.triangle(0.) + self.triangle(0.2, 0.5)
+        red, blue = [1., 0., 0.], [0., 0., 1.]
+        for triangles, colours in (([[0, 1, 2], [3, 4, 5]], [red, blue]), ([[3, 4, 5], [0, 1, 2]], [blue, red])):
+            image = self.picture(points, triangles, colours)
+            self.assertGreater(image[95, 5, 2], 0.5)   # near the common corner the small one, which is nearer to the eye
+            self.assertEqual(image[95, 5, 0], 0.)
+            self.assertGreater(image[95, 80, 0], 0.5)
+
+    def test_both_sides_of_a_cloth_are_lit_alike(self):
+        one, other = (self.picture(self.triangle(0.), [t], [[1., 1., 1.]]) for t in ([0, 1, 2], [0, 2, 1]))
+        numpy.testing.assert_allclose(one, other, atol=1e-14)
+
+    def test_camera_looks_at_the_broad_side_with_up_upwards(self):
+        flat, triangles, _ = square_mesh(2, 1.)
+        hanging = vtu.Surface(numpy.column_stack([0. * flat[:, 0], flat]), triangles)  # in the plane of y and z
+        axes = best_axes([hanging], numpy.array([0., 0., 1.]))
+        self.assertGreater(abs(axes[2, 0]), 0.9)
+        self.assertGreater(axes[1, 2], 0.9)
+        for up in (numpy.eye(3)[0], numpy.eye(3)[1], -numpy.eye(3)[2], numpy.array([1., 2., 3.])):
+            turned = axes_of(30., 20., up)
+            numpy.testing.assert_allclose(turned @ turned.T, numpy.eye(3), atol=1e-14)
+            self.assertAlmostEqual(numpy.linalg.det(turned), 1.)
+            self.assertAlmostEqual(turned[0] @ up, 0.)
+
+    def test_camera_shows_all_it_is_asked_to(self):
+        flat, triangles, _ = square_mesh(2, 1.)
+        surface = vtu.Surface(numpy.column_stack([flat, flat[:, 0]]), triangles)
+        axes = axes_of(30., 20., numpy.array([0., 0., 1.]))
+        camera = camera_around(axes, [bounds(surface, axes)])
+        inside = abs(camera.project(surface.points)[:, :2] - camera.centre) < 0.5 * camera.extent
+        self.assertTrue(inside.all())
+
+
+if __name__ == "__main__":
+    unittest.main()
