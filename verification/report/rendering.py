@@ -2,7 +2,7 @@
 """Pictures of cloth in space by a depth buffer in numpy.
 
 Debian's VTK draws through an X server only, which a compute node lacks, and OpenGL drivers differ in the last
-bit. Cloth of small triangles needs little more than a depth buffer: this is quick enough (a third of a second for
+bit. Cloth of small triangles needs little more than a depth buffer: this is quick enough (about a second for
 288,000 triangles), needs no package and gives the same picture on every machine.
 """
 import math
