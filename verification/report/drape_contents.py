@@ -4,6 +4,8 @@ import json
 import math
 import os
 
+from markupsafe import escape
+
 import style
 import tables
 from drape_results import PRESENT
@@ -57,25 +59,27 @@ def exactly(value):
 
 
 def sentences(cell):
-    """The result of one cell in words, one sentence of time and one of error for each reference."""
+    """The result of one cell in words, as HTML: one sentence of time and one of error for each reference."""
     run = main_run(cell)
     if run is None:
         return []
     light, result = light_seconds(run), []
     coarse, upsampling = number(run, "seconds_per_coarse_step"), number(run, "seconds_per_upsampling")
     threads = number(run, "threads")
-    start = (f"One step of the coarse cloth ({run['variant']}) takes {seconds(coarse)} and its up-sampling {seconds(upsampling)}"
+    start = (f"One step of the coarse cloth ({escape(run['variant'])}) takes {seconds(coarse)} and its up-sampling {seconds(upsampling)}"
              + (f" on {int(threads)} thread{'s' if threads != 1 else ''}" if threads > 0 else ""))
     if number(run, "cut_steps") > 0:
-        start += f"; {three(int(run['cut_steps']))} of {three(int(number(run, 'steps')))} steps had to be cut" if number(run, "steps") > 0 else ""
+        of = f" of {three(int(number(run, 'steps')))}" if number(run, "steps") > 0 else ""
+        start += f" ({three(int(run['cut_steps']))}{of} steps had to be cut)"
     if not cell.references:
         result.append(start + ". No reference was asked for, so that nothing is said of the error.")
-    for reference in sorted(cell.references, key=lambda r: ordered_references(x["reference"] for x in cell.references).index(r["reference"])):
+    order = ordered_references(reference["reference"] for reference in cell.references)
+    for reference in sorted(cell.references, key=lambda reference: order.index(reference["reference"])):
         slow, name = number(reference, "seconds_per_step"), reference["reference"]
         ratio = f", <b>{three(float(slow / light))} times</b> as long" if slow > 0 and light > 0 else ""
         who = ", ".join(w for w in (workers_of(reference), f"{three(int(number(reference, 'dofs')))} unknowns"
                                     if number(reference, "dofs") > 0 else "") if w)
-        text = f"{start}; a step of the reference <b>{name}</b> takes {seconds(slow)}{f' ({who})' if who else ''}{ratio}."
+        text = f"{start}; a step of the reference <b>{escape(name)}</b> takes {seconds(slow)}{f' ({who})' if who else ''}{ratio}."
         result.append(text + " " + error_sentence(cell, run["variant"], name))
         start = "The same coarse step and up-sampling"
         if slow > 0:
@@ -92,7 +96,7 @@ def error_sentence(cell, variant, reference):
     """Mean error at the end and its maximum over time, with the reference's own error bar."""
     rows = rows_of(cell, variant, reference, METHOD)
     if not rows:
-        return f"Its error against {reference} is not known."
+        return f"Its error against {escape(reference)} is not known."
     last, worst = rows[-1], max(rows, key=lambda row: row["error_mean_m"])
     bar = last["reference_uncertainty_m"]
     text = (f"The mean error per vertex at the end ({three(float(last['time_s']))} s) is <b>{tables.length(last['error_mean_m'])}</b>"

@@ -20,6 +20,7 @@ import figures_cloth  # noqa: E402
 import report  # noqa: E402
 import stress_results  # noqa: E402
 import vtu  # noqa: E402
+from figures_drape import free_fall  # noqa: E402
 from rendering import Camera, axes_of, best_axes, bounds, camera_around, render  # noqa: E402
 from test_report import square_mesh, write_results  # noqa: E402
 
@@ -248,7 +249,7 @@ class DrapePageTest(unittest.TestCase):
         write_drape(self.folder, variants=VARIANTS[:1], references=REFERENCES[:1])
         for name in ("drape.csv", "motion.csv", "terms.csv", "verdicts.json"):
             os.remove(os.path.join(self.folder, name))
-        self.edit("drape.json", lambda text: json.dumps({"scene": "swing", "cells": [{"cell": "layered"}]}))
+        self.edit("drape.json", lambda text: json.dumps({"scene": "swing", "cells": [{"cell": "<layered>"}]}))
         self.assertEqual(self.run_report(), (0, ""))
         page = self.page()
         for text in ("drape.json lists no run", "Left out: height and energies", "Left out: time per step", "Left out: terms of the solver",
@@ -368,6 +369,42 @@ class FramesTest(unittest.TestCase):
             vtu.read_vtu(self.path)
 
 
+class SceneTest(unittest.TestCase):
+    def gravity(self, value):
+        return drape_results.Drape("", {"scene": "s", "parameters": {"Loads": {"Gravity": value}}})
+
+    def test_up_is_against_gravity_however_it_is_written(self):
+        for value, gravity in (("0, 0, -9.81", [0., 0., -9.81]), ([0, -1.6, 0], [0., -1.6, 0.]), (9.81, [0., 0., -9.81])):
+            drape = self.gravity(value)
+            numpy.testing.assert_allclose(drape.gravity(), gravity)
+            numpy.testing.assert_allclose(drape.up() * numpy.linalg.norm(gravity), numpy.negative(gravity))
+        for value in ("none", "0 0 0", "1 2"):
+            numpy.testing.assert_allclose(self.gravity(value).up(), [0., 0., 1.])
+        self.assertIsNone(self.gravity("none").gravity())
+
+    def test_frames_belong_together_where_their_times_agree(self):
+        cell = drape_results.DrapedCell("c", frames={("corotational", "fine"): [(0., "a"), (0.5, "b"), (1., "c")],
+                                                     ("shell", "fine"): [(0., "d"), (0.6, "e"), (1.0001, "f")]})
+        film = figures_cloth.film_of(cell, ["corotational"], ["shell"], 1.)
+        self.assertEqual([(shot["fine"], shot["reference"]) for shot in film.shots], [("a", "d"), ("b", None), ("c", "f")])
+        self.assertIsNone(figures_cloth.film_of(cell, ["nodal-warping"], ["shell"], 1.))
+
+    def test_error_is_measured_on_equal_meshes_and_read_on_others(self):
+        flat, triangles, _ = square_mesh(1, 1.)
+        points = numpy.column_stack([flat, 0. * flat[:, 0]])
+        surface = vtu.Surface(points, triangles, {"error": numpy.full(4, 7.)})
+        numpy.testing.assert_allclose(figures_cloth.error_of(surface, vtu.Surface(points + [0., 3., 4.], triangles)), 5.)
+        numpy.testing.assert_allclose(figures_cloth.error_of(surface, vtu.Surface(points, triangles[:1])), 7.)
+        self.assertIsNone(figures_cloth.error_of(vtu.Surface(points, triangles), None))
+
+    def test_free_fall_is_drawn_from_rest_alone(self):
+        rows = [{"time_s": t, "height": 2., "kinetic_J": 0.} for t in (0., 1.)]
+        time, height = free_fall(rows, numpy.array([0., 0., -10.]))
+        self.assertAlmostEqual(height[-1], 2. - 5.)
+        self.assertIsNone(free_fall([{**row, "kinetic_J": 1.} for row in rows], numpy.array([0., 0., -10.])))
+        self.assertIsNone(free_fall(rows, None))
+
+
 class RenderingTest(unittest.TestCase):
     """A camera above the plane of the first two axes, one unit wide, in pictures of 100 pixels."""
 
@@ -391,6 +428,14 @@ class RenderingTest(unittest.TestCase):
         flat, triangles, _ = square_mesh(37, 1.)
         image = self.picture(numpy.column_stack([flat, 0. * flat[:, 0]]), triangles, numpy.ones((len(triangles), 3)))
         self.assertEqual(image[..., 3].min(), 1.)
+
+    def test_a_picture_drawn_in_many_parts_is_the_same(self):
+        flat, triangles, _ = square_mesh(5, 1.)
+        points = numpy.column_stack([flat, flat[:, 0] ** 2])
+        colours = numpy.random.default_rng(1).random((len(triangles), 3))
+        whole = self.picture(points, triangles, colours)
+        with mock.patch("rendering.CANDIDATES", 700):
+            numpy.testing.assert_array_equal(self.picture(points, triangles, colours), whole)
 
     def test_the_nearer_of_two_triangles_is_seen_whatever_their_order(self):
         points = self.triangle(0.) + self.triangle(0.2, 0.5)
