@@ -63,7 +63,7 @@ def page_contents(results, gallery, output):
     verdicts = [verdict_contents(v, commands) for study in results.studies for v in study.verdicts]
     unreached = tables.unreached_notes(results.unreached())
     return {
-        "title": "homespun: " + ", ".join([d["scene"] for d in drapes] + (["stress"] if stress else []) + list(results.cells)),
+        "title": "homespun: " + ", ".join([d["scene"] for d in drapes] + ["stress"] * bool(stress) + list(results.cells)),
         "lead": lead(bool(drapes), bool(stress), strain_shown),
         "drapes": drapes,
         "stress": stress,
@@ -93,7 +93,8 @@ def contents_of_drapes(results, gallery, output):
         return []
     limit = min(MOVING_BYTES, 2 * MOVING_BYTES // max(1, sum(len(drape.cells) for drape in results.drapes)))
     with workers() as pool:
-        return [{**drape_contents(drape, gallery, output, limit, pool), "id": f"scene-{i}"} for i, drape in enumerate(results.drapes, 1)]
+        return [{**drape_contents(drape, gallery, output, limit, pool), "id": f"scene-{i}"}
+                for i, drape in enumerate(results.drapes, 1)]
 
 
 def headings_of(drapes, stress, strain_shown):
@@ -111,15 +112,15 @@ def lead(drape, stress, strain):
     """What the page is about."""
     sentences = []
     if strain:
-        sentences.append("How far an up-sampled cloth is from the resolved one: a coarse sheet with homogenized stiffness, its fine mesh "
-                         "restored by characteristic displacements, held against fine-scale finite elements, vertex by vertex.")
+        sentences.append("How far an up-sampled cloth is from the resolved one: a coarse sheet with homogenized "
+                         "stiffness, its fine mesh restored by characteristic displacements, held against fine-scale "
+                         "finite elements, vertex by vertex.")
     if drape:
-        sentences.append("Cloth in motion: a coarse cloth with homogenized stiffness is run through time and up-sampled"
-                         + (", and so held against the resolved cloth." if strain else ", and held against a cloth that is resolved by "
-                            "fine-scale finite elements, vertex by vertex."))
+        sentences.append("Cloth in motion: a coarse cloth with homogenized stiffness is run through time, up-sampled, and "
+                         "held against a cloth that is resolved by fine-scale finite elements, vertex by vertex.")
     if stress:
-        sentences.append("Numerical stability: stiff, degenerate and extreme cases, each of which must end in a finite answer or in a refusal "
-                         "that names the fault.")
+        sentences.append("Numerical stability: stiff, degenerate and extreme cases, each of which must end in a finite "
+                         "answer or in a refusal that names the fault.")
     return " ".join(sentences)
 
 

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""Reads what `homespun drape` writes: one scene, its cells, each with the runs of the coarse cloth and the references."""
+"""Reads what `homespun drape` writes: one scene, its cells, each with its runs of the coarse cloth and references."""
+import math
 import os
 from dataclasses import dataclass, field
 
@@ -14,6 +15,8 @@ ERROR_HEADER = ("scene,cell,variant,reference,method,frame,time_s,error_mean_m,e
 MOTION_HEADER = ("scene,cell,variant,frame,time_s,centre_x_m,centre_y_m,centre_z_m,kinetic_J,stored_J,max_stretch,"
                  "seconds_coarse_step,seconds_upsampling").split(",")
 TERMS_HEADER = "scene,cell,term,present,seconds_per_step,seconds_per_step_forced,bytes,bytes_forced".split(",")
+NUMBERS = {"frames", "steps", "cut_steps", "seconds_per_coarse_step", "seconds_per_upsampling", "threads", "ranks",
+           "dofs", "seconds_per_step", "cell_side_m", "areal_density"}  # of cells, runs and references in drape.json
 PRESENT = {"true": True, "1": True, "yes": True, "false": False, "0": False, "no": False}
 
 
@@ -76,6 +79,11 @@ def flat(parameters, prefix=""):
             yield f"{prefix}{key}", value
 
 
+def is_number(value):
+    """Finite and not true or false, which Python takes for numbers."""
+    return isinstance(value, (int, float)) and not isinstance(value, bool) and math.isfinite(value)
+
+
 def check_list(value, key, needed, where, faults):
     """The list of objects under a key, each with its needed texts; [] where it is absent or damaged."""
     items = value.get(key)
@@ -90,14 +98,10 @@ def check_list(value, key, needed, where, faults):
                 faults.append(f"{where}: {key}[{i}] has `{name}` = `{item.get(name)}`, expected a text. {AGAIN}")
                 return []
         for name, number in item.items():
-            if name in NUMBERS and number is not None and (isinstance(number, bool) or not isinstance(number, (int, float))):
+            if name in NUMBERS and number is not None and not is_number(number):
                 faults.append(f"{where}: {key}[{i}] has `{name}` = `{number}`, expected a number. {AGAIN}")
                 return []
     return items
-
-
-NUMBERS = {"frames", "steps", "cut_steps", "seconds_per_coarse_step", "seconds_per_upsampling", "threads", "ranks", "dofs",
-           "seconds_per_step", "cell_side_m", "areal_density"}
 
 
 def check_scene(value, path, faults):
@@ -105,17 +109,19 @@ def check_scene(value, path, faults):
     before = len(faults)
     if not isinstance(value.get("scene"), str) or not value["scene"]:
         faults.append(f"{path}: key `scene` is `{value.get('scene')}`, expected the name of the scene. {AGAIN}")
-    for key, kind in (("story", str), ("command", str), ("integrator", str), ("provenance", dict), ("parameters", dict)):
+    kinds = {"story": str, "command": str, "integrator": str, "provenance": dict, "parameters": dict}
+    for key, kind in kinds.items():
         if value.get(key) is not None and not isinstance(value[key], kind):
             faults.append(f"{path}: key `{key}` is a {type(value[key]).__name__}, expected "
                           f"{'a text' if kind is str else 'an object'}. {AGAIN}")
     for key in ("time_step_s", "duration_s", "coarse_triangles", "fine_triangles", "fine_vertices"):
         number = value.get(key)
-        if number is not None and (isinstance(number, bool) or not isinstance(number, (int, float)) or not number > 0):
+        if number is not None and not (is_number(number) and number > 0):
             faults.append(f"{path}: key `{key}` is `{number}`, expected a number above zero. {AGAIN}")
     for term in check_list(value, "terms", ("name",), path, faults):
         if not isinstance(term.get("present"), bool):
-            faults.append(f"{path}: term `{term['name']}` has `present` = `{term.get('present')}`, expected true or false. {AGAIN}")
+            faults.append(f"{path}: term `{term['name']}` has `present` = `{term.get('present')}`, expected true or "
+                          f"false. {AGAIN}")
     for cell in check_list(value, "cells", ("cell",), path, faults):
         where = f"{path}: cell `{cell['cell']}`"
         check_list(cell, "runs", ("variant", "folder"), where, faults)
@@ -152,12 +158,15 @@ def read_drape(folder, path_of, faults, missing):
     for name, header, target, keys, consequence in (
             ("drape.csv", ERROR_HEADER, "errors", ("cell", "variant", "reference", "method", "time_s"),
              f"{drape.scene}: error against time"),
-            ("motion.csv", MOTION_HEADER, "motion", ("cell", "variant", "time_s"), f"{drape.scene}: height and energies"),
-            ("terms.csv", TERMS_HEADER, "terms", ("cell", "term"), f"{drape.scene}: what absent terms would have cost")):
+            ("motion.csv", MOTION_HEADER, "motion", ("cell", "variant", "time_s"),
+             f"{drape.scene}: height and energies"),
+            ("terms.csv", TERMS_HEADER, "terms", ("cell", "term"),
+             f"{drape.scene}: what absent terms would have cost")):
         if file := path_of(name, consequence):
             for row in latest(read_csv(file, header, faults, missing, AGAIN), keys, file, missing):
                 if target == "terms" and row["present"].lower() not in PRESENT:
-                    faults.append(f"{file}, line {row['line']}: `present` is `{row['present']}`, expected true or false. {AGAIN}")
+                    faults.append(f"{file}, line {row['line']}: `present` is `{row['present']}`, expected true or "
+                                  f"false. {AGAIN}")
                 getattr(cells.setdefault(row["cell"], DrapedCell(row["cell"])), target).append(row)
     drape.cells = list(cells.values())
     for cell in drape.cells:
@@ -172,7 +181,8 @@ def read_frame_lists(drape, cell, faults, missing):
     for name, folder, kind in wanted:
         path = os.path.join(drape.folder, folder, kind + ".pvd")
         if not os.path.isfile(path):
-            missing.append({"what": f"{drape.scene}, {cell.name}: {kind} frames of {name}", "why": f"{path} does not exist"})
+            missing.append({"what": f"{drape.scene}, {cell.name}: {kind} frames of {name}",
+                            "why": f"{path} does not exist"})
             continue
         try:
             cell.frames[name, kind] = read_pvd(path)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Cloth in motion: coarse, up-sampled, reference and error side by side at some times and close up, and an animation."""
+"""Cloth in motion: coarse, up-sampled, reference and error side by side at some times and close up; an animation."""
 import io
 import os
 from concurrent.futures import ProcessPoolExecutor
@@ -18,6 +18,7 @@ from figures_sheet import unit_of
 from rendering import best_axes, bounds, camera_around, close_up, render
 from vtu import read_vtu
 
+KINDS = ("coarse", "fine", "reference")
 FRAMES = 4            # in the figure
 PIXELS = 560          # width of a panel in the saved files
 COARSE_COLOUR = (0.80, 0.84, 0.88)
@@ -70,7 +71,7 @@ def spread(items, number):
 
 
 def error_of(surface, reference):
-    """Distance to the reference at each vertex (n) [m], vertex by vertex; what the file says where the meshes differ; or None."""
+    """Distance to the reference at each vertex (n) [m]; where the meshes differ, what the file says; or None."""
     if reference is not None and numpy.array_equal(reference.triangles, surface.triangles):
         return numpy.linalg.norm(surface.points - reference.points, axis=1)
     stored = surface.point_data.get("error")
@@ -117,14 +118,14 @@ def cloth_figure(film, up, side, pool):
     """Rows are times, columns are coarse, up-sampled, reference and error, all through one camera; last a close-up.
 
     @param side of a cell [m], or None: no close-up
-    @return (figure, camera, phases, {"largest" [m], "capped": whether errors exceed the colour bar, "close": whether there
-            is a close-up})
+    @return (figure, camera, phases, {"largest" [m], "capped": whether errors exceed the colour bar,
+            "close": whether there is a close-up})
     @throws BadFrame
     """
     shots = spread(film.shots[1:] or film.shots, FRAMES)  # the first frame is the start, alike for all
-    surfaces = [{kind: read_vtu(shot[kind]) for kind in ("coarse", "fine", "reference") if shot[kind]} for shot in shots]
+    surfaces = [{kind: read_vtu(shot[kind]) for kind in KINDS if shot[kind]} for shot in shots]
     axes = best_axes([s for kinds in surfaces for s in kinds.values()], up)
-    paths = {path for shot in shots + moving_shots(film) for path in (shot["coarse"], shot["fine"], shot["reference"]) if path}
+    paths = {shot[kind] for shot in shots + moving_shots(film) for kind in KINDS if shot[kind]}
     camera = camera_around(axes, list(pool.map(bounds_of, sorted(paths), [axes] * len(paths))))
     fine = [kinds[kind] for kinds in surfaces for kind in ("fine", "reference") if kind in kinds]
     phases = phase_colour_map(fine)
@@ -137,7 +138,8 @@ def cloth_figure(film, up, side, pool):
                if any(kind in kinds for kinds in surfaces)]
     if known:
         columns.append(("error", "error per vertex"))
-    rows = [(f"t = {style.three(float(shot['time']))} s", kinds, error, camera) for shot, kinds, error in zip(shots, surfaces, errors)]
+    rows = [(f"t = {style.three(float(shot['time']))} s", kinds, error, camera)
+            for shot, kinds, error in zip(shots, surfaces, errors)]
     near = None
     if side and "fine" in surfaces[-1] and CELLS_ACROSS * side < 0.7 * camera.extent[0]:
         near = close_up(camera, surfaces[-1]["fine"], CELLS_ACROSS * side)
@@ -162,7 +164,8 @@ def cloth_figure(film, up, side, pool):
             for spine in axes.spines.values():
                 spine.set(visible=True, color="#D0D0D0", linewidth=0.6)
             if (row, kind) in jobs:
-                axes.imshow(jobs[row, kind].result(), extent=(-half[0], half[0], -half[1], half[1]), interpolation="antialiased")
+                axes.imshow(jobs[row, kind].result(), extent=(-half[0], half[0], -half[1], half[1]),
+                            interpolation="antialiased")
             else:
                 axes.text(0., 0., "no frame", ha="center", va="center", color="#666666")
             if row == 0:
@@ -180,7 +183,8 @@ def cloth_figure(film, up, side, pool):
                         aspect=22, pad=0.01, extend="max" if capped else "neither",
                         label=f"|x up-sampled − x reference| [{unit}]")
     if len(phases) > 1:
-        figure.legend(handles=[Patch(facecolor=colour, edgecolor="#555555", label=label) for colour, label in phases.values()],
+        figure.legend(handles=[Patch(facecolor=colour, edgecolor="#555555", label=label)
+                               for colour, label in phases.values()],
                       loc="lower left", bbox_to_anchor=(0.01, 0.), ncol=len(phases))
     return figure, camera, phases, {"largest": largest, "capped": capped, "close": near is not None}
 
@@ -192,13 +196,14 @@ def scale_bar(axes, half):
     factor, unit = (100., "cm") if 0.01 <= length < 1. else unit_of(length)
     left, low = -0.93 * half[0], -half[1] + 0.07 * min(half)
     axes.plot([left, left + length], [low, low], color=style.BLACK, lw=2., solid_capstyle="butt", path_effects=HALO)
-    axes.annotate(f"{factor * length:.3g} {unit}", (left + 0.5 * length, low), xytext=(0, 2.5), textcoords="offset points",
-                  ha="center", fontsize=7.5, path_effects=HALO)
+    axes.annotate(f"{factor * length:.3g} {unit}", (left + 0.5 * length, low), xytext=(0, 2.5),
+                  textcoords="offset points", ha="center", fontsize=7.5, path_effects=HALO)
 
 
 def moving_panels(shot, kinds, camera, phases):
     """The panels of one frame of the animation, read and drawn where they are needed."""
-    return [panel(read_vtu(shot[kind]), kind, camera, MOVING_PIXELS, phases) if shot[kind] else None for kind in kinds]
+    return [panel(read_vtu(shot[kind]), kind, camera, MOVING_PIXELS, phases) if shot[kind] else None
+            for kind in kinds]
 
 
 def animation(film, camera, phases, limit, pool):

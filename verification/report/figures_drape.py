@@ -55,28 +55,30 @@ def error_time_curves(rows):
     largest = [max(row["error_mean_m"] for row in rows if row["variant"] == variant) for variant in variants]
     factor, unit = unit_of(largest[0])
     bars = [row["reference_uncertainty_m"] for row in rows if row["reference_uncertainty_m"] > 0.]
-    # The first steps from a common start are arbitrarily small: four decades below the best cloth's largest are enough.
+    # The first steps from a common start are arbitrarily small: four decades below the best cloth's largest do.
     lower = max(min([row["error_mean_m"] for row in rows] + bars), 1e-4 * min(largest))
     lower = 10. ** math.floor(math.log10(factor * lower) - 0.2)
     upper = 10. ** math.ceil(math.log10(1.2 * factor * max(largest)))
-    figure, grid = pyplot.subplots(len(references), len(variants), squeeze=False, sharex=True, sharey=True, layout="constrained",
-                                   figsize=(0.9 + max(2.3 * len(variants), 4.2), 0.5 + 2.5 * len(references)))
+    size = (0.9 + max(2.3 * len(variants), 4.2), 0.5 + 2.5 * len(references))
+    figure, grid = pyplot.subplots(len(references), len(variants), squeeze=False, sharex=True, sharey=True,
+                                   layout="constrained", figsize=size)
     for axes in grid[-1]:
         axes.set_xlabel("time [s]")
     for line, reference in zip(grid, references):
         for axes, variant in zip(line, variants):
             here = [r for r in rows if r["variant"] == variant and r["reference"] == reference]
-            time, bar = curve([r for r in here if r["method"] == (here[0]["method"] if here else "")], "reference_uncertainty_m", factor)
-            if len(time) and (bar > 0.).any():
+            time, bar = curve([r for r in here if r["method"] == here[0]["method"]], "reference_uncertainty_m", factor)
+            if len(time):
                 axes.fill_between(time, bar, lower / 100., color="#BDBDBD", alpha=0.55, lw=0, zorder=0)
             for method in methods:
                 time, value = curve([r for r in here if r["method"] == method], "error_mean_m", factor)
                 if len(time):
-                    axes.plot(time, value, color=style.method_colour(method, methods), marker="o" if len(time) < 12 else "")
+                    axes.plot(time, value, color=style.method_colour(method, methods),
+                              marker="o" if len(time) < 12 else "")
             axes.set(yscale="log", ylim=(lower, upper))
             axes.yaxis.set_minor_locator(ticker.NullLocator())
-            axes.set_title(variant if len(references) == 1 else f"{variant} against {reference}", loc="left", fontweight="bold",
-                           fontsize=9 if len(variants) < 4 else 7.5)
+            axes.set_title(f"{variant} against {reference}", loc="left", fontweight="bold",
+                           fontsize=9 if len(variants) < 3 else 7.)
         line[0].set_ylabel(f"mean error [{unit}]")
     handles = [Line2D([], [], color=style.method_colour(m, methods), lw=2., label=m) for m in methods]
     if bars:
@@ -102,8 +104,9 @@ def members(rows):
 
 
 def member_handles(rows):
-    return [Line2D([], [], color=style.BLACK, ls=REFERENCE_LINES[n], lw=1.6, label=f"reference {n}") if n in REFERENCES
-            else Line2D([], [], color=variant_colour(n), lw=2., label=n) for n in members(rows)]
+    return [Line2D([], [], color=style.BLACK, ls=REFERENCE_LINES[name], lw=1.6, label=f"reference {name}")
+            if name in REFERENCES else Line2D([], [], color=variant_colour(name), lw=2., label=name)
+            for name in members(rows)]
 
 
 def with_height(rows, up):
@@ -121,7 +124,9 @@ def free_fall(rows, gravity):
 
 
 def height_figure(rows, up, gravity):
-    """Height of the centre against time. A variant that falls would flatten all others: then a second panel shows those.
+    """Height of the centre against time.
+
+    A variant that falls would flatten the curves of all others: then a second panel shows those.
 
     @return (figure, names of those that fall), or None
     """
@@ -135,7 +140,8 @@ def height_figure(rows, up, gravity):
     usual = max(span[name] for name in span if name in REFERENCES or name == members(rows)[0])
     falling = [name for name in span if name not in REFERENCES and span[name] > FALL * max(usual, 1e-12)]
     staying = [row for row in rows if row["variant"] not in falling]
-    figure, grid = pyplot.subplots(1, 2 if falling else 1, squeeze=False, figsize=(9.6 if falling else 5.6, 3.1), layout="constrained")
+    figure, grid = pyplot.subplots(1, 2 if falling else 1, squeeze=False, figsize=(9.6 if falling else 5.6, 3.1),
+                                   layout="constrained")
     parabola = free_fall(rows, gravity)
     for axes, some in zip(grid[0], (rows, staying)):
         if parabola is not None:
@@ -157,12 +163,13 @@ def height_figure(rows, up, gravity):
 
 def energy_figure(rows):
     """Kinetic and stored energy on logarithmic axes and the largest stretch, against time; None without numbers."""
-    panels = [(key, label, log) for key, label, log in (("kinetic_J", "kinetic energy [J]", True), ("stored_J", "stored energy [J]", True),
-                                                        ("max_stretch", "largest stretch [1]", False))
-              if any(row[key] > 0. for row in rows)]
+    panels = [("kinetic_J", "kinetic energy [J]", True), ("stored_J", "stored energy [J]", True),
+              ("max_stretch", "largest stretch [1]", False)]
+    panels = [(key, label, log) for key, label, log in panels if any(row[key] > 0. for row in rows)]
     if not panels:
         return None
-    figure, grid = pyplot.subplots(1, len(panels), squeeze=False, figsize=(0.4 + 3.2 * len(panels), 3.), layout="constrained")
+    figure, grid = pyplot.subplots(1, len(panels), squeeze=False, figsize=(0.4 + 3.2 * len(panels), 3.),
+                                   layout="constrained")
     for axes, (key, label, log) in zip(grid[0], panels):
         plot_members(axes, rows, key, positive=log)
         axes.set(xlabel="time [s]", title=label)
@@ -208,7 +215,8 @@ def step_bars(cell):
     for name in ordered_references(reference["reference"] for reference in cell.references):
         reference = next(r for r in cell.references if r["reference"] == name)
         value = number(reference, "seconds_per_step")
-        entries.append((f"reference {name}\n{workers_of(reference)}", value, "#555555", value / light if light > 0. else math.nan))
+        ratio = value / light if light > 0. else math.nan
+        entries.append((f"reference {name}\n{workers_of(reference)}".strip(), value, "#555555", ratio))
     entries = [entry for entry in entries if entry[1] > 0.]
     if not entries:
         return None
@@ -216,7 +224,8 @@ def step_bars(cell):
     lower = 10. ** math.floor(math.log10(min(entry[1] for entry in entries)) - 0.3)
     for i, (_, value, colour, ratio) in enumerate(entries):
         axes.barh(i, value - lower, 0.72, left=lower, color=colour)
-        text = style.seconds(value) + ("" if ratio is None or math.isnan(ratio) else f",  {style.three(float(ratio))} ×")
+        text = style.seconds(value)
+        text += "" if ratio is None or math.isnan(ratio) else f",  {style.three(float(ratio))} ×"
         axes.annotate(text, (value, i), xytext=(4, 0), textcoords="offset points", va="center", fontsize=8)
     axes.set(xscale="log", xlabel="time per step [s]", ylim=(len(entries) - 0.4, -0.6))
     axes.set_xlim(lower, 6. * max(entry[1] for entry in entries))

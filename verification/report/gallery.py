@@ -84,7 +84,7 @@ class Gallery:
     def add(self, figure, name, caption, as_image=False):
         """Saves `name`.pdf and `name`.svg and closes the figure.
 
-        @param as_image whether the page shows an image of dots, "webp" for one of shaded pictures; else the SVG itself
+        @param as_image whether the page shows an image of dots, "webp" for one of shaded pictures; else the SVG
         @return Picture
         """
         name = self.own_name(name)
@@ -113,4 +113,5 @@ class Gallery:
         name = self.own_name(name)
         with open(os.path.join(self.folder, name + ".webp"), "wb") as file:
             file.write(data)
-        return Picture(name, "data:image/webp;base64," + base64.b64encode(data).decode("ascii"), caption, width, ".webp")
+        source = "data:image/webp;base64," + base64.b64encode(data).decode("ascii")
+        return Picture(name, source, caption, width, ".webp")

@@ -97,15 +97,16 @@ def read_folder(folder, results, faults):
     # A draped or stressed cell has a folder of its own too; its page is about motion, not about strain.
     has_strain = holds("strain.csv") or (bool(cell_folders) and not has_drape and not has_stress)
     if not (has_drape or has_stress or has_strain):
-        faults.append(f"{folder}: holds no results: neither strain.csv nor CELL/homogenize.json nor drape.json nor stress.csv. "
-                      "Give the --output folder of `homespun strain`, `homogenize`, `drape` or `stress`.")
+        faults.append(f"{folder}: holds no results: neither strain.csv nor CELL/homogenize.json nor drape.json nor "
+                      "stress.csv. Give the --output folder of `homespun strain`, `homogenize`, `drape` or `stress`.")
         return
     results.studies.append(study)
     if has_drape and (drape := read_drape(folder, path_of, faults, results.missing)):
         results.drapes.append(drape)
         study.info = {key: drape.info[key] for key in ("command", "provenance") if drape.info.get(key)}
     if has_stress:
-        results.stress.append(read_stress(folder, study.name, os.path.join(folder, "stress.csv"), faults, results.missing))
+        path = os.path.join(folder, "stress.csv")
+        results.stress.append(read_stress(folder, study.name, path, faults, results.missing))
     if has_strain or holds("study.json"):
         if path := path_of("study.json", "command, sizes and provenance of the study"):
             if value := read_json(path, faults):

@@ -77,4 +77,5 @@ def stress_contents(stress):
     groups.sort(key=lambda group: group["worst"])  # stable: the order of the file among equals
     not_held = sorted((row for row in rows if row["verdict"] != "PASS"), key=lambda row: ORDER[row["verdict"]])
     return {"name": stress.name, "sentence": words_of(Counter(row["verdict"] for row in rows)) + ".",
-            "groups": groups, "cases": [case for group in groups for case in group["cases"]], "failures": [case_of(row) for row in not_held]}
+            "groups": groups, "cases": [case for group in groups for case in group["cases"]],
+            "failures": [case_of(row) for row in not_held]}

@@ -67,7 +67,7 @@ def swung(rest, size, time, ripple=0.):
     wave += ripple * numpy.sin(2. * numpy.pi * rest[:, 0] / SIDE) * numpy.sin(2. * numpy.pi * rest[:, 1] / SIDE)
     along = numpy.array([0., -numpy.cos(angle), -numpy.sin(angle)])
     normal = numpy.array([0., -numpy.sin(angle), numpy.cos(angle)])
-    return numpy.column_stack([rest[:, 0], 0. * drop, 0. * drop]) + numpy.outer(drop, along) + numpy.outer(wave, normal)
+    return numpy.outer(rest[:, 0], [1., 0., 0.]) + numpy.outer(drop, along) + numpy.outer(wave, normal)
 
 
 def write_frames(folder, kind, times, mesh, position, error=None, header="UInt32"):
@@ -108,7 +108,8 @@ def write_drape(folder, cells=2, per_cell=3, frames=4, names=("layered",), varia
 
             def position(rest, time, ripple=0., falls=falls, factor=growth[variant]):
                 if falls:
-                    return numpy.column_stack([rest[:, 0], rest[:, 1] - size, 0. * rest[:, 0] - 0.5 * GRAVITY * time ** 2])
+                    height = numpy.full(len(rest), -0.5 * GRAVITY * time ** 2)
+                    return numpy.column_stack([rest[:, 0], rest[:, 1] - size, height])
                 return swung(rest, size, time * (1. + 1e-3 * factor), ripple)
 
             def upsampled(time, position=position):
@@ -212,9 +213,9 @@ class DrapePageTest(unittest.TestCase):
         write_drape(self.folder)
         self.assertEqual(self.run_report(), (0, ""))
         page = self.page()
-        places = [page.index(f'id="{key}"') for key in ("verdicts", "drape-short", "scene-1", "scene-1-1", "scene-1-1-error",
-                                                       "scene-1-1-motion", "scene-1-1-time", "scene-1-terms",
-                                                       "scene-1-parameters", "scene-1-frames", "left-out", "provenance")]
+        sections = ("verdicts", "drape-short", "scene-1", "scene-1-1", "scene-1-1-error", "scene-1-1-motion", "scene-1-1-time",
+                    "scene-1-terms", "scene-1-parameters", "scene-1-frames", "left-out", "provenance")
+        places = [page.index(f'id="{key}"') for key in sections]
         self.assertEqual(places, sorted(places))
         self.assertLess(page.index("homespun drape swing.prm"), places[0])  # the command before the verdicts
         figures = set(os.listdir(os.path.join(self.output, "figures")))
@@ -223,9 +224,9 @@ class DrapePageTest(unittest.TestCase):
             self.assertIn(f'id="swing-layered-{name}"', page)
         with Image.open(os.path.join(self.output, "figures", "swing-layered-motion.webp")) as moving:
             self.assertEqual((moving.n_frames, moving.info["loop"]), (4, 0))
-        for text in ("1.10 ms and its up-sampling 90.0 µs on 1 thread", "<b>1090 times</b> as long", "the uncertainty of the reference is 10.0 µm",
-                     "the uncertainty of the reference is not known", "let go &lt;level&gt;", "the scene does not ask for it", "+13.6 %",
-                     "+23.5 %", "solver/tolerance", "1e-08", "printed-nodal-warping moves more than three times", "abc1234"):
+        for text in ("1.10 ms and its up-sampling 90.0 µs on 1 thread", "<b>1090 times</b> as long",
+                     "the uncertainty of the reference is 10.0 µm", "the uncertainty of the reference is not known",
+                     "let go &lt;level&gt;", "the scene does not ask for it", "+13.6 %", "+23.5 %", "solver/tolerance", "1e-08", "printed-nodal-warping moves more than three times", "abc1234"):
             self.assertIn(text, page)
         links = re.findall(r'href="([^"#][^"]*)"', page)
         self.assertEqual(len(links), 2 * len(VARIANTS) + len(REFERENCES))
@@ -252,8 +253,8 @@ class DrapePageTest(unittest.TestCase):
         self.edit("drape.json", lambda text: json.dumps({"scene": "swing", "cells": [{"cell": "<layered>"}]}))
         self.assertEqual(self.run_report(), (0, ""))
         page = self.page()
-        for text in ("drape.json lists no run", "Left out: height and energies", "Left out: time per step", "Left out: terms of the solver",
-                     "Left out: parameters", "Left out: provenance", "Left out: verdicts"):
+        for text in ("drape.json lists no run", "Left out: height and energies", "Left out: time per step",
+                     "Left out: terms of the solver", "Left out: parameters", "Left out: provenance", "Left out: verdicts"):
             self.assertIn(text, page)
 
     def test_frames_without_material_error_or_reference_are_drawn(self):
@@ -305,8 +306,8 @@ class DrapePageTest(unittest.TestCase):
         self.edit("motion.csv", lambda text: text.replace("layered,shell,1,", "layered,shell,one,", 1))
         self.edit("terms.csv", lambda text: text.replace("wind,false", "wind,perhaps"))
         self.edit("layered-shell/fine.pvd", lambda text: text[:100])
-        self.assert_refused("drape.csv, line 3: found 12 fields, expected 13", "`frame` is `one`", "`present` is `perhaps`",
-                            "fine.pvd: not a readable .pvd")
+        self.assert_refused("drape.csv, line 3: found 12 fields, expected 13", "`frame` is `one`",
+                            "`present` is `perhaps`", "fine.pvd: not a readable .pvd")
 
     def test_description_with_keys_of_the_wrong_type_is_refused(self):
         for old, new, message in (('"scene": "swing"', '"scene": 3', "key `scene` is `3`"),
@@ -374,7 +375,8 @@ class SceneTest(unittest.TestCase):
         return drape_results.Drape("", {"scene": "s", "parameters": {"Loads": {"Gravity": value}}})
 
     def test_up_is_against_gravity_however_it_is_written(self):
-        for value, gravity in (("0, 0, -9.81", [0., 0., -9.81]), ([0, -1.6, 0], [0., -1.6, 0.]), (9.81, [0., 0., -9.81])):
+        for value, gravity in (("0, 0, -9.81", [0., 0., -9.81]), ([0, -1.6, 0], [0., -1.6, 0.]),
+                               (9.81, [0., 0., -9.81])):
             drape = self.gravity(value)
             numpy.testing.assert_allclose(drape.gravity(), gravity)
             numpy.testing.assert_allclose(drape.up() * numpy.linalg.norm(gravity), numpy.negative(gravity))
@@ -386,7 +388,8 @@ class SceneTest(unittest.TestCase):
         cell = drape_results.DrapedCell("c", frames={("corotational", "fine"): [(0., "a"), (0.5, "b"), (1., "c")],
                                                      ("shell", "fine"): [(0., "d"), (0.6, "e"), (1.0001, "f")]})
         film = figures_cloth.film_of(cell, ["corotational"], ["shell"], 1.)
-        self.assertEqual([(shot["fine"], shot["reference"]) for shot in film.shots], [("a", "d"), ("b", None), ("c", "f")])
+        self.assertEqual([(shot["fine"], shot["reference"]) for shot in film.shots],
+                         [("a", "d"), ("b", None), ("c", "f")])
         self.assertIsNone(figures_cloth.film_of(cell, ["nodal-warping"], ["shell"], 1.))
 
     def test_error_is_measured_on_equal_meshes_and_read_on_others(self):
@@ -415,7 +418,8 @@ class RenderingTest(unittest.TestCase):
         return [[0., 0., depth], [size, 0., depth], [0., size, depth]]
 
     def picture(self, points, triangles, colours, **options):
-        return render(vtu.Surface(numpy.array(points), numpy.array(triangles)), self.camera, 100, numpy.array(colours, float), **options)
+        surface = vtu.Surface(numpy.array(points), numpy.array(triangles))
+        return render(surface, self.camera, 100, numpy.array(colours, float), **options)
 
     def test_covered_area_is_the_area_of_the_triangle(self):
         image = self.picture(self.triangle(0.), [[0, 1, 2]], [[1., 1., 1.]])

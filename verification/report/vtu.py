@@ -82,7 +82,8 @@ def read_vtu(path):
         raise BadFrame(f"{path}: cannot be read ({error}). {AGAIN}") from error
     start = APPENDED.search(content)
     if start is None or start.group(1) != b"raw":
-        raise BadFrame(f"{path}: has no `<AppendedData encoding=\"raw\">`, expected arrays appended as raw bytes. {AGAIN}")
+        raise BadFrame(f"{path}: has no `<AppendedData encoding=\"raw\">`, expected arrays appended as raw bytes. "
+                       f"{AGAIN}")
     try:
         root = ElementTree.fromstring(content[:start.start()] + b"</VTKFile>")
     except ElementTree.ParseError as error:
@@ -99,8 +100,8 @@ def read_vtu(path):
         """The values of a DataArray, flat or (n, components)."""
         name, kind = element.get("Name"), TYPES.get(element.get("type"))
         if kind is None or element.get("format") != "appended" or not (element.get("offset") or "").isdigit():
-            raise BadFrame(f"{path}: array `{name}` has type {element.get('type')}, format {element.get('format')}, offset "
-                           f"{element.get('offset')}; expected numbers in format appended. {AGAIN}")
+            raise BadFrame(f"{path}: array `{name}` has type {element.get('type')}, format {element.get('format')}, "
+                           f"offset {element.get('offset')}; expected numbers in format appended. {AGAIN}")
         begin = start.end() + int(element.get("offset"))
         data = begin + header.itemsize
         size = int(numpy.frombuffer(content[begin:data], header)[0]) if data <= len(content) else 0
@@ -121,7 +122,8 @@ def read_vtu(path):
         raise BadFrame(f"{path}: has no Points or no Cells with connectivity and types. {AGAIN}")
     surface = Surface(next(iter(points.values())).astype(float), cells["connectivity"].astype(int),
                       arrays("PointData"), arrays("CellData"))
-    check(surface, cells["types"], int(piece.get("NumberOfPoints") or -1), int(piece.get("NumberOfCells") or -1), path)
+    sizes = (int(piece.get(name) or -1) for name in ("NumberOfPoints", "NumberOfCells"))
+    check(surface, cells["types"], *sizes, path)
     surface.triangles = surface.triangles.reshape(-1, 3)
     return surface
 
@@ -130,8 +132,8 @@ def check(surface, types, n_points, n_cells, path):
     """@throws BadFrame where sizes, indices or numbers make no sense"""
     if surface.points.shape != (n_points, 3) or surface.triangles.size != 3 * n_cells or len(types) != n_cells \
             or (types != TRIANGLE).any():
-        raise BadFrame(f"{path}: has points of shape {surface.points.shape} and {surface.triangles.size} corners, expected "
-                       f"({n_points}, 3) and {n_cells} triangles. {AGAIN}")
+        raise BadFrame(f"{path}: has points of shape {surface.points.shape} and {surface.triangles.size} corners, "
+                       f"expected ({n_points}, 3) and {n_cells} triangles. {AGAIN}")
     if not numpy.isfinite(surface.points).all():
         vertex = int(numpy.flatnonzero(~numpy.isfinite(surface.points).all(axis=1))[0])
         raise BadFrame(f"{path}: vertex {vertex} is at {surface.points[vertex]}, expected finite numbers. {AGAIN}")
@@ -141,5 +143,5 @@ def check(surface, types, n_points, n_cells, path):
     for data, size, where in ((surface.point_data, n_points, "points"), (surface.cell_data, n_cells, "triangles")):
         for name, values in data.items():
             if len(values) != size or not numpy.isfinite(values).all():
-                raise BadFrame(f"{path}: array `{name}` has {len(values)} values for {size} {where}, or values that are "
-                               f"not finite. {AGAIN}")
+                raise BadFrame(f"{path}: array `{name}` has {len(values)} values for {size} {where}, or values that "
+                               f"are not finite. {AGAIN}")
