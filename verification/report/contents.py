@@ -47,6 +47,9 @@ def page_contents(results, gallery, output):
     """
     stress = [{**stress_contents(s), "id": f"stress-{i}"} for i, s in enumerate(results.stress, 1)]
     drapes = contents_of_drapes(results, gallery, output)
+    scenes = [d["scene"] for d in drapes]
+    for d, drape in zip(drapes, results.drapes):  # one scene may have been run into two folders
+        d["name"] = d["scene"] if scenes.count(d["scene"]) == 1 else f"{d['scene']} ({drape.folder})"
     strain_shown = bool(results.cells) or not (drapes or stress)
     headings = headings_of(drapes, stress, strain_shown)
     cells = contents_of_cells(results, gallery)
@@ -60,7 +63,9 @@ def page_contents(results, gallery, output):
         reasons["short"] = [{"what": "the summary of errors", "why": "it needs rows of `affine` and "
                              "`localized` in strain.csv"}]
     commands = list(dict.fromkeys(c for c in map(command_of, results.studies) if c))
-    verdicts = [verdict_contents(v, commands) for study in results.studies for v in study.verdicts]
+    several = len(results.studies) > 1
+    verdicts = [verdict_contents(v, commands, study.name if several else "") for study in results.studies
+                for v in study.verdicts]
     unreached = tables.unreached_notes(results.unreached())
     return {
         "title": "homespun: " + ", ".join([d["scene"] for d in drapes] + ["stress"] * bool(stress) + list(results.cells)),
@@ -102,7 +107,7 @@ def headings_of(drapes, stress, strain_shown):
     headings = {"verdicts": HEADINGS["verdicts"]}
     if drapes:
         headings["drape-short"] = "In short: cloth in motion" if strain_shown else "In short"
-    headings.update((d["id"], f"Drape: {d['scene']}") for d in drapes)
+    headings.update((d["id"], f"Drape: {d['name']}") for d in drapes)
     headings.update((s["id"], "Stress cases" + (f": {s['name']}" if len(stress) > 1 else "")) for s in stress)
     headings.update((key, text) for key, text in HEADINGS.items() if strain_shown or key in COMMON)
     return headings
@@ -153,10 +158,13 @@ def command_of(study):
     return study.info.get("command") or (named.pop() if len(named) == 1 else None)
 
 
-def verdict_contents(verdict, commands):
-    """One row; its command only where it is not among those at the head of the page."""
+def verdict_contents(verdict, commands, study):
+    """One row; its command only where it is not among those at the head of the page.
+
+    @param study name of its folder, where there are several
+    """
     value = verdict.get("value")
-    return {"claim": verdict["claim"], "verdict": verdict["verdict"], "mark": MARKS[verdict["verdict"]],
+    return {"claim": f"{study}: {verdict['claim']}" if study else verdict["claim"], "verdict": verdict["verdict"], "mark": MARKS[verdict["verdict"]],
             "value": "–" if value is None else tables.shown(value), "limit": tables.shown(verdict.get("limit", "")),
             "command": "" if verdict.get("command") in commands else verdict.get("command", "")}
 

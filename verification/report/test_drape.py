@@ -277,6 +277,8 @@ class DrapePageTest(unittest.TestCase):
         for key in ("drape-short", "scene-1", "scene-2", "stress-1", "strain", "stiffness", "chi"):
             self.assertEqual(page.count(f'<h2 id="{key}">'), 1)
         self.assertIn("homespun: swing, swing, stress, stripes", page)
+        self.assertIn(f"Drape: swing ({folders[1]})", page)
+        self.assertIn("stress: every case ends finite or refused", page)
 
     def test_the_same_results_give_the_same_page(self):
         write_drape(self.folder, variants=VARIANTS[:1], references=REFERENCES[:1], frames=2)
