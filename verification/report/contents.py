@@ -7,13 +7,16 @@ from concurrent.futures import ProcessPoolExecutor
 import style
 import tables
 from cell_results import read_fields
+from drape_contents import drape_contents
 from figures_cell import characteristic_figure, phase_figure
+from figures_cloth import MOVING_BYTES, workers
 from figures_sheet import sheet_figure
 from figures_stiffness import polar_figure
 from figures_strain import error_figure
 from figures_time import error_time_figure, run_time_figure, step_figure
 from gallery import file_name
 from results import BadResults, cell_side
+from stress_results import MARKS, stress_contents
 from style import percent, seconds, three
 
 HEADINGS = {
@@ -31,16 +34,24 @@ HEADINGS = {
     "checks": "Checks of the homogenization",
     "provenance": "Provenance",
 }
-MARKS = {"PASS": "✓", "FAIL": "✗", "INCONCLUSIVE": "?"}
+COMMON = ("verdicts", "left-out", "provenance")  # headings of every page; the others are those of `homespun strain`
 MAIN_METHODS = ("affine", "localized")
 
 
-def page_contents(results, gallery):
+def page_contents(results, gallery, output):
     """Everything the template shows.
 
     @param gallery where figures are saved
-    @throws BadResults where a stored sheet cannot be read
+    @param output folder of the page, for links to frames
+    @throws BadResults where a stored sheet or frame cannot be read
     """
+    stress = [{**stress_contents(s), "id": f"stress-{i}"} for i, s in enumerate(results.stress, 1)]
+    drapes = contents_of_drapes(results, gallery, output)
+    scenes = [d["scene"] for d in drapes]
+    for d, drape in zip(drapes, results.drapes):  # one scene may have been run into two folders
+        d["name"] = d["scene"] if scenes.count(d["scene"]) == 1 else f"{d['scene']} ({drape.folder})"
+    strain_shown = bool(results.cells) or not (drapes or stress)
+    headings = headings_of(drapes, stress, strain_shown)
     cells = contents_of_cells(results, gallery)
     reasons = {key: [] for key in ("verdicts", "short", "strain", "uncertainty")}
     words = {"verdicts": "verdicts", "strain": "error against strain", "uncertainty": "error bar"}
@@ -51,15 +62,22 @@ def page_contents(results, gallery):
     if not short:
         reasons["short"] = [{"what": "the summary of errors", "why": "it needs rows of `affine` and "
                              "`localized` in strain.csv"}]
-    commands = [s.info.get("command") for s in results.studies]
-    verdicts = [verdict_contents(v, commands) for study in results.studies for v in study.verdicts]
+    commands = list(dict.fromkeys(c for c in map(command_of, results.studies) if c))
+    several = len(results.studies) > 1
+    verdicts = [verdict_contents(v, commands, study.name if several else "") for study in results.studies
+                for v in study.verdicts]
     unreached = tables.unreached_notes(results.unreached())
     return {
-        "title": "homespun: " + ", ".join(results.cells),
+        "title": "homespun: " + ", ".join([d["scene"] for d in drapes] + ["stress"] * bool(stress) + list(results.cells)),
+        "lead": lead(bool(drapes), bool(stress), strain_shown),
+        "drapes": drapes,
+        "stress": stress,
+        "strain_shown": strain_shown,
         "summary": summary(results),
-        "commands": [s.info["command"] for s in results.studies if s.info.get("command")],
+        "commands": commands,
         "headings": HEADINGS,
-        "contents": list(HEADINGS.items()),
+        "shown_headings": headings,
+        "contents": list(headings.items()),
         "verdicts": verdicts,
         "verdict_sentence": verdict_sentence(verdicts),
         "in_short": short,
@@ -72,6 +90,43 @@ def page_contents(results, gallery):
         "reasons": reasons,
         "provenance": provenance(results),
     }
+
+
+def contents_of_drapes(results, gallery, output):
+    """The scenes one after the other; frames are rendered by all cores."""
+    if not results.drapes:
+        return []
+    limit = min(MOVING_BYTES, 2 * MOVING_BYTES // max(1, sum(len(drape.cells) for drape in results.drapes)))
+    with workers() as pool:
+        return [{**drape_contents(drape, gallery, output, limit, pool), "id": f"scene-{i}"}
+                for i, drape in enumerate(results.drapes, 1)]
+
+
+def headings_of(drapes, stress, strain_shown):
+    """id -> heading of the sections that this page has, in their order."""
+    headings = {"verdicts": HEADINGS["verdicts"]}
+    if drapes:
+        headings["drape-short"] = "In short: cloth in motion" if strain_shown else "In short"
+    headings.update((d["id"], f"Drape: {d['name']}") for d in drapes)
+    headings.update((s["id"], "Stress cases" + (f": {s['name']}" if len(stress) > 1 else "")) for s in stress)
+    headings.update((key, text) for key, text in HEADINGS.items() if strain_shown or key in COMMON)
+    return headings
+
+
+def lead(drape, stress, strain):
+    """What the page is about."""
+    sentences = []
+    if strain:
+        sentences.append("How far an up-sampled cloth is from the resolved one: a coarse sheet with homogenized "
+                         "stiffness, its fine mesh restored by characteristic displacements, held against fine-scale "
+                         "finite elements, vertex by vertex.")
+    if drape:
+        sentences.append("Cloth in motion: a coarse cloth with homogenized stiffness is run through time, up-sampled, and "
+                         "held against a cloth that is resolved by fine-scale finite elements, vertex by vertex.")
+    if stress:
+        sentences.append("Numerical stability: stiff, degenerate and extreme cases, each of which must end in a finite "
+                         "answer or in a refusal that names the fault.")
+    return " ".join(sentences)
 
 
 def summary(results):
@@ -97,10 +152,19 @@ def summary(results):
     return " ".join(sentences)
 
 
-def verdict_contents(verdict, commands):
-    """One row; its command only where it is not among those at the head of the page."""
+def command_of(study):
+    """The command that made a folder; where none is stored, the one that all its verdicts name."""
+    named = {v.get("command") for v in study.verdicts}
+    return study.info.get("command") or (named.pop() if len(named) == 1 else None)
+
+
+def verdict_contents(verdict, commands, study):
+    """One row; its command only where it is not among those at the head of the page.
+
+    @param study name of its folder, where there are several
+    """
     value = verdict.get("value")
-    return {"claim": verdict["claim"], "verdict": verdict["verdict"], "mark": MARKS[verdict["verdict"]],
+    return {"claim": f"{study}: {verdict['claim']}" if study else verdict["claim"], "verdict": verdict["verdict"], "mark": MARKS[verdict["verdict"]],
             "value": "–" if value is None else tables.shown(value), "limit": tables.shown(verdict.get("limit", "")),
             "command": "" if verdict.get("command") in commands else verdict.get("command", "")}
 

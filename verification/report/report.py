@@ -42,7 +42,7 @@ def write_report(folders, output):
     try:
         sheets = sum(len(cell.field_files) for cell in results.cells.values())
         gallery = Gallery(os.path.join(workplace, "figures"), sheets)
-        html = render(page_contents(results, gallery))
+        html = render(page_contents(results, gallery, output))
         with open(os.path.join(workplace, "report.html"), "w", encoding="utf-8") as file:
             file.write(html)
         os.makedirs(os.path.join(output, "figures"), exist_ok=True)
@@ -62,8 +62,8 @@ def write_report(folders, output):
 
 def main(arguments=None):
     parser = argparse.ArgumentParser(prog="homespun report", description=__doc__.splitlines()[0])
-    parser.add_argument("folders", nargs="+", metavar="DIR", help="output folder of `homespun strain` or "
-                        "`homespun homogenize`")
+    parser.add_argument("folders", nargs="+", metavar="DIR", help="output folder of `homespun strain`, `homogenize`, "
+                        "`drape` or `stress`")
     parser.add_argument("--output", required=True, metavar="FOLDER", help="where report.html and figures/ go")
     parser.add_argument("--quiet", action="store_true", help="say nothing unless something is wrong")
     options = parser.parse_args(arguments)

@@ -1,0 +1,100 @@
+# SPDX-License-Identifier: MIT
+"""What the page says of one scene: the result in words, pictures, curves and tables."""
+import os
+
+import tables
+from drape_tables import cost_rows, error_rows, exactly, facts, run_rows, sentences, term_rows
+from figures_cloth import animation, cloth_figure, film_of
+from figures_drape import (energy_figure, error_time_curves, height_figure, ordered_references, ordered_variants,
+                           step_bars)
+from stored import BadResults
+from style import three
+from vtu import BadFrame
+
+
+def drape_contents(drape, gallery, output, limit, pool):
+    """One scene as the template shows it.
+
+    @param output folder of the page, for links to the frames
+    @param limit bytes of one animation
+    @param pool of processes that render
+    @throws BadResults where a frame cannot be read
+    """
+    return {"scene": drape.scene, "story": drape.info.get("story") or "", "facts": facts(drape.info),
+            "cells": [cell_contents(drape, cell, gallery, output, limit, pool) for cell in drape.cells],
+            "terms": term_rows(drape.info),
+            "costs": [row for cell in drape.cells for row in cost_rows(cell)],
+            "parameters": [(key, exactly(value)) for key, value in drape.parameters()]}
+
+
+def cell_contents(drape, cell, gallery, output, limit, pool):
+    """Pictures, curves and tables of one cell in the scene; what has no data is None or empty."""
+    info = cell.info
+    side, density = info.get("cell_side_m"), info.get("areal_density")
+    contents = {"name": cell.name, "sentences": sentences(cell), "pictures": None, "animation": None, "error": None,
+                "height": None, "energies": None, "steps": None, "errors": error_rows(cell), "runs": run_rows(cell),
+                "matrix": tables.matrix_rows(info.get("C")),
+                "side": tables.length(float(side)) if side else None,
+                "density": f"{three(float(density))} kg/m²" if density else None,
+                "links": [(os.path.relpath(path, drape.folder), os.path.relpath(path, output)) for path in cell.lists]}
+    draw_cloth(contents, drape, cell, gallery, limit, pool)
+    draw_curves(contents, drape, cell, gallery)
+    return contents
+
+
+def draw_cloth(contents, drape, cell, gallery, limit, pool):
+    """The rendered pictures and the animation of a cell."""
+    variants = ordered_variants(run["variant"] for run in cell.runs)
+    references = ordered_references(reference["reference"] for reference in cell.references)
+    film = film_of(cell, variants, references, drape.info.get("duration_s"))
+    if film is None:
+        return
+    file, title = f"{drape.scene}-{cell.name}", f"{drape.scene}, {cell.name}"
+    try:
+        figure, camera, phases, numbers = cloth_figure(film, drape.up(), cell.info.get("cell_side_m"), pool)
+        words = ""
+        if numbers["largest"] > 0.:
+            words = " Error: distance of each up-sampled vertex from its place in the reference"
+            words += "; the colour bar, common to all times, ends at the 99.5th percentile" if numbers["capped"] else ""
+            words += "."
+        if numbers["close"]:
+            words += " Below: the framed part of the last time."
+        contents["pictures"] = gallery.add(
+            figure, f"{file}-cloth", f"{title}, {film.variant} cloth. One camera for all; parallel projection, "
+            f"true scale, not exaggerated.{words}", as_image="webp")
+        if moving := animation(film, camera, phases, limit, pool):
+            data, width, loop, (first, last) = moving
+            at_speed = abs(loop - (last - first)) <= 0.05 * loop
+            words = "at true speed" if at_speed else f"shown in {three(float(loop))} s"
+            contents["animation"] = gallery.add_animation(
+                data, f"{file}-motion", width, f"{title}: from {three(float(first))} s to {three(float(last))} s, "
+                f"{words}.")
+    except BadFrame as error:
+        raise BadResults([str(error)]) from error
+
+
+def draw_curves(contents, drape, cell, gallery):
+    """Error, height, energies and time per step."""
+    file, title = f"{drape.scene}-{cell.name}", f"{drape.scene}, {cell.name}"
+    if figure := error_time_curves(cell.errors):
+        contents["error"] = gallery.add(
+            figure, f"{file}-error-time", f"{title}: mean error over all fine vertices against time, for each membrane "
+            "model of the coarse cloth (panels) and each way of up-sampling (colours). Grey: not larger than the "
+            "reference's own uncertainty.")
+    if drawn := height_figure(cell.motion, drape.up(), drape.gravity()):
+        figure, falling = drawn
+        words = ""
+        if falling:
+            words = (f" {' and '.join(falling)} move{'s' if len(falling) == 1 else ''} more than three times as far as "
+                     "the first cloth and the references; the right panel leaves that out.")
+        if any(variant.startswith("printed") for variant in falling):
+            words += " The force of the printed Eq. 8 has no part along the normal, so that nothing holds the cloth up."
+        contents["height"] = gallery.add(figure, f"{file}-height", f"{title}: height of the centre of mass.{words}")
+    if figure := energy_figure(cell.motion):
+        contents["energies"] = gallery.add(figure, f"{file}-energies", f"{title}: energies of the cloth and its "
+                                           "largest stretch (deformed over rest length).")
+    if figure := step_bars(cell):
+        words = ""
+        if cell.references:
+            words = " The factor at a reference: its step over coarse step and up-sampling of the first cloth."
+        contents["steps"] = gallery.add(figure, f"{file}-step", f"{title}: time per step.{words}")
