@@ -220,6 +220,30 @@ void ClothReference::start(const Placement &initial_position, const Held &new_he
   positions_at_vertices = at_vertices(position);
 }
 
+void ClothReference::resume(const meshes::SpacePoints &positions,
+                            const meshes::SpacePoints &velocities, const double time)
+{
+  if (options.order != 1 || options.refine != 0 || positions.rows() != n_rest_vertices ||
+      velocities.rows() != n_rest_vertices || !positions.allFinite() || !velocities.allFinite() ||
+      !(time >= 0.))
+    throw meshes::BadInput("a reference goes on from finite positions and velocities of its " +
+                           std::to_string(n_rest_vertices) + " vertices, with P1 alone; found " +
+                           std::to_string(positions.rows()) + " and P" + std::to_string(options.order));
+  for (int v = 0; v < n_rest_vertices; ++v)
+    for (int c = 0; c < 3; ++c)
+      if (discretization.locally_owned.is_element(vertex_dofs(v, c)))
+      {
+        position(vertex_dofs(v, c)) = positions(v, c);
+        velocity(vertex_dofs(v, c)) = velocities(v, c);
+      }
+  position.compress(VectorOperation::insert);
+  velocity.compress(VectorOperation::insert);
+  present_time = time;
+  hold(time);
+  put_held(position);
+  positions_at_vertices = at_vertices(position);
+}
+
 /// Takes up what is held at a time; the matrix is laid out anew where that has changed.
 void ClothReference::hold(const double new_time)
 {

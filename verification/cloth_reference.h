@@ -78,6 +78,13 @@ public:
   /// @throws BadInput where a position or a load is not finite or the damping negative
   void start(const Placement &initial_position, const Held &held, const ClothLoads &loads);
 
+  /// Takes up a run where it was left: to be called after start(). P1 on the mesh as given, whose vertices
+  /// are all nodes.
+  /// @param positions, velocities (n,3) at the vertices of `rest` [m], [m/s]
+  /// @throws BadInput for another discretization, and where sizes do not match or a number is not finite
+  void resume(const meshes::SpacePoints &positions, const meshes::SpacePoints &velocities,
+              double time);
+
   /// One step of implicit Euler. A step that does not converge is cut in two, up to six times; where
   /// that fails too, the cloth is left where it was before the step.
   /// @param dt positive [s]

@@ -27,6 +27,7 @@ std::uint64_t hashed(std::uint64_t hash, const Matrix &matrix)
     hash = (hash ^ bytes[k]) * 1099511628211u;
   return hash;
 }
+} // namespace
 
 std::string fingerprint(const UnitCell &cell)
 {
@@ -41,7 +42,6 @@ std::string fingerprint(const UnitCell &cell)
   std::snprintf(text, sizeof(text), "%016llx", static_cast<unsigned long long>(hash));
   return text;
 }
-} // namespace
 
 void check_names(const std::vector<UnitCell> &cells)
 {
@@ -62,14 +62,19 @@ void check_names(const std::vector<UnitCell> &cells)
 void check_inputs(const std::vector<UnitCell> &cells, const int n_cells,
                   const int n_cells_of_error_bar, const std::string &folder, const bool resume)
 {
-  const std::string path = folder + "/inputs.json";
   nlohmann::ordered_json inputs;
   inputs["cells_per_side"]              = n_cells;
   inputs["cells_per_side_of_error_bar"] = n_cells_of_error_bar;
   for (const UnitCell &cell : cells)
     inputs["cells"][cell.name] = fingerprint(cell);
-  const std::string text = json_text(inputs);
-  if (resume && std::filesystem::exists(folder + "/strain.csv"))
+  check_inputs_file(folder, inputs, resume, "strain.csv");
+}
+
+void check_inputs_file(const std::string &folder, const nlohmann::ordered_json &inputs,
+                       const bool resume, const std::string &table)
+{
+  const std::string path = folder + "/inputs.json", text = json_text(inputs);
+  if (resume && std::filesystem::exists(folder + "/" + table))
   {
     std::ifstream input(path);
     const std::string found((std::istreambuf_iterator<char>(input)),

@@ -5,6 +5,8 @@
 
 #include "homogenization/unit_cell.h"
 
+#include <nlohmann/json.hpp>
+
 #include <string>
 #include <vector>
 
@@ -20,4 +22,13 @@ void check_names(const std::vector<homogenization::UnitCell> &cells);
 /// @throws BadInput where a study is to be resumed with other inputs
 void check_inputs(const std::vector<homogenization::UnitCell> &cells, int n_cells,
                   int n_cells_of_error_bar, const std::string &folder, bool resume);
+
+/// Writes any description of inputs as inputs.json into a folder of results.
+/// @param table whose presence makes a study one that can be resumed
+/// @throws BadInput where it is to be resumed with other inputs
+void check_inputs_file(const std::string &folder, const nlohmann::ordered_json &inputs, bool resume,
+                       const std::string &table);
+
+/// A hash of a cell's mesh, lattice and stiffness.
+std::string fingerprint(const homogenization::UnitCell &cell);
 } // namespace homespun::verification
