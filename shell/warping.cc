@@ -102,30 +102,23 @@ public:
   {
     rotations.resize(index(n_triangles()));
     for (int t = 0; t < n_triangles(); ++t)
-    {
-      Eigen::Matrix3d corners;
-      for (int k = 0; k < 3; ++k)
-        corners.row(k) = start.positions.row(membrane.triangles(t, k));
-      const DeformationGradient<3> F = deformation_gradient<3>(membrane.rest[index(t)], corners);
-      // The rotation nearest to F with its normal as third column.
-      Eigen::Matrix3d A;
-      A << F, F.col(0).cross(F.col(1)).normalized();
-      const Eigen::JacobiSVD<Eigen::Matrix3d> svd(A, Eigen::ComputeFullU | Eigen::ComputeFullV);
-      Eigen::Matrix3d turn = svd.matrixU() * svd.matrixV().transpose();
-      if (turn.determinant() < 0.)
-        turn = svd.matrixU() * Eigen::Vector3d(1., 1., -1.).asDiagonal() * svd.matrixV().transpose();
-      rotations[index(t)] = turn;
-    }
+      rotations[index(t)] = rotation_at(start.positions, t);
   }
 
   double energy(const Vectors &positions) const override
   {
     double sum = 0.;
     for (int t = 0; t < n_triangles(); ++t)
-    {
-      const auto u = unrotated(positions, t);
-      sum += 0.5 * u.dot(stiffness[index(t)] * u);
-    }
+      sum += energy_of(positions, t, rotations[index(t)]);
+    return sum;
+  }
+
+  /// With the rotations of these positions, not those that a step has frozen.
+  double stored_energy(const Vectors &positions) const override
+  {
+    double sum = 0.;
+    for (int t = 0; t < n_triangles(); ++t)
+      sum += energy_of(positions, t, rotation_at(positions, t));
     return sum;
   }
 
@@ -133,7 +126,8 @@ public:
   {
     for (int t = 0; t < n_triangles(); ++t)
     {
-      const Eigen::Matrix<double, 9, 1> f = stiffness[index(t)] * unrotated(positions, t);
+      const Eigen::Matrix<double, 9, 1> f =
+        stiffness[index(t)] * unrotated(positions, t, rotations[index(t)]);
       for (int k = 0; k < 3; ++k)
         gradient.row(membrane.triangles(t, k)) +=
           (rotations[index(t)] * f.segment<3>(3 * k)).transpose();
@@ -153,16 +147,39 @@ public:
   }
 
 private:
+  /// The rotation nearest to F with its normal as third column.
+  Eigen::Matrix3d rotation_at(const Vectors &positions, const int t) const
+  {
+    Eigen::Matrix3d corners;
+    for (int k = 0; k < 3; ++k)
+      corners.row(k) = positions.row(membrane.triangles(t, k));
+    const DeformationGradient<3> F = deformation_gradient<3>(membrane.rest[index(t)], corners);
+    Eigen::Matrix3d A;
+    A << F, F.col(0).cross(F.col(1)).normalized();
+    const Eigen::JacobiSVD<Eigen::Matrix3d> svd(A, Eigen::ComputeFullU | Eigen::ComputeFullV);
+    Eigen::Matrix3d turn = svd.matrixU() * svd.matrixV().transpose();
+    if (turn.determinant() < 0.)
+      turn = svd.matrixU() * Eigen::Vector3d(1., 1., -1.).asDiagonal() * svd.matrixV().transpose();
+    return turn;
+  }
+
   /// R^T x − X up to a translation, which the stiffness does not see.
-  Eigen::Matrix<double, 9, 1> unrotated(const Vectors &positions, const int t) const
+  Eigen::Matrix<double, 9, 1> unrotated(const Vectors &positions, const int t,
+                                        const Eigen::Matrix3d &rotation) const
   {
     Eigen::Matrix<double, 9, 1> u;
     const Eigen::RowVector3d first = positions.row(membrane.triangles(t, 0));
     for (int k = 0; k < 3; ++k)
-      u.segment<3>(3 * k) = rotations[index(t)].transpose() *
-                              (positions.row(membrane.triangles(t, k)) - first).transpose() -
-                            (rest_corner(t, k) - rest_corner(t, 0));
+      u.segment<3>(3 * k) =
+        rotation.transpose() * (positions.row(membrane.triangles(t, k)) - first).transpose() -
+        (rest_corner(t, k) - rest_corner(t, 0));
     return u;
+  }
+
+  double energy_of(const Vectors &positions, const int t, const Eigen::Matrix3d &rotation) const
+  {
+    const Eigen::Matrix<double, 9, 1> u = unrotated(positions, t, rotation);
+    return 0.5 * u.dot(stiffness[index(t)] * u);
   }
 
   std::vector<Eigen::Matrix3d> rotations;

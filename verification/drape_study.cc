@@ -86,11 +86,20 @@ public:
       cells.push_back(homogenization::read_unit_cell(file));
     check_names(cells);
     // Refuses a cloth that makes no sense before any file is written.
+    int n_coarse = (scene.n1 + 1) * (scene.n2 + 1);
     for (const UnitCell &cell : cells)
       if (scene.is_sheet())
         meshes::tile(cell.mesh, cell.lattice, 1, 1);
     if (!scene.is_sheet())
-      meshes::read_cloth(scene.mesh_file, scene.vt_unit);
+      n_coarse = meshes::read_cloth(scene.mesh_file, scene.vt_unit).n_vertices();
+    std::vector<std::string> faults;
+    for (const HeldPlace &held : scene.held)
+      for (const int v : held.vertices)
+        if (v >= n_coarse)
+          faults.push_back(scene.file + ": held vertex " + std::to_string(v) +
+                           " does not exist; expected 0 ... " + std::to_string(n_coarse - 1));
+    if (!faults.empty())
+      throw meshes::BadInput(faults);
     on_root(communicator, [&]() { open_tables(cells); });
     for (const UnitCell &cell : cells)
       study_cell(cell);

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "verification/held_motion.h"
 
-#include "meshes/errors.h"
-
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 
@@ -131,14 +129,6 @@ int HeldMotion::place_of_vertex(const int vertex, const meshes::ClothMesh &cloth
 
 std::vector<int> HeldMotion::vertices(const meshes::ClothMesh &cloth) const
 {
-  std::vector<std::string> faults;
-  for (const Place &place : places)
-    for (const int v : place.held.vertices)
-      if (v >= cloth.n_vertices())
-        faults.push_back(scene.file + ": a held vertex " + std::to_string(v) +
-                         " does not exist; expected 0 ... " + std::to_string(cloth.n_vertices() - 1));
-  if (!faults.empty())
-    throw meshes::BadInput(faults);
   std::vector<int> held;
   for (int v = 0; v < cloth.n_vertices(); ++v)
     if (place_of_vertex(v, cloth) >= 0)

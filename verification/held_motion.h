@@ -41,7 +41,6 @@ public:
   std::optional<Eigen::RowVector3d> at(const Eigen::RowVector2d &rest_point, double time) const;
 
   /// Held vertices of a cloth.
-  /// @throws BadInput where a place names a vertex that does not exist
   std::vector<int> vertices(const meshes::ClothMesh &cloth) const;
 
   /// Positions of these vertices at a time.
