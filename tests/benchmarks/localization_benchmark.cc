@@ -79,6 +79,38 @@ void upsample(benchmark::State &state, const UpsamplerOptions &options,
   state.counters["of_copy"]  = bytes / copied / of_one;
 }
 
+/// The same sheet as a garment of one panel, turned by 20° against the cells: outlines cut, one gather.
+void upsample_garment(benchmark::State &state)
+{
+  const meshes::HomogenizedCell cell = smooth_cell(18, 20);
+  const meshes::TriangleMesh rest =
+    meshes::coarse_sheet({0., 0.}, 0.01 * Eigen::Matrix2d::Identity(), 20, 20);
+  const Eigen::Matrix<double, 3, 2> placement = Eigen::Matrix<double, 3, 2>::Identity();
+  const meshes::ClothMesh coarse =
+    meshes::placed_sheet(rest, placement, Eigen::RowVector3d::Zero());
+  meshes::FineClothOptions options;
+  options.grains[0].angle       = M_PI / 9.;
+  const meshes::FineCloth cloth = meshes::fine_cloth(cell.mesh, cell.lattice, coarse, options);
+  const Upsampler<3, float> upsampler(cell, coarse, cloth);
+  const Positions<3> current = bent<3>(rest);
+  Upsampler<3, float>::Fine fine;
+  const double n = cloth.n_vertices(), bytes = n * 3 * sizeof(float);
+  const double copied = benchmarks::copy_bandwidth(static_cast<std::size_t>(bytes));
+  const double begin  = benchmarks::seconds();
+  for (auto _ : state)
+  {
+    upsampler.upsample(current, fine);
+    benchmark::DoNotOptimize(fine.data());
+    benchmark::ClobberMemory();
+  }
+  const double of_one = (benchmarks::seconds() - begin) / static_cast<double>(state.iterations());
+  state.counters["vertices"] = n;
+  state.counters["written"]  = bytes;
+  state.counters["tables"]   = static_cast<double>(upsampler.table_bytes());
+  state.counters["of_copy"]  = bytes / copied / of_one;
+}
+BENCHMARK(upsample_garment)->Name("upsample/garment/3d_float")->Unit(benchmark::kMicrosecond);
+
 template <int dim, typename Scalar>
 void copy(benchmark::State &state)
 {

@@ -87,9 +87,10 @@ public:
   /// @param flops of one iteration; zero: not told
   /// @param bytes that one iteration reads and writes at least; zero: not told. Compared with a copy that
   ///   reads and writes as many, which stays in the same cache.
-  void report(const double flops, const double bytes) const
+  /// @param times how often an iteration does that
+  void report(const double flops, const double bytes, const double times = 1.) const
   {
-    const double of_one = (seconds() - begin) / static_cast<double>(state.iterations());
+    const double of_one = (seconds() - begin) / (times * static_cast<double>(state.iterations()));
     const auto here     = [](const double value)
     { return benchmark::Counter(value, benchmark::Counter::kAvgThreads); };
     if (flops > 0.)
