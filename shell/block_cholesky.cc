@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "shell/block_cholesky.h"
 
+#include <Eigen/Cholesky>
+#include <Eigen/Core>
+
 #include <algorithm>
 #include <cmath>
 
@@ -8,33 +11,84 @@ namespace homespun::shell
 {
 namespace
 {
+using Panel         = Eigen::Map<Eigen::MatrixXd, 0, Eigen::OuterStride<>>;
+using ConstantPanel = Eigen::Map<const Eigen::MatrixXd, 0, Eigen::OuterStride<>>;
+using Vector        = Eigen::Map<Eigen::VectorXd>;
+
+/// Columns are joined to a panel while at most this part of it are zeros.
+constexpr double allowed_zeros = 0.2;
+
+/// Below this number of multiply-adds Eigen's blocked product costs more than it saves.
+constexpr double small_product = 4000.;
+
 std::size_t index(const int i)
 {
   return static_cast<std::size_t>(i);
 }
 
-/// T = A B^T for a panel A (n,3) with leading dimension `stride` and a 3 x 3 matrix B at b, columns
-/// `stride` apart; T (n,3) with leading dimension n.
-void multiply(const double *__restrict a, const int stride, const double *__restrict b, const int n,
+/// T = A B^T for a panel A (n,depth) and the rows B (3,depth) at b, both with leading dimension `stride`;
+/// T (n,3) with leading dimension n.
+void multiply(const double *a, const double *b, const int stride, const int depth, const int n,
               double *__restrict t)
 {
-  const double b00 = b[0], b10 = b[1], b20 = b[2], b01 = b[stride], b11 = b[stride + 1],
-               b21 = b[stride + 2], b02 = b[2 * stride], b12 = b[2 * stride + 1],
-               b22                   = b[2 * stride + 2];
-  const double *const __restrict a0 = a;
-  const double *const __restrict a1 = a + stride;
-  const double *const __restrict a2 = a + 2 * stride;
-  double *const __restrict t0       = t;
-  double *const __restrict t1       = t + n;
-  double *const __restrict t2       = t + 2 * n;
-#pragma GCC ivdep
-  for (int i = 0; i < n; ++i)
+  double *const __restrict t0 = t;
+  double *const __restrict t1 = t + n;
+  double *const __restrict t2 = t + 2 * n;
+  std::fill_n(t, 3 * n, 0.);
+  for (int k = 0; k < depth; k += 3, a += 3 * stride, b += 3 * stride)
   {
-    const double p = a0[i], q = a1[i], r = a2[i];
-    t0[i] = p * b00 + q * b01 + r * b02;
-    t1[i] = p * b10 + q * b11 + r * b12;
-    t2[i] = p * b20 + q * b21 + r * b22;
+    const double b00 = b[0], b10 = b[1], b20 = b[2], b01 = b[stride], b11 = b[stride + 1],
+                 b21 = b[stride + 2], b02 = b[2 * stride], b12 = b[2 * stride + 1],
+                 b22                  = b[2 * stride + 2];
+    const double *const __restrict a0 = a;
+    const double *const __restrict a1 = a + stride;
+    const double *const __restrict a2 = a + 2 * stride;
+#pragma GCC ivdep
+    for (int i = 0; i < n; ++i)
+    {
+      const double p = a0[i], q = a1[i], r = a2[i];
+      t0[i] += p * b00 + q * b01 + r * b02;
+      t1[i] += p * b10 + q * b11 + r * b12;
+      t2[i] += p * b20 + q * b21 + r * b22;
+    }
   }
+}
+
+/// L of a panel (size,width) in place: its first rows are the lower half of a symmetric matrix.
+/// @return false where a pivot is not positive
+bool factorize_panel(double *const panel, const int width, const int size)
+{
+  constexpr int narrow = 12;
+  if (width > narrow)
+  {
+    Panel all(panel, size, width, Eigen::OuterStride<>(size));
+    Eigen::Ref<Eigen::MatrixXd, 0, Eigen::OuterStride<>> top = all.topRows(width);
+    const Eigen::LLT<decltype(top)> llt(top);
+    if (llt.info() != Eigen::Success)
+      return false;
+    auto below = all.bottomRows(size - width);
+    top.triangularView<Eigen::Lower>().transpose().solveInPlace<Eigen::OnTheRight>(below);
+    return true;
+  }
+  for (int j = 0; j < width; ++j)
+  {
+    double *const column = panel + j * size;
+    for (int i = 0; i < j; ++i)
+    {
+      const double factor     = panel[i * size + j];
+      const double *const old = panel + i * size;
+#pragma GCC ivdep
+      for (int r = j; r < size; ++r)
+        column[r] -= factor * old[r];
+    }
+    if (!(column[j] > 0.))
+      return false;
+    const double inverse = 1. / std::sqrt(column[j]);
+#pragma GCC ivdep
+    for (int r = j; r < size; ++r)
+      column[r] *= inverse;
+  }
+  return true;
 }
 } // namespace
 
@@ -67,102 +121,144 @@ BlockCholesky::BlockCholesky(const BlockMatrix &matrix)
     if (!own.empty())
       children[index(own.front())].push_back(c);
   }
-  first.push_back(0);
-  start.push_back(0);
-  std::vector<std::vector<std::array<int, 2>>> updates(index(n));
-  int longest = 1;
   for (int c = 0; c < n; ++c)
   {
-    const std::vector<int> &own = rows[index(c)];
-    row.push_back(c);
-    row.insert(row.end(), own.begin(), own.end());
-    const int size = static_cast<int>(own.size()) + 1;
-    longest        = std::max(longest, size);
-    first.push_back(static_cast<int>(row.size()));
-    start.push_back(start.back() + 9 * index(size));
-    for (int k = 1; k < size; ++k)
-    {
-      updates[index(own[index(k - 1)])].push_back({c, k});
-      multiply_adds += 27. * (size - k);
-    }
-    multiply_adds += 18. * size;
+    const double size = static_cast<double>(rows[index(c)].size()) + 1.;
+    multiply_adds += 27. * 0.5 * size * (size - 1.) + 18. * size;
   }
-  update_first.push_back(0);
-  for (const auto &of_column : updates)
+  // The rows of a column are among those of its parent, so that a chain of columns has the rows of the
+  // last one.
+  std::vector<int> node_of(index(n));
+  std::size_t n_values = 0;
+  for (int c = 0; c < n;)
   {
-    for (const auto &[column, offset] : of_column)
+    int last       = c;
+    double entries = static_cast<double>(rows[index(c)].size()) + 1.;
+    while (last + 1 < n && !rows[index(last)].empty() && rows[index(last)].front() == last + 1)
     {
-      update_column.push_back(column);
-      update_offset.push_back(offset);
+      const double size   = static_cast<double>(rows[index(last + 1)].size()) + 1.,
+                   joined = entries + size, columns = last + 2 - c,
+                   stored = columns * size + 0.5 * columns * (columns - 1.);
+      if (stored - joined > allowed_zeros * stored)
+        break;
+      entries = joined;
+      ++last;
     }
-    update_first.push_back(static_cast<int>(update_column.size()));
+    const std::vector<int> &below = rows[index(last)];
+    const int n_columns = last + 1 - c, n_rows = n_columns + static_cast<int>(below.size());
+    nodes.push_back({c, n_columns, static_cast<int>(row.size()), n_rows, n_values, 0});
+    for (int k = c; k <= last; ++k)
+    {
+      node_of[index(k)] = static_cast<int>(nodes.size()) - 1;
+      row.push_back(k);
+    }
+    row.insert(row.end(), below.begin(), below.end());
+    n_values += 9 * index(n_rows) * index(n_columns);
+    c = last + 1;
   }
-  values.resize(start.back());
-  work.resize(std::max(9 * index(longest), 3 * index(n)));
+  std::vector<std::vector<Update>> of_node(nodes.size());
+  std::size_t longest = 0;
+  for (std::size_t s = 0; s < nodes.size(); ++s)
+  {
+    const Supernode &node = nodes[s];
+    longest               = std::max(longest, 3 * index(node.n_rows));
+    for (int begin = node.n_columns, end; begin < node.n_rows; begin = end)
+    {
+      const int target = node_of[index(row[index(node.first_row + begin)])];
+      for (end = begin;
+           end < node.n_rows && node_of[index(row[index(node.first_row + end)])] == target;)
+        ++end;
+      of_node[index(target)].push_back({static_cast<int>(s), begin, end - begin});
+      n_product = std::max(n_product, 9 * index(node.n_rows - begin) * index(end - begin));
+    }
+  }
+  for (std::size_t s = 0; s < nodes.size(); ++s)
+  {
+    nodes[s].first_update = static_cast<int>(updates.size());
+    updates.insert(updates.end(), of_node[s].begin(), of_node[s].end());
+  }
+  nodes.push_back(
+    {n, 0, static_cast<int>(row.size()), 0, n_values, static_cast<int>(updates.size())});
+  values.resize(n_values);
+  work.resize(std::max(n_product, 3 * index(n) + longest));
   position.resize(index(n));
+}
+
+/// Writes the matrix's own values into a panel.
+void BlockCholesky::gather(const BlockMatrix &matrix, const Supernode &node)
+{
+  const int size      = 3 * node.n_rows;
+  double *const panel = values.data() + node.start;
+  std::fill_n(panel, 3 * index(size) * index(node.n_columns), 0.);
+  for (int k = 0; k < node.n_rows; ++k)
+    position[index(row[index(node.first_row + k)])] = 3 * k;
+  for (int c = 0; c < node.n_columns; ++c)
+    for (int k = matrix.first[index(node.column + c)]; k < matrix.first[index(node.column + c + 1)];
+         ++k)
+    {
+      if (matrix.row[index(k)] >= matrix.n_free())
+        break;
+      Eigen::Map<Eigen::Matrix3d, 0, Eigen::OuterStride<>>(
+        panel + 3 * index(c) * index(size) + position[index(matrix.row[index(k)])],
+        Eigen::OuterStride<>(size)) = matrix.blocks[index(k)];
+    }
+}
+
+/// Takes from a panel what an earlier one contributes to its columns.
+void BlockCholesky::subtract(const Update &update, const Supernode &node)
+{
+  const Supernode &from = nodes[index(update.source)];
+  const int n_rows = 3 * (from.n_rows - update.offset), n_columns = 3 * update.n_rows,
+            depth = 3 * from.n_columns, stride = 3 * from.n_rows;
+  const double *const source = values.data() + from.start + 3 * update.offset;
+  const ConstantPanel a(source, n_rows, depth, Eigen::OuterStride<>(stride)),
+    b(source, n_columns, depth, Eigen::OuterStride<>(stride));
+  Panel product(work.data(), n_rows, n_columns, Eigen::OuterStride<>(n_rows));
+  if (static_cast<double>(n_rows) * n_columns * depth < small_product)
+    for (int j = 0; j < n_columns; j += 3)
+      multiply(source, source + j, stride, depth, n_rows, work.data() + j * n_rows);
+  else
+    product.noalias() = a * b.transpose();
+  const int *const places = row.data() + from.first_row + update.offset;
+  for (int c = 0; c < update.n_rows; ++c)
+  {
+    double *const panel =
+      values.data() + node.start + 9 * index(places[c] - node.column) * index(node.n_rows);
+    for (int j = 0; j < 3; ++j)
+    {
+      const double *const column = work.data() + (3 * c + j) * n_rows;
+      double *const to           = panel + j * 3 * node.n_rows;
+      for (int r = c; r < n_rows / 3; ++r)
+      {
+        double *const at = to + position[index(places[r])];
+        at[0] -= column[3 * r];
+        at[1] -= column[3 * r + 1];
+        at[2] -= column[3 * r + 2];
+      }
+    }
+  }
 }
 
 bool BlockCholesky::factorize(const BlockMatrix &matrix)
 {
-  const int n = static_cast<int>(first.size()) - 1;
-  for (int c = 0; c < n; ++c)
+  for (std::size_t s = 0; s + 1 < nodes.size(); ++s)
   {
-    const int size      = 3 * (first[index(c + 1)] - first[index(c)]);
-    double *const panel = values.data() + start[index(c)];
-    std::fill_n(panel, 3 * size, 0.);
-    for (int k = first[index(c)]; k < first[index(c + 1)]; ++k)
-      position[index(row[index(k)])] = 3 * (k - first[index(c)]);
-    for (int k = matrix.first[index(c)]; k < matrix.first[index(c + 1)]; ++k)
-    {
-      if (matrix.row[index(k)] >= n)
-        break;
-      const BlockMatrix::Block &block = matrix.blocks[index(k)];
-      double *const at                = panel + position[index(matrix.row[index(k)])];
-      for (int j = 0; j < 3; ++j)
-        for (int i = 0; i < 3; ++i)
-          at[j * size + i] = block(i, j);
-    }
-    const double diagonal[3] = {panel[0], panel[size + 1], panel[2 * size + 2]};
-    for (int u = update_first[index(c)]; u < update_first[index(c + 1)]; ++u)
-    {
-      const int k          = update_column[index(u)], offset = update_offset[index(u)];
-      const int stride     = 3 * (first[index(k + 1)] - first[index(k)]);
-      const int n_rows     = stride - 3 * offset;
-      const double *source = values.data() + start[index(k)] + 3 * offset;
-      multiply(source, stride, source, n_rows, work.data());
-      const int *const places = row.data() + first[index(k)] + offset;
-      for (int j = 0; j < 3; ++j)
-      {
-        const double *const from = work.data() + j * n_rows;
-        double *const to         = panel + j * size;
-        for (int r = 0; r < n_rows / 3; ++r)
-        {
-          double *const at = to + position[index(places[r])];
-          at[0] -= from[3 * r];
-          at[1] -= from[3 * r + 1];
-          at[2] -= from[3 * r + 2];
-        }
-      }
-    }
+    const Supernode &node = nodes[s];
+    const int width = 3 * node.n_columns, size = 3 * node.n_rows;
+    gather(matrix, node);
+    for (int u = node.first_update; u < nodes[s + 1].first_update; ++u)
+      subtract(updates[index(u)], node);
     // The diagonal block, then the rows below it.
-    for (int j = 0; j < 3; ++j)
+    double *const panel = values.data() + node.start;
+    if (!factorize_panel(panel, width, size))
+      return false;
+    for (int j = 0; j < width; ++j)
     {
-      double *const column = panel + j * size;
-      for (int i = 0; i < j; ++i)
-      {
-        const double factor     = panel[i * size + j];
-        const double *const old = panel + i * size;
-#pragma GCC ivdep
-        for (int r = j; r < size; ++r)
-          column[r] -= factor * old[r];
-      }
-      const double pivot = column[j];
-      if (!(pivot > 1e-14 * diagonal[j]) || !(pivot > 0.) || !std::isfinite(pivot))
+      const double pivot = panel[j * index(size) + index(j)] * panel[j * index(size) + index(j)];
+      const double own =
+        matrix.blocks[index(matrix.first[index(node.column + j / 3)])](j % 3, j % 3);
+      if (!(pivot > 1e-14 * own) || !(pivot > 0.) || !std::isfinite(pivot))
         return false;
-      const double inverse = 1. / std::sqrt(pivot);
-#pragma GCC ivdep
-      for (int r = j; r < size; ++r)
-        column[r] *= inverse;
     }
   }
   return true;
@@ -170,41 +266,42 @@ bool BlockCholesky::factorize(const BlockMatrix &matrix)
 
 void BlockCholesky::solve(const Vectors &right_side, Vectors &result) const
 {
-  const int n     = static_cast<int>(first.size()) - 1;
+  const int n     = nodes.back().column;
   double *const x = work.data();
   for (int c = 0; c < n; ++c)
     for (int i = 0; i < 3; ++i)
       x[3 * c + i] = right_side(vertex_at[index(c)], i);
-  for (int c = 0; c < n; ++c)
+  double *const below = x + 3 * index(n);
+  const auto panel_of = [&](const Supernode &node)
   {
-    const int size            = 3 * (first[index(c + 1)] - first[index(c)]);
-    const double *const panel = values.data() + start[index(c)];
-    double *const y           = x + 3 * c;
-    y[0] /= panel[0];
-    y[1] = (y[1] - panel[1] * y[0]) / panel[size + 1];
-    y[2] = (y[2] - panel[2] * y[0] - panel[size + 2] * y[1]) / panel[2 * size + 2];
-    for (int r = 3; r < size; r += 3)
-    {
-      double *const at = x + 3 * row[index(first[index(c)] + r / 3)];
+    return ConstantPanel(values.data() + node.start, 3 * node.n_rows, 3 * node.n_columns,
+                         Eigen::OuterStride<>(3 * node.n_rows));
+  };
+  for (std::size_t s = 0; s + 1 < nodes.size(); ++s)
+  {
+    const Supernode &node = nodes[s];
+    const int width = 3 * node.n_columns, size = 3 * node.n_rows;
+    const ConstantPanel panel = panel_of(node);
+    Vector own(x + 3 * index(node.column), width), rest(below, size - width);
+    panel.topRows(width).triangularView<Eigen::Lower>().solveInPlace(own);
+    rest.noalias()          = panel.bottomRows(size - width) * own;
+    const int *const places = row.data() + node.first_row + node.n_columns;
+    for (int k = 0; k < node.n_rows - node.n_columns; ++k)
       for (int i = 0; i < 3; ++i)
-        at[i] -= panel[r + i] * y[0] + panel[size + r + i] * y[1] + panel[2 * size + r + i] * y[2];
-    }
+        x[3 * index(places[k]) + index(i)] -= below[3 * k + i];
   }
-  for (int c = n - 1; c >= 0; --c)
+  for (std::size_t s = nodes.size() - 1; s-- > 0;)
   {
-    const int size            = 3 * (first[index(c + 1)] - first[index(c)]);
-    const double *const panel = values.data() + start[index(c)];
-    double *const y           = x + 3 * c;
-    for (int r = 3; r < size; r += 3)
-    {
-      const double *const at = x + 3 * row[index(first[index(c)] + r / 3)];
-      for (int j = 0; j < 3; ++j)
-        y[j] -= panel[j * size + r] * at[0] + panel[j * size + r + 1] * at[1] +
-                panel[j * size + r + 2] * at[2];
-    }
-    y[2] /= panel[2 * size + 2];
-    y[1] = (y[1] - panel[size + 2] * y[2]) / panel[size + 1];
-    y[0] = (y[0] - panel[1] * y[1] - panel[2] * y[2]) / panel[0];
+    const Supernode &node = nodes[s];
+    const int width = 3 * node.n_columns, size = 3 * node.n_rows;
+    const ConstantPanel panel = panel_of(node);
+    Vector own(x + 3 * index(node.column), width), rest(below, size - width);
+    const int *const places = row.data() + node.first_row + node.n_columns;
+    for (int k = 0; k < node.n_rows - node.n_columns; ++k)
+      for (int i = 0; i < 3; ++i)
+        below[3 * k + i] = x[3 * index(places[k]) + index(i)];
+    own.noalias() -= panel.bottomRows(size - width).transpose() * rest;
+    panel.topRows(width).triangularView<Eigen::Lower>().transpose().solveInPlace(own);
   }
   result.setZero(right_side.rows(), 3);
   for (int c = 0; c < n; ++c)
@@ -214,9 +311,8 @@ void BlockCholesky::solve(const Vectors &right_side, Vectors &result) const
 
 std::size_t BlockCholesky::bytes() const
 {
-  return (values.size() + work.size()) * sizeof(double) + start.size() * sizeof(std::size_t) +
-         (row.size() + first.size() + position.size() + vertex_at.size() + update_first.size() +
-          update_column.size() + update_offset.size()) *
-           sizeof(int);
+  return (values.size() + work.size()) * sizeof(double) + nodes.size() * sizeof(Supernode) +
+         updates.size() * sizeof(Update) +
+         (row.size() + position.size() + vertex_at.size()) * sizeof(int);
 }
 } // namespace homespun::shell

@@ -2,10 +2,9 @@
 // Sparse Cholesky factorisation L L^T of a BlockMatrix, the linear algebra under every step of a cloth of
 // up to some ten thousand vertices.
 //
-// Left-looking by block columns. The block columns of L are dense panels of three columns over the rows
-// that they hold, so that the inner loop is an update of consecutive numbers by a 3 x 3 matrix: at 441
-// vertices 2.5 times as fast as a factorisation by scalars (benchmark `factorise`). The structure is laid
-// out once.
+// Left-looking by supernodes (Ng & Peyton 1993): consecutive block columns whose rows agree, or nearly do, are
+// one dense panel, so that the work is products of dense matrices: what one thread reaches stands in the
+// benchmark `factorise`. The structure is laid out once.
 #pragma once
 
 #include "shell/block_matrix.h"
@@ -27,12 +26,12 @@ public:
   /// Solves for the free rows; held rows of the result are zero.
   void solve(const Vectors &right_side, Vectors &result) const;
 
-  /// Numbers in L.
+  /// Numbers that are stored for L, the zeros of its panels included.
   std::size_t n_entries() const
   {
     return values.size();
   }
-  /// Multiplications and additions of one factorisation, two flops each.
+  /// Multiplications and additions of one factorisation, two flops each, without those on stored zeros.
   double n_multiply_adds() const
   {
     return multiply_adds;
@@ -40,16 +39,34 @@ public:
   std::size_t bytes() const;
 
 private:
+  /// Consecutive columns with the same rows: a panel of 3 n_rows x 3 n_columns numbers, column by column.
+  struct Supernode
+  {
+    int column;        ///< first of its columns
+    int n_columns;     ///<
+    int first_row;     ///< in `row`; the first rows are the columns themselves
+    int n_rows;        ///<
+    std::size_t start; ///< first number in `values`
+    int first_update;  ///< in `updates`, up to that of the next supernode
+  };
+  /// A panel some of whose rows are columns of a later one.
+  struct Update
+  {
+    int source; ///< supernode
+    int offset; ///< of the first such row
+    int n_rows; ///< how many
+  };
+  void gather(const BlockMatrix &matrix, const Supernode &node);
+  void subtract(const Update &update, const Supernode &node);
+
   std::vector<int> vertex_at;
-  std::vector<int> first;           ///< (n + 1) first row of each column's panel, in `row`
-  std::vector<int> row;             ///< places of the rows, the diagonal's first
-  std::vector<std::size_t> start;   ///< (n + 1) first number of each panel: 3 columns of 3 (rows) each
-  std::vector<double> values;       ///< panels, column after column
-  std::vector<int> update_first;    ///< (n + 1) columns that update each column
-  std::vector<int> update_column;   ///< their index
-  std::vector<int> update_offset;   ///< which of their rows is this column's diagonal
+  std::vector<Supernode> nodes; ///< and one more at the end
+  std::vector<int> row;         ///< places of the rows
+  std::vector<Update> updates;  ///< supernode after supernode
+  std::vector<double> values;   ///< panels
   double multiply_adds = 0.;
-  mutable std::vector<double> work; ///< a panel of an update; right sides
+  mutable std::vector<double> work; ///< a product of panels; right sides
   std::vector<int> position;        ///< place of a row in the panel at hand
+  std::size_t n_product = 0;        ///< largest product of two panels
 };
 } // namespace homespun::shell
