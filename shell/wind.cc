@@ -60,8 +60,11 @@ public:
     return sum;
   }
 
+  // Before the first step there is no air yet.
   void add_gradient(const Vectors &x, Vectors &gradient) const override
   {
+    if (force.size() == 0)
+      return;
     gradient -= force;
     for (std::size_t v = 0; v < resistance.size(); ++v)
     {
