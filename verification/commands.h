@@ -20,6 +20,8 @@ void add_check_command(CLI::App &app, Action &action);
 void add_homogenize_command(CLI::App &app, Action &action);
 void add_strain_command(CLI::App &app, Action &action, Afterwards &afterwards,
                         const std::string &command_line);
+void add_stress_command(CLI::App &app, Action &action, Afterwards &afterwards,
+                        const std::string &command_line);
 void add_report_command(CLI::App &app, Action &action, Afterwards &afterwards);
 void add_cells_command(CLI::App &app, Action &action);
 
