@@ -68,8 +68,11 @@ public:
     old    = start.positions;
     factor = rate / start.step;
   }
+  // Before the first step nothing moves, and nothing is damped.
   double energy(const Vectors &positions) const override
   {
+    if (old.size() == 0)
+      return 0.;
     return 0.5 * factor * masses.dot((positions - old).rowwise().squaredNorm());
   }
   double stored_energy(const Vectors &) const override
@@ -78,6 +81,8 @@ public:
   }
   void add_gradient(const Vectors &positions, Vectors &gradient) const override
   {
+    if (old.size() == 0)
+      return;
     gradient += factor * masses.asDiagonal() * (positions - old);
   }
   void add_derivatives(const Vectors &positions, Hessian, Vectors &gradient,

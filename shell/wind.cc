@@ -60,8 +60,11 @@ public:
     return sum;
   }
 
+  // Before the first step there is no air yet.
   void add_gradient(const Vectors &x, Vectors &gradient) const override
   {
+    if (force.size() == 0)
+      return;
     gradient -= force;
     for (std::size_t v = 0; v < resistance.size(); ++v)
     {
@@ -149,7 +152,12 @@ public:
     Vectors wind      = Vectors::Zero(begin.rows(), 3);
     if (air.velocity)
       for (Eigen::Index v = 0; v < wind.rows(); ++v)
+      {
         wind.row(v) = air.velocity(begin.row(v).transpose(), time).transpose();
+        if (!wind.row(v).allFinite())
+          throw meshes::BadInput("air: the velocity at vertex " + std::to_string(v) + " is not finite at " +
+                                 std::to_string(time) + " s; expected three numbers in m/s");
+      }
     for (int t = 0; t < static_cast<int>(triangles.rows()); ++t)
     {
       const Eigen::Vector3d area_normal = area_vector(begin, triangles, t);

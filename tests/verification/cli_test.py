@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """The program as a user meets it: help, results, and what it says to broken input."""
+import csv
 import json
 import unittest
 
@@ -9,11 +10,11 @@ from cli import CELLS, InFolder, run
 class Help(unittest.TestCase):
     def test_help_names_the_commands_and_the_exit_status(self):
         text = run("--help").stdout
-        for word in ("check", "homogenize", "strain", "report", "cells", "Exit status"):
+        for word in ("check", "homogenize", "strain", "stress", "report", "cells", "Exit status"):
             self.assertIn(word, text)
 
     def test_every_command_has_help(self):
-        for command in ("check", "homogenize", "strain", "report", "cells"):
+        for command in ("check", "homogenize", "strain", "stress", "report", "cells"):
             result = run(command, "--help")
             self.assertEqual(result.returncode, 0)
             self.assertIn(command, result.stdout)
@@ -50,6 +51,25 @@ class Homogenize(InFolder):
         self.assertEqual({check["verdict"] for check in found["checks"]}, {"PASS"})
         self.assertTrue((self.folder / "cell.h5").exists())
         self.assertIn("chi_12", (self.folder / "characteristic-displacements.vtu").read_text())
+
+
+class Stress(InFolder):
+    def test_every_case_is_a_row_and_the_exit_status_tells_of_failures(self):
+        result = run("stress", "--quick", "--quiet", "--no-report", "--output", self.folder)
+        with open(self.folder / "stress.csv", encoding="utf-8") as file:
+            rows = list(csv.DictReader(file))
+        self.assertGreater(len(rows), 300)
+        for row in rows:
+            self.assertIn(row["verdict"], ("PASS", "FAIL"), row)
+            self.assertNotIn("error:", row["outcome"], row)
+            self.assertNotIn("not finite", row["outcome"].split("refused")[0], row)
+        verdicts = json.loads((self.folder / "verdicts.json").read_text())["verdicts"]
+        failed = any(row["verdict"] == "FAIL" for row in rows)
+        self.assertEqual(failed, any(verdict["verdict"] == "FAIL" for verdict in verdicts))
+        self.assertEqual(result.returncode, int(failed), result.stderr)
+        study = json.loads((self.folder / "study.json").read_text())
+        self.assertEqual((study["cases"], study["repeats"]), (len(rows), 2))
+        self.assertTrue(study["left_out"])
 
 
 class BadInput(InFolder):

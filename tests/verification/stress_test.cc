@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: MIT
+#include "meshes/errors.h"
+#include "verification/stress_cases.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+using namespace homespun;
+using namespace homespun::verification;
+
+namespace
+{
+/// A case that ends as told, in memory.
+StressCase planted(const double figure, const double number, const Ending ending = Ending::finite)
+{
+  StressCase one;
+  one.group  = "planted";
+  one.name   = "a case";
+  one.ending = ending;
+  one.limit  = 1.;
+  one.names  = "triangle 3";
+  one.run    = [=](unsigned int) -> StressAnswer { return {figure, Eigen::MatrixXd::Constant(1, 1, number)}; };
+  return one;
+}
+
+const double nan = std::numeric_limits<double>::quiet_NaN();
+
+void expect_all_pass(const std::vector<StressCase> &cases, const std::string &part_of_name)
+{
+  int n = 0;
+  for (const StressCase &one : cases)
+    if (one.name.find(part_of_name) != std::string::npos)
+    {
+      ++n;
+      const StressResult result = run_case(one, 2);
+      EXPECT_EQ(result.verdict, Outcome::pass) << one.name << ": " << result.outcome << ", " << result.figure;
+    }
+  EXPECT_GT(n, 0) << part_of_name;
+}
+} // namespace
+
+TEST(tripwire_stress, a_case_beyond_its_limit_fails)
+{
+  EXPECT_EQ(run_case(planted(0.9, 0.), 3).verdict, Outcome::pass);
+  EXPECT_EQ(run_case(planted(1.1, 0.), 3).verdict, Outcome::fail);
+}
+
+TEST(tripwire_stress, a_number_that_is_not_finite_fails_and_reaches_no_file)
+{
+  for (const StressCase &one : {planted(0., nan), planted(nan, 0.), planted(0., HUGE_VAL)})
+  {
+    const StressResult result = run_case(one, 2);
+    EXPECT_EQ(result.verdict, Outcome::fail);
+    EXPECT_EQ(result.outcome, "not finite");
+    for (const std::string &field : stress_row(one, result))
+      EXPECT_EQ(field.find("nan"), std::string::npos) << field;
+  }
+}
+
+TEST(tripwire_stress, a_refusal_must_name_the_fault)
+{
+  StressCase one = planted(0., 0., Ending::refused);
+  EXPECT_EQ(run_case(one, 2).verdict, Outcome::fail); // it did not refuse
+  one.run = [](unsigned int) -> StressAnswer { throw meshes::BadInput("triangle 3: has no area"); };
+  EXPECT_EQ(run_case(one, 2).verdict, Outcome::pass);
+  one.ending = Ending::finite;
+  EXPECT_EQ(run_case(one, 2).verdict, Outcome::fail);
+  one        = planted(0., 0., Ending::refused);
+  one.run    = [](unsigned int) -> StressAnswer { throw meshes::BadInput("something is wrong"); };
+  EXPECT_EQ(run_case(one, 2).verdict, Outcome::fail);
+  one.run = [](unsigned int) -> StressAnswer { throw std::logic_error("triangle 3"); };
+  EXPECT_EQ(run_case(one, 2).outcome, "error: triangle 3");
+  EXPECT_EQ(run_case(one, 2).verdict, Outcome::fail);
+}
+
+TEST(tripwire_stress, repetitions_without_random_numbers_must_agree_to_the_last_bit)
+{
+  StressCase one = planted(0., 0.);
+  one.run        = [](const unsigned int seed) -> StressAnswer
+  { return {0., Eigen::MatrixXd::Constant(1, 1, 1. + (seed == 2 ? 1e-16 * 4. : 0.))}; };
+  EXPECT_EQ(run_case(one, 2).verdict, Outcome::pass);
+  EXPECT_EQ(run_case(one, 3).verdict, Outcome::fail);
+  one.is_random = true;
+  EXPECT_EQ(run_case(one, 3).verdict, Outcome::pass);
+}
+
+TEST(tripwire_stress, the_largest_figure_of_all_repetitions_counts)
+{
+  StressCase one = planted(0., 0.);
+  one.is_random  = true;
+  one.run        = [](const unsigned int seed) -> StressAnswer
+  { return {seed == 1 ? 7. : 0.5, Eigen::MatrixXd::Zero(1, 1)}; };
+  const StressResult result = run_case(one, 3);
+  EXPECT_EQ(result.figure, 7.);
+  EXPECT_EQ(result.verdict, Outcome::fail);
+}
+
+TEST(tripwire_stress, one_failing_case_fails_its_group_and_no_other)
+{
+  StressCase bad = planted(2., 0.), good = planted(0., 0.);
+  good.group                           = "sound, with a comma";
+  const std::vector<Verdict> verdicts = stress_verdicts(
+    {stress_row(good, run_case(good, 1)), stress_row(bad, run_case(bad, 1)), stress_row(bad, run_case(bad, 1))});
+  ASSERT_EQ(verdicts.size(), 2u);
+  EXPECT_EQ(verdicts[0].outcome, Outcome::pass);
+  EXPECT_EQ(verdicts[1].outcome, Outcome::fail);
+  EXPECT_EQ(verdicts[1].value, 2.);
+}
+
+TEST(tripwire_stress, energy_that_a_handle_brings_in_is_seen)
+{
+  const meshes::ClothMesh mesh = hanging_mesh(4);
+  shell::Cloth cloth           = sheet_cloth(mesh, built_in_stiffnesses()[0], {20});
+  cloth.prescribe(20, mesh.positions.row(20) + Eigen::RowVector3d(0., 0., 0.1));
+  EXPECT_GT(largest_energy_growth(cloth, 0.01, 1), 1e-2);
+}
+
+TEST(bound_stress, time_steps_of_ten_microseconds_to_a_second_do_not_raise_the_energy)
+{
+  expect_all_pass(time_step_cases({built_in_stiffnesses()[1]}), "random velocities");
+}
+
+TEST(bound_stress, unsound_meshes_are_refused_and_sound_ones_hang)
+{
+  expect_all_pass(mesh_cases(built_in_stiffnesses()[0]), "");
+}
+
+TEST(bound_stress, violent_coarse_motions_are_up_sampled_within_the_bound)
+{
+  expect_all_pass(localization_cases({smooth_cell()}, {"smooth modes"}), "");
+}
+
+TEST(bound_stress, forces_exist_before_the_first_step)
+{
+  expect_all_pass(rotation_cases({built_in_stiffnesses()[0]}), "before the first step");
+}

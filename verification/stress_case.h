@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: MIT
+// A stress case as data: what is done, how it must end, the one figure that is measured and its limit; and
+// what became of it. Running never throws: a failure is a row of the table, not the end of the program.
+#pragma once
+
+#include "verification/verdict.h"
+
+#include <Eigen/Core>
+
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace homespun::verification
+{
+/// What one repetition found.
+struct StressAnswer
+{
+  double figure = 0.;     ///< compared with the case's limit
+  Eigen::MatrixXd values; ///< all numbers that a user would get; every one must be finite
+};
+
+enum class Ending
+{
+  finite, ///< a finite answer whose figure is within the limit
+  refused ///< BadInput or NotConverged, whose message names the fault
+};
+
+struct StressCase
+{
+  std::string group, name;
+  std::string expected; ///< in words
+  Ending ending = Ending::finite;
+  double limit  = 0.;    ///< of the figure; finite cases
+  std::string figure_is; ///< what the figure is, with its unit; finite cases
+  std::string names;     ///< what the refusal must contain; refused cases
+  bool is_random = false; ///< seeds differ; else every repetition must give the same numbers to the last bit
+  /// @throws BadInput, NotConverged where it refuses
+  std::function<StressAnswer(unsigned int seed)> run;
+};
+
+struct StressResult
+{
+  std::string outcome; ///< finite; finite but ...; not finite; refused: message; error: message
+  double figure   = 0.; ///< the largest of all repetitions; not-a-number where there is none
+  Outcome verdict = Outcome::fail;
+  int repeats     = 0;
+  double seconds  = 0.; ///< of all repetitions
+};
+
+/// Runs a case with the seeds 0 ... repeats − 1.
+StressResult run_case(const StressCase &stress_case, int repeats);
+
+/// The limit as a table shows it: of the figure, or the words that a refusal must contain.
+std::string limit_text(const StressCase &stress_case);
+
+/// The columns of stress.csv.
+const std::vector<std::string> &stress_columns();
+
+/// A row of stress.csv, texts without commas and line breaks.
+std::vector<std::string> stress_row(const StressCase &stress_case, const StressResult &result);
+
+/// One verdict per group, in the order of the rows: how many of its cases do not hold.
+std::vector<Verdict> stress_verdicts(const std::vector<std::vector<std::string>> &rows);
+} // namespace homespun::verification

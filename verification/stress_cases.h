@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: MIT
+// The stress cases of METHOD 6 for the cloth in motion and the up-sampling. Limits come from theory and
+// were written before the numbers: damped energy never grows, momenta of a free cloth are kept, a cloth
+// at rest stays, a uniform strain is up-sampled exactly; where theory is silent, that every number is finite.
+#pragma once
+
+#include "meshes/homogenized_cell.h"
+#include "verification/stress_case.h"
+#include "verification/stress_sheet.h"
+
+#include <vector>
+
+namespace homespun::verification
+{
+/// Growth of energy that round-off explains, over the largest energy: the cloth's own slack of 1e-12
+/// (shell/cloth.cc), some times over because a step may be cut.
+constexpr double energy_round_off = 1e-11;
+
+/// Steps of 1e-5 to 1 s from rest and from a disturbed state; rest; one turn per step.
+std::vector<StressCase> time_step_cases(const std::vector<SheetStiffness> &stiffnesses);
+
+/// 1e-2 to 1e8 N/m times 0.01 to 10 kg/m^2.
+std::vector<StressCase> stiffness_cases();
+
+/// Positions that no cloth should begin with.
+std::vector<StressCase> start_cases(const std::vector<SheetStiffness> &stiffnesses);
+
+/// Sound and unsound meshes.
+std::vector<StressCase> mesh_cases(const SheetStiffness &stiffness);
+
+/// One triangle turned, mirrored, collapsed, scaled; numbers that are not finite; twisted strips.
+std::vector<StressCase> rotation_cases(const std::vector<SheetStiffness> &stiffnesses);
+
+/// Free fall, spin, clamped, hung, pulled.
+std::vector<StressCase> motion_cases(const std::vector<SheetStiffness> &stiffnesses);
+
+/// Bending, wind and an obstacle at the steps of scenes, 0.1 to 50 ms.
+std::vector<StressCase> scene_cases(const SheetStiffness &stiffness);
+
+/// Up-sampling of violent coarse motions.
+std::vector<StressCase> localization_cases(const std::vector<meshes::HomogenizedCell> &cells,
+                                           const std::vector<std::string> &names);
+
+/// A cell with smooth periodic modes of a tenth of its side, zero at its lattice points: for where none is given.
+meshes::HomogenizedCell smooth_cell();
+} // namespace homespun::verification

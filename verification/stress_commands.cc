@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: MIT
+// homespun stress: the cloth and the up-sampling under what should break them.
+#include "verification/commands.h"
+#include "verification/stress_study.h"
+
+#include <deal.II/base/mpi.h>
+
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+#include <CLI/Option.hpp>
+
+#include <cstdio>
+#include <memory>
+
+namespace homespun::verification
+{
+namespace
+{
+struct StressArguments
+{
+  StressStudyOptions study;
+  bool quick = false, no_report = false;
+};
+
+int run_stress(StressArguments arguments, Afterwards &afterwards)
+{
+  StressStudyOptions &study = arguments.study;
+  if (arguments.quick)
+    study.repeats = 2;
+  const std::vector<Verdict> verdicts = run_stress_study(study, MPI_COMM_WORLD);
+  if (dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0)
+  {
+    if (!study.quiet)
+      for (const Verdict &verdict : verdicts)
+        std::printf("%-12s %s: %.3g (%s)\n", name_of(verdict.outcome).c_str(), verdict.claim.c_str(), verdict.value,
+                    verdict.limit.c_str());
+    if (!arguments.no_report)
+      afterwards = [output = study.output, quiet = study.quiet]() { make_report({output}, output, quiet); };
+  }
+  return any_failed(verdicts) ? 1 : 0;
+}
+} // namespace
+
+void add_stress_command(CLI::App &app, Action &action, Afterwards &afterwards, const std::string &command_line)
+{
+  CLI::App *command =
+    app.add_subcommand("stress", "What should break a cloth: each case must end in a finite answer or a named refusal");
+  const auto arguments    = std::make_shared<StressArguments>();
+  arguments->study.output = "out/stress";
+  arguments->study.command = command_line;
+  command->add_option("CELL.prm", arguments->study.cell_files,
+                      "Cells whose stiffness and modes the cases take (default: built-in ones)");
+  command->add_option("--output", arguments->study.output, "Folder of the results")->capture_default_str();
+  command->add_flag("--quick", arguments->quick, "Each case twice instead of ten times");
+  command->add_flag("--quiet", arguments->study.quiet, "Print nothing but faults");
+  command->add_flag("--no-report", arguments->no_report, "Leave out report.html");
+  command->footer("Time steps, stiffness, starts, meshes, rotations, motions, scenes, up-sampling; stress.csv has a row\n"
+                  "per case: what was expected, the outcome, one figure and its limit. A case that fails is a row, and\n"
+                  "exit status 1.\n"
+                  "Example:\n  homespun stress --quick\n  homespun stress mycell.prm");
+  command->callback(
+    [&action, &afterwards, arguments]()
+    { action = [&afterwards, arguments]() { return run_stress(*arguments, afterwards); }; });
+}
+} // namespace homespun::verification

@@ -1,0 +1,252 @@
+// SPDX-License-Identifier: MIT
+// Motions whose outcome theory knows, and scenes at their time steps.
+#include "shell/bending.h"
+#include "shell/inertial_terms.h"
+#include "shell/obstacles.h"
+#include "shell/wind.h"
+#include "verification/result_files.h"
+#include "verification/stress_cases.h"
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <cmath>
+
+namespace homespun::verification
+{
+using shell::Cloth;
+using shell::Vectors;
+
+namespace
+{
+constexpr int n          = 8;
+constexpr double gravity = 9.81;
+
+SheetPhysics undamped(const bool has_gravity)
+{
+  SheetPhysics physics;
+  physics.damping = 0.;
+  if (!has_gravity)
+    physics.gravity.setZero();
+  return physics;
+}
+
+/// The rounding of a position in one step is a velocity error that all later steps carry on: N²/2 roundings of
+/// the way, in each of two vertices of an edge, and as much again in the forces between them.
+constexpr double fall_round_off = 4. * 2.2e-16 * 4.95 * 0.5 * 100. * 100.;
+
+/// Largest distance from x0 + h² g k (k + 1)/2, which is where implicit Euler takes a body in free fall.
+StressAnswer free_fall(const SheetStiffness &stiffness, const unsigned int seed)
+{
+  constexpr double h     = 0.01;
+  constexpr int n_steps  = 100;
+  meshes::ClothMesh mesh = hanging_mesh(n);
+  const Eigen::Vector3d axis = random_vectors(1, seed).row(0).normalized();
+  mesh.positions = mesh.positions * Eigen::AngleAxisd(0.3 + seed, axis).toRotationMatrix().transpose();
+  Cloth cloth    = sheet_cloth(mesh, stiffness, {}, undamped(true));
+  for (int k = 0; k < n_steps; ++k)
+    cloth.step(h);
+  const Vectors expected =
+    mesh.positions.rowwise() - Eigen::RowVector3d(0., 0., gravity * h * h * 0.5 * n_steps * (n_steps + 1));
+  return {(cloth.positions() - expected).rowwise().norm().maxCoeff(), state_of(cloth)};
+}
+
+/// Changes of momenta and growth of the energy of a free sheet that spins and flies.
+StressAnswer fly(const SheetStiffness &stiffness, const double h, const unsigned int seed)
+{
+  const meshes::ClothMesh mesh = lying_mesh(n);
+  Cloth cloth                  = sheet_cloth(mesh, stiffness, {}, undamped(false));
+  Vectors velocities           = spinning(mesh.positions, cloth.masses(), {3., -2., 10.}) +
+                       0.1 * random_vectors(mesh.n_vertices(), seed);
+  velocities.rowwise() += Eigen::RowVector3d(0.3, 0.1, -0.2);
+  cloth.set_state(mesh.positions, velocities, 0.);
+  const Eigen::RowVector3d p = cloth.momentum(), L = cloth.angular_momentum();
+  const double growth = largest_energy_growth(cloth, h, 200);
+  return {std::max({growth, (cloth.momentum() - p).norm() / p.norm(),
+                    (cloth.angular_momentum() - L).norm() / L.norm()}),
+          state_of(cloth)};
+}
+
+/// Deepest point over one second, of a sheet clamped on four sides.
+StressAnswer clamped(const SheetStiffness &stiffness)
+{
+  const meshes::ClothMesh mesh = lying_mesh(n);
+  Cloth cloth                  = sheet_cloth(mesh, stiffness, outline_of(n));
+  double deepest               = 0.;
+  for (int k = 0; k < 200; ++k)
+  {
+    cloth.step(0.005);
+    deepest = std::max(deepest, -cloth.positions().col(2).minCoeff());
+  }
+  return {deepest, state_of(cloth)};
+}
+
+StressAnswer hung_by_one_corner(const SheetStiffness &stiffness, const double h)
+{
+  const meshes::ClothMesh mesh = lying_mesh(n);
+  Cloth cloth                  = sheet_cloth(mesh, stiffness, {0});
+  const double growth          = largest_energy_growth(cloth, h, 200);
+  return {growth, state_of(cloth)};
+}
+
+/// One edge suddenly moves away at 5 m/s. In its frame nothing does work: the energy there never exceeds
+/// that of the flow that comes at it.
+StressAnswer pulled(const SheetStiffness &stiffness, const double h, const shell::Integrator integrator)
+{
+  constexpr double speed       = 5.;
+  const meshes::ClothMesh mesh = hanging_mesh(n);
+  std::vector<int> held;
+  for (int i = 0; i <= n; ++i)
+    held.push_back(n * (n + 1) + i);
+  SheetPhysics physics       = undamped(false);
+  physics.options.integrator = integrator;
+  Cloth cloth                = sheet_cloth(mesh, stiffness, held, physics);
+  const Eigen::RowVector3d velocity(0., 0., speed);
+  const double at_start = 0.5 * speed * speed * cloth.masses().sum();
+  double most           = 0.;
+  for (int k = 1; k <= 100; ++k)
+  {
+    for (const int v : held)
+      cloth.prescribe(v, mesh.positions.row(v) + k * h * velocity);
+    cloth.step(h);
+    const Vectors relative = cloth.velocities().rowwise() - velocity;
+    most = std::max(most, cloth.stored_energy() + 0.5 * cloth.masses().dot(relative.rowwise().squaredNorm()));
+  }
+  return {most / at_start, state_of(cloth)};
+}
+
+shell::PlateStiffness plate()
+{
+  return shell::PlateStiffness::isotropic(1e-5, 0.3);
+}
+
+const Eigen::Vector3d scene_wind(8., 2., 0.); // [m/s]
+
+/// Acceleration of a sheet that stands across the wind [m/s²].
+double wind_acceleration(const SheetStiffness &stiffness)
+{
+  const shell::Air air;
+  return 0.5 * air.density * air.normal_drag * scene_wind.squaredNorm() / stiffness.areal_density;
+}
+
+/// A sheet with bending falls on a sphere of 6 cm, wind from the side: how deep a vertex is inside.
+StressAnswer draped(const SheetStiffness &stiffness, const double h, const bool has_wind)
+{
+  constexpr double radius = 0.06;
+  const Eigen::Vector3d centre(0.1, 0.1, -0.1);
+  const meshes::ClothMesh mesh = lying_mesh(n);
+  Cloth cloth                  = sheet_cloth(mesh, stiffness, {});
+  cloth.add(shell::bending_term(mesh, {plate()}));
+  shell::ContactParameters contact;
+  contact.gravity << 0., 0., -gravity;
+  cloth.add(shell::obstacle_term({"ball", shell::sphere(centre, radius), 0.3, {}}, cloth.masses(), contact));
+  if (has_wind)
+  {
+    shell::Air air;
+    air.velocity = [](const Eigen::Vector3d &, double) { return scene_wind; };
+    cloth.add(shell::wind_term(mesh, air));
+  }
+  double deepest = 0.;
+  for (int k = 0; k < std::max(20., 0.3 / h); ++k)
+  {
+    cloth.step(h);
+    deepest = std::max(deepest, radius - (cloth.positions().rowwise() - centre.transpose()).rowwise().norm().minCoeff());
+  }
+  return {deepest, state_of(cloth)};
+}
+
+StressAnswer with_bending(const SheetStiffness &stiffness, const double h, const unsigned int seed)
+{
+  const meshes::ClothMesh mesh = hanging_mesh(n);
+  Cloth cloth                  = sheet_cloth(mesh, stiffness, upper_corners(n));
+  cloth.add(shell::bending_term(mesh, {plate()}));
+  Vectors velocities = random_vectors(mesh.n_vertices(), seed);
+  for (const int v : upper_corners(n))
+    velocities.row(v).setZero();
+  cloth.set_state(mesh.positions, velocities, 0.);
+  const double growth = largest_energy_growth(cloth, h, 100);
+  return {growth, state_of(cloth)};
+}
+
+/// A free sheet in a steady wind. Seen from the air, drag only takes energy.
+StressAnswer blown(const SheetStiffness &stiffness, const double h)
+{
+  const Eigen::RowVector3d wind(10., 4., 0.);
+  const meshes::ClothMesh mesh = hanging_mesh(n);
+  Cloth cloth                  = sheet_cloth(mesh, stiffness, {}, undamped(false));
+  shell::Air air;
+  air.tangential_drag = 0.05;
+  air.velocity        = [=](const Eigen::Vector3d &, double) -> Eigen::Vector3d { return wind; };
+  cloth.add(shell::wind_term(mesh, air));
+  const double at_start = 0.5 * wind.squaredNorm() * cloth.masses().sum();
+  double most           = 0.;
+  for (int k = 0; k < 100; ++k)
+  {
+    cloth.step(h);
+    const Vectors relative = cloth.velocities().rowwise() - wind;
+    most = std::max(most, cloth.stored_energy() + 0.5 * cloth.masses().dot(relative.rowwise().squaredNorm()));
+  }
+  return {most / at_start, state_of(cloth)};
+}
+} // namespace
+
+std::vector<StressCase> motion_cases(const std::vector<SheetStiffness> &stiffnesses)
+{
+  std::vector<StressCase> cases;
+  for (const SheetStiffness &stiffness : stiffnesses)
+  {
+    cases.push_back({"motion", "free fall of one second; turned at random; " + stiffness.name,
+                     "finite; straight and as implicit Euler falls", Ending::finite, fall_round_off,
+                     "largest distance from the exact positions [m]", "", true,
+                     [=](const unsigned int seed) { return free_fall(stiffness, seed); }});
+    for (const double h : {1e-3, 5e-3, 2e-2})
+      cases.push_back({"motion", "free sheet that spins; " + csv_number(1e3 * h) + " ms; " + stiffness.name,
+                       "finite; keeps both momenta; energy never grows", Ending::finite, 1e-10,
+                       "largest relative change of momenta or growth of energy in 200 steps [-]", "", true,
+                       [=](const unsigned int seed) { return fly(stiffness, h, seed); }});
+    cases.push_back({"motion", "four clamped edges under gravity; " + stiffness.name,
+                     "finite; holds (free fall would be 4.9 m)", Ending::finite, 0.1, "largest sag [m]", "", false,
+                     [=](unsigned int) { return clamped(stiffness); }});
+    for (const double h : {1e-3, 1e-2, 5e-2})
+    {
+      cases.push_back({"motion", "hung by one corner; " + csv_number(1e3 * h) + " ms; " + stiffness.name,
+                       "finite; the energy of the damped sheet never grows", Ending::finite, energy_round_off,
+                       "largest growth in a step over the largest energy [-]", "", false,
+                       [=](unsigned int) { return hung_by_one_corner(stiffness, h); }});
+      for (const shell::Integrator integrator : {shell::Integrator::linearly_implicit, shell::Integrator::implicit})
+        cases.push_back({"motion",
+                         "pulled at 5 m/s; " + csv_number(1e3 * h) + " ms; " +
+                           (integrator == shell::Integrator::implicit ? "implicit; " : "") + stiffness.name,
+                         "finite; in the frame of the handle never more energy than at the start", Ending::finite,
+                         1. + 1e-9, "of the energy at the start [-]", "", false,
+                         [=](unsigned int) { return pulled(stiffness, h, integrator); }});
+    }
+  }
+  return cases;
+}
+
+std::vector<StressCase> scene_cases(const SheetStiffness &stiffness)
+{
+  std::vector<StressCase> cases;
+  for (const double h : {1e-4, 1e-3, 5e-3, 1e-2, 2e-2, 5e-2})
+  {
+    const std::string step = "; " + csv_number(1e3 * h) + " ms";
+    for (const bool has_wind : {false, true})
+      cases.push_back({"scene",
+                       std::string("falls on a sphere; bending and friction") + (has_wind ? " and wind" : "") + step,
+                       "finite; no vertex deeper inside than h^2 times the acceleration by gravity and wind and a "
+                       "tenth of the contact thickness",
+                       Ending::finite, h * h * (gravity + (has_wind ? wind_acceleration(stiffness) : 0.)) + 1e-4, "deepest vertex inside the sphere [m]", "", false,
+                       [=](unsigned int) { return draped(stiffness, h, has_wind); }});
+    cases.push_back({"scene", "hung by two corners; bending" + step,
+                     "finite; the energy of the damped sheet never grows", Ending::finite, energy_round_off,
+                     "largest growth in a step over the largest energy [-]", "", true,
+                     [=](const unsigned int seed) { return with_bending(stiffness, h, seed); }});
+    cases.push_back({"scene", "free sheet in wind of 11 m/s" + step,
+                     "finite; seen from the air never more energy than at the start", Ending::finite, 1. + 1e-9,
+                     "of the energy at the start [-]", "", false,
+                     [=](unsigned int) { return blown(stiffness, h); }});
+  }
+  return cases;
+}
+} // namespace homespun::verification

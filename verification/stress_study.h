@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MIT
+// All stress cases, each repeated, as a table with verdicts.
+#pragma once
+
+#include "verification/verdict.h"
+
+#include <mpi.h>
+
+#include <string>
+#include <vector>
+
+namespace homespun::verification
+{
+struct StressStudyOptions
+{
+  std::vector<std::string> cell_files; ///< their C^H and modes; none: built-in ones
+  int repeats = 10;
+  std::string output;
+  std::string command; ///< that reproduces the study
+  bool quiet = false;
+};
+
+/// Runs all cases and writes, into the output folder, stress.csv row by row, verdicts.json and study.json.
+/// Cells are homogenized with P1 by all ranks; the cases run on the first rank, on one thread.
+/// @throws BadInput, NotConverged of the cells; what a case throws is its outcome
+std::vector<Verdict> run_stress_study(const StressStudyOptions &options, MPI_Comm communicator);
+} // namespace homespun::verification
