@@ -27,7 +27,7 @@ StressCase planted(const double figure, const double number, const Ending ending
   return one;
 }
 
-const double nan = std::numeric_limits<double>::quiet_NaN();
+const double not_a_number = std::numeric_limits<double>::quiet_NaN();
 
 void expect_all_pass(const std::vector<StressCase> &cases, const std::string &part_of_name)
 {
@@ -52,7 +52,8 @@ TEST(tripwire_stress, a_case_beyond_its_limit_fails)
 
 TEST(tripwire_stress, a_number_that_is_not_finite_fails_and_reaches_no_file)
 {
-  for (const StressCase &one : {planted(0., nan), planted(nan, 0.), planted(0., HUGE_VAL)})
+  for (const StressCase &one :
+       {planted(0., not_a_number), planted(not_a_number, 0.), planted(0., HUGE_VAL)})
   {
     const StressResult result = run_case(one, 2);
     EXPECT_EQ(result.verdict, Outcome::fail);
