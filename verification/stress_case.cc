@@ -101,8 +101,7 @@ StressResult run_case(const StressCase &stress_case, const int repeats)
       result.figure = one.figure;
   }
   result.verdict = repeats > 0 && problem.empty() ? Outcome::pass : Outcome::fail;
-  result.seconds =
-    std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   return result;
 }
 
@@ -122,15 +121,9 @@ const std::vector<std::string> &stress_columns()
 
 std::vector<std::string> stress_row(const StressCase &stress_case, const StressResult &result)
 {
-  return {field(stress_case.group),
-          field(stress_case.name),
-          field(stress_case.expected),
-          field(result.outcome),
-          csv_number(result.figure),
-          field(limit_text(stress_case)),
-          name_of(result.verdict),
-          std::to_string(result.repeats),
-          csv_number(result.seconds)};
+  return {field(stress_case.group), field(stress_case.name),        field(stress_case.expected),
+          field(result.outcome),    csv_number(result.figure),      field(limit_text(stress_case)),
+          name_of(result.verdict),  std::to_string(result.repeats), csv_number(result.seconds)};
 }
 
 std::vector<Verdict> stress_verdicts(const std::vector<std::vector<std::string>> &rows)
@@ -149,10 +142,9 @@ std::vector<Verdict> stress_verdicts(const std::vector<std::vector<std::string>>
         ++n;
         n_failed += row.at(6) != name_of(Outcome::pass);
       }
-    verdicts.push_back({group + ": each of " + std::to_string(n) +
-                          " cases ends as it should (cases that do not)",
-                        n_failed == 0 ? Outcome::pass : Outcome::fail,
-                        static_cast<double>(n_failed), "0"});
+    verdicts.push_back(
+      {group + ": each of " + std::to_string(n) + " cases ends as it should (cases that do not)",
+       n_failed == 0 ? Outcome::pass : Outcome::fail, static_cast<double>(n_failed), "0"});
   }
   return verdicts;
 }

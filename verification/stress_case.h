@@ -34,14 +34,15 @@ struct StressCase
   double limit  = 0.;    ///< of the figure; finite cases
   std::string figure_is; ///< what the figure is, with its unit; finite cases
   std::string names;     ///< what the refusal must contain; refused cases
-  bool is_random = false; ///< seeds differ; else every repetition must give the same numbers to the last bit
+  bool is_random =
+    false; ///< seeds differ; else every repetition must give the same numbers to the last bit
   /// @throws BadInput, NotConverged where it refuses
   std::function<StressAnswer(unsigned int seed)> run;
 };
 
 struct StressResult
 {
-  std::string outcome; ///< finite; finite but ...; not finite; refused: message; error: message
+  std::string outcome;  ///< finite; finite but ...; not finite; refused: message; error: message
   double figure   = 0.; ///< the largest of all repetitions; not-a-number where there is none
   Outcome verdict = Outcome::fail;
   int repeats     = 0;

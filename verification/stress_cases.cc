@@ -85,51 +85,66 @@ Vectors scaled(const meshes::ClothMesh &mesh, const Eigen::Vector3d &factors)
 }
 
 const std::vector<Start> starts = {
-  {"random vertices", true, [](const meshes::ClothMesh &mesh, const unsigned int seed) -> Vectors
+  {"random vertices", true,
+   [](const meshes::ClothMesh &mesh, const unsigned int seed) -> Vectors
    { return 0.2 * random_vectors(mesh.n_vertices(), seed); }},
-  {"flattened to another plane", false, [](const meshes::ClothMesh &mesh, unsigned int) -> Vectors
+  {"flattened to another plane", false,
+   [](const meshes::ClothMesh &mesh, unsigned int) -> Vectors
    {
      // The hanging sheet is in the plane of 1 and 3: sheared into that of 1 and 2, half as high.
      Eigen::Matrix3d A;
      A << 1., 0., 0., 0., 0., 0., 0., 0.5, 0.;
      return mesh.positions * A;
    }},
-  {"flattened to a line", false, [](const meshes::ClothMesh &mesh, unsigned int)
-   { return scaled(mesh, {1., 0., 0.}); }},
-  {"flattened to a line across the grain", false, [](const meshes::ClothMesh &mesh, unsigned int) -> Vectors
+  {"flattened to a line", false,
+   [](const meshes::ClothMesh &mesh, unsigned int) {
+     return scaled(mesh, {1., 0., 0.});
+   }},
+  {"flattened to a line across the grain", false,
+   [](const meshes::ClothMesh &mesh, unsigned int) -> Vectors
    { return mesh.positions.rowwise().sum() * Eigen::RowVector3d(0.4, 0.5, -0.3); }},
-  {"flattened to a point", false, [](const meshes::ClothMesh &mesh, unsigned int)
-   { return scaled(mesh, {0., 0., 0.}); }},
-  {"mirrored", false, [](const meshes::ClothMesh &mesh, unsigned int)
-   { return scaled(mesh, {-1., 1., 1.}); }},
-  {"folded by 180 degrees", false, [](const meshes::ClothMesh &mesh, unsigned int)
+  {"flattened to a point", false,
+   [](const meshes::ClothMesh &mesh, unsigned int) {
+     return scaled(mesh, {0., 0., 0.});
+   }},
+  {"mirrored", false,
+   [](const meshes::ClothMesh &mesh, unsigned int) {
+     return scaled(mesh, {-1., 1., 1.});
+   }},
+  {"folded by 180 degrees", false,
+   [](const meshes::ClothMesh &mesh, unsigned int)
    {
      const double middle = 0.5 * mesh.positions.col(2).maxCoeff();
      Vectors x           = mesh.positions;
      x.col(2)            = middle + (x.col(2).array() - middle).abs();
      return x;
    }},
-  {"one vertex at 1e6 m", true, [](const meshes::ClothMesh &mesh, const unsigned int seed)
+  {"one vertex at 1e6 m", true,
+   [](const meshes::ClothMesh &mesh, const unsigned int seed)
    {
-     Vectors x                      = mesh.positions;
+     Vectors x = mesh.positions;
      x.row(static_cast<int>(seed * 7 + 3) % mesh.n_vertices()) << 1e6, -2e5, 3e5;
      return x;
    }},
-  {"every second triangle inverted", false, [](const meshes::ClothMesh &mesh, unsigned int)
+  {"every second triangle inverted", false,
+   [](const meshes::ClothMesh &mesh, unsigned int)
    {
      // Three colours of vertices, all triangles upon one: those above the diagonals come to lie upside down.
-     const Eigen::Matrix3d corners = (Eigen::Matrix3d() << 0., 0., 0., 1., 0., 0., 0., 0., 1.).finished();
+     const Eigen::Matrix3d corners =
+       (Eigen::Matrix3d() << 0., 0., 0., 1., 0., 0., 0., 0., 1.).finished();
      Vectors x(mesh.n_vertices(), 3);
      for (int j = 0; j <= n; ++j)
        for (int i = 0; i <= n; ++i)
          x.row(j * (n + 1) + i) = 0.2 / n * corners.row((i + j) % 3);
      return x;
    }},
-  {"two vertices coincident", true, [](const meshes::ClothMesh &mesh, const unsigned int seed)
+  {"two vertices coincident", true,
+   [](const meshes::ClothMesh &mesh, const unsigned int seed)
    {
-     Vectors x         = mesh.positions;
-     const int between = static_cast<int>(seed) % (n - 1) + (n + 1) * (1 + static_cast<int>(seed) % (n - 2));
-     x.row(between)    = x.row(between + 1);
+     Vectors x = mesh.positions;
+     const int between =
+       static_cast<int>(seed) % (n - 1) + (n + 1) * (1 + static_cast<int>(seed) % (n - 2));
+     x.row(between) = x.row(between + 1);
      return x;
    }},
 };
@@ -156,20 +171,17 @@ std::vector<StressCase> time_step_cases(const std::vector<SheetStiffness> &stiff
   {
     for (const double h : {1e-5, 1e-4, 1e-3, 1e-2, 5e-2, 0.1, 1.})
       for (const double disturbance : {0., 2.})
-        cases.push_back({"time step",
-                         csv_number(h) + " s; " +
-                           (disturbance > 0. ? "random velocities of 2 m/s; " : "from rest; ") +
-                           stiffness.name,
-                         "finite; the energy of the damped sheet never grows",
-                         Ending::finite,
-                         energy_round_off,
-                         of_largest_energy,
-                         "",
-                         disturbance > 0.,
-                         [=](const unsigned int seed)
-                         { return hang(stiffness, h, h < 0.05 ? 60 : 30, disturbance, seed); }});
+        cases.push_back(
+          {"time step",
+           csv_number(h) + " s; " +
+             (disturbance > 0. ? "random velocities of 2 m/s; " : "from rest; ") + stiffness.name,
+           "finite; the energy of the damped sheet never grows", Ending::finite, energy_round_off,
+           of_largest_energy, "", disturbance > 0., [=](const unsigned int seed) {
+             return hang(stiffness, h, h < 0.05 ? 60 : 30, disturbance, seed);
+           }});
     for (const double turns : {0.25, 0.5, 1., 5.})
-      cases.push_back({"time step", csv_number(turns) + " turns per step of 10 ms; " + stiffness.name,
+      cases.push_back({"time step",
+                       csv_number(turns) + " turns per step of 10 ms; " + stiffness.name,
                        "finite; the free sheet keeps both momenta", Ending::finite, 1e-10,
                        "change over the momenta at the start in 50 steps [-]", "", false,
                        [=](unsigned int) { return spin(stiffness, turns); }});
@@ -177,17 +189,19 @@ std::vector<StressCase> time_step_cases(const std::vector<SheetStiffness> &stiff
   const SheetStiffness &first = stiffnesses.front();
   SheetPhysics weightless;
   weightless.gravity.setZero();
-  const auto rests = [&](const std::string &name, const meshes::ClothMesh &mesh, const std::vector<int> &held,
-                         const SheetPhysics &physics, const bool settle)
+  const auto rests = [&](const std::string &name, const meshes::ClothMesh &mesh,
+                         const std::vector<int> &held, const SheetPhysics &physics,
+                         const bool settle)
   {
-    cases.push_back({"time step", "20000 steps at rest; " + name, "finite; does not drift", Ending::finite,
-                     1e-12, "largest way of a vertex [m]", "", false,
+    cases.push_back({"time step", "20000 steps at rest; " + name, "finite; does not drift",
+                     Ending::finite, 1e-12, "largest way of a vertex [m]", "", false,
                      [=](unsigned int) { return rest(mesh, first, held, physics, settle); }});
   };
   rests("free; flat; no gravity", lying_mesh(2), {}, weightless, false);
   meshes::ClothMesh turned = lying_mesh(2);
   turned.positions =
-    turned.positions * Eigen::AngleAxisd(0.7, Eigen::Vector3d(1., 2., 2.) / 3.).toRotationMatrix().transpose();
+    turned.positions *
+    Eigen::AngleAxisd(0.7, Eigen::Vector3d(1., 2., 2.) / 3.).toRotationMatrix().transpose();
   rests("free; turned by 0.7; no gravity", turned, {}, weightless, false);
   rests("hung by two corners; in equilibrium", hanging_mesh(2), upper_corners(2), {}, true);
   return cases;
@@ -201,12 +215,11 @@ std::vector<StressCase> stiffness_cases()
     {
       SheetStiffness stiffness = isotropic_sheet(young, 0.3);
       stiffness.areal_density  = density;
-      cases.push_back({"stiffness",
-                       csv_number(young) + " N/m; " + csv_number(density) + " kg/m^2",
+      cases.push_back({"stiffness", csv_number(young) + " N/m; " + csv_number(density) + " kg/m^2",
                        "finite; the energy of the damped sheet never grows", Ending::finite,
-                       energy_round_off, of_largest_energy, "", true,
-                       [=](const unsigned int seed)
-                       { return hang(stiffness, 0.005, 50, 2., seed); }});
+                       energy_round_off, of_largest_energy, "", true, [=](const unsigned int seed) {
+                         return hang(stiffness, 0.005, 50, 2., seed);
+                       }});
     }
   return cases;
 }
@@ -218,13 +231,14 @@ std::vector<StressCase> start_cases(const std::vector<SheetStiffness> &stiffness
     for (const SheetStiffness &stiffness : stiffnesses)
       for (const bool is_free : {false, true})
         for (const double h : {1e-3, 0.02})
-          cases.push_back({"start",
-                           std::string(start.name) + (is_free ? "; free; " : "; hung by two corners; ") +
-                             csv_number(1e3 * h) + " ms; " + stiffness.name,
-                           "finite; the energy of the damped sheet never grows", Ending::finite,
-                           energy_round_off, of_largest_energy, "", start.is_random,
-                           [=](const unsigned int seed)
-                           { return start_from(start, stiffness, h, is_free, seed); }});
+          cases.push_back(
+            {"start",
+             std::string(start.name) + (is_free ? "; free; " : "; hung by two corners; ") +
+               csv_number(1e3 * h) + " ms; " + stiffness.name,
+             "finite; the energy of the damped sheet never grows", Ending::finite, energy_round_off,
+             of_largest_energy, "", start.is_random, [=](const unsigned int seed) {
+               return start_from(start, stiffness, h, is_free, seed);
+             }});
   return cases;
 }
 } // namespace homespun::verification

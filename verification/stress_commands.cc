@@ -32,32 +32,37 @@ int run_stress(StressArguments arguments, Afterwards &afterwards)
   {
     if (!study.quiet)
       for (const Verdict &verdict : verdicts)
-        std::printf("%-12s %s: %.3g (%s)\n", name_of(verdict.outcome).c_str(), verdict.claim.c_str(), verdict.value,
-                    verdict.limit.c_str());
+        std::printf("%-12s %s: %.3g (%s)\n", name_of(verdict.outcome).c_str(),
+                    verdict.claim.c_str(), verdict.value, verdict.limit.c_str());
     if (!arguments.no_report)
-      afterwards = [output = study.output, quiet = study.quiet]() { make_report({output}, output, quiet); };
+      afterwards = [output = study.output, quiet = study.quiet]()
+      { make_report({output}, output, quiet); };
   }
   return any_failed(verdicts) ? 1 : 0;
 }
 } // namespace
 
-void add_stress_command(CLI::App &app, Action &action, Afterwards &afterwards, const std::string &command_line)
+void add_stress_command(CLI::App &app, Action &action, Afterwards &afterwards,
+                        const std::string &command_line)
 {
-  CLI::App *command =
-    app.add_subcommand("stress", "What should break a cloth: each case must end in a finite answer or a named refusal");
-  const auto arguments    = std::make_shared<StressArguments>();
-  arguments->study.output = "out/stress";
+  CLI::App *command = app.add_subcommand(
+    "stress",
+    "What should break a cloth: each case must end in a finite answer or a named refusal");
+  const auto arguments     = std::make_shared<StressArguments>();
+  arguments->study.output  = "out/stress";
   arguments->study.command = command_line;
   command->add_option("CELL.prm", arguments->study.cell_files,
                       "Cells whose stiffness and modes the cases take (default: built-in ones)");
-  command->add_option("--output", arguments->study.output, "Folder of the results")->capture_default_str();
+  command->add_option("--output", arguments->study.output, "Folder of the results")
+    ->capture_default_str();
   command->add_flag("--quick", arguments->quick, "Each case twice instead of ten times");
   command->add_flag("--quiet", arguments->study.quiet, "Print nothing but faults");
   command->add_flag("--no-report", arguments->no_report, "Leave out report.html");
-  command->footer("Time steps, stiffness, starts, meshes, rotations, motions, scenes, up-sampling; stress.csv has a row\n"
-                  "per case: what was expected, the outcome, one figure and its limit. A case that fails is a row, and\n"
-                  "exit status 1.\n"
-                  "Example:\n  homespun stress --quick\n  homespun stress mycell.prm");
+  command->footer(
+    "Time steps, stiffness, starts, meshes, rotations, motions, scenes, up-sampling; stress.csv has a row\n"
+    "per case: what was expected, the outcome, one figure and its limit. A case that fails is a row, and\n"
+    "exit status 1.\n"
+    "Example:\n  homespun stress --quick\n  homespun stress mycell.prm");
   command->callback(
     [&action, &afterwards, arguments]()
     { action = [&afterwards, arguments]() { return run_stress(*arguments, afterwards); }; });

@@ -48,7 +48,8 @@ Positions<3> embedded(const meshes::TriangleMesh &mesh)
 }
 
 template <typename Scalar>
-Eigen::MatrixXd upsampled(const Sheets &sheets, const Positions<3> &coarse, const bool is_localized = true)
+Eigen::MatrixXd upsampled(const Sheets &sheets, const Positions<3> &coarse,
+                          const bool is_localized = true)
 {
   UpsamplerOptions options;
   options.microscopic = is_localized;
@@ -65,14 +66,16 @@ StressAnswer uniform(const Sheets &sheets, const Eigen::Matrix<double, 3, 2> &F)
   const Eigen::MatrixXd found = upsampled<double>(sheets, coarse);
   const CoarseFrames<3> frames(sheets.coarse, {});
   const Frame<3> frame = frames.of_triangle(0, coarse);
-  const meshes::CharacteristicDisplacements chi = localization::anchored(sheets.cell, localization::Anchor::lattice);
+  const meshes::CharacteristicDisplacements chi =
+    localization::anchored(sheets.cell, localization::Anchor::lattice);
   double worst = 0.;
   for (int v = 0; v < sheets.fine.mesh.n_vertices(); ++v)
   {
     const Eigen::Matrix<double, 1, 6> modes = chi.row(sheets.fine.cell_vertex(v));
-    const Eigen::Vector2d w = -(frame.strain(0) * modes.segment<2>(0) + frame.strain(1) * modes.segment<2>(2) +
-                                frame.strain(2) * modes.segment<2>(4))
-                                 .transpose();
+    const Eigen::Vector2d w =
+      -(frame.strain(0) * modes.segment<2>(0) + frame.strain(1) * modes.segment<2>(2) +
+        frame.strain(2) * modes.segment<2>(4))
+         .transpose();
     const Eigen::Vector3d exact = F * sheets.fine.mesh.vertices.row(v).transpose() + frame.lift * w;
     worst                       = std::max(worst, (found.row(v).transpose() - exact).norm());
   }
@@ -82,9 +85,11 @@ StressAnswer uniform(const Sheets &sheets, const Eigen::Matrix<double, 3, 2> &F)
 /// Largest microscopic displacement over its bound.
 StressAnswer violent(const Sheets &sheets, const Positions<3> &coarse)
 {
-  const Eigen::MatrixXd fine = upsampled<double>(sheets, coarse), alone = upsampled<double>(sheets, coarse, false);
+  const Eigen::MatrixXd fine  = upsampled<double>(sheets, coarse),
+                        alone = upsampled<double>(sheets, coarse, false);
   const CoarseFrames<3> frames(sheets.coarse, {});
-  const meshes::CharacteristicDisplacements chi = localization::anchored(sheets.cell, localization::Anchor::lattice);
+  const meshes::CharacteristicDisplacements chi =
+    localization::anchored(sheets.cell, localization::Anchor::lattice);
   double strain = 0., lift = 0., mode = 0.;
   for (int t = 0; t < sheets.coarse.n_triangles(); ++t)
   {
@@ -126,50 +131,62 @@ std::vector<StressCase> of_cell(const Shared &sheets, const std::string &name)
   const auto bounded = [&](const std::string &what, const bool is_random,
                            const std::function<Positions<3>(unsigned int)> &positions)
   {
-    cases.push_back({group, what + of, "finite in float and double; within the bound of the method", Ending::finite,
-                     1. + 1e-12, "largest microscopic displacement over its bound [-]", "", is_random,
+    cases.push_back({group, what + of, "finite in float and double; within the bound of the method",
+                     Ending::finite, 1. + 1e-12,
+                     "largest microscopic displacement over its bound [-]", "", is_random,
                      [=](const unsigned int seed) { return violent(*sheets, positions(seed)); }});
   };
   const int middle        = (n_cells + 1) * (n_cells / 2) + n_cells / 2;
   const Positions<3> flat = embedded(sheets->coarse);
-  bounded("coarse triangle collapsed to a line", false, [=](unsigned int)
+  bounded("coarse triangle collapsed to a line", false,
+          [=](unsigned int)
           {
             Positions<3> x    = flat;
             x.row(middle)     = 0.5 * (x.row(middle + 1) + x.row(middle - 1 + n_cells + 1));
             x.row(middle + 1) = x.row(middle);
             return x;
           });
-  bounded("coarse triangles collapsed to a point", false, [=](unsigned int)
+  bounded("coarse triangles collapsed to a point", false,
+          [=](unsigned int)
           {
             Positions<3> x = flat;
             for (const int v : {middle, middle + 1, middle + n_cells + 1, middle + n_cells + 2})
               x.row(v) = flat.row(middle);
             return x;
           });
-  bounded("the whole sheet in a line", false, [=](unsigned int) -> Positions<3>
+  bounded("the whole sheet in a line", false,
+          [=](unsigned int) -> Positions<3>
           { return flat.rowwise().sum() * Eigen::RowVector3d(1., 2., 3.); });
-  bounded("the whole sheet in a point", false, [=](unsigned int) -> Positions<3>
+  bounded("the whole sheet in a point", false,
+          [=](unsigned int) -> Positions<3>
           { return Positions<3>::Constant(flat.rows(), 3, 0.3); });
-  bounded("every second coarse triangle inverted", false, [=](unsigned int)
+  bounded("every second coarse triangle inverted", false,
+          [=](unsigned int)
           {
             Positions<3> x = flat;
             for (int j = 0; j <= n_cells; ++j)
               for (int i = 0; i <= n_cells; ++i)
-                x.row(j * (n_cells + 1) + i) = sheets->side * Eigen::RowVector3d((i + j) % 3 == 1, (i + j) % 3 == 2, 0.);
+                x.row(j * (n_cells + 1) + i) =
+                  sheets->side * Eigen::RowVector3d((i + j) % 3 == 1, (i + j) % 3 == 2, 0.);
             return x;
           });
-  bounded("random coarse vertices", true, [=](const unsigned int seed) -> Positions<3>
+  bounded("random coarse vertices", true,
+          [=](const unsigned int seed) -> Positions<3>
           { return n_cells * sheets->side * random_vectors(flat.rows(), seed); });
-  bounded("one coarse vertex at 1e6 m", true, [=](const unsigned int seed)
+  bounded("one coarse vertex at 1e6 m", true,
+          [=](const unsigned int seed)
           {
             Positions<3> x = flat;
             x.row(static_cast<int>(7 * seed + 3) % static_cast<int>(x.rows())) << 1e6, -2e5, 3e5;
             return x;
           });
   for (const double scale : {1e-30, 1e30})
-    bounded("scaled by " + csv_number(scale), false, [=](unsigned int) -> Positions<3> { return scale * flat; });
-  cases.push_back({group, "coarse vertex that is not a number" + of, "refused; the message names `vertex 7`",
-                   Ending::refused, 0., "", "vertex 7", false, [=](unsigned int) -> StressAnswer
+    bounded("scaled by " + csv_number(scale), false,
+            [=](unsigned int) -> Positions<3> { return scale * flat; });
+  cases.push_back({group, "coarse vertex that is not a number" + of,
+                   "refused; the message names `vertex 7`", Ending::refused, 0., "", "vertex 7",
+                   false,
+                   [=](unsigned int) -> StressAnswer
                    {
                      Positions<3> x = flat;
                      x(7, 1)        = std::numeric_limits<double>::quiet_NaN();
@@ -201,7 +218,8 @@ meshes::HomogenizedCell smooth_cell()
   {
     const Eigen::RowVector2d f = 2. * M_PI / side * cell.mesh.vertices.row(v);
     for (int k = 0; k < 6; ++k)
-      cell.chi(v, k) = 0.05 * side * (std::sin(f(0) + k) + std::cos(2. * f(1) - k) + std::sin(f(0) - f(1)));
+      cell.chi(v, k) =
+        0.05 * side * (std::sin(f(0) + k) + std::cos(2. * f(1) - k) + std::sin(f(0) - f(1)));
   }
   cell.chi.rowwise() -= Eigen::Matrix<double, 1, 6>(cell.chi.row(0));
   // Corners and opposite edges are one vertex: the same to the last bit.

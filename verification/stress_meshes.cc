@@ -18,7 +18,8 @@ namespace
 {
 constexpr int n = 4; ///< cells per side of the sheet
 
-ClothMesh placed(const TriangleMesh &rest, const Eigen::RowVector3d &origin = Eigen::RowVector3d::Zero())
+ClothMesh placed(const TriangleMesh &rest,
+                 const Eigen::RowVector3d &origin = Eigen::RowVector3d::Zero())
 {
   Eigen::Matrix<double, 3, 2> placement;
   placement << 1., 0., 0., 0., 0., 1.;
@@ -111,19 +112,22 @@ std::vector<StressCase> mesh_cases(const SheetStiffness &stiffness)
 
   const auto refused = [&](const std::string &name, const std::string &names, const ClothMesh &mesh)
   {
-    cases.push_back({"mesh", name, "refused; the message names `" + names + "`", Ending::refused, 0., "", names,
-                     false, [=](unsigned int) { return hang(mesh, stiffness); }});
+    cases.push_back({"mesh", name, "refused; the message names `" + names + "`", Ending::refused,
+                     0., "", names, false, [=](unsigned int) { return hang(mesh, stiffness); }});
   };
   const std::string last = "triangle " + std::to_string(m);
-  refused("rest triangle without area", "triangle " + std::to_string(sliver), placed(with_sliver(sheet, 0.)));
+  refused("rest triangle without area", "triangle " + std::to_string(sliver),
+          placed(with_sliver(sheet, 0.)));
   cases.push_back({"mesh", "rest triangle without area; straight to the membrane",
                    "refused; the message names the triangle", Ending::refused, 0., "",
-                   "triangle " + std::to_string(sliver), false, [=](unsigned int) -> StressAnswer
+                   "triangle " + std::to_string(sliver), false,
+                   [=](unsigned int) -> StressAnswer
                    {
                      shell::membrane_term(placed(with_sliver(sheet, 0.)), {stiffness.D});
                      return {};
                    }});
-  refused("duplicate triangle", last + " repeats triangle 5", placed(with_triangle(sheet, sheet.triangles.row(5))));
+  refused("duplicate triangle", last + " repeats triangle 5",
+          placed(with_triangle(sheet, sheet.triangles.row(5))));
   refused("T-junction", "T-junction",
           placed(made_of({{0., 0.}, {.1, 0.}, {.1, .1}, {0., .1}, {.2, 0.}, {.2, .1}, {.1, .05}},
                          {{0, 1, 2}, {0, 2, 3}, {1, 4, 6}, {4, 5, 6}, {6, 5, 2}})));
@@ -136,13 +140,15 @@ std::vector<StressCase> mesh_cases(const SheetStiffness &stiffness)
     flipped = turned_around(flipped, t);
   refused("all triangles turned around", "mirrored", placed(flipped));
   refused("no triangle", "no triangle", placed(without(sheet, [](int) { return true; })));
-  refused("index out of range", "names rest vertex 99", [&]()
+  refused("index out of range", "names rest vertex 99",
+          [&]()
           {
-            ClothMesh mesh         = placed(sheet);
+            ClothMesh mesh            = placed(sheet);
             mesh.rest.triangles(3, 1) = 99;
             return mesh;
           }());
-  refused("vertex that is not a number", "vertex 7", [&]()
+  refused("vertex that is not a number", "vertex 7",
+          [&]()
           {
             ClothMesh mesh       = placed(sheet);
             mesh.positions(7, 0) = std::numeric_limits<double>::quiet_NaN();
@@ -151,16 +157,19 @@ std::vector<StressCase> mesh_cases(const SheetStiffness &stiffness)
 
   const auto finite = [&](const std::string &name, const ClothMesh &mesh)
   {
-    cases.push_back({"mesh", name, "finite; the energy of the damped sheet never grows", Ending::finite,
-                     energy_round_off, "largest growth in a step over the largest energy [-]", "", false,
+    cases.push_back({"mesh", name, "finite; the energy of the damped sheet never grows",
+                     Ending::finite, energy_round_off,
+                     "largest growth in a step over the largest energy [-]", "", false,
                      [=](unsigned int) { return hang(mesh, stiffness); }});
   };
   finite("one triangle", placed(made_of({{0., 0.}, {.1, 0.}, {0., .1}}, {{0, 1, 2}})));
-  finite("two triangles", placed(made_of({{0., 0.}, {.1, 0.}, {.1, .1}, {0., .1}}, {{0, 1, 2}, {0, 2, 3}})));
+  finite("two triangles",
+         placed(made_of({{0., 0.}, {.1, 0.}, {.1, .1}, {0., .1}}, {{0, 1, 2}, {0, 2, 3}})));
   const int hole = 2 * (n + 1);
   finite("a hole", placed(without(sheet, [=](const int t) { return t / 2 == hole / 2; })));
   finite("sliver; 1e-6 as high as long", placed(with_sliver(sheet, 1e-6)));
-  finite("seen from the other side", [&]()
+  finite("seen from the other side",
+         [&]()
          {
            ClothMesh mesh        = placed(sheet);
            mesh.positions.col(0) = -mesh.positions.col(0);
@@ -171,15 +180,18 @@ std::vector<StressCase> mesh_cases(const SheetStiffness &stiffness)
   far.vertices.array() += 1e4;
   const ClothMesh far_away = placed(far, {0., 1e4, 0.});
   finite("origin at 1e4 m", far_away);
-  cases.push_back({"mesh", "origin at 1e4 m; 1000 steps at rest", "finite; does not drift beyond its digits",
-                   Ending::finite, 1e-9, "largest way of a vertex [m]", "", false, [=](unsigned int) -> StressAnswer
+  cases.push_back({"mesh", "origin at 1e4 m; 1000 steps at rest",
+                   "finite; does not drift beyond its digits", Ending::finite, 1e-9,
+                   "largest way of a vertex [m]", "", false,
+                   [=](unsigned int) -> StressAnswer
                    {
                      SheetPhysics weightless;
                      weightless.gravity.setZero();
                      Cloth cloth = sheet_cloth(far_away, stiffness, {}, weightless);
                      for (int k = 0; k < 1000; ++k)
                        cloth.step(0.01);
-                     return {(cloth.positions() - far_away.positions).rowwise().norm().maxCoeff(), state_of(cloth)};
+                     return {(cloth.positions() - far_away.positions).rowwise().norm().maxCoeff(),
+                             state_of(cloth)};
                    }});
   return cases;
 }

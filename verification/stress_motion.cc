@@ -38,16 +38,18 @@ constexpr double fall_round_off = 4. * 2.2e-16 * 4.95 * 0.5 * 100. * 100.;
 /// Largest distance from x0 + h² g k (k + 1)/2, which is where implicit Euler takes a body in free fall.
 StressAnswer free_fall(const SheetStiffness &stiffness, const unsigned int seed)
 {
-  constexpr double h     = 0.01;
-  constexpr int n_steps  = 100;
-  meshes::ClothMesh mesh = hanging_mesh(n);
+  constexpr double h         = 0.01;
+  constexpr int n_steps      = 100;
+  meshes::ClothMesh mesh     = hanging_mesh(n);
   const Eigen::Vector3d axis = random_vectors(1, seed).row(0).normalized();
-  mesh.positions = mesh.positions * Eigen::AngleAxisd(0.3 + seed, axis).toRotationMatrix().transpose();
-  Cloth cloth    = sheet_cloth(mesh, stiffness, {}, undamped(true));
+  mesh.positions =
+    mesh.positions * Eigen::AngleAxisd(0.3 + seed, axis).toRotationMatrix().transpose();
+  Cloth cloth = sheet_cloth(mesh, stiffness, {}, undamped(true));
   for (int k = 0; k < n_steps; ++k)
     cloth.step(h);
   const Vectors expected =
-    mesh.positions.rowwise() - Eigen::RowVector3d(0., 0., gravity * h * h * 0.5 * n_steps * (n_steps + 1));
+    mesh.positions.rowwise() -
+    Eigen::RowVector3d(0., 0., gravity * h * h * 0.5 * n_steps * (n_steps + 1));
   return {(cloth.positions() - expected).rowwise().norm().maxCoeff(), state_of(cloth)};
 }
 
@@ -91,7 +93,8 @@ StressAnswer hung_by_one_corner(const SheetStiffness &stiffness, const double h)
 
 /// One edge suddenly moves away at 5 m/s. In its frame nothing does work: the energy there never exceeds
 /// that of the flow that comes at it.
-StressAnswer pulled(const SheetStiffness &stiffness, const double h, const shell::Integrator integrator)
+StressAnswer pulled(const SheetStiffness &stiffness, const double h,
+                    const shell::Integrator integrator)
 {
   constexpr double speed       = 5.;
   const meshes::ClothMesh mesh = hanging_mesh(n);
@@ -110,7 +113,8 @@ StressAnswer pulled(const SheetStiffness &stiffness, const double h, const shell
       cloth.prescribe(v, mesh.positions.row(v) + k * h * velocity);
     cloth.step(h);
     const Vectors relative = cloth.velocities().rowwise() - velocity;
-    most = std::max(most, cloth.stored_energy() + 0.5 * cloth.masses().dot(relative.rowwise().squaredNorm()));
+    most                   = std::max(most, cloth.stored_energy() +
+                                              0.5 * cloth.masses().dot(relative.rowwise().squaredNorm()));
   }
   return {most / at_start, state_of(cloth)};
 }
@@ -139,7 +143,8 @@ StressAnswer draped(const SheetStiffness &stiffness, const double h, const bool 
   cloth.add(shell::bending_term(mesh, {plate()}));
   shell::ContactParameters contact;
   contact.gravity << 0., 0., -gravity;
-  cloth.add(shell::obstacle_term({"ball", shell::sphere(centre, radius), 0.3, {}}, cloth.masses(), contact));
+  cloth.add(shell::obstacle_term({"ball", shell::sphere(centre, radius), 0.3, {}}, cloth.masses(),
+                                 contact));
   if (has_wind)
   {
     shell::Air air;
@@ -150,7 +155,9 @@ StressAnswer draped(const SheetStiffness &stiffness, const double h, const bool 
   for (int k = 0; k < std::max(20., 0.3 / h); ++k)
   {
     cloth.step(h);
-    deepest = std::max(deepest, radius - (cloth.positions().rowwise() - centre.transpose()).rowwise().norm().minCoeff());
+    deepest = std::max(
+      deepest,
+      radius - (cloth.positions().rowwise() - centre.transpose()).rowwise().norm().minCoeff());
   }
   return {deepest, state_of(cloth)};
 }
@@ -184,7 +191,8 @@ StressAnswer blown(const SheetStiffness &stiffness, const double h)
   {
     cloth.step(h);
     const Vectors relative = cloth.velocities().rowwise() - wind;
-    most = std::max(most, cloth.stored_energy() + 0.5 * cloth.masses().dot(relative.rowwise().squaredNorm()));
+    most                   = std::max(most, cloth.stored_energy() +
+                                              0.5 * cloth.masses().dot(relative.rowwise().squaredNorm()));
   }
   return {most / at_start, state_of(cloth)};
 }
@@ -200,25 +208,30 @@ std::vector<StressCase> motion_cases(const std::vector<SheetStiffness> &stiffnes
                      "largest distance from the exact positions [m]", "", true,
                      [=](const unsigned int seed) { return free_fall(stiffness, seed); }});
     for (const double h : {1e-3, 5e-3, 2e-2})
-      cases.push_back({"motion", "free sheet that spins; " + csv_number(1e3 * h) + " ms; " + stiffness.name,
+      cases.push_back({"motion",
+                       "free sheet that spins; " + csv_number(1e3 * h) + " ms; " + stiffness.name,
                        "finite; keeps both momenta; energy never grows", Ending::finite, 1e-10,
-                       "largest relative change of momenta or growth of energy in 200 steps [-]", "", true,
-                       [=](const unsigned int seed) { return fly(stiffness, h, seed); }});
+                       "largest relative change of momenta or growth of energy in 200 steps [-]",
+                       "", true, [=](const unsigned int seed) { return fly(stiffness, h, seed); }});
     cases.push_back({"motion", "four clamped edges under gravity; " + stiffness.name,
-                     "finite; holds (free fall would be 4.9 m)", Ending::finite, 0.1, "largest sag [m]", "", false,
+                     "finite; holds (free fall would be 4.9 m)", Ending::finite, 0.1,
+                     "largest sag [m]", "", false,
                      [=](unsigned int) { return clamped(stiffness); }});
     for (const double h : {1e-3, 1e-2, 5e-2})
     {
-      cases.push_back({"motion", "hung by one corner; " + csv_number(1e3 * h) + " ms; " + stiffness.name,
-                       "finite; the energy of the damped sheet never grows", Ending::finite, energy_round_off,
-                       "largest growth in a step over the largest energy [-]", "", false,
-                       [=](unsigned int) { return hung_by_one_corner(stiffness, h); }});
-      for (const shell::Integrator integrator : {shell::Integrator::linearly_implicit, shell::Integrator::implicit})
+      cases.push_back({"motion",
+                       "hung by one corner; " + csv_number(1e3 * h) + " ms; " + stiffness.name,
+                       "finite; the energy of the damped sheet never grows", Ending::finite,
+                       energy_round_off, "largest growth in a step over the largest energy [-]", "",
+                       false, [=](unsigned int) { return hung_by_one_corner(stiffness, h); }});
+      for (const shell::Integrator integrator :
+           {shell::Integrator::linearly_implicit, shell::Integrator::implicit})
         cases.push_back({"motion",
                          "pulled at 5 m/s; " + csv_number(1e3 * h) + " ms; " +
-                           (integrator == shell::Integrator::implicit ? "implicit; " : "") + stiffness.name,
-                         "finite; in the frame of the handle never more energy than at the start", Ending::finite,
-                         1. + 1e-9, "of the energy at the start [-]", "", false,
+                           (integrator == shell::Integrator::implicit ? "implicit; " : "") +
+                           stiffness.name,
+                         "finite; in the frame of the handle never more energy than at the start",
+                         Ending::finite, 1. + 1e-9, "of the energy at the start [-]", "", false,
                          [=](unsigned int) { return pulled(stiffness, h, integrator); }});
     }
   }
@@ -232,19 +245,23 @@ std::vector<StressCase> scene_cases(const SheetStiffness &stiffness)
   {
     const std::string step = "; " + csv_number(1e3 * h) + " ms";
     for (const bool has_wind : {false, true})
-      cases.push_back({"scene",
-                       std::string("falls on a sphere; bending and friction") + (has_wind ? " and wind" : "") + step,
-                       "finite; no vertex deeper inside than h^2 times the acceleration by gravity and wind and a "
-                       "tenth of the contact thickness",
-                       Ending::finite, h * h * (gravity + (has_wind ? wind_acceleration(stiffness) : 0.)) + 1e-4, "deepest vertex inside the sphere [m]", "", false,
-                       [=](unsigned int) { return draped(stiffness, h, has_wind); }});
+      cases.push_back(
+        {"scene",
+         std::string("falls on a sphere; bending and friction") + (has_wind ? " and wind" : "") +
+           step,
+         "finite; no vertex deeper inside than h^2 times the acceleration by gravity and wind and a "
+         "tenth of the contact thickness",
+         Ending::finite, h * h * (gravity + (has_wind ? wind_acceleration(stiffness) : 0.)) + 1e-4,
+         "deepest vertex inside the sphere [m]", "", false,
+         [=](unsigned int) { return draped(stiffness, h, has_wind); }});
     cases.push_back({"scene", "hung by two corners; bending" + step,
-                     "finite; the energy of the damped sheet never grows", Ending::finite, energy_round_off,
-                     "largest growth in a step over the largest energy [-]", "", true,
+                     "finite; the energy of the damped sheet never grows", Ending::finite,
+                     energy_round_off, "largest growth in a step over the largest energy [-]", "",
+                     true,
                      [=](const unsigned int seed) { return with_bending(stiffness, h, seed); }});
     cases.push_back({"scene", "free sheet in wind of 11 m/s" + step,
-                     "finite; seen from the air never more energy than at the start", Ending::finite, 1. + 1e-9,
-                     "of the energy at the start [-]", "", false,
+                     "finite; seen from the air never more energy than at the start",
+                     Ending::finite, 1. + 1e-9, "of the energy at the start [-]", "", false,
                      [=](unsigned int) { return blown(stiffness, h); }});
   }
   return cases;

@@ -36,7 +36,8 @@ Eigen::Matrix<double, 3, 2> rest_corners()
 }
 
 /// The force on the corners is nothing where a triangle is turned by 180° about any axis, or mirrored.
-StressAnswer without_force(const SheetStiffness &stiffness, const bool is_mirrored, const unsigned int seed)
+StressAnswer without_force(const SheetStiffness &stiffness, const bool is_mirrored,
+                           const unsigned int seed)
 {
   const Eigen::Vector3d axis = random_vectors(1, seed).row(0).normalized();
   Eigen::Matrix3d Q          = Eigen::AngleAxisd(M_PI, axis).toRotationMatrix();
@@ -79,7 +80,7 @@ Eigen::Matrix<double, 9, 9> matrix_of(const shell::TriangleDerivatives<3> &deriv
 /// A deformation gradient of a rank: the projected Hessian may have no negative eigenvalue, whatever it is.
 StressAnswer of_rank(const SheetStiffness &stiffness, const int rank, const unsigned int seed)
 {
-  const Vectors random = random_vectors(4, seed);
+  const Vectors random            = random_vectors(4, seed);
   shell::DeformationGradient<3> F = shell::DeformationGradient<3>::Zero();
   for (int k = 0; k < rank; ++k)
     F += 1.5 * random.row(k).transpose() * random.row(2 + k).head<2>();
@@ -99,12 +100,13 @@ StressAnswer of_rank(const SheetStiffness &stiffness, const int rank, const unsi
 /// P(QF) = Q P(F), at any size of F.
 StressAnswer scaled(const SheetStiffness &stiffness, const double scale, const unsigned int seed)
 {
-  const Vectors random               = random_vectors(3, seed);
-  shell::DeformationGradient<3> F    = scale * random.leftCols<2>();
-  const Eigen::Matrix3d Q            = Eigen::AngleAxisd(2.5, random.col(2).normalized()).toRotationMatrix();
-  const shell::DeformationGradient<3> P = shell::energy_gradient<3>(F, stiffness.D),
+  const Vectors random            = random_vectors(3, seed);
+  shell::DeformationGradient<3> F = scale * random.leftCols<2>();
+  const Eigen::Matrix3d Q = Eigen::AngleAxisd(2.5, random.col(2).normalized()).toRotationMatrix();
+  const shell::DeformationGradient<3> P      = shell::energy_gradient<3>(F, stiffness.D),
                                       turned = shell::energy_gradient<3>(Q * F, stiffness.D);
-  const shell::GradientHessian<3> H = shell::energy_hessian<3>(F, stiffness.D, shell::Hessian::projected);
+  const shell::GradientHessian<3> H =
+    shell::energy_hessian<3>(F, stiffness.D, shell::Hessian::projected);
   Eigen::MatrixXd values(6, 8);
   values << H, Eigen::Map<const Eigen::Matrix<double, 6, 1>>(P.data()),
     Eigen::Map<const Eigen::Matrix<double, 6, 1>>(turned.data());
@@ -121,7 +123,7 @@ StressAnswer sheet_turned(const SheetStiffness &stiffness, const Eigen::Vector3d
   weightless.gravity.setZero();
   Cloth cloth = sheet_cloth(mesh, stiffness, {}, weightless);
   cloth.set_state(mesh.positions * signs.asDiagonal(), Vectors::Zero(mesh.n_vertices(), 3), 0.);
-  const double force = cloth.gradient().cwiseAbs().maxCoeff() / (stiffness.D.norm() * 0.2);
+  const double force   = cloth.gradient().cwiseAbs().maxCoeff() / (stiffness.D.norm() * 0.2);
   const Vectors before = cloth.positions();
   for (int k = 0; k < 50; ++k)
     cloth.step(0.01);
@@ -136,7 +138,8 @@ StressAnswer forces_before_the_first_step(const SheetStiffness &stiffness)
   cloth.add(shell::bending_term(mesh, {shell::PlateStiffness::isotropic(1e-5, 0.3)}));
   cloth.add(shell::wind_term(mesh, {}));
   cloth.add(shell::pressure_term(mesh, [](double) { return 0.; }));
-  cloth.add(shell::obstacle_term({"floor", shell::plane({0., 0., -1.}, {0., 0., 1.}), 0.3, {}}, cloth.masses(), {}));
+  cloth.add(shell::obstacle_term({"floor", shell::plane({0., 0., -1.}, {0., 0., 1.}), 0.3, {}},
+                                 cloth.masses(), {}));
   const Vectors weight = cloth.masses() * Eigen::RowVector3d(0., 0., 9.81);
   const Vectors force  = cloth.gradient();
   Eigen::MatrixXd values(force.rows(), 4);
@@ -154,8 +157,8 @@ StressAnswer twisted(const SheetStiffness &stiffness, const double turns, const 
   steps << width / n1, 0., 0., length / n2;
   Eigen::Matrix<double, 3, 2> placement;
   placement << 1., 0., 0., 0., 0., 1.;
-  const meshes::ClothMesh mesh =
-    meshes::placed_sheet(meshes::coarse_sheet({-0.5 * width, 0.}, steps, n1, n2), placement, Eigen::RowVector3d::Zero());
+  const meshes::ClothMesh mesh = meshes::placed_sheet(
+    meshes::coarse_sheet({-0.5 * width, 0.}, steps, n1, n2), placement, Eigen::RowVector3d::Zero());
   const auto turned = [&](const int vertex, const double angle) -> Eigen::RowVector3d
   {
     const Eigen::RowVector3d X = mesh.positions.row(vertex);
@@ -182,7 +185,8 @@ StressAnswer twisted(const SheetStiffness &stiffness, const double turns, const 
     for (int i = 0; i <= n1; ++i)
     {
       const int v = n2 * (n1 + 1) + i;
-      cloth.prescribe(v, turned(v, 2. * M_PI * turns * std::min(1., static_cast<double>(k) / n_steps)));
+      cloth.prescribe(
+        v, turned(v, 2. * M_PI * turns * std::min(1., static_cast<double>(k) / n_steps)));
     }
     cloth.step(0.01);
   }
@@ -191,11 +195,18 @@ StressAnswer twisted(const SheetStiffness &stiffness, const double turns, const 
 
 using Misuse = std::function<void(Cloth &cloth, const meshes::ClothMesh &mesh)>;
 
-StressCase misuse(const std::string &name, const std::string &names, const SheetStiffness &stiffness,
-                  const Misuse &action)
+StressCase misuse(const std::string &name, const std::string &names,
+                  const SheetStiffness &stiffness, const Misuse &action)
 {
-  return {"rotation and numbers", name, "refused; the message names `" + names + "`", Ending::refused, 0., "", names,
-          false, [=](unsigned int) -> StressAnswer
+  return {"rotation and numbers",
+          name,
+          "refused; the message names `" + names + "`",
+          Ending::refused,
+          0.,
+          "",
+          names,
+          false,
+          [=](unsigned int) -> StressAnswer
           {
             const meshes::ClothMesh mesh = hanging_mesh(4);
             Cloth cloth                  = sheet_cloth(mesh, stiffness, upper_corners(4));
@@ -210,15 +221,17 @@ std::vector<StressCase> rotation_cases(const std::vector<SheetStiffness> &stiffn
   const std::string group = "rotation and numbers";
   std::vector<StressCase> cases;
   const auto finite = [&](const std::string &name, const std::string &expected, const double limit,
-                          const std::string &figure_is, const bool is_random, const auto &run)
-  { cases.push_back({group, name, expected, Ending::finite, limit, figure_is, "", is_random, run}); };
+                          const std::string &figure_is, const bool is_random, const auto &run) {
+    cases.push_back({group, name, expected, Ending::finite, limit, figure_is, "", is_random, run});
+  };
   const std::string of_force = "force over stiffness x edge [-]";
 
   for (const SheetStiffness &stiffness : stiffnesses)
   {
     const std::string of = "; " + stiffness.name;
     for (const bool is_mirrored : {false, true})
-      finite(std::string("triangle ") + (is_mirrored ? "mirrored in space" : "turned by 180 degrees about any axis") + of,
+      finite(std::string("triangle ") +
+               (is_mirrored ? "mirrored in space" : "turned by 180 degrees about any axis") + of,
              "finite; no force", 1e-14, of_force, true,
              [=](const unsigned int seed) { return without_force(stiffness, is_mirrored, seed); });
     finite("triangle mirrored in the plane" + of, "finite; pushed back", 1. - 1e-12,
@@ -230,15 +243,20 @@ std::vector<StressCase> rotation_cases(const std::vector<SheetStiffness> &stiffn
              "minus the smallest over the largest eigenvalue [-]", true,
              [=](const unsigned int seed) { return of_rank(stiffness, rank, seed); });
     for (const double scale : {1e-30, 1e-20, 1e-10, 1e10, 1e20, 1e30})
-      finite("deformation gradient of size " + csv_number(scale) + of, "finite; turns with the triangle", 1e-12,
+      finite("deformation gradient of size " + csv_number(scale) + of,
+             "finite; turns with the triangle", 1e-12,
              "largest |P(QF) − Q P(F)| over the largest P [-]", true,
              [=](const unsigned int seed) { return scaled(stiffness, scale, seed); });
     finite("sheet turned by exactly 180 degrees about axis 1" + of, "finite; rests", 1e-15,
            "force over stiffness x side [-]; or way in 50 steps [m]", false,
-           [=](unsigned int) { return sheet_turned(stiffness, {1., -1., -1.}); });
+           [=](unsigned int) {
+             return sheet_turned(stiffness, {1., -1., -1.});
+           });
     finite("sheet turned by exactly 180 degrees about axis 3" + of, "finite; rests", 1e-15,
            "force over stiffness x side [-]; or way in 50 steps [m]", false,
-           [=](unsigned int) { return sheet_turned(stiffness, {-1., -1., 1.}); });
+           [=](unsigned int) {
+             return sheet_turned(stiffness, {-1., -1., 1.});
+           });
     const std::string less = "finite; no more energy than the helicoid";
     const std::string over = "stored energy over that of the helicoid [-]";
     finite("strip twisted by 180 degrees in 90 steps" + of, less, 1., over, false,
@@ -250,46 +268,60 @@ std::vector<StressCase> rotation_cases(const std::vector<SheetStiffness> &stiffn
   }
 
   const SheetStiffness &one = stiffnesses.front();
-  finite("forces asked for before the first step; all terms", "finite; rests but for gravity", 1e-14,
-         "force beside gravity over stiffness x side [-]", false, [=](unsigned int) { return forces_before_the_first_step(one); });
+  finite("forces asked for before the first step; all terms", "finite; rests but for gravity",
+         1e-14, "force beside gravity over stiffness x side [-]", false,
+         [=](unsigned int) { return forces_before_the_first_step(one); });
   const auto refused = [&](const std::string &name, const std::string &names, const Misuse &action)
   { cases.push_back(misuse(name, names, one, action)); };
   for (const double bad : {nan, infinity})
   {
     const std::string number = std::isnan(bad) ? "not-a-number" : "infinity";
-    const auto with = [bad](Vectors values)
+    const auto with          = [bad](Vectors values)
     {
       values(7, 1) = bad;
       return values;
     };
-    refused(number + " in the positions of a state", "not finite", [=](Cloth &cloth, const meshes::ClothMesh &mesh)
+    refused(number + " in the positions of a state", "not finite",
+            [=](Cloth &cloth, const meshes::ClothMesh &mesh)
             { cloth.set_state(with(mesh.positions), Vectors::Zero(mesh.n_vertices(), 3), 0.); });
-    refused(number + " in the velocities of a state", "not finite", [=](Cloth &cloth, const meshes::ClothMesh &mesh)
+    refused(number + " in the velocities of a state", "not finite",
+            [=](Cloth &cloth, const meshes::ClothMesh &mesh)
             { cloth.set_state(mesh.positions, with(Vectors::Zero(mesh.n_vertices(), 3)), 0.); });
-    refused(number + " in the positions at the start", "vertex 7", [=](Cloth &cloth, const meshes::ClothMesh &mesh)
+    refused(number + " in the positions at the start", "vertex 7",
+            [=](Cloth &cloth, const meshes::ClothMesh &mesh)
             { Cloth(with(mesh.positions), cloth.masses(), {}); });
-    refused(number + " for a handle", "vertex 20", [=](Cloth &cloth, const meshes::ClothMesh &)
-            { cloth.prescribe(20, {0., bad, 0.}); });
-    refused(number + " as time step", "time step", [=](Cloth &cloth, const meshes::ClothMesh &)
-            { cloth.step(bad); });
-    refused(number + " as areal density", "areal density of phase 0", [=](Cloth &, const meshes::ClothMesh &mesh)
-            { shell::lumped_masses(mesh, {bad}); });
-    refused(number + " in the stiffness", "stiffness of phase 0", [=](Cloth &, const meshes::ClothMesh &mesh)
+    refused(number + " for a handle", "vertex 20",
+            [=](Cloth &cloth, const meshes::ClothMesh &) {
+              cloth.prescribe(20, {0., bad, 0.});
+            });
+    refused(number + " as time step", "time step",
+            [=](Cloth &cloth, const meshes::ClothMesh &) { cloth.step(bad); });
+    refused(number + " as areal density", "areal density of phase 0",
+            [=](Cloth &, const meshes::ClothMesh &mesh) { shell::lumped_masses(mesh, {bad}); });
+    refused(number + " in the stiffness", "stiffness of phase 0",
+            [=](Cloth &, const meshes::ClothMesh &mesh)
             { shell::membrane_term(mesh, {bad * Eigen::Matrix3d::Identity()}); });
-    refused(number + " as gravity", "gravity", [=](Cloth &cloth, const meshes::ClothMesh &)
-            { shell::gravity_term(cloth.masses(), {0., 0., bad}); });
-    refused(number + " as the wind", "air: the velocity", [=](Cloth &cloth, const meshes::ClothMesh &mesh)
+    refused(number + " as gravity", "gravity",
+            [=](Cloth &cloth, const meshes::ClothMesh &) {
+              shell::gravity_term(cloth.masses(), {0., 0., bad});
+            });
+    refused(number + " as the wind", "air: the velocity",
+            [=](Cloth &cloth, const meshes::ClothMesh &mesh)
             {
               shell::Air air;
-              air.velocity = [=](const Eigen::Vector3d &, double) { return Eigen::Vector3d(bad, 0., 0.); };
+              air.velocity = [=](const Eigen::Vector3d &, double)
+              { return Eigen::Vector3d(bad, 0., 0.); };
               cloth.add(shell::wind_term(mesh, air));
               cloth.step(0.01);
             });
   }
-  refused("time step of zero", "time step", [](Cloth &cloth, const meshes::ClothMesh &) { cloth.step(0.); });
-  refused("time step of −1 s", "time step", [](Cloth &cloth, const meshes::ClothMesh &) { cloth.step(-1.); });
-  finite("velocity of 1e100 m/s", "finite; the energy of the damped sheet never grows", energy_round_off,
-         "largest growth in a step over the largest energy [-]", false, [=](unsigned int) -> StressAnswer
+  refused("time step of zero", "time step",
+          [](Cloth &cloth, const meshes::ClothMesh &) { cloth.step(0.); });
+  refused("time step of −1 s", "time step",
+          [](Cloth &cloth, const meshes::ClothMesh &) { cloth.step(-1.); });
+  finite("velocity of 1e100 m/s", "finite; the energy of the damped sheet never grows",
+         energy_round_off, "largest growth in a step over the largest energy [-]", false,
+         [=](unsigned int) -> StressAnswer
          {
            const meshes::ClothMesh mesh = hanging_mesh(4);
            Cloth cloth                  = sheet_cloth(mesh, one, upper_corners(4));
@@ -299,7 +331,8 @@ std::vector<StressCase> rotation_cases(const std::vector<SheetStiffness> &stiffn
            const double growth = largest_energy_growth(cloth, 0.01, 20);
            return {growth, state_of(cloth)};
          });
-  refused("stiffness that is not positive definite", "stiffness of phase 0", [](Cloth &, const meshes::ClothMesh &mesh)
+  refused("stiffness that is not positive definite", "stiffness of phase 0",
+          [](Cloth &, const meshes::ClothMesh &mesh)
           { shell::membrane_term(mesh, {-1. * Eigen::Matrix3d::Identity()}); });
   return cases;
 }

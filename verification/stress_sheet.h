@@ -17,7 +17,7 @@ namespace homespun::verification
 struct SheetStiffness
 {
   std::string name;
-  Eigen::Matrix3d D;         ///< Voigt 11, 22, 12, engineering shear [N/m]
+  Eigen::Matrix3d D;          ///< Voigt 11, 22, 12, engineering shear [N/m]
   double areal_density = 0.2; ///< [kg/m^2]
 };
 
@@ -46,8 +46,8 @@ std::vector<int> upper_corners(int n);
 /// How a sheet moves.
 struct SheetPhysics
 {
-  double viscosity            = 1e-3;                           ///< of the membrane [s]
-  double damping              = 0.5;                            ///< against the air at rest [1/s]
+  double viscosity            = 1e-3; ///< of the membrane [s]
+  double damping              = 0.5;  ///< against the air at rest [1/s]
   Eigen::RowVector3d gravity  = Eigen::RowVector3d(0., 0., -9.81); ///< [m/s^2]; zero: no such term
   shell::ClothOptions options = {};
 };

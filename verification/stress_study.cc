@@ -26,12 +26,16 @@ nlohmann::ordered_json what_was_left_out()
     return nlohmann::ordered_json{{"what", what}, {"why", why}};
   };
   return {
-    left_out("cells: contrast, voids, inclusions, slivers, shifted, doubled and turned cells, 1e6 triangles",
-             "this study is about the moving cloth and the up-sampling"),
-    left_out("1e6 steps at rest", "20,000 steps in each repetition, on a sheet of 8 triangles, to end in minutes"),
+    left_out(
+      "cells: contrast, voids, inclusions, slivers, shifted, doubled and turned cells, 1e6 triangles",
+      "this study is about the moving cloth and the up-sampling"),
+    left_out("1e6 steps at rest",
+             "20,000 steps in each repetition, on a sheet of 8 triangles, to end in minutes"),
     left_out("1, 2, many threads and ranks", "cloth and up-sampling run on one thread of one rank"),
-    left_out("linear strain field of the up-sampling, O(cell)", "an order, which the strain study measures"),
-    left_out("a resumed run equals an uninterrupted one", "a test of the moving cloth holds it to the last bit")};
+    left_out("linear strain field of the up-sampling, O(cell)",
+             "an order, which the strain study measures"),
+    left_out("a resumed run equals an uninterrupted one",
+             "a test of the moving cloth holds it to the last bit")};
 }
 
 nlohmann::ordered_json notes()
@@ -111,16 +115,17 @@ private:
   void collect()
   {
     for (const std::vector<StressCase> &some :
-         {time_step_cases(stiffnesses), stiffness_cases(), start_cases(stiffnesses), mesh_cases(stiffnesses[0]),
-          rotation_cases(stiffnesses), motion_cases(stiffnesses), scene_cases(stiffnesses[0]),
-          localization_cases(cells, names)})
+         {time_step_cases(stiffnesses), stiffness_cases(), start_cases(stiffnesses),
+          mesh_cases(stiffnesses[0]), rotation_cases(stiffnesses), motion_cases(stiffnesses),
+          scene_cases(stiffnesses[0]), localization_cases(cells, names)})
       cases.insert(cases.end(), some.begin(), some.end());
   }
 
   void run_cases()
   {
     std::filesystem::create_directories(options.output);
-    table = std::make_unique<ResultTable>(options.output + "/stress.csv", stress_columns(), 2, false);
+    table =
+      std::make_unique<ResultTable>(options.output + "/stress.csv", stress_columns(), 2, false);
     Progress progress(is_root && !options.quiet, static_cast<int>(cases.size()));
     std::string group;
     for (const StressCase &one : cases)
@@ -147,18 +152,18 @@ private:
       nlohmann::ordered_json rows = nlohmann::ordered_json::array();
       for (int i = 0; i < 3; ++i)
         rows.push_back({sheet.D(i, 0), sheet.D(i, 1), sheet.D(i, 2)});
-      sheets.push_back({{"name", sheet.name}, {"stiffness_N_per_m", rows}, {"areal_density_kg_per_m2", sheet.areal_density}});
+      sheets.push_back({{"name", sheet.name},
+                        {"stiffness_N_per_m", rows},
+                        {"areal_density_kg_per_m2", sheet.areal_density}});
     }
     const unsigned int n_ranks = dealii::Utilities::MPI::n_mpi_processes(communicator);
-    const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-    const nlohmann::ordered_json study = {{"command", options.command},
-                                          {"cases", cases.size()},
-                                          {"repeats", options.repeats},
-                                          {"sheets", sheets},
-                                          {"seconds_total", seconds},
-                                          {"left_out", what_was_left_out()},
-                                          {"notes", notes()},
-                                          {"provenance", provenance(n_ranks)}};
+    const double seconds =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    const nlohmann::ordered_json study = {
+      {"command", options.command}, {"cases", cases.size()},
+      {"repeats", options.repeats}, {"sheets", sheets},
+      {"seconds_total", seconds},   {"left_out", what_was_left_out()},
+      {"notes", notes()},           {"provenance", provenance(n_ranks)}};
     write_whole(options.output + "/study.json", json_text(study));
   }
 
@@ -175,7 +180,8 @@ private:
 };
 } // namespace
 
-std::vector<Verdict> run_stress_study(const StressStudyOptions &options, const MPI_Comm communicator)
+std::vector<Verdict> run_stress_study(const StressStudyOptions &options,
+                                      const MPI_Comm communicator)
 {
   return StressStudy(options, communicator).run();
 }

@@ -21,11 +21,13 @@ StressCase planted(const double figure, const double number, const Ending ending
   one.ending = ending;
   one.limit  = 1.;
   one.names  = "triangle 3";
-  one.run    = [=](unsigned int) -> StressAnswer { return {figure, Eigen::MatrixXd::Constant(1, 1, number)}; };
+  one.run    = [=](unsigned int) -> StressAnswer {
+    return {figure, Eigen::MatrixXd::Constant(1, 1, number)};
+  };
   return one;
 }
 
-const double nan = std::numeric_limits<double>::quiet_NaN();
+const double not_a_number = std::numeric_limits<double>::quiet_NaN();
 
 void expect_all_pass(const std::vector<StressCase> &cases, const std::string &part_of_name)
 {
@@ -35,7 +37,8 @@ void expect_all_pass(const std::vector<StressCase> &cases, const std::string &pa
     {
       ++n;
       const StressResult result = run_case(one, 2);
-      EXPECT_EQ(result.verdict, Outcome::pass) << one.name << ": " << result.outcome << ", " << result.figure;
+      EXPECT_EQ(result.verdict, Outcome::pass)
+        << one.name << ": " << result.outcome << ", " << result.figure;
     }
   EXPECT_GT(n, 0) << part_of_name;
 }
@@ -49,7 +52,8 @@ TEST(tripwire_stress, a_case_beyond_its_limit_fails)
 
 TEST(tripwire_stress, a_number_that_is_not_finite_fails_and_reaches_no_file)
 {
-  for (const StressCase &one : {planted(0., nan), planted(nan, 0.), planted(0., HUGE_VAL)})
+  for (const StressCase &one :
+       {planted(0., not_a_number), planted(not_a_number, 0.), planted(0., HUGE_VAL)})
   {
     const StressResult result = run_case(one, 2);
     EXPECT_EQ(result.verdict, Outcome::fail);
@@ -67,8 +71,8 @@ TEST(tripwire_stress, a_refusal_must_name_the_fault)
   EXPECT_EQ(run_case(one, 2).verdict, Outcome::pass);
   one.ending = Ending::finite;
   EXPECT_EQ(run_case(one, 2).verdict, Outcome::fail);
-  one        = planted(0., 0., Ending::refused);
-  one.run    = [](unsigned int) -> StressAnswer { throw meshes::BadInput("something is wrong"); };
+  one     = planted(0., 0., Ending::refused);
+  one.run = [](unsigned int) -> StressAnswer { throw meshes::BadInput("something is wrong"); };
   EXPECT_EQ(run_case(one, 2).verdict, Outcome::fail);
   one.run = [](unsigned int) -> StressAnswer { throw std::logic_error("triangle 3"); };
   EXPECT_EQ(run_case(one, 2).outcome, "error: triangle 3");
@@ -78,8 +82,9 @@ TEST(tripwire_stress, a_refusal_must_name_the_fault)
 TEST(tripwire_stress, repetitions_without_random_numbers_must_agree_to_the_last_bit)
 {
   StressCase one = planted(0., 0.);
-  one.run        = [](const unsigned int seed) -> StressAnswer
-  { return {0., Eigen::MatrixXd::Constant(1, 1, 1. + (seed == 2 ? 1e-16 * 4. : 0.))}; };
+  one.run        = [](const unsigned int seed) -> StressAnswer {
+    return {0., Eigen::MatrixXd::Constant(1, 1, 1. + (seed == 2 ? 1e-16 * 4. : 0.))};
+  };
   EXPECT_EQ(run_case(one, 2).verdict, Outcome::pass);
   EXPECT_EQ(run_case(one, 3).verdict, Outcome::fail);
   one.is_random = true;
@@ -90,8 +95,9 @@ TEST(tripwire_stress, the_largest_figure_of_all_repetitions_counts)
 {
   StressCase one = planted(0., 0.);
   one.is_random  = true;
-  one.run        = [](const unsigned int seed) -> StressAnswer
-  { return {seed == 1 ? 7. : 0.5, Eigen::MatrixXd::Zero(1, 1)}; };
+  one.run        = [](const unsigned int seed) -> StressAnswer {
+    return {seed == 1 ? 7. : 0.5, Eigen::MatrixXd::Zero(1, 1)};
+  };
   const StressResult result = run_case(one, 3);
   EXPECT_EQ(result.figure, 7.);
   EXPECT_EQ(result.verdict, Outcome::fail);
@@ -100,9 +106,10 @@ TEST(tripwire_stress, the_largest_figure_of_all_repetitions_counts)
 TEST(tripwire_stress, one_failing_case_fails_its_group_and_no_other)
 {
   StressCase bad = planted(2., 0.), good = planted(0., 0.);
-  good.group                           = "sound, with a comma";
-  const std::vector<Verdict> verdicts = stress_verdicts(
-    {stress_row(good, run_case(good, 1)), stress_row(bad, run_case(bad, 1)), stress_row(bad, run_case(bad, 1))});
+  good.group = "sound, with a comma";
+  const std::vector<Verdict> verdicts =
+    stress_verdicts({stress_row(good, run_case(good, 1)), stress_row(bad, run_case(bad, 1)),
+                     stress_row(bad, run_case(bad, 1))});
   ASSERT_EQ(verdicts.size(), 2u);
   EXPECT_EQ(verdicts[0].outcome, Outcome::pass);
   EXPECT_EQ(verdicts[1].outcome, Outcome::fail);
