@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The stress cases of METHOD 6 for the cloth in motion and the up-sampling. Limits come from theory and
-// were written before the numbers: damped energy never grows, momenta of a free cloth are kept, a cloth
-// at rest stays, a uniform strain is up-sampled exactly; where theory is silent, that every number is finite.
+// The stress cases of METHOD 6 for the cloth in motion and the up-sampling. Limits come from theory: damped
+// energy never grows, momenta of a free cloth are kept, a cloth at rest stays, a uniform strain is
+// up-sampled exactly; where theory is silent, that every number is finite.
 #pragma once
 
 #include "meshes/homogenized_cell.h"
