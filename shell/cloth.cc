@@ -319,6 +319,10 @@ void Cloth::try_step(const double h, const bool may_fail, StepReport &report)
     stored.reset();
     next = x;
     set_held(next);
+    // A free cloth begins where its momentum takes it: a line search that shortens the step would keep
+    // a part of the momentum only.
+    if (held.empty())
+      next.rowwise() += h * momentum() / m.sum();
     const bool to_tolerance = options.integrator == Integrator::implicit;
     newton(inertial, h, next, to_tolerance ? options.max_newton_iterations : 10, to_tolerance, report);
   }

@@ -97,7 +97,8 @@ TEST(invariant_cloth, a_spinning_free_sheet_keeps_its_momenta)
     for (int k = 0; k < 200; ++k)
     {
       fabric.cloth.step(0.005);
-      ASSERT_LE(fabric.cloth.kinetic_energy() + fabric.cloth.stored_energy(), energy) << k;
+      ASSERT_LE(fabric.cloth.kinetic_energy() + fabric.cloth.stored_energy(), energy * (1. + 1e-12))
+        << k;
     }
     EXPECT_LT((fabric.cloth.momentum() - p).norm(), 1e-11 * p.norm());
     EXPECT_LT((fabric.cloth.angular_momentum() - L).norm(), 1e-11 * L.norm());
