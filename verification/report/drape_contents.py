@@ -89,7 +89,7 @@ def draw_curves(contents, drape, cell, gallery):
                      "the first cloth and the references; the right panel leaves that out.")
         if any(variant.startswith("printed") for variant in falling):
             words += " The force of the printed Eq. 8 has no part along the normal, so that nothing holds the cloth up."
-        contents["height"] = gallery.add(figure, f"{file}-height", f"{title}: height of the centre of mass.{words}")
+        contents["height"] = gallery.add(figure, f"{file}-height", f"{title}: height of the middle vertex.{words}")
     if figure := energy_figure(cell.motion):
         contents["energies"] = gallery.add(figure, f"{file}-energies", f"{title}: energies of the cloth and its "
                                            "largest stretch (deformed over rest length).")
