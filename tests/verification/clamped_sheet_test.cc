@@ -2,6 +2,7 @@
 // The static sag of a sheet clamped on four sides: the shell's equilibrium held against the finite-element
 // reference of the same homogenized sheet, two codes that share nothing.
 #include "meshes/sheet.h"
+#include "shell/cloth.h"
 #include "shell/inertial_terms.h"
 #include "shell/membrane_term.h"
 #include "verification/cloth_reference.h"
