@@ -52,8 +52,9 @@ std::optional<ClothState> read_state(const std::string &file, const int n_vertic
   if (id >= 0)
     H5Fclose(id);
   if (!good)
-    throw BadInput(file + ": holds no state of " + std::to_string(n_vertices) +
-                   " vertices; expected what the same run wrote: leave out --resume, or remove the file");
+    throw BadInput(
+      file + ": holds no state of " + std::to_string(n_vertices) +
+      " vertices; expected what the same run wrote: leave out --resume, or remove the file");
   return state;
 }
 } // namespace homespun::meshes

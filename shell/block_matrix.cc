@@ -65,8 +65,7 @@ BlockMatrix::BlockMatrix(const std::vector<std::array<int, 2>> &couplings,
 {
   for (std::size_t p = 0; p < vertex_at.size(); ++p)
     place_of[index(vertex_at[p])] = static_cast<int>(p);
-  const int n_free =
-    static_cast<int>(std::count(is_held.begin(), is_held.end(), false));
+  const int n_free = static_cast<int>(std::count(is_held.begin(), is_held.end(), false));
   std::vector<std::vector<int>> below(index(n_free));
   for (const auto &pair : couplings)
   {
@@ -93,7 +92,8 @@ BlockMatrix::Place BlockMatrix::place(const int first_vertex, const int second_v
   const int column = std::min(a, b), below = std::max(a, b);
   if (column >= n_free())
     return {};
-  const auto begin = row.begin() + first[index(column)], end = row.begin() + first[index(column + 1)];
+  const auto begin = row.begin() + first[index(column)],
+             end   = row.begin() + first[index(column + 1)];
   const auto found = std::lower_bound(begin, end, below);
   if (found == end || *found != below)
     throw std::logic_error("block matrix: vertices " + std::to_string(first_vertex) + " and " +
@@ -130,7 +130,8 @@ void BlockMatrix::subtract_held(const Vectors &x, Vectors &y) const
 {
   for (int c = 0; c < n_free(); ++c)
     for (int k = first[index(c + 1)] - 1; k > first[index(c)] && row[index(k)] >= n_free(); --k)
-      y.row(vertex_at[index(c)]).noalias() -= x.row(vertex_at[index(row[index(k)])]) * blocks[index(k)];
+      y.row(vertex_at[index(c)]).noalias() -=
+        x.row(vertex_at[index(row[index(k)])]) * blocks[index(k)];
 }
 
 std::size_t BlockMatrix::bytes() const

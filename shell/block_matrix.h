@@ -70,8 +70,8 @@ public:
   /// Diagonal block of a free vertex.
   const Block &diagonal(int vertex) const
   {
-    return blocks[static_cast<std::size_t>(first[static_cast<std::size_t>(
-      place_of[static_cast<std::size_t>(vertex)])])];
+    return blocks[static_cast<std::size_t>(
+      first[static_cast<std::size_t>(place_of[static_cast<std::size_t>(vertex)])])];
   }
 
   int n_vertices() const

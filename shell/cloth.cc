@@ -32,8 +32,7 @@ int first_not_finite(const Vectors &values)
 } // namespace
 
 Cloth::Cloth(const Vectors &positions, const Eigen::VectorXd &masses,
-             const std::vector<int> &held_vertices,
-             const ClothOptions &options)
+             const std::vector<int> &held_vertices, const ClothOptions &options)
     : x(positions)
     , v(Vectors::Zero(positions.rows(), 3))
     , target(positions)
@@ -53,8 +52,8 @@ Cloth::Cloth(const Vectors &positions, const Eigen::VectorXd &masses,
                        std::to_string(masses(i)) + " kg; expected a positive one");
   for (const int vertex : held_vertices)
     if (vertex < 0 || vertex >= static_cast<int>(positions.rows()))
-      faults.push_back("held vertex " + std::to_string(vertex) + ": does not exist; expected 0 ... " +
-                       std::to_string(positions.rows() - 1));
+      faults.push_back("held vertex " + std::to_string(vertex) +
+                       ": does not exist; expected 0 ... " + std::to_string(positions.rows() - 1));
     else
       is_held[static_cast<std::size_t>(vertex)] = true;
   for (int vertex = 0; vertex < static_cast<int>(positions.rows()); ++vertex)
@@ -87,9 +86,9 @@ void Cloth::set_state(const Vectors &positions, const Vectors &velocities, const
     throw meshes::BadInput("cloth: a state of " + std::to_string(positions.rows()) +
                            " vertices, or one that is not finite; expected " +
                            std::to_string(x.rows()) + " finite positions and velocities");
-  x   = positions;
-  v   = velocities;
-  now = time;
+  x      = positions;
+  v      = velocities;
+  now    = time;
   target = x;
   stored.reset();
 }
@@ -204,8 +203,8 @@ void Cloth::newton(const Vectors &inertial, const double h, Vectors &positions,
   {
     // Conjugate gradients would not notice an indefinite matrix in time, hence no exact Hessian for them.
     const bool try_exact = cholesky != nullptr;
-    Residual residual    = assemble(positions, inertial, inverse,
-                                    try_exact ? Hessian::exact : Hessian::projected);
+    Residual residual =
+      assemble(positions, inertial, inverse, try_exact ? Hessian::exact : Hessian::projected);
     history.push_back(residual.norm);
     if (!std::isfinite(residual.norm))
       throw meshes::NotConverged("a force is not finite", history);
@@ -243,7 +242,8 @@ void Cloth::newton(const Vectors &inertial, const double h, Vectors &positions,
       if (length < 1e-6)
       {
         if (must_converge)
-          throw meshes::NotConverged("the line search of the step found no lower potential", history);
+          throw meshes::NotConverged("the line search of the step found no lower potential",
+                                     history);
         return;
       }
     }
@@ -299,7 +299,7 @@ void Cloth::try_step(const double h, const bool may_fail, StepReport &report)
     is_good = !has_energy();
     if (closed)
     {
-      stored       = sum_of_stored_energies(next);
+      stored             = sum_of_stored_energies(next);
       const double after = 0.5 / (h * h) * m.dot((next - x).rowwise().squaredNorm()) + *stored;
       is_good            = after <= energy + energy_slack * (std::abs(energy) + std::abs(*stored));
     }
@@ -324,7 +324,8 @@ void Cloth::try_step(const double h, const bool may_fail, StepReport &report)
     if (held.empty())
       next.rowwise() += h * momentum() / m.sum();
     const bool to_tolerance = options.integrator == Integrator::implicit;
-    newton(inertial, h, next, to_tolerance ? options.max_newton_iterations : 10, to_tolerance, report);
+    newton(inertial, h, next, to_tolerance ? options.max_newton_iterations : 10, to_tolerance,
+           report);
   }
   check_finite(next, h);
   const Eigen::RowVector3d before = held.empty() ? angular_momentum() : Eigen::RowVector3d::Zero();
@@ -378,7 +379,7 @@ void Cloth::limit_energy(const double before, const bool may_fail)
       rigid.row(i) = momentum() / m.sum() + spin.cross(x.row(i) - centre);
   }
   const double of_rigid = 0.5 * m.dot(rigid.rowwise().squaredNorm()), of_rest = kinetic - of_rigid;
-  const double room     = before - potential - of_rigid;
+  const double room = before - potential - of_rigid;
   // Of a free cloth the momenta come first: what a rigid body would have is left.
   if (room < 0. && may_fail && !held.empty())
     throw meshes::NotConverged("a step raised the energy", {before, kinetic + potential});
@@ -400,8 +401,9 @@ Eigen::RowVector3d Cloth::spin_of(const Eigen::RowVector3d &angular) const
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(inertia);
   Eigen::Vector3d spin = eigen.eigenvectors().transpose() * angular.transpose();
   for (int k = 0; k < 3; ++k)
-    spin(k) = eigen.eigenvalues()(k) > 1e-12 * eigen.eigenvalues()(2) ? spin(k) / eigen.eigenvalues()(k)
-                                                                      : 0.;
+    spin(k) = eigen.eigenvalues()(k) > 1e-12 * eigen.eigenvalues()(2)
+                ? spin(k) / eigen.eigenvalues()(k)
+                : 0.;
   return (eigen.eigenvectors() * spin).transpose();
 }
 
@@ -493,15 +495,16 @@ ClothEquilibrium Cloth::solve_equilibrium(const double relative_tolerance, const
       stiffest = std::max(stiffest, matrix->diagonal(i).trace());
       lightest = std::min(lightest, m(i));
     }
-  double shift           = stiffest > 0. ? stiffest / lightest : 1.; // 1/h² [1/s²]
-  const double first     = shift;
-  double potential       = incremental_potential(x, x, infinity);
+  double shift            = stiffest > 0. ? stiffest / lightest : 1.; // 1/h² [1/s²]
+  const double first      = shift;
+  double potential        = incremental_potential(x, x, infinity);
   result.residual_history = {residual.norm};
   while (!(residual.norm <= relative_tolerance * residual.size + residual.round_off))
   {
     if (result.iterations >= max_iterations || !std::isfinite(residual.norm))
-      throw meshes::NotConverged("equilibrium of the cloth; hold more vertices, or start nearer to it",
-                                 result.residual_history);
+      throw meshes::NotConverged(
+        "equilibrium of the cloth; hold more vertices, or start nearer to it",
+        result.residual_history);
     // With little shift left the exact Hessian ends quadratically.
     bool solved    = false;
     Vectors forces = -work_gradient;

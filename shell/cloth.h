@@ -46,13 +46,13 @@ enum class LinearSolver
 
 struct ClothOptions
 {
-  Integrator integrator     = Integrator::linearly_implicit;
-  LinearSolver solver       = LinearSolver::automatic;
+  Integrator integrator = Integrator::linearly_implicit;
+  LinearSolver solver   = LinearSolver::automatic;
   /// Free vertices. The direct solver was the faster one at 441, 2,601 and 25,281 vertices (benchmark `step`,
   /// h = 10 ms: 0.7, 7, 200 ms against 1.8, 27, 1400 ms); with 145,161 it takes 2.6 s and 0.7 GB. Memory,
   /// some 5 kB per vertex, sets the limit.
-  int direct_limit          = 200000;
-  double newton_tolerance   = 1e-8; ///< |gradient of Φ| over the size of the forces it is made of [-]
+  int direct_limit        = 200000;
+  double newton_tolerance = 1e-8; ///< |gradient of Φ| over the size of the forces it is made of [-]
   int max_newton_iterations = 40;
   double linear_tolerance   = 1e-6; ///< of conjugate gradients, |r| / |right side| [-]
   int max_linear_iterations = 5000;

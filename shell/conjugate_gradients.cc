@@ -31,8 +31,8 @@ void IncompleteCholesky::factorize(const BlockMatrix &matrix)
   values      = matrix.blocks;
   for (int c = 0; c < n; ++c)
   {
-    const int begin                 = matrix.first[index(c)];
-    int end                         = matrix.first[index(c + 1)];
+    const int begin = matrix.first[index(c)];
+    int end         = matrix.first[index(c + 1)];
     Eigen::LLT<Eigen::Matrix3d> llt(values[index(begin)]);
     if (llt.info() != Eigen::Success || !(llt.matrixLLT().diagonal().minCoeff() > 0.))
       llt.compute(matrix.blocks[index(begin)]);

@@ -21,10 +21,10 @@ constexpr double rotation_undefined = 1e-28;
 template <int dim>
 struct Polar
 {
-  bool defined = true;  ///< false where s = 0: R is frozen at the identity
-  double p     = 1.;    ///< 1/s, s = tr U
-  double J     = 0.;    ///< det U
-  Eigen::Vector3d U;    ///< U11, U22, U12
+  bool defined = true; ///< false where s = 0: R is frozen at the identity
+  double p     = 1.;   ///< 1/s, s = tr U
+  double J     = 0.;   ///< det U
+  Eigen::Vector3d U;   ///< U11, U22, U12
   DeformationGradient<dim> R;
   Eigen::Matrix<double, dim, 1> normal = Eigen::Matrix<double, dim, 1>::Zero();
 };
@@ -34,14 +34,14 @@ Polar<dim> polar_of(const DeformationGradient<dim> &F)
 {
   Polar<dim> polar;
   const double C11 = F.col(0).squaredNorm(), C22 = F.col(1).squaredNorm();
-  double q         = 0.;
+  double q = 0.;
   DeformationGradient<dim> cofactor; // dJ/dF
   if constexpr (dim == 2)
   {
     // R = [a −b; b a]/s turns F into the symmetric U = R^T F: no difference of large numbers.
     const double a = F(0, 0) + F(1, 1), b = F(1, 0) - F(0, 1);
-    polar.J        = F.determinant();
-    q              = a * a + b * b;
+    polar.J = F.determinant();
+    q       = a * a + b * b;
     polar.U << a * F(0, 0) + b * F(1, 0), a * F(1, 1) - b * F(0, 1),
       0.5 * ((a * F(0, 1) + b * F(1, 1)) + (a * F(1, 0) - b * F(0, 0)));
     cofactor << F(1, 1), -F(1, 0), -F(0, 1), F(0, 0);
@@ -118,8 +118,7 @@ Eigen::Matrix2d tension_of(const Eigen::Matrix2d &S)
     return Eigen::Matrix2d::Zero();
   Eigen::Matrix2d direction;
   direction << half, S(0, 1), S(0, 1), -half;
-  return 0.5 * (mean + radius) *
-         (Eigen::Matrix2d::Identity() + direction / radius);
+  return 0.5 * (mean + radius) * (Eigen::Matrix2d::Identity() + direction / radius);
 }
 
 template <int dim>
@@ -135,9 +134,10 @@ TurnedHessian turned_hessian(const Polar<dim> &polar, const Eigen::Matrix3d &D,
     const double skew = c.dot(stress);
     q << -stress(2) - skew, stress(2) - skew, 0.5 * (stress(0) - stress(1));
     q *= polar.p;
-    kappa = polar.p * (stress(0) + stress(1) -
-                       polar.p * (stress(0) * polar.U(0) + stress(1) * polar.U(1) +
-                                  2. * stress(2) * polar.U(2)));
+    kappa =
+      polar.p *
+      (stress(0) + stress(1) -
+       polar.p * (stress(0) * polar.U(0) + stress(1) * polar.U(1) + 2. * stress(2) * polar.U(2)));
   }
   // Positive semi-definite if and only if the Schur complement of D is not negative, a question of one
   // number: the stiffness κ against turning is raised to where it is zero.
@@ -212,16 +212,15 @@ template <int dim>
 GradientHessian<dim> energy_hessian(const DeformationGradient<dim> &F, const Eigen::Matrix3d &D,
                                     const Hessian kind)
 {
-  const Polar<dim> polar         = polar_of<dim>(F);
-  const Eigen::Matrix3d inverse  = kind == Hessian::projected ? Eigen::Matrix3d(D.inverse()) : D;
-  const TurnedHessian turned =
-    turned_hessian(polar, D, D * strain_of(polar), turning_of(polar),
-                   kind == Hessian::projected ? &inverse : nullptr);
+  const Polar<dim> polar        = polar_of<dim>(F);
+  const Eigen::Matrix3d inverse = kind == Hessian::projected ? Eigen::Matrix3d(D.inverse()) : D;
+  const TurnedHessian turned    = turned_hessian(polar, D, D * strain_of(polar), turning_of(polar),
+                                              kind == Hessian::projected ? &inverse : nullptr);
   GradientHessian<dim> hessian;
   for (int a = 0; a < 2; ++a)
     for (int b = 0; b < 2; ++b)
-      hessian.template block<dim, dim>(a * dim, b * dim) = block_of<dim>(
-        polar, turned, Eigen::RowVector2d::Unit(a), Eigen::RowVector2d::Unit(b));
+      hessian.template block<dim, dim>(a * dim, b * dim) =
+        block_of<dim>(polar, turned, Eigen::RowVector2d::Unit(a), Eigen::RowVector2d::Unit(b));
   return hessian;
 }
 
@@ -231,15 +230,14 @@ triangle_derivatives(const RestTriangle &rest, const Eigen::Matrix<double, 3, di
                      const MembraneStiffness &stiffness, const Hessian kind,
                      const Eigen::Vector3d &initial_stress)
 {
-  const Polar<dim> polar         = polar_of<dim>(deformation_gradient<dim>(rest, corners));
-  const Eigen::Vector3d stress   = stiffness.D * strain_of(polar) + initial_stress,
-                        turning  = turning_of(polar);
-  const TurnedHessian turned =
-    turned_hessian(polar, stiffness.D, stress, turning,
-                   kind == Hessian::projected ? &stiffness.inverse : nullptr);
+  const Polar<dim> polar        = polar_of<dim>(deformation_gradient<dim>(rest, corners));
+  const Eigen::Vector3d stress  = stiffness.D * strain_of(polar) + initial_stress,
+                        turning = turning_of(polar);
+  const TurnedHessian turned    = turned_hessian(
+       polar, stiffness.D, stress, turning, kind == Hessian::projected ? &stiffness.inverse : nullptr);
   TriangleDerivatives<dim> result;
-  result.gradient = rest.area * rest.shape_gradients *
-                    (polar.R * turned_stress(stress, turning)).transpose();
+  result.gradient =
+    rest.area * rest.shape_gradients * (polar.R * turned_stress(stress, turning)).transpose();
   // The blocks of corner 0 are minus the sums of the others: a translation costs nothing, to round-off.
   const Eigen::RowVector2d g1 = rest.shape_gradients.row(1), g2 = rest.shape_gradients.row(2);
   auto &blocks = result.blocks;
@@ -303,8 +301,8 @@ triangle_hessian(const RestTriangle &rest, const Eigen::Matrix<double, 3, dim> &
 {
   const auto blocks = triangle_derivatives<dim>(rest, corners, stiffness, kind).blocks;
   Eigen::Matrix<double, 3 * dim, 3 * dim> hessian;
-  hessian << blocks[0], blocks[1], blocks[2],            //
-    blocks[1].transpose(), blocks[3], blocks[4],         //
+  hessian << blocks[0], blocks[1], blocks[2],    //
+    blocks[1].transpose(), blocks[3], blocks[4], //
     blocks[2].transpose(), blocks[4].transpose(), blocks[5];
   return hessian;
 }
@@ -313,9 +311,8 @@ triangle_hessian(const RestTriangle &rest, const Eigen::Matrix<double, 3, dim> &
 #define HOMESPUN_INSTANTIATE(dim)                                                                 \
   template Eigen::Vector3d biot_strain<dim>(const DeformationGradient<dim> &);                    \
   template double energy_density<dim>(const DeformationGradient<dim> &, const Eigen::Matrix3d &); \
-  template DeformationGradient<dim> energy_gradient<dim>(const DeformationGradient<dim> &,        \
-                                                         const Eigen::Matrix3d &,                 \
-                                                         const Eigen::Vector3d &);                \
+  template DeformationGradient<dim> energy_gradient<dim>(                                         \
+    const DeformationGradient<dim> &, const Eigen::Matrix3d &, const Eigen::Vector3d &);          \
   template GradientHessian<dim> energy_hessian<dim>(const DeformationGradient<dim> &,             \
                                                     const Eigen::Matrix3d &, Hessian);            \
   template DeformationGradient<dim> deformation_gradient<dim>(                                    \

@@ -164,7 +164,8 @@ Positions<dim> MembraneSolver<dim>::linear_equilibrium(const Positions<dim> &pre
       const DeformationGradient<dim> G = deformation_gradient<dim>(rest, corners);
       const Eigen::Vector3d stress =
         rest.area *
-        (membrane.stiffness[static_cast<std::size_t>(membrane.phase[static_cast<std::size_t>(t)])].D *
+        (membrane.stiffness[static_cast<std::size_t>(membrane.phase[static_cast<std::size_t>(t)])]
+           .D *
          Eigen::Vector3d(G(0, 0), G(1, 1), G(0, 1) + G(1, 0)));
       Eigen::Matrix2d tensor;
       tensor << stress(0), stress(2), stress(2), stress(1);

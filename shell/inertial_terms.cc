@@ -115,7 +115,8 @@ std::unique_ptr<Term> gravity_term(const Eigen::VectorXd &masses,
                                    const Eigen::RowVector3d &acceleration)
 {
   if (!acceleration.allFinite())
-    throw meshes::BadInput("gravity: the acceleration is not finite; expected three numbers in m/s^2");
+    throw meshes::BadInput(
+      "gravity: the acceleration is not finite; expected three numbers in m/s^2");
   return std::make_unique<GravityTerm>(masses, acceleration);
 }
 

@@ -22,10 +22,10 @@ using Positions = Eigen::Matrix<double, Eigen::Dynamic, dim, Eigen::RowMajor>;
 /// A membrane at rest.
 struct Membrane
 {
-  meshes::Points vertices;                ///< (n,2) rest positions [m]; empty of a sewn cloth
-  meshes::Triangles triangles;            ///< (m,3)
-  std::vector<RestTriangle> rest;         ///< (m)
-  std::vector<int> phase;                 ///< (m) index into stiffness
+  meshes::Points vertices;                  ///< (n,2) rest positions [m]; empty of a sewn cloth
+  meshes::Triangles triangles;              ///< (m,3)
+  std::vector<RestTriangle> rest;           ///< (m)
+  std::vector<int> phase;                   ///< (m) index into stiffness
   std::vector<MembraneStiffness> stiffness; ///< Voigt 11, 22, 12, engineering shear [N/m]
 };
 

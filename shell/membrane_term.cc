@@ -73,10 +73,9 @@ public:
       const RestTriangle &rest = membrane.rest[index(t)];
       const Eigen::Vector3d e =
         biot_strain<3>(deformation_gradient<3>(rest, corners_of(positions, t)));
-      sum += rest.area *
-             (0.5 * e.dot(effective[phase_of(t)].D * e) + (viscosity > 0. && !old_stress.empty()
-                                                             ? old_stress[index(t)].dot(e)
-                                                             : 0.));
+      sum +=
+        rest.area * (0.5 * e.dot(effective[phase_of(t)].D * e) +
+                     (viscosity > 0. && !old_stress.empty() ? old_stress[index(t)].dot(e) : 0.));
     }
     return sum;
   }
@@ -90,12 +89,12 @@ public:
   {
     for (int t = 0; t < n_triangles(); ++t)
     {
-      const RestTriangle &rest = membrane.rest[index(t)];
-      const DeformationGradient<3> F =
-        deformation_gradient<3>(rest, corners_of(positions, t));
+      const RestTriangle &rest       = membrane.rest[index(t)];
+      const DeformationGradient<3> F = deformation_gradient<3>(rest, corners_of(positions, t));
       const Eigen::Matrix3d forces =
         rest.shape_gradients *
-        (rest.area * energy_gradient<3>(F, effective[phase_of(t)].D, initial_stress(t))).transpose();
+        (rest.area * energy_gradient<3>(F, effective[phase_of(t)].D, initial_stress(t)))
+          .transpose();
       for (int k = 0; k < 3; ++k)
         gradient.row(membrane.triangles(t, k)) += forces.row(k);
     }
@@ -147,10 +146,10 @@ private:
   }
 
   const Membrane membrane;
-  const double viscosity; ///< [s]
-  double factor = 0.;     ///< β/h
-  std::vector<MembraneStiffness> effective;             ///< (1 + β/h) D
-  std::vector<Eigen::Vector3d> old_stress;              ///< −β/h D e_n; empty without viscosity
+  const double viscosity;                                ///< [s]
+  double factor = 0.;                                    ///< β/h
+  std::vector<MembraneStiffness> effective;              ///< (1 + β/h) D
+  std::vector<Eigen::Vector3d> old_stress;               ///< −β/h D e_n; empty without viscosity
   std::vector<std::array<BlockMatrix::Place, 6>> places; ///< of each triangle's blocks
 };
 } // namespace

@@ -141,9 +141,9 @@ public:
     for (int t = 0; t < n_triangles(); ++t)
       for (int k = 0, b = 0; k < 3; ++k)
         for (int l = k; l < 3; ++l, ++b)
-          matrix.add(places[index(t)][index(b)],
-                     rotations[index(t)] * stiffness[index(t)].block<3, 3>(3 * k, 3 * l) *
-                       rotations[index(t)].transpose());
+          matrix.add(places[index(t)][index(b)], rotations[index(t)] *
+                                                   stiffness[index(t)].block<3, 3>(3 * k, 3 * l) *
+                                                   rotations[index(t)].transpose());
   }
 
 private:
@@ -247,8 +247,7 @@ public:
         // is that of its ring over the ring's size.
         // The first time no rotations are known.
         const double share =
-          is_first ? 0.
-                   : 0.25 * masses(j) * X.squaredNorm() / static_cast<double>(ring[i].size());
+          is_first ? 0. : 0.25 * masses(j) * X.squaredNorm() / static_cast<double>(ring[i].size());
         const Eigen::Matrix3d disc = share * Eigen::Vector3d(1., 1., 0.).asDiagonal();
         moment += old[index(j)] * disc;
         at_rest += disc;
@@ -313,9 +312,9 @@ private:
     Vectors normals = Vectors::Zero(positions.rows(), 3);
     for (int t = 0; t < n_triangles(); ++t)
     {
-      const Eigen::RowVector3d x0 = positions.row(membrane.triangles(t, 0)),
-                               x1 = positions.row(membrane.triangles(t, 1)),
-                               x2 = positions.row(membrane.triangles(t, 2));
+      const Eigen::RowVector3d x0     = positions.row(membrane.triangles(t, 0)),
+                               x1     = positions.row(membrane.triangles(t, 1)),
+                               x2     = positions.row(membrane.triangles(t, 2));
       const Eigen::RowVector3d normal = (x1 - x0).cross(x2 - x0);
       for (int k = 0; k < 3; ++k)
         normals.row(membrane.triangles(t, k)) += normal;

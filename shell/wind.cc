@@ -155,8 +155,9 @@ public:
       {
         wind.row(v) = air.velocity(begin.row(v).transpose(), time).transpose();
         if (!wind.row(v).allFinite())
-          throw meshes::BadInput("air: the velocity at vertex " + std::to_string(v) + " is not finite at " +
-                                 std::to_string(time) + " s; expected three numbers in m/s");
+          throw meshes::BadInput("air: the velocity at vertex " + std::to_string(v) +
+                                 " is not finite at " + std::to_string(time) +
+                                 " s; expected three numbers in m/s");
       }
     for (int t = 0; t < static_cast<int>(triangles.rows()); ++t)
     {

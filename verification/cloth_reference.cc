@@ -228,7 +228,8 @@ void ClothReference::resume(const meshes::SpacePoints &positions,
       !(time >= 0.))
     throw meshes::BadInput("a reference goes on from finite positions and velocities of its " +
                            std::to_string(n_rest_vertices) + " vertices, with P1 alone; found " +
-                           std::to_string(positions.rows()) + " and P" + std::to_string(options.order));
+                           std::to_string(positions.rows()) + " and P" +
+                           std::to_string(options.order));
   for (int v = 0; v < n_rest_vertices; ++v)
     for (int c = 0; c < 3; ++c)
       if (discretization.locally_owned.is_element(vertex_dofs(v, c)))

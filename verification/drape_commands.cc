@@ -55,7 +55,8 @@ void check_arguments(const DrapeOptions &study)
     if (name != "vtu" && name != "ply" && name != "obj")
       faults.push_back("--frames: found `" + name + "`; expected vtu, ply or obj");
   if (study.variants.empty() || study.variants.front() != "corotational")
-    faults.push_back("--variants: expected `corotational` first, against which the others are held");
+    faults.push_back(
+      "--variants: expected `corotational` first, against which the others are held");
   if (!(study.time_step >= 0.) || !(study.duration >= 0.))
     faults.push_back("--time-step, --duration: expected positive numbers in seconds");
   if (!faults.empty())
@@ -75,8 +76,8 @@ int run_drape(DrapeArguments arguments, Afterwards &afterwards)
   {
     if (!study.quiet)
       for (const Verdict &verdict : verdicts)
-        std::printf("%-12s %s: %.4g (%s)\n", name_of(verdict.outcome).c_str(), verdict.claim.c_str(),
-                    verdict.value, verdict.limit.c_str());
+        std::printf("%-12s %s: %.4g (%s)\n", name_of(verdict.outcome).c_str(),
+                    verdict.claim.c_str(), verdict.value, verdict.limit.c_str());
     if (!arguments.no_report)
       afterwards = [output = study.output, quiet = study.quiet]()
       { make_report({output}, output, quiet); };
@@ -89,17 +90,20 @@ void add_drape_command(CLI::App &app, Action &action, Afterwards &afterwards,
                        const std::string &command_line)
 {
   CLI::App *command = app.add_subcommand(
-    "drape", "Run a scene: the coarse cloth in motion, up-sampled every step, against the resolved one");
+    "drape",
+    "Run a scene: the coarse cloth in motion, up-sampled every step, against the resolved one");
   const auto arguments = std::make_shared<DrapeArguments>();
   DrapeOptions &study  = arguments->study;
   study.variants       = {"corotational"};
   study.methods        = {"affine", "localized", "localized-affine-lift"};
   study.command        = command_line;
 
-  command->add_option("SCENE.prm", study.scene_file, "Scene file; the shipped ones are in meshes/scenes")
+  command
+    ->add_option("SCENE.prm", study.scene_file, "Scene file; the shipped ones are in meshes/scenes")
     ->required();
-  command->add_option("--unit-cells", study.cell_files,
-                      "Cell files in place of the scene's, comma-separated")
+  command
+    ->add_option("--unit-cells", study.cell_files,
+                 "Cell files in place of the scene's, comma-separated")
     ->delimiter(',')
     ->allow_extra_args(false);
   command
@@ -108,8 +112,9 @@ void add_drape_command(CLI::App &app, Action &action, Afterwards &afterwards,
     ->delimiter(',')
     ->allow_extra_args(false);
   command
-    ->add_option("--variants", study.variants,
-                 "Membrane models of the coarse cloth: corotational, triangle-warping, nodal-warping")
+    ->add_option(
+      "--variants", study.variants,
+      "Membrane models of the coarse cloth: corotational, triangle-warping, nodal-warping")
     ->delimiter(',')
     ->allow_extra_args(false)
     ->capture_default_str();
@@ -117,7 +122,8 @@ void add_drape_command(CLI::App &app, Action &action, Afterwards &afterwards,
     ->delimiter(',')
     ->allow_extra_args(false)
     ->capture_default_str();
-  command->add_option("--cells", study.n_cells, "Cells per side of a sheet, in place of the scene's")
+  command
+    ->add_option("--cells", study.n_cells, "Cells per side of a sheet, in place of the scene's")
     ->check(CLI::Range(1, 400));
   command->add_option("--time-step", study.time_step, "[s], in place of the scene's");
   command->add_option("--duration", study.duration, "[s], in place of the scene's");

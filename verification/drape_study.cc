@@ -22,6 +22,7 @@
 #include <cmath>
 #include <filesystem>
 #include <limits>
+#include <map>
 
 namespace homespun::verification
 {
@@ -30,17 +31,35 @@ using meshes::SpacePoints;
 
 namespace
 {
-const std::vector<std::string> error_columns = {
-  "scene",       "cell",        "variant",     "reference",           "method",
-  "frame",       "time_s",      "error_mean_m", "error_rms_m",        "error_max_m",
-  "error_mean_per_cell", "error_mean_per_fluctuation", "reference_uncertainty_m"};
-const std::vector<std::string> motion_columns = {
-  "scene",     "cell",     "variant",     "frame",                "time_s",
-  "centre_x_m", "centre_y_m", "centre_z_m", "kinetic_J",           "stored_J",
-  "max_stretch", "seconds_coarse_step", "seconds_upsampling"};
-const std::vector<std::string> term_columns = {
-  "scene", "cell", "term", "present", "seconds_per_step", "seconds_per_step_forced", "bytes",
-  "bytes_forced"};
+const std::vector<std::string> error_columns  = {"scene",
+                                                 "cell",
+                                                 "variant",
+                                                 "reference",
+                                                 "method",
+                                                 "frame",
+                                                 "time_s",
+                                                 "error_mean_m",
+                                                 "error_rms_m",
+                                                 "error_max_m",
+                                                 "error_mean_per_cell",
+                                                 "error_mean_per_fluctuation",
+                                                 "reference_uncertainty_m"};
+const std::vector<std::string> motion_columns = {"scene",
+                                                 "cell",
+                                                 "variant",
+                                                 "frame",
+                                                 "time_s",
+                                                 "centre_x_m",
+                                                 "centre_y_m",
+                                                 "centre_z_m",
+                                                 "kinetic_J",
+                                                 "stored_J",
+                                                 "max_stretch",
+                                                 "seconds_coarse_step",
+                                                 "seconds_upsampling"};
+const std::vector<std::string> term_columns   = {
+    "scene", "cell",        "term", "present", "seconds_per_step", "seconds_per_step_forced",
+    "bytes", "bytes_forced"};
 
 double median(std::vector<double> values)
 {
@@ -118,9 +137,9 @@ private:
       scene.time_step = options.time_step;
     if (options.duration > 0.)
       scene.duration = options.duration;
-    scene.frame_interval = std::min(
-      scene.duration, scene.time_step *
-                        std::max(1., std::round(scene.frame_interval / scene.time_step)));
+    scene.frame_interval =
+      std::min(scene.duration,
+               scene.time_step * std::max(1., std::round(scene.frame_interval / scene.time_step)));
     return scene;
   }
 
@@ -137,8 +156,9 @@ private:
                          "` is a garment; expected a flat sheet, or the reference `shell`");
       for (const char *term : {"bending", "wind", "obstacles"})
         if (scene.has(term))
-          faults.push_back("--references " + reference + ": scene `" + scene.name + "` has the term `" +
-                           term + "`, which this reference lacks; expected the reference `shell`");
+          faults.push_back("--references " + reference + ": scene `" + scene.name +
+                           "` has the term `" + term +
+                           "`, which this reference lacks; expected the reference `shell`");
       if (scene.has("damping") && scene.viscosity > 0.)
         faults.push_back("--references " + reference + ": scene `" + scene.name +
                          "` has a `Viscosity`, which this reference lacks; expected 0, or the "
@@ -268,10 +288,10 @@ private:
                        nlohmann::ordered_json &descriptions)
   {
     CoarseRun run;
-    run.variant               = variant;
-    const std::string name    = draped.cell.name + "-" + variant;
-    const std::string folder  = options.output + "/" + name;
-    const bool is_method      = variant == "corotational";
+    run.variant                 = variant;
+    const std::string name      = draped.cell.name + "-" + variant;
+    const std::string folder    = options.output + "/" + name;
+    const bool is_method        = variant == "corotational";
     const Upsampler3f upsampler = draped.upsampler<float>(Method("localized"));
     std::filesystem::create_directories(folder);
     meshes::FrameCollection coarse_list(folder + "/coarse.pvd"), fine_list(folder + "/fine.pvd");
@@ -285,9 +305,9 @@ private:
       progress.begin(draped.cell.name + ", " + variant + " cloth, frame " + std::to_string(frame));
       try
       {
-        const int n = frame == 0                                              ? 0
+        const int n = frame == 0                                         ? 0
                       : scene.integration == TimeIntegration::equilibria ? 1
-                                                                              : steps_per_frame;
+                                                                         : steps_per_frame;
         for (int k = 0; k < n; ++k, ++steps)
         {
           auto begin = std::chrono::steady_clock::now();
@@ -336,12 +356,12 @@ private:
                             {"seconds_per_upsampling", json_number(run.seconds_per_upsampling)},
                             {"bytes", moving.cloth().bytes()},
                             {"threads", 1}});
-    verdicts.push_back({draped.cell.name + ", " + variant +
-                          ": the scene runs to its end (frames reached)",
-                        static_cast<int>(run.frames.size()) == n_frames + 1
-                          ? Outcome::pass
-                          : is_method ? Outcome::fail : Outcome::inconclusive,
-                        static_cast<double>(run.frames.size()), std::to_string(n_frames + 1)});
+    verdicts.push_back(
+      {draped.cell.name + ", " + variant + ": the scene runs to its end (frames reached)",
+       static_cast<int>(run.frames.size()) == n_frames + 1 ? Outcome::pass
+       : is_method                                         ? Outcome::fail
+                                                           : Outcome::inconclusive,
+       static_cast<double>(run.frames.size()), std::to_string(n_frames + 1)});
     return run;
   }
 
@@ -367,15 +387,15 @@ private:
       if (term_table->contains(keys))
         continue;
       progress.begin(draped.cell.name + ": what `" + term + "` costs");
-      const auto [seconds, bytes] = measured({});
+      const auto [seconds, bytes]  = measured({});
       std::vector<std::string> row = keys;
       const bool present           = scene.has(term);
       const auto [forced_seconds, forced_bytes] =
         present ? std::make_pair(std::numeric_limits<double>::quiet_NaN(), std::size_t(0))
                 : measured({term});
-      for (const std::string &field :
-           {std::string(present ? "true" : "false"), csv_number(seconds), csv_number(forced_seconds),
-            std::to_string(bytes), present ? std::string() : std::to_string(forced_bytes)})
+      for (const std::string &field : {std::string(present ? "true" : "false"), csv_number(seconds),
+                                       csv_number(forced_seconds), std::to_string(bytes),
+                                       present ? std::string() : std::to_string(forced_bytes)})
         row.push_back(field);
       term_table->append(row);
     }
@@ -397,7 +417,7 @@ private:
       progress.begin(draped.cell.name + ", " + reference + ": error bar", true);
       bar = error_bar(draped, reference, std::min(options.n_cells_of_error_bar, scene.n1));
     }
-    int first = 0;
+    int first                    = 0;
     const std::string checkpoint = folder + "/checkpoint.h5";
     if (options.resume)
     {
@@ -421,44 +441,42 @@ private:
     std::vector<double> seconds;
     for (int frame = first; frame <= n_frames; ++frame)
     {
-      progress.begin(draped.cell.name + ", " + reference + " reference, frame " +
-                       std::to_string(frame),
-                     true);
+      progress.begin(
+        draped.cell.name + ", " + reference + " reference, frame " + std::to_string(frame), true);
       std::string why;
-      const int n = frame == 0                                        ? 0
+      const int n = frame == 0                                         ? 0
                     : scene.integration == TimeIntegration::equilibria ? 1
-                                                                        : steps_per_frame;
+                                                                       : steps_per_frame;
       for (int k = 0; k < n && why.empty(); ++k)
       {
         const FineStep step = fine->advance(scene.integration == TimeIntegration::equilibria,
                                             scene.time_step, frame * scene.frame_interval);
-        why = step.why;
+        why                 = step.why;
         seconds.push_back(step.seconds);
       }
       if (!why.empty())
       {
         progress.note(name + ": stops at frame " + std::to_string(frame) + ": " + why);
-        verdicts.push_back({draped.cell.name + ", " + reference +
-                              ": the reference runs to its end (frames reached)",
-                            Outcome::inconclusive, static_cast<double>(frame),
-                            std::to_string(n_frames + 1)});
+        verdicts.push_back(
+          {draped.cell.name + ", " + reference + ": the reference runs to its end (frames reached)",
+           Outcome::inconclusive, static_cast<double>(frame), std::to_string(n_frames + 1)});
         break;
       }
       const SpacePoints positions  = draped.at_fine_vertices(fine->positions());
       const SpacePoints velocities = fine->velocities();
       const double kinetic = fine->kinetic_energy(), stored = fine->stored_energy();
-      on_root(communicator,
-              [&]()
-              {
-                compare(draped, reference, runs, frame, positions, bar);
-                write_motion(draped, reference, frame, positions.row(draped.fine_centre_vertex),
-                             kinetic, stored,
-                             std::numeric_limits<double>::quiet_NaN(), median(seconds),
-                             std::numeric_limits<double>::quiet_NaN());
-                write_frame(folder, "fine", frame, positions.cast<float>(), draped.fine_triangles(),
-                            draped.fine_data(), list.get());
-                meshes::write_state({fine->positions(), velocities, fine->time(), frame}, checkpoint);
-              });
+      on_root(
+        communicator,
+        [&]()
+        {
+          compare(draped, reference, runs, frame, positions, bar);
+          write_motion(draped, reference, frame, positions.row(draped.fine_centre_vertex), kinetic,
+                       stored, std::numeric_limits<double>::quiet_NaN(), median(seconds),
+                       std::numeric_limits<double>::quiet_NaN());
+          write_frame(folder, "fine", frame, positions.cast<float>(), draped.fine_triangles(),
+                      draped.fine_data(), list.get());
+          meshes::write_state({fine->positions(), velocities, fine->time(), frame}, checkpoint);
+        });
       if (frame > 0)
         progress.done();
     }
@@ -474,8 +492,9 @@ private:
               for (const CoarseRun &run : runs)
                 if (run.variant == "corotational" && !seconds.empty())
                   verdicts.push_back(
-                    {draped.cell.name + ": steps of the coarse cloth with up-sampling (1 thread) per step "
-                     "of the reference `" +
+                    {draped.cell.name +
+                       ": steps of the coarse cloth with up-sampling (1 thread) per step "
+                       "of the reference `" +
                        reference + "` (" + std::to_string(is_dealii(reference) ? n_ranks : 1u) +
                        (is_dealii(reference) ? " ranks)" : " thread)"),
                      median(seconds) / (run.seconds_per_step + run.seconds_per_upsampling) >= 1000.
@@ -495,7 +514,8 @@ private:
 
   /// |P1 − P2| of the same scene on a small sheet, per mean fluctuation there; the discretization error of
   /// a resolved sheet goes with its local strain, as the fluctuation does.
-  ErrorBar error_bar(const DrapedCell &draped, const std::string &reference, const int n_cells) const
+  ErrorBar error_bar(const DrapedCell &draped, const std::string &reference,
+                     const int n_cells) const
   {
     const Scene small = scaled(scene, n_cells);
     const DrapedCell sheet(small, draped.cell, draped.homogenized);
@@ -529,7 +549,7 @@ private:
                const std::vector<CoarseRun> &runs, const int frame, const SpacePoints &positions,
                const ErrorBar &bar)
   {
-    const auto at = static_cast<std::size_t>(frame);
+    const auto at      = static_cast<std::size_t>(frame);
     double fluctuation = std::numeric_limits<double>::quiet_NaN();
     for (const CoarseRun &run : runs)
     {
@@ -540,21 +560,21 @@ private:
       {
         draped.upsampler<double>(Method("affine")).upsample(run.frames[at], up);
         fluctuation = (positions - up).rowwise().norm().mean();
+        // Where nothing has moved yet, round-off over round-off is no figure.
+        if (fluctuation < 1e-12 * draped.side)
+          fluctuation = std::numeric_limits<double>::quiet_NaN();
       }
       for (const std::string &name : options.methods)
       {
-        const std::vector<std::string> keys = {scene.name, draped.cell.name, run.variant,
-                                               reference,  name,             std::to_string(frame)};
+        const std::vector<std::string> keys = {
+          scene.name, draped.cell.name, run.variant, reference, name, std::to_string(frame)};
         const Method method(name);
         draped.upsampler<double>(method).upsample(run.frames[at], up);
         const Eigen::VectorXd distance = (up - positions).rowwise().norm();
         if (!distance.allFinite())
-          throw meshes::NotConverged(
-            draped.cell.name + ", " + run.variant + ", " + name + ": positions that are not finite", {});
-        if (run.variant == "corotational" && name == "localized" && frame > 0)
-          worst_error[draped.cell.name + " against " + reference] =
-            std::max(worst_error[draped.cell.name + " against " + reference],
-                     distance.mean() / draped.side);
+          throw meshes::NotConverged(draped.cell.name + ", " + run.variant + ", " + name +
+                                       ": positions that are not finite",
+                                     {});
         if (error_table->contains(keys))
           continue;
         std::vector<std::string> row = keys;
@@ -590,6 +610,14 @@ private:
                                  {"present", scene.has(term)},
                                  {scene.has(term) ? "parameters" : "why",
                                   scene.has(term) ? what : "the scene does not list it"}});
+              // From the table, so that a resumed run speaks of all its frames.
+              std::map<std::string, double> worst_error;
+              for (const std::vector<std::string> &row : error_table->rows())
+                if (row[2] == "corotational" && row[4] == "localized" && !row[10].empty())
+                {
+                  double &worst = worst_error[row[1] + " against " + row[3]];
+                  worst         = std::max(worst, std::stod(row[10]));
+                }
               for (const auto &[what, error] : worst_error)
                 progress.note(what + ": largest mean error of `localized` over time " +
                               csv_number(error) + " cell sides");
@@ -628,7 +656,6 @@ private:
   std::unique_ptr<ResultTable> error_table, motion_table, term_table;
   nlohmann::ordered_json cell_descriptions = nlohmann::ordered_json::array();
   std::vector<Verdict> verdicts;
-  std::map<std::string, double> worst_error;
   int coarse_triangles = 0, fine_triangles = 0, fine_vertices = 0;
 };
 } // namespace

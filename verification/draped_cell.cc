@@ -54,7 +54,7 @@ DrapedCell::DrapedCell(const Scene &given, const homogenization::UnitCell &cell,
     , homogenized(homogenized)
     , side(std::sqrt(cell.lattice.area()))
 {
-  effective = {{homogenized.stiffness}, {homogenized.areal_density}};
+  effective        = {{homogenized.stiffness}, {homogenized.areal_density}};
   phases.stiffness = cell.stiffness_of_phase();
   for (const homogenization::Phase &phase : cell.phases)
     phases.areal_density.push_back(phase.thickness * phase.density);
@@ -102,7 +102,8 @@ DrapedCell::DrapedCell(const Scene &given, const homogenization::UnitCell &cell,
   fine_centre_vertex = nearest_to_middle(at_fine_vertices(fine.positions));
 
   // A vertex belongs to the phase of most of its triangles.
-  Eigen::MatrixXf share = Eigen::MatrixXf::Zero(n_fine(), static_cast<Eigen::Index>(cell.phases.size()));
+  Eigen::MatrixXf share =
+    Eigen::MatrixXf::Zero(n_fine(), static_cast<Eigen::Index>(cell.phases.size()));
   const meshes::TriangleMesh &rest = sheet ? sheet->mesh : garment->rest;
   for (int t = 0; t < rest.n_triangles(); ++t)
     for (int k = 0; k < 3; ++k)
@@ -170,12 +171,14 @@ public:
     if (draped.scene.has("damping"))
       loads.mass_damping = draped.scene.damping_rate;
     reference.start(
-      draped.placement->start, [this](const Eigen::RowVector2d &point, const double time)
-      { return motion.at(point, time); }, loads);
+      draped.placement->start,
+      [this](const Eigen::RowVector2d &point, const double time) { return motion.at(point, time); },
+      loads);
   }
   FineStep advance(const bool to_equilibrium, const double step, const double time) override
   {
-    const ClothStep report = to_equilibrium ? reference.solve_equilibrium(time) : reference.step(step);
+    const ClothStep report =
+      to_equilibrium ? reference.solve_equilibrium(time) : reference.step(step);
     return {report.reached ? "" : report.why.empty() ? "not reached" : report.why, report.seconds};
   }
   void resume(const meshes::ClothState &state) override

@@ -112,17 +112,17 @@ struct FineStep
 class FineRun
 {
 public:
-  virtual ~FineRun()                                                         = default;
+  virtual ~FineRun() = default;
   /// One step, or the equilibrium of a time.
   virtual FineStep advance(bool to_equilibrium, double step, double time) = 0;
-  virtual void resume(const meshes::ClothState &state)                       = 0;
-  virtual const meshes::SpacePoints &positions() const                       = 0;
-  virtual meshes::SpacePoints velocities() const                             = 0;
-  virtual double time() const                                                = 0;
-  virtual double kinetic_energy() const                                      = 0;
-  virtual double stored_energy() const                                       = 0;
-  virtual int n_vertices() const                                             = 0;
-  virtual unsigned long n_dofs() const                                       = 0;
+  virtual void resume(const meshes::ClothState &state)                    = 0;
+  virtual const meshes::SpacePoints &positions() const                    = 0;
+  virtual meshes::SpacePoints velocities() const                          = 0;
+  virtual double time() const                                             = 0;
+  virtual double kinetic_energy() const                                   = 0;
+  virtual double stored_energy() const                                    = 0;
+  virtual int n_vertices() const                                          = 0;
+  virtual unsigned long n_dofs() const                                    = 0;
 };
 
 /// By finite elements, on all ranks.

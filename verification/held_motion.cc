@@ -41,8 +41,8 @@ SheetPlacement placement_of(const Scene &scene, const Eigen::RowVector2d &origin
   {
     const Eigen::RowVector2d arm = point - middle, f = fraction(point);
     // Zero on the outline, and without a symmetry that a buckling cloth could keep by accident.
-    const double bump = height * 16. * f(0) * (1. - f(0)) * f(1) * (1. - f(1)) *
-                        (1. + 0.3 * f(0) - 0.2 * f(1));
+    const double bump =
+      height * 16. * f(0) * (1. - f(0)) * f(1) * (1. - f(1)) * (1. + 0.3 * f(0) - 0.2 * f(1));
     return Eigen::RowVector3d(centre + (standing ? Eigen::RowVector3d(arm(0), bump, arm(1))
                                                  : Eigen::RowVector3d(arm(0), arm(1), bump)));
   };
@@ -72,9 +72,8 @@ HeldMotion::HeldMotion(const Scene &scene, const SheetPlacement &placement,
 HeldMotion::HeldMotion(const Scene &scene, const meshes::ClothMesh &cloth)
     : scene(scene)
 {
-  const double high = cloth.positions.col(2).maxCoeff(),
-               low  = cloth.positions.col(2).minCoeff();
-  waist             = high - 1e-3 * (high - low);
+  const double high = cloth.positions.col(2).maxCoeff(), low = cloth.positions.col(2).minCoeff();
+  waist = high - 1e-3 * (high - low);
   for (const HeldPlace &held : scene.held)
   {
     Place place{held, Eigen::RowVector3d::Zero()};
@@ -149,8 +148,7 @@ Eigen::RowVector3d HeldMotion::position(const int vertex, const meshes::ClothMes
 bool HeldMotion::moves_after(const double time) const
 {
   return std::any_of(places.begin(), places.end(),
-                     [&](const Place &place)
-                     {
+                     [&](const Place &place) {
                        return place.held.motion.kind != Motion::Kind::rest &&
                               time < place.held.motion.seconds;
                      });

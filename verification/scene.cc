@@ -34,7 +34,8 @@ struct SceneKeys
   /// Declares all keys; `term_of` receives the term that a key belongs to.
   void declare(dealii::ParameterHandler &keys, std::map<std::string, std::string> &term_of)
   {
-    const auto add = [&](const char *key, std::string &value, const char *text, const char *term = "")
+    const auto add =
+      [&](const char *key, std::string &value, const char *text, const char *term = "")
     {
       keys.add_parameter(key, value, text);
       if (*term)
@@ -61,10 +62,11 @@ struct SceneKeys
     add("Frame interval", frame_interval, "Time between frames [s], a multiple of the time step.");
     add("Gravity", gravity, "Acceleration x y z [m/s^2].", "gravity");
     add("Damping rate", damping, "Force per momentum: -alpha m v [1/s].", "damping");
-    add("Viscosity", viscosity,
-        "Stress per rate of strain, in units of the stiffness [s]. References of deal.II do not have "
-        "it.",
-        "damping");
+    add(
+      "Viscosity", viscosity,
+      "Stress per rate of strain, in units of the stiffness [s]. References of deal.II do not have "
+      "it.",
+      "damping");
     add("Bending stiffness", bending,
         "Of the plate [N m]: one number (isotropic, nu = 0), or D11 D22 D12 D66.", "bending");
     add("Wind velocity", wind, "x y z [m/s].", "wind");
@@ -101,8 +103,9 @@ public:
   Scene read()
   {
     if (!std::filesystem::is_regular_file(file))
-      throw meshes::BadInput(file + ": no such file; expected a scene file (.prm): the shipped ones "
-                                    "are in meshes/scenes");
+      throw meshes::BadInput(file +
+                             ": no such file; expected a scene file (.prm): the shipped ones "
+                             "are in meshes/scenes");
     dealii::ParameterHandler handler;
     std::map<std::string, std::string> term_of;
     keys.declare(handler, term_of);
@@ -172,7 +175,8 @@ private:
       const bool known = std::any_of(all_terms().begin(), all_terms().end(),
                                      [&](const auto &term) { return term.first == name; });
       if (!known)
-        faults.push_back(file + ": key `Terms`: unknown term `" + name + "`; expected some of " + names);
+        faults.push_back(file + ": key `Terms`: unknown term `" + name + "`; expected some of " +
+                         names);
       else
         scene.terms.insert(name);
     }
@@ -187,8 +191,9 @@ private:
     defaults.declare(fresh, unused);
     for (const auto &[key, term] : term_of)
       if (!scene.has(term) && handler.get(key) != fresh.get(key))
-        faults.push_back(file + ": key `" + key + "` belongs to the term `" + term +
-                         "`, which `Terms` does not list; expected the term there, or remove the key");
+        faults.push_back(
+          file + ": key `" + key + "` belongs to the term `" + term +
+          "`, which `Terms` does not list; expected the term there, or remove the key");
     std::stringstream text;
     handler.print_parameters(text, dealii::ParameterHandler::ShortPRM);
     std::string line;
@@ -208,7 +213,8 @@ private:
       {
         const std::string path = (folder / name).lexically_normal().string();
         if (!std::filesystem::is_regular_file(path))
-          faults.push_back(file + ": key `Cells`: " + path + " does not exist; expected a cell file");
+          faults.push_back(file + ": key `Cells`: " + path +
+                           " does not exist; expected a cell file");
         scene.cell_files.push_back(path);
       }
     if (scene.cell_files.empty())
@@ -264,8 +270,8 @@ private:
     scene.viscosity    = positive("Viscosity", keys.viscosity, true);
     if (scene.has("bending"))
     {
-      const auto values =
-        vector("Bending stiffness", keys.bending, {1, 4}, "one positive number, or D11 D22 D12 D66");
+      const auto values = vector("Bending stiffness", keys.bending, {1, 4},
+                                 "one positive number, or D11 D22 D12 D66");
       if (values.size() == 1)
         scene.bending = shell::PlateStiffness::isotropic(values[0], 0.);
       else
@@ -322,8 +328,9 @@ private:
       if (!text.empty())
         scene.held.push_back(place_of("Pins", text));
     if (scene.has("pins") && scene.held.empty())
-      faults.push_back(file + ": key `Pins` is missing; expected the places that stay, because `Terms` "
-                              "lists pins");
+      faults.push_back(file +
+                       ": key `Pins` is missing; expected the places that stay, because `Terms` "
+                       "lists pins");
     const std::size_t n_pins = scene.held.size();
     for (const std::string &text : split(keys.handles, ';'))
       if (!text.empty())
@@ -352,15 +359,15 @@ private:
     if (kind == "translate")
     {
       motion.kind = Motion::Kind::translate;
-      good        = static_cast<bool>(words >> motion.along(0) >> motion.along(1) >> motion.along(2) >>
+      good = static_cast<bool>(words >> motion.along(0) >> motion.along(1) >> motion.along(2) >>
                                during >> motion.seconds) &&
              during == "during";
     }
     else if (kind == "rotate")
     {
       motion.kind = Motion::Kind::rotate;
-      good = static_cast<bool>(words >> motion.angle >> about >> motion.along(0) >> motion.along(1) >>
-                               motion.along(2) >> during >> motion.seconds) &&
+      good        = static_cast<bool>(words >> motion.angle >> about >> motion.along(0) >>
+                               motion.along(1) >> motion.along(2) >> during >> motion.seconds) &&
              about == "about" && during == "during" && motion.along.norm() > 0.;
       motion.angle *= std::acos(-1.) / 180.;
       if (good)
@@ -403,14 +410,15 @@ private:
       obstacle.numbers = *values;
       if (obstacle.kind == "sphere" && !(obstacle.numbers[3] > 0.))
         fault("Obstacles", text, "a positive radius");
-      if (obstacle.kind == "plane" && std::hypot(obstacle.numbers[3], obstacle.numbers[4],
-                                                 obstacle.numbers[5]) == 0.)
+      if (obstacle.kind == "plane" &&
+          std::hypot(obstacle.numbers[3], obstacle.numbers[4], obstacle.numbers[5]) == 0.)
         fault("Obstacles", text, "a normal that is not zero");
       scene.obstacles.push_back(obstacle);
     }
     if (scene.has("obstacles") && scene.obstacles.empty())
-      faults.push_back(file + ": key `Obstacles` is missing; expected at least one, because `Terms` "
-                              "lists obstacles");
+      faults.push_back(file +
+                       ": key `Obstacles` is missing; expected at least one, because `Terms` "
+                       "lists obstacles");
     scene.friction          = positive("Friction coefficient", keys.friction, true);
     scene.contact_thickness = positive("Contact thickness", keys.thickness);
   }

@@ -25,10 +25,11 @@ struct Motion
     translate,
     rotate
   };
-  Kind kind                = Kind::rest;
-  Eigen::RowVector3d along = Eigen::RowVector3d::Zero(); ///< translation [m], or axis of the rotation
-  double angle             = 0.;                         ///< [rad]
-  double seconds           = 0.; ///< from the beginning on, evenly accelerated and braked
+  Kind kind = Kind::rest;
+  Eigen::RowVector3d along =
+    Eigen::RowVector3d::Zero(); ///< translation [m], or axis of the rotation
+  double angle   = 0.;          ///< [rad]
+  double seconds = 0.;          ///< from the beginning on, evenly accelerated and braked
 };
 
 /// A place that is held: `left`, `right`, `bottom`, `top` edge or a corner such as `top left` of a sheet;
@@ -42,9 +43,10 @@ struct HeldPlace
 
 struct SceneObstacle
 {
-  std::string kind;            ///< plane, sphere, mesh
-  std::vector<double> numbers; ///< plane: point and normal; sphere: centre and radius; mesh: its offset
-  std::string file;            ///< of a mesh
+  std::string kind; ///< plane, sphere, mesh
+  std::vector<double>
+    numbers;        ///< plane: point and normal; sphere: centre and radius; mesh: its offset
+  std::string file; ///< of a mesh
 };
 
 enum class TimeIntegration
@@ -60,21 +62,21 @@ struct Scene
   std::vector<std::string> cell_files;
   std::set<std::string> terms;
 
-  int n1 = 20, n2 = 20;    ///< cells of a sheet
-  std::string mesh_file;   ///< of a garment; empty: a sheet
-  double vt_unit = 1.;     ///< [m]
-  bool standing  = true;   ///< sheet in the x-z plane, else in x-y
+  int n1 = 20, n2 = 20;                                   ///< cells of a sheet
+  std::string mesh_file;                                  ///< of a garment; empty: a sheet
+  double vt_unit            = 1.;                         ///< [m]
+  bool standing             = true;                       ///< sheet in the x-z plane, else in x-y
   Eigen::RowVector3d centre = Eigen::RowVector3d::Zero(); ///< of the sheet [m]
   double disturbance        = 0.; ///< height of a smooth bump out of the plane at the beginning [m]
 
   TimeIntegration integration = TimeIntegration::linearly_implicit;
   double time_step = 0.01, duration = 1., frame_interval = 0.05; ///< [s]
 
-  Eigen::RowVector3d gravity = {0., 0., -9.81}; ///< [m/s^2]
-  double damping_rate = 0., viscosity = 0.;     ///< [1/s], [s]
-  shell::PlateStiffness bending;                ///< [N m]
+  Eigen::RowVector3d gravity = {0., 0., -9.81};         ///< [m/s^2]
+  double damping_rate = 0., viscosity = 0.;             ///< [1/s], [s]
+  shell::PlateStiffness bending;                        ///< [N m]
   Eigen::RowVector3d wind = Eigen::RowVector3d::Zero(); ///< [m/s]
-  double air_density = 1.2, drag = 1., pressure = 0.; ///< [kg/m^3], [-], [Pa]
+  double air_density = 1.2, drag = 1., pressure = 0.;   ///< [kg/m^3], [-], [Pa]
   std::vector<HeldPlace> held;
   std::vector<SceneObstacle> obstacles;
   double friction = 0., contact_thickness = 1e-3; ///< [-], [m]

@@ -51,8 +51,8 @@ std::string name_of(const MembraneModel model)
 
 MembraneModel membrane_model_of(const std::string &name)
 {
-  for (const MembraneModel model : {MembraneModel::corotational, MembraneModel::triangle_warping,
-                                    MembraneModel::nodal_warping})
+  for (const MembraneModel model :
+       {MembraneModel::corotational, MembraneModel::triangle_warping, MembraneModel::nodal_warping})
     if (name_of(model) == name)
       return model;
   throw meshes::BadInput("found `" + name +
@@ -84,16 +84,18 @@ SceneCloth::SceneCloth(const Scene &scene, const meshes::ClothMesh &mesh,
   const bool damped = scene.has("damping");
   switch (model)
   {
-    case MembraneModel::corotational:
-      moving->add(shell::membrane_term(
-        mesh, material.stiffness, damped ? scene.viscosity : forces("damping") ? 1e-300 : 0.));
-      break;
-    case MembraneModel::triangle_warping:
-      moving->add(shell::triangle_warping_term(mesh, material.stiffness));
-      break;
-    case MembraneModel::nodal_warping:
-      moving->add(shell::nodal_warping_term(mesh, material.stiffness, masses));
-      break;
+  case MembraneModel::corotational:
+    moving->add(shell::membrane_term(mesh, material.stiffness,
+                                     damped              ? scene.viscosity
+                                     : forces("damping") ? 1e-300
+                                                         : 0.));
+    break;
+  case MembraneModel::triangle_warping:
+    moving->add(shell::triangle_warping_term(mesh, material.stiffness));
+    break;
+  case MembraneModel::nodal_warping:
+    moving->add(shell::nodal_warping_term(mesh, material.stiffness, masses));
+    break;
   }
   if (scene.has("bending") || forces("bending"))
   {
@@ -110,10 +112,10 @@ SceneCloth::SceneCloth(const Scene &scene, const meshes::ClothMesh &mesh,
   if (scene.has("wind") || forces("wind"))
   {
     shell::Air air;
-    air.density     = scene.has("wind") ? scene.air_density : 0.;
-    air.normal_drag = scene.drag;
+    air.density                    = scene.has("wind") ? scene.air_density : 0.;
+    air.normal_drag                = scene.drag;
     const Eigen::Vector3d velocity = scene.wind.transpose();
-    air.velocity                   = [velocity](const Eigen::Vector3d &, double) { return velocity; };
+    air.velocity = [velocity](const Eigen::Vector3d &, double) { return velocity; };
     moving->add(shell::wind_term(mesh, air));
     if (scene.pressure != 0.)
       moving->add(
@@ -130,9 +132,10 @@ SceneCloth::SceneCloth(const Scene &scene, const meshes::ClothMesh &mesh,
     if (obstacles.empty())
       obstacles.push_back({"plane", {0., 0., -1e6, 0., 0., 1.}, ""});
     for (const SceneObstacle &obstacle : obstacles)
-      moving->add(shell::obstacle_term(
-        obstacle_of(obstacle, scene.has("friction") ? scene.friction : forces("friction") ? 1e-30 : 0.),
-        masses, parameters));
+      moving->add(shell::obstacle_term(obstacle_of(obstacle, scene.has("friction") ? scene.friction
+                                                             : forces("friction")  ? 1e-30
+                                                                                   : 0.),
+                                       masses, parameters));
   }
 }
 

@@ -37,8 +37,8 @@ TEST(invariant_cloth, any_rigid_motion_has_no_force)
   Fabric fabric(mesh);
   for (const double angle : {1e-9, 0.4, 2., 3.1415926535897931, 5.})
   {
-    const Vectors x = (mesh.positions * rotation<3>(angle).transpose()).rowwise() +
-                      Eigen::RowVector3d(3., -2., 7.);
+    const Vectors x =
+      (mesh.positions * rotation<3>(angle).transpose()).rowwise() + Eigen::RowVector3d(3., -2., 7.);
     fabric.cloth.set_state(x, Vectors::Zero(x.rows(), 3), 0.);
     // Seven metres from the origin a position has lost two digits against the edges.
     EXPECT_LT(fabric.cloth.gradient().cwiseAbs().maxCoeff(), 1e-13 * anisotropic().norm()) << angle;
@@ -124,21 +124,21 @@ TEST(bound_cloth, energy_never_grows_with_damping_on)
 {
   for (const double h : {1e-4, 1e-3, 1e-2, 5e-2})
     for (const std::vector<int> &held : {std::vector<int>{0, 8}, std::vector<int>{}})
-  {
-    const meshes::ClothMesh mesh = lying_sheet(8);
-    Fabric fabric(mesh, held, {}, isotropic(1000., 0.3), 1e-3);
-    fabric.cloth.add(mass_damping_term(fabric.masses, 0.5));
-    fabric.cloth.set_state(mesh.positions, some_velocities(mesh.n_vertices(), 0.5, 11), 0.);
-    double energy = fabric.cloth.kinetic_energy() + fabric.cloth.stored_energy();
-    for (int k = 0; k < 100; ++k)
     {
-      fabric.cloth.step(h);
-      const double next = fabric.cloth.kinetic_energy() + fabric.cloth.stored_energy();
-      ASSERT_LE(next, energy * (1. + 1e-12)) 
-        << "h " << h << ", step " << k << (held.empty() ? ", free" : ", held");
-      energy = next;
+      const meshes::ClothMesh mesh = lying_sheet(8);
+      Fabric fabric(mesh, held, {}, isotropic(1000., 0.3), 1e-3);
+      fabric.cloth.add(mass_damping_term(fabric.masses, 0.5));
+      fabric.cloth.set_state(mesh.positions, some_velocities(mesh.n_vertices(), 0.5, 11), 0.);
+      double energy = fabric.cloth.kinetic_energy() + fabric.cloth.stored_energy();
+      for (int k = 0; k < 100; ++k)
+      {
+        fabric.cloth.step(h);
+        const double next = fabric.cloth.kinetic_energy() + fabric.cloth.stored_energy();
+        ASSERT_LE(next, energy * (1. + 1e-12))
+          << "h " << h << ", step " << k << (held.empty() ? ", free" : ", held");
+        energy = next;
+      }
     }
-  }
 }
 
 TEST(bound_cloth, a_sheet_clamped_on_four_sides_holds_and_the_warped_nodes_of_the_paper_fall)
@@ -169,9 +169,9 @@ TEST(bound_cloth, a_sheet_clamped_on_four_sides_holds_and_the_warped_nodes_of_th
 TEST(exact_cloth, a_hanging_strip_stretches_under_its_own_weight)
 {
   // nu = 0, one dimension: u(s) = rho g (L s − s²/2)/E below the held edge, E e = tension, linear in U.
-  const int n                  = 8;
-  const double side            = 0.2, young = 50., density = 0.2;
-  meshes::ClothMesh mesh       = lying_sheet(n);
+  const int n       = 8;
+  const double side = 0.2, young = 50., density = 0.2;
+  meshes::ClothMesh mesh = lying_sheet(n);
   Eigen::Matrix<double, 3, 2> standing;
   standing << 1., 0., 0., 0., 0., 1.;
   mesh = meshes::placed_sheet(mesh.rest, standing, Eigen::RowVector3d::Zero());
@@ -185,8 +185,9 @@ TEST(exact_cloth, a_hanging_strip_stretches_under_its_own_weight)
   double worst = 0.;
   for (int v = 0; v < mesh.n_vertices(); ++v)
   {
-    const double s        = side - mesh.rest.vertices(v, 1);
-    const double expected = mesh.positions(v, 2) - density * 9.81 / young * (side * s - 0.5 * s * s);
+    const double s = side - mesh.rest.vertices(v, 1);
+    const double expected =
+      mesh.positions(v, 2) - density * 9.81 / young * (side * s - 0.5 * s * s);
     worst = std::max(worst, std::abs(fabric.cloth.positions()(v, 2) - expected));
   }
   // Second order in the mesh: the sag at the lower edge is 0.785 mm.
@@ -249,26 +250,31 @@ TEST(exact_cloth, moving_handles_pull_the_cloth_along)
     const double part = std::min(1., double(k) / n);
     for (const int v : held)
       fabric.cloth.prescribe(
-        v, mesh.positions.row(v) * (Eigen::Matrix3d::Identity() + part * (F - Eigen::Matrix3d::Identity())).transpose());
+        v, mesh.positions.row(v) *
+             (Eigen::Matrix3d::Identity() + part * (F - Eigen::Matrix3d::Identity())).transpose());
     fabric.cloth.step(0.01);
   }
-  EXPECT_LT((fabric.cloth.positions() - mesh.positions * F.transpose()).cwiseAbs().maxCoeff(), 1e-7);
+  EXPECT_LT((fabric.cloth.positions() - mesh.positions * F.transpose()).cwiseAbs().maxCoeff(),
+            1e-7);
 }
 
 TEST(exact_cloth, a_state_that_is_set_again_goes_on_as_before)
 {
   const meshes::ClothMesh mesh = lying_sheet(6);
-  const auto run = [&](const bool interrupted)
+  const auto run               = [&](const bool interrupted)
   {
-    auto fabric = std::make_unique<Fabric>(mesh, std::vector<int>{0}, ClothOptions(), isotropic(100., 0.2), 0.01);
+    auto fabric = std::make_unique<Fabric>(mesh, std::vector<int>{0}, ClothOptions(),
+                                           isotropic(100., 0.2), 0.01);
     fabric->cloth.add(gravity_term(fabric->masses, earth));
     for (int k = 0; k < 30; ++k)
     {
       if (interrupted && k == 13)
       {
-        auto other = std::make_unique<Fabric>(mesh, std::vector<int>{0}, ClothOptions(), isotropic(100., 0.2), 0.01);
+        auto other = std::make_unique<Fabric>(mesh, std::vector<int>{0}, ClothOptions(),
+                                              isotropic(100., 0.2), 0.01);
         other->cloth.add(gravity_term(other->masses, earth));
-        other->cloth.set_state(fabric->cloth.positions(), fabric->cloth.velocities(), fabric->cloth.time());
+        other->cloth.set_state(fabric->cloth.positions(), fabric->cloth.velocities(),
+                               fabric->cloth.time());
         fabric = std::move(other);
       }
       fabric->cloth.step(0.01);
@@ -328,15 +334,17 @@ TEST(bound_cloth, violent_starts_end_finite)
     {
       Fabric fabric(mesh, {0, n}, {}, anisotropic(), 1e-3);
       Vectors start = starts[s];
-      start.row(0) = mesh.positions.row(0);
-      start.row(n) = mesh.positions.row(n);
+      start.row(0)  = mesh.positions.row(0);
+      start.row(n)  = mesh.positions.row(n);
       fabric.cloth.set_state(start, Vectors::Zero(start.rows(), 3), 0.);
       fabric.cloth.add(gravity_term(fabric.masses, earth));
       double most = fabric.cloth.stored_energy();
       for (int k = 0; k < 20; ++k)
         ASSERT_NO_THROW(fabric.cloth.step(h)) << "start " << s << ", h " << h << ", step " << k;
       EXPECT_TRUE(fabric.cloth.positions().allFinite());
-      EXPECT_LE(fabric.cloth.kinetic_energy() + fabric.cloth.stored_energy(), most + 1e-6 * std::abs(most) + 1e-3) << "start " << s << ", h " << h;
+      EXPECT_LE(fabric.cloth.kinetic_energy() + fabric.cloth.stored_energy(),
+                most + 1e-6 * std::abs(most) + 1e-3)
+        << "start " << s << ", h " << h;
     }
 }
 
@@ -370,12 +378,20 @@ TEST(bound_cloth, bad_input_is_refused_by_name)
     }
   };
   Fabric fabric(mesh, {1});
-  EXPECT_NE(refusal([&] { fabric.cloth.step(0.); }).find("expected a positive number"), std::string::npos);
-  EXPECT_NE(refusal([&] { fabric.cloth.prescribe(2, {0., 0., 0.}); }).find("vertex 2"), std::string::npos);
+  EXPECT_NE(refusal([&] { fabric.cloth.step(0.); }).find("expected a positive number"),
+            std::string::npos);
+  EXPECT_NE(refusal(
+              [&] {
+                fabric.cloth.prescribe(2, {0., 0., 0.});
+              })
+              .find("vertex 2"),
+            std::string::npos);
   EXPECT_NE(refusal([&] { Fabric(mesh, {99}); }).find("held vertex 99"), std::string::npos);
   Vectors x = mesh.positions;
   x(5, 1)   = std::numeric_limits<double>::quiet_NaN();
   EXPECT_NE(refusal([&] { Cloth(x, fabric.masses, {}); }).find("vertex 5"), std::string::npos);
-  EXPECT_NE(refusal([&] { lumped_masses(mesh, {-1.}); }).find("areal density of phase 0"), std::string::npos);
-  EXPECT_NE(refusal([&] { membrane_term(mesh, {anisotropic()}, -1.); }).find("viscosity"), std::string::npos);
+  EXPECT_NE(refusal([&] { lumped_masses(mesh, {-1.}); }).find("areal density of phase 0"),
+            std::string::npos);
+  EXPECT_NE(refusal([&] { membrane_term(mesh, {anisotropic()}, -1.); }).find("viscosity"),
+            std::string::npos);
 }

@@ -27,9 +27,9 @@ Eigen::Matrix3d layered()
 
 meshes::TriangleMesh sheet_of(const int n)
 {
-  meshes::TriangleMesh mesh = meshes::coarse_sheet(Eigen::RowVector2d::Zero(),
-                                                   side / n * Eigen::Matrix2d::Identity(), n, n);
-  mesh.material             = Eigen::VectorXi::Zero(mesh.n_triangles());
+  meshes::TriangleMesh mesh =
+    meshes::coarse_sheet(Eigen::RowVector2d::Zero(), side / n * Eigen::Matrix2d::Identity(), n, n);
+  mesh.material = Eigen::VectorXi::Zero(mesh.n_triangles());
   return mesh;
 }
 
@@ -54,16 +54,15 @@ double sag_of_reference(const int n, const unsigned int order)
   options.consistent_mass = order == 2;
   ClothReference reference(mesh, {layered()}, {density}, options, MPI_COMM_WORLD);
   const auto lying = [](const Eigen::RowVector2d &X) { return Eigen::RowVector3d(X(0), X(1), 0.); };
-  reference.start(
-    lying,
-    [&](const Eigen::RowVector2d &X, double) -> std::optional<Eigen::RowVector3d>
-    {
-      const double edge = 1e-9;
-      if (X.minCoeff() < edge || X.maxCoeff() > side - edge)
-        return lying(X);
-      return std::nullopt;
-    },
-    {{0., 0., -9.81}, 0.});
+  reference.start(lying,
+                  [&](const Eigen::RowVector2d &X, double) -> std::optional<Eigen::RowVector3d>
+                  {
+                    const double edge = 1e-9;
+                    if (X.minCoeff() < edge || X.maxCoeff() > side - edge)
+                      return lying(X);
+                    return std::nullopt;
+                  },
+                  {{0., 0., -9.81}, 0.});
   const ClothStep step = reference.solve_equilibrium(0.);
   EXPECT_TRUE(step.reached) << step.why;
   return reference.positions()(n / 2 * (n + 1) + n / 2, 2);
@@ -81,6 +80,6 @@ TEST(exact_clamped_sheet, the_shell_and_the_reference_agree_within_their_error_b
   EXPECT_LT(std::abs(fine - p2), 1.5 * bar + bar_of_p2);
   EXPECT_LT(bar, 0.02 * std::abs(fine));
   RecordProperty("sag_mm", std::to_string(1e3 * p2));
-  std::printf("sag at the middle: shell 20 x 20 %.6f mm (bar %.6f), P2 %.6f mm (bar %.6f)\n", 1e3 * fine,
-              1e3 * bar, 1e3 * p2, 1e3 * bar_of_p2);
+  std::printf("sag at the middle: shell 20 x 20 %.6f mm (bar %.6f), P2 %.6f mm (bar %.6f)\n",
+              1e3 * fine, 1e3 * bar, 1e3 * p2, 1e3 * bar_of_p2);
 }
