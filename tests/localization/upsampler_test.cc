@@ -2,6 +2,7 @@
 #include "localization/upsampler.h"
 #include "meshes/errors.h"
 #include "tests/localization/localization_cases.h"
+#include "tests/refusal.h"
 
 #include <gtest/gtest.h>
 
@@ -9,6 +10,7 @@
 
 using namespace homespun;
 using namespace homespun::localization;
+using homespun::tests::refusal;
 
 namespace
 {
@@ -67,20 +69,6 @@ std::vector<Positions<dim>> collapsed_motions(const meshes::Points &rest)
   motions.push_back(tests::wavy_motion<dim>(rest));
   motions.back()(3, 0) = 1e6;
   return motions;
-}
-
-template <typename Action>
-std::string refusal(const Action &action)
-{
-  try
-  {
-    action();
-    return "";
-  }
-  catch (const meshes::BadInput &fault)
-  {
-    return fault.what();
-  }
 }
 } // namespace
 

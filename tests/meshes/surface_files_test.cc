@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "meshes/errors.h"
 #include "meshes/surface_files.h"
+#include "tests/refusal.h"
 
 #include <gtest/gtest.h>
 
@@ -16,6 +17,7 @@
 
 using namespace homespun;
 using namespace homespun::meshes;
+using homespun::tests::refusal;
 
 namespace
 {
@@ -53,19 +55,6 @@ Number number_at(const std::string &bytes, const std::size_t place)
   Number number;
   std::memcpy(&number, bytes.data() + place, sizeof(number));
   return number;
-}
-
-std::string refusal(const std::function<void()> &action)
-{
-  try
-  {
-    action();
-    return "";
-  }
-  catch (const BadInput &fault)
-  {
-    return fault.what();
-  }
 }
 
 struct Sample

@@ -2,6 +2,7 @@
 #include "shell/bending.h"
 
 #include "meshes/errors.h"
+#include "tests/refusal.h"
 #include "tests/shell/term_cases.h"
 
 #include <gtest/gtest.h>
@@ -10,6 +11,7 @@
 
 using namespace homespun;
 using namespace homespun::shell;
+using homespun::tests::refusal;
 
 namespace
 {
@@ -73,20 +75,6 @@ Vectors crumpled(const meshes::ClothMesh &mesh, const double distance)
 {
   std::mt19937 generator(3);
   return mesh.positions + distance * tests::random_matrix<Vectors>(generator, mesh.n_vertices(), 3);
-}
-
-template <typename Action>
-std::string refusal(const Action &action)
-{
-  try
-  {
-    action();
-    return "";
-  }
-  catch (const meshes::BadInput &fault)
-  {
-    return fault.what();
-  }
 }
 } // namespace
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "meshes/errors.h"
 #include "shell/warping.h"
+#include "tests/refusal.h"
 #include "tests/shell/cloth_cases.h"
 
 #include <gtest/gtest.h>
@@ -365,18 +366,6 @@ TEST(invariant_cloth, warped_triangles_have_no_force_in_rigid_motion_and_know_th
 TEST(bound_cloth, bad_input_is_refused_by_name)
 {
   const meshes::ClothMesh mesh = lying_sheet(3);
-  const auto refusal           = [](const auto &action)
-  {
-    try
-    {
-      action();
-      return std::string();
-    }
-    catch (const meshes::BadInput &bad)
-    {
-      return std::string(bad.what());
-    }
-  };
   Fabric fabric(mesh, {1});
   EXPECT_NE(refusal([&] { fabric.cloth.step(0.); }).find("expected a positive number"),
             std::string::npos);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "meshes/errors.h"
+#include "tests/refusal.h"
 #include "tests/shell/shell_cases.h"
 
 #include <gtest/gtest.h>
@@ -8,6 +9,7 @@
 
 using namespace homespun;
 using namespace homespun::shell;
+using homespun::tests::refusal;
 
 namespace
 {
@@ -29,20 +31,6 @@ Positions<2> pulled(const meshes::TriangleMesh &mesh, const int n, const double 
   for (int i = 0; i <= n; ++i)
     x(n * (n + 1) + i, 1) += displacement;
   return x;
-}
-
-template <typename Action>
-std::string refusal(const Action &action)
-{
-  try
-  {
-    action();
-    return "";
-  }
-  catch (const std::runtime_error &fault)
-  {
-    return fault.what();
-  }
 }
 } // namespace
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "meshes/errors.h"
+#include "tests/refusal.h"
 #include "tests/shell/shell_cases.h"
 
 #include <gtest/gtest.h>
@@ -8,6 +9,7 @@
 
 using namespace homespun;
 using namespace homespun::shell;
+using homespun::tests::refusal;
 
 namespace
 {
@@ -90,20 +92,6 @@ void assembled_derivatives()
   }
   EXPECT_NEAR(tests::slope(steps, two), 2., 0.1);
   EXPECT_NEAR(tests::slope(steps, three), 3., 0.1);
-}
-
-template <typename Action>
-std::string refusal(const Action &action)
-{
-  try
-  {
-    action();
-    return "";
-  }
-  catch (const meshes::BadInput &fault)
-  {
-    return fault.what();
-  }
 }
 } // namespace
 

@@ -2,6 +2,7 @@
 #include "shell/obstacles.h"
 
 #include "meshes/errors.h"
+#include "tests/refusal.h"
 #include "tests/shell/solids.h"
 #include "tests/shell/term_cases.h"
 
@@ -11,6 +12,7 @@
 
 using namespace homespun;
 using namespace homespun::shell;
+using homespun::tests::refusal;
 
 namespace
 {
@@ -76,20 +78,6 @@ std::shared_ptr<const Shape> thin_plate(const Eigen::Vector3d &half = {0.5, 0.5,
 {
   const tests::Solid solid = tests::box(half);
   return closed_mesh(ClosedSurface(solid.vertices, solid.triangles, "plate"));
-}
-
-template <typename Action>
-std::string refusal(const Action &action)
-{
-  try
-  {
-    action();
-    return "";
-  }
-  catch (const meshes::BadInput &fault)
-  {
-    return fault.what();
-  }
 }
 } // namespace
 
