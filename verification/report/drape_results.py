@@ -45,6 +45,11 @@ class Drape:
     def scene(self):
         return self.info["scene"]
 
+    def obstacles(self):
+        """Path of the bodies that the cloth meets, or None."""
+        path = os.path.join(self.folder, "obstacles.vtu")
+        return path if os.path.isfile(path) else None
+
     def parameters(self):
         """[(key, value)], keys of inner objects joined by a slash."""
         return list(flat(self.info.get("parameters") or {}))
@@ -124,6 +129,9 @@ def check_scene(value, path, faults):
                           f"false. {AGAIN}")
     for cell in check_list(value, "cells", ("cell",), path, faults):
         where = f"{path}: cell `{cell['cell']}`"
+        phases = cell.get("phases")
+        if phases is not None and not (isinstance(phases, list) and all(isinstance(name, str) for name in phases)):
+            faults.append(f"{where}: key `phases` is not a list of names. {AGAIN}")
         check_list(cell, "runs", ("variant", "folder"), where, faults)
         check_list(cell, "references", ("reference", "folder"), where, faults)
         if cell.get("C") is not None and not is_stiffness(cell["C"]):
