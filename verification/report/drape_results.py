@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 
 import numpy
 
-from stored import latest, read_csv, read_json
+from stored import is_stiffness, latest, read_csv, read_json
 from vtu import BadFrame, read_pvd
 
 AGAIN = "Run `homespun drape` again."
@@ -134,14 +134,8 @@ def check_scene(value, path, faults):
             faults.append(f"{where}: key `phases` is not a list of names. {AGAIN}")
         check_list(cell, "runs", ("variant", "folder"), where, faults)
         check_list(cell, "references", ("reference", "folder"), where, faults)
-        matrix = cell.get("C")
-        if matrix is not None:
-            try:
-                array = numpy.array(matrix, dtype=float)
-            except (TypeError, ValueError):
-                array = numpy.empty(0)
-            if array.shape != (3, 3) or not numpy.isfinite(array).all():
-                faults.append(f"{where}: key `C` is not a 3 x 3 matrix of finite numbers. {AGAIN}")
+        if cell.get("C") is not None and not is_stiffness(cell["C"]):
+            faults.append(f"{where}: key `C` is not a 3 x 3 matrix of finite numbers. {AGAIN}")
     return value if len(faults) == before else None
 
 
