@@ -7,11 +7,11 @@ import math
 import numpy
 
 TEXT_COLUMNS = {"cell", "load", "reference", "method", "scene", "variant", "term", "present", "group", "case",
-                "expected", "outcome", "verdict"}
+                "expected", "outcome", "verdict", "parameter"}
 FREE_TEXT_COLUMNS = {"figure", "limit"}  # may be empty
 NEEDED_NUMBERS = {"strain"}  # above zero; every other number may be empty or nan
 TIMES = {"time_s"}           # needed, zero or above
-SIGNED_NUMBERS = {"centre_x_m", "centre_y_m", "centre_z_m", "stored_J"}
+SIGNED_NUMBERS = {"value", "centre_x_m", "centre_y_m", "centre_z_m", "stored_J"}
 VERDICTS = ("PASS", "FAIL", "INCONCLUSIVE")
 RESUME = "Remove the line and run the study again with --resume."
 
