@@ -97,7 +97,8 @@ OrderJudgement judge_errors(const std::vector<double> &h, const std::vector<doub
 {
   const auto finished = [&](OrderJudgement result)
   {
-    result.limit = text_of(limit);
+    result.limits = limit;
+    result.limit  = text_of(limit);
     result.observed.resize(errors.size(), none);
     return result;
   };
@@ -216,6 +217,7 @@ OrderJudgement judge_values(const std::vector<double> &h, const std::vector<doub
                             const OrderLimit &limit, const double floor)
 {
   OrderJudgement result = judgement(Outcome::inconclusive, "");
+  result.limits         = limit;
   result.limit          = text_of(limit);
   result.observed.assign(values.size(), none);
   if (const std::string fault = fault_of(h, values); !fault.empty())

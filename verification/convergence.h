@@ -55,9 +55,9 @@ struct OrderJudgement
   double spread = 0.;
   /// Per level: the order between the level before and this one; not a number where there is none.
   std::vector<double> observed;
-  std::string why; ///< one clause, without commas
-
-  std::string limit; ///< as text
+  std::string why;              ///< one clause, without commas
+  OrderLimit limits = {0., 0.}; ///< what it was judged against
+  std::string limit;            ///< the same as text
 };
 
 /// Judges errors against a known value.

@@ -61,7 +61,7 @@ void FineReference::constrain(const Load &load)
   constraints.close();
 }
 
-void FineReference::start(const Load &new_load, const Law new_law)
+void FineReference::start(const Load &new_load, const Law new_law, BodyForce new_body_force)
 {
   if (!load || load->name != new_load.name)
   {
@@ -70,7 +70,9 @@ void FineReference::start(const Load &new_load, const Law new_law)
     constrain(*load);
     solver = std::make_unique<homogenization::ElasticSolver>(discretization, constraints);
   }
-  law = new_law;
+  law        = new_law;
+  body_force = std::move(new_body_force);
+  body_load.clear();
   levels.clear();
   seconds_of_linear_solve = 0.;
 }
@@ -188,7 +190,12 @@ FineReference::State FineReference::assemble(const Vector &displacement,
   residual.compress(VectorOperation::add);
   if (with_matrix)
     solver->matrix.compress(VectorOperation::add);
-  state.energy     = Utilities::MPI::sum(state.energy, discretization.communicator);
+  state.energy = Utilities::MPI::sum(state.energy, discretization.communicator);
+  if (body_force)
+  {
+    residual.add(-1., body_load);
+    state.energy -= body_load * displacement;
+  }
   state.n_inverted = Utilities::MPI::sum(state.n_inverted, discretization.communicator);
   state.force_size = std::sqrt(Utilities::MPI::sum(state.force_size, discretization.communicator));
   state.residual   = residual.l2_norm();
@@ -230,6 +237,13 @@ void FineReference::solve(Vector &displacement, const double strain, ReferenceSt
 {
   const Eigen::Matrix2d mean_gradient =
     load->is_periodic() ? load->gradient(strain) : Eigen::Matrix2d::Identity();
+  if (body_force)
+    body_load = load_vector(discretization, constraints,
+                            [&](const Eigen::RowVector2d &point)
+                            {
+                              const Eigen::RowVector2d force = body_force(point, strain);
+                              return FieldValue(force(0), force(1), 0.);
+                            });
   Vector residual = solver->owned_vector(), increment = solver->owned_vector();
   Vector trial = solver->owned_vector();
   State state  = evaluate(displacement, mean_gradient, residual, false, false);
@@ -338,6 +352,12 @@ ReferenceStep FineReference::advance(const double strain)
     step.seconds = std::max(step.seconds, seconds_of_linear_solve);
   }
   return step;
+}
+
+FieldDistance FineReference::distance_from(const KnownField &known) const
+{
+  AssertThrow(!levels.empty(), ExcMessage("no level has been solved"));
+  return distance(discretization, levels.back().displacement, known, load->is_periodic());
 }
 
 meshes::Points FineReference::positions_of(const Vector &displacement, const double strain) const
