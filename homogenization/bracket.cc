@@ -69,16 +69,16 @@ Bracket bracket(const TorusMesh &mesh, const std::vector<Eigen::Matrix3d> &stiff
   {
     const TorusTriangle &triangle = mesh.triangles[at(t)];
     const auto shape              = triangle.shape(mesh.edges);
-    const double area = 0.5 * (shape[1](0) * shape[2](1) - shape[1](1) * shape[2](0));
+    const double area             = 0.5 * (shape[1](0) * shape[2](1) - shape[1](1) * shape[2](0));
     const FieldOfLoads stress = below.stress(t) * mean_stress, strain = above.strain(t);
     for (int q = 0; q < n_field_points; ++q)
     {
-      const Eigen::Matrix3d gap = stress.middleRows<3>(3 * q) - stiffness_of_material[at(triangle.material)] *
-                                                                  strain.middleRows<3>(3 * q);
-      result.gaps(t) += area / n_field_points *
-                        (gap.transpose() * compliances[at(triangle.material)] * gap)
-                          .cwiseProduct(weights)
-                          .sum();
+      const Eigen::Matrix3d gap =
+        stress.middleRows<3>(3 * q) -
+        stiffness_of_material[at(triangle.material)] * strain.middleRows<3>(3 * q);
+      result.gaps(t) +=
+        area / n_field_points *
+        (gap.transpose() * compliances[at(triangle.material)] * gap).cwiseProduct(weights).sum();
     }
   }
   return result;
@@ -123,10 +123,10 @@ AdaptiveBracket adaptive_bracket(const meshes::TriangleMesh &mesh, const meshes:
                                                                           : Ending::max_dofs;
     if (result.ending != Ending::max_dofs)
       return result;
-    TorusMesh finer =
-      bisected(result.mesh, largest_gaps(result.bracket.gaps, options.marked_part));
-    const int n_dofs = std::max(3 * finer.n_vertices + finer.n_edges(),
-                                2 * (finer.n_vertices + (options.order == 2 ? finer.n_edges() : 0)));
+    TorusMesh finer = bisected(result.mesh, largest_gaps(result.bracket.gaps, options.marked_part));
+    const int n_dofs =
+      std::max(3 * finer.n_vertices + finer.n_edges(),
+               2 * (finer.n_vertices + (options.order == 2 ? finer.n_edges() : 0)));
     if (n_dofs > static_cast<int>(options.max_dofs))
       return result;
     result.mesh = std::move(finer);

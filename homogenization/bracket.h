@@ -19,12 +19,12 @@ struct Bracket
 {
   Eigen::Matrix3d lower, upper; ///< round-off of the evaluation added on the outside
   /// Largest v.(upper − lower).v / v.upper.v: by how much any energy can be wrong, relative.
-  double width = 0.;
+  double width     = 0.;
   double round_off = 0.; ///< what was added, relative: the width is never below it
   double excess    = 0.; ///< how far the two energies lie above their minima on this mesh, relative
 
-  Eigen::Matrix3d stiffness;         ///< energies of the displacements, nothing added [N/m]
-  Eigen::Matrix3d stiffness_by_flux; ///< their mean stresses [N/m]
+  Eigen::Matrix3d stiffness;               ///< energies of the displacements, nothing added [N/m]
+  Eigen::Matrix3d stiffness_by_flux;       ///< their mean stresses [N/m]
   meshes::CharacteristicDisplacements chi; ///< at the vertices of the given mesh [m]
   unsigned n_triangles = 0, n_displacement_dofs = 0, n_stress_dofs = 0, iterations = 0;
 
@@ -49,10 +49,10 @@ std::vector<char> largest_gaps(const Eigen::VectorXd &gaps, double part);
 
 struct AdaptiveOptions
 {
-  unsigned order       = 2;       ///< of the displacement elements
-  double tolerance     = 1e-3;    ///< stop at this relative width
-  unsigned max_dofs    = 1000000; ///< of the larger of the two problems: no finer mesh is solved
-  double marked_part   = 0.6;     ///< of the gaps, refined in each step
+  unsigned order     = 2;       ///< of the displacement elements
+  double tolerance   = 1e-3;    ///< stop at this relative width
+  unsigned max_dofs  = 1000000; ///< of the larger of the two problems: no finer mesh is solved
+  double marked_part = 0.6;     ///< of the gaps, refined in each step
 };
 
 /// Why an adaptive bracket ended.

@@ -6,7 +6,6 @@
 #include <Eigen/CholmodSupport>
 
 #include <cmath>
-#include <limits>
 #include <vector>
 
 namespace homespun::homogenization
@@ -33,7 +32,7 @@ CholeskySolver::CholeskySolver(const Eigen::SparseMatrix<double> &lower_triangle
     for (Eigen::SparseMatrix<double>::InnerIterator entry(scaled, column); entry; ++entry)
       entry.valueRef() *= scale(entry.row()) * scale(column);
 
-  auto &cholmod = factorization->of_cholmod;
+  auto &cholmod           = factorization->of_cholmod;
   cholmod.cholmod().print = 0;
   cholmod.setMode(Eigen::CholmodSupernodalLLt);
   cholmod.analyzePattern(scaled);
@@ -56,58 +55,62 @@ CholeskySolver::~CholeskySolver() = default;
 
 CholeskySolver::Solution CholeskySolver::solve(const Eigen::MatrixXd &right_hand_sides) const
 {
-  const auto &cholmod = factorization->of_cholmod;
-  const auto matrix   = scaled.selfadjointView<Eigen::Lower>();
+  // Conjugate gradients for all loads abreast: the factors are read once for all of them. r.z is the
+  // square of the distance to the solution in the energy norm, as far as the factors are those of the matrix.
+  const auto &cholmod        = factorization->of_cholmod;
+  const auto matrix          = scaled.selfadjointView<Eigen::Lower>();
+  const Eigen::MatrixXd b    = scale.asDiagonal() * right_hand_sides;
+  const Eigen::Index n_loads = b.cols();
+  Eigen::MatrixXd x = Eigen::MatrixXd::Zero(b.rows(), n_loads), best = x, direction = x;
+  Eigen::MatrixXd residual = b;
+  Eigen::ArrayXd energy = Eigen::ArrayXd::Zero(n_loads), product = energy, smallest = energy;
+  std::vector<double> history;
   Solution solution;
-  solution.values.resize(right_hand_sides.rows(), right_hand_sides.cols());
-  constexpr unsigned max_iterations = 100;
-  for (Eigen::Index load = 0; load < right_hand_sides.cols(); ++load)
+  constexpr unsigned max_iterations = 100, patience = 2;
+  constexpr double enough = 1e-18;
+  unsigned since_best     = 0;
+  for (unsigned iteration = 0;; ++iteration)
   {
-    const Eigen::VectorXd b = scale.cwiseProduct(right_hand_sides.col(load));
-    Eigen::VectorXd x       = Eigen::VectorXd::Zero(b.size()), best = x;
-    Eigen::VectorXd residual = b, direction;
-    double energy = 0., product = 0., smallest = std::numeric_limits<double>::infinity();
-    std::vector<double> history;
-    unsigned since_best = 0;
-    for (unsigned iteration = 0; b.squaredNorm() > 0.; ++iteration)
-    {
-      // r.z is the square of the distance to the solution in the energy norm, as far as the factors are those
-      // of the matrix.
-      const Eigen::VectorXd preconditioned = cholmod.solve(residual);
-      const double old_product             = product;
-      product                              = residual.dot(preconditioned);
-      energy                               = std::max(energy, product);
-      history.push_back(product / energy);
-      if (!std::isfinite(product))
-        throw meshes::NotConverged(what + ": the solution is not finite", history);
-      if (std::abs(product) < smallest)
+    const Eigen::MatrixXd preconditioned = cholmod.solve(residual);
+    const Eigen::ArrayXd old_product     = product;
+    product = residual.cwiseProduct(preconditioned).colwise().sum().transpose().array();
+    if (!product.allFinite())
+      throw meshes::NotConverged(what + ": the solution is not finite", history);
+    if (iteration == 0)
+      energy = smallest = product;
+    history.push_back((product / (energy > 0.).select(energy, 1.)).abs().maxCoeff());
+    ++since_best;
+    for (Eigen::Index load = 0; load < n_loads; ++load)
+      if (iteration > 0 && std::abs(product(load)) < smallest(load))
       {
-        smallest   = std::abs(product);
-        best       = x;
-        since_best = 0;
+        smallest(load) = std::abs(product(load));
+        best.col(load) = x.col(load);
+        since_best     = 0;
       }
-      else
-        ++since_best;
-      solution.iterations = std::max(solution.iterations, iteration);
-      if (smallest <= 1e-28 * energy || since_best > 3 || iteration == max_iterations)
-        break;
-      direction =
-        iteration == 0 ? preconditioned
-                       : Eigen::VectorXd(preconditioned + product / old_product * direction);
-      const Eigen::VectorXd image = matrix * direction;
-      const double curvature      = direction.dot(image);
-      if (!(curvature > 0.))
-        break;
-      x += product / curvature * direction;
-      // The true residual: what the recursion loses to round-off counts here.
-      residual = b - matrix * x;
+    solution.iterations = iteration;
+    if ((smallest <= enough * energy).all() || since_best > patience || iteration == max_iterations)
+      break;
+    for (Eigen::Index load = 0; load < n_loads; ++load)
+    {
+      if (!(product(load) > 0.))
+        continue;
+      const double memory =
+        iteration == 0 || !(old_product(load) > 0.) ? 0. : product(load) / old_product(load);
+      direction.col(load)         = preconditioned.col(load) + memory * direction.col(load);
+      const Eigen::VectorXd image = matrix * direction.col(load);
+      const double curvature      = direction.col(load).dot(image);
+      if (curvature > 0.)
+        x.col(load) += product(load) / curvature * direction.col(load);
+      // The true residual: what a recursion loses to round-off counts here.
+      residual.col(load) = b.col(load) - matrix * x.col(load);
     }
-    if (energy > 0.)
-      solution.excess = std::max(solution.excess, smallest / energy);
-    if (solution.excess > 1e-3)
-      throw meshes::NotConverged(what + ": conjugate gradients do not settle", history);
-    solution.values.col(load) = scale.cwiseProduct(best);
   }
+  for (Eigen::Index load = 0; load < n_loads; ++load)
+    if (energy(load) > 0.)
+      solution.excess = std::max(solution.excess, smallest(load) / energy(load));
+  if (solution.excess > 1e-3)
+    throw meshes::NotConverged(what + ": conjugate gradients do not settle", history);
+  solution.values = scale.asDiagonal() * best;
   return solution;
 }
 } // namespace homespun::homogenization

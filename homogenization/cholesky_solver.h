@@ -16,7 +16,7 @@ public:
   struct Solution
   {
     Eigen::MatrixXd values;  ///< (n, loads)
-    double excess       = 0.; ///< how far the energy of any of them lies above its minimum, relative
+    double excess = 0.;      ///< how far the energy of any of them lies above its minimum, relative
     unsigned iterations = 0; ///< of the conjugate gradients, the largest of all loads
   };
 

@@ -12,8 +12,8 @@ CloughTocher::CloughTocher(const std::array<Eigen::Vector2d, 3> &vertices,
   /// The ordinate a third of the way from a vertex along a direction: value + gradient . third.
   const auto towards = [](const std::size_t vertex, const Eigen::Vector2d &third)
   {
-    Row row                                            = Row::Zero();
-    row(static_cast<Eigen::Index>(3 * vertex))         = 1.;
+    Row row                                                   = Row::Zero();
+    row(static_cast<Eigen::Index>(3 * vertex))                = 1.;
     row.segment<2>(static_cast<Eigen::Index>(3 * vertex + 1)) = third.transpose();
     return row;
   };
@@ -40,8 +40,8 @@ CloughTocher::CloughTocher(const std::array<Eigen::Vector2d, 3> &vertices,
     const std::size_t next          = (k + 1) % 3;
     const Eigen::RowVector3d normal = normals[k].transpose() * gradients[k];
     const double a = normal(0), b = normal(1), c = normal(2);
-    Row derivative                                    = Row::Zero();
-    derivative(static_cast<Eigen::Index>(9 + k))      = 1.;
+    Row derivative                               = Row::Zero();
+    derivative(static_cast<Eigen::Index>(9 + k)) = 1.;
     const Row rest = 0.25 * (a * corners[k] + b * sides[k][0] + c * spokes[k]) +
                      0.5 * (a * sides[k][0] + b * sides[k][1]) +
                      0.25 * (a * sides[k][1] + b * corners[next] + c * spokes[next]);
@@ -57,8 +57,8 @@ CloughTocher::CloughTocher(const std::array<Eigen::Vector2d, 3> &vertices,
 const CloughTocher::Row &CloughTocher::ordinate(const int piece,
                                                 const std::array<int, 3> powers) const
 {
-  const auto k      = static_cast<std::size_t>(piece);
-  const auto next   = (k + 1) % 3;
+  const auto k         = static_cast<std::size_t>(piece);
+  const auto next      = (k + 1) % 3;
   const auto [i, j, l] = powers;
   if (l == 3)
     return centre;
@@ -75,16 +75,17 @@ CloughTocher::value_and_gradient(const int piece, const Eigen::Vector3d &barycen
   // f = sum 3!/(i! j! l!) b_ijl u^i v^j w^l; its derivative by a coordinate takes one power away.
   Row value                                  = Row::Zero();
   Eigen::Matrix<double, 3, 12> by_coordinate = Eigen::Matrix<double, 3, 12>::Zero();
-  const auto factorial                       = [](const int n) { return n < 2 ? 1 : n == 2 ? 2 : 6; };
-  const auto power                           = [](const double x, const int n)
-  { return n == 0 ? 1. : n == 1 ? x : n == 2 ? x * x : x * x * x; };
+  const auto factorial = [](const int n) { return n < 2 ? 1 : n == 2 ? 2 : 6; };
+  const auto power     = [](const double x, const int n) {
+    return n == 0 ? 1. : n == 1 ? x : n == 2 ? x * x : x * x * x;
+  };
   for (int i = 0; i <= 3; ++i)
     for (int j = 0; i + j <= 3; ++j)
     {
       const std::array<int, 3> powers = {i, j, 3 - i - j};
-      const double multiplicity = 6. / (factorial(i) * factorial(j) * factorial(3 - i - j));
-      const Row &b              = ordinate(piece, powers);
-      double monomial           = multiplicity;
+      const double multiplicity       = 6. / (factorial(i) * factorial(j) * factorial(3 - i - j));
+      const Row &b                    = ordinate(piece, powers);
+      double monomial                 = multiplicity;
       for (int r = 0; r < 3; ++r)
         monomial *= power(barycentric(r), powers[static_cast<std::size_t>(r)]);
       value += monomial * b;
@@ -98,7 +99,7 @@ CloughTocher::value_and_gradient(const int piece, const Eigen::Vector3d &barycen
         }
     }
   Eigen::Matrix<double, 3, 12> result;
-  result.row(0)        = value;
+  result.row(0)          = value;
   result.bottomRows<2>() = gradients[static_cast<std::size_t>(piece)] * by_coordinate;
   return result;
 }

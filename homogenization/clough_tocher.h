@@ -41,8 +41,9 @@ private:
   /// The ordinate of a piece with the given powers of its three barycentric coordinates, sum 3.
   const Row &ordinate(int piece, std::array<int, 3> powers) const;
 
-  std::array<Row, 3> corners, spokes, inner, middles; ///< at vertices, 1/3 and 2/3 of the way to the centroid, of the sides
-  std::array<std::array<Row, 2>, 3> sides;            ///< at 1/3 and 2/3 of each side
+  std::array<Row, 3> corners, spokes, inner,
+    middles; ///< at vertices, 1/3 and 2/3 of the way to the centroid, of the sides
+  std::array<std::array<Row, 2>, 3> sides; ///< at 1/3 and 2/3 of each side
   Row centre;
   /// Gradients of the barycentric coordinates of each piece, one per column.
   std::array<Eigen::Matrix<double, 2, 3>, 3> gradients;

@@ -21,7 +21,8 @@ std::size_t at(const int index)
 /// The 3 x 2n strain-displacement matrix B at a point. P2 shapes 3, 4, 5 stand on the edges 0, 1, 2.
 template <int n_shapes>
 Eigen::Matrix<double, 3, 2 * n_shapes>
-strain_displacement(const Eigen::Matrix<double, 3, 2> &gradients, const Eigen::Vector3d &barycentric)
+strain_displacement(const Eigen::Matrix<double, 3, 2> &gradients,
+                    const Eigen::Vector3d &barycentric)
 {
   Eigen::Matrix<double, 3, 2 * n_shapes> B;
   for (int i = 0; i < n_shapes; ++i)
@@ -74,11 +75,12 @@ void CompatibleStrain::assemble_and_solve()
   const int n_unknowns = 2 * (mesh.n_vertices + (order == 2 ? mesh.n_edges() : 0));
   const int pinned     = 2 * mesh.anchor;
   n_dofs               = static_cast<unsigned>(n_unknowns - 2);
-  const auto row_of    = [pinned](const int unknown)
-  { return unknown < pinned ? unknown : unknown < pinned + 2 ? -1 : unknown - 2; };
+  const auto row_of    = [pinned](const int unknown) {
+    return unknown < pinned ? unknown : unknown < pinned + 2 ? -1 : unknown - 2;
+  };
   std::vector<Eigen::Triplet<double>> entries;
   entries.reserve(static_cast<std::size_t>(n_shapes * (2 * n_shapes + 1)) * mesh.triangles.size());
-  Eigen::MatrixXd loads = Eigen::MatrixXd::Zero(n_dofs, 3);
+  Eigen::MatrixXd loads        = Eigen::MatrixXd::Zero(n_dofs, 3);
   const Eigen::Vector3d thirds = Eigen::Vector3d::Constant(1. / 3.);
   for (int t = 0; t < mesh.n_triangles(); ++t)
   {
@@ -117,7 +119,7 @@ void CompatibleStrain::assemble_and_solve()
   }
   Eigen::SparseMatrix<double> matrix(n_dofs, n_dofs);
   matrix.setFromTriplets(entries.begin(), entries.end());
-  entries = {};
+  entries                                 = {};
   const CholeskySolver::Solution solution = CholeskySolver(matrix, "cell problems").solve(loads);
   unknowns.setZero(n_unknowns, 3);
   for (int unknown = 0; unknown < n_unknowns; ++unknown)
@@ -134,8 +136,8 @@ FieldOfLoads CompatibleStrain::strain_of(const int t, FieldOfLoads *const bar) c
   // Differences from vertex 0: the translation has no strain.
   Eigen::Matrix<double, 2 * n_shapes, 3> chi;
   for (int i = 0; i < n_shapes; ++i)
-    chi.template middleRows<2>(2 * i) = unknowns.middleRows<2>(first_unknown(t, i)) -
-                                        unknowns.middleRows<2>(first_unknown(t, 0));
+    chi.template middleRows<2>(2 * i) =
+      unknowns.middleRows<2>(first_unknown(t, i)) - unknowns.middleRows<2>(first_unknown(t, 0));
   FieldOfLoads field;
   for (int q = 0; q < n_field_points; ++q)
   {
@@ -154,8 +156,8 @@ FieldOfLoads CompatibleStrain::strain(const int triangle) const
 
 void CompatibleStrain::evaluate()
 {
-  using Sum           = Eigen::Matrix<long double, 3, 3>;
-  Sum energy          = Sum::Zero(), flux = Sum::Zero();
+  using Sum  = Eigen::Matrix<long double, 3, 3>;
+  Sum energy = Sum::Zero(), flux = Sum::Zero();
   Eigen::Array3d bars = Eigen::Array3d::Zero();
   for (int t = 0; t < mesh.n_triangles(); ++t)
   {
@@ -171,8 +173,9 @@ void CompatibleStrain::evaluate()
       energy += (strain.transpose() * stress).cast<long double>();
       flux += stress.cast<long double>();
       const Eigen::Matrix3d wrong = bar.middleRows<3>(3 * q) + epsilon * strain.cwiseAbs();
-      bars += 2. * weight *
-              (strain.cwiseAbs().cwiseProduct(c.cwiseAbs() * wrong)).colwise().sum().transpose().array();
+      bars +=
+        2. * weight *
+        (strain.cwiseAbs().cwiseProduct(c.cwiseAbs() * wrong)).colwise().sum().transpose().array();
     }
   }
   const auto averaged = [this](const Sum &sum) -> Eigen::Matrix3d
@@ -190,7 +193,8 @@ meshes::CharacteristicDisplacements CompatibleStrain::chi_at_given_vertices() co
   for (Eigen::Index v = 0; v < n; ++v)
     for (int a = 0; a < 3; ++a)
       for (int c = 0; c < 2; ++c)
-        chi(v, 2 * a + c) = unknowns(2 * mesh.vertex_of_original[static_cast<std::size_t>(v)] + c, a);
+        chi(v, 2 * a + c) =
+          unknowns(2 * mesh.vertex_of_original[static_cast<std::size_t>(v)] + c, a);
   return chi;
 }
 } // namespace homespun::homogenization

@@ -18,8 +18,8 @@ class CompatibleStrain
 public:
   /// @param order 1 or 2
   /// @throws NotConverged where the matrix is singular
-  CompatibleStrain(const TorusMesh &mesh,
-                   const std::vector<Eigen::Matrix3d> &stiffness_of_material, unsigned order);
+  CompatibleStrain(const TorusMesh &mesh, const std::vector<Eigen::Matrix3d> &stiffness_of_material,
+                   unsigned order);
 
   /// e − eps(chi) at the field points of a triangle under the three unit macro strains.
   FieldOfLoads strain(int triangle) const;
@@ -29,8 +29,8 @@ public:
 
   Eigen::Matrix3d stiffness;         ///< the energies [N/m]
   Eigen::Matrix3d stiffness_by_flux; ///< the mean stresses (Eq. 4) [N/m]
-  double round_off;                  ///< bound on the error of the energies, relative to the diagonal
-  double excess;                     ///< of the energy above that of the exact minimiser, relative
+  double round_off; ///< bound on the error of the energies, relative to the diagonal
+  double excess;    ///< of the energy above that of the exact minimiser, relative
   unsigned n_dofs;
   unsigned iterations;
 

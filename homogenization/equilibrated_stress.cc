@@ -73,15 +73,14 @@ EquilibratedStress::EquilibratedStress(const TorusMesh &mesh,
   {
     const Eigen::Matrix3d s = c.cast<long double>().inverse().cast<double>();
     compliances.push_back(0.5 * (s + s.transpose()));
-    inversion_error = std::max(
-      inversion_error,
-      (c.cast<long double>() * compliances.back().cast<long double>() -
-       Eigen::Matrix<long double, 3, 3>::Identity())
-        .cast<double>()
-        .cwiseAbs()
-        .rowwise()
-        .sum()
-        .maxCoeff());
+    inversion_error =
+      std::max(inversion_error, (c.cast<long double>() * compliances.back().cast<long double>() -
+                                 Eigen::Matrix<long double, 3, 3>::Identity())
+                                  .cast<double>()
+                                  .cwiseAbs()
+                                  .rowwise()
+                                  .sum()
+                                  .maxCoeff());
   }
   find_holes();
   number_unknowns();
@@ -105,7 +104,7 @@ void EquilibratedStress::find_holes()
   };
   for (const auto &[t, k] : rims)
   {
-    const TorusTriangle &triangle = mesh.triangles[at(t)];
+    const TorusTriangle &triangle              = mesh.triangles[at(t)];
     parent[at(root(triangle.vertices[at(k)]))] = root(triangle.vertices[at((k + 1) % 3)]);
   }
   std::vector<int> hole_of_root(at(mesh.n_vertices), -1);
@@ -121,8 +120,8 @@ void EquilibratedStress::find_holes()
       hole = static_cast<int>(origins.size());
       origins.emplace_back(triangle.corner + shape[at(k)]);
     }
-    const Eigen::Vector2d ends[2] = {triangle.corner + shape[at(k)] - origins[at(hole)],
-                                     triangle.corner + shape[at((k + 1) % 3)] - origins[at(hole)]};
+    const Eigen::Vector2d ends[2]          = {triangle.corner + shape[at(k)] - origins[at(hole)],
+                                              triangle.corner + shape[at((k + 1) % 3)] - origins[at(hole)]};
     rim_of_edge[at(triangle.edges[at(k)])] = {hole, 0.5 * (ends[0] + ends[1])};
     for (int end = 0; end < 2; ++end)
     {
@@ -167,8 +166,8 @@ void EquilibratedStress::number_unknowns()
     first = n;
     n += 3;
   }
-  pinned = first_unknown_of_hole.empty() ? first_unknown[at(mesh.anchor)]
-                                         : first_unknown_of_hole.front();
+  pinned =
+    first_unknown_of_hole.empty() ? first_unknown[at(mesh.anchor)] : first_unknown_of_hole.front();
   n_dofs = static_cast<unsigned>(n - 1);
   unknowns.setZero(n, 3);
 }
@@ -177,11 +176,12 @@ EquilibratedStress::LocalDof
 EquilibratedStress::on_rim(const Rim &rim, const Eigen::RowVector3d &of_value_and_gradient) const
 {
   // phi = A + B.x − q(x), of which the row takes a combination of value and gradient.
-  const int first = first_unknown_of_hole[at(rim.hole)];
+  const int first         = first_unknown_of_hole[at(rim.hole)];
   const Eigen::Vector2d x = rim.position;
   LocalDof dof;
   dof.unknowns = {first, first + 1, first + 2};
-  dof.factors  = {of_value_and_gradient(0), of_value_and_gradient(0) * x(0) + of_value_and_gradient(1),
+  dof.factors  = {of_value_and_gradient(0),
+                  of_value_and_gradient(0) * x(0) + of_value_and_gradient(1),
                   of_value_and_gradient(0) * x(1) + of_value_and_gradient(2)};
   dof.known    = -of_value_and_gradient * stress_functions_of_means(x);
   return dof;
@@ -191,7 +191,7 @@ EquilibratedStress::LocalDofs EquilibratedStress::local_dofs(const int t) const
 {
   const TorusTriangle &triangle = mesh.triangles[at(t)];
   LocalDofs dofs;
-  const auto centre = [&](const int k) { return centre_of[at(triangle.vertices[at(k)])]; };
+  const auto centre    = [&](const int k) { return centre_of[at(triangle.vertices[at(k)])]; };
   const bool is_inside = centre(0) >= 0 && centre(0) == centre(1) && centre(0) == centre(2);
   for (int k = 0; k < 3; ++k)
   {
@@ -217,7 +217,7 @@ EquilibratedStress::LocalDofs EquilibratedStress::local_dofs(const int t) const
     if (rim_of_edge[at(e)].hole >= 0)
     {
       const Eigen::Vector2d normal = normal_of(mesh.edges[at(e)]);
-      dofs[at(9 + k)] = on_rim(rim_of_edge[at(e)], {0., normal(0), normal(1)});
+      dofs[at(9 + k)]              = on_rim(rim_of_edge[at(e)], {0., normal(0), normal(1)});
     }
     else
     {
@@ -356,8 +356,8 @@ void EquilibratedStress::evaluate()
     const LocalValues values      = local_values(t);
     FieldOfLoads field            = B * values;
     // How wrong each may be: products of the rounded values, and the values from their differences.
-    LocalValues bar = 12. * epsilon * values.cwiseAbs();
-    const LocalDofs dofs = local_dofs(t);
+    LocalValues bar                     = 12. * epsilon * values.cwiseAbs();
+    const LocalDofs dofs                = local_dofs(t);
     Eigen::RowVector3d size_of_gradient = Eigen::RowVector3d::Zero();
     for (int d = 1; d < 3; ++d)
       for (int a = 0; a < 3; ++a)
@@ -374,10 +374,13 @@ void EquilibratedStress::evaluate()
       const Eigen::Matrix3d sigma = field.middleRows<3>(3 * q) + Eigen::Matrix3d::Identity();
       energy += (weight * (sigma.transpose() * s * sigma)).cast<long double>();
       const Eigen::Matrix3d wrong = field_bar.middleRows<3>(3 * q) + epsilon * sigma.cwiseAbs();
-      bars += 2. * weight * (sigma.cwiseAbs().cwiseProduct(s.cwiseAbs() * wrong)).colwise().sum().transpose().array();
+      bars +=
+        2. * weight *
+        (sigma.cwiseAbs().cwiseProduct(s.cwiseAbs() * wrong)).colwise().sum().transpose().array();
     }
   }
-  const Eigen::Matrix3d unsymmetric = (energy / static_cast<long double>(mesh.lattice.area())).cast<double>();
+  const Eigen::Matrix3d unsymmetric =
+    (energy / static_cast<long double>(mesh.lattice.area())).cast<double>();
   compliance = 0.5 * (unsymmetric + unsymmetric.transpose());
   bars /= mesh.lattice.area() * compliance.diagonal().array();
   round_off = bars.maxCoeff() + inversion_error;

@@ -53,9 +53,9 @@ private:
   /// A degree of freedom of a triangle, in terms of the unknowns: sum of factor x unknown + known.
   struct LocalDof
   {
-    std::array<int, 3> unknowns = {-1, -1, -1}; ///< −1 where there is none
+    std::array<int, 3> unknowns   = {-1, -1, -1}; ///< −1 where there is none
     std::array<double, 3> factors = {0., 0., 0.};
-    Eigen::RowVector3d known = Eigen::RowVector3d::Zero(); ///< per load
+    Eigen::RowVector3d known      = Eigen::RowVector3d::Zero(); ///< per load
   };
   using LocalDofs   = std::array<LocalDof, 12>;
   using StressRows  = Eigen::Matrix<double, 3 * n_field_points, 12>;

@@ -43,12 +43,11 @@ GluedVertices glue_vertices(const meshes::TriangleMesh &mesh, const meshes::Latt
     master[at(v)] = v;
   for (std::size_t k = 0; k < outline.size(); ++k)
   {
-    const int first         = outline[at(classes.representative[k])];
-    master[at(outline[k])]  = first;
-    const Eigen::Index row  = static_cast<Eigen::Index>(k);
-    const Eigen::Vector2d n = classes.offset.row(row).cast<double>();
-    glued.positions.row(outline[k]) =
-      glued.positions.row(first) + n.transpose() * lattice.vectors;
+    const int first                 = outline[at(classes.representative[k])];
+    master[at(outline[k])]          = first;
+    const Eigen::Index row          = static_cast<Eigen::Index>(k);
+    const Eigen::Vector2d n         = classes.offset.row(row).cast<double>();
+    glued.positions.row(outline[k]) = glued.positions.row(first) + n.transpose() * lattice.vectors;
   }
   std::vector<int> number(at(mesh.n_vertices()), -1);
   glued.of_original.resize(at(mesh.n_vertices()));
@@ -65,8 +64,8 @@ GluedVertices glue_vertices(const meshes::TriangleMesh &mesh, const meshes::Latt
 /// For each edge (lower vertex, higher vertex) of the outline the same edge on the opposite side that
 /// was met first.
 std::map<std::array<int, 2>, std::array<int, 2>> glue_edges(const meshes::TriangleMesh &mesh,
-                                                           const GluedVertices &glued,
-                                                           const meshes::Lattice &lattice)
+                                                            const GluedVertices &glued,
+                                                            const meshes::Lattice &lattice)
 {
   const std::vector<int> outline = meshes::outline(mesh);
   const std::size_t n            = outline.size();
@@ -139,17 +138,16 @@ TorusMesh glued(const meshes::TriangleMesh &mesh, const meshes::Lattice &lattice
       { return torus.edges[at(edges[at(j)])].vector.squaredNorm(); };
       // Equal lengths, but for round-off, go to the edge with the lower number, whoever asks.
       const double difference = length(k) / length(longest) - 1.;
-      if (difference > 1e-9 ||
-          (difference > -1e-9 && edges[at(k)] < edges[at(longest)]))
+      if (difference > 1e-9 || (difference > -1e-9 && edges[at(k)] < edges[at(longest)]))
         longest = k;
     }
     TorusTriangle triangle;
     for (int k = 0; k < 3; ++k)
     {
-      const int from            = (longest + k) % 3;
-      triangle.vertices[at(k)]  = vertices.of_original[at(mesh.triangles(t, from))];
-      triangle.edges[at(k)]     = edges[at(from)];
-      triangle.signs[at(k)]     = signs[at(from)];
+      const int from           = (longest + k) % 3;
+      triangle.vertices[at(k)] = vertices.of_original[at(mesh.triangles(t, from))];
+      triangle.edges[at(k)]    = edges[at(from)];
+      triangle.signs[at(k)]    = signs[at(from)];
     }
     triangle.material = mesh.material(t);
     triangle.corner   = (vertices.positions.row(mesh.triangles(t, longest)) + origin).transpose();
@@ -311,12 +309,13 @@ meshes::TriangleMesh unfolded(const TorusMesh &mesh)
         first = static_cast<int>(points.size());
       else
       {
-        const Eigen::RowVector2d f = mesh.lattice.fractional(point - points[at(first)]);
+        const Eigen::RowVector2d f    = mesh.lattice.fractional(point - points[at(first)]);
         const std::array<long, 3> key = {vertex, std::lround(f(0)), std::lround(f(1))};
-        const auto [place, is_new] = point_of.emplace(key, static_cast<int>(points.size()));
-        plane.triangles(t, k)      = place->second;
+        const auto [place, is_new]    = point_of.emplace(key, static_cast<int>(points.size()));
+        plane.triangles(t, k)         = place->second;
         if (is_new)
-          points.push_back(points[at(first)] + static_cast<double>(key[1]) * mesh.lattice.vectors.row(0) +
+          points.push_back(points[at(first)] +
+                           static_cast<double>(key[1]) * mesh.lattice.vectors.row(0) +
                            static_cast<double>(key[2]) * mesh.lattice.vectors.row(1));
         continue;
       }

@@ -39,7 +39,8 @@ struct TorusTriangle
   /// The corners relative to the first one [m].
   std::array<Eigen::Vector2d, 3> shape(const std::vector<TorusEdge> &all_edges) const
   {
-    return {Eigen::Vector2d::Zero(), signs[0] * all_edges[static_cast<std::size_t>(edges[0])].vector,
+    return {Eigen::Vector2d::Zero(),
+            signs[0] * all_edges[static_cast<std::size_t>(edges[0])].vector,
             -signs[2] * all_edges[static_cast<std::size_t>(edges[2])].vector};
   }
 };

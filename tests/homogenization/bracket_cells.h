@@ -49,7 +49,8 @@ inline BracketCell stripes(const int n1, const int n2, const double contrast)
 /// A stiff square of a quarter of the area, n a multiple of 4.
 inline BracketCell square_inclusion_cell(const int n, const double contrast)
 {
-  return bracket_cell(square_lattice(1.), n, n, contrasting(contrast), [](double f1, double f2)
+  return bracket_cell(square_lattice(1.), n, n, contrasting(contrast),
+                      [](double f1, double f2)
                       { return std::abs(f1 - 0.5) < 0.25 && std::abs(f2 - 0.5) < 0.25 ? 1 : 0; });
 }
 
@@ -62,6 +63,7 @@ inline BracketCell checkerboard_cell(const int n, const double contrast)
 
 inline homogenization::Bracket bracketed(const BracketCell &cell, const unsigned order)
 {
-  return homogenization::bracket(homogenization::glued(cell.mesh, cell.lattice), cell.stiffness, order);
+  return homogenization::bracket(homogenization::glued(cell.mesh, cell.lattice), cell.stiffness,
+                                 order);
 }
 } // namespace homespun::tests

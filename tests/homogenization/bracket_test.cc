@@ -16,7 +16,8 @@ TEST(exact_bracket, laminates_close_to_round_off_because_both_spaces_hold_the_ex
   for (const unsigned order : {1u, 2u})
   {
     const Bracket b = tests::bracketed(cell, order);
-    std::printf("P%u width %g round_off %g excess %g dofs %u %u\n", order, b.width, b.round_off, b.excess, b.n_displacement_dofs, b.n_stress_dofs);
+    std::printf("P%u width %g round_off %g excess %g dofs %u %u\n", order, b.width, b.round_off,
+                b.excess, b.n_displacement_dofs, b.n_stress_dofs);
     EXPECT_LT(b.width, 1e-10);
   }
 }
