@@ -58,6 +58,8 @@ Bracket bracket(const TorusMesh &mesh, const std::vector<Eigen::Matrix3d> &stiff
   result.n_stress_dofs       = below.n_dofs;
   result.iterations          = std::max(above.iterations, below.iterations);
 
+  const Eigen::Matrix3d weights_ = above.stiffness.inverse() / mesh.lattice.area();
+  result.indicators = above.unbalanced_tractions(weights_) + below.incompatible_strains(below.compliance.inverse() * weights_ * below.compliance.inverse());
   // Of all mean stresses, compliance^-1 e comes closest to the strains of e.
   const Eigen::Matrix3d mean_stress = below.compliance.inverse();
   const Eigen::Matrix3d weights     = above.stiffness.inverse() / mesh.lattice.area();
@@ -116,6 +118,7 @@ AdaptiveBracket adaptive_bracket(const meshes::TriangleMesh &mesh, const meshes:
   {
     result.bracket = bracket(result.mesh, stiffness_of_material, options.order);
     observe(result.bracket);
+    result.ending = Ending::tolerance;
     if (result.bracket.width <= options.tolerance)
       return result;
     result.ending = result.bracket.width <= 2. * result.bracket.round_off ? Ending::round_off
@@ -123,7 +126,7 @@ AdaptiveBracket adaptive_bracket(const meshes::TriangleMesh &mesh, const meshes:
                                                                           : Ending::max_dofs;
     if (result.ending != Ending::max_dofs)
       return result;
-    TorusMesh finer = bisected(result.mesh, largest_gaps(result.bracket.gaps, options.marked_part));
+    TorusMesh finer = bisected(result.mesh, largest_gaps(getenv("GAPS")?result.bracket.gaps:result.bracket.indicators, options.marked_part));
     const int n_dofs =
       std::max(3 * finer.n_vertices + finer.n_edges(),
                2 * (finer.n_vertices + (options.order == 2 ? finer.n_edges() : 0)));

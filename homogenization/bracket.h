@@ -32,6 +32,7 @@ struct Bracket
   /// strains that are orthonormal in the upper stiffness (Prager and Synge). All are positive; their sum is
   /// trace(upper^-1 (upper − lower)) but for round-off, hence between one and three widths.
   Eigen::VectorXd gaps;
+  Eigen::VectorXd indicators;
 };
 
 /// Brackets C^H on one mesh.

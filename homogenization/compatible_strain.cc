@@ -5,6 +5,7 @@
 
 #include <Eigen/LU>
 
+#include <cmath>
 #include <limits>
 
 namespace homespun::homogenization
@@ -130,14 +131,22 @@ void CompatibleStrain::assemble_and_solve()
 }
 
 template <int n_shapes>
-FieldOfLoads CompatibleStrain::strain_of(const int t, FieldOfLoads *const bar) const
+Eigen::Matrix<double, 2 * n_shapes, 3>
+CompatibleStrain::displacements_from_first_vertex(const int t) const
 {
-  const auto gradients = gradients_of(mesh.triangles[at(t)].shape(mesh.edges)).first;
   // Differences from vertex 0: the translation has no strain.
   Eigen::Matrix<double, 2 * n_shapes, 3> chi;
   for (int i = 0; i < n_shapes; ++i)
     chi.template middleRows<2>(2 * i) =
       unknowns.middleRows<2>(first_unknown(t, i)) - unknowns.middleRows<2>(first_unknown(t, 0));
+  return chi;
+}
+
+template <int n_shapes>
+FieldOfLoads CompatibleStrain::strain_of(const int t, FieldOfLoads *const bar) const
+{
+  const auto gradients = gradients_of(mesh.triangles[at(t)].shape(mesh.edges)).first;
+  const auto chi       = displacements_from_first_vertex<n_shapes>(t);
   FieldOfLoads field;
   for (int q = 0; q < n_field_points; ++q)
   {
@@ -152,6 +161,62 @@ FieldOfLoads CompatibleStrain::strain_of(const int t, FieldOfLoads *const bar) c
 FieldOfLoads CompatibleStrain::strain(const int triangle) const
 {
   return order == 1 ? strain_of<3>(triangle, nullptr) : strain_of<6>(triangle, nullptr);
+}
+
+Eigen::VectorXd CompatibleStrain::unbalanced_tractions(const Eigen::Matrix3d &weights) const
+{
+  return order == 1 ? unbalanced_tractions_of<3>(weights) : unbalanced_tractions_of<6>(weights);
+}
+
+template <int n_shapes>
+Eigen::VectorXd CompatibleStrain::unbalanced_tractions_of(const Eigen::Matrix3d &weights) const
+{
+  // At two Gauss points of each edge, from its tail on: exact for products of linear tractions.
+  const double gauss[2] = {0.5 - 0.5 / std::sqrt(3.), 0.5 + 0.5 / std::sqrt(3.)};
+  struct OfEdge
+  {
+    Eigen::Matrix<double, 2, 3> jumps[2] = {Eigen::Matrix<double, 2, 3>::Zero(),
+                                            Eigen::Matrix<double, 2, 3>::Zero()};
+    Eigen::Matrix2d stiffness            = Eigen::Matrix2d::Zero();
+  };
+  std::vector<OfEdge> of_edge(mesh.edges.size());
+  for (int t = 0; t < mesh.n_triangles(); ++t)
+  {
+    const TorusTriangle &triangle = mesh.triangles[at(t)];
+    const Eigen::Matrix3d &c      = stiffnesses[at(triangle.material)];
+    const auto gradients          = gradients_of(triangle.shape(mesh.edges)).first;
+    const auto chi                = displacements_from_first_vertex<n_shapes>(t);
+    for (int k = 0; k < 3; ++k)
+    {
+      const Eigen::Vector2d along = mesh.edges[at(triangle.edges[at(k)])].vector.normalized();
+      Eigen::Matrix<double, 2, 3> normal; // of the edge, acting on stresses in Voigt order
+      normal << along(1), 0., -along(0), 0., -along(0), along(1);
+      OfEdge &its = of_edge[at(triangle.edges[at(k)])];
+      its.stiffness += normal * c * normal.transpose();
+      for (int g = 0; g < 2; ++g)
+      {
+        const double part = triangle.signs[at(k)] > 0. ? gauss[g] : 1. - gauss[g];
+        const Eigen::Vector3d point =
+          (1. - part) * Eigen::Vector3d::Unit(k) + part * Eigen::Vector3d::Unit((k + 1) % 3);
+        const Eigen::Matrix3d strain =
+          Eigen::Matrix3d::Identity() - strain_displacement<n_shapes>(gradients, point) * chi;
+        its.jumps[g] += triangle.signs[at(k)] * normal * c * strain;
+      }
+    }
+  }
+  std::vector<double> on_edge(mesh.edges.size());
+  for (std::size_t e = 0; e < mesh.edges.size(); ++e)
+  {
+    const Eigen::Matrix2d inverse = of_edge[e].stiffness.inverse();
+    for (const auto &jump : of_edge[e].jumps)
+      on_edge[e] += 0.5 * mesh.edges[e].vector.squaredNorm() *
+                    (jump.transpose() * inverse * jump).cwiseProduct(weights).sum();
+  }
+  Eigen::VectorXd of_triangle = Eigen::VectorXd::Zero(mesh.n_triangles());
+  for (int t = 0; t < mesh.n_triangles(); ++t)
+    for (const int edge : mesh.triangles[at(t)].edges)
+      of_triangle(t) += 0.5 * on_edge[at(edge)];
+  return of_triangle;
 }
 
 void CompatibleStrain::evaluate()

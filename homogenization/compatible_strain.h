@@ -24,6 +24,12 @@ public:
   /// e − eps(chi) at the field points of a triangle under the three unit macro strains.
   FieldOfLoads strain(int triangle) const;
 
+  /// Per triangle, h integral [t].(N1 + N2)^-1.[t] over its edges, half to each side: the jumps of the traction
+  /// t = n.c:(e − eps(chi)), which an exact solution does not have, against the stiffness n.c.n of
+  /// both sides. Only what is wrong nearby shows in them.
+  /// @param weights of products of loads, sum over a, b of weights_ab t_a.t_b
+  Eigen::VectorXd unbalanced_tractions(const Eigen::Matrix3d &weights) const;
+
   /// chi at the vertices of the mesh that was glued, shape (n,6) [m].
   meshes::CharacteristicDisplacements chi_at_given_vertices() const;
 
@@ -39,6 +45,10 @@ private:
   void assemble_and_solve();
   template <int n_shapes>
   FieldOfLoads strain_of(int triangle, FieldOfLoads *bar) const;
+  template <int n_shapes>
+  Eigen::VectorXd unbalanced_tractions_of(const Eigen::Matrix3d &weights) const;
+  template <int n_shapes>
+  Eigen::Matrix<double, 2 * n_shapes, 3> displacements_from_first_vertex(int triangle) const;
   void evaluate();
   int first_unknown(int triangle, int shape) const;
 

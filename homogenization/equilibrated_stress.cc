@@ -2,7 +2,6 @@
 #include "homogenization/equilibrated_stress.h"
 
 #include "homogenization/cholesky_solver.h"
-#include "homogenization/clough_tocher.h"
 #include "meshes/errors.h"
 
 #include <Eigen/LU>
@@ -41,6 +40,15 @@ Eigen::Matrix3d stress_functions_of_means(const Eigen::Vector2d &p)
     0., p(0), -p(1),                                       //
     p(1), 0., -p(0);
   return q;
+}
+/// The stresses of the shape functions, rows 11, 22, 12.
+Eigen::Matrix<double, 3, 12> stress_of_airy(const CloughTocher &element, const int piece,
+                                            const Eigen::Vector3d &barycentric)
+{
+  const auto second = element.second_derivatives(piece, barycentric);
+  Eigen::Matrix<double, 3, 12> stress;
+  stress << second.row(1), second.row(0), -second.row(2);
+  return stress;
 }
 } // namespace
 
@@ -232,22 +240,22 @@ EquilibratedStress::LocalDofs EquilibratedStress::local_dofs(const int t) const
   return dofs;
 }
 
-EquilibratedStress::StressRows EquilibratedStress::stress_rows(const int t) const
+CloughTocher EquilibratedStress::element(const int t) const
 {
   const TorusTriangle &triangle = mesh.triangles[at(t)];
   std::array<Eigen::Vector2d, 3> normals;
   for (int k = 0; k < 3; ++k)
     normals[at(k)] = normal_of(mesh.edges[at(triangle.edges[at(k)])]);
-  const CloughTocher element(triangle.shape(mesh.edges), normals);
+  return {triangle.shape(mesh.edges), normals};
+}
+
+EquilibratedStress::StressRows EquilibratedStress::stress_rows(const int t) const
+{
+  const CloughTocher its = element(t);
   StressRows rows;
   for (int q = 0; q < n_field_points; ++q)
-  {
-    const FieldPoint &point = field_points()[at(q)];
-    const auto second       = element.second_derivatives(point.piece, point.in_piece);
-    rows.row(3 * q)         = second.row(1);
-    rows.row(3 * q + 1)     = second.row(0);
-    rows.row(3 * q + 2)     = -second.row(2);
-  }
+    rows.middleRows<3>(3 * q) =
+      stress_of_airy(its, field_points()[at(q)].piece, field_points()[at(q)].in_piece);
   return rows;
 }
 
@@ -339,6 +347,63 @@ FieldOfLoads EquilibratedStress::stress(const int triangle) const
   for (int q = 0; q < n_field_points; ++q)
     field.middleRows<3>(3 * q) += Eigen::Matrix3d::Identity();
   return field;
+}
+
+Eigen::VectorXd EquilibratedStress::incompatible_strains(const Eigen::Matrix3d &weights) const
+{
+  // At two Gauss points of each edge, from its tail on: exact for products of linear strains.
+  const double gauss[2] = {0.5 - 0.5 / std::sqrt(3.), 0.5 + 0.5 / std::sqrt(3.)};
+  struct OfEdge
+  {
+    Eigen::RowVector3d jumps[2] = {Eigen::RowVector3d::Zero(), Eigen::RowVector3d::Zero()};
+    double compliance           = 0.;
+    int n_sides                 = 0;
+  };
+  const auto stretch_along = [](const Eigen::Vector2d &along) -> Eigen::RowVector3d
+  { return {along(0) * along(0), along(1) * along(1), along(0) * along(1)}; };
+  const auto jump_energy = [&](const Eigen::RowVector3d &jump)
+  { return (jump.transpose() * jump).cwiseProduct(weights).sum(); };
+  std::vector<OfEdge> of_edge(mesh.edges.size());
+  Eigen::VectorXd of_triangle = Eigen::VectorXd::Zero(mesh.n_triangles());
+  for (int t = 0; t < mesh.n_triangles(); ++t)
+  {
+    const TorusTriangle &triangle = mesh.triangles[at(t)];
+    const Eigen::Matrix3d &s      = compliances[at(triangle.material)];
+    const auto shape              = triangle.shape(mesh.edges);
+    const CloughTocher its        = element(t);
+    const LocalValues values      = local_values(t);
+    const auto strain = [&](const int piece, const Eigen::Vector3d &point) -> Eigen::Matrix3d
+    { return s * (stress_of_airy(its, piece, point) * values + Eigen::Matrix3d::Identity()); };
+    const Eigen::Vector2d centroid = (shape[0] + shape[1] + shape[2]) / 3.;
+    for (int k = 0; k < 3; ++k)
+    {
+      const Eigen::Vector2d edge       = mesh.edges[at(triangle.edges[at(k)])].vector;
+      const Eigen::RowVector3d stretch = stretch_along(edge.normalized());
+      OfEdge &its_edge                 = of_edge[at(triangle.edges[at(k)])];
+      its_edge.compliance += stretch * s * stretch.transpose();
+      ++its_edge.n_sides;
+      const Eigen::Vector2d spoke            = centroid - shape[at(k)];
+      const Eigen::RowVector3d spoke_stretch = stretch_along(spoke.normalized());
+      const double spoke_compliance = 2. * (spoke_stretch * s * spoke_stretch.transpose()).value();
+      for (const double from_tail : gauss)
+      {
+        const double part = triangle.signs[at(k)] > 0. ? from_tail : 1. - from_tail;
+        its_edge.jumps[from_tail > 0.5] +=
+          triangle.signs[at(k)] * stretch * strain(k, {1. - part, part, 0.});
+        const Eigen::RowVector3d jump =
+          spoke_stretch * (strain(k, {1. - from_tail, 0., from_tail}) -
+                           strain((k + 2) % 3, {0., 1. - from_tail, from_tail}));
+        of_triangle(t) += 0.5 * spoke.squaredNorm() * jump_energy(jump) / spoke_compliance;
+      }
+    }
+  }
+  for (int t = 0; t < mesh.n_triangles(); ++t)
+    for (const int e : mesh.triangles[at(t)].edges)
+      if (of_edge[at(e)].n_sides == 2) // on a rim the strain is free
+        for (const Eigen::RowVector3d &jump : of_edge[at(e)].jumps)
+          of_triangle(t) += 0.25 * mesh.edges[at(e)].vector.squaredNorm() * jump_energy(jump) /
+                            of_edge[at(e)].compliance;
+  return of_triangle;
 }
 
 void EquilibratedStress::evaluate()

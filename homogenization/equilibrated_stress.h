@@ -6,6 +6,7 @@
 // is, its energy bounds the compliance from above, and C^H thereby from below.
 #pragma once
 
+#include "homogenization/clough_tocher.h"
 #include "homogenization/torus_mesh.h"
 
 #include <Eigen/Core>
@@ -43,6 +44,12 @@ public:
   /// Stress at the field points of a triangle under the three unit mean stresses.
   FieldOfLoads stress(int triangle) const;
 
+  /// Per triangle, h integral [eps_tt]^2 / (s1 + s2) over its edges, half to each side, and over the
+  /// sides of its pieces: the jumps of the strain along the edge, eps = c^-1 : sigma, which an exact solution does
+  /// not have, against the compliance s along the edge on both sides.
+  /// @param weights of products of loads
+  Eigen::VectorXd incompatible_strains(const Eigen::Matrix3d &weights) const;
+
   Eigen::Matrix3d compliance; ///< S_h = 1/|Y| integral sigma_a : c^-1 : sigma_b [m/N]
   double round_off;           ///< bound on the error of its evaluation, relative to its diagonal
   double excess;              ///< of the energy above that of the exact minimiser, relative
@@ -64,6 +71,7 @@ private:
   void number_unknowns();
   void find_holes();
   LocalDofs local_dofs(int triangle) const;
+  CloughTocher element(int triangle) const;
   StressRows stress_rows(int triangle) const;
   LocalValues local_values(int triangle) const;
   void assemble_and_solve();
