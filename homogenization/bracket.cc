@@ -50,6 +50,7 @@ Bracket bracket(const TorusMesh &mesh, const std::vector<Eigen::Matrix3d> &stiff
   result.round_off         = 3. * (below_error + above_error);
   result.width             = std::max(relative_width(result.lower, result.upper), result.round_off);
   result.excess            = std::max(below.excess, above.excess);
+  result.compliance        = below.compliance;
   result.stiffness         = above.stiffness;
   result.stiffness_by_flux = above.stiffness_by_flux;
   result.chi               = above.chi_at_given_vertices();
@@ -58,11 +59,11 @@ Bracket bracket(const TorusMesh &mesh, const std::vector<Eigen::Matrix3d> &stiff
   result.n_stress_dofs       = below.n_dofs;
   result.iterations          = std::max(above.iterations, below.iterations);
 
-  const Eigen::Matrix3d weights_ = above.stiffness.inverse() / mesh.lattice.area();
-  result.indicators = above.unbalanced_tractions(weights_) + below.incompatible_strains(below.compliance.inverse() * weights_ * below.compliance.inverse());
   // Of all mean stresses, compliance^-1 e comes closest to the strains of e.
   const Eigen::Matrix3d mean_stress = below.compliance.inverse();
   const Eigen::Matrix3d weights     = above.stiffness.inverse() / mesh.lattice.area();
+  result.indicators                 = above.unbalanced_tractions(weights) +
+                      below.incompatible_strains(mean_stress * weights * mean_stress);
   std::vector<Eigen::Matrix3d> compliances;
   for (const Eigen::Matrix3d &c : stiffness_of_material)
     compliances.emplace_back(c.inverse());
@@ -86,21 +87,21 @@ Bracket bracket(const TorusMesh &mesh, const std::vector<Eigen::Matrix3d> &stiff
   return result;
 }
 
-std::vector<char> largest_gaps(const Eigen::VectorXd &gaps, const double part)
+std::vector<char> largest(const Eigen::VectorXd &values, const double part)
 {
-  std::vector<int> order(static_cast<std::size_t>(gaps.size()));
+  std::vector<int> order(static_cast<std::size_t>(values.size()));
   std::iota(order.begin(), order.end(), 0);
   std::sort(order.begin(), order.end(),
             [&](const int a, const int b)
-            { return gaps(a) != gaps(b) ? gaps(a) > gaps(b) : a < b; });
+            { return values(a) != values(b) ? values(a) > values(b) : a < b; });
   std::vector<char> is_marked(order.size(), 0);
-  const double wanted = part * gaps.sum();
+  const double wanted = part * values.sum();
   double held         = 0.;
   for (const int t : order)
   {
     if (held >= wanted)
       break;
-    held += gaps(t);
+    held += values(t);
     is_marked[at(t)] = 1;
   }
   return is_marked;
@@ -126,7 +127,8 @@ AdaptiveBracket adaptive_bracket(const meshes::TriangleMesh &mesh, const meshes:
                                                                           : Ending::max_dofs;
     if (result.ending != Ending::max_dofs)
       return result;
-    TorusMesh finer = bisected(result.mesh, largest_gaps(getenv("GAPS")?result.bracket.gaps:result.bracket.indicators, options.marked_part));
+    TorusMesh finer =
+      bisected(result.mesh, largest(result.bracket.indicators, options.marked_part));
     const int n_dofs =
       std::max(3 * finer.n_vertices + finer.n_edges(),
                2 * (finer.n_vertices + (options.order == 2 ? finer.n_edges() : 0)));

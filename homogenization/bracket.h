@@ -23,6 +23,7 @@ struct Bracket
   double round_off = 0.; ///< what was added, relative: the width is never below it
   double excess    = 0.; ///< how far the two energies lie above their minima on this mesh, relative
 
+  Eigen::Matrix3d compliance;              ///< energies of the stresses, nothing added [m/N]
   Eigen::Matrix3d stiffness;               ///< energies of the displacements, nothing added [N/m]
   Eigen::Matrix3d stiffness_by_flux;       ///< their mean stresses [N/m]
   meshes::CharacteristicDisplacements chi; ///< at the vertices of the given mesh [m]
@@ -32,6 +33,11 @@ struct Bracket
   /// strains that are orthonormal in the upper stiffness (Prager and Synge). All are positive; their sum is
   /// trace(upper^-1 (upper − lower)) but for round-off, hence between one and three widths.
   Eigen::VectorXd gaps;
+
+  /// Per triangle, what the mesh should be refined by: the jumps of the tractions of the displacements and of
+  /// the strains along edges of the stresses. The gaps certify, but they do not tell where an error comes from:
+  /// at the corners of a stiff checkerboard both fields are wrong by a factor far away from the
+  /// corner that causes it, and gaps then refine everywhere.
   Eigen::VectorXd indicators;
 };
 
@@ -44,16 +50,16 @@ Bracket bracket(const TorusMesh &mesh, const std::vector<Eigen::Matrix3d> &stiff
 /// (upper − lower) relative to upper: the largest eigenvalue of the pencil.
 double relative_width(const Eigen::Matrix3d &lower, const Eigen::Matrix3d &upper);
 
-/// The fewest triangles that hold the given part of all gaps.
+/// Marks the fewest triangles that hold the given part of the sum of all values.
 /// Source: W. Doerfler, A convergent adaptive algorithm for Poisson's equation, 1996.
-std::vector<char> largest_gaps(const Eigen::VectorXd &gaps, double part);
+std::vector<char> largest(const Eigen::VectorXd &values, double part);
 
 struct AdaptiveOptions
 {
   unsigned order     = 2;       ///< of the displacement elements
   double tolerance   = 1e-3;    ///< stop at this relative width
   unsigned max_dofs  = 1000000; ///< of the larger of the two problems: no finer mesh is solved
-  double marked_part = 0.6;     ///< of the gaps, refined in each step
+  double marked_part = 0.6;     ///< of the indicators, refined in each step
 };
 
 /// Why an adaptive bracket ended.

@@ -188,7 +188,8 @@ Eigen::VectorXd CompatibleStrain::unbalanced_tractions_of(const Eigen::Matrix3d 
     const auto chi                = displacements_from_first_vertex<n_shapes>(t);
     for (int k = 0; k < 3; ++k)
     {
-      const Eigen::Vector2d along = mesh.edges[at(triangle.edges[at(k)])].vector.normalized();
+      const Eigen::Vector2d &edge = mesh.edges[at(triangle.edges[at(k)])].vector;
+      const Eigen::Vector2d along = edge / edge.norm();
       Eigen::Matrix<double, 2, 3> normal; // of the edge, acting on stresses in Voigt order
       normal << along(1), 0., -along(0), 0., -along(0), along(1);
       OfEdge &its = of_edge[at(triangle.edges[at(k)])];
