@@ -18,8 +18,8 @@ namespace
 std::string joined(const std::vector<std::string> &fields)
 {
   std::string line;
-  for (const std::string &field : fields)
-    line += (line.empty() ? "" : ",") + field;
+  for (std::size_t k = 0; k < fields.size(); ++k)
+    line += (k == 0 ? "" : ",") + fields[k];
   return line;
 }
 
@@ -34,25 +34,20 @@ std::vector<std::string> fields_of(const std::string &line)
   return fields;
 }
 
-/// Writes text and waits until it is on the disk.
-void put(const std::string &path, const char *mode, const std::string &text)
+/// Appends a line and waits until it is on the disk.
+void append_line(const std::string &path, const std::string &line)
 {
-  std::FILE *file = std::fopen(path.c_str(), mode);
+  std::FILE *file = std::fopen(path.c_str(), "a");
   if (file == nullptr)
     throw meshes::BadInput(path +
                            ": cannot be written; expected a folder that exists and is writable");
-  const bool good = std::fwrite(text.data(), 1, text.size(), file) == text.size() &&
+  const std::string text = line + "\n";
+  const bool good        = std::fwrite(text.data(), 1, text.size(), file) == text.size() &&
                     std::fflush(file) == 0 && fsync(fileno(file)) == 0;
   if (std::fclose(file) != 0 || !good)
     throw meshes::BadInput(path + ": cannot be written: is the disk full?");
 }
 } // namespace
-
-void write_whole(const std::string &path, const std::string &text)
-{
-  put(path + ".part", "w", text);
-  std::filesystem::rename(path + ".part", path);
-}
 
 std::string csv_number(const double value)
 {
@@ -107,7 +102,7 @@ bool ResultTable::contains(const std::vector<std::string> &keys) const
 
 void ResultTable::append(const std::vector<std::string> &fields)
 {
-  put(path, "a", joined(fields) + "\n");
+  append_line(path, joined(fields));
   row_of_keys[{fields.begin(), fields.begin() + static_cast<long>(n_keys)}] = all_rows.size();
   all_rows.push_back(fields);
 }

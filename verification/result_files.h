@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
-// How results reach the disk: whole files by renaming, tables row by row. A table survives a kill
-// with all rows but the one in progress, and is taken up again.
+// How tables reach the disk: row by row. A table survives a kill with all rows but the one in
+// progress, and is taken up again.
 #pragma once
+
+#include "meshes/write_whole.h"
 
 #include <map>
 #include <string>
@@ -9,9 +11,7 @@
 
 namespace homespun::verification
 {
-/// Writes a file whole or not at all.
-/// @throws BadInput where the folder is absent or not writable
-void write_whole(const std::string &path, const std::string &text);
+using meshes::write_whole;
 
 /// A number as results print it: six digits, "nan" never; an empty field where it is not finite.
 std::string csv_number(double value);

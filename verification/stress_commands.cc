@@ -1,15 +1,11 @@
 // SPDX-License-Identifier: MIT
 // homespun stress: the cloth and the up-sampling under what should break them.
-#include "verification/commands.h"
 #include "verification/stress_study.h"
-
-#include <deal.II/base/mpi.h>
+#include "verification/study_arguments.h"
 
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
-#include <CLI/Option.hpp>
 
-#include <cstdio>
 #include <memory>
 
 namespace homespun::verification
@@ -19,7 +15,8 @@ namespace
 struct StressArguments
 {
   StressStudyOptions study;
-  bool quick = false, no_report = false;
+  StudyEnd end;
+  bool quick = false;
 };
 
 int run_stress(StressArguments arguments, Afterwards &afterwards)
@@ -27,18 +24,8 @@ int run_stress(StressArguments arguments, Afterwards &afterwards)
   StressStudyOptions &study = arguments.study;
   if (arguments.quick)
     study.repeats = 2;
-  const std::vector<Verdict> verdicts = run_stress_study(study, MPI_COMM_WORLD);
-  if (dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0)
-  {
-    if (!study.quiet)
-      for (const Verdict &verdict : verdicts)
-        std::printf("%-12s %s: %.3g (%s)\n", name_of(verdict.outcome).c_str(),
-                    verdict.claim.c_str(), verdict.value, verdict.limit.c_str());
-    if (!arguments.no_report)
-      afterwards = [output = study.output, quiet = study.quiet]()
-      { make_report({output}, output, quiet); };
-  }
-  return any_failed(verdicts) ? 1 : 0;
+  return arguments.end.conclude(run_stress_study(study, MPI_COMM_WORLD), study.output, study.quiet,
+                                afterwards);
 }
 } // namespace
 
@@ -57,7 +44,7 @@ void add_stress_command(CLI::App &app, Action &action, Afterwards &afterwards,
     ->capture_default_str();
   command->add_flag("--quick", arguments->quick, "Each case twice instead of ten times");
   command->add_flag("--quiet", arguments->study.quiet, "Print nothing but faults");
-  command->add_flag("--no-report", arguments->no_report, "Leave out report.html");
+  arguments->end.add_options(*command);
   command->footer(
     "Time steps, stiffness, starts, meshes, rotations, motions, scenes, up-sampling; stress.csv has a row\n"
     "per case: what was expected, the outcome, one figure and its limit. A case that fails is a row, and\n"

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: MIT
+// homespun report: the pages of stored results, made by Debian's Python.
+#include "meshes/errors.h"
+#include "verification/build_info.h"
+#include "verification/commands.h"
+#include "verification/on_root.h"
+
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+#include <CLI/Option.hpp>
+
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
+#include <memory>
+
+#include <sched.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+namespace homespun::verification
+{
+void make_report(const std::vector<std::string> &folders, const std::string &output,
+                 const bool quiet)
+{
+  const std::string in_sources =
+    std::string(HOMESPUN_SOURCE_DIR) + "/verification/report/report.py";
+  const std::string script       = std::filesystem::exists(in_sources)
+                                     ? in_sources
+                                     : std::string(HOMESPUN_DATA_DIR) + "/report/report.py";
+  std::vector<std::string> words = {HOMESPUN_PYTHON, script};
+  words.insert(words.end(), folders.begin(), folders.end());
+  words.insert(words.end(), {"--output", output});
+  std::vector<char *> arguments;
+  for (std::string &word : words)
+    arguments.push_back(word.data());
+  arguments.push_back(nullptr);
+
+  // mpirun binds a rank to one core, and a child inherits that.
+  cpu_set_t all_cores;
+  std::memset(&all_cores, 0xff, sizeof(all_cores));
+  sched_setaffinity(0, sizeof(all_cores), &all_cores);
+
+  pid_t child = 0;
+  int status  = 0;
+  if (posix_spawn(&child, HOMESPUN_PYTHON, nullptr, nullptr, arguments.data(), environ) != 0 ||
+      waitpid(child, &status, 0) != child || !WIFEXITED(status))
+    throw meshes::BadInput(
+      std::string(HOMESPUN_PYTHON) + " " + script +
+      ": cannot be run; expected Debian's Python with numpy, h5py, matplotlib and "
+      "jinja2: ./bootstrap installs them");
+  if (WEXITSTATUS(status) != 0)
+    throw meshes::BadInput("the report could not be made, see above; the results are in " +
+                           folders[0] + ": mend them, then `homespun report " + folders[0] + "`");
+  if (!quiet)
+    std::printf("Report: %s/report.html\n", output.c_str());
+}
+
+void add_report_command(CLI::App &app, Action &action, Afterwards &afterwards)
+{
+  CLI::App *command =
+    app.add_subcommand("report", "Make report.html and the figures again from stored results");
+  struct Arguments
+  {
+    std::vector<std::string> folders;
+    std::string output;
+    bool quiet = false;
+  };
+  const auto arguments = std::make_shared<Arguments>();
+  command->add_option("DIR", arguments->folders, "Folders of results")->required();
+  command->add_option("--output", arguments->output,
+                      "Folder of the report (default the first DIR)");
+  command->add_flag("--quiet", arguments->quiet, "Print nothing but faults");
+  command->callback(
+    [&action, &afterwards, arguments]()
+    {
+      action = [&afterwards, arguments]()
+      {
+        if (is_root(MPI_COMM_WORLD))
+          afterwards = [arguments]()
+          {
+            make_report(arguments->folders,
+                        arguments->output.empty() ? arguments->folders[0] : arguments->output,
+                        arguments->quiet);
+          };
+        return 0;
+      };
+    });
+}
+} // namespace homespun::verification
