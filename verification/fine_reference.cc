@@ -226,7 +226,8 @@ unsigned int FineReference::solve_linearized(Vector &increment, const Vector &fo
 
 /// Newton's method from `displacement`, which carries the prescribed values of this strain.
 /// @throws NotConverged
-void FineReference::solve(Vector &displacement, const double strain, ReferenceStep &step)
+void FineReference::solve(Vector &displacement, const double strain, const double tolerance,
+                          ReferenceStep &step)
 {
   const Eigen::Matrix2d mean_gradient =
     load->is_periodic() ? load->gradient(strain) : Eigen::Matrix2d::Identity();
@@ -242,7 +243,7 @@ void FineReference::solve(Vector &displacement, const double strain, ReferenceSt
     if (!std::isfinite(state.residual) || !std::isfinite(state.energy))
       throw meshes::NotConverged("the sheet collapsed under the load step", history);
     // A sheet without load has no forces at all.
-    if (state.residual <= options.tolerance * state.force_size)
+    if (state.residual <= tolerance * state.force_size)
     {
       step.n_inverted = law == Law::linear ? 0 : state.n_inverted;
       return;
@@ -251,7 +252,7 @@ void FineReference::solve(Vector &displacement, const double strain, ReferenceSt
       break;
 
     // As exact as the next step of Newton's method can use; a linear law needs one step.
-    const double needed = 0.1 * options.tolerance * state.force_size;
+    const double needed = 0.1 * tolerance * state.force_size;
     const double target = law == Law::linear ? needed : std::max(needed, 1e-3 * state.residual);
     residual *= -1.;
     const Vector forces = residual;
@@ -306,7 +307,7 @@ ReferenceStep FineReference::advance(const double strain)
     Vector displacement = guess(next);
     try
     {
-      solve(displacement, next, step);
+      solve(displacement, next, options.tolerance, step);
       if (levels.size() == 2)
         levels.erase(levels.begin());
       levels.push_back({next, displacement});
@@ -337,6 +338,28 @@ ReferenceStep FineReference::advance(const double strain)
       seconds_of_linear_solve = step.seconds;
     step.seconds = std::max(step.seconds, seconds_of_linear_solve);
   }
+  return step;
+}
+
+ReferenceStep FineReference::tighten(const double tolerance)
+{
+  Timer timer(discretization.communicator, true);
+  ReferenceStep step;
+  step.strain = levels.back().strain;
+  try
+  {
+    Vector displacement = levels.back().displacement;
+    solve(displacement, step.strain, tolerance, step);
+    levels.back().displacement = displacement;
+    step.reached               = true;
+    step.positions             = positions_of(displacement, step.strain);
+  }
+  catch (const meshes::NotConverged &failure)
+  {
+    step.why = failure.what();
+  }
+  timer.stop();
+  step.seconds = Utilities::MPI::max(timer.wall_time(), discretization.communicator);
   return step;
 }
 
