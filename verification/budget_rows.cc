@@ -14,9 +14,9 @@ namespace homespun::verification
 {
 const std::vector<std::string> &budget_columns()
 {
-  static const std::vector<std::string> columns = {"cell",   "load",   "strain", "reference",
-                                                   "part",   "region", "mean_m", "rms_m",
-                                                   "max_m",  "mean_per_cell",    "share"};
+  static const std::vector<std::string> columns = {"cell",  "load",          "strain", "reference",
+                                                   "part",  "region",        "mean_m", "rms_m",
+                                                   "max_m", "mean_per_cell", "share"};
   return columns;
 }
 
@@ -35,7 +35,7 @@ std::vector<int> regions_of(const meshes::Sheet &sheet, const bool is_periodic)
   for (int v = 0; v < sheet.mesh.n_vertices(); ++v)
   {
     const Eigen::RowVector2d f = sheet.fraction(sheet.mesh.vertices.row(v));
-    const auto is_near = [&](const double fraction, const int n)
+    const auto is_near         = [&](const double fraction, const int n)
     { return std::min(fraction, 1. - fraction) * n < width - 1e-6; };
     regions[static_cast<std::size_t>(v)] = 1 + is_near(f(0), sheet.n1) + is_near(f(1), sheet.n2);
   }
@@ -133,9 +133,9 @@ void judge_level(const Rows &rows, const std::array<std::string, 4> &level,
   }
   const double effectivity = sum / total;
   verdicts.push_back({what + "the parts of the error add up (|sum of the parts| / |measured|)",
-                      !std::isfinite(effectivity)                       ? Outcome::inconclusive
+                      !std::isfinite(effectivity)                 ? Outcome::inconclusive
                       : effectivity >= 0.8 && effectivity <= 1.25 ? Outcome::pass
-                                                                   : Outcome::fail,
+                                                                  : Outcome::fail,
                       effectivity, "0.8 to 1.25"});
   verdicts.push_back({what + "what the solvers leave undone, over the measured error",
                       !std::isfinite(solver / total) ? Outcome::inconclusive
@@ -163,8 +163,9 @@ void judge_slope(const Rows &rows, const std::string &cell, const std::string &l
   if (x.size() < 3 || is_round_off)
     return;
   const double slope = log_slope(x, y);
-  verdicts.push_back({cell + ", " + load + ": geometric nonlinearity, measured apart, grows as strain "
-                                           "squared up to 2 % (slope)",
+  verdicts.push_back({cell + ", " + load +
+                        ": geometric nonlinearity, measured apart, grows as strain "
+                        "squared up to 2 % (slope)",
                       std::abs(slope - 2.) <= 0.1 ? Outcome::pass : Outcome::fail, slope,
                       "2 +- 0.1"});
 }
@@ -192,10 +193,11 @@ std::vector<Verdict> budget_verdicts(const Rows &strain_rows, const Rows &budget
     strains.erase(std::unique(strains.begin(), strains.end()), strains.end());
     for (const double wanted : {0.01, 0.1})
     {
-      const auto distance = [&](const double strain) { return std::abs(std::log(strain / wanted)); };
-      const double nearest =
-        *std::min_element(strains.begin(), strains.end(), [&](const double a, const double b)
-                          { return distance(a) < distance(b); });
+      const auto distance = [&](const double strain)
+      { return std::abs(std::log(strain / wanted)); };
+      const double nearest = *std::min_element(strains.begin(), strains.end(),
+                                               [&](const double a, const double b)
+                                               { return distance(a) < distance(b); });
       if (distance(nearest) < std::log(1.5))
         judge_level(budget_rows, {cell, load, csv_number(nearest), law}, verdicts);
     }

@@ -24,7 +24,8 @@ class BudgetStudy
 public:
   /// @param references of the study
   /// @param table budget.csv on the first rank, elsewhere null
-  BudgetStudy(const std::vector<std::string> &references, ResultTable *table, MPI_Comm communicator);
+  BudgetStudy(const std::vector<std::string> &references, ResultTable *table,
+              MPI_Comm communicator);
 
   /// Whether the budget of a level is asked for and not yet in the table, as the first rank sees it.
   bool row_is_missing(const std::string &cell, const std::string &load, Law law,

@@ -14,8 +14,8 @@ using meshes::Points;
 const std::vector<std::string> &budget_parts()
 {
   static const std::vector<std::string> names = {
-    "scale",    "nonlinearity", "coarse-mesh", "cell",       "blending",
-    "time-step", "solver",      "precision",   "convention", "reference"};
+    "scale",     "nonlinearity", "coarse-mesh", "cell",       "blending",
+    "time-step", "solver",       "precision",   "convention", "reference"};
   return names;
 }
 
@@ -110,15 +110,17 @@ ErrorBudget LoadBudget::measure(const Law law, const SolvedLevel &level)
   const Points with_exact     = localized(exact, cells.given, sheet);
   const Points with_averaged  = localized(averaged, cells.given, sheet);
 
-  budget.parts["scale"]        = strain * scale;
-  budget.parts["convention"]   = from_constant(exact, constant);
-  budget.parts["reference"]    = strain * reference;
-  budget.parts["nonlinearity"] = law == Law::linear ? zero : nonlinearity(law, u, with_exact, budget);
+  budget.parts["scale"]      = strain * scale;
+  budget.parts["convention"] = from_constant(exact, constant);
+  budget.parts["reference"]  = strain * reference;
+  budget.parts["nonlinearity"] =
+    law == Law::linear ? zero : nonlinearity(law, u, with_exact, budget);
   budget.parts["coarse-mesh"] =
     localized(coarse.at_fine_vertices(law, level.coarse), cells.given, sheet) - with_averaged;
   budget.parts["blending"] = with_averaged - with_exact;
 
-  const shell::Positions<2> u_best = coarse_best.solve(law, coarse_best.with_held(level.coarse, strain));
+  const shell::Positions<2> u_best =
+    coarse_best.solve(law, coarse_best.with_held(level.coarse, strain));
   budget.parts["cell"] = level.upsampled - upsampled(cells.best, coarse.mesh, sheet, law, u_best);
 
   shell::EquilibriumOptions tight;
@@ -129,7 +131,8 @@ ErrorBudget LoadBudget::measure(const Law law, const SolvedLevel &level)
     (level.reference - level.tight_reference);
 
   localization::Upsampler<2, float>::Fine in_float;
-  localization::Upsampler<2, float>(cells.given, coarse.mesh, sheet, Method("localized").options(law))
+  localization::Upsampler<2, float>(cells.given, coarse.mesh, sheet,
+                                    Method("localized").options(law))
     .upsample(level.coarse, in_float);
   budget.parts["precision"] = in_float.cast<double>() - level.upsampled;
   budget.parts["time-step"] = zero;
@@ -142,7 +145,7 @@ Points LoadBudget::nonlinearity(const Law law, const shell::Positions<2> &u,
 {
   const NonlinearCell cell(cells.given, cells.stiffness_of_phase, law);
   const NonlinearLocalization at_finite_strain(cell, cells.given, resolved.strains(law, u));
-  budget.misfit_of_localization          = at_finite_strain.misfit();
+  budget.misfit_of_localization         = at_finite_strain.misfit();
   const shell::Positions<2> u_nonlinear = resolved.solve(at_finite_strain, u);
   return with_exact - localized(resolved.at_fine_vertices(law, u_nonlinear), cells.given, sheet,
                                 &at_finite_strain);

@@ -55,7 +55,7 @@ const std::vector<std::string> &budget_parts();
 struct ErrorBudget
 {
   std::map<std::string, meshes::Points> parts;
-  meshes::Points total;                 ///< M − T as measured
+  meshes::Points total;               ///< M − T as measured
   double misfit_of_localization = 0.; ///< NonlinearLocalization::misfit()
 
   /// Sum of the parts that make the total: all but `precision`.
@@ -93,9 +93,9 @@ private:
   const meshes::Sheet &sheet;
   const Load load;
   HomogenizedSheet coarse, coarse_best, coarse_tight, resolved;
-  meshes::Points scale, reference;             ///< per unit strain [m]
-  Eigen::Matrix<double, 3, 2> constant;        ///< of w, per unit strain [m]
-  shell::Positions<2> last_displacement;       ///< of the resolved sheet, per strain
+  meshes::Points scale, reference;       ///< per unit strain [m]
+  Eigen::Matrix<double, 3, 2> constant;  ///< of w, per unit strain [m]
+  shell::Positions<2> last_displacement; ///< of the resolved sheet, per strain
 };
 
 /// 8 where the sheet is small, else what brings the refined mesh to about 160 quads per side, at least 4.

@@ -79,7 +79,8 @@ HomogenizedSheet::HomogenizedSheet(const Eigen::Matrix3d &stiffness, const meshe
     const int j    = std::clamp(static_cast<int>(std::floor(fraction(1) * n2)), 0, n2 - 1);
     const double s = fraction(0) * n1 - i, t = fraction(1) * n2 - j;
     triangle.push_back(2 * (j * n1 + i) + (t > s));
-    weights.push_back(t > s ? Eigen::Vector3d(1. - t, s, t - s) : Eigen::Vector3d(1. - s, s - t, t));
+    weights.push_back(t > s ? Eigen::Vector3d(1. - t, s, t - s)
+                            : Eigen::Vector3d(1. - s, s - t, t));
   }
 }
 
@@ -88,8 +89,8 @@ shell::Positions<2> HomogenizedSheet::prescribed(const double strain) const
   shell::Positions<2> positions = mesh.vertices;
   for (int v = 0; v < mesh.n_vertices(); ++v)
     if (load.is_periodic())
-      positions.row(v) = sheet.origin + (mesh.vertices.row(v) - sheet.origin) *
-                                          load.gradient(strain).transpose();
+      positions.row(v) =
+        sheet.origin + (mesh.vertices.row(v) - sheet.origin) * load.gradient(strain).transpose();
     else
       positions.row(v) +=
         load.displacement(sheet.fraction(mesh.vertices.row(v)), sheet.sides(), strain);
@@ -142,15 +143,15 @@ shell::Positions<2> HomogenizedSheet::solve(const NonlinearLocalization &excess,
   constexpr int most_steps = 60;
   for (int step = 0; step < most_steps; ++step)
   {
-    shell::Positions<2> gradient = shell::Positions<2>::Zero(mesh.n_vertices(), 2);
+    shell::Positions<2> gradient         = shell::Positions<2>::Zero(mesh.n_vertices(), 2);
     const std::vector<Eigen::Matrix2d> F = gradients(positions);
     for (int t = 0; t < mesh.n_triangles(); ++t)
     {
       const auto index             = static_cast<std::size_t>(t);
       const Eigen::Vector3d strain = frame_of(Law::biot, F[index]).head<3>().transpose();
-      const Eigen::Matrix2d stress = membrane.rest[index].area *
-                                     shell::energy_gradient<2>(F[index], membrane.stiffness[0].D,
-                                                               excess.excess_stress(strain));
+      const Eigen::Matrix2d stress =
+        membrane.rest[index].area *
+        shell::energy_gradient<2>(F[index], membrane.stiffness[0].D, excess.excess_stress(strain));
       const Eigen::Matrix<double, 3, 2> forces =
         membrane.rest[index].shape_gradients * stress.transpose();
       for (int k = 0; k < 3; ++k)
@@ -159,16 +160,18 @@ shell::Positions<2> HomogenizedSheet::solve(const NonlinearLocalization &excess,
     const shell::Positions<2> move = matrix.solve(gradient);
     positions -= move;
     history.push_back(move.norm());
-    if (history.back() <= 1e-6 * (positions - start).norm())
+    // Relative to what the excess moves at all; where it moves nothing, to what the load does.
+    if (history.back() <=
+        std::max(1e-6 * (positions - start).norm(), 1e-12 * (start - mesh.vertices).norm()))
       return positions;
   }
-  throw meshes::NotConverged("homogenized sheet: the excess over the linear theory is too large for "
-                             "Newton's method with the Hessian without it",
-                             history);
+  throw meshes::NotConverged(
+    "homogenized sheet: the excess over the linear theory is too large for "
+    "Newton's method with the Hessian without it",
+    history);
 }
 
-std::vector<Eigen::Matrix2d>
-HomogenizedSheet::gradients(const shell::Positions<2> &positions) const
+std::vector<Eigen::Matrix2d> HomogenizedSheet::gradients(const shell::Positions<2> &positions) const
 {
   std::vector<Eigen::Matrix2d> result;
   result.reserve(static_cast<std::size_t>(mesh.n_triangles()));

@@ -20,8 +20,9 @@ namespace homespun::verification
 /// What x = P + L w asks for at every fine vertex.
 struct LocalState
 {
-  meshes::Points positions;                                    ///< P (n,2) of the coarse motion [m]
-  Eigen::Matrix<double, Eigen::Dynamic, 7, Eigen::RowMajor> frames; ///< strain (3), lift row by row (4) [-]
+  meshes::Points positions; ///< P (n,2) of the coarse motion [m]
+  Eigen::Matrix<double, Eigen::Dynamic, 7, Eigen::RowMajor>
+    frames; ///< strain (3), lift row by row (4) [-]
 };
 
 /// P + L w with w = −(E11 chi_11 + E22 chi_22 + gamma12 chi_12), chi zero at the lattice points.
@@ -57,7 +58,8 @@ public:
                             const shell::Positions<2> &start) const;
 
   /// Strain of every triangle, (m,3).
-  Eigen::Matrix<double, Eigen::Dynamic, 3> strains(Law law, const shell::Positions<2> &positions) const;
+  Eigen::Matrix<double, Eigen::Dynamic, 3> strains(Law law,
+                                                   const shell::Positions<2> &positions) const;
 
   /// Positions, strain and lift at the fine vertices: averaged to the coarse vertices, linear in between.
   LocalState at_fine_vertices(Law law, const shell::Positions<2> &positions) const;

@@ -127,8 +127,8 @@ CellState NonlinearCell::solve(const Eigen::Vector3d &strain) const
     const double size = now.residual.norm();
     history.push_back(now.force_size > 0. ? size / now.force_size : 0.);
     // Down to round-off: the excess over the linear theory is a small difference.
-    const bool is_stuck = newton > 2 && history.back() < 1e-11 &&
-                          history.back() > 0.5 * history[history.size() - 2];
+    const bool is_stuck =
+      newton > 2 && history.back() < 1e-10 && history.back() > 0.5 * history[history.size() - 2];
     if (history.back() <= 1e-14 || is_stuck || n_unknowns == 0)
       break;
     if (newton == 40 || !std::isfinite(now.energy))
@@ -148,7 +148,8 @@ CellState NonlinearCell::solve(const Eigen::Vector3d &strain) const
     {
       const meshes::Points trial = state.fluctuation + length * spread(step);
       const Assembled next       = assemble(U, trial, false, false);
-      if (next.energy <= now.energy + 1e-4 * length * slope + 1e-13 * std::abs(now.energy))
+      // Close to the answer the energy changes by less than its rounding, and the step is Newton's own.
+      if (history.back() < 1e-7 || next.energy <= now.energy + 1e-4 * length * slope)
       {
         state.fluctuation = trial;
         now               = next;
@@ -192,19 +193,22 @@ NonlinearLocalization::NonlinearLocalization(
     middle(a)         = 0.5 * (low + high);
     half(a)           = 0.5 * (high - low);
   }
+  const bool is_point = half.maxCoeff() <= 1e-12 * middle.cwiseAbs().maxCoeff();
   // Strains that hardly vary in a component need some width to be fitted at all.
   half = half.cwiseMax(1e-3 * (middle.cwiseAbs() + half).maxCoeff());
 
-  constexpr int n_fitted = 60, n_checked = 6;
+  // An infinite cloth knows one strain, and its cell problem is all there is to know.
+  const int n_fitted = is_point ? 1 : 2 * n_terms, n_checked = is_point ? 0 : 4;
   const int n = cell.mesh.n_vertices();
   Eigen::MatrixXd terms(n_fitted + n_checked, n_terms), values(n_fitted + n_checked, 3 + 2 * n);
   for (int k = 0; k < n_fitted + n_checked; ++k)
   {
     const Eigen::Vector3d place(halton(k + 1, 2), halton(k + 1, 3), halton(k + 1, 5));
-    const Eigen::Vector3d strain =
-      middle + half.cwiseProduct(2. * place - Eigen::Vector3d::Ones());
-    const CellState state = nonlinear.solve(strain);
-    terms.row(k)          = monomials(strain);
+    Eigen::Vector3d strain = middle;
+    if (!is_point)
+      strain += half.cwiseProduct(2. * place - Eigen::Vector3d::Ones());
+    const CellState state   = nonlinear.solve(strain);
+    terms.row(k)            = monomials(strain);
     values.row(k).head<3>() = (state.stress - cell.stiffness * strain).transpose();
     for (int v = 0; v < n; ++v)
     {
@@ -214,19 +218,26 @@ NonlinearLocalization::NonlinearLocalization(
       values.row(k).segment<2>(3 + 2 * v) = excess;
     }
   }
+  if (is_point)
+  {
+    coefficients        = Eigen::MatrixXd::Zero(n_terms, values.cols());
+    coefficients.row(0) = values.row(0); // of the monomial 1
+    return;
+  }
   coefficients = terms.topRows(n_fitted).householderQr().solve(values.topRows(n_fitted));
-  const Eigen::MatrixXd miss = values.bottomRows(n_checked) - terms.bottomRows(n_checked) * coefficients;
+  const Eigen::MatrixXd miss =
+    values.bottomRows(n_checked) - terms.bottomRows(n_checked) * coefficients;
   const auto relative = [](const auto &part, const auto &whole)
   { return whole.norm() > 0. ? part.norm() / whole.norm() : 0.; };
-  largest_misfit = std::max(relative(miss.leftCols(3), values.bottomRows(n_checked).leftCols(3)),
-                            relative(miss.rightCols(2 * n), values.bottomRows(n_checked).rightCols(2 * n)));
+  largest_misfit =
+    std::max(relative(miss.leftCols(3), values.bottomRows(n_checked).leftCols(3)),
+             relative(miss.rightCols(2 * n), values.bottomRows(n_checked).rightCols(2 * n)));
 }
 
 Eigen::Matrix<double, 1, NonlinearLocalization::n_terms>
 NonlinearLocalization::monomials(const Eigen::Vector3d &strain) const
 {
-  const Eigen::Vector3d x =
-    (strain - middle).cwiseQuotient(half).cwiseMax(-1.).cwiseMin(1.);
+  const Eigen::Vector3d x = (strain - middle).cwiseQuotient(half).cwiseMax(-1.).cwiseMin(1.);
   Eigen::Matrix<double, 3, 4> power;
   power.col(0).setOnes();
   for (int p = 1; p <= 3; ++p)
@@ -245,8 +256,8 @@ Eigen::Vector3d NonlinearLocalization::excess_stress(const Eigen::Vector3d &stra
   return (monomials(strain) * coefficients.leftCols<3>()).transpose();
 }
 
-Eigen::RowVector2d
-NonlinearLocalization::excess_fluctuation(const int cell_vertex, const Eigen::Vector3d &strain) const
+Eigen::RowVector2d NonlinearLocalization::excess_fluctuation(const int cell_vertex,
+                                                             const Eigen::Vector3d &strain) const
 {
   return monomials(strain) * coefficients.middleCols<2>(3 + 2 * cell_vertex);
 }

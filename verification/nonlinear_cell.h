@@ -32,8 +32,8 @@ class NonlinearCell
 public:
   /// @param cell whose mesh, lattice and anchor are used
   /// @param stiffness_of_phase (3,3) [N/m]
-  NonlinearCell(const meshes::HomogenizedCell &cell, std::vector<Eigen::Matrix3d> stiffness_of_phase,
-                Law law);
+  NonlinearCell(const meshes::HomogenizedCell &cell,
+                std::vector<Eigen::Matrix3d> stiffness_of_phase, Law law);
 
   /// Newton's method with a line search on the energy, from the linear answer.
   /// @param strain e = (U11 − 1, U22 − 1, 2 U12)
@@ -56,7 +56,7 @@ private:
   const meshes::HomogenizedCell &cell;
   const std::vector<Eigen::Matrix3d> stiffness_of_phase;
   const Law law;
-  std::vector<int> unknown;                      ///< (n) first unknown of a vertex, −1 at the anchor
+  std::vector<int> unknown; ///< (n) first unknown of a vertex, −1 at the anchor
   std::vector<Eigen::Matrix<double, 3, 2>> hats; ///< gradients of the hats of each triangle [1/m]
   Eigen::VectorXd areas;                         ///< [m^2]
   int n_unknowns = 0;

@@ -22,10 +22,20 @@ namespace homespun::verification
 {
 const std::vector<std::string> &run_time_columns()
 {
-  static const std::vector<std::string> columns = {
-    "cell",          "load",  "strain",  "reference", "way",
-    "triangles",     "error_mean_m",     "error_mean_per_cell", "reference_uncertainty_m",
-    "seconds",       "runs",  "ranks",   "threads",   "note"};
+  static const std::vector<std::string> columns = {"cell",
+                                                   "load",
+                                                   "strain",
+                                                   "reference",
+                                                   "way",
+                                                   "triangles",
+                                                   "error_mean_m",
+                                                   "error_mean_per_cell",
+                                                   "reference_uncertainty_m",
+                                                   "seconds",
+                                                   "runs",
+                                                   "ranks",
+                                                   "threads",
+                                                   "note"};
   return columns;
 }
 
@@ -55,7 +65,7 @@ shell::Positions<2> warped_equilibrium(const meshes::TriangleMesh &coarse,
                                        const std::vector<int> &held)
 {
   Eigen::Matrix<double, 3, 2> flat = Eigen::Matrix<double, 3, 2>::Identity();
-  const meshes::ClothMesh mesh = meshes::placed_sheet(coarse, flat, Eigen::RowVector3d::Zero());
+  const meshes::ClothMesh mesh     = meshes::placed_sheet(coarse, flat, Eigen::RowVector3d::Zero());
   const Eigen::VectorXd masses =
     shell::lumped_masses(mesh, std::vector<double>{cell.areal_density});
   shell::Vectors positions = shell::Vectors::Zero(start.rows(), 3);
@@ -107,13 +117,13 @@ public:
     const Timed p2 = fine(2);
     if (p2.positions.size() == 0)
       return "the best reference finds no equilibrium; " + p2.note;
-    best                    = p2.positions;
-    const Timed p1        = fine(1);
+    best                     = p2.positions;
+    const Timed p1           = fine(1);
     const unsigned int ranks = n_ranks();
     on_root(communicator,
             [&]()
             {
-              bar = bar_of_p2(uncertainty, cell.name, load.name, sheet.n1, options.strain);
+              bar         = bar_of_p2(uncertainty, cell.name, load.name, sheet.n1, options.strain);
               Timed of_p2 = p2;
               of_p2.note += std::string(of_p2.note.empty() ? "" : "; ") +
                             "what the others are held against: its error is its own error bar";
@@ -203,8 +213,10 @@ private:
     outcome.n_triangles = sheet.mesh.n_triangles();
     const shell::MembraneSolver<2> solver(sheet.mesh, cell.stiffness_of_phase(), held);
     attempt("fine-corotational", outcome,
-            [&]()
-            { repeat(outcome, [&]() { outcome.positions = solver.solve_equilibrium(start).positions; }); });
+            [&]() {
+              repeat(outcome,
+                     [&]() { outcome.positions = solver.solve_equilibrium(start).positions; });
+            });
   }
 
   void coarse_cloths()
@@ -291,15 +303,15 @@ private:
                           : is_known && way != "fine-p2"
                             ? (outcome.positions - best).rowwise().norm().mean()
                             : std::numeric_limits<double>::quiet_NaN();
-    std::string note = outcome.note;
+    std::string note    = outcome.note;
     for (char &c : note)
       c = c == ',' ? ';' : c == '\n' ? ' ' : c;
-    table->append({cell.name, load.name, csv_number(options.strain), name_of(Law::biot), way,
-                   std::to_string(outcome.n_triangles), csv_number(error),
-                   csv_number(error / std::sqrt(cell.lattice.area())), csv_number(bar),
-                   csv_number(is_known ? median(outcome.seconds)
-                                       : std::numeric_limits<double>::quiet_NaN()),
-                   std::to_string(outcome.seconds.size()), std::to_string(ranks), "1", note});
+    table->append(
+      {cell.name, load.name, csv_number(options.strain), name_of(Law::biot), way,
+       std::to_string(outcome.n_triangles), csv_number(error),
+       csv_number(error / std::sqrt(cell.lattice.area())), csv_number(bar),
+       csv_number(is_known ? median(outcome.seconds) : std::numeric_limits<double>::quiet_NaN()),
+       std::to_string(outcome.seconds.size()), std::to_string(ranks), "1", note});
   }
 
   const homogenization::UnitCell &cell;

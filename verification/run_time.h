@@ -32,9 +32,9 @@ const std::vector<std::string> &run_time_columns();
 
 struct RunTimeOptions
 {
-  double strain            = 0.1;
-  int n_runs               = 5;    ///< per way, of which the median is taken
-  double seconds_of_a_way  = 300.; ///< no further run of a way begins after this long
+  double strain           = 0.1;
+  int n_runs              = 5;    ///< per way, of which the median is taken
+  double seconds_of_a_way = 300.; ///< no further run of a way begins after this long
 };
 
 /// Stiffness of the cell in other ways than C^H [N/m].

@@ -281,10 +281,11 @@ private:
         };
         if (is_there("unreached"))
           continue;
-        is_missing[k] = budget && budget->row_is_missing(cell.name, load.name, law, options.strains[k]);
+        is_missing[k] =
+          budget && budget->row_is_missing(cell.name, load.name, law, options.strains[k]);
         for (const std::string &method : options.methods)
-            if (Method(method).has_meaning(law) && !is_there(method))
-              is_missing[k] = 1;
+          if (Method(method).has_meaning(law) && !is_there(method))
+            is_missing[k] = 1;
       }
     MPI_Bcast(is_missing.data(), static_cast<int>(is_missing.size()), MPI_CHAR, 0, communicator);
     std::vector<double> missing;
@@ -409,9 +410,9 @@ private:
   /// The level nearest to 10 %.
   double pictured_strain() const
   {
-    return *std::min_element(
-      options.strains.begin(), options.strains.end(),
-      [](double a, double b) { return std::abs(std::log(a / 0.1)) < std::abs(std::log(b / 0.1)); });
+    return *std::min_element(options.strains.begin(), options.strains.end(),
+                             [](double a, double b)
+                             { return std::abs(std::log(a / 0.1)) < std::abs(std::log(b / 0.1)); });
   }
 
   /// One picture per sheet load: at the level nearest to 10 %, against biot if it is there.
@@ -457,27 +458,26 @@ private:
     getrusage(RUSAGE_SELF, &usage);
     const double peak_memory =
       dealii::Utilities::MPI::sum(static_cast<double>(usage.ru_maxrss) * 1024., communicator);
-    on_root(communicator,
-            [&]()
-            {
-              for (const Verdict &verdict : strain_verdicts(strain_table->rows()))
-                verdicts.push_back(verdict);
-              write_validity();
-              if (options.budget)
-                for (const Verdict &verdict :
-                     budget_verdicts(strain_table->rows(), budget_table->rows()))
-                  verdicts.push_back(verdict);
-              const double n_unreached = static_cast<double>(
-                std::count_if(strain_table->rows().begin(), strain_table->rows().end(),
-                              [](const auto &row) { return row[4] == "unreached"; }));
-              verdicts.push_back(
-                {"every level of every reference has an equilibrium (levels without)",
-                 n_unreached == 0. ? Outcome::pass : Outcome::inconclusive, n_unreached, "0"});
-              write_whole(options.output + "/verdicts.json",
-                          json_text(to_json(verdicts, options.command)));
-              write_whole(options.output + "/study.json",
-                          json_text(study_json(seconds, peak_memory)));
-            });
+    on_root(
+      communicator,
+      [&]()
+      {
+        for (const Verdict &verdict : strain_verdicts(strain_table->rows()))
+          verdicts.push_back(verdict);
+        write_validity();
+        if (options.budget)
+          for (const Verdict &verdict : budget_verdicts(strain_table->rows(), budget_table->rows()))
+            verdicts.push_back(verdict);
+        const double n_unreached = static_cast<double>(
+          std::count_if(strain_table->rows().begin(), strain_table->rows().end(),
+                        [](const auto &row) { return row[4] == "unreached"; }));
+        verdicts.push_back({"every level of every reference has an equilibrium (levels without)",
+                            n_unreached == 0. ? Outcome::pass : Outcome::inconclusive, n_unreached,
+                            "0"});
+        write_whole(options.output + "/verdicts.json",
+                    json_text(to_json(verdicts, options.command)));
+        write_whole(options.output + "/study.json", json_text(study_json(seconds, peak_memory)));
+      });
     // Every rank ends with the status of the first.
     int failed = any_failed(verdicts);
     MPI_Bcast(&failed, 1, MPI_INT, 0, communicator);
@@ -530,11 +530,11 @@ private:
   const std::chrono::steady_clock::time_point begin;
   Progress progress;
   std::vector<UnitCell> cells;
-  std::unique_ptr<ResultTable> strain_table, step_table, uncertainty_table, note_table, budget_table,
-    run_time_table;
+  std::unique_ptr<ResultTable> strain_table, step_table, uncertainty_table, note_table,
+    budget_table, run_time_table;
   std::unique_ptr<BudgetStudy> budget; ///< none where it is left out
   bool is_budget_begun = false;        ///< of the present cell
-  std::string folder; ///< of the present cell
+  std::string folder;                  ///< of the present cell
   std::vector<Verdict> verdicts;
   double largest_residual = 0.;
 };

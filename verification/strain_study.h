@@ -22,11 +22,11 @@ struct StrainStudyOptions
   std::vector<std::string> methods;
   int n_cells_of_error_bar = 4; ///< per side of the small sheet of the references' error bar
   std::string output;
-  std::string command; ///< that reproduces the study
-  bool budget                   = true; ///< budget.csv, the error split into its parts
-  bool run_time                 = true; ///< runtime.csv, every way to the positions at one strain
-  bool resume                   = false;
-  bool quiet                    = false;
+  std::string command;  ///< that reproduces the study
+  bool budget   = true; ///< budget.csv, the error split into its parts
+  bool run_time = true; ///< runtime.csv, every way to the positions at one strain
+  bool resume   = false;
+  bool quiet    = false;
 };
 
 /// Runs a study and writes, into the output folder, strain.csv, steps.csv, uncertainty.csv,

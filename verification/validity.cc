@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdio>
 #include <cstdlib>
 #include <limits>
 
@@ -13,9 +14,16 @@ namespace homespun::verification
 {
 const std::vector<std::string> &validity_columns()
 {
-  static const std::vector<std::string> columns = {
-    "cell",     "load",           "reference",            "measure",              "limit",
-    "relation", "largest_strain", "largest_strain_lower", "largest_strain_upper", "note"};
+  static const std::vector<std::string> columns = {"cell",
+                                                   "load",
+                                                   "reference",
+                                                   "measure",
+                                                   "limit",
+                                                   "relation",
+                                                   "largest_strain",
+                                                   "largest_strain_lower",
+                                                   "largest_strain_upper",
+                                                   "note"};
   return columns;
 }
 
@@ -44,6 +52,13 @@ double number(const std::string &text)
                       : std::strtod(text.c_str(), nullptr);
 }
 
+std::string percent(const double value)
+{
+  char text[32];
+  std::snprintf(text, sizeof(text), "%.3g %%", 100. * value);
+  return text;
+}
+
 struct Level
 {
   double strain, error, bar; ///< in the unit of the measure
@@ -63,13 +78,15 @@ std::vector<std::string> row_of(const std::array<std::string, 3> &keys, const st
   }
   const Crossing best = crossing(strains, errors, limit);
   // The bars' own ends: nothing below the ladder, its end where the limit is kept throughout.
-  const Crossing low = crossing(strains, with_bar, limit), high = crossing(strains, without_bar, limit);
+  const Crossing low  = crossing(strains, with_bar, limit),
+                 high = crossing(strains, without_bar, limit);
   std::string note;
   if (best.relation == '-')
     note = "at strain " + csv_number(strains.front()) + " the error is already " +
-           csv_number(100. * errors.front()) + " %";
+           percent(errors.front()) + " of the " + measure;
   else if (low.relation == '-')
-    note = "not resolved: with the reference's error bar the limit is exceeded at the smallest strain";
+    note =
+      "not resolved: with the reference's error bar the limit is exceeded at the smallest strain";
   else if (best.relation == '=' && high.relation == '>')
     note = "upper end open: without the error bar the limit is kept at every level";
   if (std::any_of(levels.begin(), levels.end(),
@@ -77,8 +94,9 @@ std::vector<std::string> row_of(const std::array<std::string, 3> &keys, const st
     note += std::string(note.empty() ? "" : "; ") + "error bar of the reference not known";
   const auto shown = [](const Crossing &one)
   { return one.relation == '-' ? std::string() : csv_number(one.strain); };
-  return {keys[0], keys[1],     keys[2],    measure,     csv_number(limit), std::string(1, best.relation),
-          shown(best), shown(low), shown(high), note};
+  return {
+    keys[0],     keys[1],    keys[2],     measure, csv_number(limit), std::string(1, best.relation),
+    shown(best), shown(low), shown(high), note};
 }
 } // namespace
 
@@ -126,8 +144,8 @@ validity_rows(const std::vector<std::vector<std::string>> &strain_rows)
       {
         std::vector<std::string> row = row_of(keys, measure, limit, levels);
         if (row[5] == ">" && std::isfinite(first_unreached))
-          row[9] += std::string(row[9].empty() ? "" : "; ") + "the reference finds no equilibrium at strain " +
-                    csv_number(first_unreached);
+          row[9] += std::string(row[9].empty() ? "" : "; ") +
+                    "the reference finds no equilibrium at strain " + csv_number(first_unreached);
         rows.push_back(row);
       }
     }

@@ -5,11 +5,11 @@ import json
 import math
 
 TEXT_COLUMNS = {"cell", "load", "reference", "method", "scene", "variant", "term", "present", "group", "case",
-                "expected", "outcome", "verdict"}
-FREE_TEXT_COLUMNS = {"figure", "limit"}  # may be empty
+                "expected", "outcome", "verdict", "part", "region", "way", "measure", "relation"}
+FREE_TEXT_COLUMNS = {"figure", "limit", "note"}  # may be empty
 NEEDED_NUMBERS = {"strain"}  # above zero; every other number may be empty or nan
 TIMES = {"time_s"}           # needed, zero or above
-SIGNED_NUMBERS = {"centre_x_m", "centre_y_m", "centre_z_m", "stored_J"}
+SIGNED_NUMBERS = {"centre_x_m", "centre_y_m", "centre_z_m", "stored_J", "share"}
 VERDICTS = ("PASS", "FAIL", "INCONCLUSIVE")
 RESUME = "Remove the line and run the study again with --resume."
 
