@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "localization/upsampler.h"
 
-#include "meshes/cloth_faults.h"
+#include "localization/garment_modes.h"
+#include "localization/upsampler_faults.h"
 #include "meshes/errors.h"
 #include "meshes/point_location.h"
 #include "meshes/seams.h"
@@ -29,154 +30,7 @@ bool is_lattice_of(const meshes::Sheet &sheet, const meshes::TriangleMesh &coars
            aligned_tolerance * std::sqrt(sheet.lattice.area());
 }
 
-std::vector<std::string> faults_between(const meshes::HomogenizedCell &cell,
-                                        const meshes::Sheet &sheet)
-{
-  std::vector<std::string> faults;
-  const int n = sheet.mesh.n_vertices();
-  if (sheet.n1 < 1 || sheet.n2 < 1 || sheet.n_per_cell < 1 || sheet.n_below < 0 ||
-      sheet.n_below > sheet.n_per_cell || n < sheet.n1 * sheet.n2 * sheet.n_per_cell)
-    faults.push_back("fine sheet: its numbers of cells and of vertices per cell do not fit its " +
-                     std::to_string(n) + " vertices; make it by meshes::tile()");
-  if (sheet.cell_vertex.size() != n)
-    faults.push_back("fine sheet: has " + std::to_string(sheet.cell_vertex.size()) +
-                     " entries in cell_vertex; expected " + std::to_string(n) + ", one per vertex");
-  else if (n > 0 && (sheet.cell_vertex.minCoeff() < 0 ||
-                     sheet.cell_vertex.maxCoeff() >= cell.mesh.n_vertices()))
-    faults.push_back("fine sheet: names cell vertex " +
-                     std::to_string(sheet.cell_vertex.minCoeff() < 0
-                                      ? sheet.cell_vertex.minCoeff()
-                                      : sheet.cell_vertex.maxCoeff()) +
-                     "; expected 0 ... " + std::to_string(cell.mesh.n_vertices() - 1) +
-                     ": it was tiled from another cell");
-  const double gap = (cell.lattice.vectors - sheet.lattice.vectors).cwiseAbs().maxCoeff();
-  if (!(gap <= meshes::image_tolerance * std::sqrt(sheet.lattice.area())))
-  {
-    std::ostringstream text;
-    text << "fine sheet: its lattice vectors differ from the cell's by " << gap
-         << " m; expected the same cell in both";
-    faults.push_back(text.str());
-  }
-  return faults;
-}
-
-std::vector<std::string> faults_between(const meshes::HomogenizedCell &cell,
-                                        const meshes::ClothMesh &coarse,
-                                        const meshes::FineCloth &fine,
-                                        const UpsamplerOptions &options)
-{
-  std::vector<std::string> faults = meshes::cloth_faults(coarse, "coarse cloth");
-  if (!(options.seam_fade >= 0.) || !(options.seam_fade <= meshes::seam_reach))
-  {
-    std::ostringstream text;
-    text << "up-sampling: the fluctuation fades over " << options.seam_fade
-         << " cell sides at seams; expected 0 to " << meshes::seam_reach;
-    faults.push_back(text.str());
-  }
-  const double gap = (cell.lattice.vectors - fine.lattice.vectors).cwiseAbs().maxCoeff();
-  if (!(gap <= meshes::image_tolerance * std::sqrt(fine.lattice.area())))
-  {
-    std::ostringstream text;
-    text << "fine cloth: its lattice vectors differ from the cell's by " << gap
-         << " m; expected the same cell in both";
-    faults.push_back(text.str());
-  }
-  const auto n        = static_cast<Eigen::Index>(fine.n_vertices());
-  const bool has_size = fine.panel.size() == n && fine.cell_vertex.size() == n &&
-                        fine.cell_triangle.size() == n && fine.cell_weights.rows() == n &&
-                        fine.coarse_triangle.size() == n && fine.coarse_weights.rows() == n &&
-                        fine.seam_distance.size() == n;
-  if (!has_size || n == 0)
-    faults.push_back("fine cloth: its arrays do not all have one entry for each of its " +
-                     std::to_string(n) + " vertices; make it by meshes::fine_cloth()");
-  if (!faults.empty())
-    return faults;
-
-  for (int v = 0; v < n && faults.size() < 3; ++v)
-  {
-    const int image = fine.cell_vertex(v), inside = fine.cell_triangle(v),
-              triangle = fine.coarse_triangle(v), panel = fine.panel(v);
-    const std::string name = "fine cloth: vertex " + std::to_string(v) + " ";
-    if (image >= cell.mesh.n_vertices() || inside >= cell.mesh.n_triangles() ||
-        (image < 0 && inside < 0))
-      faults.push_back(name + "names vertex " + std::to_string(image) + " and triangle " +
-                       std::to_string(inside) + " of the cell, which has " +
-                       std::to_string(cell.mesh.n_vertices()) + " and " +
-                       std::to_string(cell.mesh.n_triangles()) +
-                       "; expected one of them: it was tiled from another cell");
-    else if (triangle < 0 || triangle >= coarse.n_triangles() || panel < 0 ||
-             panel >= static_cast<int>(fine.grains.size()))
-      faults.push_back(name + "lies in triangle " + std::to_string(triangle) + " of panel " +
-                       std::to_string(panel) + "; expected one of " +
-                       std::to_string(coarse.n_triangles()) +
-                       " triangles: it was made from another coarse cloth");
-    else
-    {
-      Eigen::RowVector2d point = Eigen::RowVector2d::Zero();
-      for (int k = 0; k < 3; ++k)
-        point +=
-          fine.coarse_weights(v, k) * coarse.rest.vertices.row(coarse.rest.triangles(triangle, k));
-      const double distance = (point - fine.rest.vertices.row(v)).norm();
-      if (!(distance <= 1e-6 * std::sqrt(fine.lattice.area()) + 1e-14 * point.norm()))
-      {
-        std::ostringstream text;
-        text << name << "lies " << distance << " m from its place in coarse triangle " << triangle
-             << " at rest; expected none: it was made from another coarse cloth";
-        faults.push_back(text.str());
-      }
-    }
-  }
-  return faults;
-}
-
-/// chi of a cell that is turned against the rest frame: w = Q w_cell(Q^T E Q).
-Eigen::Matrix<double, 6, 6> turned_modes(const Eigen::Matrix2d &Q)
-{
-  Eigen::Matrix<double, 6, 6> map = Eigen::Matrix<double, 6, 6>::Zero(); // chi row times map
-  for (int b = 0; b < 3; ++b)
-  {
-    Eigen::Matrix2d strain = Eigen::Matrix2d::Zero();
-    if (b < 2)
-      strain(b, b) = 1.;
-    else
-      strain(0, 1) = strain(1, 0) = 0.5;
-    const Eigen::Matrix2d in_cell = Q.transpose() * strain * Q;
-    const Eigen::Vector3d voigt(in_cell(0, 0), in_cell(1, 1), 2. * in_cell(0, 1));
-    for (int a = 0; a < 3; ++a)
-      map.block<2, 2>(2 * a, 2 * b) = voigt(a) * Q.transpose();
-  }
-  return map;
-}
-
-/// Grows from 0 at 0 to 1 at 1, with slope zero at both.
-double smooth_step(const double s)
-{
-  const double t = std::clamp(s, 0., 1.);
-  return t * t * (3. - 2. * t);
-}
 } // namespace
-
-template <int dim, typename Scalar>
-void Upsampler<dim, Scalar>::Table::append(const Eigen::Vector3d &barycentric,
-                                           const Eigen::Matrix<double, 1, 6> &chi)
-{
-  if (size % lanes == 0)
-  {
-    weights.push_back({});
-    modes.push_back({});
-  }
-  const int lane               = size++ % lanes;
-  weights.back().corner1[lane] = static_cast<Scalar>(barycentric(1));
-  weights.back().corner2[lane] = static_cast<Scalar>(barycentric(2));
-  for (int k = 0; k < 6; ++k)
-    modes.back().column[k][lane] = static_cast<Scalar>(-chi(k));
-}
-
-template <int dim, typename Scalar>
-void Upsampler<dim, Scalar>::Table::pad()
-{
-  size = (size + lanes - 1) / lanes * lanes;
-}
 
 template <int dim, typename Scalar>
 Upsampler<dim, Scalar>::Upsampler(const meshes::HomogenizedCell &cell,
@@ -185,7 +39,7 @@ Upsampler<dim, Scalar>::Upsampler(const meshes::HomogenizedCell &cell,
     : frames(coarse_rest, options)
     , options(options)
 {
-  if (const auto faults = faults_between(cell, fine); !faults.empty())
+  if (const auto faults = sheet_faults(cell, fine); !faults.empty())
     throw meshes::BadInput(faults);
   const meshes::CharacteristicDisplacements chi =
     options.microscopic
@@ -223,7 +77,7 @@ Upsampler<dim, Scalar>::Upsampler(const meshes::HomogenizedCell &cell,
     : frames(coarse.rest, options)
     , options(options)
 {
-  if (const auto faults = faults_between(cell, coarse, fine, options); !faults.empty())
+  if (const auto faults = garment_faults(cell, coarse, fine, options); !faults.empty())
     throw meshes::BadInput(faults);
   const meshes::CharacteristicDisplacements chi =
     options.microscopic
@@ -233,31 +87,12 @@ Upsampler<dim, Scalar>::Upsampler(const meshes::HomogenizedCell &cell,
   n_space                     = coarse.n_vertices();
   const Eigen::VectorXi space = meshes::space_of_rest(coarse);
   space_of_rest.assign(space.data(), space.data() + space.size());
-  std::vector<Eigen::Matrix<double, 6, 6>> turned;
-  for (const meshes::Grain &grain : fine.grains)
-    turned.push_back(turned_modes(grain.rotation()));
-  const double fade   = options.seam_fade * std::sqrt(cell.lattice.area());
-  const auto modes_of = [&](const int v)
-  {
-    Eigen::Matrix<double, 1, 6> modes = Eigen::Matrix<double, 1, 6>::Zero();
-    if (fine.cell_vertex(v) >= 0)
-      modes = chi.row(fine.cell_vertex(v));
-    else
-      for (int k = 0; k < 3; ++k)
-        modes += fine.cell_weights(v, k) * chi.row(cell.mesh.triangles(fine.cell_triangle(v), k));
-    const auto panel = static_cast<std::size_t>(fine.panel(v));
-    if (fine.grains[panel].angle != 0.)
-      modes = (modes * turned[panel]).eval();
-    const double distance = fine.seam_distance(v);
-    if (distance < fade)
-      modes *= smooth_step(distance / fade);
-    return modes;
-  };
+  const double fade = options.seam_fade * std::sqrt(cell.lattice.area());
   std::vector<std::vector<Member>> in_triangle(static_cast<std::size_t>(coarse.n_triangles()));
   for (int v = 0; v < n_total; ++v)
     in_triangle[static_cast<std::size_t>(fine.coarse_triangle(v))].push_back(
       {v, fine.coarse_weights.row(v).transpose()});
-  tabulate(in_triangle, modes_of);
+  tabulate(in_triangle, GarmentModes(cell, chi, fine, fade));
   at_rest_vertices.resize(coarse.rest.n_vertices(), dim);
   records.resize(static_cast<std::size_t>(coarse.rest.n_vertices()) * record_size);
 }
@@ -312,7 +147,7 @@ void Upsampler<dim, Scalar>::tabulate(const std::vector<std::vector<Member>> &in
     target.resize(static_cast<std::size_t>(own.size), -1);
   }
   if (!options.microscopic)
-    for (Table *table : {&shared, &own})
+    for (VertexTable<Scalar> *table : {&shared, &own})
       table->modes = std::vector<Modes<Scalar>>();
 }
 
@@ -338,7 +173,7 @@ template <int dim, typename Scalar>
 std::size_t Upsampler<dim, Scalar>::table_bytes() const
 {
   std::size_t bytes = sizeof(int) * target.size();
-  for (const Table *table : {&shared, &own})
+  for (const VertexTable<Scalar> *table : {&shared, &own})
     bytes +=
       sizeof(Weights<Scalar>) * table->weights.size() + sizeof(Modes<Scalar>) * table->modes.size();
   return bytes;
@@ -372,8 +207,8 @@ void Upsampler<dim, Scalar>::fill_records(const Positions<dim> &coarse_current) 
 
 template <int dim, typename Scalar>
 template <int terms>
-void Upsampler<dim, Scalar>::evaluate(const Table &table, const int triangle, const int begin,
-                                      const int count, Scalar *const out) const
+void Upsampler<dim, Scalar>::evaluate(const VertexTable<Scalar> &table, const int triangle,
+                                      const int begin, const int count, Scalar *const out) const
 {
   Corners<Scalar> corners;
   const auto record = [&](const int k)

@@ -18,8 +18,8 @@
 #pragma once
 
 #include "localization/coarse_frames.h"
-#include "localization/kernel.h"
 #include "localization/options.h"
+#include "localization/vertex_table.h"
 #include "meshes/cloth_mesh.h"
 #include "meshes/fine_cloth.h"
 #include "meshes/homogenized_cell.h"
@@ -78,16 +78,6 @@ public:
   std::size_t table_bytes() const;
 
 private:
-  /// Constants per vertex, in groups padded to whole blocks of lanes.
-  struct Table
-  {
-    std::vector<Weights<Scalar>> weights;
-    std::vector<Modes<Scalar>> modes;
-    int size = 0; ///< rows, padding included
-
-    void append(const Eigen::Vector3d &weights, const Eigen::Matrix<double, 1, 6> &chi);
-    void pad();
-  };
   /// Consecutive rows of a table that lie in one coarse triangle.
   struct Group
   {
@@ -109,7 +99,8 @@ private:
   template <int terms>
   void run(Scalar *fine_current) const;
   template <int terms>
-  void evaluate(const Table &table, int triangle, int begin, int count, Scalar *out) const;
+  void evaluate(const VertexTable<Scalar> &table, int triangle, int begin, int count,
+                Scalar *out) const;
 
   CoarseFrames<dim> frames;
   UpsamplerOptions options;
@@ -120,8 +111,8 @@ private:
   int n_block  = 0;                        ///< aligned: vertices per block
   int n_below  = 0;                        ///< aligned: of these, below the diagonal
   int n_total  = 0;                        ///< fine vertices
-  Table shared;                            ///< aligned: below the diagonal, then above
-  Table own;                               ///< of all vertices that stand in no block
+  VertexTable<Scalar> shared;              ///< aligned: below the diagonal, then above
+  VertexTable<Scalar> own;                 ///< of all vertices that stand in no block
   std::vector<Group> groups;               ///< of `own`
   std::vector<int> target;                 ///< fine vertex of each row of `own`, −1 for padding
   mutable Positions<dim> at_rest_vertices; ///< garment: positions by rest vertex

@@ -17,6 +17,8 @@ std::string joined(const std::vector<std::string> &lines)
 
 std::string with_history(const std::string &what, const std::vector<double> &residuals)
 {
+  if (residuals.empty())
+    return what;
   std::ostringstream text;
   text << what << "; residual norms:";
   const std::size_t n = residuals.size();

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "shell/block_cholesky.h"
 
+#include "shell/index.h"
+
 #include <Eigen/Cholesky>
 #include <Eigen/Core>
 
@@ -20,11 +22,6 @@ constexpr double allowed_zeros = 0.2;
 
 /// Below this number of multiply-adds Eigen's blocked product costs more than it saves.
 constexpr double small_product = 4000.;
-
-std::size_t index(const int i)
-{
-  return static_cast<std::size_t>(i);
-}
 
 /// T = A B^T for a panel A (n,depth) and the rows B (3,depth) at b, both with leading dimension `stride`;
 /// T (n,3) with leading dimension n.

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "shell/block_matrix.h"
 
+#include "shell/index.h"
+
 #include <Eigen/OrderingMethods>
 #include <Eigen/SparseCore>
 
@@ -13,11 +15,6 @@ namespace homespun::shell
 {
 namespace
 {
-std::size_t index(const int i)
-{
-  return static_cast<std::size_t>(i);
-}
-
 /// Free vertices in an order of little fill, then the held ones.
 std::vector<int> elimination_order(const std::vector<std::array<int, 2>> &couplings,
                                    const std::vector<bool> &is_held)

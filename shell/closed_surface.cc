@@ -2,6 +2,7 @@
 #include "shell/closed_surface.h"
 
 #include "meshes/errors.h"
+#include "shell/index.h"
 
 #include <algorithm>
 #include <array>
@@ -18,11 +19,6 @@ constexpr int leaf_size = 4;
 
 // A crossing may miss both faces of an edge by round-off; faces reach over their edges by this part.
 constexpr double overlap = 1e-9;
-
-std::size_t index(const int i)
-{
-  return static_cast<std::size_t>(i);
-}
 
 /// Nearest point of a triangle in barycentric coordinates, and whether it lies on the face (0), the
 /// edge opposite to corner k (1 + k) or on corner k (4 + k). Regions as in Ericson, "Real-time

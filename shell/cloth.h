@@ -2,8 +2,8 @@
 // A moving cloth: masses, held vertices, and the terms that a scene adds (term.h). What is absent is never
 // called.
 //
-// One step minimises the incremental potential of implicit Euler,
-//   Φ(x) = Σ m/(2 h²) |x − x_n − h v_n|² + Σ_terms E(x),   v_{n+1} = (x_{n+1} − x_n)/h.
+// One step of h minimises the incremental potential Φ of implicit Euler (incremental_potential.h), with
+// v_{n+1} = (x_{n+1} − x_n)/h.
 // linearly implicit: one Newton step from x_n with the positive semi-definite Hessian; one assembly, one
 //   factorisation (Baraff & Witkin 1998). Should it raise the energy of a cloth on which nothing does work,
 //   or otherwise Φ, Newton's method goes on with a line search.
@@ -19,9 +19,7 @@
 // cloth grew, the motion beside the rigid one is slowed until it did not, so that both momenta stay.
 #pragma once
 
-#include "shell/block_cholesky.h"
-#include "shell/conjugate_gradients.h"
-#include "shell/term.h"
+#include "shell/incremental_potential.h"
 
 #include <Eigen/Core>
 
@@ -37,35 +35,17 @@ enum class Integrator
   implicit
 };
 
-enum class LinearSolver
-{
-  automatic, ///< direct up to direct_limit free vertices, a limit of memory
-  direct,    ///< block Cholesky factorisation
-  iterative  ///< conjugate gradients with incomplete Cholesky, warm start
-};
-
-struct ClothOptions
+struct ClothOptions : SolverOptions
 {
   Integrator integrator = Integrator::linearly_implicit;
-  LinearSolver solver   = LinearSolver::automatic;
-  /// Free vertices. The direct solver was the faster one at 441, 2,601 and 25,281 vertices (benchmark `step`,
-  /// h = 10 ms: 0.7, 7, 200 ms against 1.8, 27, 1400 ms); with 145,161 it takes 2.6 s and 0.7 GB. Memory,
-  /// some 5 kB per vertex, sets the limit.
-  int direct_limit        = 200000;
-  double newton_tolerance = 1e-8; ///< |gradient of Φ| over the size of the forces it is made of [-]
-  int max_newton_iterations = 40;
-  double linear_tolerance   = 1e-6; ///< of conjugate gradients, |r| / |right side| [-]
-  int max_linear_iterations = 5000;
-  int max_cuts              = 8; ///< halvings of a step that fails
+  int max_cuts          = 8; ///< halvings of a step that fails
 };
 
 /// What a step took.
-struct StepReport
+struct StepReport : SolveCounts
 {
-  int newton_iterations = 0; ///< factorisations or preconditioners
-  int linear_iterations = 0; ///< of conjugate gradients
-  int cuts              = 0; ///< halvings of the step
-  int guarded           = 0; ///< linearly implicit steps that went on with a line search
+  int cuts    = 0; ///< halvings of the step
+  int guarded = 0; ///< linearly implicit steps that went on with a line search
 };
 
 /// What an equilibrium took.
@@ -132,55 +112,37 @@ public:
 
   const std::vector<std::unique_ptr<Term>> &terms() const
   {
-    return all_terms;
+    return potential.terms();
   }
   const Eigen::VectorXd &masses() const
   {
     return m;
   }
   /// Whether the steps are solved by factorisation.
-  bool is_direct() const;
+  bool is_direct() const
+  {
+    return potential.is_direct();
+  }
   /// Bytes of terms, matrix and factors.
   std::size_t bytes() const;
 
 private:
-  void lay_out();
   void set_held(Vectors &positions) const;
   bool is_closed() const;
   void try_step(double h, bool may_fail, StepReport &report);
-  Vectors linear_step(const Vectors &inertial, double h, StepReport &report);
+  Vectors linear_step(double h, StepReport &report);
+  Vectors minimum(const Vectors &inertial, double h, StepReport &report);
   void limit_energy(double before, bool may_fail);
-  Eigen::RowVector3d spin_of(const Eigen::RowVector3d &angular) const;
-  double sum_of_stored_energies(const Vectors &positions) const;
-  double incremental_potential(const Vectors &positions, const Vectors &inertial, double h) const;
-  bool solve_linear(const Vectors &right_side, Vectors &result, StepReport &report);
-  /// Norms over the free vertices: of the gradient, of the forces before they cancel, and of what one
-  /// rounding of the positions changes [N].
-  struct Residual
-  {
-    double norm = 0., size = 0., round_off = 0.;
-  };
-  Residual assemble(const Vectors &positions, const Vectors &inertial, double inverse_square,
-                    Hessian kind);
-  void newton(const Vectors &inertial, double h, Vectors &positions, int max_iterations,
-              bool must_converge, StepReport &report);
-  bool has_energy() const;
   void restore_angular_momentum(const Eigen::RowVector3d &before, double h);
   void check_finite(const Vectors &positions, double h) const;
 
   Vectors x, v, target;
   const Eigen::VectorXd m;
-  std::vector<bool> is_held;
-  std::vector<int> held;
+  const std::vector<int> held;
   const ClothOptions options;
+  IncrementalPotential potential;
   double now  = 0.;
   long n_step = 0;
-  std::vector<std::unique_ptr<Term>> all_terms;
-  std::unique_ptr<BlockMatrix> matrix;
-  std::unique_ptr<BlockCholesky> cholesky;
-  std::unique_ptr<IncompleteCholesky> preconditioner;
-  std::vector<BlockMatrix::Place> diagonal;
   mutable std::optional<double> stored; ///< energy of x, where known
-  Vectors work_gradient, work_step;
 };
 } // namespace homespun::shell

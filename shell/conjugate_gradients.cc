@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "shell/conjugate_gradients.h"
 
+#include "shell/index.h"
+
 #include "meshes/errors.h"
 
 #include <Eigen/Cholesky>
@@ -10,14 +12,6 @@
 
 namespace homespun::shell
 {
-namespace
-{
-std::size_t index(const int i)
-{
-  return static_cast<std::size_t>(i);
-}
-} // namespace
-
 IncompleteCholesky::IncompleteCholesky(const BlockMatrix &matrix)
     : values(matrix.blocks.size())
     , inverses(index(matrix.n_free()))

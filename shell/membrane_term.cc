@@ -2,6 +2,8 @@
 #include "shell/membrane_term.h"
 
 #include "meshes/errors.h"
+#include "shell/index.h"
+#include "shell/triangle_places.h"
 
 #include <cmath>
 #include <sstream>
@@ -10,11 +12,6 @@ namespace homespun::shell
 {
 namespace
 {
-std::size_t index(const int i)
-{
-  return static_cast<std::size_t>(i);
-}
-
 class MembraneTerm : public Term
 {
 public:
@@ -32,21 +29,12 @@ public:
 
   void couple(std::vector<std::array<int, 2>> &pairs) const override
   {
-    for (int t = 0; t < n_triangles(); ++t)
-      for (int k = 0; k < 3; ++k)
-        pairs.push_back({membrane.triangles(t, k), membrane.triangles(t, (k + 1) % 3)});
+    couple_corners(membrane.triangles, pairs);
   }
 
   void attach(const BlockMatrix &matrix) override
   {
-    places.resize(index(n_triangles()));
-    for (int t = 0; t < n_triangles(); ++t)
-    {
-      const auto corner = [&](const int k) { return membrane.triangles(t, k); };
-      places[index(t)]  = {matrix.place(corner(0), corner(0)), matrix.place(corner(0), corner(1)),
-                           matrix.place(corner(0), corner(2)), matrix.place(corner(1), corner(1)),
-                           matrix.place(corner(1), corner(2)), matrix.place(corner(2), corner(2))};
-    }
+    places = places_of(membrane.triangles, matrix);
   }
 
   void begin_step(const StepStart &start) override
@@ -146,11 +134,11 @@ private:
   }
 
   const Membrane membrane;
-  const double viscosity;                                ///< [s]
-  double factor = 0.;                                    ///< β/h
-  std::vector<MembraneStiffness> effective;              ///< (1 + β/h) D
-  std::vector<Eigen::Vector3d> old_stress;               ///< −β/h D e_n; empty without viscosity
-  std::vector<std::array<BlockMatrix::Place, 6>> places; ///< of each triangle's blocks
+  const double viscosity;                   ///< [s]
+  double factor = 0.;                       ///< β/h
+  std::vector<MembraneStiffness> effective; ///< (1 + β/h) D
+  std::vector<Eigen::Vector3d> old_stress;  ///< −β/h D e_n; empty without viscosity
+  std::vector<TrianglePlaces> places;       ///< (m)
 };
 } // namespace
 

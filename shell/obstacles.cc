@@ -2,6 +2,8 @@
 #include "shell/obstacles.h"
 
 #include "meshes/errors.h"
+#include "shell/external_term.h"
+#include "shell/index.h"
 
 #include <algorithm>
 #include <cmath>
@@ -15,11 +17,6 @@ namespace
 // Stiffness in m/h²: a vertex that lands has 1/1000 of its overshoot left.
 constexpr double default_stiffness = 1000.;
 constexpr double infinite          = std::numeric_limits<double>::infinity();
-
-std::size_t index(const int i)
-{
-  return static_cast<std::size_t>(i);
-}
 
 class Plane final : public Shape
 {
@@ -150,7 +147,7 @@ double secant(const double speed, const double slip_speed)
   return speed < slip_speed ? (2. - speed / slip_speed) / slip_speed : 1. / speed;
 }
 
-class Contact final : public Term
+class Contact final : public ExternalTerm
 {
 public:
   Contact(const Obstacle &obstacle, const Eigen::VectorXd &masses,
@@ -192,13 +189,6 @@ public:
   std::string name() const override
   {
     return "contact with " + obstacle.name;
-  }
-
-  void attach(const BlockMatrix &matrix) override
-  {
-    places.clear();
-    for (int v = 0; v < matrix.n_vertices(); ++v)
-      places.push_back(matrix.place(v, v));
   }
 
   void begin_step(const StepStart &start) override;
@@ -246,19 +236,6 @@ public:
     }
   }
 
-  double stored_energy(const Vectors &) const override
-  {
-    return 0.;
-  }
-  bool does_work() const override
-  {
-    return true;
-  }
-  bool is_internal() const override
-  {
-    return false;
-  }
-
   std::size_t bytes() const override
   {
     return obstacle.shape->bytes() + contacts.capacity() * sizeof(HalfSpace) +
@@ -287,7 +264,6 @@ private:
   Eigen::VectorXd masses;
   ContactParameters parameters;
   std::vector<HalfSpace> contacts;
-  std::vector<BlockMatrix::Place> places;
 };
 
 void Contact::begin_step(const StepStart &start)

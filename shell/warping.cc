@@ -2,7 +2,9 @@
 #include "shell/warping.h"
 
 #include "meshes/errors.h"
+#include "shell/index.h"
 #include "shell/membrane.h"
+#include "shell/triangle_places.h"
 
 #include <Eigen/Geometry>
 #include <Eigen/LU>
@@ -14,11 +16,6 @@ namespace homespun::shell
 {
 namespace
 {
-std::size_t index(const int i)
-{
-  return static_cast<std::size_t>(i);
-}
-
 /// Stiffness of a triangle at rest in its plane, embedded in space: rows and columns of the third
 /// component are zero.
 Eigen::Matrix<double, 9, 9> flat_stiffness(const RestTriangle &rest, const Eigen::Matrix3d &D)
@@ -49,19 +46,12 @@ public:
 
   void couple(std::vector<std::array<int, 2>> &pairs) const override
   {
-    for (int t = 0; t < n_triangles(); ++t)
-      for (int k = 0; k < 3; ++k)
-        pairs.push_back({membrane.triangles(t, k), membrane.triangles(t, (k + 1) % 3)});
+    couple_corners(membrane.triangles, pairs);
   }
 
   void attach(const BlockMatrix &matrix) override
   {
-    places.resize(index(n_triangles()));
-    for (int t = 0; t < n_triangles(); ++t)
-      for (int k = 0, b = 0; k < 3; ++k)
-        for (int l = k; l < 3; ++l, ++b)
-          places[index(t)][index(b)] =
-            matrix.place(membrane.triangles(t, k), membrane.triangles(t, l));
+    places = places_of(membrane.triangles, matrix);
   }
 
   std::size_t bytes() const override
@@ -75,6 +65,18 @@ protected:
     return static_cast<int>(membrane.triangles.rows());
   }
 
+  /// Adds R_k K_kl R_l^T of all triangles, R_k = rotation_of(t, k).
+  template <typename RotationOf>
+  void add_turned(const RotationOf &rotation_of, BlockMatrix &matrix) const
+  {
+    for (int t = 0; t < n_triangles(); ++t)
+      for (int k = 0, b = 0; k < 3; ++k)
+        for (int l = k; l < 3; ++l, ++b)
+          matrix.add(places[index(t)][index(b)], rotation_of(t, k) *
+                                                   stiffness[index(t)].block<3, 3>(3 * k, 3 * l) *
+                                                   rotation_of(t, l).transpose());
+  }
+
   /// Rest position of corner k, in space.
   Eigen::Vector3d rest_corner(const int t, const int k) const
   {
@@ -85,7 +87,7 @@ protected:
   const Membrane membrane;
   const meshes::TriangleMesh rest;
   std::vector<Eigen::Matrix<double, 9, 9>> stiffness;
-  std::vector<std::array<BlockMatrix::Place, 6>> places;
+  std::vector<TrianglePlaces> places; ///< (m)
 };
 
 class TriangleWarping : public WarpedTerm
@@ -138,12 +140,8 @@ public:
                        BlockMatrix &matrix) const override
   {
     add_gradient(positions, gradient);
-    for (int t = 0; t < n_triangles(); ++t)
-      for (int k = 0, b = 0; k < 3; ++k)
-        for (int l = k; l < 3; ++l, ++b)
-          matrix.add(places[index(t)][index(b)], rotations[index(t)] *
-                                                   stiffness[index(t)].block<3, 3>(3 * k, 3 * l) *
-                                                   rotations[index(t)].transpose());
+    add_turned(
+      [&](const int t, int) -> const auto & { return rotations[index(t)]; }, matrix);
   }
 
 private:
@@ -297,13 +295,11 @@ public:
                        BlockMatrix &matrix) const override
   {
     add_gradient(positions, gradient);
-    for (int t = 0; t < n_triangles(); ++t)
-      for (int k = 0, b = 0; k < 3; ++k)
-        for (int l = k; l < 3; ++l, ++b)
-          matrix.add(places[index(t)][index(b)],
-                     rotations[index(membrane.triangles(t, k))] *
-                       stiffness[index(t)].block<3, 3>(3 * k, 3 * l) *
-                       rotations[index(membrane.triangles(t, l))].transpose());
+    add_turned(
+      [&](const int t, const int k) -> const auto & {
+        return rotations[index(membrane.triangles(t, k))];
+      },
+      matrix);
   }
 
 private:

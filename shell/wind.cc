@@ -2,6 +2,8 @@
 #include "shell/wind.h"
 
 #include "meshes/errors.h"
+#include "shell/external_term.h"
+#include "shell/index.h"
 
 #include <Eigen/Geometry>
 
@@ -15,11 +17,6 @@ namespace
 // Twice the area over the squared sides below which a triangle counts as collapsed: round-off is 1e-16.
 constexpr double collapsed = 1e-14;
 
-std::size_t index(const int i)
-{
-  return static_cast<std::size_t>(i);
-}
-
 /// Area times unit normal [m^2]; zero where the triangle is collapsed.
 Eigen::Vector3d area_vector(const Vectors &x, const meshes::Triangles &triangles, const int t)
 {
@@ -32,19 +29,12 @@ Eigen::Vector3d area_vector(const Vectors &x, const meshes::Triangles &triangles
 }
 
 /// A load and a resistance per vertex, E = ½ (x − x_n)·R (x − x_n) − f·(x − x_n).
-class VertexLoad : public Term
+class VertexLoad : public ExternalTerm
 {
 public:
   explicit VertexLoad(const meshes::Triangles &triangles)
       : triangles(triangles)
   {
-  }
-
-  void attach(const BlockMatrix &matrix) override
-  {
-    places.clear();
-    for (int v = 0; v < matrix.n_vertices(); ++v)
-      places.push_back(matrix.place(v, v));
   }
 
   double energy(const Vectors &x) const override
@@ -81,19 +71,6 @@ public:
       matrix.add(places[v], resistance[v]);
   }
 
-  double stored_energy(const Vectors &) const override
-  {
-    return 0.;
-  }
-  bool does_work() const override
-  {
-    return true;
-  }
-  bool is_internal() const override
-  {
-    return false;
-  }
-
   std::size_t bytes() const override
   {
     return static_cast<std::size_t>(triangles.size()) * sizeof(int) +
@@ -114,7 +91,6 @@ protected:
   Vectors force; ///< f [N]
   std::vector<Eigen::Matrix3d>
     resistance; ///< R, symmetric positive semi-definite [N/m]; none in an equilibrium
-  std::vector<BlockMatrix::Place> places;
 };
 
 class Wind final : public VertexLoad

@@ -3,11 +3,12 @@
 
 #include "homogenization/parameter_text.h"
 #include "meshes/errors.h"
+#include "verification/held_place_text.h"
+#include "verification/scene_keys.h"
 
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <functional>
 #include <sstream>
 
 namespace homespun::verification
@@ -19,78 +20,6 @@ using homogenization::trimmed;
 
 namespace
 {
-/// The keys of a scene file; every key is said here once.
-struct SceneKeys
-{
-  std::string story, cells, terms = "membrane, gravity, pins";
-  std::string sheet_cells = "20 20", mesh, vt_unit = "1", placement = "standing", centre = "0 0 0",
-              disturbance = "0";
-  std::string integrator = "linearly implicit", time_step = "0.01", duration = "1",
-              frame_interval = "0.05";
-  std::string gravity = "0 0 -9.81", damping = "0", viscosity = "0", bending = "0", wind = "0 0 0",
-              air_density = "1.2", drag = "1", pressure = "0", pins, handles, obstacles,
-              friction = "0", thickness = "0.001";
-
-  /// Declares all keys; `term_of` receives the term that a key belongs to.
-  void declare(dealii::ParameterHandler &keys, std::map<std::string, std::string> &term_of)
-  {
-    const auto add =
-      [&](const char *key, std::string &value, const char *text, const char *term = "")
-    {
-      keys.add_parameter(key, value, text);
-      if (*term)
-        term_of[key] = term;
-    };
-    add("Story", story, "What the scene shows, one line.");
-    add("Cells", cells, "Cell files, comma-separated, relative to this file.");
-    add("Terms", terms,
-        "What acts on the cloth, comma-separated: membrane, gravity, bending, damping, wind, pins, "
-        "handles, obstacles, friction. What is not listed is left out and costs nothing.");
-    add("Sheet cells", sheet_cells,
-        "Unit cells along the first and second side of a sheet; two coarse triangles per cell.");
-    add("Mesh", mesh,
-        "A garment in place of a sheet: an OBJ file with `vt`, relative to this file.");
-    add("Rest coordinate unit", vt_unit, "Metres per unit of `vt` [m].");
-    add("Placement", placement, "`standing` (rest x, y to x, z) or `lying` (to x, y).");
-    add("Centre", centre, "Of the sheet at the beginning: x y z [m].");
-    add("Disturbance", disturbance,
-        "Height of a smooth bump out of the plane of the sheet at the beginning [m].");
-    add("Integrator", integrator,
-        "`linearly implicit`, `implicit` (Euler), or `static` (an equilibrium at each frame).");
-    add("Time step", time_step, "[s], positive.");
-    add("Duration", duration, "[s], positive.");
-    add("Frame interval", frame_interval, "Time between frames [s], a multiple of the time step.");
-    add("Gravity", gravity, "Acceleration x y z [m/s^2].", "gravity");
-    add("Damping rate", damping, "Force per momentum: -alpha m v [1/s].", "damping");
-    add(
-      "Viscosity", viscosity,
-      "Stress per rate of strain, in units of the stiffness [s]. References of deal.II do not have "
-      "it.",
-      "damping");
-    add("Bending stiffness", bending,
-        "Of the plate [N m]: one number (isotropic, nu = 0), or D11 D22 D12 D66.", "bending");
-    add("Wind velocity", wind, "x y z [m/s].", "wind");
-    add("Air density", air_density, "[kg/m^3].", "wind");
-    add("Drag coefficient", drag, "Of the normal component [-].", "wind");
-    add("Pressure", pressure, "On the side that the normal leaves, follower load [Pa].", "wind");
-    add("Pins", pins,
-        "Places that stay, separated by `;`: left, right, bottom, top (edges of a sheet), top left "
-        "and so on (corners), waist (the highest vertices), vertices 0 1 2.",
-        "pins");
-    add("Handles", handles,
-        "Places that move, `place: translate dx dy dz during s` or `place: rotate degrees about ax "
-        "ay az during s` (about the centre of the place), separated by `;`.",
-        "handles");
-    add("Obstacles", obstacles,
-        "`plane px py pz nx ny nz`, `sphere cx cy cz radius`, `mesh file.obj dx dy dz`, separated "
-        "by `;`.",
-        "obstacles");
-    add("Friction coefficient", friction, "Of Coulomb friction on all obstacles [-].", "friction");
-    add("Contact thickness", thickness, "Distance at which an obstacle begins to push [m].",
-        "obstacles");
-  }
-};
-
 class SceneReader
 {
 public:
@@ -131,6 +60,12 @@ private:
   void fault(const std::string &key, const std::string &found, const std::string &expected)
   {
     faults.push_back(file + ": key `" + key + "`: found `" + found + "`; expected " + expected);
+  }
+
+  TextFault fault_of(const std::string &key)
+  {
+    return [this, key](const std::string &found, const std::string &expected)
+    { fault(key, found, expected); };
   }
 
   std::vector<double> vector(const std::string &key, const std::string &text,
@@ -285,48 +220,11 @@ private:
     scene.pressure    = vector("Pressure", keys.pressure, {1}, "a number")[0];
   }
 
-  HeldPlace place_of(const std::string &key, const std::string &text)
-  {
-    HeldPlace place;
-    std::istringstream words(text);
-    std::string first, second;
-    words >> first;
-    const std::set<std::string> rows = {"bottom", "top"}, columns = {"left", "right"};
-    if (first == "vertices")
-    {
-      const auto values = numbers(text.substr(8));
-      if (!values || values->empty())
-        fault(key, text, "`vertices` and their indices");
-      else
-        for (const double value : *values)
-        {
-          if (value < 0. || value != std::floor(value) || value > 1e9)
-            fault(key, text, "indices from 0");
-          place.vertices.push_back(static_cast<int>(value));
-        }
-      place.place = "vertices";
-      return place;
-    }
-    words >> second;
-    std::string rest;
-    words >> rest;
-    const bool edge   = (rows.count(first) || columns.count(first)) && second.empty();
-    const bool corner = rows.count(first) && columns.count(second) && rest.empty();
-    const bool waist  = first == "waist" && second.empty();
-    if (!edge && !corner && !waist)
-      fault(key, text,
-            "left, right, bottom, top, a corner such as `top left`, waist, or `vertices 0 1 2`");
-    else if ((edge || corner) && !scene.is_sheet())
-      fault(key, text, "`waist` or `vertices ...`: a garment has no edges by name");
-    place.place = corner ? first + " " + second : first;
-    return place;
-  }
-
   void read_held()
   {
     for (const std::string &text : split(keys.pins, ';'))
       if (!text.empty())
-        scene.held.push_back(place_of("Pins", text));
+        scene.held.push_back(place_from(text, scene.is_sheet(), fault_of("Pins")));
     if (scene.has("pins") && scene.held.empty())
       faults.push_back(file +
                        ": key `Pins` is missing; expected the places that stay, because `Terms` "
@@ -334,48 +232,11 @@ private:
     const std::size_t n_pins = scene.held.size();
     for (const std::string &text : split(keys.handles, ';'))
       if (!text.empty())
-        read_handle(text);
+        if (auto handle = handle_from(text, scene.is_sheet(), fault_of("Handles")))
+          scene.held.push_back(std::move(*handle));
     if (scene.has("handles") && scene.held.size() == n_pins)
       faults.push_back(file + ": key `Handles` is missing; expected the places that move, because "
                               "`Terms` lists handles");
-  }
-
-  void read_handle(const std::string &text)
-  {
-    const std::string expected = "`place: translate dx dy dz during s` or `place: rotate degrees "
-                                 "about ax ay az during s`";
-    const std::size_t colon    = text.find(':');
-    if (colon == std::string::npos)
-    {
-      fault("Handles", text, expected);
-      return;
-    }
-    HeldPlace place = place_of("Handles", trimmed(text.substr(0, colon)));
-    std::istringstream words(text.substr(colon + 1));
-    std::string kind, about, during, rest;
-    Motion &motion = place.motion;
-    words >> kind;
-    bool good = false;
-    if (kind == "translate")
-    {
-      motion.kind = Motion::Kind::translate;
-      good = static_cast<bool>(words >> motion.along(0) >> motion.along(1) >> motion.along(2) >>
-                               during >> motion.seconds) &&
-             during == "during";
-    }
-    else if (kind == "rotate")
-    {
-      motion.kind = Motion::Kind::rotate;
-      good        = static_cast<bool>(words >> motion.angle >> about >> motion.along(0) >>
-                               motion.along(1) >> motion.along(2) >> during >> motion.seconds) &&
-             about == "about" && during == "during" && motion.along.norm() > 0.;
-      motion.angle *= std::acos(-1.) / 180.;
-      if (good)
-        motion.along.normalize();
-    }
-    if (!good || (words >> rest) || !(motion.seconds > 0.))
-      fault("Handles", text, expected);
-    scene.held.push_back(place);
   }
 
   void read_obstacles()

@@ -47,18 +47,14 @@ Positions<dim> bent(const meshes::TriangleMesh &coarse)
   return current;
 }
 
+/// Times the frames of an up-sampler, with what they write beside a copy of as much.
+/// @return bytes that a frame writes
 template <int dim, typename Scalar>
-void upsample(benchmark::State &state, const UpsamplerOptions &options,
-              const double flops_per_vertex)
+double run_frames(benchmark::State &state, const Upsampler<dim, Scalar> &upsampler,
+                  const Positions<dim> &current)
 {
-  const meshes::HomogenizedCell cell = smooth_cell(18, 20);
-  const meshes::Sheet sheet          = meshes::tile(cell.mesh, cell.lattice, 20, 20);
-  const meshes::TriangleMesh coarse =
-    meshes::coarse_sheet(sheet.origin, sheet.lattice.vectors, sheet.n1, sheet.n2);
-  const Upsampler<dim, Scalar> upsampler(cell, coarse, sheet, options);
-  const Positions<dim> current = bent<dim>(coarse);
   typename Upsampler<dim, Scalar>::Fine fine;
-  const double n = sheet.mesh.n_vertices(), bytes = n * dim * sizeof(Scalar);
+  const double n = upsampler.n_fine(), bytes = n * dim * sizeof(Scalar);
   const double copied = benchmarks::copy_bandwidth(static_cast<std::size_t>(bytes));
   const double begin  = benchmarks::seconds();
   for (auto _ : state)
@@ -68,15 +64,29 @@ void upsample(benchmark::State &state, const UpsamplerOptions &options,
     benchmark::ClobberMemory();
   }
   const double of_one = (benchmarks::seconds() - begin) / static_cast<double>(state.iterations());
-  const auto rate     = [&](const double amount)
-  { return benchmark::Counter(amount, benchmark::Counter::kIsIterationInvariantRate); };
   state.counters["vertices"] = n;
   state.counters["written"]  = bytes;
   state.counters["tables"]   = static_cast<double>(upsampler.table_bytes());
-  state.counters["flops"]    = n * flops_per_vertex;
-  state.counters["flop/s"]   = rate(n * flops_per_vertex);
-  state.counters["B/s"]      = rate(bytes);
   state.counters["of_copy"]  = bytes / copied / of_one;
+  return bytes;
+}
+
+template <int dim, typename Scalar>
+void upsample(benchmark::State &state, const UpsamplerOptions &options,
+              const double flops_per_vertex)
+{
+  const meshes::HomogenizedCell cell = smooth_cell(18, 20);
+  const meshes::Sheet sheet          = meshes::tile(cell.mesh, cell.lattice, 20, 20);
+  const meshes::TriangleMesh coarse =
+    meshes::coarse_sheet(sheet.origin, sheet.lattice.vectors, sheet.n1, sheet.n2);
+  const Upsampler<dim, Scalar> upsampler(cell, coarse, sheet, options);
+  const double bytes = run_frames(state, upsampler, bent<dim>(coarse));
+  const double flops = sheet.mesh.n_vertices() * flops_per_vertex;
+  const auto rate    = [&](const double amount)
+  { return benchmark::Counter(amount, benchmark::Counter::kIsIterationInvariantRate); };
+  state.counters["flops"]  = flops;
+  state.counters["flop/s"] = rate(flops);
+  state.counters["B/s"]    = rate(bytes);
 }
 
 /// The same sheet as a garment of one panel, turned by 20° against the cells: outlines cut, one gather.
@@ -92,22 +102,7 @@ void upsample_garment(benchmark::State &state)
   options.grains[0].angle       = M_PI / 9.;
   const meshes::FineCloth cloth = meshes::fine_cloth(cell.mesh, cell.lattice, coarse, options);
   const Upsampler<3, float> upsampler(cell, coarse, cloth);
-  const Positions<3> current = bent<3>(rest);
-  Upsampler<3, float>::Fine fine;
-  const double n = cloth.n_vertices(), bytes = n * 3 * sizeof(float);
-  const double copied = benchmarks::copy_bandwidth(static_cast<std::size_t>(bytes));
-  const double begin  = benchmarks::seconds();
-  for (auto _ : state)
-  {
-    upsampler.upsample(current, fine);
-    benchmark::DoNotOptimize(fine.data());
-    benchmark::ClobberMemory();
-  }
-  const double of_one = (benchmarks::seconds() - begin) / static_cast<double>(state.iterations());
-  state.counters["vertices"] = n;
-  state.counters["written"]  = bytes;
-  state.counters["tables"]   = static_cast<double>(upsampler.table_bytes());
-  state.counters["of_copy"]  = bytes / copied / of_one;
+  run_frames(state, upsampler, bent<3>(rest));
 }
 BENCHMARK(upsample_garment)->Name("upsample/garment/3d_float")->Unit(benchmark::kMicrosecond);
 

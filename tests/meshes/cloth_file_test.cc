@@ -102,6 +102,19 @@ std::vector<std::string> faults_after(const std::function<void(ClothMesh &)> &ha
 }
 
 const std::string square = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\n";
+
+/// The strip with vertex 15 in space, 18 at rest, and a triangle 16 that the caller fills.
+void with_room_for_a_junction(ClothMesh &cloth, const Eigen::RowVector3d &position,
+                              const Eigen::RowVector2d &rest)
+{
+  cloth.positions.conservativeResize(16, 3);
+  cloth.positions.row(15) = position;
+  cloth.rest.vertices.conservativeResize(19, 2);
+  cloth.rest.vertices.row(18) = rest;
+  cloth.triangles.conservativeResize(17, 3);
+  cloth.rest.triangles.conservativeResize(17, 3);
+  cloth.rest.material.setZero(17);
+}
 } // namespace
 
 TEST(exact_obj_file, comments_groups_quads_negative_indices_and_line_ends_are_read)
@@ -259,13 +272,7 @@ TEST(tripwire_cloth_faults, t_junctions_are_named_in_a_panel_and_on_a_seam_where
     const auto in_panel = faults_after(
       [&](ClothMesh &c)
       {
-        c.positions.conservativeResize(16, 3);
-        c.positions.row(15) << 0.05, 0.025, 1.;
-        c.rest.vertices.conservativeResize(19, 2);
-        c.rest.vertices.row(18) << 0.05, 0.025;
-        c.triangles.conservativeResize(17, 3);
-        c.rest.triangles.conservativeResize(17, 3);
-        c.rest.material.setZero(17);
+        with_room_for_a_junction(c, {0.05, 0.025, 1.}, {0.05, 0.025});
         c.triangles.row(0) << 0, 1, 15;
         c.rest.triangles.row(0) << 0, 1, 18;
         c.triangles.row(16) << 0, 15, 6;
@@ -279,13 +286,7 @@ TEST(tripwire_cloth_faults, t_junctions_are_named_in_a_panel_and_on_a_seam_where
     const auto on_seam = faults_after(
       [&](ClothMesh &c)
       {
-        c.positions.conservativeResize(16, 3);
-        c.positions.row(15) << 0.1, 0.025, 1.;
-        c.rest.vertices.conservativeResize(19, 2);
-        c.rest.vertices.row(18) << 0.3, 0.125;
-        c.triangles.conservativeResize(17, 3);
-        c.rest.triangles.conservativeResize(17, 3);
-        c.rest.material.setZero(17);
+        with_room_for_a_junction(c, {0.1, 0.025, 1.}, {0.3, 0.125});
         c.triangles.row(9) << 2, 8, 15; // was 2, 8, 7
         c.rest.triangles.row(9) << 9, 13, 18;
         c.triangles.row(16) << 15, 8, 7;

@@ -2,6 +2,7 @@
 #include "shell/bending.h"
 
 #include "meshes/errors.h"
+#include "shell/curved_rest.h"
 #include "tests/refusal.h"
 #include "tests/shell/term_cases.h"
 

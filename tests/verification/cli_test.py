@@ -53,8 +53,50 @@ class Homogenize(InFolder):
         self.assertIn("chi_12", (self.folder / "characteristic-displacements.vtu").read_text())
 
 
+# Cases of `homespun stress` that do not hold, each with the reason. A case that fails anew breaks the test, and
+# so does one that holds again: then it leaves the list.
+MOMENTA_FIRST = ("a free cloth keeps its momenta: what a rigid body with these would have of energy is left, also "
+                 "where a step raised it")
+ONE_NEWTON_STEP = ("beside a moving handle a step may not raise its own potential, which does not bound the energy "
+                   "in the frame of the handle; implicit Euler holds")
+KNOWN_FAILURES = {
+    ("start", "one vertex at 1e6 m; free; 1 ms; isotropic"): MOMENTA_FIRST,
+    ("start", "one vertex at 1e6 m; free; 20 ms; isotropic"): MOMENTA_FIRST,
+    ("start", "one vertex at 1e6 m; free; 1 ms; laminate"): MOMENTA_FIRST,
+    ("start", "one vertex at 1e6 m; free; 20 ms; laminate"): MOMENTA_FIRST,
+    ("start", "one vertex at 1e6 m; free; 1 ms; anisotropic 1e4"): MOMENTA_FIRST,
+    ("start", "one vertex at 1e6 m; free; 20 ms; anisotropic 1e4"): MOMENTA_FIRST,
+    ("motion", "pulled at 5 m/s; 10 ms; anisotropic 1e4"): ONE_NEWTON_STEP,
+    ("motion", "pulled at 5 m/s; 50 ms; anisotropic 1e4"): ONE_NEWTON_STEP,
+}
+
+
+def differences_from_known(rows):
+    """What the failing cases among the rows of stress.csv and the known failures do not share, one line each."""
+    failing = {(row["group"], row["case"]): row for row in rows if row["verdict"] != "PASS"}
+    anew = [f"{group}: {case}: fails, and is not known to: {row['outcome']}, {row['figure']}, limit {row['limit']}"
+            for (group, case), row in failing.items() if (group, case) not in KNOWN_FAILURES]
+    gone = [f"{group}: {case}: holds or does not exist, but is known to fail ({reason}): take it off the list"
+            for (group, case), reason in KNOWN_FAILURES.items() if (group, case) not in failing]
+    return anew + gone
+
+
+class KnownFailures(unittest.TestCase):
+    @staticmethod
+    def row(case, verdict):
+        return {"group": case[0], "case": case[1], "verdict": verdict, "outcome": "finite", "figure": "2", "limit": "1"}
+
+    def test_a_case_that_fails_anew_or_holds_again_is_noticed(self):
+        rows = [self.row(case, "FAIL") for case in KNOWN_FAILURES]
+        self.assertEqual(differences_from_known(rows + [self.row(("mesh", "a hole"), "PASS")]), [])
+        self.assertIn("mesh: a hole: fails", *differences_from_known(rows + [self.row(("mesh", "a hole"), "FAIL")]))
+        rows[0]["verdict"] = "PASS"
+        self.assertIn("take it off the list", *differences_from_known(rows))
+        self.assertIn("take it off the list", *differences_from_known(rows[1:]))
+
+
 class Stress(InFolder):
-    def test_every_case_is_a_row_and_the_exit_status_tells_of_failures(self):
+    def test_every_case_is_a_row_and_those_that_fail_are_known(self):
         result = run("stress", "--quick", "--quiet", "--no-report", "--output", self.folder)
         with open(self.folder / "stress.csv", encoding="utf-8") as file:
             rows = list(csv.DictReader(file))
@@ -63,6 +105,7 @@ class Stress(InFolder):
             self.assertIn(row["verdict"], ("PASS", "FAIL"), row)
             self.assertNotIn("error:", row["outcome"], row)
             self.assertNotIn("not finite", row["outcome"].split("refused")[0], row)
+        self.assertEqual(differences_from_known(rows), [])
         verdicts = json.loads((self.folder / "verdicts.json").read_text())["verdicts"]
         failed = any(row["verdict"] == "FAIL" for row in rows)
         self.assertEqual(failed, any(verdict["verdict"] == "FAIL" for verdict in verdicts))

@@ -7,6 +7,8 @@ from dataclasses import dataclass, field
 import h5py
 import numpy
 
+from stored import is_stiffness
+
 AGAIN = "Run `homespun homogenize` or `homespun strain` again."
 
 
@@ -83,14 +85,7 @@ def triangles_in_range(path, name, triangles, vertices, faults):
 def check_homogenize(value, path, faults):
     """homogenize.json with matrices of shape 3 x 3; anything else in it is shown as it stands."""
     for key in ("C", "C_lower", "C_upper", "voigt", "reuss"):
-        matrix = value.get(key)
-        if matrix is None:
-            continue
-        try:
-            array = numpy.array(matrix, dtype=float)
-        except (TypeError, ValueError):
-            array = numpy.empty(0)
-        if array.shape != (3, 3) or not numpy.isfinite(array).all():
+        if value.get(key) is not None and not is_stiffness(value[key]):
             faults.append(f"{path}: key `{key}` is not a 3 x 3 matrix of finite numbers. {AGAIN}")
             value = {**value, key: None}
     for key, kind in (("engineering", dict), ("checks", list)):

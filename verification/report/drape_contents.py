@@ -9,7 +9,7 @@ from figures_drape import (energy_figure, error_time_curves, height_figure, orde
                            step_bars)
 from stored import BadResults
 from style import three
-from vtu import BadFrame
+from vtu import BadFrame, read_vtu
 
 
 def drape_contents(drape, gallery, output, limit, pool):
@@ -51,7 +51,9 @@ def draw_cloth(contents, drape, cell, gallery, limit, pool):
         return
     file, title = f"{drape.scene}-{cell.name}", f"{drape.scene}, {cell.name}"
     try:
-        figure, camera, phases, numbers = cloth_figure(film, drape.up(), cell.info.get("cell_side_m"), pool)
+        bodies = read_vtu(drape.obstacles()) if drape.obstacles() else None
+        figure, camera, phases, numbers = cloth_figure(film, drape.up(), cell.info.get("cell_side_m"), pool,
+                                                       cell.info.get("phases"), bodies)
         words = ""
         if numbers["largest"] > 0.:
             words = " Error: distance of each up-sampled vertex from its place in the reference"
@@ -62,7 +64,7 @@ def draw_cloth(contents, drape, cell, gallery, limit, pool):
         contents["pictures"] = gallery.add(
             figure, f"{file}-cloth", f"{title}, {film.variant} cloth. One camera for all; parallel projection, "
             f"true scale, not exaggerated.{words}", as_image="webp")
-        if moving := animation(film, camera, phases, limit, pool):
+        if moving := animation(film, camera, phases, limit, pool, bodies):
             data, width, loop, (first, last) = moving
             at_speed = abs(loop - (last - first)) <= 0.05 * loop
             words = "at true speed" if at_speed else f"shown in {three(float(loop))} s"
@@ -87,12 +89,14 @@ def draw_curves(contents, drape, cell, gallery):
         if falling:
             words = (f" {' and '.join(falling)} move{'s' if len(falling) == 1 else ''} more than three times as far as "
                      "the first cloth and the references; the right panel leaves that out.")
-        if any(variant.startswith("printed") for variant in falling):
-            words += " The force of the printed Eq. 8 has no part along the normal, so that nothing holds the cloth up."
+        if "nodal-warping" in falling:
+            words += (" The forces of the paper's Eq. 8 (nodal warping) have no part along the normal, so that nothing "
+                      "holds the cloth up.")
         contents["height"] = gallery.add(figure, f"{file}-height", f"{title}: height of the middle vertex.{words}")
     if figure := energy_figure(cell.motion):
         contents["energies"] = gallery.add(figure, f"{file}-energies", f"{title}: energies of the cloth and its "
-                                           "largest stretch (deformed over rest length).")
+                                           "largest stretch (deformed over rest length). A curve that leaves its panel grows "
+                                           "beyond a thousand times the first cloth's largest value.")
     if figure := step_bars(cell):
         words = ""
         if cell.references:

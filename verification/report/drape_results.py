@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 
 import numpy
 
-from stored import latest, read_csv, read_json
+from stored import is_stiffness, latest, read_csv, read_json
 from vtu import BadFrame, read_pvd
 
 AGAIN = "Run `homespun drape` again."
@@ -44,6 +44,11 @@ class Drape:
     @property
     def scene(self):
         return self.info["scene"]
+
+    def obstacles(self):
+        """Path of the bodies that the cloth meets, or None."""
+        path = os.path.join(self.folder, "obstacles.vtu")
+        return path if os.path.isfile(path) else None
 
     def parameters(self):
         """[(key, value)], keys of inner objects joined by a slash."""
@@ -124,16 +129,13 @@ def check_scene(value, path, faults):
                           f"false. {AGAIN}")
     for cell in check_list(value, "cells", ("cell",), path, faults):
         where = f"{path}: cell `{cell['cell']}`"
+        phases = cell.get("phases")
+        if phases is not None and not (isinstance(phases, list) and all(isinstance(name, str) for name in phases)):
+            faults.append(f"{where}: key `phases` is not a list of names. {AGAIN}")
         check_list(cell, "runs", ("variant", "folder"), where, faults)
         check_list(cell, "references", ("reference", "folder"), where, faults)
-        matrix = cell.get("C")
-        if matrix is not None:
-            try:
-                array = numpy.array(matrix, dtype=float)
-            except (TypeError, ValueError):
-                array = numpy.empty(0)
-            if array.shape != (3, 3) or not numpy.isfinite(array).all():
-                faults.append(f"{where}: key `C` is not a 3 x 3 matrix of finite numbers. {AGAIN}")
+        if cell.get("C") is not None and not is_stiffness(cell["C"]):
+            faults.append(f"{where}: key `C` is not a 3 x 3 matrix of finite numbers. {AGAIN}")
     return value if len(faults) == before else None
 
 

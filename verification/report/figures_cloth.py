@@ -78,10 +78,14 @@ def error_of(surface, reference):
     return None if stored is None else stored.reshape(-1).astype(float)
 
 
-def phase_colour_map(surfaces):
-    """Material number -> (colour, label), light to dark in the order of the numbers; empty without materials."""
+def phase_colour_map(surfaces, names):
+    """Material number -> (colour, label), light to dark in the order of the numbers; empty without materials.
+
+    @param names of the phases in the order of the numbers, or None
+    """
     numbers = sorted({int(n) for s in surfaces if s.material() is not None for n in numpy.unique(s.material())})
-    return {n: (numpy.array(to_rgb(colour)) * (1. - PALER) + PALER, f"material {n}")
+    return {n: (numpy.array(to_rgb(colour)) * (1. - PALER) + PALER,
+                names[n] if names and n < len(names) else f"material {n}")
             for n, colour in zip(numbers, style.phase_colours(numbers))}
 
 
@@ -93,15 +97,16 @@ def fine_colours(surface, phases):
     return numpy.array([phases[int(n)][0] if int(n) in phases else FINE_COLOUR for n in numbers])[place]
 
 
-def panel(surface, kind, camera, pixels, phases, error=None, largest=1.):
+def panel(surface, kind, camera, pixels, phases, error=None, largest=1., bodies=None):
     """One rendered panel as bytes (height, width, 4)."""
     if kind == "coarse":
-        image = render(surface, camera, pixels, numpy.tile(COARSE_COLOUR, (len(surface.triangles), 1)), edge=0.9)
+        image = render(surface, camera, pixels, numpy.tile(COARSE_COLOUR, (len(surface.triangles), 1)), edge=0.9,
+                       bodies=bodies)
     elif kind == "error":
         image = render(surface, camera, pixels, colormaps[ERROR_MAP](error / (largest or 1.))[:, :3], per_vertex=True,
-                       contrast=ERROR_CONTRAST)
+                       contrast=ERROR_CONTRAST, bodies=bodies)
     else:
-        image = render(surface, camera, pixels, fine_colours(surface, phases))
+        image = render(surface, camera, pixels, fine_colours(surface, phases), bodies=bodies)
     return numpy.round(255. * image).astype(numpy.uint8)
 
 
@@ -114,10 +119,12 @@ def moving_shots(film):
     return film.shots[:1] + spread(film.shots[1:], MOVING_FRAMES) if len(film.shots) > 1 else film.shots
 
 
-def cloth_figure(film, up, side, pool):
+def cloth_figure(film, up, side, pool, names=None, bodies=None):
     """Rows are times, columns are coarse, up-sampled, reference and error, all through one camera; last a close-up.
 
     @param side of a cell [m], or None: no close-up
+    @param names of the phases
+    @param bodies that the cloth meets, as a surface, or None
     @return (figure, camera, phases, {"largest" [m], "capped": whether errors exceed the colour bar,
             "close": whether there is a close-up})
     @throws BadFrame
@@ -128,7 +135,7 @@ def cloth_figure(film, up, side, pool):
     paths = {shot[kind] for shot in shots + moving_shots(film) for kind in KINDS if shot[kind]}
     camera = camera_around(axes, list(pool.map(bounds_of, sorted(paths), [axes] * len(paths))))
     fine = [kinds[kind] for kinds in surfaces for kind in ("fine", "reference") if kind in kinds]
-    phases = phase_colour_map(fine)
+    phases = phase_colour_map(fine, names)
     errors = [error_of(kinds["fine"], kinds.get("reference")) if "fine" in kinds else None for kinds in surfaces]
     known = [e for e in errors if e is not None]
     largest = max((float(numpy.percentile(e, 99.5)) for e in known), default=0.)
@@ -143,13 +150,13 @@ def cloth_figure(film, up, side, pool):
     near = None
     if side and "fine" in surfaces[-1] and CELLS_ACROSS * side < 0.7 * camera.extent[0]:
         near = close_up(camera, surfaces[-1]["fine"], CELLS_ACROSS * side)
-        rows.append((rows[-1][0] + ", framed part", surfaces[-1], errors[-1], near))
+        rows.append(("framed part", surfaces[-1], errors[-1], near))
     jobs = {}
     for row, (_, kinds, error, view) in enumerate(rows):
         for kind, _ in columns:
             source = kinds.get("fine" if kind == "error" else kind)
             if source is not None and (kind != "error" or error is not None):
-                jobs[row, kind] = pool.submit(panel, source, kind, view, PIXELS, phases, error, largest)
+                jobs[row, kind] = pool.submit(panel, source, kind, view, PIXELS, phases, error, largest, bodies)
     ratio = camera.extent[1] / camera.extent[0]
     width = 10.2 / 4.
     figure, grid = pyplot.subplots(len(rows), len(columns), squeeze=False, layout="constrained",
@@ -185,7 +192,8 @@ def cloth_figure(film, up, side, pool):
     if len(phases) > 1:
         figure.legend(handles=[Patch(facecolor=colour, edgecolor="#555555", label=label)
                                for colour, label in phases.values()],
-                      loc="lower left", bbox_to_anchor=(0.01, 0.), ncol=len(phases))
+                      loc="lower left" if known else "upper left",  # beside the colour bar, or below all
+                      bbox_to_anchor=(0.01, 0.), ncol=len(phases))
     return figure, camera, phases, {"largest": largest, "capped": capped, "close": near is not None}
 
 
@@ -200,13 +208,13 @@ def scale_bar(axes, half):
                   textcoords="offset points", ha="center", fontsize=7.5, path_effects=HALO)
 
 
-def moving_panels(shot, kinds, camera, phases):
+def moving_panels(shot, kinds, camera, phases, bodies):
     """The panels of one frame of the animation, read and drawn where they are needed."""
-    return [panel(read_vtu(shot[kind]), kind, camera, MOVING_PIXELS, phases) if shot[kind] else None
+    return [panel(read_vtu(shot[kind]), kind, camera, MOVING_PIXELS, phases, bodies=bodies) if shot[kind] else None
             for kind in kinds]
 
 
-def animation(film, camera, phases, limit, pool):
+def animation(film, camera, phases, limit, pool, bodies=None):
     """A looping WebP: up-sampled cloth and the reference beside it.
 
     @param limit bytes that it may take
@@ -220,7 +228,7 @@ def animation(film, camera, phases, limit, pool):
         return None
     font = os.path.join(matplotlib.get_data_path(), "fonts", "ttf", "DejaVuSans.ttf")
     font = ImageFont.truetype(font, 15)
-    jobs = [pool.submit(moving_panels, shot, kinds, camera, phases) for shot in shots]
+    jobs = [pool.submit(moving_panels, shot, kinds, camera, phases, bodies) for shot in shots]
     pictures, strip = [], 26
     height = round(MOVING_PIXELS * camera.extent[1] / camera.extent[0])
     for shot, job in zip(shots, jobs):

@@ -10,7 +10,8 @@ from matplotlib.patches import Patch
 import style
 from figures_sheet import unit_of
 
-VARIANTS = ("corotational", "triangle-warping", "nodal-warping", "printed-nodal-warping")
+BLOWN = 1e3  # times the largest value of the first cloth
+VARIANTS = ("corotational", "triangle-warping", "nodal-warping")
 VARIANT_COLOURS = dict(zip(VARIANTS, (style.BLUE, style.GREEN, style.ORANGE, style.VERMILLION)))
 REFERENCES = ("shell", "biot", "green")
 REFERENCE_LINES = dict(zip(REFERENCES, ("--", ":", "-.")))
@@ -162,25 +163,38 @@ def height_figure(rows, up, gravity):
 
 
 def energy_figure(rows):
-    """Kinetic and stored energy on logarithmic axes and the largest stretch, against time; None without numbers."""
-    panels = [("kinetic_J", "kinetic energy [J]", True), ("stored_J", "stored energy [J]", True),
-              ("max_stretch", "largest stretch [1]", False)]
-    panels = [(key, label, log) for key, label, log in panels if any(row[key] > 0. for row in rows)]
+    """Kinetic and stored energy and the largest stretch, against time; None without numbers.
+
+    Energies stand on logarithmic axes where they are positive; a stored energy with gravity's is not.
+    """
+    panels = [("kinetic_J", "kinetic energy [J]"), ("stored_J", "stored energy [J]"),
+              ("max_stretch", "largest stretch [1]")]
+    panels = [(key, label) for key, label in panels if any(abs(row[key]) > 0. for row in rows)]
     if not panels:
         return None
     figure, grid = pyplot.subplots(1, len(panels), squeeze=False, figsize=(0.4 + 3.2 * len(panels), 3.),
                                    layout="constrained")
-    for axes, (key, label, log) in zip(grid[0], panels):
+    first = ordered_variants({row["variant"] for row in rows})[0]
+    for axes, (key, label) in zip(grid[0], panels):
+        log = key != "max_stretch" and not any(row[key] < 0. for row in rows)
         plot_members(axes, rows, key, positive=log)
         axes.set(xlabel="time [s]", title=label)
+        # A variant that blows up must not flatten the others: it leaves the panel.
+        every = [row[key] for row in rows if not math.isnan(row[key])]
+        calm = [row[key] for row in rows if row["variant"] == first and not math.isnan(row[key])] or every
+        largest = max(map(abs, calm))
+        blown = max(map(abs, every)) > BLOWN * largest > 0.
         if log:
             axes.set_yscale("log")
             axes.yaxis.set_minor_locator(ticker.NullLocator())
-            largest = max(row[key] for row in rows if row[key] > 0.)
-            if min(row[key] for row in rows if row[key] > 0.) < 1e-8 * largest:
-                axes.set_ylim(bottom=1e-8 * largest)
+            top = BLOWN * largest if blown else max(every)
+            axes.set_ylim(top=top if blown else None)
+            if min(value for value in every if value > 0.) < 1e-8 * top:
+                axes.set_ylim(bottom=1e-8 * top)
         else:
             axes.yaxis.set_major_formatter(ticker.FormatStrFormatter("%.4g"))
+            if blown:
+                axes.set_ylim(min(calm) - 0.5 * largest, max(calm) + 0.5 * largest)
     figure.legend(handles=member_handles(rows), loc="lower center", bbox_to_anchor=(0.5, 1.), ncol=4)
     return figure
 

@@ -14,6 +14,7 @@ SAMPLES = 2           # per pixel and direction; they are averaged at the end
 CANDIDATES = 6000000  # samples that are tested against their triangle at once: bounds the memory
 AZIMUTHS = range(-90, 90, 15)   # [°] among which the camera chooses
 ELEVATION = 20.                 # [°] above the horizon
+BODY_COLOUR = (0.62, 0.66, 0.64)  # of what the cloth falls on
 LIGHT = numpy.array([-0.35, 0.45, 0.82])  # towards the lamp, in camera axes: right, up, towards the eye
 
 
@@ -126,21 +127,28 @@ def covered(corners, width, height):
         start = stop
 
 
-def render(surface, camera, pixels, colours, per_vertex=False, edge=0., contrast=1.):
+def render(surface, camera, pixels, colours, per_vertex=False, edge=0., contrast=1., bodies=None):
     """A picture of one surface on transparent ground.
 
     @param pixels width of the picture; its height follows from the camera
     @param colours RGB from 0 to 1: (m,3) per triangle, or (n,3) per vertex
     @param edge width of the drawn edges of triangles [pixels]; 0 draws none
     @param contrast 1 shades fully, less keeps colours closer to their bar
+    @param bodies a surface that hides and is hidden, grey and without edges, or None
     @return (height, width, 4) from 0 to 1
     """
     width = SAMPLES * int(pixels)
     scale = width / camera.extent[0]
     height = SAMPLES * max(1, round(camera.extent[1] * scale / SAMPLES))
-    projected = camera.project(surface.points)
+    points, triangles, n_cloth = surface.points, surface.triangles, len(surface.triangles)
+    if bodies is not None:
+        triangles = numpy.concatenate([triangles, bodies.triangles + len(points)])
+        points = numpy.concatenate([points, bodies.points])
+        grey = numpy.tile(BODY_COLOUR, (len(bodies.points if per_vertex else bodies.triangles), 1))
+        colours = numpy.concatenate([colours, grey])
+    projected = camera.project(points)
     flat = (projected[:, :2] - camera.centre) * [scale, -scale] + [0.5 * width, 0.5 * height]
-    corners, depth = flat[surface.triangles], projected[:, 2][surface.triangles]
+    corners, depth = flat[triangles], projected[:, 2][triangles]
     found = [(sample, owner, weights, numpy.einsum("ki,ki->k", weights, depth[owner]))
              for sample, owner, weights in covered(corners, width, height)]
     image = numpy.zeros((height * width, 4))
@@ -152,12 +160,13 @@ def render(surface, camera, pixels, colours, per_vertex=False, edge=0., contrast
         shown = numpy.flatnonzero(front >= 0)
         nearest = front[shown]
         owner, weights = owner[nearest], weights[nearest]
-        corner = surface.triangles[owner]
-        normal = numpy.einsum("ki,kic->kc", weights, vertex_normals(surface.points, surface.triangles)[corner])
+        corner = triangles[owner]
+        normal = numpy.einsum("ki,kic->kc", weights, vertex_normals(points, triangles)[corner])
         colour = numpy.einsum("ki,kic->kc", weights, colours[corner]) if per_vertex else colours[owner]
         colour = colour * shade(normal @ camera.axes.T, contrast)[:, None]
         if edge > 0.:
-            colour[on_edge(corners, owner, weights, 0.5 * edge * SAMPLES)] *= 0.35
+            drawn = on_edge(corners, owner, weights, 0.5 * edge * SAMPLES) & (owner < n_cloth)
+            colour[drawn] *= 0.35
         image[shown, :3], image[shown, 3] = numpy.clip(colour, 0., 1.), 1.
     return smaller(image.reshape(height, width, 4))
 

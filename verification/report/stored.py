@@ -4,6 +4,8 @@ import csv
 import json
 import math
 
+import numpy
+
 TEXT_COLUMNS = {"cell", "load", "reference", "method", "scene", "variant", "term", "present", "group", "case",
                 "expected", "outcome", "verdict", "part", "region", "way", "measure", "relation"}
 FREE_TEXT_COLUMNS = {"figure", "limit", "note"}  # may be empty
@@ -116,6 +118,15 @@ def latest(rows, keys, path, missing):
         missing.append({"what": f"{len(rows) - len(unique)} repeated rows of {path}",
                         "why": "of rows with the same " + ", ".join(keys) + " the last one is shown"})
     return list(unique.values())
+
+
+def is_stiffness(value):
+    """Whether a value of a JSON file is a 3 x 3 matrix of finite numbers."""
+    try:
+        array = numpy.array(value, dtype=float)
+    except (TypeError, ValueError):
+        return False
+    return array.shape == (3, 3) and bool(numpy.isfinite(array).all())
 
 
 def check_verdicts(value, path, faults):

@@ -2,13 +2,12 @@
 """Tests of budget, run time and range of validity: /usr/bin/python3 -m unittest discover -s verification/report"""
 import math
 import os
-import sys
 import unittest
 
-sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-import budget_contents  # noqa: E402
-import budget_results  # noqa: E402
-import test_report  # noqa: E402
+import budget_contents
+import budget_results
+from made_up_study import write_results
+from page_case import PageTest
 
 WAYS = (("fine-p2", 10., 1e-5), ("fine-p1", 2., 1e-4), ("fine-corotational", 4., 1e-4), ("affine-5", 1e-4, 0.2),
         ("localized-5", 2e-4, 0.03), ("localized-10", 1e-3, 0.008), ("voigt", 1e-3, 0.1), ("reuss", 1e-3, math.nan))
@@ -67,12 +66,10 @@ class Budget(unittest.TestCase):
         self.assertEqual(text("-"), "–")
 
 
-class BudgetReport(unittest.TestCase):
-    run_report, page, edit, assert_refused = (test_report.ReportTest.run_report, test_report.ReportTest.page,
-                                              test_report.ReportTest.edit, test_report.ReportTest.assert_refused)
-
+class BudgetReport(PageTest):
     def setUp(self):
-        test_report.ReportTest.setUp(self)
+        super().setUp()
+        write_results(self.folder)
         write_budget(self.folder)
 
     def test_the_three_tables_make_their_figures_and_tables(self):

@@ -1,131 +1,26 @@
 # SPDX-License-Identifier: MIT
-"""Tests of the report: /usr/bin/python3 -m unittest discover -s verification/report"""
-import contextlib
-import io
-import json
+"""Tests of the page of `homespun strain`: /usr/bin/python3 -m unittest discover -s verification/report"""
 import os
 import re
 import shutil
-import sys
-import tempfile
 import unittest
 
 import h5py
 import numpy
 
-sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-import report  # noqa: E402
-import results  # noqa: E402
-import style  # noqa: E402
-from contents import HEADINGS  # noqa: E402
-from figures_sheet import coarse_positions  # noqa: E402
-from figures_stiffness import directional_modulus  # noqa: E402
-
-SIDE = 0.01
-LAMINATE = numpy.array([[2839.91, 299.7, 0.], [299.7, 999.001, 0.], [0., 0., 349.65]])
+import results
+import style
+from contents import HEADINGS
+from figures_sheet import coarse_positions
+from figures_stiffness import directional_modulus
+from made_up_study import LAMINATE, square_mesh, strain_rows, write_results
+from page_case import PageTest
 
 
-def square_mesh(n, size):
-    """n x n squares of two triangles over a square; rows of squares alternate between two materials."""
-    grid = numpy.linspace(0., size, n + 1)
-    vertices = numpy.array([[x, y] for y in grid for x in grid])
-    corners = [j * (n + 1) + i for j in range(n) for i in range(n)]
-    triangles = numpy.array([t for a in corners for t in ([a, a + 1, a + n + 2], [a, a + n + 2, a + n + 1])])
-    material = numpy.array([1 + (j % 2) for j in range(n) for _ in range(2 * n)])
-    return vertices, triangles, material
-
-
-def strain_rows():
-    """Rows of strain.csv for one cell: a load with slope 2, one that vanishes, one not reached."""
-    rows = []
-    for load in ("periodic-22", "shear-frame"):
-        for strain in (0.001, 0.01, 0.1):
-            for method in ("affine", "localized", "localized-piecewise"):
-                error = 0.2 * strain
-                if method != "affine":
-                    error *= 0. if load == "periodic-22" else 4. * strain
-                rows.append(f"stripes,{load},{strain},biot,{method},2,8,32,{error * SIDE},{error * SIDE},"
-                            f"{error * SIDE},{error},{error / 0.2 / strain},{1e-4 * strain * SIDE},0.001,1.5")
-    rows.append("stripes,shear-frame,0.2,green,unreached,2,8,32,,,nan,,,,,")
-    return rows
-
-
-def write_results(folder):
-    """A complete result folder of one cell and a sheet of 2 x 2 cells."""
-    os.makedirs(os.path.join(folder, "stripes"))
-
-    def write(name, text):
-        with open(os.path.join(folder, name), "w", encoding="utf-8") as file:
-            file.write(text)
-    write("strain.csv", "\n".join([",".join(results.STRAIN_HEADER)] + strain_rows()) + "\n")
-    write("uncertainty.csv", ",".join(results.UNCERTAINTY_HEADER)
-          + "\nstripes,shear-frame,biot,0.01,2,1e-6,1.2e-6,2e-7,0.012\n")
-    write("steps.csv", ",".join(results.STEPS_HEADER)
-          + "\nstripes,shear-frame,biot,0.01,0.002,0.0001,6.5,3,25,578,2\n")
-    write("study.json", json.dumps({
-        "command": "homespun strain stripes.prm", "cells_per_side": 2, "ranks": 2, "seconds_total": 3.5,
-        "peak_memory_bytes": 1e9, "left_out": [{"what": "bending", "why": "the load is in-plane"}],
-        "notes": ["a note <of> the study"], "provenance": {"homespun": "0.1.0", "git": "abc1234"}}))
-    write("verdicts.json", json.dumps({"verdicts": [
-        {"claim": "slope 2", "verdict": "PASS", "value": 2.01, "limit": "2 ± 0.1", "command": "homespun strain"},
-        {"claim": "bar", "verdict": "INCONCLUSIVE", "value": None, "limit": "", "command": ""}]}))
-    write("stripes/homogenize.json", json.dumps({
-        "C": LAMINATE.tolist(), "C_lower": None, "C_upper": None, "voigt": (2. * LAMINATE).tolist(),
-        "reuss": (0.5 * LAMINATE).tolist(), "area": SIDE ** 2, "areal_density": 0.2,
-        "engineering": {"E1": 2750., "E2": 967.}, "dofs": 18, "iterations": [3, 3, 3], "seconds": 0.1,
-        "checks": [{"name": "two forms agree", "value": 1e-12, "limit": "1e-9", "verdict": "PASS"}],
-        "provenance": "homespun 0.1.0"}))
-    write("stripes/cell.json", json.dumps({"name": "stripes", "file": "stripes.prm", "phases": [
-        {"name": "hard", "E1": 1e7, "thickness": 5e-4}, {"name": "soft", "E1": 1e6, "thickness": 5e-4}]}))
-    vertices, triangles, material = square_mesh(2, SIDE)
-    with h5py.File(os.path.join(folder, "stripes", "cell.h5"), "w") as file:
-        for key, value in {"vertices": vertices, "triangles": triangles, "material": material,
-                           "lattice": SIDE * numpy.eye(2), "C": LAMINATE,
-                           "chi": numpy.repeat(0.1 * vertices[:, :, None], 3, axis=2)}.items():
-            file[key] = value
-    rest, fine, material = square_mesh(4, 2. * SIDE)
-    coarse, coarse_triangles, _ = square_mesh(2, 2. * SIDE)
-    motion = numpy.array([[1., 0.1], [0., 1.]])
-    with h5py.File(os.path.join(folder, "stripes", "fields-shear-frame.h5"), "w") as file:
-        for key, value in {"rest": rest, "triangles": fine, "material": material, "reference": rest @ motion.T,
-                           "upsampled": rest @ motion.T + 1e-5, "coarse_rest": coarse,
-                           "coarse_triangles": coarse_triangles, "coarse": coarse @ motion.T}.items():
-            file[key] = value
-        file.attrs.update(load="shear-frame", strain=0.1, reference="biot", method="localized")
-
-
-class ReportTest(unittest.TestCase):
+class ReportTest(PageTest):
     def setUp(self):
-        self.place = tempfile.mkdtemp()
-        self.addCleanup(shutil.rmtree, self.place)
-        self.folder, self.output = (os.path.join(self.place, name) for name in ("results", "out"))
+        super().setUp()
         write_results(self.folder)
-
-    def run_report(self):
-        """(exit status, text on stderr)"""
-        errors = io.StringIO()
-        with contextlib.redirect_stderr(errors):
-            status = report.main([self.folder, "--output", self.output, "--quiet"])
-        return status, errors.getvalue()
-
-    def page(self):
-        with open(os.path.join(self.output, "report.html"), encoding="utf-8") as file:
-            return file.read()
-
-    def edit(self, name, change):
-        path = os.path.join(self.folder, name)
-        with open(path, encoding="utf-8") as file:
-            text = file.read()
-        with open(path, "w", encoding="utf-8") as file:
-            file.write(change(text))
-
-    def assert_refused(self, *words):
-        """Exit status 2, every word in the message, and nothing written."""
-        status, errors = self.run_report()
-        self.assertEqual(status, 2)
-        for word in words:
-            self.assertIn(word, errors)
-        self.assertFalse(os.path.exists(self.output))
 
     def test_complete_results_make_every_section_and_figure_in_one_file(self):
         self.assertEqual(self.run_report(), (0, ""))

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: MIT
+// What up-sampling keeps of each fine vertex: where it lies in its coarse triangle, and its modes. Private to
+// upsampler.
+#pragma once
+
+#include "localization/kernel.h"
+
+#include <Eigen/Core>
+
+#include <vector>
+
+namespace homespun::localization
+{
+/// Constants per vertex, in groups padded to whole blocks of lanes.
+template <typename Scalar>
+struct VertexTable
+{
+  std::vector<Weights<Scalar>> weights;
+  std::vector<Modes<Scalar>> modes;
+  int size = 0; ///< rows, padding included
+
+  /// @param barycentric coordinates in the coarse triangle
+  /// @param chi columns 2 a + c of the cell at the vertex [m]
+  void append(const Eigen::Vector3d &barycentric, const Eigen::Matrix<double, 1, 6> &chi)
+  {
+    if (size % lanes == 0)
+    {
+      weights.push_back({});
+      modes.push_back({});
+    }
+    const int lane               = size++ % lanes;
+    weights.back().corner1[lane] = static_cast<Scalar>(barycentric(1));
+    weights.back().corner2[lane] = static_cast<Scalar>(barycentric(2));
+    for (int k = 0; k < 6; ++k)
+      modes.back().column[k][lane] = static_cast<Scalar>(-chi(k));
+  }
+
+  /// Ends a group.
+  void pad()
+  {
+    size = (size + lanes - 1) / lanes * lanes;
+  }
+};
+} // namespace homespun::localization

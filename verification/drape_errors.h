@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: MIT
+// How far the up-sampled cloth is from a full-resolution one at a frame, and how far that one may itself be
+// from the limit of fine meshes.
+#pragma once
+
+#include "verification/coarse_run.h"
+#include "verification/drape_output.h"
+#include "verification/drape_schedule.h"
+#include "verification/draped_cell.h"
+#include "verification/fine_run.h"
+
+#include <mpi.h>
+
+#include <string>
+#include <vector>
+
+namespace homespun::verification
+{
+/// Discretization error of a reference on a small sheet, per frame. It goes with the local strain, as the
+/// fluctuation does, and is carried over to the full sheet by the ratio of the two.
+struct DrapeErrorBar
+{
+  std::vector<double> difference;  ///< mean |P1 − P2| [m]
+  std::vector<double> fluctuation; ///< mean |P2 − coarse motion| [m]
+
+  /// On a sheet with another fluctuation [m]; nothing known: not a number.
+  double at(std::size_t frame, double fluctuation_there) const;
+};
+
+/// Runs the scene on a small sheet with P1 and P2. Ends at the first frame that one of them does not reach.
+/// @param law of the reference
+/// @param n_cells of the small sheet, per side
+DrapeErrorBar drape_error_bar(const DrapedCell &draped, Law law, int n_cells,
+                              const DrapeSchedule &schedule, MPI_Comm communicator);
+
+/// Writes a row of drape.csv for each coarse run and method at a frame, and the frame of the method again,
+/// now with its error.
+/// @param positions of the reference at the vertices that up-sampling gives (n_fine,3) [m]
+/// @throws NotConverged where up-sampled positions are not finite
+void compare(const DrapedCell &draped, const std::string &reference,
+             const std::vector<std::string> &methods, const std::vector<CoarseRun> &runs, int frame,
+             const meshes::SpacePoints &positions, const DrapeErrorBar &bar, DrapeOutput &output);
+} // namespace homespun::verification
