@@ -245,7 +245,7 @@ void ClothReference::resume(const meshes::SpacePoints &positions,
   positions_at_vertices = at_vertices(position);
 }
 
-/// Takes up what is held at a time; the matrix is laid out anew where that has changed.
+/// Takes up what is held at a time, and the body force; the matrix is laid out anew where that has changed.
 void ClothReference::hold(const double new_time)
 {
   const std::size_t n = node_points.size();
@@ -266,6 +266,10 @@ void ClothReference::hold(const double new_time)
     is_held = now;
     lay_out_matrix();
   }
+  if (loads.body_force)
+    body_load = load_vector(discretization, constraints,
+                            [&](const Eigen::RowVector2d &point) -> FieldValue
+                            { return loads.body_force(point, new_time).transpose(); });
 }
 
 void ClothReference::put_held(Vector &positions) const
@@ -465,9 +469,18 @@ ClothReference::State ClothReference::assemble(const Vector &positions, const In
   State state;
   state.energy      = sums[0];
   state.energy_size = sums[1];
-  state.force_size  = std::sqrt(sums[2]);
-  state.round_off   = std::sqrt(sums[3]);
-  state.residual    = residual.l2_norm();
+  if (loads.body_force)
+  {
+    Vector moved = positions;
+    moved -= load_origin;
+    const double work = body_load * moved;
+    residual.add(-1., body_load);
+    state.energy -= work;
+    state.energy_size += std::abs(work);
+  }
+  state.force_size = std::sqrt(sums[2]);
+  state.round_off  = std::sqrt(sums[3]);
+  state.residual   = residual.l2_norm();
   return state;
 }
 
@@ -706,6 +719,11 @@ meshes::SpacePoints ClothReference::velocities() const
 double ClothReference::time() const
 {
   return present_time;
+}
+
+FieldDistance ClothReference::distance_from(const KnownField &known) const
+{
+  return distance(discretization, position, known);
 }
 
 double ClothReference::stored_energy() const

@@ -14,6 +14,7 @@
 
 #include "homogenization/elastic_solver.h"
 #include "meshes/cloth_mesh.h"
+#include "verification/field_integrals.h"
 #include "verification/space_laws.h"
 
 #include <mpi.h>
@@ -39,6 +40,8 @@ struct ClothLoads
 {
   Eigen::RowVector3d gravity = Eigen::RowVector3d::Zero(); ///< [m/s^2]
   double mass_damping        = 0.;                         ///< alpha: force −alpha m v [1/s]
+  /// Force per rest area [N/m^2] at a rest point and the end of a step [s]; empty: none.
+  std::function<Eigen::RowVector3d(const Eigen::RowVector2d &rest_point, double time)> body_force;
 };
 
 /// One step in time, or one equilibrium.
@@ -103,6 +106,8 @@ public:
   double time() const;           ///< [s]
   double stored_energy() const;  ///< of the law [J]
   double kinetic_energy() const; ///< ½ v·M v [J]
+  /// How far the positions are from known ones, in the interior of the elements too.
+  FieldDistance distance_from(const KnownField &known) const;
   unsigned long n_dofs() const;
 
 private:
@@ -174,6 +179,7 @@ private:
   double iterations_per_digit_when_new = 0.;
 
   Vector position, velocity, load_origin;
+  Vector body_load; ///< at the end of the step; empty without a body force
   meshes::SpacePoints positions_at_vertices;
 };
 } // namespace homespun::verification

@@ -61,7 +61,7 @@ void FineReference::constrain(const Load &load)
   constraints.close();
 }
 
-void FineReference::start(const Load &new_load, const Law new_law)
+void FineReference::start(const Load &new_load, const Law new_law, BodyForce new_body_force)
 {
   if (!load || load->name != new_load.name)
   {
@@ -70,7 +70,9 @@ void FineReference::start(const Load &new_load, const Law new_law)
     constrain(*load);
     solver = std::make_unique<homogenization::ElasticSolver>(discretization, constraints);
   }
-  law = new_law;
+  law        = new_law;
+  body_force = std::move(new_body_force);
+  body_load.clear();
   levels.clear();
   seconds_of_linear_solve = 0.;
 }
@@ -188,7 +190,12 @@ FineReference::State FineReference::assemble(const Vector &displacement,
   residual.compress(VectorOperation::add);
   if (with_matrix)
     solver->matrix.compress(VectorOperation::add);
-  state.energy     = Utilities::MPI::sum(state.energy, discretization.communicator);
+  state.energy = Utilities::MPI::sum(state.energy, discretization.communicator);
+  if (body_force)
+  {
+    residual.add(-1., body_load);
+    state.energy -= body_load * displacement;
+  }
   state.n_inverted = Utilities::MPI::sum(state.n_inverted, discretization.communicator);
   state.force_size = std::sqrt(Utilities::MPI::sum(state.force_size, discretization.communicator));
   state.residual   = residual.l2_norm();
@@ -226,10 +233,18 @@ unsigned int FineReference::solve_linearized(Vector &increment, const Vector &fo
 
 /// Newton's method from `displacement`, which carries the prescribed values of this strain.
 /// @throws NotConverged
-void FineReference::solve(Vector &displacement, const double strain, ReferenceStep &step)
+void FineReference::solve(Vector &displacement, const double strain, const double tolerance,
+                          ReferenceStep &step)
 {
   const Eigen::Matrix2d mean_gradient =
     load->is_periodic() ? load->gradient(strain) : Eigen::Matrix2d::Identity();
+  if (body_force)
+    body_load = load_vector(discretization, constraints,
+                            [&](const Eigen::RowVector2d &point)
+                            {
+                              const Eigen::RowVector2d force = body_force(point, strain);
+                              return FieldValue(force(0), force(1), 0.);
+                            });
   Vector residual = solver->owned_vector(), increment = solver->owned_vector();
   Vector trial = solver->owned_vector();
   State state  = evaluate(displacement, mean_gradient, residual, false, false);
@@ -242,7 +257,7 @@ void FineReference::solve(Vector &displacement, const double strain, ReferenceSt
     if (!std::isfinite(state.residual) || !std::isfinite(state.energy))
       throw meshes::NotConverged("the sheet collapsed under the load step", history);
     // A sheet without load has no forces at all.
-    if (state.residual <= options.tolerance * state.force_size)
+    if (state.residual <= tolerance * state.force_size)
     {
       step.n_inverted = law == Law::linear ? 0 : state.n_inverted;
       return;
@@ -251,7 +266,7 @@ void FineReference::solve(Vector &displacement, const double strain, ReferenceSt
       break;
 
     // As exact as the next step of Newton's method can use; a linear law needs one step.
-    const double needed = 0.1 * options.tolerance * state.force_size;
+    const double needed = 0.1 * tolerance * state.force_size;
     const double target = law == Law::linear ? needed : std::max(needed, 1e-3 * state.residual);
     residual *= -1.;
     const Vector forces = residual;
@@ -306,7 +321,7 @@ ReferenceStep FineReference::advance(const double strain)
     Vector displacement = guess(next);
     try
     {
-      solve(displacement, next, step);
+      solve(displacement, next, options.tolerance, step);
       if (levels.size() == 2)
         levels.erase(levels.begin());
       levels.push_back({next, displacement});
@@ -337,6 +352,34 @@ ReferenceStep FineReference::advance(const double strain)
       seconds_of_linear_solve = step.seconds;
     step.seconds = std::max(step.seconds, seconds_of_linear_solve);
   }
+  return step;
+}
+
+FieldDistance FineReference::distance_from(const KnownField &known) const
+{
+  AssertThrow(!levels.empty(), ExcMessage("no level has been solved"));
+  return distance(discretization, levels.back().displacement, known, load->is_periodic());
+}
+
+ReferenceStep FineReference::tighten(const double tolerance)
+{
+  Timer timer(discretization.communicator, true);
+  ReferenceStep step;
+  step.strain = levels.back().strain;
+  try
+  {
+    Vector displacement = levels.back().displacement;
+    solve(displacement, step.strain, tolerance, step);
+    levels.back().displacement = displacement;
+    step.reached               = true;
+    step.positions             = positions_of(displacement, step.strain);
+  }
+  catch (const meshes::NotConverged &failure)
+  {
+    step.why = failure.what();
+  }
+  timer.stop();
+  step.seconds = Utilities::MPI::max(timer.wall_time(), discretization.communicator);
   return step;
 }
 

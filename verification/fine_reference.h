@@ -6,11 +6,13 @@
 
 #include "homogenization/elastic_solver.h"
 #include "meshes/sheet.h"
+#include "verification/field_integrals.h"
 #include "verification/laws.h"
 #include "verification/loads.h"
 
 #include <mpi.h>
 
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -46,9 +48,14 @@ public:
   FineReference(const meshes::Sheet &sheet, std::vector<Eigen::Matrix3d> stiffness_of_phase,
                 const ReferenceOptions &options, MPI_Comm communicator);
 
+  /// Force per rest area [N/m^2] at a rest point and a strain. The loads of a study have none; a solution
+  /// that is prescribed (manufactured.h) needs one.
+  using BodyForce =
+    std::function<Eigen::RowVector2d(const Eigen::RowVector2d &rest_point, double strain)>;
+
   /// Takes up a load and a law, and forgets earlier levels. The first call for a load lays out the
   /// matrix.
-  void start(const Load &load, Law law);
+  void start(const Load &load, Law law, BodyForce body_force = {});
 
   /// Solves at a strain, from the levels solved before: u(s) is extrapolated, u/s linear in s. A
   /// step that does not converge is cut in two, up to three times; after that the level counts as not
@@ -56,6 +63,14 @@ public:
   /// (det F <= 0) has infinite energy, because that law would reward it; under biot it is allowed (its
   /// energy is that of the coarse cloth, smooth through the collapse) and counted.
   ReferenceStep advance(double strain);
+
+  /// How far the level solved last is from a known displacement, in the interior of the elements too; of
+  /// periodic loads from a known fluctuation, up to a constant.
+  FieldDistance distance_from(const KnownField &known) const;
+
+  /// The last level once more from where it stands, to a smaller tolerance; later levels start from the result.
+  /// @param tolerance of |residual| relative to the size of the element forces
+  ReferenceStep tighten(double tolerance);
 
   unsigned long n_dofs() const;
 
@@ -72,7 +87,7 @@ private:
   void constrain(const Load &load);
   Vector affine(double strain) const;
   Vector guess(double strain) const;
-  void solve(Vector &displacement, double strain, ReferenceStep &step);
+  void solve(Vector &displacement, double strain, double tolerance, ReferenceStep &step);
   unsigned int solve_linearized(Vector &increment, const Vector &forces, double target);
   State evaluate(const Vector &displacement, const Eigen::Matrix2d &mean_gradient, Vector &residual,
                  bool with_matrix, bool projected);
@@ -90,6 +105,8 @@ private:
 
   std::unique_ptr<Load> load;
   Law law = Law::linear;
+  BodyForce body_force;
+  Vector body_load; ///< at the strain that is being solved; empty without a body force
   dealii::AffineConstraints<double> constraints; ///< homogeneous: held nodes, periodic images
   std::unique_ptr<homogenization::ElasticSolver> solver;
   double seconds_of_linear_solve       = 0.;

@@ -6,7 +6,9 @@ from concurrent.futures import ProcessPoolExecutor
 
 import style
 import tables
+from budget_contents import budget_contents
 from cell_results import read_fields
+from converge_contents import convergence_contents
 from drape_contents import drape_contents
 from figures_cell import characteristic_figure, phase_figure
 from figures_cloth import MOVING_BYTES, workers
@@ -27,6 +29,8 @@ HEADINGS = {
     "cells": "The unit cells",
     "chi": "Characteristic displacements",
     "sheets": "Reference, up-sampled sheet and error per vertex",
+    "budget": "Error budget",
+    "validity": "Range of validity",
     "time": "Error against run time",
     "errors": "Errors at chosen strains",
     "uncertainty": "Uncertainty of the references",
@@ -46,12 +50,14 @@ def page_contents(results, gallery, output):
     @throws BadResults where a stored sheet or frame cannot be read
     """
     stress = [{**stress_contents(s, gallery), "id": f"stress-{i}"} for i, s in enumerate(results.stress, 1)]
+    convergence = [{**convergence_contents(c, gallery), "id": f"converge-{i}"}
+                   for i, c in enumerate(results.convergence, 1)]
     drapes = contents_of_drapes(results, gallery, output)
     scenes = [d["scene"] for d in drapes]
     for d, drape in zip(drapes, results.drapes):  # one scene may have been run into two folders
         d["name"] = d["scene"] if scenes.count(d["scene"]) == 1 else f"{d['scene']} ({drape.folder})"
-    strain_shown = bool(results.cells) or not (drapes or stress)
-    headings = headings_of(drapes, stress, strain_shown)
+    strain_shown = bool(results.cells) or not (drapes or stress or convergence)
+    headings = headings_of(drapes, stress, convergence, strain_shown)
     cells = contents_of_cells(results, gallery)
     reasons = {key: [] for key in ("verdicts", "short", "strain", "uncertainty")}
     words = {"verdicts": "verdicts", "strain": "error against strain", "uncertainty": "error bar"}
@@ -68,10 +74,12 @@ def page_contents(results, gallery, output):
                 for v in study.verdicts]
     unreached = tables.unreached_notes(results.unreached())
     return {
-        "title": "homespun: " + ", ".join([d["scene"] for d in drapes] + ["stress"] * bool(stress) + list(results.cells)),
-        "lead": lead(bool(drapes), bool(stress), strain_shown),
+        "title": "homespun: " + ", ".join([d["scene"] for d in drapes] + ["stress"] * bool(stress)
+                                        + ["convergence"] * bool(convergence) + list(results.cells)),
+        "lead": lead(bool(drapes), bool(stress), bool(convergence), strain_shown),
         "drapes": drapes,
         "stress": stress,
+        "convergence": convergence,
         "strain_shown": strain_shown,
         "summary": summary(results),
         "commands": commands,
@@ -102,18 +110,19 @@ def contents_of_drapes(results, gallery, output):
                 for i, drape in enumerate(results.drapes, 1)]
 
 
-def headings_of(drapes, stress, strain_shown):
+def headings_of(drapes, stress, convergence, strain_shown):
     """id -> heading of the sections that this page has, in their order."""
     headings = {"verdicts": HEADINGS["verdicts"]}
     if drapes:
         headings["drape-short"] = "In short: cloth in motion" if strain_shown else "In short"
     headings.update((d["id"], f"Drape: {d['name']}") for d in drapes)
     headings.update((s["id"], "Stress cases" + (f": {s['name']}" if len(stress) > 1 else "")) for s in stress)
+    headings.update((c["id"], "Convergence" + (f": {c['name']}" if len(convergence) > 1 else "")) for c in convergence)
     headings.update((key, text) for key, text in HEADINGS.items() if strain_shown or key in COMMON)
     return headings
 
 
-def lead(drape, stress, strain):
+def lead(drape, stress, convergence, strain):
     """What the page is about."""
     sentences = []
     if strain:
@@ -126,6 +135,9 @@ def lead(drape, stress, strain):
     if stress:
         sentences.append("Numerical stability: stiff, degenerate and extreme cases, each of which must end in a finite "
                          "answer or in a refusal that names the fault.")
+    if convergence:
+        sentences.append("Convergence: observed orders in mesh width, cells per sheet, coarse mesh, strain and time step, "
+                         "held against the orders that theory says.")
     return " ".join(sentences)
 
 
@@ -245,6 +257,7 @@ def cell_contents(results, name, gallery):
         contents["error_time"] = gallery.add(
             figure, f"{name}-error-time", f"{name}: mean error against run time; lower left is better. "
             "Full resolution stands at its own uncertainty, where that is known.")
+    contents.update(budget_contents(results, name, side, strains, gallery))
     contents["round_off"] = tables.round_off_sentences(rows)
     contents["error_tables"] = tables.error_tables(rows, methods)
     contents["stiffness"] = tables.stiffness_table(cell)

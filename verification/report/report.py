@@ -63,7 +63,7 @@ def write_report(folders, output):
 def main(arguments=None):
     parser = argparse.ArgumentParser(prog="homespun report", description=__doc__.splitlines()[0])
     parser.add_argument("folders", nargs="+", metavar="DIR", help="output folder of `homespun strain`, `homogenize`, "
-                        "`drape` or `stress`")
+                        "`drape`, `stress` or `converge`")
     parser.add_argument("--output", required=True, metavar="FOLDER", help="where report.html and figures/ go")
     parser.add_argument("--quiet", action="store_true", help="say nothing unless something is wrong")
     options = parser.parse_args(arguments)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Reads the folders that `homespun strain`, `homogenize`, `drape` and `stress` write, and judges them.
+"""Reads the folders that `homespun strain`, `homogenize`, `drape`, `stress` and `converge` write, and judges them.
 
 A piece that is absent is noted (`Results.missing`) and the report goes on without it; a piece that is
 there but makes no sense is a fault. All faults of all folders are collected and raised together.
@@ -10,7 +10,9 @@ from dataclasses import dataclass, field
 
 import numpy
 
+from budget_results import read_budget
 from cell_results import Cell, read_cell, read_fields
+from converge_results import read_convergence
 from drape_results import read_drape
 from stored import BadResults, check_verdicts, latest, read_csv, read_json
 from stress_results import read_stress
@@ -42,8 +44,12 @@ class Results:
     strain: list = field(default_factory=list)
     uncertainty: list = field(default_factory=list)
     steps: list = field(default_factory=list)
+    budget: list = field(default_factory=list)
+    run_time: list = field(default_factory=list)
+    validity: list = field(default_factory=list)
     drapes: list = field(default_factory=list)  # Drape, one per scene
     stress: list = field(default_factory=list)  # Stress, one per folder
+    convergence: list = field(default_factory=list)  # Convergence, one per folder
     missing: list = field(default_factory=list)  # {"what", "why"}
 
     def reached(self, cell=None):
@@ -94,11 +100,13 @@ def read_folder(folder, results, faults):
     if holds("homogenize.json", "cell.h5"):
         cell_folders[study.name] = folder  # the output of `homespun homogenize` alone
     has_drape, has_stress = holds("drape.json", "drape.csv", "motion.csv"), holds("stress.csv")
+    has_convergence = holds("converge.csv")
     # A draped or stressed cell has a folder of its own too; its page is about motion, not about strain.
-    has_strain = holds("strain.csv") or (bool(cell_folders) and not has_drape and not has_stress)
-    if not (has_drape or has_stress or has_strain):
+    has_strain = holds("strain.csv") or (bool(cell_folders) and not has_drape and not has_stress and not has_convergence)
+    if not (has_drape or has_stress or has_strain or has_convergence):
         faults.append(f"{folder}: holds no results: neither strain.csv nor CELL/homogenize.json nor drape.json nor "
-                      "stress.csv. Give the --output folder of `homespun strain`, `homogenize`, `drape` or `stress`.")
+                      "stress.csv nor converge.csv. Give the --output folder of `homespun strain`, `homogenize`, `drape`, "
+                      "`stress` or `converge`.")
         return
     results.studies.append(study)
     if has_drape and (drape := read_drape(folder, path_of, faults, results.missing)):
@@ -107,6 +115,9 @@ def read_folder(folder, results, faults):
     if has_stress:
         path = os.path.join(folder, "stress.csv")
         results.stress.append(read_stress(folder, study.name, path, faults, results.missing))
+    if has_convergence:
+        path = os.path.join(folder, "converge.csv")
+        results.convergence.append(read_convergence(folder, study.name, path, faults, results.missing))
     if has_strain or holds("study.json"):
         if path := path_of("study.json", "command, sizes and provenance of the study"):
             if value := read_json(path, faults):
@@ -133,6 +144,7 @@ def read_strain(folder, cell_folders, path_of, results, faults):
     if path := path_of("steps.csv", "time per load step"):
         results.steps += latest(read_csv(path, STEPS_HEADER, faults, results.missing), keys, path,
                                 results.missing)
+    read_budget(path_of, results, faults)
     for name, cell_folder in cell_folders.items():
         if name in results.cells:
             results.missing.append({"what": f"cell `{name}` of {folder}",

@@ -74,7 +74,7 @@ def words_of(count):
 
 def solver_rows(rows):
     """The table of the solver as the template shows it."""
-    return [[row["parameter"], three(row["value"]), row["cell"], f"P{int(row['order'])}",
+    return [[row["parameter"], three(row["value"]), row["cell"], f"P{row['order']:g}",
              *(three(int(row[key])) if row[key] == row[key] else "–" for key in ("dofs", "iterations")),
              seconds(row["seconds"]), seconds(row["seconds_total"]), row["outcome"]] for row in rows]
 

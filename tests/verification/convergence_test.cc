@@ -1,0 +1,231 @@
+// SPDX-License-Identifier: MIT
+#include "verification/convergence.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+using namespace homespun::verification;
+
+namespace
+{
+/// Sizes without a common ratio, as meshes of users have.
+std::vector<double> sizes(const int n = 5)
+{
+  std::vector<double> h;
+  for (int k = 0; k < n; ++k)
+    h.push_back(0.3 * std::pow(k % 2 == 0 ? 0.5 : 0.55, k));
+  return h;
+}
+
+template <typename Function>
+std::vector<double> at(const std::vector<double> &h, const Function &function)
+{
+  std::vector<double> values;
+  for (std::size_t k = 0; k < h.size(); ++k)
+    values.push_back(function(h[k], k));
+  return values;
+}
+} // namespace
+
+TEST(exact_convergence, a_pure_power_gives_its_order_on_unequal_levels)
+{
+  for (const double p : {0.5, 1., 1.35, 2., 3., 4.})
+  {
+    const std::vector<double> h = sizes();
+    const OrderJudgement found =
+      judge_errors(h, at(h, [&](double s, auto) { return 7. * std::pow(s, p); }), about(p));
+    EXPECT_EQ(found.outcome, Outcome::pass) << p << " " << found.why;
+    EXPECT_NEAR(found.order, p, 1e-12);
+    EXPECT_LT(found.spread, 1e-12);
+    ASSERT_EQ(found.observed.size(), h.size());
+    EXPECT_TRUE(std::isnan(found.observed[0]));
+    for (std::size_t k = 1; k < h.size(); ++k)
+      EXPECT_NEAR(found.observed[k], p, 1e-12);
+  }
+}
+
+TEST(exact_convergence, richardson_finds_order_limit_and_error_bar_of_a_pure_power)
+{
+  for (const double p : {0.7, 1.35, 2., 4.})
+  {
+    const std::vector<double> h      = sizes();
+    const std::vector<double> values = at(h, [&](double s, auto) { return 3. + std::pow(s, p); });
+    const Richardson found           = extrapolated(h, values);
+    ASSERT_TRUE(found.exists) << found.why;
+    EXPECT_NEAR(found.order, p, 1e-8);
+    EXPECT_NEAR(found.limit, 3., 1e-12);
+    EXPECT_NEAR(found.gci, 1.25 * std::pow(h.back(), p), 1e-8 * found.gci);
+    const OrderJudgement judged = judge_values(h, values, about(p));
+    EXPECT_EQ(judged.outcome, Outcome::pass) << judged.why;
+    EXPECT_NEAR(judged.order, p, 1e-8);
+  }
+}
+
+TEST(bound_convergence, the_error_bar_covers_the_error_with_a_term_of_higher_order)
+{
+  for (const double a : {-0.5, 0.5})
+  {
+    const std::vector<double> h = sizes();
+    const std::vector<double> values =
+      at(h, [&](double s, auto) { return 3. + s * s + a * s * s * s; });
+    const Richardson found = extrapolated(h, values);
+    ASSERT_TRUE(found.exists);
+    EXPECT_LE(std::abs(values.back() - 3.), found.gci);
+    EXPECT_NEAR(found.order, 2., 0.1);
+  }
+}
+
+TEST(exact_convergence,
+     a_term_of_higher_order_fades_on_fine_levels_and_is_inconclusive_on_coarse_ones)
+{
+  const auto error               = [](double s, auto) { return s * s * (1. + 4. * s); };
+  const std::vector<double> fine = {0.04, 0.02, 0.01, 0.005};
+  EXPECT_EQ(judge_errors(fine, at(fine, error), about(2.)).outcome, Outcome::pass);
+  const std::vector<double> coarse = {0.8, 0.4, 0.2, 0.1};
+  const OrderJudgement found       = judge_errors(coarse, at(coarse, error), about(2.));
+  EXPECT_EQ(found.outcome, Outcome::inconclusive);
+  EXPECT_NE(found.why.find("asymptotic"), std::string::npos) << found.why;
+}
+
+TEST(exact_convergence, orders_that_slowly_drift_to_the_limit_are_not_called_a_failure)
+{
+  // The last step of 0.095 counts as settled, and still leads on to 1.91.
+  const std::vector<double> h = {0.1, 0.05, 0.025, 0.0125};
+  std::vector<double> errors  = {1.};
+  for (const double order : {1.5, 1.65, 1.745})
+    errors.push_back(errors.back() * std::pow(0.5, order));
+  EXPECT_EQ(judge_errors(h, errors, about(2.)).outcome, Outcome::inconclusive);
+}
+
+TEST(exact_convergence, oscillating_levels_are_inconclusive)
+{
+  const std::vector<double> h = sizes();
+  EXPECT_EQ(
+    judge_errors(h, at(h, [](double s, std::size_t k) { return s * s * (k % 2 == 0 ? 1. : 0.4); }),
+                 about(2.))
+      .outcome,
+    Outcome::inconclusive);
+  const std::vector<double> values =
+    at(h, [](double s, std::size_t k) { return 1. + (k % 2 == 0 ? 1. : -1.) * s * s; });
+  const Richardson found = extrapolated(h, values);
+  EXPECT_FALSE(found.exists);
+  EXPECT_NE(found.why.find("oscillate"), std::string::npos);
+  EXPECT_EQ(judge_values(h, values, about(2.)).outcome, Outcome::inconclusive);
+}
+
+TEST(exact_convergence, levels_at_the_floor_are_left_out)
+{
+  const std::vector<double> h = {0.1, 0.05, 0.025, 0.0125, 0.00625, 0.003125};
+  const auto error            = [](double s, std::size_t k)
+  { return std::max(s * s * s * s, (k % 2 == 0 ? 1.1 : 0.8) * 1e-7); };
+  EXPECT_EQ(judge_errors(h, at(h, error), about(4.)).outcome, Outcome::inconclusive);
+  const OrderJudgement known = judge_errors(h, at(h, error), about(4.), 2e-7);
+  EXPECT_EQ(known.outcome, Outcome::inconclusive); // three levels are above it
+  EXPECT_NE(known.why.find("3 levels above the floor"), std::string::npos) << known.why;
+  const auto later = [&](double s, std::size_t k)
+  { return std::max(s * s * s * s, (k % 2 == 0 ? 1.1 : 0.8) * 2e-9); };
+  const OrderJudgement four = judge_errors(h, at(h, later), about(4.), 4e-9);
+  EXPECT_EQ(four.outcome, Outcome::pass) << four.why;
+  EXPECT_TRUE(std::isnan(four.observed.back()));
+  // All at the floor: nothing is measured, least of all an order.
+  EXPECT_EQ(judge_errors(h, std::vector<double>(6, 1e-15), about(4.), 1e-13).outcome,
+            Outcome::inconclusive);
+  EXPECT_FALSE(extrapolated(h, {1., 1., 1., 1., 1., 1. + 1e-15}, 1e-12).exists);
+}
+
+TEST(exact_convergence, two_or_three_levels_conclude_nothing)
+{
+  for (const int n : {0, 1, 2, 3})
+  {
+    const std::vector<double> h      = sizes(n);
+    const std::vector<double> errors = at(h, [](double s, auto) { return s * s; });
+    EXPECT_EQ(judge_errors(h, errors, about(2.)).outcome, Outcome::inconclusive) << n;
+    EXPECT_EQ(judge_values(h, errors, about(2.)).outcome, Outcome::inconclusive) << n;
+  }
+  EXPECT_FALSE(extrapolated({0.2, 0.1}, {1., 2.}).exists);
+}
+
+TEST(exact_convergence, a_band_is_a_limit_on_both_sides)
+{
+  const std::vector<double> h = sizes();
+  for (const auto &[p, outcome] :
+       {std::make_pair(0.5, Outcome::fail), std::make_pair(1.4, Outcome::pass),
+        std::make_pair(2.5, Outcome::fail)})
+    EXPECT_EQ(
+      judge_errors(h, at(h, [p = p](double s, auto) { return std::pow(s, p); }), {1., 2.}).outcome,
+      outcome);
+  EXPECT_EQ(text_of({1., 2.}), "1 to 2");
+  EXPECT_EQ(text_of(about(2.)), "2 +- 0.1");
+}
+
+TEST(tripwire_convergence, an_l2_error_without_its_root_has_twice_the_order_and_fails)
+{
+  const std::vector<double> h = sizes();
+  for (const double p : {1., 2., 3.})
+    EXPECT_EQ(
+      judge_errors(h, at(h, [&](double s, auto) { return std::pow(s, 2. * p); }), about(p)).outcome,
+      Outcome::fail);
+}
+
+TEST(tripwire_convergence, an_order_that_is_one_too_low_fails)
+{
+  const std::vector<double> h = sizes();
+  for (const double p : {2., 3.})
+  {
+    EXPECT_EQ(
+      judge_errors(h, at(h, [&](double s, auto) { return std::pow(s, p - 1.); }), about(p)).outcome,
+      Outcome::fail);
+    EXPECT_EQ(
+      judge_values(h, at(h, [&](double s, auto) { return 1. + std::pow(s, p - 1.); }), about(p))
+        .outcome,
+      Outcome::fail);
+  }
+}
+
+TEST(tripwire_convergence, a_refinement_that_does_nothing_on_half_of_the_levels_fails)
+{
+  const std::vector<double> h      = {0.4, 0.2, 0.1, 0.05, 0.025, 0.0125};
+  const std::vector<double> halved = {0.4, 0.4, 0.1, 0.1, 0.025, 0.025};
+  const std::vector<double> errors = at(halved, [](double s, auto) { return s * s; });
+  const OrderJudgement found       = judge_errors(h, errors, about(2.));
+  EXPECT_EQ(found.outcome, Outcome::fail);
+  EXPECT_NE(found.why.find("did nothing"), std::string::npos) << found.why;
+  EXPECT_EQ(judge_values(h, errors, about(2.)).outcome, Outcome::fail);
+  // Told with the sizes that the levels really had, the fault lies there.
+  EXPECT_EQ(judge_errors(halved, errors, about(2.)).outcome, Outcome::fail);
+}
+
+TEST(tripwire_convergence, an_error_that_stagnates_or_grows_fails)
+{
+  const std::vector<double> h = sizes();
+  EXPECT_EQ(
+    judge_errors(h, at(h, [](double s, auto) { return 0.01 + 1e-4 * s; }), about(2.)).outcome,
+    Outcome::fail);
+  EXPECT_EQ(
+    judge_errors(h, at(h, [](double s, auto) { return std::exp(1. / s); }), about(2.)).outcome,
+    Outcome::fail);
+  EXPECT_FALSE(extrapolated(h, at(h, [](double s, auto) { return 1. / s; })).exists);
+  EXPECT_EQ(judge_values(h, at(h, [](double s, auto) { return 1. / s; }), about(2.)).outcome,
+            Outcome::fail);
+}
+
+TEST(tripwire_convergence, an_error_that_is_not_a_number_never_passes)
+{
+  const std::vector<double> h = sizes();
+  for (std::size_t bad = 0; bad < h.size(); ++bad)
+    for (const double value :
+         {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity(), -1.})
+    {
+      std::vector<double> errors = at(h, [](double s, auto) { return s * s; });
+      errors[bad]                = value;
+      const OrderJudgement found = judge_errors(h, errors, about(2.));
+      EXPECT_EQ(found.outcome, Outcome::fail) << bad << " " << value;
+      EXPECT_FALSE(found.why.empty());
+      if (!std::isfinite(value))
+      {
+        EXPECT_EQ(judge_values(h, errors, about(2.)).outcome, Outcome::fail);
+      }
+    }
+}

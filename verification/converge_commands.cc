@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: MIT
+// homespun converge: observed orders of everything that is discretised.
+#include "verification/converge_cases.h"
+#include "verification/converge_study.h"
+#include "verification/study_arguments.h"
+
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+
+#include <filesystem>
+#include <memory>
+
+namespace homespun::verification
+{
+namespace
+{
+struct ConvergeArguments
+{
+  ConvergenceStudyOptions study;
+  StudyEnd end;
+};
+
+int run_converge(ConvergeArguments arguments, Afterwards &afterwards)
+{
+  ConvergenceStudyOptions &study = arguments.study;
+  ArgumentFaults faults;
+  faults.check_names("--studies", study.studies, convergence_studies());
+  if (study.studies.empty())
+    faults.add("--studies: found nothing; expected at least one");
+  faults.throw_if_any();
+  if (study.output.empty())
+    study.output = "out/" + (study.cell_files.size() == 1
+                               ? std::filesystem::path(study.cell_files[0]).stem().string()
+                               : std::string("converge"));
+  return arguments.end.conclude(run_convergence_study(study, MPI_COMM_WORLD), study.output,
+                                study.quiet, afterwards);
+}
+} // namespace
+
+void add_converge_command(CLI::App &app, Action &action, Afterwards &afterwards,
+                          const std::string &command_line)
+{
+  CLI::App *command = app.add_subcommand(
+    "converge", "Observed orders in mesh, cells per sheet, coarse mesh, strain and time step");
+  const auto arguments           = std::make_shared<ConvergeArguments>();
+  ConvergenceStudyOptions &study = arguments->study;
+  study.studies                  = convergence_studies();
+  study.command                  = command_line;
+  command->add_option("CELL.prm", study.cell_files, "Cell files")->required();
+  add_list(*command, "--studies", study.studies, "Studies, comma-separated");
+  command->add_option("--output", study.output,
+                      "Folder of the results (default out/NAME, out/converge for several cells)");
+  command->add_flag("--quick", study.quick, "Fewer and smaller levels: a minute");
+  command->add_flag("--resume", study.resume, "Keep the cases that are complete, run the rest");
+  command->add_flag("--quiet", study.quiet, "Print nothing but faults");
+  arguments->end.add_options(*command);
+  command->footer(
+    "Studies: mesh (uniform refinement of the cell, P1 and P2), scale (cells per sheet), coarse (coarse\n"
+    "triangles per cell), strain (periodic loads under biot), time (steps of the coarse cloth), manufactured\n"
+    "(every solver against motions that it must reproduce; needs no cell, but is run once with the first).\n"
+    "An order that has not settled is INCONCLUSIVE, not a failure.\n"
+    "Example:\n  homespun converge mycell.prm --quick\n"
+    "  mpirun -n 2 homespun converge mycell.prm --studies mesh,scale");
+  command->callback(
+    [&action, &afterwards, arguments]()
+    { action = [&afterwards, arguments]() { return run_converge(*arguments, afterwards); }; });
+}
+} // namespace homespun::verification

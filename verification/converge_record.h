@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: MIT
+// What a convergence study measures and how it reaches the disk: series of a quantity over levels as rows of
+// converge.csv, the claims about them in claims.csv, and the cases that are complete in cases.csv, so that a
+// study that was cut short is taken up again.
+#pragma once
+
+#include "verification/convergence.h"
+#include "verification/result_files.h"
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace homespun::verification
+{
+struct ConvergenceLevel
+{
+  double h             = 0.; ///< true size, in the series' unit
+  unsigned long n_dofs = 0;  ///< 0: the level solves nothing
+  std::optional<double> value, error;
+  double seconds = 0.;
+};
+
+/// A quantity over levels, coarse to fine.
+struct Series
+{
+  std::string quantity;   ///< with its unit in brackets
+  unsigned int order = 1; ///< P1 or P2
+  std::string h_unit;
+  std::vector<ConvergenceLevel> levels;
+  std::optional<OrderJudgement> judgement; ///< none: reported, not judged
+  std::optional<Richardson> richardson;
+
+  std::vector<double> sizes() const;
+  std::vector<double> values() const;
+  std::vector<double> errors() const;
+};
+
+/// What a case gives: no commas in its texts.
+struct ConvergenceResult
+{
+  std::vector<Series> series;
+  std::vector<Verdict> verdicts;
+
+  /// Adds a series, and what its judgement claims: "CLAIM (order)".
+  void add(Series one, const std::string &claim = "");
+};
+
+/// A case: one cell, one study, one load or solver.
+struct ConvergenceCase
+{
+  std::string cell, study, name;
+  std::function<ConvergenceResult()> run; ///< to be called on every rank. @throws NotConverged
+};
+
+/// The columns of converge.csv.
+const std::vector<std::string> &converge_columns();
+
+/// The tables of a study, on the first rank alone.
+class ConvergenceRecord
+{
+public:
+  ConvergenceRecord(const std::string &folder, bool resume);
+
+  bool is_complete(const ConvergenceCase &one) const;
+
+  /// Rows, claims, and that the case is complete; `note` says why it could not be finished.
+  void add(const ConvergenceCase &one, const ConvergenceResult &result, double seconds,
+           const std::string &note = "");
+
+  /// Claims of all complete cases, in the order of the tables.
+  std::vector<Verdict> verdicts() const;
+
+  /// Notes of all complete cases.
+  std::vector<std::string> notes() const;
+
+private:
+  ResultTable rows, claims, cases;
+};
+} // namespace homespun::verification

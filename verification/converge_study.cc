@@ -1,0 +1,239 @@
+// SPDX-License-Identifier: MIT
+#include "verification/converge_study.h"
+
+#include "homogenization/homogenize.h"
+#include "meshes/errors.h"
+#include "meshes/sheet.h"
+#include "verification/converge_cases.h"
+#include "verification/on_root.h"
+#include "verification/progress.h"
+#include "verification/provenance.h"
+#include "verification/study_inputs.h"
+
+#include <algorithm>
+#include <chrono>
+#include <filesystem>
+
+namespace homespun::verification
+{
+using homogenization::UnitCell;
+
+ConvergenceSizes convergence_sizes(const bool quick)
+{
+  ConvergenceSizes sizes;
+  sizes.refinements_p1  = quick ? std::vector<int>{0, 1, 2, 3} : std::vector<int>{0, 1, 2, 3, 4, 5};
+  sizes.refinements_p2  = quick ? std::vector<int>{0, 1, 2, 3} : std::vector<int>{0, 1, 2, 3, 4};
+  sizes.cells_per_sheet = quick ? std::vector<int>{2, 4, 8, 16} : std::vector<int>{2, 4, 8, 16, 32};
+  sizes.cells_of_coarse_study = quick ? 4 : 16;
+  sizes.coarse_per_cell       = {0.5, 1., 2., 4., 8.};
+  if (!quick)
+    sizes.coarse_per_cell.push_back(16.);
+  sizes.strains    = quick ? std::vector<double>{0.1, 0.03, 0.01, 0.003, 0.001}
+                           : std::vector<double>{0.1, 0.05, 0.02, 0.01, 0.005, 0.002, 0.001, 1e-4};
+  sizes.time_steps = quick ? std::vector<int>{50, 100, 200, 400}
+                           : std::vector<int>{25, 50, 100, 200, 400, 800, 1600};
+  return sizes;
+}
+
+const std::vector<std::string> &convergence_studies()
+{
+  static const std::vector<std::string> all = {"mesh",   "scale", "coarse",
+                                               "strain", "time",  "manufactured"};
+  return all;
+}
+
+namespace
+{
+nlohmann::ordered_json what_was_left_out(const ConvergenceStudyOptions &options)
+{
+  nlohmann::ordered_json list = nlohmann::ordered_json::array();
+  const auto left_out         = [&](const std::string &what, const std::string &why) {
+    list.push_back({{"what", what}, {"why", why}});
+  };
+  for (const std::string &study : convergence_studies())
+    if (std::find(options.studies.begin(), options.studies.end(), study) == options.studies.end())
+      left_out("study " + study, "--studies does not name it");
+  left_out("manufactured solutions with P2 and lumped mass",
+           "lumping takes one order from P2, as cloth_reference.h says");
+  if (options.quick)
+    left_out("finer levels", "--quick");
+  return list;
+}
+
+nlohmann::ordered_json notes()
+{
+  return {
+    "An order is judged on the three finest levels of at least four; PASS and FAIL need orders that have settled "
+    "(the last two differ by no more than 0.1). Everything else is INCONCLUSIVE.",
+    "Where the exact value is not known, errors are distances from the Richardson limit of the last three levels, "
+    "and the error bar is the grid convergence index with the safety factor 1.25.",
+    "mesh: h is the square root of the mean area of a triangle over the cell side. Where phases have corners "
+    "the order is twice the exponent of the strongest one, which is not known here; what is guaranteed is that C^H "
+    "falls from level to level.",
+    "manufactured: smooth motions with strains of some ten per cent, body forces from energies written apart "
+    "from the solvers' laws; irregular meshes, refined uniformly."};
+}
+
+class ConvergenceStudy
+{
+public:
+  ConvergenceStudy(const ConvergenceStudyOptions &options, const MPI_Comm communicator)
+      : options(options)
+      , communicator(communicator)
+      , is_root(verification::is_root(communicator))
+      , begin(std::chrono::steady_clock::now())
+      , sizes(convergence_sizes(options.quick))
+  {
+  }
+
+  std::vector<Verdict> run()
+  {
+    for (const std::string &file : options.cell_files)
+      cells.push_back(homogenization::read_unit_cell(file));
+    check_names(cells);
+    for (const UnitCell &cell : cells)
+      meshes::tile(cell.mesh, cell.lattice, 1, 1); // refuses cells that make no sheet
+    on_root(communicator, [&]() { open_tables(); });
+    collect();
+    run_cases();
+    return conclude();
+  }
+
+private:
+  void open_tables()
+  {
+    std::filesystem::create_directories(options.output);
+    nlohmann::ordered_json inputs;
+    inputs["quick"] = options.quick;
+    for (const UnitCell &cell : cells)
+      inputs["cells"][cell.name] = fingerprint(cell);
+    check_inputs_file(options.output, inputs, options.resume, "converge.csv");
+    record = std::make_unique<ConvergenceRecord>(options.output, options.resume);
+  }
+
+  bool has(const std::string &study) const
+  {
+    return std::find(options.studies.begin(), options.studies.end(), study) !=
+           options.studies.end();
+  }
+
+  /// Cases stand study by study, so that the finest levels of one cell do not delay the others.
+  void collect()
+  {
+    for (const UnitCell &cell : cells)
+    {
+      homogenization::HomogenizationOptions p1;
+      p1.order = 1;
+      homogenized.push_back(homogenization::homogenized_cell(
+        cell, homogenization::homogenize(cell, p1, communicator), provenance_line()));
+    }
+    const auto add = [&](const std::string &study, const auto &cases_of)
+    {
+      if (has(study))
+        for (std::size_t k = 0; k < cells.size(); ++k)
+          for (ConvergenceCase &one : cases_of(cells[k], homogenized[k]))
+            cases.push_back(std::move(one));
+    };
+    add("mesh",
+        [&](const UnitCell &cell, const auto &) { return mesh_cases(cell, sizes, communicator); });
+    add("scale", [&](const UnitCell &cell, const auto &h)
+        { return scale_cases(cell, h, sizes, communicator); });
+    add("coarse", [&](const UnitCell &cell, const auto &h)
+        { return coarse_cases(cell, h, sizes, communicator); });
+    add("strain", [&](const UnitCell &cell, const auto &h)
+        { return strain_cases(cell, h, sizes, communicator); });
+    add("time", [&](const UnitCell &cell, const auto &h) { return time_cases(cell, h, sizes); });
+    if (has("manufactured"))
+      for (ConvergenceCase &one : manufactured_study_cases(communicator))
+        cases.push_back(std::move(one));
+  }
+
+  void run_cases()
+  {
+    Progress progress(is_root && !options.quiet, static_cast<int>(cases.size()));
+    std::string group;
+    for (const ConvergenceCase &one : cases)
+    {
+      const std::string here = one.cell == "none" ? one.study : one.cell + ", " + one.study;
+      progress.begin(here + ": " + one.name, here != group);
+      group        = here;
+      int is_there = is_root && record->is_complete(one);
+      MPI_Bcast(&is_there, 1, MPI_INT, 0, communicator);
+      if (!is_there)
+        run_case(one, progress);
+      progress.done();
+    }
+  }
+
+  /// Solvers are deterministic and agree on all ranks: where one does not converge, none does.
+  void run_case(const ConvergenceCase &one, Progress &progress)
+  {
+    const auto start = std::chrono::steady_clock::now();
+    ConvergenceResult result;
+    std::string note;
+    try
+    {
+      result = one.run();
+    }
+    catch (const meshes::NotConverged &failure)
+    {
+      note = failure.what();
+      result.verdicts.push_back({"all levels are solved", Outcome::inconclusive, 0., note});
+      progress.note(one.cell + ", " + one.study + ", " + one.name + ": " + note);
+    }
+    const double seconds =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    on_root(communicator, [&]() { record->add(one, result, seconds, note); });
+  }
+
+  std::vector<Verdict> conclude()
+  {
+    std::vector<Verdict> verdicts;
+    on_root(communicator,
+            [&]()
+            {
+              verdicts = record->verdicts();
+              write_whole(options.output + "/verdicts.json",
+                          json_text(to_json(verdicts, options.command)));
+              const double seconds =
+                std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+              nlohmann::ordered_json all_notes = notes();
+              for (const std::string &note : record->notes())
+                all_notes.push_back(note);
+              const unsigned int n_ranks = dealii::Utilities::MPI::n_mpi_processes(communicator);
+              write_whole(options.output + "/study.json",
+                          json_text({{"command", options.command},
+                                     {"studies", options.studies},
+                                     {"quick", options.quick},
+                                     {"ranks", n_ranks},
+                                     {"seconds_total", seconds},
+                                     {"left_out", what_was_left_out(options)},
+                                     {"notes", all_notes},
+                                     {"provenance", provenance(n_ranks)}}));
+            });
+    // Every rank ends with the status of the first.
+    int failed = any_failed(verdicts);
+    MPI_Bcast(&failed, 1, MPI_INT, 0, communicator);
+    if (failed && !any_failed(verdicts))
+      verdicts.push_back({"the first rank saw a failure", Outcome::fail, 1., "0"});
+    return verdicts;
+  }
+
+  const ConvergenceStudyOptions options;
+  const MPI_Comm communicator;
+  const bool is_root;
+  const std::chrono::steady_clock::time_point begin;
+  const ConvergenceSizes sizes;
+  std::vector<UnitCell> cells;
+  std::vector<meshes::HomogenizedCell> homogenized;
+  std::vector<ConvergenceCase> cases;
+  std::unique_ptr<ConvergenceRecord> record; ///< on the first rank alone
+};
+} // namespace
+
+std::vector<Verdict> run_convergence_study(const ConvergenceStudyOptions &options,
+                                           const MPI_Comm communicator)
+{
+  return ConvergenceStudy(options, communicator).run();
+}
+} // namespace homespun::verification

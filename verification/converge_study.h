@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+// homespun converge: every number that a study of this program rests on, on a ladder of at least four levels,
+// with its observed order held against the order that theory says.
+#pragma once
+
+#include "verification/verdict.h"
+
+#include <mpi.h>
+
+#include <string>
+#include <vector>
+
+namespace homespun::verification
+{
+struct ConvergenceStudyOptions
+{
+  std::vector<std::string> cell_files;
+  std::vector<std::string> studies; ///< of convergence_studies()
+  bool quick = false;               ///< small sizes, for seconds to minutes
+  std::string output;
+  std::string command; ///< that reproduces the study
+  bool resume = false;
+  bool quiet  = false;
+};
+
+/// Runs the studies and writes, into the output folder, converge.csv (a row per level of every series),
+/// claims.csv, cases.csv, verdicts.json and study.json. What a case needs is on the disk when it is complete; with
+/// `resume` complete cases are not run again. A case whose solver does not converge is a claim that is
+/// INCONCLUSIVE, with a note of the reason.
+/// @throws BadInput
+std::vector<Verdict> run_convergence_study(const ConvergenceStudyOptions &options,
+                                           MPI_Comm communicator);
+} // namespace homespun::verification

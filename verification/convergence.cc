@@ -1,0 +1,271 @@
+// SPDX-License-Identifier: MIT
+#include "verification/convergence.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <limits>
+
+namespace homespun::verification
+{
+namespace
+{
+constexpr double none          = std::numeric_limits<double>::quiet_NaN();
+constexpr double safety_factor = 1.25;
+constexpr double lowest_order = 1e-2, highest_order = 20.; ///< of values that converge
+
+std::string number(const double value)
+{
+  char text[32];
+  std::snprintf(text, sizeof(text), "%.3g", value);
+  return text;
+}
+
+OrderJudgement judgement(const Outcome outcome, const std::string &why)
+{
+  OrderJudgement result;
+  result.outcome = outcome;
+  result.order   = none;
+  result.spread  = none;
+  result.why     = why;
+  return result;
+}
+
+/// What makes levels unusable whatever their order is; empty where nothing does.
+std::string fault_of(const std::vector<double> &h, const std::vector<double> &values)
+{
+  if (h.size() != values.size())
+    return std::to_string(h.size()) + " sizes but " + std::to_string(values.size()) + " values";
+  for (std::size_t k = 0; k < h.size(); ++k)
+  {
+    if (!std::isfinite(values[k]))
+      return "level " + std::to_string(k) + " is not a number";
+    if (!(h[k] > 0.) || !std::isfinite(h[k]) || (k > 0 && !(h[k] < h[k - 1])))
+      return "level " + std::to_string(k) + " is not finer than the one before";
+  }
+  return "";
+}
+
+/// Judges orders that follow one another, of which `result.order` is the measured one.
+void conclude(const std::vector<double> &orders, const OrderLimit &limit, OrderJudgement &result)
+{
+  const std::size_t n = orders.size();
+  const double drift  = orders[n - 1] - orders[n - 2];
+  if (!(std::abs(drift) <= settled))
+  {
+    result.outcome = Outcome::inconclusive;
+    result.why = "not in the asymptotic range: the last two orders are " + number(orders[n - 2]) +
+                 " and " + number(orders[n - 1]);
+    return;
+  }
+  if (limit.contains(result.order))
+  {
+    result.outcome = Outcome::pass;
+    result.why     = "orders have settled";
+    return;
+  }
+  // Orders that fall into step geometrically may yet arrive.
+  if (n >= 3)
+  {
+    const double ratio = drift / (orders[n - 2] - orders[n - 3]);
+    if (ratio > 0. && ratio < 1. && limit.contains(orders[n - 1] + drift * ratio / (1. - ratio)))
+    {
+      result.outcome = Outcome::inconclusive;
+      result.why     = "not yet in the asymptotic range: the orders still drift towards the limit";
+      return;
+    }
+  }
+  result.outcome = Outcome::fail;
+  result.why     = "orders have settled outside of the limit";
+}
+} // namespace
+
+OrderLimit about(const double order, const double tolerance)
+{
+  return {order - tolerance, order + tolerance};
+}
+
+std::string text_of(const OrderLimit &limit)
+{
+  const double middle = 0.5 * (limit.lowest + limit.highest);
+  const double half   = 0.5 * (limit.highest - limit.lowest);
+  return half < 0.35 ? number(middle) + " +- " + number(half)
+                     : number(limit.lowest) + " to " + number(limit.highest);
+}
+
+OrderJudgement judge_errors(const std::vector<double> &h, const std::vector<double> &errors,
+                            const OrderLimit &limit, const double floor)
+{
+  const auto finished = [&](OrderJudgement result)
+  {
+    result.limits = limit;
+    result.limit  = text_of(limit);
+    result.observed.resize(errors.size(), none);
+    return result;
+  };
+  if (const std::string fault = fault_of(h, errors); !fault.empty())
+    return finished(judgement(Outcome::fail, fault));
+  if (std::any_of(errors.begin(), errors.end(), [](const double e) { return e < 0.; }))
+    return finished(judgement(Outcome::fail, "an error is negative"));
+
+  const auto n = static_cast<std::size_t>(
+    std::find_if(errors.begin(), errors.end(), [&](const double e) { return !(e > floor); }) -
+    errors.begin());
+  std::vector<double> observed(errors.size(), none), orders;
+  bool grows = n >= 2;
+  for (std::size_t k = 1; k < n; ++k)
+  {
+    observed[k] = std::log(errors[k - 1] / errors[k]) / std::log(h[k - 1] / h[k]);
+    orders.push_back(observed[k]);
+    grows = grows && errors[k] > errors[k - 1];
+  }
+  OrderJudgement result = judgement(Outcome::inconclusive, "");
+  result.observed       = observed;
+  for (std::size_t k = 1; k < n; ++k)
+    if (std::abs(errors[k] - errors[k - 1]) <= 1e-12 * errors[k])
+    {
+      result.outcome = Outcome::fail;
+      result.why     = "levels " + std::to_string(k - 1) + " and " + std::to_string(k) +
+                   " have the same error: the refinement did nothing";
+      return finished(result);
+    }
+  if (n >= 3)
+  {
+    double mean_x = 0., mean_y = 0., covariance = 0., variance = 0.;
+    for (std::size_t k = n - 3; k < n; ++k)
+    {
+      mean_x += std::log(h[k]) / 3.;
+      mean_y += std::log(errors[k]) / 3.;
+    }
+    for (std::size_t k = n - 3; k < n; ++k)
+    {
+      covariance += (std::log(h[k]) - mean_x) * (std::log(errors[k]) - mean_y);
+      variance += (std::log(h[k]) - mean_x) * (std::log(h[k]) - mean_x);
+    }
+    result.order  = covariance / variance;
+    result.spread = std::max(std::abs(orders[orders.size() - 1] - result.order),
+                             std::abs(orders[orders.size() - 2] - result.order));
+  }
+  if (grows)
+  {
+    result.outcome = Outcome::fail;
+    result.why     = "the error grows at every level";
+  }
+  else if (n < fewest_levels)
+    result.why = std::to_string(n) + " levels above the floor of " + number(floor) +
+                 "; an order needs " + std::to_string(fewest_levels);
+  else
+    conclude(orders, limit, result);
+  return finished(result);
+}
+
+Richardson extrapolated(const std::vector<double> &h, const std::vector<double> &values,
+                        const double floor)
+{
+  Richardson result;
+  result.order = result.limit = result.gci = none;
+  const std::size_t n                      = values.size();
+  if (const std::string fault = fault_of(h, values); !fault.empty() || n < 3)
+  {
+    result.why = fault.empty() ? "fewer than three levels" : fault;
+    return result;
+  }
+  const double h3 = h[n - 3], h2 = h[n - 2], h1 = h[n - 1];
+  const double coarse = values[n - 3] - values[n - 2], fine = values[n - 2] - values[n - 1];
+  if (!(std::abs(coarse) > floor) || !(std::abs(fine) > floor))
+  {
+    result.why = "the values differ by no more than the floor of " + number(floor);
+    return result;
+  }
+  if (coarse / fine < 0.)
+  {
+    result.why = "the values oscillate";
+    return result;
+  }
+  // Grows with p, from negative orders (values that run away) to positive ones.
+  const auto ratio_at = [&](const double p)
+  {
+    return (std::pow(h3, p) - std::pow(h2, p)) / (std::pow(h2, p) - std::pow(h1, p)) -
+           coarse / fine;
+  };
+  double lower = -highest_order, upper = highest_order;
+  if (!(ratio_at(lower) < 0.) || !(ratio_at(upper) > 0.))
+  {
+    result.why = "the values follow no power of h";
+    return result;
+  }
+  // 100 halvings end between two neighbouring numbers, never on p = 0, where the ratio is not defined.
+  for (int k = 0; k < 100; ++k)
+  {
+    const double middle = 0.5 * (lower + upper) + (lower + upper == 0. ? 1e-3 : 0.);
+    (ratio_at(middle) < 0. ? lower : upper) = middle;
+  }
+  result.order = 0.5 * (lower + upper);
+  if (result.order < lowest_order)
+  {
+    result.why = "the values run away: their differences do not fall";
+    return result;
+  }
+  result.exists = true;
+  const double correction =
+    fine * std::pow(h1, result.order) / (std::pow(h2, result.order) - std::pow(h1, result.order));
+  result.limit = values[n - 1] - correction;
+  result.gci   = safety_factor * std::abs(correction);
+  return result;
+}
+
+OrderJudgement judge_values(const std::vector<double> &h, const std::vector<double> &values,
+                            const OrderLimit &limit, const double floor)
+{
+  OrderJudgement result = judgement(Outcome::inconclusive, "");
+  result.limits         = limit;
+  result.limit          = text_of(limit);
+  result.observed.assign(values.size(), none);
+  if (const std::string fault = fault_of(h, values); !fault.empty())
+  {
+    result.outcome = Outcome::fail;
+    result.why     = fault;
+    return result;
+  }
+  std::size_t n_levels = values.size();
+  for (std::size_t k = 1; k < n_levels; ++k)
+  {
+    const double difference = std::abs(values[k] - values[k - 1]);
+    if (difference == 0. && floor == 0.)
+    {
+      result.outcome = Outcome::fail;
+      result.why     = "levels " + std::to_string(k - 1) + " and " + std::to_string(k) +
+                   " have the same value: the refinement did nothing";
+      return result;
+    }
+    if (!(difference > floor))
+      n_levels = k;
+  }
+  if (n_levels < fewest_levels)
+  {
+    result.why = std::to_string(n_levels) + " levels above the floor of " + number(floor) +
+                 "; an order needs " + std::to_string(fewest_levels);
+    return result;
+  }
+  std::vector<double> orders;
+  for (std::size_t n = 3; n <= n_levels; ++n)
+  {
+    const Richardson three =
+      extrapolated({h.begin(), h.begin() + static_cast<long>(n)},
+                   {values.begin(), values.begin() + static_cast<long>(n)}, floor);
+    result.observed[n - 1] = three.order;
+    if (std::isfinite(three.order))
+      orders.push_back(three.order);
+    else
+    {
+      orders.clear();
+      result.why = "not in the asymptotic range: " + three.why;
+    }
+  }
+  if (orders.size() < 2)
+    return result;
+  result.order  = orders.back();
+  result.spread = std::abs(orders.back() - orders[orders.size() - 2]);
+  conclude(orders, limit, result);
+  return result;
+}
+} // namespace homespun::verification

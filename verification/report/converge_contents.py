@@ -1,0 +1,74 @@
+# SPDX-License-Identifier: MIT
+"""What the report shows of `homespun converge`: per study a figure and the table of its orders."""
+import math
+
+from converge_results import STUDIES
+from figures_converge import FIGURES
+from stress_results import MARKS
+from style import three
+
+TITLES = {
+    "mesh": "Mesh of the cell",
+    "scale": "Cells per sheet",
+    "coarse": "Coarse mesh",
+    "strain": "Strain under periodic loads",
+    "time": "Time step",
+    "manufactured": "Manufactured solutions",
+}
+CAPTIONS = {
+    "mesh": "Uniform refinement of the cell with P1 and P2: distance of the trace of C<sup>H</sup> from its Richardson "
+            "limit. C<sup>H</sup> falls from level to level, because the spaces are nested. Without corners of a phase "
+            "the order is 2p; at corners it is twice the exponent of the strongest one, which is not known. A cell whose "
+            "C<sup>H</sup> is the same on every level, as of a laminate, has no curve.",
+    "scale": "Sheets of more and more cells against the linear reference: mean error over all fine vertices. What the "
+             "affine motion lacks is a fluctuation of the size of a cell, order 1 in sheet sides.",
+    "coarse": "Coarse meshes of half a parallelogram per cell side and finer on one sheet. Where a clamped edge meets a "
+              "free one the solution is singular with an exponent above ½: orders between 1 and 2.",
+    "strain": "Infinite cloth under periodic loads against biot: the characteristic displacements are linear in strain, "
+              "so that the error of the localized positions falls as strain squared, that of the affine ones as strain. "
+              "Loads under which it is zero to round-off are not drawn.",
+    "time": "The coarse cloth swings down from one held edge for 40 ms: mean error of the positions at the end, against "
+            "the extrapolation of two much finer runs.",
+    "manufactured": "Every solver against a smooth motion of some ten per cent of strain that a body force makes exact. "
+                    "L2 order p + 1, H1 order p, time steps order 1.",
+}
+
+def limit_of(series):
+    low, high = series.order_lowest, series.order_highest
+    if high - low < 0.7:
+        return f"{three((low + high) / 2)} ± {three((high - low) / 2)}"
+    return f"{three(low)} to {three(high)}"
+
+
+def row_of(series):
+    """One judged series: where its levels begin and end, what order they show."""
+    errors = [e for e in series.column("error") if not math.isnan(e)]
+    richardson = "–"
+    if not math.isnan(series.richardson_limit):
+        richardson = f"{three(series.richardson_limit)} ± {three(series.gci)}"
+    return {"cell": "" if series.cell == "none" else series.cell, "case": series.case,
+            "quantity": series.quantity, "p": f"P{series.p}", "levels": len(series.rows),
+            "dofs": three(int(series.dofs)) if series.dofs > 0 else "–",
+            "error": three(errors[-1]) if errors else "–",
+            "order": "–" if math.isnan(series.order) else f"{three(series.order)} ± {three(series.spread)}",
+            "limit": limit_of(series), "richardson": richardson, "verdict": series.judgement,
+            "mark": MARKS[series.judgement]}
+
+
+def convergence_contents(convergence, gallery):
+    """Studies in their order, each with a figure (or None) and the rows of its judged series."""
+    studies = []
+    for study in STUDIES:
+        some = convergence.of(study)
+        if not some:
+            continue
+        figure = FIGURES[study](convergence)
+        picture = gallery.add(figure, f"converge-{study}", CAPTIONS[study]) if figure else None
+        judged = [s for s in some if s.judgement]
+        studies.append({"title": TITLES[study], "picture": picture, "rows": [row_of(s) for s in judged],
+                        "cells": any(s.cell != "none" for s in judged)})
+    judged = [s for s in convergence.series if s.judgement]
+    count = {mark: sum(s.judgement == mark for s in judged) for mark in MARKS}
+    sentence = (f"{count['PASS']} of {len(judged)} observed orders lie within their limits, {count['FAIL']} outside, "
+                f"{count['INCONCLUSIVE']} have not settled.")
+    return {"name": convergence.name, "sentence": sentence, "studies": studies}

@@ -1,0 +1,90 @@
+# SPDX-License-Identifier: MIT
+"""Reads converge.csv, the series of `homespun converge`: a quantity over levels, with its observed orders."""
+import math
+from dataclasses import dataclass, field
+
+from stored import VERDICTS, latest, read_csv
+
+AGAIN = "Run `homespun converge` again."
+HEADER = ("cell,study,case,quantity,order_p,level,h,h_unit,dofs,value,error,observed_order,order,spread,"
+          "order_lowest,order_highest,richardson_limit,gci,judgement,seconds").split(",")
+KEYS = ("cell", "study", "case", "quantity", "order_p", "level")
+STUDIES = ("mesh", "scale", "coarse", "strain", "time", "manufactured")
+
+
+@dataclass
+class Series:
+    """A quantity over levels, coarse to fine; rows of converge.csv."""
+    cell: str
+    study: str
+    case: str
+    quantity: str
+    p: int  # order of the elements
+    rows: list = field(default_factory=list)
+
+    def column(self, key):
+        return [row[key] for row in self.rows]
+
+    @property
+    def name(self):
+        """The quantity without its unit."""
+        return self.quantity.split(" [")[0]
+
+    @property
+    def unit(self):
+        return self.quantity.split(" [")[1].rstrip("]") if " [" in self.quantity else ""
+
+    def __getattr__(self, key):  # what is the same on every level
+        if key in HEADER:
+            return self.rows[-1][key]
+        raise AttributeError(key)
+
+    def errors(self):
+        """(h, error) where there is one above zero."""
+        pairs = [(row["h"], row["error"]) for row in self.rows if row["error"] > 0]
+        return [h for h, _ in pairs], [error for _, error in pairs]
+
+    def expected(self):
+        """The orders that theory allows: one, or the ends of a band without their tolerance and without 0; nothing where
+        the series is not judged."""
+        low, high = self.order_lowest, self.order_highest
+        if math.isnan(low):
+            return []
+        return [(low + high) / 2] if high - low < 0.7 else [end for end in (round(low), round(high)) if end]
+
+
+@dataclass
+class Convergence:
+    """The series of one folder."""
+    folder: str
+    name: str
+    series: list = field(default_factory=list)
+
+    def of(self, study, cell=None):
+        return [s for s in self.series if s.study == study and cell in (None, s.cell)]
+
+    def cells(self, study):
+        return list(dict.fromkeys(s.cell for s in self.of(study)))
+
+
+def read_convergence(folder, name, path, faults, missing):
+    """@return Convergence, whose series are in the order of the file and whose levels run from coarse to fine"""
+    rows = latest(read_csv(path, HEADER, faults, missing, AGAIN), KEYS, path, missing)
+    result = {}
+    for row in rows:
+        if row["judgement"] and row["judgement"] not in VERDICTS:
+            faults.append(f"{path}, line {row['line']}: `judgement` is `{row['judgement']}`, expected nothing or one of "
+                          f"{', '.join(VERDICTS)}. {AGAIN}")
+        if row["study"] not in STUDIES:
+            faults.append(f"{path}, line {row['line']}: `study` is `{row['study']}`, expected one of "
+                          f"{', '.join(STUDIES)}. {AGAIN}")
+        if any(math.isnan(row[key]) for key in ("order_p", "level")):
+            faults.append(f"{path}, line {row['line']}: `order_p` or `level` is empty, expected a number. {AGAIN}")
+            continue
+        key = tuple(row[k] for k in KEYS[:-1])
+        result.setdefault(key, Series(*key[:4], int(key[4]))).rows.append(row)
+    for series in result.values():
+        series.rows.sort(key=lambda row: row["level"])
+    if not rows:
+        missing.append({"what": f"convergence of {name}", "why": f"{path} has no complete row"})
+    return Convergence(folder, name, list(result.values()))

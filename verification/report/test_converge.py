@@ -1,0 +1,104 @@
+# SPDX-License-Identifier: MIT
+"""Tests of the page of `homespun converge`, on made-up series."""
+import json
+import os
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+
+HERE = os.path.dirname(os.path.abspath(__file__))
+sys.path.insert(0, HERE)
+
+import converge_results  # noqa: E402
+
+REPORT = os.path.join(HERE, "report.py")
+SERIES = [  # cell, study, case, quantity, p, h_unit, order, lowest, highest, judgement
+    ("stripes", "mesh", "uniform refinement", "trace of C^H [N/m]", 1, "cell side", 2., 1.8, 2.2, "PASS"),
+    ("stripes", "scale", "strip-1", "localized: mean error per strain [sheet sides]", 1, "cell sides per sheet side", 1.2,
+     0.85, 2.15, "PASS"),
+    ("stripes", "coarse", "strip-1", "energy of the coarse sheet at 1 % strain [J]", 1, "H in cell sides", 1.5, 0.9, 2.1,
+     "INCONCLUSIVE"),
+    ("stripes", "strain", "periodic-11", "localized: mean error [cell sides]", 1, "strain", 2., 1.9, 2.1, "PASS"),
+    ("stripes", "time", "implicit Euler", "mean error of the positions [sheet sides]", 1, "s", 1., 0.9, 1.1, "PASS"),
+    ("none", "manufactured", "cloth in space; statics; biot; P2", "L2 error [side]", 2, "side", 2., 2.9, 3.1, "FAIL"),
+]
+
+
+def rows_of(series):
+    cell, study, case, quantity, p, unit, order, lowest, highest, judgement = series
+    for level in range(4):
+        h = 0.5 ** level
+        observed = f"{order}" if level else ""
+        yield (f"{cell},{study},{case},{quantity},{p},{level},{h},{unit},{10 * 4 ** level},,{0.3 * h ** order:.6g},"
+               f"{observed},{order},0.01,{lowest},{highest},,,{judgement},0.1")
+
+
+class ConvergencePage(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.mkdtemp(prefix="homespun-")
+        self.addCleanup(shutil.rmtree, self.folder, ignore_errors=True)
+        lines = [",".join(converge_results.HEADER)] + [row for one in SERIES for row in rows_of(one)]
+        # A series without an order is read and not judged.
+        lines.append("stripes,strain,periodic-22,localized: mean error [cell sides],1,0,0.1,strain,5,,1e-16,,,,,,,,,0.1")
+        self.write("converge.csv", "\n".join(lines) + "\n")
+        self.write("verdicts.json", json.dumps({"verdicts": [
+            {"claim": "stripes, mesh: order 2p", "verdict": "PASS", "value": 2., "limit": "2 +- 0.2",
+             "command": "homespun converge"}]}))
+
+    def write(self, name, text):
+        with open(os.path.join(self.folder, name), "w", encoding="utf-8") as file:
+            file.write(text)
+
+    def edit(self, change):
+        with open(os.path.join(self.folder, "converge.csv"), encoding="utf-8") as file:
+            text = file.read()
+        self.write("converge.csv", change(text))
+
+    def report(self):
+        return subprocess.run([sys.executable, REPORT, self.folder, "--output", self.folder], capture_output=True,
+                              text=True, check=False)
+
+    def page(self):
+        result = self.report()
+        self.assertEqual(result.returncode, 0, result.stderr)
+        with open(os.path.join(self.folder, "report.html"), encoding="utf-8") as file:
+            return file.read()
+
+    def test_every_study_has_a_figure_and_a_table_of_orders(self):
+        page = self.page()
+        for study in converge_results.STUDIES:
+            self.assertIn(f'id="converge-{study}"', page)
+            self.assertTrue(os.path.isfile(os.path.join(self.folder, "figures", f"converge-{study}.pdf")))
+        self.assertIn("4 of 6 observed orders lie within their limits, 1 outside, 1 have not settled", page)
+        self.assertIn("3.00 ± 0.10", page)     # a two-sided limit
+        self.assertIn("0.850 to 2.15", page)  # a band
+        self.assertIn("homespun: convergence", page)
+        self.assertNotIn("periodic-22", page)  # not judged, hence in no table
+
+    def test_the_guide_of_a_figure_has_the_expected_order_and_not_the_observed_one(self):
+        from figures_converge import Line  # pylint: disable=import-outside-toplevel
+        series = converge_results.read_convergence(self.folder, "x", os.path.join(self.folder, "converge.csv"), [],
+                                                   []).of("manufactured")[0]
+        self.assertEqual([round(order, 9) for order in Line(series, "", "k").expected], [3.])  # observed: 2
+        self.assertEqual(len(Line(series, "", "k").h), 4)
+
+    def test_an_unknown_judgement_or_study_and_a_size_of_zero_are_refused(self):
+        for before, after, says in (("FAIL", "BAD", "`judgement` is `BAD`"), (",time,", ",tome,", "`study` is `tome`"),
+                                    (",0,1.0,strain", ",0,0,strain", "`h` is `0`")):
+            self.setUp()
+            self.edit(lambda text, a=before, b=after: text.replace(a, b, 1))
+            result = self.report()
+            self.assertEqual(result.returncode, 2)
+            self.assertIn(says, result.stderr)
+            self.assertFalse(os.path.exists(os.path.join(self.folder, "report.html")))
+
+    def test_levels_may_stand_in_any_order(self):
+        page = self.page()
+        self.edit(lambda text: text.splitlines()[0] + "\n" + "\n".join(sorted(text.splitlines()[1:])) + "\n")
+        self.assertEqual(page.count("± 0.01"), self.page().count("± 0.01"))
+
+
+if __name__ == "__main__":
+    unittest.main()
