@@ -27,23 +27,19 @@ double median(std::vector<double> values)
 std::vector<std::string> measured(const std::string &parameter, const double value,
                                   const UnitCell &cell, const unsigned int order, const int repeats)
 {
-  homogenization::HomogenizationOptions options;
-  options.order = order;
   std::vector<double> of_solver, in_all;
   std::string dofs, iterations, outcome = "converged";
   try
   {
     for (int k = 0; k < repeats; ++k)
     {
-      const auto begin = std::chrono::steady_clock::now();
-      const homogenization::Homogenization found =
-        homogenization::homogenize(cell, options, MPI_COMM_SELF);
+      const auto begin       = std::chrono::steady_clock::now();
+      const SolvedCell found = solved(cell, order);
       in_all.push_back(
         std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
-      of_solver.push_back(found.seconds.preconditioner + found.seconds.solve);
-      dofs = std::to_string(found.n_dofs);
-      iterations =
-        std::to_string(*std::max_element(found.iterations.begin(), found.iterations.end()));
+      of_solver.push_back(found.seconds);
+      dofs       = std::to_string(found.n_dofs);
+      iterations = std::to_string(found.iterations);
     }
   }
   catch (const meshes::NotConverged &failure)
@@ -64,6 +60,20 @@ std::vector<std::string> measured(const std::string &parameter, const double val
           outcome};
 }
 } // namespace
+
+SolvedCell solved(const UnitCell &cell, const unsigned int order)
+{
+  homogenization::HomogenizationOptions options;
+  options.order = order;
+  const homogenization::Homogenization found =
+    homogenization::homogenize(cell, options, MPI_COMM_SELF);
+  return {found.stiffness,
+          found.voigt,
+          found.reuss,
+          found.n_dofs,
+          *std::max_element(found.iterations.begin(), found.iterations.end()),
+          found.seconds.preconditioner + found.seconds.solve};
+}
 
 const std::vector<std::string> &solver_columns()
 {

@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: MIT
-// What the conjugate gradients of the cell problem cost against contrast, Poisson's ratio, anisotropy, the
+// The cell problem on one rank, apart from deal.II; what the conjugate gradients of the cell problem cost against contrast, Poisson's ratio, anisotropy, the
 // quality of slivers and the size of the mesh: numbers without a limit, as a table.
 #pragma once
+
+#include "verification/stress_cells.h"
+
+#include <Eigen/Core>
 
 #include <functional>
 #include <string>
@@ -9,6 +13,19 @@
 
 namespace homespun::verification
 {
+/// What a stress case asks of a homogenization.
+struct SolvedCell
+{
+  Eigen::Matrix3d stiffness, voigt, reuss; ///< [N/m]; reuss is zero where the cell has holes
+  unsigned long n_dofs    = 0;
+  unsigned int iterations = 0;  ///< the most of the three loads
+  double seconds          = 0.; ///< of preconditioner and solve
+};
+
+/// Homogenizes a cell on the calling rank alone, with the program's defaults but the order.
+/// @throws NotConverged, BadInput
+SolvedCell solved(const UnitCell &cell, unsigned int order = 1);
+
 /// The columns of solver.csv: parameter, value, cell, order, dofs, iterations (the most of the three loads),
 /// seconds (preconditioner and solve), seconds_total (medians), repeats, outcome (converged, or why not).
 const std::vector<std::string> &solver_columns();
