@@ -40,6 +40,6 @@ struct SolverMeasurement
   std::function<std::vector<std::string>(int repeats)> run; ///< gives the row
 };
 
-/// All of them: P1 and P2 on cells of 24 x 24 x 2 triangles, the size on stripes.
+/// All of them: P1 on cells of 48 x 48 x 2 triangles, P2 on 24 x 24 x 2; then the size.
 std::vector<SolverMeasurement> solver_measurements();
 } // namespace homespun::verification

@@ -59,7 +59,14 @@ MOMENTA_FIRST = ("a free cloth keeps its momenta: what a rigid body with these w
                  "where a step raised it")
 ONE_NEWTON_STEP = ("beside a moving handle a step may not raise its own potential, which does not bound the energy "
                    "in the frame of the handle; implicit Euler holds")
+TOLERANCE_OF_STIFF = ("the residual is held against the forces of the stiff phase, so that at contrast 1e12 the energy of "
+                      "the soft one is known to 1e-5 only")
+TIED_SLIVER = ("a row of 6e-8 of the cell's side is thinner than the tolerance of images, 1e-7: its two ends on the outline "
+               "count as one point")
 KNOWN_FAILURES = {
+    ("cell contrast", "rigid; square inclusion; 1e9 beside 1e12"): TOLERANCE_OF_STIFF,
+    ("cell contrast", "rigid; two islands; 1e9 beside 1e12"): TOLERANCE_OF_STIFF,
+    ("cell slivers", "row of needles along the stripes; 1e-06"): TIED_SLIVER,
     ("start", "one vertex at 1e6 m; free; 1 ms; isotropic"): MOMENTA_FIRST,
     ("start", "one vertex at 1e6 m; free; 20 ms; isotropic"): MOMENTA_FIRST,
     ("start", "one vertex at 1e6 m; free; 1 ms; laminate"): MOMENTA_FIRST,

@@ -9,7 +9,6 @@ from matplotlib.lines import Line2D
 import style
 
 LOWEST = 1e-9  # figures below this part of their limit are drawn at the edge, with those that are zero
-NAMED = 12     # at most so many failed cases have their names beside them
 MARKS = {"PASS": ("o", style.BLUE), "FAIL": ("X", style.VERMILLION), "INCONCLUSIVE": ("D", style.ORANGE)}
 
 # label, whether its axis is logarithmic
@@ -41,7 +40,7 @@ def margin(row):
 def margin_figure(rows):
     """One line per group, a mark per case at its figure over its limit; right of 1 a case fails.
 
-    Refusals have no figure: they are counted beside the line, and so is a failure without a number.
+    Of the cases of a group that fail the worst is named. Refusals have no figure: they are counted beside the line, and so is a failure without a number.
     @return figure, or None where no case has a figure and a limit
     """
     groups = list(dict.fromkeys(row["group"] for row in rows))
@@ -65,8 +64,10 @@ def margin_figure(rows):
                 axes.plot(x[~low], y[~low], mark, color=colour, ms=3.5 if verdict == "PASS" else 6.5, alpha=0.75, mew=0,
                           zorder=3 if verdict == "PASS" else 5)
                 axes.plot(x[low], y[low], "<", color=colour, ms=3.5, alpha=0.75, mew=0, zorder=3)
-            if verdict != "PASS":
-                failed += [(u, v, row["case"]) for u, v, (_, row) in zip(x, y, shown)]
+            if verdict == "FAIL" and shown:
+                worst = max(range(len(shown)), key=lambda k: x[k])
+                more = f" (and {len(shown) - 1} more)" if len(shown) > 1 else ""
+                failed.append((x[worst], y[worst], shown[worst][1]["case"], more))
         words = [f"{sum(row['verdict'] == 'PASS' for row in some)}/{len(some)}"]
         unplaced = [row for row in some if margin(row) != margin(row)]
         refused = sum(row["verdict"] == "PASS" for row in unplaced)
@@ -75,8 +76,8 @@ def margin_figure(rows):
         if len(unplaced) > refused:
             words.append(f"{len(unplaced) - refused} without a number")
         counts.append(", ".join(words))
-    for u, v, name in failed[:NAMED]:
-        label = axes.annotate(name if len(name) < 62 else name[:60] + " …", (u, v), xytext=(-6, 0),
+    for u, v, name, more in failed:
+        label = axes.annotate((name if len(name) < 62 else name[:60] + " …") + more, (u, v), xytext=(-6, 0),
                               textcoords="offset points", ha="right", va="center", fontsize=6.8, color="#8A3C00", zorder=6,
                               bbox={"facecolor": "white", "alpha": 0.75, "edgecolor": "none", "pad": 0.6})
         label.set_in_layout(False)
