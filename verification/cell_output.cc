@@ -54,6 +54,35 @@ ordered_json json_matrix(const Eigen::Matrix3d &matrix)
   return rows;
 }
 
+ordered_json bracket_json(const CellBracket &bracket)
+{
+  ordered_json json = {{"remark", bracket.remark}};
+  if (bracket.bracket)
+  {
+    const homogenization::Bracket &found = *bracket.bracket;
+    json["width"]                        = found.width; // largest v.(upper - lower).v / v.upper.v
+    json["round_off"]                    = found.round_off;
+    json["solver_excess"]                = found.excess;
+    json["triangles"]                    = found.n_triangles;
+    json["dofs"]                         = found.n_displacement_dofs;
+    json["stress_dofs"]                  = found.n_stress_dofs;
+    json["entry_bars"]                   = json_matrix(bars_of(found));
+  }
+  return json;
+}
+
+ordered_json history_json(const std::vector<BracketStep> &history)
+{
+  ordered_json rows = ordered_json::array();
+  for (const BracketStep &step : history)
+    rows.push_back({{"triangles", step.triangles},
+                    {"dofs", step.dofs},
+                    {"stress_dofs", step.stress_dofs},
+                    {"width", step.width},
+                    {"seconds", step.seconds}});
+  return rows;
+}
+
 /// chi as three vector fields, for ParaView.
 void write_vtu(const UnitCell &cell, const Homogenization &result, const std::string &path)
 {
@@ -115,15 +144,19 @@ ordered_json homogenize_json(const UnitCell &cell, const AssessedCell &assessed,
                       {"value", json_number(check.value)},
                       {"limit", check.limit},
                       {"verdict", name_of(check.outcome)}});
+  // Displacements alone still bound C^H from above.
+  const bool is_bracketed     = assessed.bracket && assessed.bracket->bracket;
+  const Eigen::Matrix3d upper = is_bracketed ? assessed.bracket->bracket->upper : result.stiffness;
   return {
     {"cell", cell.name},
     {"convention", "N/m; Voigt order 11, 22, 12 with engineering shear"},
     {"C", json_matrix(result.stiffness)},
     {"C_uncertainty", assessed.uncertainty ? json_matrix(*assessed.uncertainty) : ordered_json()},
     {"C_by_mean_stress", json_matrix(result.stiffness_by_flux)},
-    // A conforming displacement field bounds the energy from above; no lower bracket yet.
-    {"C_lower", nullptr},
-    {"C_upper", json_matrix(result.stiffness)},
+    {"C_lower", is_bracketed ? json_matrix(assessed.bracket->bracket->lower) : ordered_json()},
+    {"C_upper", json_matrix(upper)},
+    {"bracket", assessed.bracket ? bracket_json(*assessed.bracket) : ordered_json()},
+    {"history", assessed.bracket ? history_json(assessed.bracket->history) : ordered_json::array()},
     {"voigt", json_matrix(result.voigt)},
     {"reuss", json_matrix(result.reuss)},
     {"area", cell.lattice.area()},
@@ -169,6 +202,23 @@ AssessedCell assess(const UnitCell &cell, const homogenization::HomogenizationOp
   return assessed;
 }
 
+void add_bracket(const UnitCell &cell, const BracketOptions &options,
+                 const std::function<void(const std::string &)> &report, AssessedCell &assessed)
+{
+  assessed.bracket = bracket_of(cell, options, report);
+  for (const Verdict &check : checks_of(*assessed.bracket, options, assessed.result.stiffness))
+    assessed.checks.push_back(check);
+  if (!options.tolerance || !assessed.bracket->bracket)
+    return;
+  const homogenization::Bracket &found = *assessed.bracket->bracket;
+  assessed.result.stiffness            = found.stiffness;
+  assessed.result.stiffness_by_flux    = found.stiffness_by_flux;
+  assessed.result.chi                  = found.chi.topRows(cell.mesh.n_vertices());
+  assessed.result.n_dofs               = found.n_displacement_dofs;
+  assessed.result.iterations.fill(found.iterations);
+  assessed.uncertainty.reset(); // that was of the given mesh
+}
+
 void write_cell_results(const UnitCell &cell, const AssessedCell &assessed,
                         const unsigned int n_ranks, const std::string &folder)
 {
@@ -182,23 +232,30 @@ void write_cell_results(const UnitCell &cell, const AssessedCell &assessed,
 std::string summary(const UnitCell &cell, const AssessedCell &assessed)
 {
   const Homogenization &result = assessed.result;
+  const bool is_bracketed      = assessed.bracket && assessed.bracket->bracket;
   std::ostringstream text;
-  char line[160];
-  text << cell.name << ": " << cell.mesh.n_triangles() << " triangles, " << cell.phases.size()
-       << " phases, P" << assessed.options.order << ", " << result.n_dofs << " DoFs, "
-       << result.iterations[0] << "/" << result.iterations[1] << "/" << result.iterations[2]
-       << " iterations\n";
+  char line[240];
+  text << cell.name << ": "
+       << (is_bracketed ? static_cast<int>(assessed.bracket->bracket->n_triangles)
+                        : cell.mesh.n_triangles())
+       << " triangles, " << cell.phases.size() << " phases, P" << assessed.options.order << ", "
+       << result.n_dofs << " DoFs, " << result.iterations[0] << "/" << result.iterations[1] << "/"
+       << result.iterations[2] << " iterations\n";
   text << "C^H [N/m], Voigt 11, 22, 12 with engineering shear";
-  text << (assessed.uncertainty ? ", +- distance to P2 on the refined mesh:\n"
-                                : " (no error bar: the finer mesh would be too large):\n");
+  text << (is_bracketed           ? ", +- guaranteed by the bracket:\n"
+           : assessed.uncertainty ? ", +- distance to P2 on the refined mesh:\n"
+                                  : " (no error bar: the finer mesh would be too large):\n");
+  std::optional<Eigen::Matrix3d> bars = assessed.uncertainty;
+  if (is_bracketed)
+    bars = bars_of(*assessed.bracket->bracket);
   for (int i = 0; i < 3; ++i)
   {
     for (int j = 0; j < 3; ++j)
-      if (assessed.uncertainty)
+      if (bars)
       {
         // Digits down to the error bar's first; round-off of the largest entry at most.
         const double scale = result.stiffness.cwiseAbs().maxCoeff();
-        const double bar   = std::max((*assessed.uncertainty)(i, j), 1e-9 * scale);
+        const double bar   = std::max((*bars)(i, j), 1e-9 * scale);
         const int decimals =
           std::min(9, std::max(0, static_cast<int>(std::ceil(-std::log10(bar)))));
         std::snprintf(line, sizeof(line), "  %16.*f +- %-8.1g", decimals, result.stiffness(i, j),
@@ -212,12 +269,28 @@ std::string summary(const UnitCell &cell, const AssessedCell &assessed)
       }
     text << "\n";
   }
+  // The moduli are energies too: they carry the relative width of the bracket.
   const auto engineering = homogenization::engineering_constants(result.stiffness);
+  const double width     = is_bracketed ? assessed.bracket->bracket->width : 1e-6;
+  const int digits = std::min(6, std::max(1, static_cast<int>(std::ceil(-std::log10(width)))));
   std::snprintf(line, sizeof(line),
-                "E1 %.6g N/m, E2 %.6g N/m, G12 %.6g N/m, nu12 %.4f, nu21 %.4f; %.4g kg/m^2\n",
-                engineering.E1, engineering.E2, engineering.G12, engineering.nu12, engineering.nu21,
+                "E1 %.*g N/m, E2 %.*g N/m, G12 %.*g N/m, nu12 %.*f, nu21 %.*f; %.4g kg/m^2\n",
+                digits, engineering.E1, digits, engineering.E2, digits, engineering.G12,
+                std::min(4, digits), engineering.nu12, std::min(4, digits), engineering.nu21,
                 cell.areal_density());
   text << line;
+  if (assessed.bracket)
+  {
+    if (is_bracketed)
+    {
+      std::snprintf(line, sizeof(line),
+                    "Bracket C_lower <= C^H <= C_upper of relative width %.2g, ", width);
+      text << line;
+    }
+    else
+      text << "Bracket: ";
+    text << assessed.bracket->remark << "\n";
+  }
   for (const Verdict &check : assessed.checks)
   {
     std::snprintf(line, sizeof(line), "%-4s %s: %.2g (%s)\n", name_of(check.outcome).c_str(),

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "homogenization/homogenize.h"
+#include "verification/cell_bracket.h"
 #include "verification/verdict.h"
 
 #include <mpi.h>
@@ -22,6 +23,9 @@ struct AssessedCell
   /// would exceed the limit of DoFs.
   std::optional<Eigen::Matrix3d> uncertainty;
   std::vector<Verdict> checks;
+  /// Nothing where nobody asked for it. After adaptivity `result` holds the C^H, chi, DoFs and iterations of the
+  /// last mesh.
+  std::optional<CellBracket> bracket;
 };
 
 /// Homogenizes a cell and judges the result: Hill-Mandel gap, Voigt and Reuss as matrix
@@ -31,11 +35,18 @@ AssessedCell assess(const homogenization::UnitCell &cell,
                     const homogenization::HomogenizationOptions &options,
                     unsigned long max_dofs_of_estimate, MPI_Comm communicator);
 
+/// Brackets the C^H of an assessed cell and adds the verdicts; an adaptive bracket replaces C^H and chi by its
+/// better ones. To be called on one rank.
+/// @param report is told of each step, one line
+void add_bracket(const homogenization::UnitCell &cell, const BracketOptions &options,
+                 const std::function<void(const std::string &)> &report, AssessedCell &assessed);
+
 /// Writes homogenize.json, cell.h5, cell.json and characteristic-displacements.vtu into a folder.
 /// To be called on one rank.
 void write_cell_results(const homogenization::UnitCell &cell, const AssessedCell &assessed,
                         unsigned int n_ranks, const std::string &folder);
 
-/// C^H and its engineering moduli as a table, with as many digits as the error bar justifies.
+/// C^H and its engineering moduli as a table, with as many digits as the bracket justifies, or without one
+/// the error bar.
 std::string summary(const homogenization::UnitCell &cell, const AssessedCell &assessed);
 } // namespace homespun::verification

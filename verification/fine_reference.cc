@@ -233,7 +233,8 @@ unsigned int FineReference::solve_linearized(Vector &increment, const Vector &fo
 
 /// Newton's method from `displacement`, which carries the prescribed values of this strain.
 /// @throws NotConverged
-void FineReference::solve(Vector &displacement, const double strain, ReferenceStep &step)
+void FineReference::solve(Vector &displacement, const double strain, const double tolerance,
+                          ReferenceStep &step)
 {
   const Eigen::Matrix2d mean_gradient =
     load->is_periodic() ? load->gradient(strain) : Eigen::Matrix2d::Identity();
@@ -256,7 +257,7 @@ void FineReference::solve(Vector &displacement, const double strain, ReferenceSt
     if (!std::isfinite(state.residual) || !std::isfinite(state.energy))
       throw meshes::NotConverged("the sheet collapsed under the load step", history);
     // A sheet without load has no forces at all.
-    if (state.residual <= options.tolerance * state.force_size)
+    if (state.residual <= tolerance * state.force_size)
     {
       step.n_inverted = law == Law::linear ? 0 : state.n_inverted;
       return;
@@ -265,7 +266,7 @@ void FineReference::solve(Vector &displacement, const double strain, ReferenceSt
       break;
 
     // As exact as the next step of Newton's method can use; a linear law needs one step.
-    const double needed = 0.1 * options.tolerance * state.force_size;
+    const double needed = 0.1 * tolerance * state.force_size;
     const double target = law == Law::linear ? needed : std::max(needed, 1e-3 * state.residual);
     residual *= -1.;
     const Vector forces = residual;
@@ -320,7 +321,7 @@ ReferenceStep FineReference::advance(const double strain)
     Vector displacement = guess(next);
     try
     {
-      solve(displacement, next, step);
+      solve(displacement, next, options.tolerance, step);
       if (levels.size() == 2)
         levels.erase(levels.begin());
       levels.push_back({next, displacement});
@@ -358,6 +359,28 @@ FieldDistance FineReference::distance_from(const KnownField &known) const
 {
   AssertThrow(!levels.empty(), ExcMessage("no level has been solved"));
   return distance(discretization, levels.back().displacement, known, load->is_periodic());
+}
+
+ReferenceStep FineReference::tighten(const double tolerance)
+{
+  Timer timer(discretization.communicator, true);
+  ReferenceStep step;
+  step.strain = levels.back().strain;
+  try
+  {
+    Vector displacement = levels.back().displacement;
+    solve(displacement, step.strain, tolerance, step);
+    levels.back().displacement = displacement;
+    step.reached               = true;
+    step.positions             = positions_of(displacement, step.strain);
+  }
+  catch (const meshes::NotConverged &failure)
+  {
+    step.why = failure.what();
+  }
+  timer.stop();
+  step.seconds = Utilities::MPI::max(timer.wall_time(), discretization.communicator);
+  return step;
 }
 
 meshes::Points FineReference::positions_of(const Vector &displacement, const double strain) const

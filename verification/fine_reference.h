@@ -68,6 +68,10 @@ public:
   /// periodic loads from a known fluctuation, up to a constant.
   FieldDistance distance_from(const KnownField &known) const;
 
+  /// The last level once more from where it stands, to a smaller tolerance; later levels start from the result.
+  /// @param tolerance of |residual| relative to the size of the element forces
+  ReferenceStep tighten(double tolerance);
+
   unsigned long n_dofs() const;
 
 private:
@@ -83,7 +87,7 @@ private:
   void constrain(const Load &load);
   Vector affine(double strain) const;
   Vector guess(double strain) const;
-  void solve(Vector &displacement, double strain, ReferenceStep &step);
+  void solve(Vector &displacement, double strain, double tolerance, ReferenceStep &step);
   unsigned int solve_linearized(Vector &increment, const Vector &forces, double target);
   State evaluate(const Vector &displacement, const Eigen::Matrix2d &mean_gradient, Vector &residual,
                  bool with_matrix, bool projected);

@@ -86,6 +86,10 @@ void add_strain_command(CLI::App &app, Action &action, Afterwards &afterwards,
   command->add_flag("--quick", arguments->quick,
                     "4 x 4 cells at 0.1, 1 and 10 % unless given otherwise: seconds");
   command->add_flag("--resume", study.resume, "Keep the rows that are there, compute the rest");
+  command->add_flag("!--no-budget", study.budget,
+                    "Leave out the error budget: budget.csv, the error split into its parts");
+  command->add_flag("!--no-runtime", study.run_time,
+                    "Leave out error against run time: runtime.csv, every way to the positions");
   command->add_flag("--quiet", study.quiet, "Print nothing but faults");
   arguments->end.add_options(*command);
   command->footer(

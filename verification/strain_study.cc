@@ -2,6 +2,7 @@
 #include "verification/strain_study.h"
 
 #include "meshes/errors.h"
+#include "verification/budget_study.h"
 #include "verification/cell_output.h"
 #include "verification/fine_reference.h"
 #include "verification/lightweight_cloth.h"
@@ -10,10 +11,12 @@
 #include "verification/provenance.h"
 #include "verification/reference_uncertainty.h"
 #include "verification/result_files.h"
+#include "verification/run_time.h"
 #include "verification/sheet_fields.h"
 #include "verification/strain_verdicts.h"
 #include "verification/study_description.h"
 #include "verification/study_inputs.h"
+#include "verification/validity.h"
 
 #include <deal.II/base/mpi.h>
 
@@ -88,6 +91,8 @@ public:
       meshes::tile(cell.mesh, cell.lattice, 1,
                    1); // refuses cells that make no sheet, before any file
     on_root(communicator, [&]() { open_tables(); });
+    if (options.budget)
+      budget = std::make_unique<BudgetStudy>(options.references, budget_table.get(), communicator);
     for (const UnitCell &cell : cells)
       study_cell(cell);
     return conclude();
@@ -110,6 +115,10 @@ private:
     step_table        = open("steps.csv", step_columns, 4);
     uncertainty_table = open("uncertainty.csv", uncertainty_columns(), 5);
     note_table        = open("notes.csv", {"cell", "load", "reference", "strain", "note"}, 4);
+    if (options.budget)
+      budget_table = open("budget.csv", budget_columns(), 6);
+    if (options.run_time)
+      run_time_table = open("runtime.csv", run_time_columns(), 5);
   }
 
   void study_cell(const UnitCell &cell)
@@ -135,6 +144,7 @@ private:
     const meshes::Sheet one_cell = meshes::tile(cell.mesh, cell.lattice, 1, 1);
     std::unique_ptr<meshes::Sheet> full; // made where a load asks for it
 
+    is_budget_begun = false;
     // One discretization serves all loads of a sheet.
     std::unique_ptr<FineReference> of_cell, of_sheet;
     for (const std::string &name : options.loads)
@@ -147,6 +157,39 @@ private:
       std::unique_ptr<FineReference> &reference = load.is_periodic() ? of_cell : of_sheet;
       study_load(cell, homogenized, sheet, load, reference);
     }
+    of_cell.reset();
+    of_sheet.reset(); // the run times have references of their own
+    if (full && options.run_time && has_biot())
+      study_run_time(cell, homogenized, {assessed.result.voigt, assessed.result.reuss}, *full);
+  }
+
+  bool has_biot() const
+  {
+    return std::find(options.references.begin(), options.references.end(), "biot") !=
+           options.references.end();
+  }
+
+  /// Every way to the positions under one load, in which the coarse mesh matters most, at the pictured strain.
+  void study_run_time(const UnitCell &cell, const meshes::HomogenizedCell &homogenized,
+                      const StiffnessBounds &bounds, const meshes::Sheet &sheet)
+  {
+    for (const char *name : {"shear-frame", "strip-1", "strip-2"})
+      if (std::find(options.loads.begin(), options.loads.end(), name) != options.loads.end())
+      {
+        const Load load(name);
+        RunTimeOptions of_run;
+        of_run.strain = pictured_strain();
+        const std::vector<std::vector<std::string>> none;
+        const std::string fault = run_time_study(
+          cell, homogenized, bounds, sheet, load, of_run,
+          is_root ? uncertainty_table->rows() : none, run_time_table.get(), communicator,
+          [&](const std::string &what)
+          { progress.begin(cell.name + ", " + load.name + ", run times: " + what); });
+        if (!fault.empty())
+          on_root(communicator, [&]()
+                  { write_note(cell, load, Law::biot, of_run.strain, "run times: " + fault); });
+        return;
+      }
   }
 
   void study_load(const UnitCell &cell, const meshes::HomogenizedCell &homogenized,
@@ -179,6 +222,7 @@ private:
       reference = std::make_unique<FineReference>(sheet, cell.stiffness_of_phase(),
                                                   ReferenceOptions(), communicator);
     LightweightCloth cloth(homogenized, sheet, load);
+    begin_budget(cell, homogenized, sheet, load, laws, *reference);
     for (std::size_t k = 0; k < laws.size(); ++k)
     {
       const std::vector<double> missing = missing_strains(cell, load, laws[k]);
@@ -204,6 +248,25 @@ private:
     }
   }
 
+  /// What the budget of a load asks for beside the study, if any level of it is missing.
+  void begin_budget(const UnitCell &cell, const meshes::HomogenizedCell &homogenized,
+                    const meshes::Sheet &sheet, const Load &load, const std::vector<Law> &laws,
+                    FineReference &reference)
+  {
+    bool is_missing = false;
+    for (const Law law : laws)
+      for (const double strain : options.strains)
+        is_missing =
+          is_missing || (budget && budget->is_missing(cell.name, load.name, law, strain));
+    if (!is_missing)
+      return;
+    progress.begin(cell.name + ", " + load.name + ": linear references of the error budget");
+    if (!is_budget_begun)
+      budget->begin_cell(cell, homogenized);
+    is_budget_begun = true;
+    budget->begin_load(sheet, load, reference);
+  }
+
   /// The levels of which a row is missing, told to all ranks.
   std::vector<double> missing_strains(const UnitCell &cell, const Load &load, const Law law) const
   {
@@ -216,10 +279,13 @@ private:
           return strain_table->contains(
             {cell.name, load.name, csv_number(options.strains[k]), name_of(law), method});
         };
-        if (!is_there("unreached"))
-          for (const std::string &method : options.methods)
-            if (Method(method).has_meaning(law) && !is_there(method))
-              is_missing[k] = 1;
+        if (is_there("unreached"))
+          continue;
+        is_missing[k] =
+          budget && budget->row_is_missing(cell.name, load.name, law, options.strains[k]);
+        for (const std::string &method : options.methods)
+          if (Method(method).has_meaning(law) && !is_there(method))
+            is_missing[k] = 1;
       }
     MPI_Bcast(is_missing.data(), static_cast<int>(is_missing.size()), MPI_CHAR, 0, communicator);
     std::vector<double> missing;
@@ -281,6 +347,13 @@ private:
                 write_unreached(cell, sheet, load, law, strain);
               }
             });
+    if (budget && budget->is_missing(cell.name, load.name, law, strain))
+    {
+      const std::string fault = budget->measure(law, strain, fine.positions, reference, cloth);
+      if (!fault.empty())
+        on_root(communicator,
+                [&]() { write_note(cell, load, law, strain, "error budget: " + fault); });
+    }
     return true;
   }
 
@@ -334,16 +407,19 @@ private:
     }
   }
 
+  /// The level nearest to 10 %.
+  double pictured_strain() const
+  {
+    return *std::min_element(options.strains.begin(), options.strains.end(),
+                             [](double a, double b)
+                             { return std::abs(std::log(a / 0.1)) < std::abs(std::log(b / 0.1)); });
+  }
+
   /// One picture per sheet load: at the level nearest to 10 %, against biot if it is there.
   bool is_pictured(const Load &load, const Law law, const double strain) const
   {
-    const auto &laws     = options.references;
-    const bool has_biot  = std::find(laws.begin(), laws.end(), "biot") != laws.end();
-    const double nearest = *std::min_element(
-      options.strains.begin(), options.strains.end(),
-      [](double a, double b) { return std::abs(std::log(a / 0.1)) < std::abs(std::log(b / 0.1)); });
-    return !load.is_periodic() && strain == nearest &&
-           (has_biot ? law == Law::biot : name_of(law) == laws.front());
+    return !load.is_periodic() && strain == pictured_strain() &&
+           (has_biot() ? law == Law::biot : name_of(law) == options.references.front());
   }
 
   /// A remark on a level, for the terminal and the report.
@@ -382,28 +458,47 @@ private:
     getrusage(RUSAGE_SELF, &usage);
     const double peak_memory =
       dealii::Utilities::MPI::sum(static_cast<double>(usage.ru_maxrss) * 1024., communicator);
-    on_root(communicator,
-            [&]()
-            {
-              for (const Verdict &verdict : strain_verdicts(strain_table->rows()))
-                verdicts.push_back(verdict);
-              const double n_unreached = static_cast<double>(
-                std::count_if(strain_table->rows().begin(), strain_table->rows().end(),
-                              [](const auto &row) { return row[4] == "unreached"; }));
-              verdicts.push_back(
-                {"every level of every reference has an equilibrium (levels without)",
-                 n_unreached == 0. ? Outcome::pass : Outcome::inconclusive, n_unreached, "0"});
-              write_whole(options.output + "/verdicts.json",
-                          json_text(to_json(verdicts, options.command)));
-              write_whole(options.output + "/study.json",
-                          json_text(study_json(seconds, peak_memory)));
-            });
+    on_root(
+      communicator,
+      [&]()
+      {
+        for (const Verdict &verdict : strain_verdicts(strain_table->rows()))
+          verdicts.push_back(verdict);
+        write_validity();
+        if (options.budget)
+          for (const Verdict &verdict : budget_verdicts(strain_table->rows(), budget_table->rows()))
+            verdicts.push_back(verdict);
+        const double n_unreached = static_cast<double>(
+          std::count_if(strain_table->rows().begin(), strain_table->rows().end(),
+                        [](const auto &row) { return row[4] == "unreached"; }));
+        verdicts.push_back({"every level of every reference has an equilibrium (levels without)",
+                            n_unreached == 0. ? Outcome::pass : Outcome::inconclusive, n_unreached,
+                            "0"});
+        write_whole(options.output + "/verdicts.json",
+                    json_text(to_json(verdicts, options.command)));
+        write_whole(options.output + "/study.json", json_text(study_json(seconds, peak_memory)));
+      });
     // Every rank ends with the status of the first.
     int failed = any_failed(verdicts);
     MPI_Bcast(&failed, 1, MPI_INT, 0, communicator);
     if (failed && !any_failed(verdicts))
       verdicts.push_back({"the first rank saw a failure", Outcome::fail, 1., "0"});
     return verdicts;
+  }
+
+  void write_validity() const
+  {
+    std::string text;
+    const auto line = [&](const std::vector<std::string> &fields)
+    {
+      for (std::size_t k = 0; k < fields.size(); ++k)
+        text += (k > 0 ? "," : "") + fields[k];
+      text += "\n";
+    };
+    line(validity_columns());
+    for (const std::vector<std::string> &row : validity_rows(strain_table->rows()))
+      line(row);
+    write_whole(options.output + "/validity.csv", text);
   }
 
   nlohmann::ordered_json study_json(const double seconds, const double peak_memory) const
@@ -435,8 +530,11 @@ private:
   const std::chrono::steady_clock::time_point begin;
   Progress progress;
   std::vector<UnitCell> cells;
-  std::unique_ptr<ResultTable> strain_table, step_table, uncertainty_table, note_table;
-  std::string folder; ///< of the present cell
+  std::unique_ptr<ResultTable> strain_table, step_table, uncertainty_table, note_table,
+    budget_table, run_time_table;
+  std::unique_ptr<BudgetStudy> budget; ///< none where it is left out
+  bool is_budget_begun = false;        ///< of the present cell
+  std::string folder;                  ///< of the present cell
   std::vector<Verdict> verdicts;
   double largest_residual = 0.;
 };

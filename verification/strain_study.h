@@ -22,13 +22,16 @@ struct StrainStudyOptions
   std::vector<std::string> methods;
   int n_cells_of_error_bar = 4; ///< per side of the small sheet of the references' error bar
   std::string output;
-  std::string command; ///< that reproduces the study
-  bool resume = false;
-  bool quiet  = false;
+  std::string command;  ///< that reproduces the study
+  bool budget   = true; ///< budget.csv, the error split into its parts
+  bool run_time = true; ///< runtime.csv, every way to the positions at one strain
+  bool resume   = false;
+  bool quiet    = false;
 };
 
 /// Runs a study and writes, into the output folder, strain.csv, steps.csv, uncertainty.csv,
-/// verdicts.json, study.json and per cell what homogenize writes and fields-LOAD.h5. Rows are on the
+/// budget.csv,
+/// runtime.csv, validity.csv, verdicts.json, study.json and per cell what homogenize writes and fields-LOAD.h5. Rows are on the
 /// disk as they come; with `resume` what is there is not computed again.
 ///
 /// The cell is homogenized with P1 on its given mesh, the discretization of the reference, so that

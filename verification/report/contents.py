@@ -6,6 +6,7 @@ from concurrent.futures import ProcessPoolExecutor
 
 import style
 import tables
+from budget_contents import budget_contents
 from cell_results import read_fields
 from converge_contents import convergence_contents
 from drape_contents import drape_contents
@@ -28,6 +29,8 @@ HEADINGS = {
     "cells": "The unit cells",
     "chi": "Characteristic displacements",
     "sheets": "Reference, up-sampled sheet and error per vertex",
+    "budget": "Error budget",
+    "validity": "Range of validity",
     "time": "Error against run time",
     "errors": "Errors at chosen strains",
     "uncertainty": "Uncertainty of the references",
@@ -254,6 +257,7 @@ def cell_contents(results, name, gallery):
         contents["error_time"] = gallery.add(
             figure, f"{name}-error-time", f"{name}: mean error against run time; lower left is better. "
             "Full resolution stands at its own uncertainty, where that is known.")
+    contents.update(budget_contents(results, name, side, strains, gallery))
     contents["round_off"] = tables.round_off_sentences(rows)
     contents["error_tables"] = tables.error_tables(rows, methods)
     contents["stiffness"] = tables.stiffness_table(cell)

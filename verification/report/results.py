@@ -10,6 +10,7 @@ from dataclasses import dataclass, field
 
 import numpy
 
+from budget_results import read_budget
 from cell_results import Cell, read_cell, read_fields
 from converge_results import read_convergence
 from drape_results import read_drape
@@ -43,6 +44,9 @@ class Results:
     strain: list = field(default_factory=list)
     uncertainty: list = field(default_factory=list)
     steps: list = field(default_factory=list)
+    budget: list = field(default_factory=list)
+    run_time: list = field(default_factory=list)
+    validity: list = field(default_factory=list)
     drapes: list = field(default_factory=list)  # Drape, one per scene
     stress: list = field(default_factory=list)  # Stress, one per folder
     convergence: list = field(default_factory=list)  # Convergence, one per folder
@@ -140,6 +144,7 @@ def read_strain(folder, cell_folders, path_of, results, faults):
     if path := path_of("steps.csv", "time per load step"):
         results.steps += latest(read_csv(path, STEPS_HEADER, faults, results.missing), keys, path,
                                 results.missing)
+    read_budget(path_of, results, faults)
     for name, cell_folder in cell_folders.items():
         if name in results.cells:
             results.missing.append({"what": f"cell `{name}` of {folder}",

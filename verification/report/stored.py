@@ -7,12 +7,13 @@ import math
 import numpy
 
 TEXT_COLUMNS = {"cell", "load", "reference", "method", "scene", "variant", "term", "present", "group", "case",
-                "expected", "outcome", "verdict", "study", "quantity", "h_unit"}
-FREE_TEXT_COLUMNS = {"figure", "limit", "judgement"}  # may be empty
+                "expected", "outcome", "verdict", "study", "quantity", "h_unit", "part", "region", "way", "measure",
+                "relation"}
+FREE_TEXT_COLUMNS = {"figure", "limit", "judgement", "note"}  # may be empty
 NEEDED_NUMBERS = {"strain", "h"}  # above zero; every other number may be empty or nan
 TIMES = {"time_s"}           # needed, zero or above
 SIGNED_NUMBERS = {"centre_x_m", "centre_y_m", "centre_z_m", "stored_J",
-                  "value", "observed_order", "order", "order_lowest", "richardson_limit"}
+                  "value", "observed_order", "order", "order_lowest", "richardson_limit", "share"}
 VERDICTS = ("PASS", "FAIL", "INCONCLUSIVE")
 RESUME = "Remove the line and run the study again with --resume."
 

@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: MIT
+#include "homogenization/bracket.h"
+
+#include "homogenization/compatible_strain.h"
+#include "homogenization/equilibrated_stress.h"
+
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
+
+#include <algorithm>
+#include <limits>
+#include <numeric>
+
+namespace homespun::homogenization
+{
+namespace
+{
+std::size_t at(const int index)
+{
+  return static_cast<std::size_t>(index);
+}
+
+/// A matrix whose entries may be wrong by part x sqrt(A_ii A_jj) lies below this one.
+Eigen::Matrix3d raised(const Eigen::Matrix3d &A, const double part)
+{
+  const Eigen::Matrix3d diagonal = A.diagonal().asDiagonal();
+  return A + 3. * part * diagonal;
+}
+} // namespace
+
+double relative_width(const Eigen::Matrix3d &lower, const Eigen::Matrix3d &upper)
+{
+  return Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::Matrix3d>(upper - lower, upper)
+    .eigenvalues()(2);
+}
+
+Bracket bracket(const TorusMesh &mesh, const std::vector<Eigen::Matrix3d> &stiffness_of_material,
+                const unsigned order)
+{
+  Bracket result;
+  const EquilibratedStress below(mesh, stiffness_of_material);
+  const CompatibleStrain above(mesh, stiffness_of_material, order);
+  // The vectors of the edges carry the shape to a few units of round-off.
+  const double of_shape    = 16. * std::numeric_limits<double>::epsilon();
+  const double below_error = below.round_off + of_shape, above_error = above.round_off + of_shape;
+  result.lower             = raised(below.compliance, below_error).inverse();
+  result.lower             = 0.5 * (result.lower + result.lower.transpose()).eval();
+  result.upper             = raised(above.stiffness, above_error);
+  result.round_off         = 3. * (below_error + above_error);
+  result.width             = std::max(relative_width(result.lower, result.upper), result.round_off);
+  result.excess            = std::max(below.excess, above.excess);
+  result.compliance        = below.compliance;
+  result.stiffness         = above.stiffness;
+  result.stiffness_by_flux = above.stiffness_by_flux;
+  result.chi               = above.chi_at_given_vertices();
+  result.n_triangles       = static_cast<unsigned>(mesh.n_triangles());
+  result.n_displacement_dofs = above.n_dofs;
+  result.n_stress_dofs       = below.n_dofs;
+  result.iterations          = std::max(above.iterations, below.iterations);
+
+  // Of all mean stresses, compliance^-1 e comes closest to the strains of e.
+  const Eigen::Matrix3d mean_stress = below.compliance.inverse();
+  const Eigen::Matrix3d weights     = above.stiffness.inverse() / mesh.lattice.area();
+  result.indicators                 = above.unbalanced_tractions(weights) +
+                      below.incompatible_strains(mean_stress * weights * mean_stress);
+  std::vector<Eigen::Matrix3d> compliances;
+  for (const Eigen::Matrix3d &c : stiffness_of_material)
+    compliances.emplace_back(c.inverse());
+  result.gaps.setZero(mesh.n_triangles());
+  for (int t = 0; t < mesh.n_triangles(); ++t)
+  {
+    const TorusTriangle &triangle = mesh.triangles[at(t)];
+    const auto shape              = triangle.shape(mesh.edges);
+    const double area             = 0.5 * (shape[1](0) * shape[2](1) - shape[1](1) * shape[2](0));
+    const FieldOfLoads stress = below.stress(t) * mean_stress, strain = above.strain(t);
+    for (int q = 0; q < n_field_points; ++q)
+    {
+      const Eigen::Matrix3d gap =
+        stress.middleRows<3>(3 * q) -
+        stiffness_of_material[at(triangle.material)] * strain.middleRows<3>(3 * q);
+      result.gaps(t) +=
+        area / n_field_points *
+        (gap.transpose() * compliances[at(triangle.material)] * gap).cwiseProduct(weights).sum();
+    }
+  }
+  return result;
+}
+
+std::vector<char> largest(const Eigen::VectorXd &values, const double part)
+{
+  std::vector<int> order(static_cast<std::size_t>(values.size()));
+  std::iota(order.begin(), order.end(), 0);
+  std::sort(order.begin(), order.end(),
+            [&](const int a, const int b)
+            { return values(a) != values(b) ? values(a) > values(b) : a < b; });
+  std::vector<char> is_marked(order.size(), 0);
+  const double wanted = part * values.sum();
+  double held         = 0.;
+  for (const int t : order)
+  {
+    if (held >= wanted)
+      break;
+    held += values(t);
+    is_marked[at(t)] = 1;
+  }
+  return is_marked;
+}
+
+AdaptiveBracket adaptive_bracket(const meshes::TriangleMesh &mesh, const meshes::Lattice &lattice,
+                                 const std::vector<Eigen::Matrix3d> &stiffness_of_material,
+                                 const AdaptiveOptions &options,
+                                 const std::function<void(const Bracket &)> &observe)
+{
+  // Squares of edges are far above the smallest numbers.
+  constexpr double finest = 1e-100;
+  AdaptiveBracket result{{}, glued(mesh, lattice), Ending::tolerance};
+  while (true)
+  {
+    result.bracket = bracket(result.mesh, stiffness_of_material, options.order);
+    observe(result.bracket);
+    result.ending = Ending::tolerance;
+    if (result.bracket.width <= options.tolerance)
+      return result;
+    result.ending = result.bracket.width <= 2. * result.bracket.round_off ? Ending::round_off
+                    : relative_resolution(result.mesh) < finest           ? Ending::resolution
+                                                                          : Ending::max_dofs;
+    if (result.ending != Ending::max_dofs)
+      return result;
+    TorusMesh finer =
+      bisected(result.mesh, largest(result.bracket.indicators, options.marked_part));
+    const int n_dofs =
+      std::max(3 * finer.n_vertices + finer.n_edges(),
+               2 * (finer.n_vertices + (options.order == 2 ? finer.n_edges() : 0)));
+    if (n_dofs > static_cast<int>(options.max_dofs))
+      return result;
+    result.mesh = std::move(finer);
+  }
+}
+} // namespace homespun::homogenization

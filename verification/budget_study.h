@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: MIT
+// The error budget of a strain study: what it solves beside the study, and its table.
+#pragma once
+
+#include "homogenization/unit_cell.h"
+#include "verification/budget_rows.h"
+#include "verification/error_budget.h"
+#include "verification/fine_reference.h"
+#include "verification/lightweight_cloth.h"
+#include "verification/result_files.h"
+
+#include <mpi.h>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace homespun::verification
+{
+/// Goes along with a strain study: begin_cell(), begin_load(), then measure() at each strain of one law, `biot` or
+/// the study's first. Solves with deal.II on all ranks, measures on the first.
+class BudgetStudy
+{
+public:
+  /// @param references of the study
+  /// @param table budget.csv on the first rank, elsewhere null
+  BudgetStudy(const std::vector<std::string> &references, ResultTable *table,
+              MPI_Comm communicator);
+
+  /// Whether the budget of a level is asked for and not yet in the table, as the first rank sees it.
+  bool row_is_missing(const std::string &cell, const std::string &load, Law law,
+                      double strain) const;
+
+  /// The same, told to every rank.
+  bool is_missing(const std::string &cell, const std::string &load, Law law, double strain) const;
+
+  /// Homogenizes the cell in the further ways that the budget compares.
+  void begin_cell(const homogenization::UnitCell &cell, const meshes::HomogenizedCell &given);
+
+  /// Solves the linear references, P1 and P2. `reference` is left without levels.
+  void begin_load(const meshes::Sheet &sheet, const Load &load, FineReference &reference);
+
+  /// Measures the parts at a level that `reference` has just reached, and writes their rows.
+  /// @param positions of that level
+  /// @return what was not found, empty where all was
+  std::string measure(Law law, double strain, const meshes::Points &positions,
+                      FineReference &reference, LightweightCloth &cloth);
+
+private:
+  std::string measure_on_root(Law law, double strain, const meshes::Points &positions,
+                              const meshes::Points &tight, LightweightCloth &cloth);
+
+  const Law law_of_budget;
+  ResultTable *const table;
+  const MPI_Comm communicator;
+  const homogenization::UnitCell *cell = nullptr;
+  BudgetCells cells;
+  std::unique_ptr<LoadBudget> of_load; ///< first rank
+  std::vector<int> regions;
+  std::string load_name;
+};
+} // namespace homespun::verification

@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: MIT
+#include "verification/cell_bracket.h"
+
+#include "meshes/errors.h"
+#include "meshes/refine.h"
+
+#include <Eigen/Eigenvalues>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <sstream>
+
+namespace homespun::verification
+{
+using homogenization::Bracket;
+
+namespace
+{
+double relative_violation(const Eigen::Matrix3d &lower, const Eigen::Matrix3d &upper)
+{
+  const double smallest =
+    Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(upper - lower).eigenvalues()(0);
+  return std::max(0., -smallest) / upper.cwiseAbs().maxCoeff();
+}
+
+std::string text_of(const homogenization::Ending ending, const BracketOptions &options)
+{
+  using homogenization::Ending;
+  switch (ending)
+  {
+  case Ending::tolerance:
+    return "the width that was asked for is reached";
+  case Ending::max_dofs:
+    return "stopped before a mesh of more than " + std::to_string(options.max_dofs) +
+           " DoFs: raise --max-dofs";
+  case Ending::round_off:
+    return "stopped at round-off: a finer mesh does not narrow it";
+  case Ending::resolution:
+    return "stopped at triangles of 1e-100 of the cell: the singularity is too strong";
+  }
+  return "";
+}
+} // namespace
+
+CellBracket bracket_of(const homogenization::UnitCell &cell, const BracketOptions &options,
+                       const std::function<void(const std::string &)> &report)
+{
+  const auto start                = std::chrono::steady_clock::now();
+  const meshes::TriangleMesh mesh = meshes::refined(cell.mesh, static_cast<int>(options.refine));
+  CellBracket result;
+  // A periodic mesh has three edges to two triangles, and half as many vertices as triangles.
+  const int n_dofs = options.order == 2 ? 4 * mesh.n_triangles() : 3 * mesh.n_triangles();
+  if (n_dofs > static_cast<int>(options.max_dofs))
+  {
+    result.remark = "none: it would take " + std::to_string(n_dofs) +
+                    " DoFs on this mesh, more than " + std::to_string(options.max_dofs) +
+                    ": raise --max-dofs, or refine less";
+    return result;
+  }
+  const auto observe = [&](const Bracket &bracket)
+  {
+    const double seconds =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    result.history.push_back({bracket.n_triangles, bracket.n_displacement_dofs,
+                              bracket.n_stress_dofs, bracket.width, seconds});
+    if (!result.on_given_mesh)
+      result.on_given_mesh = bracket.stiffness;
+    char line[160];
+    std::snprintf(line, sizeof(line),
+                  "bracket: %u triangles, %u + %u DoFs, relative width %.2g, %.1f s",
+                  bracket.n_triangles, bracket.n_displacement_dofs, bracket.n_stress_dofs,
+                  bracket.width, seconds);
+    report(line);
+  };
+  try
+  {
+    if (options.tolerance)
+    {
+      homogenization::AdaptiveOptions adaptive;
+      adaptive.order     = options.order;
+      adaptive.tolerance = *options.tolerance;
+      adaptive.max_dofs  = options.max_dofs;
+      auto reached = homogenization::adaptive_bracket(mesh, cell.lattice, cell.stiffness_of_phase(),
+                                                      adaptive, observe);
+      result.bracket = std::move(reached.bracket);
+      result.remark  = text_of(reached.ending, options);
+    }
+    else
+    {
+      result.bracket = homogenization::bracket(homogenization::glued(mesh, cell.lattice),
+                                               cell.stiffness_of_phase(), options.order);
+      observe(*result.bracket);
+      result.remark = "on the mesh of the cell problems";
+    }
+  }
+  catch (const meshes::BadInput &bad)
+  {
+    result.remark = std::string("none: ") + bad.what();
+  }
+  catch (const meshes::NotConverged &failed)
+  {
+    result.remark = std::string("none: ") + failed.what();
+  }
+  return result;
+}
+
+std::vector<Verdict> checks_of(const CellBracket &bracket, const BracketOptions &options,
+                               const Eigen::Matrix3d &stiffness)
+{
+  std::vector<Verdict> checks;
+  const auto at_most = [&](const std::string &claim, const double value, const double limit)
+  {
+    std::ostringstream text;
+    text << "<= " << limit;
+    checks.push_back({claim, value <= limit ? Outcome::pass : Outcome::fail, value, text.str()});
+  };
+  if (!bracket.bracket)
+  {
+    if (options.tolerance)
+      checks.push_back({"Bracket of C^H as narrow as --tolerance (relative width)", Outcome::fail,
+                        std::numeric_limits<double>::quiet_NaN(), bracket.remark});
+    return checks;
+  }
+  const Bracket &found = *bracket.bracket;
+  at_most("C_lower <= C_upper (relative violation)", relative_violation(found.lower, found.upper),
+          0.);
+  // Images may lie 1e-7 of the cell apart, which the bracket's mesh mends and the other one does not.
+  at_most("Direct and multigrid solvers agree on C^H of the given mesh (relative gap)",
+          (*bracket.on_given_mesh - stiffness).cwiseAbs().maxCoeff() /
+            stiffness.cwiseAbs().maxCoeff(),
+          1e-6);
+  at_most("C_lower <= C^H of the given mesh (relative violation)",
+          relative_violation(found.lower, stiffness), 1e-6);
+  if (options.tolerance)
+    at_most("Bracket of C^H as narrow as --tolerance (relative width)", found.width,
+            *options.tolerance);
+  return checks;
+}
+
+Eigen::Matrix3d bars_of(const Bracket &bracket)
+{
+  const Eigen::Vector3d diagonal =
+    (bracket.upper - bracket.lower).diagonal().cwiseMax(0.).cwiseSqrt();
+  return diagonal * diagonal.transpose();
+}
+} // namespace homespun::verification

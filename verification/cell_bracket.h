@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+// The bracket of a cell as the program makes it: on the mesh as given, or adaptively to a width; its history
+// and its verdicts.
+#pragma once
+
+#include "homogenization/bracket.h"
+#include "homogenization/homogenize.h"
+#include "verification/verdict.h"
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace homespun::verification
+{
+struct BracketOptions
+{
+  unsigned order = 2, refine = 0; ///< as those of the cell problems
+  std::optional<double>
+    tolerance;                ///< relative width to reach by adaptivity; none: the given mesh alone
+  unsigned max_dofs = 400000; ///< of the larger of the two problems
+};
+
+/// One mesh on the way to a bracket.
+struct BracketStep
+{
+  unsigned triangles, dofs, stress_dofs;
+  double width, seconds; ///< since the start
+};
+
+/// A bracket, or the reason why there is none.
+struct CellBracket
+{
+  std::optional<homogenization::Bracket> bracket; ///< on the last mesh
+  std::optional<Eigen::Matrix3d> on_given_mesh;   ///< its energies on the first one [N/m]
+  std::string remark;                             ///< why there is none, or how adaptivity ended
+  std::vector<BracketStep> history;
+};
+
+/// Brackets C^H on this process alone: direct solvers need no other.
+/// @param report is told of each step, one line
+CellBracket bracket_of(const homogenization::UnitCell &cell, const BracketOptions &options,
+                       const std::function<void(const std::string &)> &report);
+
+/// C_lower <= C_upper, C inside, agreement of both solvers on the given mesh, and the width that was asked for.
+/// @param stiffness C^H of the cell problems on the given mesh [N/m]
+std::vector<Verdict> checks_of(const CellBracket &bracket, const BracketOptions &options,
+                               const Eigen::Matrix3d &stiffness);
+
+/// How far an entry C_ij of either side can be from that of C^H: with D = upper − lower, which is not
+/// negative, |C_ij − C^H_ij| <= sqrt(D_ii D_jj) [N/m].
+Eigen::Matrix3d bars_of(const homogenization::Bracket &bracket);
+} // namespace homespun::verification

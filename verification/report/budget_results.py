@@ -1,0 +1,68 @@
+# SPDX-License-Identifier: MIT
+"""Reads budget.csv, runtime.csv and validity.csv of a strain study, and what follows from their rows alone."""
+import math
+
+from stored import latest, read_csv
+
+BUDGET_HEADER = "cell,load,strain,reference,part,region,mean_m,rms_m,max_m,mean_per_cell,share".split(",")
+RUN_TIME_HEADER = ("cell,load,strain,reference,way,triangles,error_mean_m,error_mean_per_cell,reference_uncertainty_m,"
+                   "seconds,runs,ranks,threads,note").split(",")
+VALIDITY_HEADER = ("cell,load,reference,measure,limit,relation,largest_strain,largest_strain_lower,"
+                   "largest_strain_upper,note").split(",")
+# In the order of METHOD 5, and what each is called in a figure.
+PARTS = {
+    "scale": "1 scale separation, boundary layer",
+    "nonlinearity": "2 geometric nonlinearity",
+    "coarse-mesh": "3 coarse mesh",
+    "cell": "4 cell discretization",
+    "blending": "5 strain averaging, blending",
+    "time-step": "6 time step",
+    "solver": "7 solver tolerance",
+    "precision": "8 float against double",
+    "convention": "9 convention (anchor)",
+    "reference": "the reference's own discretization",
+}
+REGIONS = ("interior", "boundary", "corner")
+
+
+def read_budget(path_of, results, faults):
+    """Adds the three tables to the results; one that was left out is noted as such."""
+    def rows(name, header, keys, consequence):
+        path = path_of(name, consequence)
+        if not path:
+            return []
+        return latest(read_csv(path, header, faults, results.missing), keys, path, results.missing)
+    results.budget += rows("budget.csv", BUDGET_HEADER, ("cell", "load", "strain", "reference", "part", "region"),
+                           "the error budget")
+    results.run_time += rows("runtime.csv", RUN_TIME_HEADER, ("cell", "load", "strain", "reference", "way"),
+                             "error against run time of every way")
+    results.validity += rows("validity.csv", VALIDITY_HEADER, ("cell", "load", "reference", "measure", "limit"),
+                             "the range of validity")
+
+
+def levels(rows):
+    """(load, strain) -> region -> part -> row, of one cell, levels with a total alone."""
+    table = {}
+    for row in rows:
+        table.setdefault((row["load"], row["strain"]), {}).setdefault(row["region"], {})[row["part"]] = row
+    return {key: regions for key, regions in table.items() if "total" in regions.get("all", {})}
+
+
+def effectivity(parts):
+    """Mean of the sum over mean of the total, nan of a total that is zero."""
+    total = parts["total"]["mean_m"]
+    return parts["sum"]["mean_m"] / total if total > 0 and "sum" in parts else math.nan
+
+
+def pareto_front(ways):
+    """The ways that no other beats in both time and error, by time. Ways without either do not count.
+
+    @param ways rows with `seconds` and `error_mean_per_cell`
+    """
+    known = [way for way in ways if way["seconds"] > 0 and not math.isnan(way["error_mean_per_cell"])]
+    front, best = [], math.inf
+    for way in sorted(known, key=lambda w: (w["seconds"], w["error_mean_per_cell"])):
+        if way["error_mean_per_cell"] < best:
+            front.append(way)
+            best = way["error_mean_per_cell"]
+    return front

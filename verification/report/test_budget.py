@@ -1,0 +1,97 @@
+# SPDX-License-Identifier: MIT
+"""Tests of budget, run time and range of validity: /usr/bin/python3 -m unittest discover -s verification/report"""
+import math
+import os
+import unittest
+
+import budget_contents
+import budget_results
+from made_up_study import write_results
+from page_case import PageTest
+
+WAYS = (("fine-p2", 10., 1e-5), ("fine-p1", 2., 1e-4), ("fine-corotational", 4., 1e-4), ("affine-5", 1e-4, 0.2),
+        ("localized-5", 2e-4, 0.03), ("localized-10", 1e-3, 0.008), ("voigt", 1e-3, 0.1), ("reuss", 1e-3, math.nan))
+
+
+def way(name, time, error):
+    return {"way": name, "seconds": time, "error_mean_per_cell": error}
+
+
+def write_budget(folder):
+    """A budget whose two parts make up the total, run times, and a range of validity."""
+    def write(name, header, lines):
+        with open(os.path.join(folder, name), "w", encoding="utf-8") as file:
+            file.write("\n".join([",".join(header)] + lines) + "\n")
+    shares = {"scale": 0.7, "nonlinearity": 0.4, "blending": -0.1, "sum": 1., "total": 1., "misfit": 0.}
+    lines = [f"stripes,shear-frame,{strain},biot,{part},{region},{abs(share) * 1e-4},{abs(share) * 2e-4},{abs(share) * 3e-4},"
+             f"{abs(share) * 1e-2},{share}" for strain in (0.01, 0.1) for region in ("all", "interior", "corner")
+             for part in (*budget_results.PARTS, "sum", "misfit", "total") for share in [shares.get(part, 0.)]]
+    write("budget.csv", budget_results.BUDGET_HEADER, lines)
+    write("runtime.csv", budget_results.RUN_TIME_HEADER,
+          [f"stripes,shear-frame,0.1,biot,{name},8,{error * 0.01},{error},1e-7,{time},5,1,1,a note" for name, time, error in WAYS])
+    write("validity.csv", budget_results.VALIDITY_HEADER,
+          ["stripes,shear-frame,biot,fluctuation,0.01,-,,,,at strain 0.001 the error is already 3 % of the fluctuation",
+           "stripes,shear-frame,biot,fluctuation,0.1,=,0.0312,0.0301,0.0324,", "stripes,shear-frame,biot,cell side,0.05,>,0.2,0.2,0.2,"])
+
+
+class Budget(unittest.TestCase):
+    def test_the_front_is_what_no_other_way_beats(self):
+        front = [w["way"] for w in budget_results.pareto_front([way(*w) for w in WAYS])]
+        self.assertEqual(front, ["affine-5", "localized-5", "localized-10", "fine-p1", "fine-p2"])
+
+    def test_of_ways_that_take_the_same_time_the_better_one_is_on_the_front(self):
+        front = budget_results.pareto_front([way("a", 1., 2.), way("b", 1., 1.), way("c", 2., 1.)])
+        self.assertEqual([w["way"] for w in front], ["b"])
+
+    def test_the_fastest_way_to_an_error_is_named_once_at_its_tightest_limit(self):
+        sentence = budget_contents.fastest_sentence([way(*w) for w in WAYS], "shear-frame", 0.1)
+        self.assertIn("within 5 % of the cell side localized-5", sentence)
+        self.assertIn("within 1 % of the cell side localized-10", sentence)
+        self.assertIn("within 0.05 % of the cell side fine-p1", sentence)
+        self.assertEqual(sentence.count("localized-10"), 1)
+        self.assertNotIn("voigt", sentence)
+
+    def test_effectivity_is_the_sum_over_the_total(self):
+        parts = {"sum": {"mean_m": 3.}, "total": {"mean_m": 2.}}
+        self.assertEqual(budget_results.effectivity(parts), 1.5)
+        self.assertTrue(math.isnan(budget_results.effectivity({"sum": {"mean_m": 3.}, "total": {"mean_m": 0.}})))
+
+    def test_validity_tells_a_crossing_from_an_open_end(self):
+        def text(relation, strain=math.nan, low=math.nan, high=math.nan):
+            return budget_contents.validity_text({"relation": relation, "largest_strain": strain,
+                                                  "largest_strain_lower": low, "largest_strain_upper": high})
+        self.assertEqual(text("=", 0.0312, 0.0301, 0.0324), "3.1 % (3 to 3.2)")
+        self.assertEqual(text("=", 0.0312, 0.0312, 0.0312), "3.1 %")
+        self.assertEqual(text(">", 0.2), "> 20 %")
+        self.assertEqual(text("-"), "–")
+
+
+class BudgetReport(PageTest):
+    def setUp(self):
+        super().setUp()
+        write_results(self.folder)
+        write_budget(self.folder)
+
+    def test_the_three_tables_make_their_figures_and_tables(self):
+        self.assertEqual(self.run_report(), (0, ""))
+        page = self.page()
+        for name in ("budget", "ways"):
+            self.assertIn(f'id="stripes-{name}"', page)
+        for text in ("Fastest way to a given mean error under shear-frame", "1 scale separation", "3.1 % (3 to 3.2)",
+                     "already 3 % of the fluctuation"):
+            self.assertIn(text, page)
+
+    def test_what_was_left_out_is_said(self):
+        for name in ("budget.csv", "runtime.csv", "validity.csv"):
+            os.remove(os.path.join(self.folder, name))
+        self.assertEqual(self.run_report(), (0, ""))
+        for text in ("budget.csv does not exist", "Left out: error budget of stripes", "Left out: range of validity of stripes"):
+            self.assertIn(text, self.page())
+
+    def test_a_share_may_be_negative_an_error_not(self):
+        self.edit("budget.csv", lambda text: text.replace("0.0001,", "-0.0001,", 1))
+        self.assert_refused("budget.csv", "mean_m", "-0.0001")
+
+
+if __name__ == "__main__":
+    unittest.main()
