@@ -73,9 +73,10 @@ Repetition repetition(const StressCase &stress_case, const unsigned int seed)
 }
 } // namespace
 
-StressResult run_case(const StressCase &stress_case, const int repeats)
+StressResult run_case(const StressCase &stress_case, const int most_repeats)
 {
-  const auto begin = std::chrono::steady_clock::now();
+  const int repeats = std::min(most_repeats, stress_case.most_repeats);
+  const auto begin  = std::chrono::steady_clock::now();
   StressResult result;
   result.repeats = repeats;
   result.figure  = std::numeric_limits<double>::quiet_NaN();

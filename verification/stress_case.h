@@ -8,6 +8,7 @@
 #include <Eigen/Core>
 
 #include <functional>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -38,6 +39,8 @@ struct StressCase
     false; ///< seeds differ; else every repetition must give the same numbers to the last bit
   /// @throws BadInput, NotConverged where it refuses
   std::function<StressAnswer(unsigned int seed)> run;
+  int most_repeats =
+    std::numeric_limits<int>::max(); ///< for cases that are long or need but a second look
 };
 
 struct StressResult
@@ -49,7 +52,7 @@ struct StressResult
   double seconds  = 0.; ///< of all repetitions
 };
 
-/// Runs a case with the seeds 0 ... repeats − 1.
+/// Runs a case with the seeds 0 ... repeats − 1, or fewer where the case wants no more.
 StressResult run_case(const StressCase &stress_case, int repeats);
 
 /// The limit as a table shows it: of the figure, or the words that a refusal must contain.

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
-// The stress cases of METHOD 6 for the cloth in motion and the up-sampling. Limits come from theory: damped
-// energy never grows, momenta of a free cloth are kept, a cloth at rest stays, a uniform strain is
-// up-sampled exactly; where theory is silent, that every number is finite.
+// The stress cases of METHOD 6: the unit cell, the cloth in motion and the up-sampling. Limits come from theory:
+// a cell that is moved keeps its C^H, damped energy never grows, momenta of a free cloth are kept, a cloth at rest
+// stays, a uniform strain is up-sampled exactly; where theory is silent, that every number is finite.
 #pragma once
 
+#include "homogenization/unit_cell.h"
 #include "meshes/homogenized_cell.h"
 #include "verification/stress_case.h"
 #include "verification/stress_sheet.h"
@@ -40,6 +41,18 @@ std::vector<StressCase> scene_cases(const SheetStiffness &stiffness);
 /// Up-sampling of violent coarse motions.
 std::vector<StressCase> localization_cases(const std::vector<meshes::HomogenizedCell> &cells,
                                            const std::vector<std::string> &names);
+
+/// What the cell cases move where no cell is given, and beside given ones: stripes; a square of yarns of 1e4 to 1.
+std::vector<homogenization::UnitCell> built_in_cells();
+
+/// Homogenization against contrast, Poisson's ratio, anisotropy, slivers, symmetry, units, size and ranks. Linear
+/// elements on one rank, whatever the number of ranks that call.
+/// @param cells the user's: shifted, repeated, turned, mirrored, in other units, and their moduli spread
+/// @param by_all_ranks C^H of the built-in cells and then of `cells` by all ranks; none: no cases of ranks
+/// @param most_triangles of the largest cell
+std::vector<StressCase> cell_cases(const std::vector<homogenization::UnitCell> &cells,
+                                   const std::vector<Eigen::Matrix3d> &by_all_ranks, int n_ranks,
+                                   int most_triangles);
 
 /// A cell with smooth periodic modes of a tenth of its side, zero at its lattice points: for where none is given.
 meshes::HomogenizedCell smooth_cell();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// homespun stress: the cloth and the up-sampling under what should break them.
+// homespun stress: the cell, the cloth and the up-sampling under what should break them.
 #include "verification/stress_study.h"
 #include "verification/study_arguments.h"
 
@@ -23,7 +23,10 @@ int run_stress(StressArguments arguments, Afterwards &afterwards)
 {
   StressStudyOptions &study = arguments.study;
   if (arguments.quick)
-    study.repeats = 2;
+  {
+    study.repeats        = 2;
+    study.most_triangles = 100000;
+  }
   return arguments.end.conclude(run_stress_study(study, MPI_COMM_WORLD), study.output, study.quiet,
                                 afterwards);
 }
@@ -34,7 +37,7 @@ void add_stress_command(CLI::App &app, Action &action, Afterwards &afterwards,
 {
   CLI::App *command = app.add_subcommand(
     "stress",
-    "What should break a cloth: each case must end in a finite answer or a named refusal");
+    "What should break a cell or a cloth: each case must end in a finite answer or a named refusal");
   const auto arguments     = std::make_shared<StressArguments>();
   arguments->study.output  = "out/stress";
   arguments->study.command = command_line;
@@ -42,11 +45,12 @@ void add_stress_command(CLI::App &app, Action &action, Afterwards &afterwards,
                       "Cells whose stiffness and modes the cases take (default: built-in ones)");
   command->add_option("--output", arguments->study.output, "Folder of the results")
     ->capture_default_str();
-  command->add_flag("--quick", arguments->quick, "Each case twice instead of ten times");
+  command->add_flag("--quick", arguments->quick,
+                    "Each case twice instead of ten times, cells of at most 1e5 triangles");
   command->add_flag("--quiet", arguments->study.quiet, "Print nothing but faults");
   arguments->end.add_options(*command);
   command->footer(
-    "Time steps, stiffness, starts, meshes, rotations, motions, scenes, up-sampling; stress.csv has a row\n"
+    "Cells of high contrast, slivers, moved cells, time steps, stiffness, starts, meshes, rotations, motions, scenes, up-sampling; stress.csv has a row\n"
     "per case: what was expected, the outcome, one figure and its limit. A case that fails is a row, and\n"
     "exit status 1.\n"
     "Example:\n  homespun stress --quick\n  homespun stress mycell.prm");

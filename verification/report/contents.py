@@ -49,7 +49,7 @@ def page_contents(results, gallery, output):
     @param output folder of the page, for links to frames
     @throws BadResults where a stored sheet or frame cannot be read
     """
-    stress = [{**stress_contents(s), "id": f"stress-{i}"} for i, s in enumerate(results.stress, 1)]
+    stress = [{**stress_contents(s, gallery), "id": f"stress-{i}"} for i, s in enumerate(results.stress, 1)]
     convergence = [{**convergence_contents(c, gallery), "id": f"converge-{i}"}
                    for i, c in enumerate(results.convergence, 1)]
     drapes = contents_of_drapes(results, gallery, output)

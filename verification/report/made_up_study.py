@@ -92,6 +92,11 @@ def write_stress(folder):
             "time step,1 s,energy does not grow,not run,,1e-12,INCONCLUSIVE,0,"]
     with open(os.path.join(folder, "stress.csv"), "w", encoding="utf-8") as file:
         file.write("\n".join([",".join(stress_results.HEADER)] + rows) + "\n")
+    rows = [f"contrast,{value},stripes,{order},1200,{iterations},0.01,0.02,3,converged"
+            for value, iterations in ((1., 9), (1e6, 14)) for order in (1, 2)]
+    rows += ["contrast,1e12,stripes,1,,,,,3,conjugate gradients did not reach 1e-11", "poisson,-0.99,inclusion,2,1200,21,0.01,0.02,3,converged"]
+    with open(os.path.join(folder, "solver.csv"), "w", encoding="utf-8") as file:
+        file.write("\n".join([",".join(stress_results.SOLVER_HEADER)] + rows) + "\n")
     with open(os.path.join(folder, "verdicts.json"), "w", encoding="utf-8") as file:
         json.dump({"verdicts": [{"claim": "every case ends finite or refused", "verdict": "FAIL", "value": 1,
                                  "limit": "0 cases", "command": "homespun stress"}]}, file)

@@ -1,24 +1,28 @@
 # SPDX-License-Identifier: MIT
-"""Reads stress.csv, the cases of `homespun stress`, and orders them: what failed comes first."""
+"""Reads stress.csv and solver.csv of `homespun stress`, and orders the cases: what failed comes first."""
 import math
+import os
 from collections import Counter
 from dataclasses import dataclass, field
 
+from figures_stress import margin_figure, solver_figure
 from stored import VERDICTS, latest, read_csv
 from style import seconds, three
 
 AGAIN = "Run `homespun stress` again."
 HEADER = "group,case,expected,outcome,figure,limit,verdict,repeats,seconds".split(",")
+SOLVER_HEADER = "parameter,value,cell,order,dofs,iterations,seconds,seconds_total,repeats,outcome".split(",")
 MARKS = {"PASS": "✓", "FAIL": "✗", "INCONCLUSIVE": "?"}
 ORDER = {"FAIL": 0, "INCONCLUSIVE": 1, "PASS": 2}
 
 
 @dataclass
 class Stress:
-    """The cases of one folder, rows of stress.csv."""
+    """The cases of one folder, rows of stress.csv, and of solver.csv where it is there."""
     folder: str
     name: str
     rows: list = field(default_factory=list)
+    solver: list = field(default_factory=list)
 
 
 def read_stress(folder, name, path, faults, missing):
@@ -30,7 +34,13 @@ def read_stress(folder, name, path, faults, missing):
                           f"{', '.join(VERDICTS)}. {AGAIN}")
     if not rows:
         missing.append({"what": f"stress cases of {name}", "why": f"{path} has no complete row"})
-    return Stress(folder, name, rows)
+    solver, solver_path = [], os.path.join(folder, "solver.csv")
+    if os.path.isfile(solver_path):
+        solver = latest(read_csv(solver_path, SOLVER_HEADER, faults, missing, AGAIN),
+                        ("parameter", "value", "cell", "order"), solver_path, missing)
+    else:
+        missing.append({"what": f"iterations of the solver of {name}", "why": f"{solver_path} does not exist"})
+    return Stress(folder, name, rows, solver)
 
 
 def number_or_text(value):
@@ -62,8 +72,31 @@ def words_of(count):
     return ", ".join(words)
 
 
-def stress_contents(stress):
-    """Counts, the cases that did not hold, and all cases by group; in each group what failed comes first."""
+def solver_rows(rows):
+    """The table of the solver as the template shows it."""
+    return [[row["parameter"], three(row["value"]), row["cell"], f"P{row['order']:g}",
+             *(three(int(row[key])) if row[key] == row[key] else "–" for key in ("dofs", "iterations")),
+             seconds(row["seconds"]), seconds(row["seconds_total"]), row["outcome"]] for row in rows]
+
+
+def draw(stress, gallery):
+    """The pictures of the page: margins, iterations, times; those without data are left out."""
+    name = "" if stress.name == "stress" else stress.name + ": "
+    wanted = [
+        (margin_figure(stress.rows), "stress-margins", f"{name}how far each case is from its limit: its figure over its "
+         "limit, a line for each group, cases from top to bottom in their order. Right of 1 a case fails. At the right: "
+         "cases that hold of all, and refusals, which have no figure.")]
+    if stress.solver:
+        wanted += [
+            (solver_figure(stress.solver, "iterations"), "stress-solver-iterations", f"{name}iterations of the conjugate "
+             "gradients of the cell problem, the most of its three loads, against what makes it hard."),
+            (solver_figure(stress.solver, "seconds"), "stress-solver-seconds",
+             f"{name}time of preconditioner and solve of the same.")]
+    return [gallery.add(figure, file, caption) for figure, file, caption in wanted if figure]
+
+
+def stress_contents(stress, gallery):
+    """Pictures, counts, the cases that did not hold, and all cases by group; in each group what failed comes first."""
     rows = stress.rows
     groups = []
     for name in dict.fromkeys(row["group"] for row in rows):
@@ -77,5 +110,5 @@ def stress_contents(stress):
     groups.sort(key=lambda group: group["worst"])  # stable: the order of the file among equals
     not_held = sorted((row for row in rows if row["verdict"] != "PASS"), key=lambda row: ORDER[row["verdict"]])
     return {"name": stress.name, "sentence": words_of(Counter(row["verdict"] for row in rows)) + ".",
-            "groups": groups, "cases": [case for group in groups for case in group["cases"]],
+            "pictures": draw(stress, gallery), "solver": solver_rows(stress.solver), "groups": groups, "cases": [case for group in groups for case in group["cases"]],
             "failures": [case_of(row) for row in not_held]}

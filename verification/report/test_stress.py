@@ -1,7 +1,12 @@
 # SPDX-License-Identifier: MIT
 """Tests of the page of `homespun stress`."""
+import math
+import os
 import unittest
 
+from matplotlib import pyplot
+
+from figures_stress import margin, margin_figure
 from made_up_study import write_stress
 from page_case import PageTest
 
@@ -21,6 +26,56 @@ class StressPageTest(PageTest):
         write_stress(self.folder)
         self.edit("stress.csv", lambda text: text.replace("FAIL", "BAD"))
         self.assert_refused("stress.csv, line 3: `verdict` is `BAD`", "homespun stress")
+
+    def test_margins_and_iterations_are_drawn_and_what_gave_up_is_told(self):
+        write_stress(self.folder)
+        self.assertEqual(self.run_report(), (0, ""))
+        page = self.page()
+        for name in ("stress-margins", "stress-solver-iterations", "stress-solver-seconds"):
+            self.assertIn(f'id="{name}"', page)
+            self.assertTrue(os.path.isfile(os.path.join(self.output, "figures", name + ".pdf")))
+        self.assertIn("conjugate gradients did not reach 1e-11", page)
+        self.assertIn("−0.990", page)
+
+    def test_without_a_table_of_the_solver_the_page_says_so(self):
+        write_stress(self.folder)
+        os.remove(os.path.join(self.folder, "solver.csv"))
+        self.assertEqual(self.run_report(), (0, ""))
+        self.assertIn("iterations of the solver", self.page())
+        self.assertNotIn('id="stress-solver-iterations"', self.page())
+
+    def test_a_broken_table_of_the_solver_is_refused(self):
+        write_stress(self.folder)
+        self.edit("solver.csv", lambda text: text.replace(",14,", ",many,"))
+        self.assert_refused("solver.csv, line 4: `iterations` is `many`", "homespun stress")
+
+
+class MarginTest(unittest.TestCase):
+    @staticmethod
+    def row(figure, limit, verdict="PASS", case="a case"):
+        return {"group": "cell contrast", "case": case, "figure": figure, "limit": limit, "verdict": verdict}
+
+    def test_a_margin_is_figure_over_limit_and_a_refusal_has_none(self):
+        self.assertEqual(margin(self.row("2e-10", "1e-10 relative difference [-]")), 2.)
+        self.assertEqual(margin(self.row("0", "1e-10 [-]")), 0.)
+        for row in (self.row("", "names `vertex 7`"), self.row("", "1e-10 [-]"), self.row("inf", "1 [-]"),
+                    self.row("many", "1 [-]"), self.row("1", "")):
+            self.assertTrue(math.isnan(margin(row)), row)
+
+    def test_failed_cases_stand_right_of_the_limit_and_are_named(self):
+        figure = margin_figure([self.row("2e-10", "1e-10 [-]", "FAIL", "contrast 1e12"), self.row("0", "1 [-]"),
+                                self.row("0.5", "1 [-]", case="holds"), self.row("", "names `x`")])
+        self.addCleanup(pyplot.close, figure)
+        texts = [text.get_text() for text in figure.axes[0].texts]
+        self.assertIn("contrast 1e12", texts)
+        self.assertNotIn("holds", texts)
+        counts = [text.get_text() for text in figure.axes[0].child_axes[0].get_yticklabels()]
+        self.assertEqual(counts, ["3/4, 1 refused"])
+        crosses = [line for line in figure.axes[0].lines if line.get_marker() == "X"]
+        self.assertEqual([list(line.get_xdata()) for line in crosses if len(line.get_xdata())], [[2.]])
+
+    def test_nothing_but_refusals_makes_no_picture(self):
+        self.assertIsNone(margin_figure([self.row("", "names `x`")]))
 
 
 if __name__ == "__main__":

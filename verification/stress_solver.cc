@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: MIT
+#include "verification/stress_solver.h"
+
+#include "homogenization/homogenize.h"
+#include "meshes/errors.h"
+#include "verification/result_files.h"
+#include "verification/stress_cells.h"
+
+#include <algorithm>
+#include <chrono>
+
+namespace homespun::verification
+{
+using homogenization::isotropic;
+
+namespace
+{
+constexpr int n = 24; ///< rectangles per side
+
+double median(std::vector<double> values)
+{
+  std::sort(values.begin(), values.end());
+  return values[values.size() / 2];
+}
+
+/// Homogenizes a cell some times over and tells iterations and medians of the times.
+std::vector<std::string> measured(const std::string &parameter, const double value,
+                                  const UnitCell &cell, const unsigned int order, const int repeats)
+{
+  std::vector<double> of_solver, in_all;
+  std::string dofs, iterations, outcome = "converged";
+  try
+  {
+    for (int k = 0; k < repeats; ++k)
+    {
+      const auto begin       = std::chrono::steady_clock::now();
+      const SolvedCell found = solved(cell, order);
+      in_all.push_back(
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
+      of_solver.push_back(found.seconds);
+      dofs       = std::to_string(found.n_dofs);
+      iterations = std::to_string(found.iterations);
+    }
+  }
+  catch (const meshes::NotConverged &failure)
+  {
+    const std::string text = failure.what();
+    outcome                = text.substr(0, text.find("; residual norms"));
+    std::replace(outcome.begin(), outcome.end(), ',', ';');
+  }
+  return {parameter,
+          csv_number(value),
+          cell.name,
+          std::to_string(order),
+          dofs,
+          iterations,
+          of_solver.empty() ? "" : csv_number(median(of_solver)),
+          in_all.empty() ? "" : csv_number(median(in_all)),
+          std::to_string(repeats),
+          outcome};
+}
+} // namespace
+
+SolvedCell solved(const UnitCell &cell, const unsigned int order)
+{
+  homogenization::HomogenizationOptions options;
+  options.order = order;
+  const homogenization::Homogenization found =
+    homogenization::homogenize(cell, options, MPI_COMM_SELF);
+  return {found.stiffness,
+          found.voigt,
+          found.reuss,
+          found.n_dofs,
+          *std::max_element(found.iterations.begin(), found.iterations.end()),
+          found.seconds.preconditioner + found.seconds.solve};
+}
+
+const std::vector<std::string> &solver_columns()
+{
+  static const std::vector<std::string> columns = {
+    "parameter",  "value",   "cell",          "order",   "dofs",
+    "iterations", "seconds", "seconds_total", "repeats", "outcome"};
+  return columns;
+}
+
+std::vector<SolverMeasurement> solver_measurements()
+{
+  std::vector<SolverMeasurement> all;
+  const auto add = [&](const char *parameter, const double value, const char *name,
+                       const std::function<UnitCell()> &make)
+  {
+    for (const unsigned int order : {1u, 2u})
+      all.push_back({parameter, value, name, order,
+                     [=](const int repeats)
+                     {
+                       UnitCell cell = make();
+                       cell.name     = name;
+                       return measured(parameter, value, cell, order, repeats);
+                     }});
+  };
+  const Phase soft = isotropic("soft", 1e6, 0.3, 5e-4, 400.);
+  const auto stiff = [](const double contrast, const double nu = 0.3)
+  { return isotropic("stiff", 1e6 * contrast, nu, 5e-4, 400.); };
+  for (const double contrast : {1e-9, 1e-6, 1e-3, 1e0, 1e3, 1e6, 1e9, 1e12})
+    for (const bool is_striped : {false, true})
+      add("contrast", contrast, is_striped ? "stripes" : "square inclusion",
+          [=]()
+          {
+            return is_striped ? stripe_cell(n, soft, stiff(contrast))
+                              : inclusion_cell(n, soft, stiff(contrast));
+          });
+  for (const double nu : {-0.99, -0.9, -0.5, 0., 0.3, 0.49, 0.4999, 0.499999})
+    add("poisson", nu, "square inclusion",
+        [=]()
+        { return inclusion_cell(n, isotropic("soft", 1e6, nu, 5e-4, 400.), stiff(10., nu)); });
+  for (const double ratio : {1e0, 1e1, 1e2, 1e3, 1e4})
+    for (const double angle : {0., 45.})
+      add("anisotropy", ratio, angle == 0. ? "yarns along axis 1" : "yarns at 45 degrees",
+          [=]()
+          {
+            const Phase yarn = {"yarn", 1e6 * ratio, 1e6, 0.3, 4e5, angle, 5e-4, 400.};
+            return inclusion_cell(n, soft, yarn);
+          });
+  for (const double aspect : {1e0, 1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6})
+  {
+    add("sliver", aspect, "row of needles",
+        [=]()
+        {
+          GridLines rows = equal_lines(n);
+          if (aspect < 1.)
+            rows.insert(rows.begin() + n / 2 + 1, 0.5 + aspect / n);
+          return grid_cell(equal_lines(n), rows, {soft, stiff(10.)},
+                           [](double, const double y) { return y < 0.5 ? 0 : 1; });
+        });
+    if (aspect < 1.)
+      add("sliver", aspect, "one obtuse triangle",
+          [=]() { return capped_stripes(n, soft, stiff(10.), aspect); });
+  }
+  for (const int rows : {8, 16, 32, 64, 128})
+    add("triangles", 2. * rows * rows, "square inclusion",
+        [=]() { return inclusion_cell(rows, soft, stiff(10.)); });
+  return all;
+}
+} // namespace homespun::verification

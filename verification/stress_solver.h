@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: MIT
+// The cell problem on one rank, apart from deal.II; what the conjugate gradients of the cell problem cost against contrast, Poisson's ratio, anisotropy, the
+// quality of slivers and the size of the mesh: numbers without a limit, as a table.
+#pragma once
+
+#include "verification/stress_cells.h"
+
+#include <Eigen/Core>
+
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace homespun::verification
+{
+/// What a stress case asks of a homogenization.
+struct SolvedCell
+{
+  Eigen::Matrix3d stiffness, voigt, reuss; ///< [N/m]; reuss is zero where the cell has holes
+  unsigned long n_dofs    = 0;
+  unsigned int iterations = 0;  ///< the most of the three loads
+  double seconds          = 0.; ///< of preconditioner and solve
+};
+
+/// Homogenizes a cell on the calling rank alone, with the program's defaults but the order.
+/// @throws NotConverged, BadInput
+SolvedCell solved(const UnitCell &cell, unsigned int order = 1);
+
+/// The columns of solver.csv: parameter, value, cell, order, dofs, iterations (the most of the three loads),
+/// seconds (preconditioner and solve), seconds_total (medians), repeats, outcome (converged, or why not).
+const std::vector<std::string> &solver_columns();
+
+/// One row of solver.csv, to be measured.
+struct SolverMeasurement
+{
+  std::string parameter; ///< contrast, poisson, anisotropy, sliver, triangles
+  double value = 0.;
+  std::string cell;
+  unsigned int order = 1;
+  std::function<std::vector<std::string>(int repeats)> run; ///< gives the row
+};
+
+/// All of them: P1 and P2 on cells of 24 x 24 x 2 triangles, the size on stripes.
+std::vector<SolverMeasurement> solver_measurements();
+} // namespace homespun::verification
