@@ -5,6 +5,7 @@
 #include "meshes/errors.h"
 #include "verification/result_files.h"
 #include "verification/stress_cells.h"
+#include "verification/timing.h"
 
 #include <algorithm>
 #include <chrono>
@@ -16,12 +17,6 @@ using homogenization::isotropic;
 namespace
 {
 constexpr int n = 24; ///< rectangles per side
-
-double median(std::vector<double> values)
-{
-  std::sort(values.begin(), values.end());
-  return values[values.size() / 2];
-}
 
 /// Homogenizes a cell some times over and tells iterations and medians of the times.
 std::vector<std::string> measured(const std::string &parameter, const double value,
