@@ -2,7 +2,7 @@
 // homespun check, homogenize, cells: what concerns a cell alone.
 #include "meshes/errors.h"
 #include "verification/build_info.h"
-#include "verification/cell_output.h"
+#include "verification/cell_study.h"
 #include "verification/commands.h"
 #include "verification/on_root.h"
 #include "verification/progress.h"
@@ -69,54 +69,21 @@ int check(const std::vector<std::string> &files)
 
 struct HomogenizeArguments
 {
-  std::string file, output;
-  homogenization::HomogenizationOptions options;
-  BracketOptions bracket;
-  bool quiet = false;
+  std::string file;
+  CellStudyOptions study;
 };
 
-/// DoFs up to which the finer problem of the error bar is solved.
-constexpr unsigned long largest_error_bar = 4000000;
-
-int homogenize(const HomogenizeArguments &arguments)
+int homogenize(HomogenizeArguments arguments)
 {
-  const UnitCell cell      = homogenization::read_unit_cell(arguments.file);
-  const std::string folder = arguments.output.empty() ? "out/" + cell.name : arguments.output;
-  on_root(MPI_COMM_WORLD, [&]() { std::filesystem::create_directories(folder); });
-  const AssessedCell assessed = [&]()
-  {
-    Progress progress(is_root(MPI_COMM_WORLD) && !arguments.quiet, 2);
-    progress.begin(cell.name + ": three cell problems, and once more refined for the error bar");
-    AssessedCell its = assess(cell, arguments.options, largest_error_bar, MPI_COMM_WORLD);
-    progress.done();
-    progress.begin(cell.name + ": bracket on C^H");
-    // Direct solvers on one rank: the answer knows nothing of the number of ranks.
-    BracketOptions options = arguments.bracket;
-    options.order          = arguments.options.order;
-    options.refine         = arguments.options.refine;
-    on_root(MPI_COMM_WORLD,
-            [&]()
-            {
-              add_bracket(
-                cell, options,
-                [&](const std::string &step)
-                { options.tolerance ? progress.note(step) : progress.begin(step); },
-                its);
-            });
-    return its;
-  }();
-  int any_fails = any_failed(assessed.checks);
-  MPI_Bcast(&any_fails, 1, MPI_INT, 0, MPI_COMM_WORLD);
-  on_root(MPI_COMM_WORLD,
-          [&]()
-          {
-            write_cell_results(cell, assessed,
-                               dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD), folder);
-          });
-  if (is_root(MPI_COMM_WORLD) && !arguments.quiet)
-    std::cout << summary(cell, assessed) << "Written to " << folder
+  const UnitCell cell     = homogenization::read_unit_cell(arguments.file);
+  CellStudyOptions &study = arguments.study;
+  if (study.output.empty())
+    study.output = "out/" + cell.name;
+  const AssessedCell assessed = run_cell_study(cell, study, MPI_COMM_WORLD);
+  if (is_root(MPI_COMM_WORLD) && !study.quiet)
+    std::cout << summary(cell, assessed) << "Written to " << study.output
               << ": homogenize.json, cell.h5, cell.json, characteristic-displacements.vtu\n";
-  return any_fails;
+  return any_failed(assessed.checks) ? 1 : 0;
 }
 
 /// The comment lines at the head of a cell file: its story.
@@ -169,31 +136,32 @@ void add_homogenize_command(CLI::App &app, Action &action)
   const auto arguments = std::make_shared<HomogenizeArguments>();
   command->add_option("CELL.prm", arguments->file, "Cell file")->required();
   command
-    ->add_option("--order", arguments->options.order,
+    ->add_option("--order", arguments->study.solve.order,
                  "Order of the elements, 1 (solves on the mesh as given) or 2")
     ->check(CLI::Range(1, 2))
     ->capture_default_str();
   command
-    ->add_option("--refine", arguments->options.refine,
+    ->add_option("--refine", arguments->study.solve.refine,
                  "Uniform refinements of the mesh; each makes four triangles of one")
     ->check(CLI::Range(0, 8))
     ->capture_default_str();
   command
     ->add_option(
-      "--tolerance", arguments->bracket.tolerance,
+      "--tolerance", arguments->study.bracket.tolerance,
       "Refine adaptively until the bracket C_lower <= C^H <= C_upper has this relative "
       "width, the largest v.(C_upper - C_lower).v / v.C_upper.v; without it the bracket is "
       "that of the given mesh")
     ->check(CLI::Range(1e-12, 1.));
   command
     ->add_option(
-      "--max-dofs", arguments->bracket.max_dofs,
+      "--max-dofs", arguments->study.bracket.max_dofs,
       "DoFs up to which a bracket is made, of the larger of its two problems; adaptivity "
       "stops before")
     ->check(CLI::Range(100u, 20000000u))
     ->capture_default_str();
-  command->add_option("--output", arguments->output, "Folder of the results (default out/NAME)");
-  command->add_flag("--quiet", arguments->quiet, "Print nothing but faults");
+  command->add_option("--output", arguments->study.output,
+                      "Folder of the results (default out/NAME)");
+  command->add_flag("--quiet", arguments->study.quiet, "Print nothing but faults");
   command->footer("Example:\n  homespun homogenize meshes/cells/layered.prm\n"
                   "  homespun homogenize meshes/cells/three-stiffness.prm --tolerance 1e-3\n"
                   "  mpirun -n 2 homespun homogenize mycell.prm --refine 2");

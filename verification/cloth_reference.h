@@ -41,7 +41,8 @@ struct ClothLoads
   Eigen::RowVector3d gravity = Eigen::RowVector3d::Zero(); ///< [m/s^2]
   double mass_damping        = 0.;                         ///< alpha: force −alpha m v [1/s]
   /// Force per rest area [N/m^2] at a rest point and the end of a step [s]; empty: none.
-  std::function<Eigen::RowVector3d(const Eigen::RowVector2d &rest_point, double time)> body_force;
+  std::function<Eigen::RowVector3d(const Eigen::RowVector2d &rest_point, double time)> body_force =
+    {};
 };
 
 /// One step in time, or one equilibrium.

@@ -4,23 +4,12 @@
 #include "meshes/errors.h"
 #include "verification/verdict.h"
 
-#include <algorithm>
-#include <chrono>
 #include <filesystem>
-#include <limits>
 
 namespace homespun::verification
 {
 namespace
 {
-template <typename Work>
-double seconds_of(Work &&work)
-{
-  const auto begin = std::chrono::steady_clock::now();
-  work();
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-}
-
 /// A cloth ten thousand times its size away from where it began has blown up: pictures and curves of it
 /// would show nothing else.
 void check_reach(const shell::Vectors &positions, const shell::Vectors &start, const double time)
@@ -49,15 +38,6 @@ std::pair<double, std::size_t> cost(const DrapedCell &draped, const std::set<std
   return {median(seconds), moving.cloth().bytes()};
 }
 } // namespace
-
-double median(std::vector<double> values)
-{
-  if (values.empty())
-    return std::numeric_limits<double>::quiet_NaN();
-  const auto middle = values.begin() + static_cast<long>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 CoarseRun run_coarse(const DrapedCell &draped, const std::string &variant,
                      const DrapeSchedule &schedule, DrapeOutput &output, Progress &progress)

@@ -7,6 +7,7 @@
 #include "verification/drape_schedule.h"
 #include "verification/draped_cell.h"
 #include "verification/progress.h"
+#include "verification/timing.h"
 
 #include <nlohmann/json.hpp>
 
@@ -38,7 +39,4 @@ CoarseRun run_coarse(const DrapedCell &draped, const std::string &variant,
 /// Writes terms.csv: median time per step and memory, with each term that the scene does not have forced
 /// upon it at zero strength.
 void measure_term_costs(const DrapedCell &draped, DrapeOutput &output, Progress &progress);
-
-/// The middle value; not a number of none.
-double median(std::vector<double> values);
 } // namespace homespun::verification

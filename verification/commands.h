@@ -26,6 +26,8 @@ void add_stress_command(CLI::App &app, Action &action, Afterwards &afterwards,
                         const std::string &command_line);
 void add_converge_command(CLI::App &app, Action &action, Afterwards &afterwards,
                           const std::string &command_line);
+void add_verify_command(CLI::App &app, Action &action, Afterwards &afterwards,
+                        const std::string &command_line);
 void add_report_command(CLI::App &app, Action &action, Afterwards &afterwards);
 void add_cells_command(CLI::App &app, Action &action);
 

@@ -9,6 +9,7 @@
 #include "shell/equilibrium.h"
 #include "verification/laws.h"
 #include "verification/loads.h"
+#include "verification/timing.h"
 
 #include <memory>
 #include <string>
@@ -80,26 +81,4 @@ private:
   double last_strain = 0.;
   Law last_law       = Law::linear;
 };
-
-/// Middle value of the times of five runs [s].
-template <typename Run>
-double median_seconds(Run &&run);
 } // namespace homespun::verification
-
-#include <algorithm>
-#include <array>
-#include <chrono>
-
-template <typename Run>
-double homespun::verification::median_seconds(Run &&run)
-{
-  std::array<double, 5> seconds;
-  for (double &one : seconds)
-  {
-    const auto begin = std::chrono::steady_clock::now();
-    run();
-    one = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-  }
-  std::sort(seconds.begin(), seconds.end());
-  return seconds[2];
-}

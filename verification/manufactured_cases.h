@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Every solver held against motions that it must reproduce with the order of its elements or of its time
-// step: the references in the plane (periodic and clamped), the reference in space (statics, steps), and the
-// shell's cloth (statics).
+// step: the references in the plane (periodic and clamped) and the reference in space (statics, steps).
 #pragma once
 
 #include "verification/convergence.h"

@@ -120,6 +120,7 @@ CellState NonlinearCell::solve(const Eigen::Vector3d &strain) const
       state.fluctuation.row(v) -=
         strain(a) * (cell.chi.row(v) - cell.chi.row(cell.anchor)).segment<2>(2 * a);
 
+  constexpr double rounding = 1e-14; // of an energy that is a sum over the triangles
   std::vector<double> history;
   Assembled now = assemble(U, state.fluctuation, false, false);
   for (int newton = 0;; ++newton)
@@ -133,23 +134,31 @@ CellState NonlinearCell::solve(const Eigen::Vector3d &strain) const
       break;
     if (newton == 40 || !std::isfinite(now.energy))
       throw meshes::NotConverged("cell at finite strain: Newton's method stalls", history);
+    // The exact Hessian where it is positive definite; else the projected one, which is only
+    // semi-definite, with as little of its own diagonal as makes it definite.
     Eigen::SimplicialLDLT<Sparse> factor;
-    Eigen::VectorXd step;
-    for (const bool projected : {false, true})
+    double shift           = 0.;
+    const auto is_definite = [&](const bool projected)
     {
-      factor.compute(assemble(U, state.fluctuation, true, projected).matrix);
-      if (factor.info() == Eigen::Success && (projected || factor.vectorD().minCoeff() > 0.))
-        break;
-    }
-    step               = -factor.solve(now.residual);
-    const double slope = step.dot(now.residual);
-    double length      = 1.;
+      Sparse matrix = assemble(U, state.fluctuation, true, projected).matrix;
+      matrix.diagonal() *= 1. + shift;
+      factor.compute(matrix);
+      return factor.info() == Eigen::Success && factor.vectorD().minCoeff() > 0.;
+    };
+    if (!is_definite(false))
+      for (shift = 1e-10; !is_definite(true); shift *= 100.)
+        if (shift > 1.)
+          throw meshes::NotConverged("cell at finite strain: no definite matrix", history);
+    const Eigen::VectorXd step = -factor.solve(now.residual);
+    const double slope         = step.dot(now.residual);
+    double length              = 1.;
     for (;; length *= 0.5)
     {
       const meshes::Points trial = state.fluctuation + length * spread(step);
       const Assembled next       = assemble(U, trial, false, false);
       // Close to the answer the energy changes by less than its rounding, and the step is Newton's own.
-      if (history.back() < 1e-7 || next.energy <= now.energy + 1e-4 * length * slope)
+      if (history.back() < 1e-7 ||
+          next.energy <= now.energy + 1e-4 * length * slope + rounding * std::abs(now.energy))
       {
         state.fluctuation = trial;
         now               = next;

@@ -11,6 +11,7 @@
 #include "verification/homogenized_sheet.h"
 #include "verification/lightweight_cloth.h"
 #include "verification/on_root.h"
+#include "verification/timing.h"
 
 #include <algorithm>
 #include <chrono>
@@ -358,15 +359,6 @@ double bar_of_p2(const std::vector<std::vector<std::string>> &rows, const std::s
         full = number(row[5]) / number(row[3]);
     }
   return of_p2 * (full / small) * strain;
-}
-
-double median(std::vector<double> values)
-{
-  if (values.empty())
-    return std::numeric_limits<double>::quiet_NaN();
-  std::sort(values.begin(), values.end());
-  const std::size_t n = values.size();
-  return n % 2 == 1 ? values[n / 2] : 0.5 * (values[n / 2 - 1] + values[n / 2]);
 }
 
 std::string run_time_study(const homogenization::UnitCell &cell,

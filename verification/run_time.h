@@ -60,7 +60,4 @@ std::string run_time_study(const homogenization::UnitCell &cell,
 /// @param rows of uncertainty.csv
 double bar_of_p2(const std::vector<std::vector<std::string>> &rows, const std::string &cell,
                  const std::string &load, int n_cells, double strain);
-
-/// Middle value; of an even number the mean of the two in the middle; NaN of none.
-double median(std::vector<double> values);
 } // namespace homespun::verification

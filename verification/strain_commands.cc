@@ -65,10 +65,7 @@ void add_strain_command(CLI::App &app, Action &action, Afterwards &afterwards,
     "strain", "Error against strain (Figure 3): up-sampled cloth held against the resolved one");
   const auto arguments      = std::make_shared<StrainArguments>();
   StrainStudyOptions &study = arguments->study;
-  study.strains             = {0.001, 0.002, 0.005, 0.01, 0.02, 0.05, 0.1, 0.15, 0.2};
-  study.loads               = Load::names();
-  study.references          = {"linear", "biot", "green"};
-  study.methods             = Method::names();
+  study                     = default_strain_study();
   study.command             = command_line;
 
   command->add_option("CELL.prm", study.cell_files, "Cell files")->required();
@@ -103,11 +100,13 @@ void add_strain_command(CLI::App &app, Action &action, Afterwards &afterwards,
     {
       if (arguments->quick)
       {
-        if (cells->count() == 0)
-          arguments->study.n_cells = 4;
-        if (strains->count() == 0)
-          arguments->study.strains = {0.001, 0.01, 0.1};
-        arguments->study.n_cells_of_error_bar = 2;
+        StrainStudyOptions &given      = arguments->study;
+        const StrainStudyOptions asked = given;
+        make_quick(given);
+        if (cells->count() > 0)
+          given.n_cells = asked.n_cells;
+        if (strains->count() > 0)
+          given.strains = asked.strains;
       }
       action = [&afterwards, arguments]() { return run_strain(*arguments, afterwards); };
     });

@@ -29,10 +29,15 @@ struct StrainStudyOptions
   bool quiet    = false;
 };
 
-/// Runs a study and writes, into the output folder, strain.csv, steps.csv, uncertainty.csv,
-/// budget.csv,
-/// runtime.csv, validity.csv, verdicts.json, study.json and per cell what homogenize writes and fields-LOAD.h5. Rows are on the
-/// disk as they come; with `resume` what is there is not computed again.
+/// The whole study: nine strains from 0.1 to 20 %, every load, reference and method, the paper's size.
+StrainStudyOptions default_strain_study();
+
+/// 4 x 4 cells at 0.1, 1 and 10 %: seconds.
+void make_quick(StrainStudyOptions &options);
+
+/// Runs a study and writes, into the output folder, strain.csv, steps.csv, uncertainty.csv, budget.csv,
+/// runtime.csv, validity.csv, verdicts.json, study.json and per cell what homogenize writes and
+/// fields-LOAD.h5. Rows are on the disk as they come; with `resume` what is there is not computed again.
 ///
 /// The cell is homogenized with P1 on its given mesh, the discretization of the reference, so that
 /// the figure shows the error of the method and not of two different meshes.

@@ -5,6 +5,7 @@
 #include "meshes/errors.h"
 #include "verification/result_files.h"
 #include "verification/stress_cells.h"
+#include "verification/timing.h"
 
 #include <algorithm>
 #include <chrono>
@@ -19,12 +20,6 @@ namespace
 constexpr int rows_of(const unsigned int order)
 {
   return order == 1 ? 48 : 24;
-}
-
-double median(std::vector<double> values)
-{
-  std::sort(values.begin(), values.end());
-  return values[values.size() / 2];
 }
 
 /// Homogenizes a cell some times over and tells iterations and medians of the times.

@@ -23,6 +23,13 @@ void ArgumentFaults::check_names(const std::string &option, const std::vector<st
               });
 }
 
+void print(const std::vector<Verdict> &verdicts)
+{
+  for (const Verdict &verdict : verdicts)
+    std::printf("%-12s %s: %.4g (%s)\n", name_of(verdict.outcome).c_str(), verdict.claim.c_str(),
+                verdict.value, verdict.limit.c_str());
+}
+
 void StudyEnd::add_options(CLI::App &command)
 {
   command.add_flag("--no-report", no_report, "Leave out report.html");
@@ -34,9 +41,7 @@ int StudyEnd::conclude(const std::vector<Verdict> &verdicts, const std::string &
   if (is_root(MPI_COMM_WORLD))
   {
     if (!quiet)
-      for (const Verdict &verdict : verdicts)
-        std::printf("%-12s %s: %.4g (%s)\n", name_of(verdict.outcome).c_str(),
-                    verdict.claim.c_str(), verdict.value, verdict.limit.c_str());
+      print(verdicts);
     if (!no_report)
       afterwards = [output, quiet]() { make_report({output}, output, quiet); };
   }

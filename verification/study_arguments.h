@@ -65,6 +65,9 @@ private:
   std::vector<std::string> faults;
 };
 
+/// The verdicts on the terminal, a line each.
+void print(const std::vector<Verdict> &verdicts);
+
 /// What every study is told apart from its subject.
 struct StudyEnd
 {

@@ -4,6 +4,7 @@
 #include "verification/budget_rows.h"
 #include "verification/result_files.h"
 #include "verification/run_time.h"
+#include "verification/timing.h"
 #include "verification/validity.h"
 
 #include <gtest/gtest.h>

@@ -52,6 +52,28 @@ class Homogenize(InFolder):
         self.assertTrue((self.folder / "cell.h5").exists())
         self.assertIn("chi_12", (self.folder / "characteristic-displacements.vtu").read_text())
 
+    def test_the_bracket_of_a_laminate_closes_and_holds_its_exact_stiffness(self):
+        result = run("homogenize", CELLS / "layered.prm", "--order", "1", "--output", self.folder)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertIn("relative width", result.stdout)
+        found = json.loads((self.folder / "homogenize.json").read_text())
+        self.assertLess(found["bracket"]["width"], 1e-9)
+        self.assertGreaterEqual(found["bracket"]["width"], found["bracket"]["round_off"])
+        self.assertEqual(len(found["history"]), 1)
+        self.assertLessEqual(found["C_lower"][1][1], 500 * 1.998001998001998)
+        self.assertGreaterEqual(found["C_upper"][1][1], 500 * 1.998001998001998)
+
+    def test_a_width_that_is_not_reached_fails_and_one_that_is_passes(self):
+        cell = CELLS / "three-stiffness.prm"
+        result = run("homogenize", cell, "--tolerance", "1e-6", "--max-dofs", "5000", "--output", self.folder)
+        self.assertEqual(result.returncode, 1, result.stderr)
+        self.assertIn("raise --max-dofs", result.stdout)
+        self.assertEqual(run("homogenize", cell, "--tolerance", "6e-4", "--output", self.folder).returncode, 0)
+        history = json.loads((self.folder / "homogenize.json").read_text())["history"]
+        self.assertGreater(len(history), 1)
+        self.assertLess(history[-1]["width"], 6e-4)
+        self.assertLess(history[0]["dofs"], history[-1]["dofs"])
+
 
 # Cases of `homespun stress` that do not hold, each with the reason. A case that fails anew breaks the test, and
 # so does one that holds again: then it leaves the list.

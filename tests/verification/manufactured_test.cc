@@ -144,7 +144,7 @@ OrderJudgement judged_with(
     return F;
   };
   std::vector<double> h, errors;
-  for (const int refinements : {0, 1, 2, 3})
+  for (const int refinements : {1, 2, 3, 4})
   {
     const meshes::Sheet sheet =
       meshes::tile(meshes::refined(irregular_sheet(6, 1.), refinements), meshes::Lattice(), 1, 1);
@@ -168,8 +168,7 @@ TEST(tripwire_manufactured, a_force_of_another_law_or_of_a_swapped_stiffness_doe
     { return equilibrium_force(law, C, F, X, 2e-3); };
   };
   const OrderJudgement right = judged_with(force_of(Law::biot, anisotropic()));
-  EXPECT_NEAR(right.order, 2., 0.15) << right.why;
-  EXPECT_NE(right.outcome, Outcome::fail);
+  EXPECT_EQ(right.outcome, Outcome::pass) << right.order << " " << right.why;
   Eigen::Matrix3d swapped = anisotropic();
   swapped.row(0).swap(swapped.row(1));
   swapped.col(0).swap(swapped.col(1));
@@ -177,7 +176,7 @@ TEST(tripwire_manufactured, a_force_of_another_law_or_of_a_swapped_stiffness_doe
                             force_of(Law::linear, anisotropic()), force_of(Law::biot, swapped)})
   {
     const OrderJudgement found = judged_with(wrong);
-    EXPECT_EQ(found.outcome, Outcome::fail) << found.order << " " << found.why;
-    EXPECT_LT(found.order, 0.5);
+    EXPECT_NE(found.outcome, Outcome::pass) << found.order << " " << found.why;
+    EXPECT_LT(found.observed.back(), 0.5) << found.why; // the error stays, however fine the mesh
   }
 }

@@ -11,7 +11,7 @@ import unittest
 from cli import CELLS, PROGRAM, InFolder, run
 
 STUDY = ["strain", CELLS / "layered.prm", "--cells", "3", "--strains", "0.01,0.05,0.1", "--loads",
-         "periodic-12,strip-2", "--references", "linear,biot", "--no-report", "--quiet"]
+         "periodic-12,strip-2", "--references", "linear,biot", "--no-budget", "--no-runtime", "--no-report", "--quiet"]
 TIMES = {"seconds_method", "seconds_reference"}
 
 

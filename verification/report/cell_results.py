@@ -88,7 +88,13 @@ def check_homogenize(value, path, faults):
         if value.get(key) is not None and not is_stiffness(value[key]):
             faults.append(f"{path}: key `{key}` is not a 3 x 3 matrix of finite numbers. {AGAIN}")
             value = {**value, key: None}
-    for key, kind in (("engineering", dict), ("checks", list)):
+    history = value.get("history")
+    if history is not None and not (isinstance(history, list) and all(
+            isinstance(row, dict) and all(isinstance(row.get(key), (int, float)) and row[key] > 0.
+                                          for key in ("dofs", "width")) for row in history)):
+        faults.append(f"{path}: key `history` is not a list of meshes with positive `dofs` and `width`. {AGAIN}")
+        value = {**value, "history": None}
+    for key, kind in (("engineering", dict), ("checks", list), ("bracket", dict)):
         if value.get(key) is not None and not isinstance(value[key], kind):
             faults.append(f"{path}: key `{key}` is not {'an object' if kind is dict else 'a list'}. {AGAIN}")
             value = {**value, key: None}

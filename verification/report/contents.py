@@ -13,7 +13,7 @@ from drape_contents import drape_contents
 from figures_cell import characteristic_figure, phase_figure
 from figures_cloth import MOVING_BYTES, workers
 from figures_sheet import sheet_figure
-from figures_stiffness import polar_figure
+from figures_stiffness import bracket_figure, polar_figure
 from figures_strain import error_figure
 from figures_time import error_time_figure, run_time_figure, step_figure
 from gallery import file_name
@@ -224,7 +224,7 @@ def cell_contents(results, name, gallery):
     rows, side = results.reached(name), cell_side(results, name)
     steps = [row for row in results.steps if row["cell"] == name]
     contents = {"name": name, "file": cell.file, "error": None, "error_share": None, "variants": None,
-                "run_time": None, "steps": None, "polar": None, "phases_picture": None, "chi": None,
+                "run_time": None, "steps": None, "polar": None, "bracket": None, "phases_picture": None, "chi": None,
                 "error_time": None, "sheets": []}
     methods = style.ordered_methods(row["method"] for row in rows)
     reference = tables.main_reference(rows)
@@ -242,6 +242,10 @@ def cell_contents(results, name, gallery):
         contents["polar"] = gallery.add(
             polar_figure(cell), f"{name}-directional-modulus", f"{name}: modulus of uniaxial tension along "
             "each direction, between the bounds of Voigt and Reuss.")
+    if figure := bracket_figure(cell):
+        contents["bracket"] = gallery.add(
+            figure, f"{name}-bracket", f"{name}: the guaranteed bracket on the effective stiffness narrows with "
+            "adaptive refinement.")
     if cell.vertices is not None:
         contents["phases_picture"] = gallery.add(
             phase_figure(cell), f"{name}-cell", f"{name}: the unit cell, {len(cell.triangles):,} triangles, "

@@ -108,8 +108,8 @@ def way_figure(ways, side):
         on_front = way in front
         axes.plot(way["seconds"], way["error_mean_per_cell"], marker, color=colour if on_front else "white",
                   markeredgecolor=colour, mew=1.3, ms=7, zorder=3)
-        # Affine ways above their point, all others below: at the same time they would write over each other.
-        above = family(way["way"]) in ("affine", "fine")
+        # Ways that take the same time lie above each other, as P1 and the corotational element do: labels apart.
+        above = family(way["way"]) == "affine" or way["way"] in ("fine-p1", "fine-p2")
         axes.annotate(label_of(way["way"]), (way["seconds"], way["error_mean_per_cell"]),
                       xytext=(0, 6 if above else -6), textcoords="offset points", ha="center",
                       va="bottom" if above else "top", fontsize=7.5, color=colour)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Directional modulus: how stiff the homogenized cell is when pulled along each direction."""
+"""Effective stiffness: its modulus along each direction, and its bracket against degrees of freedom."""
 import numpy
 from matplotlib import pyplot
 
@@ -51,4 +51,34 @@ def polar_figure(cell):
     axes.get_xticklabels()[4].set_horizontalalignment("right")
     axes.text(0.5, -0.12, "modulus $E(\\theta)$ [N/m]", transform=axes.transAxes, ha="center")
     figure.legend(loc="upper left", bbox_to_anchor=(1., 0.95))
+    return figure
+
+
+def bracket_history(cell):
+    """(degrees of freedom, relative width) of each mesh on the way to the bracket, shape (k,2); k may be 0."""
+    rows = (cell.homogenize or {}).get("history") or []
+    return numpy.array([(row["dofs"], row["width"]) for row in rows], dtype=float).reshape(-1, 2)
+
+
+def observed_slope(history):
+    """Exponent p of width ~ dofs^p, fitted to the finer half of the meshes."""
+    finer = numpy.log(history[len(history) // 2:])
+    return float(numpy.polyfit(finer[:, 0], finer[:, 1], 1)[0])
+
+
+def bracket_figure(cell):
+    """Relative width of the bracket on C^H against degrees of freedom; None for fewer than three meshes."""
+    history = bracket_history(cell)
+    if len(history) < 3:
+        return None
+    figure, axes = pyplot.subplots(figsize=(5.2, 3.4), layout="constrained")
+    axes.loglog(history[:, 0], history[:, 1], "o-", color=style.BLUE, lw=1.8, ms=4,
+                label=f"adaptive; slope of the finer half {observed_slope(history):.2f}".replace("-", "−"))
+    order = (cell.homogenize or {}).get("order")
+    if order in (1, 2):
+        axes.loglog(history[:, 0], history[-1, 1] * (history[:, 0] / history[-1, 0]) ** -order, "--",
+                    color="#777777", lw=1., label=f"P{order} on smooth solutions: slope −{order}")
+    axes.set_xlabel("degrees of freedom of the displacements")
+    axes.set_ylabel("relative width of the bracket")
+    axes.legend()
     return figure

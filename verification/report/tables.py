@@ -89,8 +89,10 @@ def stiffness_table(cell):
     lower, upper = cell.stiffness("C_lower"), cell.stiffness("C_upper")
     bracket = None
     if lower is not None and upper is not None:
-        norm = numpy.linalg.norm(upper)
-        bracket = three(float(numpy.linalg.norm(upper - lower) / norm)) if norm > 0 else None
+        # The largest v.(upper − lower).v / v.upper.v.
+        if numpy.linalg.eigvalsh(upper).min() > 0.:
+            root = numpy.linalg.inv(numpy.linalg.cholesky(upper))
+            bracket = three(float(numpy.linalg.eigvalsh(root @ (upper - lower) @ root.T).max()))
     facts = [(key, f"{shown(v)} {units.get(key, '')}".strip()) for key, v in engineering.items()]
     for key, name, unit in (("areal_density", "areal density", "kg/m²"), ("area", "area of the cell", "m²"),
                             ("dofs", "degrees of freedom", ""), ("iterations", "iterations", ""),
@@ -101,7 +103,7 @@ def stiffness_table(cell):
                          (("C^H", matrix_rows(cell.stiffness("C"))),
                           ("Voigt", matrix_rows(cell.stiffness("voigt"))),
                           ("Reuss", matrix_rows(cell.stiffness("reuss")))) if rows],
-            "bracket": bracket, "facts": facts}
+            "bracket": bracket, "bracket_remark": (value.get("bracket") or {}).get("remark"), "facts": facts}
 
 
 def shown(value):

@@ -2,18 +2,12 @@
 """Tests of the page of `homespun converge`, on made-up series."""
 import json
 import os
-import shutil
-import subprocess
-import sys
-import tempfile
 import unittest
 
-HERE = os.path.dirname(os.path.abspath(__file__))
-sys.path.insert(0, HERE)
+import converge_results
+from figures_converge import Line
+from page_case import PageTest
 
-import converge_results  # noqa: E402
-
-REPORT = os.path.join(HERE, "report.py")
 SERIES = [  # cell, study, case, quantity, p, h_unit, order, lowest, highest, judgement
     ("stripes", "mesh", "uniform refinement", "trace of C^H [N/m]", 1, "cell side", 2., 1.8, 2.2, "PASS"),
     ("stripes", "scale", "strip-1", "localized: mean error per strain [sheet sides]", 1, "cell sides per sheet side", 1.2,
@@ -35,10 +29,10 @@ def rows_of(series):
                f"{observed},{order},0.01,{lowest},{highest},,,{judgement},0.1")
 
 
-class ConvergencePage(unittest.TestCase):
+class ConvergencePage(PageTest):
     def setUp(self):
-        self.folder = tempfile.mkdtemp(prefix="homespun-")
-        self.addCleanup(shutil.rmtree, self.folder, ignore_errors=True)
+        super().setUp()
+        os.makedirs(self.folder)
         lines = [",".join(converge_results.HEADER)] + [row for one in SERIES for row in rows_of(one)]
         # A series without an order is read and not judged.
         lines.append("stripes,strain,periodic-22,localized: mean error [cell sides],1,0,0.1,strain,5,,1e-16,,,,,,,,,0.1")
@@ -51,26 +45,16 @@ class ConvergencePage(unittest.TestCase):
         with open(os.path.join(self.folder, name), "w", encoding="utf-8") as file:
             file.write(text)
 
-    def edit(self, change):
-        with open(os.path.join(self.folder, "converge.csv"), encoding="utf-8") as file:
-            text = file.read()
-        self.write("converge.csv", change(text))
-
-    def report(self):
-        return subprocess.run([sys.executable, REPORT, self.folder, "--output", self.folder], capture_output=True,
-                              text=True, check=False)
-
-    def page(self):
-        result = self.report()
-        self.assertEqual(result.returncode, 0, result.stderr)
-        with open(os.path.join(self.folder, "report.html"), encoding="utf-8") as file:
-            return file.read()
+    def whole_page(self):
+        status, errors = self.run_report()
+        self.assertEqual(status, 0, errors)
+        return self.page()
 
     def test_every_study_has_a_figure_and_a_table_of_orders(self):
-        page = self.page()
+        page = self.whole_page()
         for study in converge_results.STUDIES:
             self.assertIn(f'id="converge-{study}"', page)
-            self.assertTrue(os.path.isfile(os.path.join(self.folder, "figures", f"converge-{study}.pdf")))
+            self.assertTrue(os.path.isfile(os.path.join(self.output, "figures", f"converge-{study}.pdf")))
         self.assertIn("4 of 6 observed orders lie within their limits, 1 outside, 1 have not settled", page)
         self.assertIn("3.00 ± 0.10", page)     # a two-sided limit
         self.assertIn("0.850 to 2.15", page)  # a band
@@ -78,7 +62,6 @@ class ConvergencePage(unittest.TestCase):
         self.assertNotIn("periodic-22", page)  # not judged, hence in no table
 
     def test_the_guide_of_a_figure_has_the_expected_order_and_not_the_observed_one(self):
-        from figures_converge import Line  # pylint: disable=import-outside-toplevel
         series = converge_results.read_convergence(self.folder, "x", os.path.join(self.folder, "converge.csv"), [],
                                                    []).of("manufactured")[0]
         self.assertEqual([round(order, 9) for order in Line(series, "", "k").expected], [3.])  # observed: 2
@@ -87,17 +70,14 @@ class ConvergencePage(unittest.TestCase):
     def test_an_unknown_judgement_or_study_and_a_size_of_zero_are_refused(self):
         for before, after, says in (("FAIL", "BAD", "`judgement` is `BAD`"), (",time,", ",tome,", "`study` is `tome`"),
                                     (",0,1.0,strain", ",0,0,strain", "`h` is `0`")):
-            self.setUp()
-            self.edit(lambda text, a=before, b=after: text.replace(a, b, 1))
-            result = self.report()
-            self.assertEqual(result.returncode, 2)
-            self.assertIn(says, result.stderr)
-            self.assertFalse(os.path.exists(os.path.join(self.folder, "report.html")))
+            self.edit("converge.csv", lambda text, a=before, b=after: text.replace(a, b, 1))
+            self.assert_refused("converge.csv", says, "homespun converge")
+            self.edit("converge.csv", lambda text, a=before, b=after: text.replace(b, a, 1))
 
     def test_levels_may_stand_in_any_order(self):
-        page = self.page()
-        self.edit(lambda text: text.splitlines()[0] + "\n" + "\n".join(sorted(text.splitlines()[1:])) + "\n")
-        self.assertEqual(page.count("± 0.01"), self.page().count("± 0.01"))
+        page = self.whole_page()
+        self.edit("converge.csv", lambda text: text.splitlines()[0] + "\n" + "\n".join(sorted(text.splitlines()[1:])) + "\n")
+        self.assertEqual(page.count("± 0.01"), self.whole_page().count("± 0.01"))
 
 
 if __name__ == "__main__":

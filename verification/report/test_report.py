@@ -10,9 +10,10 @@ import numpy
 
 import results
 import style
+from cell_results import Cell
 from contents import HEADINGS
 from figures_sheet import coarse_positions
-from figures_stiffness import directional_modulus
+from figures_stiffness import bracket_history, directional_modulus, observed_slope
 from made_up_study import LAMINATE, square_mesh, strain_rows, write_results
 from page_case import PageTest
 
@@ -82,6 +83,10 @@ class ReportTest(PageTest):
         os.truncate(path, os.path.getsize(path) // 2)
         self.assert_refused("cell.h5: not a readable HDF5 file")
 
+    def test_history_that_is_none_is_refused(self):
+        self.edit("stripes/homogenize.json", lambda text: text.replace('"dofs": 60', '"dofs": -60'))
+        self.assert_refused("homogenize.json: key `history`")
+
     def test_sheet_with_wrong_shape_is_refused_and_nothing_is_written(self):
         self.edit("strain.csv", lambda text: "\n".join(text.splitlines()[:2]) + "\n")
         with h5py.File(os.path.join(self.folder, "stripes", "fields-shear-frame.h5"), "a") as file:
@@ -116,6 +121,13 @@ class NumbersTest(unittest.TestCase):
         turned = strain.T @ LAMINATE @ strain
         numpy.testing.assert_allclose(directional_modulus(turned, theta),
                                       directional_modulus(LAMINATE, theta - beta), rtol=1e-12)
+
+    def test_slope_of_a_bracket_is_that_of_its_finer_half(self):
+        dofs = numpy.array([10., 20., 100., 200., 400., 800.])
+        width = numpy.where(dofs < 50., 0.5, 3e4 * dofs ** -2.)
+        cell = Cell("made-up", homogenize={"history": [{"dofs": d, "width": w} for d, w in zip(dofs, width)]})
+        self.assertAlmostEqual(observed_slope(bracket_history(cell)), -2., places=12)
+        self.assertEqual(bracket_history(Cell("without")).shape, (0, 2))
 
     def test_coarse_motion_is_linear_in_each_triangle(self):
         rest, _, _ = square_mesh(5, 1.)

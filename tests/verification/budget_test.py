@@ -1,0 +1,79 @@
+# SPDX-License-Identifier: MIT
+"""What a strain study writes beside its errors: error budget, run times, range of validity."""
+import csv
+import json
+import math
+import unittest
+
+from cli import CELLS, InFolder, run
+
+STUDY = ["strain", CELLS / "layered.prm", "--cells", "2", "--strains", "0.01,0.1", "--loads", "periodic-12,shear-frame",
+         "--references", "biot", "--methods", "localized", "--no-report"]
+
+
+def rows_of(path):
+    with open(path, newline="", encoding="utf-8") as file:
+        return list(csv.DictReader(file))
+
+
+class Budget(InFolder):
+    def test_a_study_writes_budget_run_times_and_validity_and_judges_the_budget(self):
+        result = run(*STUDY, "--output", self.folder)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertIn("add up", result.stdout)
+
+        budget = rows_of(self.folder / "budget.csv")
+        whole = [row for row in budget if row["region"] == "all"]
+        self.assertEqual(len(whole), 2 * 2 * 13)  # loads, strains; ten parts, sum, misfit, total
+        for row in budget:
+            for key in ("mean_m", "rms_m", "max_m", "mean_per_cell", "share"):
+                self.assertTrue(math.isfinite(float(row[key])), row)
+        total = {(row["load"], row["strain"]): float(row["mean_m"]) for row in whole if row["part"] == "total"}
+        for row in rows_of(self.folder / "strain.csv"):
+            self.assertAlmostEqual(total[row["load"], row["strain"]] / float(row["error_mean_m"]), 1., delta=1e-4)
+
+        ways = {row["way"]: row for row in rows_of(self.folder / "runtime.csv")}
+        for way in ("fine-p1", "fine-p2", "fine-corotational", "affine-5", "localized-40", "voigt", "reuss", "nodal-warping"):
+            self.assertGreater(float(ways[way]["error_mean_m"]), 0., way)
+            self.assertGreater(float(ways[way]["seconds"]), 0., way)
+            self.assertEqual(ways[way]["runs"], "5")
+        # Two programs for one problem: P1 finite elements, and the cloth's own triangles at full resolution.
+        p1, corotational = (float(ways[way]["error_mean_m"]) for way in ("fine-p1", "fine-corotational"))
+        self.assertAlmostEqual(p1 / corotational, 1., delta=1e-4)
+
+        validity = rows_of(self.folder / "validity.csv")
+        self.assertEqual(len(validity), 2 * 5)
+        self.assertEqual({row["relation"] for row in validity} - {"=", ">", "-"}, set())
+        claims = [v for v in json.loads((self.folder / "verdicts.json").read_text())["verdicts"] if "add up" in v["claim"]]
+        self.assertEqual(len(claims), 4)
+        self.assertEqual({v["verdict"] for v in claims}, {"PASS"})
+
+    def test_a_budget_cut_at_any_row_is_completed(self):
+        study = [*STUDY, "--no-runtime", "--quiet", "--output", self.folder]
+        self.assertEqual(run(*study).returncode, 0)
+        path = self.folder / "budget.csv"
+        text = path.read_text()
+        strain = (self.folder / "strain.csv").read_text()
+
+        def totals():
+            return {(row["load"], row["strain"], row["part"], row["region"]): float(row["mean_m"]) for row in rows_of(path)
+                    if row["part"] in ("total", "sum")}
+        expected = totals()
+        path.write_text(text[:int(0.6 * len(text))])
+        self.assertEqual(run(*study, "--resume").returncode, 0)
+        found = totals()
+        self.assertEqual(found.keys(), expected.keys())
+        for key, value in expected.items():
+            self.assertAlmostEqual(found[key], value, delta=1e-4 * value)
+        self.assertEqual((self.folder / "strain.csv").read_text(), strain)
+
+    def test_what_is_left_out_is_not_written(self):
+        result = run(*STUDY, "--no-budget", "--no-runtime", "--quiet", "--output", self.folder)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertFalse((self.folder / "budget.csv").exists())
+        self.assertFalse((self.folder / "runtime.csv").exists())
+        self.assertTrue((self.folder / "validity.csv").exists())
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: MIT
+#include "verification/cell_study.h"
+
+#include "verification/on_root.h"
+#include "verification/progress.h"
+
+#include <filesystem>
+
+namespace homespun::verification
+{
+namespace
+{
+/// DoFs up to which the finer problem of the error bar is solved.
+constexpr unsigned long largest_error_bar = 4000000;
+} // namespace
+
+AssessedCell run_cell_study(const homogenization::UnitCell &cell, const CellStudyOptions &options,
+                            const MPI_Comm communicator)
+{
+  on_root(communicator, [&]() { std::filesystem::create_directories(options.output); });
+  AssessedCell assessed = [&]()
+  {
+    Progress progress(is_root(communicator) && !options.quiet, 2);
+    progress.begin(cell.name + ": three cell problems, and once more refined for the error bar");
+    AssessedCell its = assess(cell, options.solve, largest_error_bar, communicator);
+    progress.done();
+    progress.begin(cell.name + ": bracket on C^H");
+    BracketOptions bracket = options.bracket;
+    bracket.order          = options.solve.order;
+    bracket.refine         = options.solve.refine;
+    on_root(communicator,
+            [&]()
+            {
+              add_bracket(
+                cell, bracket,
+                [&](const std::string &step)
+                { bracket.tolerance ? progress.note(step) : progress.begin(step); },
+                its);
+            });
+    return its;
+  }();
+  int any_fails = any_failed(assessed.checks);
+  MPI_Bcast(&any_fails, 1, MPI_INT, 0, communicator);
+  if (any_fails && !any_failed(assessed.checks))
+    assessed.checks.push_back({"the first rank saw a failure", Outcome::fail, 1., "0"});
+  on_root(communicator,
+          [&]()
+          {
+            write_cell_results(cell, assessed,
+                               dealii::Utilities::MPI::n_mpi_processes(communicator),
+                               options.output);
+          });
+  return assessed;
+}
+} // namespace homespun::verification

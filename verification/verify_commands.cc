@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: MIT
+// homespun verify: everything, for a list of cells.
+#include "verification/on_root.h"
+#include "verification/study_arguments.h"
+#include "verification/verify_study.h"
+
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+
+namespace homespun::verification
+{
+namespace
+{
+struct VerifyArguments
+{
+  VerifyOptions verify;
+  bool no_report = false;
+};
+
+int run_verify(VerifyArguments arguments, Afterwards &afterwards)
+{
+  VerifyOptions &options = arguments.verify;
+  ArgumentFaults faults;
+  faults.check_names("--parts", options.parts, verify_parts());
+  faults.throw_if_any();
+  if (options.output.empty())
+    options.output =
+      "out/" + (options.cell_files.size() == 1
+                  ? "verify-" + std::filesystem::path(options.cell_files[0]).stem().string()
+                  : std::string("verify"));
+  const bool tells = is_root(MPI_COMM_WORLD);
+  Verification result;
+  try
+  {
+    result = verify(options, MPI_COMM_WORLD);
+  }
+  catch (const meshes::BadInput &bad)
+  {
+    // The first line of the answer, whoever reads only that.
+    if (tells)
+      std::printf("FAIL: %s\n", bad.faults().front().c_str());
+    throw;
+  }
+  if (tells)
+  {
+    std::printf("%s\n", outcome_line(result.verdicts).c_str());
+    if (!options.quiet)
+      print(result.verdicts);
+    if (!arguments.no_report)
+      afterwards = [folders = result.folders, output = options.output, quiet = options.quiet]()
+      { make_report(folders, output, quiet); };
+  }
+  return any_failed(result.verdicts) ? 1 : 0;
+}
+} // namespace
+
+void add_verify_command(CLI::App &app, Action &action, Afterwards &afterwards,
+                        const std::string &command_line)
+{
+  CLI::App *command = app.add_subcommand(
+    "verify", "Everything, for a list of cells: one report with all claims and verdicts on top");
+  const auto arguments   = std::make_shared<VerifyArguments>();
+  VerifyOptions &options = arguments->verify;
+  options.parts          = verify_parts();
+  options.command        = command_line;
+  command->add_option("CELL.prm", options.cell_files, "Cell files")->required();
+  add_list(*command, "--parts", options.parts, "What to run, comma-separated");
+  command->add_option(
+    "--output", options.output,
+    "Folder of the results (default out/verify-NAME, out/verify for several cells)");
+  command->add_flag("--quick", options.quick, "Small sizes everywhere: minutes");
+  command->add_flag("--resume", options.resume, "Keep what is there, compute the rest");
+  command->add_flag("--quiet", options.quiet, "Print the outcome and nothing else but faults");
+  command->add_flag("--no-report", arguments->no_report, "Leave out report.html");
+  command->footer(
+    "Parts: homogenize (brackets of C^H), strain (error against strain, budget, run time, range of validity),\n"
+    "converge (observed orders), stress (stability), drape (hang and pull in motion against biot).\n"
+    "The first line says PASS, or FAIL with the first claim that failed; each part has a folder of its own.\n"
+    "Example:\n  homespun verify mycell.prm --quick\n  mpirun -n 2 homespun verify mycell.prm");
+  command->callback(
+    [&action, &afterwards, arguments]()
+    { action = [&afterwards, arguments]() { return run_verify(*arguments, afterwards); }; });
+}
+} // namespace homespun::verification

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: MIT
+// homespun verify: every study of some cells, and one page with all their claims.
+#pragma once
+
+#include "verification/verdict.h"
+
+#include <mpi.h>
+
+#include <string>
+#include <vector>
+
+namespace homespun::verification
+{
+struct VerifyOptions
+{
+  std::vector<std::string> cell_files;
+  std::vector<std::string> parts; ///< of verify_parts(), in any order
+  bool quick = false;             ///< small sizes, minutes
+  std::string output;
+  std::string command; ///< that reproduces the whole
+  bool resume = false;
+  bool quiet  = false;
+};
+
+struct Verification
+{
+  std::vector<Verdict> verdicts;    ///< of all parts, each claim begins with its part
+  std::vector<std::string> folders; ///< of the results, for one report
+};
+
+/// The parts: homogenize, strain, converge, stress, drape.
+const std::vector<std::string> &verify_parts();
+
+/// Runs the parts one after the other, each into a folder of its own below the output, and writes
+/// verdicts.json with all claims. A part whose solver does not converge is a claim that failed, and the others
+/// still run.
+/// @throws BadInput where a cell cannot be read, before anything runs
+Verification verify(const VerifyOptions &options, MPI_Comm communicator);
+
+/// The outcome in one line: FAIL with the first claim that failed, else PASS with how many claims hold and how
+/// many cannot be judged.
+std::string outcome_line(const std::vector<Verdict> &verdicts);
+} // namespace homespun::verification
