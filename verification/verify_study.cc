@@ -139,7 +139,10 @@ private:
     StressStudyOptions study;
     study.cell_files = options.cell_files;
     if (options.quick)
-      study.repeats = 2;
+    {
+      study.repeats        = 2;
+      study.most_triangles = 100000;
+    }
     study.output  = folder;
     study.command = options.command;
     study.quiet   = options.quiet;
