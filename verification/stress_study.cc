@@ -36,7 +36,7 @@ nlohmann::ordered_json what_was_left_out(const int most_triangles, const int n_r
     left_out("a resumed run equals an uninterrupted one",
              "a test of the moving cloth holds it to the last bit")};
   if (most_triangles < 1000000)
-    all.push_back(left_out("a cell of more than 1e5 triangles", "--quick"));
+    all.push_back(left_out("a cell of 1e6 triangles", "1e5 at most, to end in minutes"));
   if (n_ranks == 1)
     all.push_back(left_out("C^H by several ranks beside one", "the study ran on one rank"));
   return all;

@@ -15,7 +15,7 @@ struct StressStudyOptions
 {
   std::vector<std::string> cell_files; ///< their C^H and modes; none: built-in ones
   int repeats        = 10;
-  int most_triangles = 1000000; ///< of the largest cell
+  int most_triangles = 100000; ///< of the largest cell
   std::string output;
   std::string command; ///< that reproduces the study
   bool quiet = false;

@@ -160,7 +160,14 @@ TEST(tripwire_stress_cells, ranks_that_disagree_are_noticed)
 {
   const Eigen::Matrix3d C = factorized_stiffness(stripes());
   for (const double wrong : {1., 1. + 1e-6})
+  {
+    int n = 0;
     for (const StressCase &one : cell_cases({}, {wrong * C}, 2, 100))
       if (one.group == "cell ranks")
+      {
+        ++n;
         EXPECT_EQ(run_case(one, 1).verdict, wrong == 1. ? Outcome::pass : Outcome::fail);
+      }
+    EXPECT_EQ(n, 1);
+  }
 }
