@@ -21,8 +21,8 @@ std::size_t at(const int index)
   return static_cast<std::size_t>(index);
 }
 
-/// Written out: GCC 12 with -O3 -march=native (AVX-512) leaves the second component of
-/// Vector2d(...).normalized() undivided where this is inlined in a loop.
+/// Written out: GCC 12 with -O3 -march=native was seen, here alone, to leave the second component of
+/// an inlined Vector2d(...).normalized() undivided.
 Eigen::Vector2d normal_of(const TorusEdge &edge)
 {
   const double length = edge.vector.norm();

@@ -10,11 +10,13 @@ from cli import CELLS, InFolder, run
 class Help(unittest.TestCase):
     def test_help_names_the_commands_and_the_exit_status(self):
         text = run("--help").stdout
-        for word in ("check", "homogenize", "strain", "stress", "report", "cells", "Exit status"):
+        for word in ("check", "homogenize", "strain", "converge", "drape", "stress", "verify", "report",
+                     "cells", "Exit status"):
             self.assertIn(word, text)
 
     def test_every_command_has_help(self):
-        for command in ("check", "homogenize", "strain", "stress", "report", "cells"):
+        for command in ("check", "homogenize", "strain", "converge", "drape", "stress", "verify", "report",
+                        "cells"):
             result = run(command, "--help")
             self.assertEqual(result.returncode, 0)
             self.assertIn(command, result.stdout)
@@ -34,6 +36,29 @@ class Help(unittest.TestCase):
         for name in ("layered", "three-stiffness"):
             self.assertIn(name, listing)
             self.assertEqual(run("check", CELLS / f"{name}.prm").returncode, 0)
+
+
+class Verify(InFolder):
+    def test_a_cell_that_cannot_be_read_fails_on_the_first_line_before_anything_runs(self):
+        path = self.cell_with("soft: 0.3", "soft: 1.0")
+        result = run("verify", CELLS / "layered.prm", path, "--output", self.folder / "out")
+        self.assertEqual(result.returncode, 2)
+        self.assertRegex(result.stdout.splitlines()[0], "^FAIL: .*Poisson's ratio 1")
+        self.assertFalse((self.folder / "out").exists())
+
+    def test_one_part_of_one_cell_ends_with_its_outcome_and_one_file_of_claims(self):
+        result = run("verify", CELLS / "layered.prm", "--parts", "homogenize", "--quiet", "--no-report",
+                     "--output", self.folder)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertRegex(result.stdout, r"^PASS: (\d+) of \1 claims hold\n$")
+        claims = json.loads((self.folder / "verdicts.json").read_text())["verdicts"]
+        self.assertTrue(all(claim["claim"].startswith("homogenize cells/layered: ") for claim in claims))
+        self.assertTrue((self.folder / "cells" / "layered" / "homogenize.json").exists())
+
+    def test_an_unknown_part_is_refused(self):
+        result = run("verify", CELLS / "layered.prm", "--parts", "weave", "--output", self.folder)
+        self.assertEqual(result.returncode, 2)
+        self.assertIn("--parts: found `weave`; expected homogenize", result.stderr)
 
 
 class Homogenize(InFolder):
