@@ -72,6 +72,8 @@ def page_contents(results, gallery, output):
     several = len(results.studies) > 1
     verdicts = [verdict_contents(v, commands, study.name if several else "") for study in results.studies
                 for v in study.verdicts]
+    # What failed stands on top, then what cannot be judged.
+    verdicts.sort(key=lambda v: ("FAIL", "INCONCLUSIVE", "PASS").index(v["verdict"]))
     unreached = tables.unreached_notes(results.unreached())
     return {
         "title": "homespun: " + ", ".join([d["scene"] for d in drapes] + ["stress"] * bool(stress)
@@ -176,7 +178,8 @@ def verdict_contents(verdict, commands, study):
     @param study name of its folder, where there are several
     """
     value = verdict.get("value")
-    return {"claim": f"{study}: {verdict['claim']}" if study else verdict["claim"], "verdict": verdict["verdict"], "mark": MARKS[verdict["verdict"]],
+    return {"claim": f"{study}: {verdict['claim']}" if study else verdict["claim"],
+            "verdict": verdict["verdict"], "mark": MARKS[verdict["verdict"]],
             "value": "–" if value is None else tables.shown(value), "limit": tables.shown(verdict.get("limit", "")),
             "command": "" if verdict.get("command") in commands else verdict.get("command", "")}
 
