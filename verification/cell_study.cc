@@ -39,10 +39,7 @@ AssessedCell run_cell_study(const homogenization::UnitCell &cell, const CellStud
             });
     return its;
   }();
-  int any_fails = any_failed(assessed.checks);
-  MPI_Bcast(&any_fails, 1, MPI_INT, 0, communicator);
-  if (any_fails && !any_failed(assessed.checks))
-    assessed.checks.push_back({"the first rank saw a failure", Outcome::fail, 1., "0"});
+  share_failure(assessed.checks, communicator);
   on_root(communicator,
           [&]()
           {
@@ -50,6 +47,28 @@ AssessedCell run_cell_study(const homogenization::UnitCell &cell, const CellStud
                                dealii::Utilities::MPI::n_mpi_processes(communicator),
                                options.output);
           });
+  return assessed;
+}
+
+AssessedCell assess_for_study(const homogenization::UnitCell &cell, const MPI_Comm communicator,
+                              std::vector<Verdict> &verdicts)
+{
+  homogenization::HomogenizationOptions p1;
+  p1.order              = 1;
+  AssessedCell assessed = assess(cell, p1, 300000, communicator);
+  BracketOptions bracket;
+  bracket.order = p1.order;
+  on_root(communicator,
+          [&]()
+          {
+            add_bracket(
+              cell, bracket, [](const std::string &) {}, assessed);
+          });
+  for (Verdict check : assessed.checks)
+  {
+    check.claim = cell.name + ": " + check.claim;
+    verdicts.push_back(check);
+  }
   return assessed;
 }
 } // namespace homespun::verification

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What `homespun homogenize` does with one cell.
+// What `homespun homogenize` does with one cell, and what other studies do with theirs.
 #pragma once
 
 #include "verification/cell_output.h"
@@ -7,6 +7,7 @@
 #include <mpi.h>
 
 #include <string>
+#include <vector>
 
 namespace homespun::verification
 {
@@ -25,4 +26,11 @@ struct CellStudyOptions
 /// @throws BadInput, NotConverged
 AssessedCell run_cell_study(const homogenization::UnitCell &cell, const CellStudyOptions &options,
                             MPI_Comm communicator);
+
+/// Homogenizes a cell with P1 on its given mesh, the discretization of the fine reference, so that a study shows
+/// the error of the method and not of two meshes; brackets C^H there on the first rank.
+/// @param verdicts the checks are added to them, named after the cell; those of the bracket on the first rank alone
+/// @throws BadInput, NotConverged
+AssessedCell assess_for_study(const homogenization::UnitCell &cell, MPI_Comm communicator,
+                              std::vector<Verdict> &verdicts);
 } // namespace homespun::verification

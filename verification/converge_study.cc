@@ -211,11 +211,7 @@ private:
                                      {"notes", all_notes},
                                      {"provenance", provenance(n_ranks)}}));
             });
-    // Every rank ends with the status of the first.
-    int failed = any_failed(verdicts);
-    MPI_Bcast(&failed, 1, MPI_INT, 0, communicator);
-    if (failed && !any_failed(verdicts))
-      verdicts.push_back({"the first rank saw a failure", Outcome::fail, 1., "0"});
+    share_failure(verdicts, communicator);
     return verdicts;
   }
 

@@ -350,10 +350,7 @@ private:
                           json_text(to_json(verdicts, options.command)));
               write_whole(options.output + "/drape.json", json_text(study));
             });
-    int failed = any_failed(verdicts);
-    MPI_Bcast(&failed, 1, MPI_INT, 0, communicator);
-    if (failed && !any_failed(verdicts))
-      verdicts.push_back({"the first rank saw a failure", Outcome::fail, 1., "0"});
+    share_failure(verdicts, communicator);
     return verdicts;
   }
 

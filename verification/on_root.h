@@ -3,10 +3,12 @@
 #pragma once
 
 #include "meshes/errors.h"
+#include "verification/verdict.h"
 
 #include <deal.II/base/mpi.h>
 
 #include <exception>
+#include <vector>
 
 namespace homespun::verification
 {
@@ -50,5 +52,15 @@ void on_root(const MPI_Comm communicator, Work &&work)
     throw meshes::NotConverged("the first rank did not converge", {});
   if (status == bad_input)
     throw meshes::BadInput("the first rank failed");
+}
+
+/// Verdicts of work on the first rank: a failure there becomes one of every rank, so that all end with the same
+/// status. All ranks must call this.
+inline void share_failure(std::vector<Verdict> &verdicts, const MPI_Comm communicator)
+{
+  int failed = any_failed(verdicts);
+  MPI_Bcast(&failed, 1, MPI_INT, 0, communicator);
+  if (failed && !any_failed(verdicts))
+    verdicts.push_back({"the first rank saw a failure", Outcome::fail, 1., "0"});
 }
 } // namespace homespun::verification

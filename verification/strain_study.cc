@@ -3,20 +3,19 @@
 
 #include "meshes/errors.h"
 #include "verification/budget_study.h"
-#include "verification/cell_output.h"
+#include "verification/cell_study.h"
 #include "verification/fine_reference.h"
 #include "verification/lightweight_cloth.h"
 #include "verification/on_root.h"
 #include "verification/progress.h"
 #include "verification/provenance.h"
 #include "verification/reference_uncertainty.h"
-#include "verification/result_files.h"
 #include "verification/run_time.h"
 #include "verification/sheet_fields.h"
+#include "verification/strain_output.h"
 #include "verification/strain_verdicts.h"
 #include "verification/study_description.h"
 #include "verification/study_inputs.h"
-#include "verification/validity.h"
 
 #include <deal.II/base/mpi.h>
 
@@ -32,41 +31,8 @@ namespace homespun::verification
 {
 using homogenization::UnitCell;
 
-const std::vector<std::string> &strain_columns()
-{
-  static const std::vector<std::string> columns = {"cell",
-                                                   "load",
-                                                   "strain",
-                                                   "reference",
-                                                   "method",
-                                                   "cells",
-                                                   "coarse_triangles",
-                                                   "fine_triangles",
-                                                   "error_mean_m",
-                                                   "error_rms_m",
-                                                   "error_max_m",
-                                                   "error_mean_per_cell",
-                                                   "error_mean_per_fluctuation",
-                                                   "reference_uncertainty_m",
-                                                   "seconds_method",
-                                                   "seconds_reference"};
-  return columns;
-}
-
 namespace
 {
-const std::vector<std::string> step_columns = {"cell",
-                                               "load",
-                                               "reference",
-                                               "strain",
-                                               "seconds_coarse_solve",
-                                               "seconds_upsample",
-                                               "seconds_fine_step",
-                                               "coarse_iterations",
-                                               "fine_iterations",
-                                               "fine_dofs",
-                                               "ranks"};
-
 class StrainStudy
 {
 public:
@@ -92,7 +58,8 @@ public:
                    1); // refuses cells that make no sheet, before any file
     on_root(communicator, [&]() { open_tables(); });
     if (options.budget)
-      budget = std::make_unique<BudgetStudy>(options.references, budget_table.get(), communicator);
+      budget = std::make_unique<BudgetStudy>(options.references, table(&StrainOutput::budget),
+                                             communicator);
     for (const UnitCell &cell : cells)
       study_cell(cell);
     return conclude();
@@ -105,34 +72,20 @@ private:
     std::filesystem::create_directories(options.output);
     check_inputs(cells, options.n_cells, options.n_cells_of_error_bar, options.output,
                  options.resume);
-    const auto open =
-      [&](const char *name, const std::vector<std::string> &columns, const std::size_t n_keys)
-    {
-      return std::make_unique<ResultTable>(options.output + "/" + name, columns, n_keys,
-                                           options.resume);
-    };
-    strain_table      = open("strain.csv", strain_columns(), 5);
-    step_table        = open("steps.csv", step_columns, 4);
-    uncertainty_table = open("uncertainty.csv", uncertainty_columns(), 5);
-    note_table        = open("notes.csv", {"cell", "load", "reference", "strain", "note"}, 4);
-    if (options.budget)
-      budget_table = open("budget.csv", budget_columns(), 6);
-    if (options.run_time)
-      run_time_table = open("runtime.csv", run_time_columns(), 5);
+    output = std::make_unique<StrainOutput>(options);
+  }
+
+  /// A table of the output, null on other ranks.
+  ResultTable *table(const std::unique_ptr<ResultTable> StrainOutput::*which) const
+  {
+    return output ? ((*output).*which).get() : nullptr;
   }
 
   void study_cell(const UnitCell &cell)
   {
     progress.begin(cell.name + ": homogenization", true);
-    homogenization::HomogenizationOptions p1;
-    p1.order                    = 1;
-    const AssessedCell assessed = assess(cell, p1, 300000, communicator);
-    for (Verdict check : assessed.checks)
-    {
-      check.claim = cell.name + ": " + check.claim;
-      verdicts.push_back(check);
-    }
-    folder = options.output + "/" + cell.name;
+    const AssessedCell assessed = assess_for_study(cell, communicator, verdicts);
+    folder                      = options.output + "/" + cell.name;
     on_root(communicator,
             [&]()
             {
@@ -182,12 +135,15 @@ private:
         const std::vector<std::vector<std::string>> none;
         const std::string fault = run_time_study(
           cell, homogenized, bounds, sheet, load, of_run,
-          is_root ? uncertainty_table->rows() : none, run_time_table.get(), communicator,
+          output ? output->uncertainty->rows() : none, table(&StrainOutput::run_time), communicator,
           [&](const std::string &what)
           { progress.begin(cell.name + ", " + load.name + ", run times: " + what); });
         if (!fault.empty())
-          on_root(communicator, [&]()
-                  { write_note(cell, load, Law::biot, of_run.strain, "run times: " + fault); });
+          on_root(
+            communicator,
+            [&]() {
+              write_note({cell.name, load.name, Law::biot, of_run.strain}, "run times: " + fault);
+            });
         return;
       }
   }
@@ -213,8 +169,8 @@ private:
 
     progress.begin(cell.name + ", " + load.name + ": error bar of the reference", true);
     const ReferenceUncertainty uncertainty(
-      cell, load, laws, options.n_cells, options.n_cells_of_error_bar, uncertainty_table.get(),
-      communicator,
+      cell, load, laws, options.n_cells, options.n_cells_of_error_bar,
+      table(&StrainOutput::uncertainty), communicator,
       [&](const std::string &what) { progress.begin(cell.name + ", " + load.name + ": " + what); });
     progress.done();
 
@@ -242,7 +198,10 @@ private:
           is_reached = study_strain(cell, sheet, load, laws[k], strain, *reference, cloth,
                                     uncertainty.at(laws[k], strain));
         else
-          on_root(communicator, [&]() { write_unreached(cell, sheet, load, laws[k], strain); });
+          on_root(communicator,
+                  [&]() {
+                    output->write_unreached({cell.name, load.name, laws[k], strain}, sheet);
+                  });
         progress.done();
       }
     }
@@ -274,18 +233,10 @@ private:
     if (is_root)
       for (std::size_t k = 0; k < options.strains.size(); ++k)
       {
-        const auto is_there = [&](const std::string &method)
-        {
-          return strain_table->contains(
-            {cell.name, load.name, csv_number(options.strains[k]), name_of(law), method});
-        };
-        if (is_there("unreached"))
-          continue;
-        is_missing[k] =
-          budget && budget->row_is_missing(cell.name, load.name, law, options.strains[k]);
-        for (const std::string &method : options.methods)
-          if (Method(method).has_meaning(law) && !is_there(method))
-            is_missing[k] = 1;
+        const StrainLevel level = {cell.name, load.name, law, options.strains[k]};
+        is_missing[k]           = !output->is_complete(level) ||
+                        (budget && !output->is_unreached(level) &&
+                         budget->row_is_missing(cell.name, load.name, law, options.strains[k]));
       }
     MPI_Bcast(is_missing.data(), static_cast<int>(is_missing.size()), MPI_CHAR, 0, communicator);
     std::vector<double> missing;
@@ -301,8 +252,7 @@ private:
     int answer = 0;
     if (is_root)
       for (const double lower : options.strains)
-        if (lower < strain && strain_table->contains({cell.name, load.name, csv_number(lower),
-                                                      name_of(law), "unreached"}))
+        if (lower < strain && output->is_unreached({cell.name, load.name, law, lower}))
           answer = 1;
     MPI_Bcast(&answer, 1, MPI_INT, 0, communicator);
     return answer == 1;
@@ -312,14 +262,15 @@ private:
                     const Law law, const double strain, FineReference &reference,
                     LightweightCloth &cloth, const double uncertainty)
   {
+    const StrainLevel level  = {cell.name, load.name, law, strain};
     const ReferenceStep fine = reference.advance(strain);
     if (!fine.reached)
     {
       on_root(communicator,
               [&]()
               {
-                write_note(cell, load, law, strain, "no equilibrium found; " + fine.why);
-                write_unreached(cell, sheet, load, law, strain);
+                write_note(level, "no equilibrium found; " + fine.why);
+                output->write_unreached(level, sheet);
               });
       return false;
     }
@@ -327,9 +278,8 @@ private:
       on_root(communicator,
               [&]()
               {
-                write_note(cell, load, law, strain,
-                           std::to_string(fine.n_inverted) +
-                             " triangles of the fine reference are inverted (det F <= 0)");
+                write_note(level, std::to_string(fine.n_inverted) +
+                                    " triangles of the fine reference are inverted (det F <= 0)");
               });
     largest_residual = std::max(largest_residual, fine.relative_residual);
     on_root(communicator,
@@ -337,73 +287,56 @@ private:
             {
               try
               {
-                compare(cell, sheet, load, law, strain, fine, reference.n_dofs(), cloth,
-                        uncertainty);
+                compare(level, sheet, load, fine, reference.n_dofs(), cloth,
+                        {{}, 0., std::sqrt(cell.lattice.area()), uncertainty, 0., fine.seconds});
               }
               catch (const meshes::NotConverged &failure)
               {
-                write_note(cell, load, law, strain,
+                write_note(level,
                            std::string("the coarse cloth found no equilibrium; ") + failure.what());
-                write_unreached(cell, sheet, load, law, strain);
+                output->write_unreached(level, sheet);
               }
             });
     if (budget && budget->is_missing(cell.name, load.name, law, strain))
     {
       const std::string fault = budget->measure(law, strain, fine.positions, reference, cloth);
       if (!fault.empty())
-        on_root(communicator,
-                [&]() { write_note(cell, load, law, strain, "error budget: " + fault); });
+        on_root(communicator, [&]() { write_note(level, "error budget: " + fault); });
     }
     return true;
   }
 
-  void compare(const UnitCell &cell, const meshes::Sheet &sheet, const Load &load, const Law law,
-               const double strain, const ReferenceStep &fine, const unsigned long n_dofs,
-               LightweightCloth &cloth, const double uncertainty)
+  /// @param errors what all methods have in common
+  void compare(const StrainLevel &level, const meshes::Sheet &sheet, const Load &load,
+               const ReferenceStep &fine, const unsigned long n_dofs, LightweightCloth &cloth,
+               StrainErrors errors)
   {
-    const CoarseStep coarse = cloth.solve(law, strain);
+    const CoarseStep coarse = cloth.solve(level.law, level.strain);
     const meshes::Points coarse_motion =
-      cloth.upsample(Method("affine"), law, coarse.positions).positions;
-    const double fluctuation = (fine.positions - coarse_motion).rowwise().norm().mean();
-    const double side        = std::sqrt(cell.lattice.area());
+      cloth.upsample(Method("affine"), level.law, coarse.positions).positions;
+    errors.fluctuation = (fine.positions - coarse_motion).rowwise().norm().mean();
     for (const std::string &name : options.methods)
     {
       const Method method(name);
-      const std::vector<std::string> keys = {cell.name, load.name, csv_number(strain), name_of(law),
-                                             name};
-      if (!method.has_meaning(law) || strain_table->contains(keys))
+      if (!method.has_meaning(level.law) || output->has_errors(level, name))
         continue;
-      const UpsampledSheet upsampled = cloth.upsample(method, law, coarse.positions);
-      const Eigen::VectorXd distance = (upsampled.positions - fine.positions).rowwise().norm();
-      if (!distance.allFinite())
+      const UpsampledSheet upsampled = cloth.upsample(method, level.law, coarse.positions);
+      errors.distance                = (upsampled.positions - fine.positions).rowwise().norm();
+      errors.seconds                 = coarse.seconds + upsampled.seconds;
+      if (!errors.distance.allFinite())
         throw meshes::NotConverged(
-          cell.name + ", " + load.name + ", " + name + ": positions that are not finite", {});
-      std::vector<std::string> row = keys;
-      for (const std::string &field :
-           {std::to_string(sheet.n1), std::to_string(cloth.coarse.n_triangles()),
-            std::to_string(sheet.mesh.n_triangles()), csv_number(distance.mean()),
-            csv_number(std::sqrt(distance.squaredNorm() / static_cast<double>(distance.size()))),
-            csv_number(distance.maxCoeff()), csv_number(distance.mean() / side),
-            csv_number(fluctuation > 0. ? distance.mean() / fluctuation
-                                        : std::numeric_limits<double>::quiet_NaN()),
-            csv_number(uncertainty), csv_number(coarse.seconds + upsampled.seconds),
-            csv_number(fine.seconds)})
-        row.push_back(field);
+          level.cell + ", " + level.load + ", " + name + ": positions that are not finite", {});
       // The row comes last: where it is there, so is all that belongs to it.
       if (name == "localized")
       {
-        if (is_pictured(load, law, strain))
+        if (is_pictured(load, level.law, level.strain))
           write_sheet_fields(folder + "/fields-" + load.name + ".h5", sheet, cloth.coarse,
-                             {load.name, strain, name_of(law), name, fine.positions,
+                             {load.name, level.strain, name_of(level.law), name, fine.positions,
                               upsampled.positions, coarse.positions});
-        if (!step_table->contains({cell.name, load.name, name_of(law), csv_number(strain)}))
-          step_table->append({cell.name, load.name, name_of(law), csv_number(strain),
-                              csv_number(coarse.seconds), csv_number(upsampled.seconds),
-                              csv_number(fine.seconds), std::to_string(coarse.iterations),
-                              std::to_string(fine.n_newton), std::to_string(n_dofs),
-                              std::to_string(n_ranks)});
+        output->write_step(level, {coarse.seconds, upsampled.seconds, fine.seconds,
+                                   coarse.iterations, fine.n_newton, n_dofs, n_ranks});
       }
-      strain_table->append(row);
+      output->write_errors(level, name, sheet, cloth.coarse.n_triangles(), errors);
     }
   }
 
@@ -423,31 +356,9 @@ private:
   }
 
   /// A remark on a level, for the terminal and the report.
-  void write_note(const UnitCell &cell, const Load &load, const Law law, const double strain,
-                  std::string text)
+  void write_note(const StrainLevel &level, const std::string &text)
   {
-    std::replace(text.begin(), text.end(), ',', ';');
-    std::replace(text.begin(), text.end(), '\n', ' ');
-    text = text.substr(0, text.find("; residual norms"));
-    if (!note_table->contains({cell.name, load.name, name_of(law), csv_number(strain)}))
-      note_table->append({cell.name, load.name, name_of(law), csv_number(strain), text});
-    progress.note(cell.name + ", " + load.name + ", " + name_of(law) + " reference at strain " +
-                  csv_number(strain) + ": " + text);
-  }
-
-  void write_unreached(const UnitCell &cell, const meshes::Sheet &sheet, const Load &load,
-                       const Law law, const double strain)
-  {
-    std::vector<std::string> row = {cell.name,
-                                    load.name,
-                                    csv_number(strain),
-                                    name_of(law),
-                                    "unreached",
-                                    std::to_string(sheet.n1),
-                                    std::to_string(2 * sheet.n1 * sheet.n2),
-                                    std::to_string(sheet.mesh.n_triangles())};
-    row.resize(strain_columns().size());
-    strain_table->append(row);
+    progress.note(output->write_note(level, text));
   }
 
   std::vector<Verdict> conclude()
@@ -462,51 +373,30 @@ private:
       communicator,
       [&]()
       {
-        for (const Verdict &verdict : strain_verdicts(strain_table->rows()))
+        for (const Verdict &verdict : strain_verdicts(output->strain_rows()))
           verdicts.push_back(verdict);
-        write_validity();
+        output->write_validity();
         if (options.budget)
-          for (const Verdict &verdict : budget_verdicts(strain_table->rows(), budget_table->rows()))
+          for (const Verdict &verdict :
+               budget_verdicts(output->strain_rows(), output->budget->rows()))
             verdicts.push_back(verdict);
-        const double n_unreached = static_cast<double>(
-          std::count_if(strain_table->rows().begin(), strain_table->rows().end(),
-                        [](const auto &row) { return row[4] == "unreached"; }));
+        const int n_unreached = output->n_unreached();
         verdicts.push_back({"every level of every reference has an equilibrium (levels without)",
-                            n_unreached == 0. ? Outcome::pass : Outcome::inconclusive, n_unreached,
-                            "0"});
+                            n_unreached == 0 ? Outcome::pass : Outcome::inconclusive,
+                            static_cast<double>(n_unreached), "0"});
         write_whole(options.output + "/verdicts.json",
                     json_text(to_json(verdicts, options.command)));
         write_whole(options.output + "/study.json", json_text(study_json(seconds, peak_memory)));
       });
-    // Every rank ends with the status of the first.
-    int failed = any_failed(verdicts);
-    MPI_Bcast(&failed, 1, MPI_INT, 0, communicator);
-    if (failed && !any_failed(verdicts))
-      verdicts.push_back({"the first rank saw a failure", Outcome::fail, 1., "0"});
+    share_failure(verdicts, communicator);
     return verdicts;
-  }
-
-  void write_validity() const
-  {
-    std::string text;
-    const auto line = [&](const std::vector<std::string> &fields)
-    {
-      for (std::size_t k = 0; k < fields.size(); ++k)
-        text += (k > 0 ? "," : "") + fields[k];
-      text += "\n";
-    };
-    line(validity_columns());
-    for (const std::vector<std::string> &row : validity_rows(strain_table->rows()))
-      line(row);
-    write_whole(options.output + "/validity.csv", text);
   }
 
   nlohmann::ordered_json study_json(const double seconds, const double peak_memory) const
   {
     nlohmann::ordered_json notes = notes_on_the_method();
-    for (const std::vector<std::string> &row : note_table->rows())
-      notes.push_back(row[0] + ", " + row[1] + ", " + row[2] + " at strain " + row[3] + ": " +
-                      row[4]);
+    for (const std::string &note : output->notes())
+      notes.push_back(note);
     return {{"command", options.command},
             {"strains", options.strains},
             {"loads", options.loads},
@@ -530,11 +420,10 @@ private:
   const std::chrono::steady_clock::time_point begin;
   Progress progress;
   std::vector<UnitCell> cells;
-  std::unique_ptr<ResultTable> strain_table, step_table, uncertainty_table, note_table,
-    budget_table, run_time_table;
-  std::unique_ptr<BudgetStudy> budget; ///< none where it is left out
-  bool is_budget_begun = false;        ///< of the present cell
-  std::string folder;                  ///< of the present cell
+  std::unique_ptr<StrainOutput> output; ///< first rank
+  std::unique_ptr<BudgetStudy> budget;  ///< none where it is left out
+  bool is_budget_begun = false;         ///< of the present cell
+  std::string folder;                   ///< of the present cell
   std::vector<Verdict> verdicts;
   double largest_residual = 0.;
 };

@@ -2,7 +2,7 @@
 #include "verification/stress_study.h"
 
 #include "meshes/sheet.h"
-#include "verification/cell_output.h"
+#include "verification/cell_study.h"
 #include "verification/on_root.h"
 #include "verification/progress.h"
 #include "verification/provenance.h"
@@ -81,11 +81,7 @@ public:
               measure_solver();
               conclude();
             });
-    // Every rank ends with the status of the first.
-    int failed = any_failed(verdicts);
-    MPI_Bcast(&failed, 1, MPI_INT, 0, communicator);
-    if (failed && !any_failed(verdicts))
-      verdicts.push_back({"the first rank saw a failure", Outcome::fail, 1., "0"});
+    share_failure(verdicts, communicator);
     return verdicts;
   }
 
@@ -102,14 +98,7 @@ private:
     for (const homogenization::UnitCell &cell : unit_cells)
     {
       progress.begin(cell.name + ": homogenization", true);
-      homogenization::HomogenizationOptions p1;
-      p1.order                    = 1;
-      const AssessedCell assessed = assess(cell, p1, 300000, communicator);
-      for (Verdict check : assessed.checks)
-      {
-        check.claim = cell.name + ": " + check.claim;
-        verdicts.push_back(check);
-      }
+      const AssessedCell assessed = assess_for_study(cell, communicator, verdicts);
       cells.push_back(homogenization::homogenized_cell(cell, assessed.result, provenance_line()));
       names.push_back(cell.name);
       stiffnesses.push_back({cell.name, cells.back().stiffness, cells.back().areal_density});
