@@ -48,8 +48,12 @@ std::vector<std::vector<std::string>> budget_rows(const std::string &cell, const
 /// Judges, for every cell and load among the rows of strain.csv and at the levels nearest to 1 % and 10 %:
 /// - effectivity within [0.8, 1.25]; INCONCLUSIVE where the reference was not reached or a part not found; where the total is
 ///   zero to round-off (below 1e-10 strain x cell side), whether the sum is as well
+/// - misfit at most 0.25 of the total, as far as the effectivity may be from 1: the mean length alone would not see
+///   a sum that points elsewhere
 /// - part 7 at most 1 % of the total
-/// and over the levels up to 2 %, at least three: the mean of part 2 grows as strain squared, slope 2 +- 0.1.
+/// - `resolution` at most 5 % of the total: the homogenized sheet that counts as resolved is
+/// and over the levels up to 2 %: the mean of part 2 grows as strain squared, slope 2 +- 0.1, or is zero to round-off at
+/// each; INCONCLUSIVE with fewer than three levels.
 std::vector<Verdict> budget_verdicts(const std::vector<std::vector<std::string>> &strain_rows,
                                      const std::vector<std::vector<std::string>> &budget_rows);
 } // namespace homespun::verification

@@ -6,7 +6,6 @@
 #include "verification/budget_rows.h"
 #include "verification/error_budget.h"
 #include "verification/fine_reference.h"
-#include "verification/lightweight_cloth.h"
 #include "verification/result_files.h"
 
 #include <mpi.h>
@@ -17,6 +16,13 @@
 
 namespace homespun::verification
 {
+/// The method at one strain.
+struct UpsampledLevel
+{
+  shell::Positions<2> coarse; ///< (n_coarse,2) [m]
+  meshes::Points upsampled;   ///< by `localized`, (n_fine,2), double precision [m]
+};
+
 /// Goes along with a strain study: begin_cell(), begin_load(), then measure() at each strain of one law, `biot` or
 /// the study's first. Solves with deal.II on all ranks, measures on the first.
 class BudgetStudy
@@ -42,13 +48,14 @@ public:
 
   /// Measures the parts at a level that `reference` has just reached, and writes their rows.
   /// @param positions of that level
-  /// @return what was not found, empty where all was
+  /// @param solved what the method made of it, on the first rank
+  /// @return what was not found, empty where all was; the first rank alone knows
   std::string measure(Law law, double strain, const meshes::Points &positions,
-                      FineReference &reference, LightweightCloth &cloth);
+                      FineReference &reference, const UpsampledLevel &solved);
 
 private:
   std::string measure_on_root(Law law, double strain, const meshes::Points &positions,
-                              const meshes::Points &tight, LightweightCloth &cloth);
+                              const meshes::Points &tight, const UpsampledLevel &solved);
 
   const Law law_of_budget;
   ResultTable *const table;

@@ -14,8 +14,8 @@ using meshes::Points;
 const std::vector<std::string> &budget_parts()
 {
   static const std::vector<std::string> names = {
-    "scale",     "nonlinearity", "coarse-mesh", "cell",       "blending",
-    "time-step", "solver",       "precision",   "convention", "reference"};
+    "scale",  "nonlinearity", "coarse-mesh", "cell",      "blending",  "time-step",
+    "solver", "precision",    "convention",  "reference", "resolution"};
   return names;
 }
 
@@ -23,14 +23,14 @@ Points ErrorBudget::sum() const
 {
   Points result = Points::Zero(total.rows(), 2);
   for (const auto &[name, field] : parts)
-    if (name != "precision")
+    if (name != "precision" && name != "resolution")
       result += field;
   return result;
 }
 
 int budget_refinement(const meshes::Sheet &sheet)
 {
-  return std::clamp(160 / std::max(sheet.n1, sheet.n2), 4, 8);
+  return std::clamp(160 / std::max(sheet.n1, sheet.n2) / 2 * 2, 4, 8);
 }
 
 namespace
@@ -80,6 +80,9 @@ LoadBudget::LoadBudget(const BudgetCells &cells, const meshes::Sheet &sheet, con
     , coarse_tight(cells.tight.stiffness, sheet, load, sheet.n1, sheet.n2)
     , resolved(cells.given.stiffness, sheet, load, load.is_periodic() ? 1 : sheet.n1 * refinement,
                load.is_periodic() ? 1 : sheet.n2 * refinement)
+    , half_resolved(cells.given.stiffness, sheet, load,
+                    load.is_periodic() ? 1 : sheet.n1 * refinement / 2,
+                    load.is_periodic() ? 1 : sheet.n2 * refinement / 2)
 {
   const HomogenizedSheet resolved_best(cells.best.stiffness, sheet, load,
                                        load.is_periodic() ? 1 : sheet.n1 * refinement,
@@ -118,6 +121,10 @@ ErrorBudget LoadBudget::measure(const Law law, const SolvedLevel &level)
   budget.parts["coarse-mesh"] =
     localized(coarse.at_fine_vertices(law, level.coarse), cells.given, sheet) - with_averaged;
   budget.parts["blending"] = with_averaged - with_exact;
+  budget.parts["resolution"] =
+    with_exact - localized(half_resolved.at_fine_vertices(
+                             law, half_resolved.solve(law, half_resolved.prescribed(strain))),
+                           cells.given, sheet);
 
   const shell::Positions<2> u_best =
     coarse_best.solve(law, coarse_best.with_held(level.coarse, strain));

@@ -138,12 +138,13 @@ private:
           output ? output->uncertainty->rows() : none, table(&StrainOutput::run_time), communicator,
           [&](const std::string &what)
           { progress.begin(cell.name + ", " + load.name + ", run times: " + what); });
-        if (!fault.empty())
-          on_root(
-            communicator,
-            [&]() {
+        on_root(
+          communicator,
+          [&]()
+          {
+            if (!fault.empty())
               write_note({cell.name, load.name, Law::biot, of_run.strain}, "run times: " + fault);
-            });
+          });
         return;
       }
   }
@@ -178,7 +179,7 @@ private:
       reference = std::make_unique<FineReference>(sheet, cell.stiffness_of_phase(),
                                                   ReferenceOptions(), communicator);
     LightweightCloth cloth(homogenized, sheet, load);
-    begin_budget(cell, homogenized, sheet, load, laws, *reference);
+    const bool has_budget = begin_budget(cell, homogenized, sheet, load, laws, *reference);
     for (std::size_t k = 0; k < laws.size(); ++k)
     {
       const std::vector<double> missing = missing_strains(cell, load, laws[k]);
@@ -196,7 +197,7 @@ private:
                        true);
         if (is_reached)
           is_reached = study_strain(cell, sheet, load, laws[k], strain, *reference, cloth,
-                                    uncertainty.at(laws[k], strain));
+                                    uncertainty.at(laws[k], strain), has_budget);
         else
           on_root(communicator,
                   [&]() {
@@ -208,7 +209,8 @@ private:
   }
 
   /// What the budget of a load asks for beside the study, if any level of it is missing.
-  void begin_budget(const UnitCell &cell, const meshes::HomogenizedCell &homogenized,
+  /// @return whether levels can be measured, on every rank
+  bool begin_budget(const UnitCell &cell, const meshes::HomogenizedCell &homogenized,
                     const meshes::Sheet &sheet, const Load &load, const std::vector<Law> &laws,
                     FineReference &reference)
   {
@@ -218,12 +220,27 @@ private:
         is_missing =
           is_missing || (budget && budget->is_missing(cell.name, load.name, law, strain));
     if (!is_missing)
-      return;
+      return false;
     progress.begin(cell.name + ", " + load.name + ": linear references of the error budget");
-    if (!is_budget_begun)
-      budget->begin_cell(cell, homogenized);
-    is_budget_begun = true;
-    budget->begin_load(sheet, load, reference);
+    try
+    {
+      if (!is_budget_begun)
+        budget->begin_cell(cell, homogenized);
+      is_budget_begun = true;
+      budget->begin_load(sheet, load, reference);
+      return true;
+    }
+    catch (const meshes::NotConverged &failure)
+    {
+      const std::string why = failure.what();
+      on_root(communicator,
+              [&]()
+              {
+                write_note({cell.name, load.name, laws.front(), options.strains.front()},
+                           "no error budget of this load; " + why);
+              });
+      return false;
+    }
   }
 
   /// The levels of which a row is missing, told to all ranks.
@@ -260,7 +277,7 @@ private:
 
   bool study_strain(const UnitCell &cell, const meshes::Sheet &sheet, const Load &load,
                     const Law law, const double strain, FineReference &reference,
-                    LightweightCloth &cloth, const double uncertainty)
+                    LightweightCloth &cloth, const double uncertainty, const bool has_budget)
   {
     const StrainLevel level  = {cell.name, load.name, law, strain};
     const ReferenceStep fine = reference.advance(strain);
@@ -282,13 +299,17 @@ private:
                                     " triangles of the fine reference are inverted (det F <= 0)");
               });
     largest_residual = std::max(largest_residual, fine.relative_residual);
+    UpsampledLevel solved;
+    int is_solved = 0;
     on_root(communicator,
             [&]()
             {
               try
               {
-                compare(level, sheet, load, fine, reference.n_dofs(), cloth,
-                        {{}, 0., std::sqrt(cell.lattice.area()), uncertainty, 0., fine.seconds});
+                solved =
+                  compare(level, sheet, load, fine, reference.n_dofs(), cloth,
+                          {{}, 0., std::sqrt(cell.lattice.area()), uncertainty, 0., fine.seconds});
+                is_solved = 1;
               }
               catch (const meshes::NotConverged &failure)
               {
@@ -297,35 +318,47 @@ private:
                 output->write_unreached(level, sheet);
               }
             });
-    if (budget && budget->is_missing(cell.name, load.name, law, strain))
+    MPI_Bcast(&is_solved, 1, MPI_INT, 0, communicator);
+    if (is_solved && has_budget && budget->is_missing(cell.name, load.name, law, strain))
     {
-      const std::string fault = budget->measure(law, strain, fine.positions, reference, cloth);
-      if (!fault.empty())
-        on_root(communicator, [&]() { write_note(level, "error budget: " + fault); });
+      const std::string fault = budget->measure(law, strain, fine.positions, reference, solved);
+      on_root(communicator,
+              [&]()
+              {
+                if (!fault.empty())
+                  write_note(level, "error budget: " + fault);
+              });
     }
     return true;
   }
 
   /// @param errors what all methods have in common
-  void compare(const StrainLevel &level, const meshes::Sheet &sheet, const Load &load,
-               const ReferenceStep &fine, const unsigned long n_dofs, LightweightCloth &cloth,
-               StrainErrors errors)
+  UpsampledLevel compare(const StrainLevel &level, const meshes::Sheet &sheet, const Load &load,
+                         const ReferenceStep &fine, const unsigned long n_dofs,
+                         LightweightCloth &cloth, StrainErrors errors)
   {
-    const CoarseStep coarse = cloth.solve(level.law, level.strain);
-    const meshes::Points coarse_motion =
-      cloth.upsample(Method("affine"), level.law, coarse.positions).positions;
-    errors.fluctuation = (fine.positions - coarse_motion).rowwise().norm().mean();
-    for (const std::string &name : options.methods)
+    const CoarseStep coarse   = cloth.solve(level.law, level.strain);
+    const auto upsampled_with = [&](const std::string &name)
     {
-      const Method method(name);
-      if (!method.has_meaning(level.law) || output->has_errors(level, name))
-        continue;
-      const UpsampledSheet upsampled = cloth.upsample(method, level.law, coarse.positions);
-      errors.distance                = (upsampled.positions - fine.positions).rowwise().norm();
-      errors.seconds                 = coarse.seconds + upsampled.seconds;
-      if (!errors.distance.allFinite())
+      UpsampledSheet upsampled = cloth.upsample(Method(name), level.law, coarse.positions);
+      if (!upsampled.positions.allFinite())
         throw meshes::NotConverged(
           level.cell + ", " + level.load + ", " + name + ": positions that are not finite", {});
+      return upsampled;
+    };
+    const auto distance_of = [&](const meshes::Points &positions)
+    { return (positions - fine.positions).rowwise().norm(); };
+    const UpsampledSheet affine = upsampled_with("affine"), localized = upsampled_with("localized");
+    errors.fluctuation = distance_of(affine.positions).mean();
+    for (const std::string &name : options.methods)
+    {
+      if (!Method(name).has_meaning(level.law) || output->has_errors(level, name))
+        continue;
+      const UpsampledSheet upsampled = name == "affine"      ? affine
+                                       : name == "localized" ? localized
+                                                             : upsampled_with(name);
+      errors.distance                = distance_of(upsampled.positions);
+      errors.seconds                 = coarse.seconds + upsampled.seconds;
       // The row comes last: where it is there, so is all that belongs to it.
       if (name == "localized")
       {
@@ -338,6 +371,7 @@ private:
       }
       output->write_errors(level, name, sheet, cloth.coarse.n_triangles(), errors);
     }
+    return {coarse.positions, localized.positions};
   }
 
   /// The level nearest to 10 %.

@@ -120,6 +120,11 @@ const std::vector<std::string> &stress_columns()
   return columns;
 }
 
+std::vector<std::string> stress_keys(const StressCase &stress_case)
+{
+  return {field(stress_case.group), field(stress_case.name)};
+}
+
 std::vector<std::string> stress_row(const StressCase &stress_case, const StressResult &result)
 {
   return {field(stress_case.group), field(stress_case.name),        field(stress_case.expected),

@@ -61,6 +61,9 @@ std::string limit_text(const StressCase &stress_case);
 /// The columns of stress.csv.
 const std::vector<std::string> &stress_columns();
 
+/// What names a row: group and case.
+std::vector<std::string> stress_keys(const StressCase &stress_case);
+
 /// A row of stress.csv, texts without commas and line breaks.
 std::vector<std::string> stress_row(const StressCase &stress_case, const StressResult &result);
 

@@ -36,7 +36,8 @@ std::vector<StressCase> rotation_cases(const std::vector<SheetStiffness> &stiffn
 std::vector<StressCase> motion_cases(const std::vector<SheetStiffness> &stiffnesses);
 
 /// Bending, wind and an obstacle at the steps of scenes, 0.1 to 50 ms.
-std::vector<StressCase> scene_cases(const SheetStiffness &stiffness);
+/// @param with_obstacle false: the sphere is not there, which its cases must notice
+std::vector<StressCase> scene_cases(const SheetStiffness &stiffness, bool with_obstacle = true);
 
 /// Up-sampling of violent coarse motions.
 std::vector<StressCase> localization_cases(const std::vector<meshes::HomogenizedCell> &cells,

@@ -47,6 +47,8 @@ void add_stress_command(CLI::App &app, Action &action, Afterwards &afterwards,
     ->capture_default_str();
   command->add_flag("--quick", arguments->quick,
                     "Each case twice instead of ten times, cells of at most 1e5 triangles");
+  command->add_flag("--resume", arguments->study.resume,
+                    "Keep the rows that are there, run the other cases");
   command->add_flag("--quiet", arguments->study.quiet, "Print nothing but faults");
   arguments->end.add_options(*command);
   command->footer(

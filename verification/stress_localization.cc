@@ -7,6 +7,9 @@
 #include "verification/result_files.h"
 #include "verification/stress_cases.h"
 
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -14,8 +17,6 @@
 
 namespace homespun::verification
 {
-using localization::CoarseFrames;
-using localization::Frame;
 using localization::Positions;
 using localization::Upsampler;
 using localization::UpsamplerOptions;
@@ -59,27 +60,55 @@ Eigen::MatrixXd upsampled(const Sheets &sheets, const Positions<3> &coarse,
   return fine.template cast<double>();
 }
 
+/// U of F = R U by the eigenvectors of F'F, apart from the code under test.
+Eigen::Matrix2d stretch(const Eigen::Matrix<double, 3, 2> &F)
+{
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> squared(F.transpose() * F);
+  return squared.eigenvectors() * squared.eigenvalues().cwiseMax(0.).cwiseSqrt().asDiagonal() *
+         squared.eigenvectors().transpose();
+}
+
+/// Biot's strain U - I: 11, 22, twice 12.
+Eigen::Vector3d strain_of(const Eigen::Matrix2d &U)
+{
+  return {U(0, 0) - 1., U(1, 1) - 1., 2. * U(0, 1)};
+}
+
 /// Largest distance from F X + R w, in cell sides.
 StressAnswer uniform(const Sheets &sheets, const Eigen::Matrix<double, 3, 2> &F)
 {
-  const Positions<3> coarse   = sheets.coarse.vertices * F.transpose();
-  const Eigen::MatrixXd found = upsampled<double>(sheets, coarse);
-  const CoarseFrames<3> frames(sheets.coarse, {});
-  const Frame<3> frame = frames.of_triangle(0, coarse);
+  const Positions<3> coarse           = sheets.coarse.vertices * F.transpose();
+  const Eigen::MatrixXd found         = upsampled<double>(sheets, coarse);
+  const Eigen::Matrix2d U             = stretch(F);
+  const Eigen::Vector3d strain        = strain_of(U);
+  const Eigen::Matrix<double, 3, 2> R = F * U.inverse();
   const meshes::CharacteristicDisplacements chi =
     localization::anchored(sheets.cell, localization::Anchor::lattice);
   double worst = 0.;
   for (int v = 0; v < sheets.fine.mesh.n_vertices(); ++v)
   {
     const Eigen::Matrix<double, 1, 6> modes = chi.row(sheets.fine.cell_vertex(v));
-    const Eigen::Vector2d w =
-      -(frame.strain(0) * modes.segment<2>(0) + frame.strain(1) * modes.segment<2>(2) +
-        frame.strain(2) * modes.segment<2>(4))
-         .transpose();
-    const Eigen::Vector3d exact = F * sheets.fine.mesh.vertices.row(v).transpose() + frame.lift * w;
+    const Eigen::Vector2d w = -(strain(0) * modes.segment<2>(0) + strain(1) * modes.segment<2>(2) +
+                                strain(2) * modes.segment<2>(4))
+                                 .transpose();
+    const Eigen::Vector3d exact = F * sheets.fine.mesh.vertices.row(v).transpose() + R * w;
     worst                       = std::max(worst, (found.row(v).transpose() - exact).norm());
   }
   return {worst / sheets.side, found};
+}
+
+Eigen::Matrix<double, 3, 2> gradient(const meshes::TriangleMesh &mesh, const int t,
+                                     const Positions<3> &x)
+{
+  const Eigen::RowVector3i v = mesh.triangles.row(t);
+  Eigen::Matrix2d rest;
+  Eigen::Matrix<double, 3, 2> moved;
+  for (int k = 0; k < 2; ++k)
+  {
+    rest.col(k)  = mesh.vertices.row(v(k + 1)) - mesh.vertices.row(v(0));
+    moved.col(k) = x.row(v(k + 1)) - x.row(v(0));
+  }
+  return moved * rest.inverse();
 }
 
 /// Largest microscopic displacement over its bound.
@@ -87,19 +116,16 @@ StressAnswer violent(const Sheets &sheets, const Positions<3> &coarse)
 {
   const Eigen::MatrixXd fine  = upsampled<double>(sheets, coarse),
                         alone = upsampled<double>(sheets, coarse, false);
-  const CoarseFrames<3> frames(sheets.coarse, {});
   const meshes::CharacteristicDisplacements chi =
     localization::anchored(sheets.cell, localization::Anchor::lattice);
-  double strain = 0., lift = 0., mode = 0.;
+  double strain = 0., mode = 0.;
   for (int t = 0; t < sheets.coarse.n_triangles(); ++t)
-  {
-    const Frame<3> frame = frames.of_triangle(t, coarse);
-    strain               = std::max(strain, frame.strain.cwiseAbs().sum());
-    lift                 = std::max(lift, frame.lift.norm());
-  }
+    strain =
+      std::max(strain, strain_of(stretch(gradient(sheets.coarse, t, coarse))).cwiseAbs().sum());
   for (int k = 0; k < 3; ++k)
     mode = std::max(mode, chi.middleCols<2>(2 * k).rowwise().norm().maxCoeff());
-  const double bound = strain * lift * mode + 1e-14 * coarse.cwiseAbs().maxCoeff();
+  constexpr double lift = 1.; // of a rotation
+  const double bound    = strain * lift * mode + 1e-14 * coarse.cwiseAbs().maxCoeff();
   Eigen::MatrixXd values(fine.rows(), 6);
   values << fine, upsampled<float>(sheets, coarse);
   return {(fine - alone).rowwise().norm().maxCoeff() / bound, values};

@@ -140,15 +140,32 @@ private:
       cases.insert(cases.end(), some.begin(), some.end());
   }
 
+  /// What the rows depend on; those of other inputs are not taken up.
+  void check_stress_inputs() const
+  {
+    nlohmann::ordered_json inputs = {{"repeats", options.repeats},
+                                     {"most_triangles", options.most_triangles},
+                                     {"ranks", n_ranks()}};
+    for (const homogenization::UnitCell &cell : unit_cells)
+      inputs["cells"][cell.name] = fingerprint(cell);
+    check_inputs_file(options.output, inputs, options.resume, "stress.csv");
+  }
+
   void run_cases()
   {
     std::filesystem::create_directories(options.output);
-    table =
-      std::make_unique<ResultTable>(options.output + "/stress.csv", stress_columns(), 2, false);
+    check_stress_inputs();
+    table = std::make_unique<ResultTable>(options.output + "/stress.csv", stress_columns(), 2,
+                                          options.resume);
     Progress progress(is_root && !options.quiet, static_cast<int>(cases.size()));
     std::string group;
     for (const StressCase &one : cases)
     {
+      if (table->contains(stress_keys(one)))
+      {
+        progress.done();
+        continue;
+      }
       progress.begin(one.group + (one.group == group ? ": " + one.name : ""), one.group != group);
       group                     = one.group;
       const StressResult result = run_case(one, options.repeats);
@@ -163,7 +180,7 @@ private:
   /// Iterations and times, which have no limit.
   void measure_solver()
   {
-    ResultTable rows(options.output + "/solver.csv", solver_columns(), 4, false);
+    ResultTable rows(options.output + "/solver.csv", solver_columns(), 4, options.resume);
     const std::vector<SolverMeasurement> all = solver_measurements();
     Progress progress(is_root && !options.quiet, static_cast<int>(all.size()));
     std::string parameter;
@@ -172,7 +189,9 @@ private:
       progress.begin("solver: " + one.parameter + " " + csv_number(one.value),
                      one.parameter != parameter);
       parameter = one.parameter;
-      rows.append(one.run(options.repeats > 2 ? 3 : 1));
+      if (!rows.contains(
+            {one.parameter, csv_number(one.value), one.cell, std::to_string(one.order)}))
+        rows.append(one.run(options.repeats > 2 ? 3 : 1));
       progress.done();
     }
   }

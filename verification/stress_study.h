@@ -15,14 +15,15 @@ struct StressStudyOptions
 {
   std::vector<std::string> cell_files; ///< their C^H and modes; none: built-in ones
   int repeats        = 10;
-  int most_triangles = 100000; ///< of the largest cell
+  int most_triangles = 1000000; ///< of the largest cell
   std::string output;
   std::string command; ///< that reproduces the study
-  bool quiet = false;
+  bool resume = false;
+  bool quiet  = false;
 };
 
 /// Runs all cases and writes, into the output folder, stress.csv and solver.csv row by row, verdicts.json
-/// and study.json.
+/// and study.json. With `resume` cases and measurements that have a row are not run again.
 /// Cells are homogenized with P1 by all ranks; the cases run on the first rank, on one thread.
 /// @throws BadInput, NotConverged of the cells; what a case throws is its outcome
 std::vector<Verdict> run_stress_study(const StressStudyOptions &options, MPI_Comm communicator);

@@ -51,8 +51,13 @@ int run_verify(VerifyArguments arguments, Afterwards &afterwards)
     if (!options.quiet)
       print(result.verdicts);
     if (!arguments.no_report)
-      afterwards = [folders = result.folders, output = options.output, quiet = options.quiet]()
+    {
+      // The first folder holds the claims of all parts, those too of a part that did not run to its end.
+      std::vector<std::string> folders = {options.output};
+      folders.insert(folders.end(), result.folders.begin(), result.folders.end());
+      afterwards = [folders, output = options.output, quiet = options.quiet]()
       { make_report(folders, output, quiet); };
+    }
   }
   return any_failed(result.verdicts) ? 1 : 0;
 }
@@ -80,6 +85,7 @@ void add_verify_command(CLI::App &app, Action &action, Afterwards &afterwards,
     "Parts: homogenize (brackets of C^H), strain (error against strain, budget, run time, range of validity),\n"
     "converge (observed orders), stress (stability), drape (hang and pull in motion against biot).\n"
     "The first line says PASS, or FAIL with the first claim that failed; each part has a folder of its own.\n"
+    "Taken up again with --resume, cells are homogenized again; all else keeps what is there.\n"
     "Example:\n  homespun verify mycell.prm --quick\n  mpirun -n 2 homespun verify mycell.prm");
   command->callback(
     [&action, &afterwards, arguments]()

@@ -2,6 +2,7 @@
 #include "verification/verify_study.h"
 
 #include "meshes/errors.h"
+#include "meshes/sheet.h"
 #include "verification/cell_study.h"
 #include "verification/commands.h"
 #include "verification/converge_cases.h"
@@ -11,6 +12,7 @@
 #include "verification/result_files.h"
 #include "verification/strain_study.h"
 #include "verification/stress_study.h"
+#include "verification/study_inputs.h"
 
 #include <deal.II/base/mpi.h>
 
@@ -48,7 +50,8 @@ public:
   }
 
 private:
-  /// All cells are read before anything runs: hours of work must not end at the last one's fault.
+  /// All that a study refuses of a cell is asked before anything runs: hours of work must not end at the last one's
+  /// fault.
   void read_cells()
   {
     std::vector<std::string> faults;
@@ -56,6 +59,7 @@ private:
       try
       {
         cells.push_back(homogenization::read_unit_cell(file));
+        meshes::tile(cells.back().mesh, cells.back().lattice, 1, 1);
       }
       catch (const meshes::BadInput &bad)
       {
@@ -63,6 +67,7 @@ private:
       }
     if (!faults.empty())
       throw meshes::BadInput(faults);
+    check_names(cells);
   }
 
   void run_part(const std::string &part)
@@ -143,9 +148,7 @@ private:
       study.repeats        = 2;
       study.most_triangles = 100000;
     }
-    study.output  = folder;
-    study.command = options.command;
-    study.quiet   = options.quiet;
+    take_common(study, folder);
     return run_stress_study(study, communicator);
   }
 
@@ -201,10 +204,11 @@ std::string outcome_line(const std::vector<Verdict> &verdicts)
     return std::count_if(verdicts.begin(), verdicts.end(),
                          [&](const Verdict &verdict) { return verdict.outcome == outcome; });
   };
-  const auto n_failed = count(Outcome::fail), n_open = count(Outcome::inconclusive);
+  const auto n_failed = count(Outcome::fail), n_open = count(Outcome::inconclusive),
+             n_held      = count(Outcome::pass);
   const std::string open = n_open == 0 ? "" : ", " + std::to_string(n_open) + " cannot be judged";
   if (n_failed == 0)
-    return "PASS: " + std::to_string(count(Outcome::pass)) + " of " +
+    return (n_held > 0 ? "PASS: " : "INCONCLUSIVE: ") + std::to_string(n_held) + " of " +
            std::to_string(verdicts.size()) + " claims hold" + open;
   const auto first =
     std::find_if(verdicts.begin(), verdicts.end(),

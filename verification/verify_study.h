@@ -25,7 +25,7 @@ struct VerifyOptions
 struct Verification
 {
   std::vector<Verdict> verdicts;    ///< of all parts, each claim begins with its part
-  std::vector<std::string> folders; ///< of the results, for one report
+  std::vector<std::string> folders; ///< of the parts that ran to their end, for one report
 };
 
 /// The parts: homogenize, strain, converge, stress, drape.
@@ -34,10 +34,10 @@ const std::vector<std::string> &verify_parts();
 /// Runs the parts one after the other, each into a folder of its own below the output, and writes
 /// verdicts.json with all claims. A part whose solver does not converge is a claim that failed, and the others
 /// still run.
-/// @throws BadInput where a cell cannot be read, before anything runs
+/// @throws BadInput where a cell cannot be read or makes no sheet, or two share a name, before anything runs
 Verification verify(const VerifyOptions &options, MPI_Comm communicator);
 
 /// The outcome in one line: FAIL with the first claim that failed, else PASS with how many claims hold and how
-/// many cannot be judged.
+/// many cannot be judged; INCONCLUSIVE where none holds.
 std::string outcome_line(const std::vector<Verdict> &verdicts);
 } // namespace homespun::verification

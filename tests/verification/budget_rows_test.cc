@@ -39,11 +39,11 @@ ErrorBudget known_budget(const double strain)
   double turn  = 0.;
   for (const std::string &name : budget_parts())
   {
-    budget.parts[name] = field(name == "nonlinearity" ? 1e-3 * strain * strain
-                               : name == "solver"     ? 1e-9 * strain
-                                                      : size,
+    budget.parts[name] = field(name == "nonlinearity"                     ? 1e-3 * strain * strain
+                               : name == "solver" || name == "resolution" ? 1e-9 * strain
+                                                                          : size,
                                turn);
-    if (name != "precision")
+    if (name != "precision" && name != "resolution")
       budget.total += budget.parts[name];
     size *= 0.8;
     turn += 1.;
@@ -92,7 +92,7 @@ const std::vector<double> strains = {0.001, 0.005, 0.01, 0.1};
 TEST(exact_budget, parts_that_make_up_the_total_have_effectivity_one)
 {
   const auto verdicts = budget_verdicts(strain_rows(strains), ladder(strains));
-  EXPECT_EQ(verdicts.size(), 5u); // two levels, two claims each, and the slope
+  EXPECT_EQ(verdicts.size(), 9u); // two levels, four claims each, and the slope
   for (const Verdict &verdict : verdicts)
     EXPECT_EQ(verdict.outcome, Outcome::pass) << verdict.claim;
   EXPECT_NEAR(verdict_with(verdicts, "add up").value, 1., 1e-5);
@@ -104,7 +104,7 @@ TEST(exact_budget, the_shares_of_the_parts_are_the_share_of_their_sum)
   const ErrorBudget budget = known_budget(0.01);
   double shares            = 0.;
   for (const std::string &name : budget_parts())
-    if (name != "precision")
+    if (name != "precision" && name != "resolution")
       shares += norms_of(budget.parts.at(name), budget.total, all_interior, 0).share;
   EXPECT_NEAR(shares, 1., 1e-12);
   EXPECT_NEAR(norms_of(budget.total, budget.total, all_interior, 0).share, 1., 1e-14);
@@ -136,6 +136,30 @@ TEST(tripwire_budget, an_error_planted_in_one_part_moves_the_effectivity_out_of_
     }
 }
 
+TEST(tripwire_budget, a_sum_as_long_as_the_error_that_points_elsewhere_is_noticed)
+{
+  Rows rows;
+  for (const double strain : strains)
+  {
+    ErrorBudget budget = known_budget(strain);
+    for (auto &[name, field] : budget.parts)
+      field *= -1.;
+    for (const auto &row :
+         budget_rows("cell", "strip-2", strain, "biot", budget, all_interior, 0.01))
+      rows.push_back(row);
+  }
+  const auto verdicts = budget_verdicts(strain_rows(strains), rows);
+  EXPECT_EQ(verdict_with(verdicts, "add up").outcome, Outcome::pass); // lengths alone
+  EXPECT_EQ(verdict_with(verdicts, "vertex by vertex").outcome, Outcome::fail);
+}
+
+TEST(tripwire_budget, a_homogenized_sheet_that_is_not_resolved_is_noticed)
+{
+  const auto verdicts = budget_verdicts(strain_rows(strains), ladder(strains, "resolution", 1e6));
+  EXPECT_EQ(verdict_with(verdicts, "counts as resolved").outcome, Outcome::fail);
+  EXPECT_EQ(verdict_with(verdicts, "add up").outcome, Outcome::pass);
+}
+
 TEST(tripwire_budget, a_solver_that_stops_early_is_noticed)
 {
   const auto verdicts = budget_verdicts(strain_rows(strains), ladder(strains, "solver", 1e6));
@@ -152,6 +176,15 @@ TEST(tripwire_budget, a_nonlinearity_of_first_order_is_noticed)
             Outcome::fail);
 }
 
+TEST(exact_budget, a_slope_needs_three_levels_or_nothing_to_measure)
+{
+  const std::vector<double> two = {0.01, 0.1};
+  EXPECT_EQ(verdict_with(budget_verdicts(strain_rows(two), ladder(two)), "slope").outcome,
+            Outcome::inconclusive);
+  const auto nothing = budget_verdicts(strain_rows(strains), ladder(strains, "nonlinearity", 0.));
+  EXPECT_EQ(verdict_with(nothing, "slope").outcome, Outcome::pass);
+}
+
 TEST(exact_budget, a_level_without_a_budget_is_inconclusive)
 {
   int n_judged = 0;
@@ -161,7 +194,7 @@ TEST(exact_budget, a_level_without_a_budget_is_inconclusive)
       EXPECT_EQ(verdict.outcome, Outcome::inconclusive) << verdict.claim;
       ++n_judged;
     }
-  EXPECT_EQ(n_judged, 2);
+  EXPECT_EQ(n_judged, 4);
 }
 
 TEST(exact_run_time, the_median_is_the_middle)

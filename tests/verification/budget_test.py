@@ -24,7 +24,7 @@ class Budget(InFolder):
 
         budget = rows_of(self.folder / "budget.csv")
         whole = [row for row in budget if row["region"] == "all"]
-        self.assertEqual(len(whole), 2 * 2 * 13)  # loads, strains; ten parts, sum, misfit, total
+        self.assertEqual(len(whole), 2 * 2 * 14)  # loads, strains; eleven parts, sum, misfit, total
         for row in budget:
             for key in ("mean_m", "rms_m", "max_m", "mean_per_cell", "share"):
                 self.assertTrue(math.isfinite(float(row[key])), row)
@@ -63,6 +63,7 @@ class Budget(InFolder):
         self.assertEqual(run(*study, "--resume").returncode, 0)
         found = totals()
         self.assertEqual(found.keys(), expected.keys())
+        self.assertEqual(len(path.read_text().splitlines()), len(text.splitlines()))
         for key, value in expected.items():
             self.assertAlmostEqual(found[key], value, delta=1e-4 * value)
         self.assertEqual((self.folder / "strain.csv").read_text(), strain)

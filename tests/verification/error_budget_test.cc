@@ -34,7 +34,8 @@ BudgetCells budget_cells(const UnitCell &cell)
 /// The budget of a sheet of n x n cells under biot.
 /// @param used what the method up-samples with; the budget has the right cell
 ErrorBudget measured(const UnitCell &cell, const BudgetCells &cells, const Load &load, const int n,
-                     const double strain, const meshes::HomogenizedCell &used)
+                     const double strain, const meshes::HomogenizedCell &used,
+                     const int refinement = 8)
 {
   const meshes::Sheet sheet = meshes::tile(cell.mesh, cell.lattice, n, n);
   const auto linear         = [&](const unsigned int order)
@@ -53,7 +54,7 @@ ErrorBudget measured(const UnitCell &cell, const BudgetCells &cells, const Load 
   const CoarseStep coarse = cloth.solve(Law::biot, strain);
   const meshes::Points upsampled =
     cloth.upsample(Method("localized"), Law::biot, coarse.positions).positions;
-  LoadBudget budget(cells, sheet, load, linear(1), linear(2), 0.01, 8);
+  LoadBudget budget(cells, sheet, load, linear(1), linear(2), 0.01, refinement);
   return budget.measure(Law::biot, {strain, coarse.positions, upsampled, fine, tight});
 }
 
@@ -118,6 +119,22 @@ TEST(exact_error_budget, a_homogeneous_sheet_errs_by_its_coarse_mesh_alone)
   // The resolved sheet and the reference have meshes of their own; with eightfold refinement an error of order two is
   // down to 1/64, at the corners of the frame less.
   EXPECT_LT(mean(budget.parts.at("scale")), 0.1 * coarse);
+}
+
+TEST(order_error_budget, the_homogenized_sheet_that_counts_as_resolved_approaches_its_limit)
+{
+  UnitCell cell = layered();
+  for (homogenization::Phase &phase : cell.phases)
+    phase = cell.phases[0];
+  const BudgetCells cells = budget_cells(cell);
+  const auto resolution   = [&](const int refinement)
+  {
+    const ErrorBudget budget =
+      measured(cell, cells, Load("shear-frame"), 3, 0.01, cells.given, refinement);
+    return mean(budget.parts.at("resolution"));
+  };
+  // Order two away from the corners of the frame; |u_2 - u_1| / |u_8 - u_4| is 16 for it.
+  EXPECT_GT(resolution(2) / resolution(8), 8.);
 }
 
 TEST(exact_error_budget, the_parts_of_a_sheet_add_up)

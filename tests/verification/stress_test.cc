@@ -143,3 +143,16 @@ TEST(bound_stress, forces_exist_before_the_first_step)
 {
   expect_all_pass(rotation_cases({built_in_stiffnesses()[0]}), "before the first step");
 }
+
+TEST(tripwire_stress, a_cloth_that_falls_through_the_sphere_is_seen_at_every_time_step)
+{
+  int n = 0;
+  for (const StressCase &one : scene_cases(built_in_stiffnesses()[0], false))
+    if (one.name.find("falls on a sphere") != std::string::npos)
+    {
+      const StressResult result = run_case(one, 1);
+      EXPECT_EQ(result.verdict, Outcome::fail) << one.name << ": " << result.figure;
+      ++n;
+    }
+  EXPECT_EQ(n, 12);
+}

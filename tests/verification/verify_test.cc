@@ -19,6 +19,12 @@ TEST(exact_verify, the_first_line_counts_what_holds_and_what_is_open)
   EXPECT_EQ(outcome_line({holds}), "PASS: 1 of 1 claims hold");
 }
 
+TEST(tripwire_verify, without_a_claim_that_holds_nothing_passes)
+{
+  EXPECT_EQ(outcome_line({open, open}), "INCONCLUSIVE: 0 of 2 claims hold, 2 cannot be judged");
+  EXPECT_EQ(outcome_line({}), "INCONCLUSIVE: 0 of 0 claims hold");
+}
+
 TEST(tripwire_verify, one_claim_that_failed_is_on_the_first_line_with_its_figure_and_limit)
 {
   EXPECT_EQ(outcome_line({holds, fails, open, fails2}),

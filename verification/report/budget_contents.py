@@ -3,7 +3,7 @@
 import math
 
 import style
-from budget_results import PARTS, REGIONS, effectivity, levels, pareto_front
+from budget_results import BESIDE_THE_SUM, PARTS, REGIONS, effectivity, levels, pareto_front, worst_error
 from figures_budget import budget_figure, way_figure
 from style import percent, seconds, three
 
@@ -18,22 +18,22 @@ def budget_contents(results, name, side, strains, gallery):
     budget = [row for row in results.budget if row["cell"] == name]
     ways = [row for row in results.run_time if row["cell"] == name]
     contents = {"budget": None, "budget_rows": budget_rows(budget, strains), "region_rows": region_rows(budget, strains),
-                "ways": None, "way_rows": way_rows(ways), "way_sentence": None,
+                "ways": None, "way_rows": [], "way_sentence": None,
                 "validity": validity_table([row for row in results.validity if row["cell"] == name])}
     if figure := budget_figure(budget, strains, side):
         contents["budget"] = gallery.add(
-            figure, f"{name}-budget", f"{name}: where the error comes from. Each part is measured apart by a pair of solutions "
-            "in which one thing is turned; its share is its projection on the measured error, vertex by vertex, so "
+            figure, f"{name}-budget", f"{name}: where the error comes from. Each part is a difference of two solutions; its share is its projection on the measured error, vertex by vertex, so "
             "that shares add up and a part that compensates others counts downwards. Diamond: sum of the parts; the "
             "number is the effectivity, mean length of the summed field over that of the measured error. Shares below 0.5 % are not drawn.")
     if ways:
         load, strain = ways[0]["load"], ways[0]["strain"]
         ways = [w for w in ways if (w["load"], w["strain"]) == (load, strain)]
+        contents["way_rows"] = way_rows(ways)
         if figure := way_figure(ways, side):
             contents["ways"] = gallery.add(
                 figure, f"{name}-ways", f"{name}, {load} at {percent(strain)}: mean error against median run time of every way to "
                 "the positions, against P2 on the full sheet, which stands at its own error bar. Numbers: coarse quads per side.")
-            contents["way_sentence"] = fastest_sentence(ways, load, strain)
+            contents["way_sentence"] = fastest_sentence(ways, side, load, strain)
     return contents
 
 
@@ -73,7 +73,7 @@ def region_rows(rows, strains):
             if not parts:
                 continue
             total = parts["total"]["mean_m"]
-            largest = sorted((p for p in PARTS if p in parts), key=lambda p: -parts[p]["mean_m"])[:2]
+            largest = sorted((p for p in PARTS if p in parts and p not in BESIDE_THE_SUM), key=lambda p: -parts[p]["mean_m"])[:2]
             lines.append([load, percent(strain), region, three(parts["total"]["mean_per_cell"]),
                           three(parts["total"]["max_m"] / total * parts["total"]["mean_per_cell"]) if total > 0 else "–",
                           three(effectivity(parts)),
@@ -97,13 +97,13 @@ def way_rows(ways):
             for w in sorted(ways, key=lambda w: (math.isnan(w["seconds"]), w["seconds"]))]
 
 
-def fastest_sentence(ways, load, strain):
-    """The fastest way to a given error, for the limits that some way keeps and some way does not."""
+def fastest_sentence(ways, side, load, strain):
+    """The fastest way to a given error, for the limits that some way keeps, error bar included, and some way does not."""
     front = pareto_front(ways)
     known = [w["error_mean_per_cell"] for w in ways if not math.isnan(w["error_mean_per_cell"])]
     named, last = [], None
     for limit in LIMITS:
-        good = [w for w in front if w["error_mean_per_cell"] <= limit]
+        good = [w for w in front if worst_error(w, side) <= limit]
         if not good or max(known) <= limit:
             continue
         way = min(good, key=lambda w: w["seconds"])
@@ -114,7 +114,7 @@ def fastest_sentence(ways, load, strain):
         last = way
     if not named:
         return None
-    return (f"Fastest way to a given mean error under {load} at {percent(strain)}: "
+    return (f"Fastest way to a given mean error, error bar of the best solution included, under {load} at {percent(strain)}: "
             + "; ".join(f"within {100 * limit:g} % of the cell side {w['way']} ({seconds(w['seconds'])}, error "
                         f"{three(100. * w['error_mean_per_cell'])} %)" for limit, w in named) + ".")
 
@@ -145,12 +145,14 @@ def validity_table(rows):
 
 
 def validity_text(row):
-    """`3.2 % (3.1 to 3.4)`, `> 20 %`, or a dash."""
-    if row["relation"] == "-":
-        return "–"
-    if row["relation"] == ">":
-        return f"> {two(row['largest_strain'])} %"
+    """`3.2 % (3.1 to 3.4)`, `> 20 %`, or a dash; with what the error bar leaves open in brackets."""
     low, high = row["largest_strain_lower"], row["largest_strain_upper"]
+    if row["relation"] == "-":
+        return "–" if math.isnan(high) else f"– (up to {two(high)} %)"
+    if row["relation"] == ">":
+        strain = row["largest_strain"]
+        certain = "" if low >= strain else f" (from {two(low)} %)" if low > 0 else " (not resolved)"
+        return f"> {two(strain)} %{certain}"
     bar = ""
     if not (math.isnan(low) or math.isnan(high)) and two(low) != two(high):
         bar = f" ({two(low)} to {two(high)})"

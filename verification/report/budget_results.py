@@ -21,7 +21,9 @@ PARTS = {
     "precision": "8 float against double",
     "convention": "9 convention (anchor)",
     "reference": "the reference's own discretization",
+    "resolution": "change of the resolved homogenized sheet from a mesh half as fine",
 }
+BESIDE_THE_SUM = ("precision", "resolution")
 REGIONS = ("interior", "boundary", "corner")
 
 
@@ -41,9 +43,14 @@ def read_budget(path_of, results, faults):
 
 
 def levels(rows):
-    """(load, strain) -> region -> part -> row, of one cell, levels with a total alone."""
+    """(load, strain) -> region -> part -> row, of one cell, levels with a total alone.
+
+    Of several reference laws, as a study that was taken up again with others leaves them, biot counts, else the first.
+    """
     table = {}
-    for row in rows:
+    laws = [row["reference"] for row in rows]
+    law = "biot" if "biot" in laws else laws[0] if laws else None
+    for row in (row for row in rows if row["reference"] == law):
         table.setdefault((row["load"], row["strain"]), {}).setdefault(row["region"], {})[row["part"]] = row
     return {key: regions for key, regions in table.items() if "total" in regions.get("all", {})}
 
@@ -52,6 +59,12 @@ def effectivity(parts):
     """Mean of the sum over mean of the total, nan of a total that is zero."""
     total = parts["total"]["mean_m"]
     return parts["sum"]["mean_m"] / total if total > 0 and "sum" in parts else math.nan
+
+
+def worst_error(way, side):
+    """Error of a way with the error bar of the best solution added; P2 is that solution, its error is the bar."""
+    bar = way["reference_uncertainty_m"] / side
+    return way["error_mean_per_cell"] + (bar if way["way"] != "fine-p2" and bar > 0 else 0.)
 
 
 def pareto_front(ways):

@@ -56,7 +56,8 @@ def page_contents(results, gallery, output):
     scenes = [d["scene"] for d in drapes]
     for d, drape in zip(drapes, results.drapes):  # one scene may have been run into two folders
         d["name"] = d["scene"] if scenes.count(d["scene"]) == 1 else f"{d['scene']} ({drape.folder})"
-    strain_shown = bool(results.cells) or not (drapes or stress or convergence)
+    lists_all = any(study.lists_all for study in results.studies)
+    strain_shown = bool(results.cells) or not (drapes or stress or convergence or lists_all)
     headings = headings_of(drapes, stress, convergence, strain_shown)
     cells = contents_of_cells(results, gallery)
     reasons = {key: [] for key in ("verdicts", "short", "strain", "uncertainty")}
@@ -70,8 +71,8 @@ def page_contents(results, gallery, output):
                              "`localized` in strain.csv"}]
     commands = list(dict.fromkeys(c for c in map(command_of, results.studies) if c))
     several = len(results.studies) > 1
-    verdicts = [verdict_contents(v, commands, study.name if several else "") for study in results.studies
-                for v in study.verdicts]
+    verdicts = [verdict_contents(v, commands, study.name if several and not study.lists_all else "")
+                for study, v in results.claims()]
     # What failed stands on top, then what cannot be judged.
     verdicts.sort(key=lambda v: ("FAIL", "INCONCLUSIVE", "PASS").index(v["verdict"]))
     unreached = tables.unreached_notes(results.unreached())

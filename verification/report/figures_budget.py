@@ -7,7 +7,7 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
 import style
-from budget_results import PARTS, effectivity, levels, pareto_front
+from budget_results import BESIDE_THE_SUM, PARTS, effectivity, levels, pareto_front
 
 PART_COLOURS = dict(zip(PARTS, (style.BLUE, style.VERMILLION, style.GREEN, style.YELLOW, style.SKY, "#B0B0B0",
                                 style.BLACK, "#8A3A00", style.ORANGE, "#7F7F7F")))
@@ -54,7 +54,7 @@ def draw_stack(axes, x, parts, drawn):
     up = down = 0.
     for part in PARTS:
         share = parts[part]["share"] if part in parts else math.nan
-        if part == "precision" or not abs(share) >= SMALL:
+        if part in BESIDE_THE_SUM or not abs(share) >= SMALL:
             continue
         drawn.add(part)
         axes.bar(x, share, 0.62, bottom=up if share > 0 else down, color=PART_COLOURS[part], edgecolor="white",

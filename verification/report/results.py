@@ -34,6 +34,7 @@ class Study:
     name: str
     info: dict = field(default_factory=dict)      # study.json, or what drape.json says alike
     verdicts: list = field(default_factory=list)  # verdicts.json
+    lists_all: bool = False                       # of `homespun verify`: the claims of every part, and nothing else
 
 
 @dataclass
@@ -56,6 +57,11 @@ class Results:
         """Rows of strain.csv with an error in them."""
         return [row for row in self.strain if row["method"] != UNREACHED
                 and not math.isnan(row["error_mean_m"]) and cell in (None, row["cell"])]
+
+    def claims(self):
+        """(study, verdict) of every claim; where a folder lists those of all parts, they are all there are."""
+        lists = [study for study in self.studies if study.lists_all]
+        return [(study, verdict) for study in lists or self.studies for verdict in study.verdicts]
 
     def unreached(self):
         return [row for row in self.strain if row["method"] == UNREACHED]
@@ -103,6 +109,12 @@ def read_folder(folder, results, faults):
     has_convergence = holds("converge.csv")
     # A draped or stressed cell has a folder of its own too; its page is about motion, not about strain.
     has_strain = holds("strain.csv") or (bool(cell_folders) and not has_drape and not has_stress and not has_convergence)
+    if not (has_drape or has_stress or has_strain or has_convergence) and holds("verdicts.json"):
+        path = os.path.join(folder, "verdicts.json")
+        study.lists_all = True
+        study.verdicts = check_verdicts(read_json(path, faults) or {"verdicts": []}, path, faults)
+        results.studies.append(study)
+        return
     if not (has_drape or has_stress or has_strain or has_convergence):
         faults.append(f"{folder}: holds no results: neither strain.csv nor CELL/homogenize.json nor drape.json nor "
                       "stress.csv nor converge.csv. Give the --output folder of `homespun strain`, `homogenize`, `drape`, "

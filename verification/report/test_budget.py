@@ -13,8 +13,8 @@ WAYS = (("fine-p2", 10., 1e-5), ("fine-p1", 2., 1e-4), ("fine-corotational", 4.,
         ("localized-5", 2e-4, 0.03), ("localized-10", 1e-3, 0.008), ("voigt", 1e-3, 0.1), ("reuss", 1e-3, math.nan))
 
 
-def way(name, time, error):
-    return {"way": name, "seconds": time, "error_mean_per_cell": error}
+def way(name, time, error, bar=1e-7):
+    return {"way": name, "seconds": time, "error_mean_per_cell": error, "reference_uncertainty_m": bar}
 
 
 def write_budget(folder):
@@ -44,12 +44,25 @@ class Budget(unittest.TestCase):
         self.assertEqual([w["way"] for w in front], ["b"])
 
     def test_the_fastest_way_to_an_error_is_named_once_at_its_tightest_limit(self):
-        sentence = budget_contents.fastest_sentence([way(*w) for w in WAYS], "shear-frame", 0.1)
+        sentence = budget_contents.fastest_sentence([way(*w) for w in WAYS], 0.01, "shear-frame", 0.1)
         self.assertIn("within 5 % of the cell side localized-5", sentence)
         self.assertIn("within 1 % of the cell side localized-10", sentence)
         self.assertIn("within 0.05 % of the cell side fine-p1", sentence)
         self.assertEqual(sentence.count("localized-10"), 1)
         self.assertNotIn("voigt", sentence)
+
+    def test_a_way_whose_error_bar_crosses_a_limit_is_not_said_to_keep_it(self):
+        ways = [way(*w, bar=3e-5) for w in WAYS]  # 0.003 cell sides
+        sentence = budget_contents.fastest_sentence(ways, 0.01, "shear-frame", 0.1)
+        self.assertNotIn("localized-10", sentence)  # 0.008 + 0.003 is above 1 %
+        self.assertIn("within 0.5 % of the cell side fine-p1", sentence)
+        self.assertIn("within 0.05 % of the cell side fine-p2", sentence)
+
+    def test_of_several_reference_laws_one_counts(self):
+        def row(reference, mean):
+            return {"load": "strip-1", "strain": 0.1, "region": "all", "part": "total", "reference": reference, "mean_m": mean}
+        table = budget_results.levels([row("linear", 1.), row("biot", 2.), row("linear", 3.)])
+        self.assertEqual(table[("strip-1", 0.1)]["all"]["total"]["mean_m"], 2.)
 
     def test_effectivity_is_the_sum_over_the_total(self):
         parts = {"sum": {"mean_m": 3.}, "total": {"mean_m": 2.}}
@@ -62,8 +75,11 @@ class Budget(unittest.TestCase):
                                                   "largest_strain_lower": low, "largest_strain_upper": high})
         self.assertEqual(text("=", 0.0312, 0.0301, 0.0324), "3.1 % (3 to 3.2)")
         self.assertEqual(text("=", 0.0312, 0.0312, 0.0312), "3.1 %")
-        self.assertEqual(text(">", 0.2), "> 20 %")
+        self.assertEqual(text(">", 0.2, 0.2, 0.2), "> 20 %")
+        self.assertEqual(text(">", 0.2, 0.05, 0.2), "> 20 % (from 5 %)")
+        self.assertEqual(text(">", 0.2), "> 20 % (not resolved)")
         self.assertEqual(text("-"), "–")
+        self.assertEqual(text("-", high=0.003), "– (up to 0.3 %)")
 
 
 class BudgetReport(PageTest):
@@ -77,7 +93,7 @@ class BudgetReport(PageTest):
         page = self.page()
         for name in ("budget", "ways"):
             self.assertIn(f'id="stripes-{name}"', page)
-        for text in ("Fastest way to a given mean error under shear-frame", "1 scale separation", "3.1 % (3 to 3.2)",
+        for text in ("Fastest way to a given mean error, error bar of the best solution included, under shear-frame", "1 scale separation", "3.1 % (3 to 3.2)",
                      "already 3 % of the fluctuation"):
             self.assertIn(text, page)
 

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """Tests of the page of `homespun strain`: /usr/bin/python3 -m unittest discover -s verification/report"""
+import json
 import os
 import re
 import shutil
@@ -52,6 +53,20 @@ class ReportTest(PageTest):
         for what in ("Left out: verdicts", "Left out: picture of stripes", "Left out: sheets of stripes",
                      "Left out: effective stiffness of stripes", "Left out: provenance"):
             self.assertIn(what, page)
+
+    def test_the_claims_of_verify_stand_for_those_of_its_parts(self):
+        all_parts = os.path.join(self.place, "verify")
+        os.makedirs(all_parts)
+        claim = {"claim": "strain: runs to its end; no equilibrium", "verdict": "FAIL", "value": None, "limit": "every solver converges",
+                 "command": "homespun verify stripes.prm"}
+        with open(os.path.join(all_parts, "verdicts.json"), "w", encoding="utf-8") as file:
+            json.dump({"verdicts": [claim]}, file)
+        self.assertEqual(self.run_report(all_parts), (0, ""))
+        self.assertIn("runs to its end; no equilibrium", self.page())  # without any part
+        self.assertEqual(self.run_report(all_parts, self.folder), (0, ""))
+        page = self.page()
+        self.assertIn("0 of 1 claims hold, 1 fails.", page)
+        self.assertIn("runs to its end; no equilibrium", page)
 
     def test_interrupted_last_line_is_left_out_and_said(self):
         self.edit("strain.csv", lambda text: text + "stripes,shear-frame,0.2,biot,localized,2,8,32,0.00")
