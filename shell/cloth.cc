@@ -232,7 +232,8 @@ void Cloth::limit_energy(const double before, const bool may_fail)
   v                   = rigid + factor * (v - rigid);
 }
 
-/// So that L_{n+1} = L_n + h · torque of the external terms at x_{n+1}.
+/// So that L_{n+1} = L_n + h · torque of the external terms at x_{n+1}. They were evaluated with the velocities
+/// before the spin was put right, of which damping by mass at the rate α takes its part: (1 + h α) I ω is what is missing.
 void Cloth::restore_angular_momentum(const Eigen::RowVector3d &before, const double h)
 {
   Eigen::RowVector3d torque = Eigen::RowVector3d::Zero();
@@ -247,7 +248,10 @@ void Cloth::restore_angular_momentum(const Eigen::RowVector3d &before, const dou
     for (Eigen::Index i = 0; i < x.rows(); ++i)
       torque -= (x.row(i) - centre).cross(external.row(i));
   }
-  add_spin(m, x, spin_of(m, x, before + h * torque - angular_momentum()), v);
+  double damping = 0.;
+  for (const auto &term : terms())
+    damping += term->mass_damping();
+  add_spin(m, x, spin_of(m, x, (before + h * torque - angular_momentum()) / (1. + h * damping)), v);
 }
 
 StepReport Cloth::step(const double h)

@@ -96,6 +96,10 @@ public:
   {
     return false;
   }
+  double mass_damping() const override
+  {
+    return rate;
+  }
   std::size_t bytes() const override
   {
     return static_cast<std::size_t>(masses.size()) *

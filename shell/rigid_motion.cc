@@ -4,6 +4,8 @@
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 
+#include <limits>
+
 namespace homespun::shell
 {
 Eigen::RowVector3d centre_of_mass(const Eigen::VectorXd &masses, const Vectors &positions)
@@ -34,10 +36,10 @@ Eigen::RowVector3d spin_of(const Eigen::VectorXd &masses, const Vectors &positio
   }
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(inertia);
   Eigen::Vector3d spin = eigen.eigenvectors().transpose() * angular_momentum.transpose();
+  // Below round-off of the largest moment of inertia the body is a line, which cannot spin about itself.
+  const double smallest = 16. * std::numeric_limits<double>::epsilon() * eigen.eigenvalues()(2);
   for (int k = 0; k < 3; ++k)
-    spin(k) = eigen.eigenvalues()(k) > 1e-12 * eigen.eigenvalues()(2)
-                ? spin(k) / eigen.eigenvalues()(k)
-                : 0.;
+    spin(k) = eigen.eigenvalues()(k) > smallest ? spin(k) / eigen.eigenvalues()(k) : 0.;
   return (eigen.eigenvectors() * spin).transpose();
 }
 

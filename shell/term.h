@@ -91,6 +91,12 @@ public:
     return true;
   }
 
+  /// Rate α [1/s] of a force −α m v on every vertex; zero of all other forces.
+  virtual double mass_damping() const
+  {
+    return 0.;
+  }
+
   /// Bytes that the term keeps, for the table of what leaving it out saves.
   virtual std::size_t bytes() const = 0;
 };
