@@ -6,8 +6,10 @@
 #include <Eigen/LU>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <sstream>
 #include <unordered_map>
 
@@ -205,7 +207,26 @@ std::vector<std::string> periodicity_faults(const TriangleMesh &mesh, const Latt
   }
 
   const ImageClasses classes = match_images(points, lattice, relative_tolerance);
-  int unmatched              = 0;
+  std::map<std::array<int, 3>, Eigen::Index> vertex_at;
+  for (Eigen::Index i = 0; i < points.rows(); ++i)
+  {
+    const auto [other, is_new] =
+      vertex_at.insert({{classes.representative[static_cast<std::size_t>(i)], classes.offset(i, 0),
+                         classes.offset(i, 1)},
+                        i});
+    if (is_new)
+      continue;
+    std::ostringstream text;
+    text.precision(10);
+    text << name << ": vertices " << loop[static_cast<std::size_t>(other->second)] << " at ("
+         << points.row(other->second) << ") m and " << loop[static_cast<std::size_t>(i)] << " at ("
+         << points.row(i) << ") m on the outline count as one; expected more than "
+         << relative_tolerance * cell_size
+         << " m between them, the tolerance of periodic images: merge them, or move them apart";
+    faults.push_back(text.str());
+    break;
+  }
+  int unmatched = 0;
   for (Eigen::Index i = 0; i < points.rows(); ++i)
   {
     if (classes.size[static_cast<std::size_t>(i)] > 1)

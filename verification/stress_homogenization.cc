@@ -177,7 +177,9 @@ void contrast_cases(const std::vector<UnitCell> &cells, std::vector<StressCase> 
   for (const bool is_disconnected : {false, true})
     group.finite(std::string("rigid; ") + (is_disconnected ? "two islands" : "square inclusion") +
                    "; 1e9 beside 1e12",
-                 "has come to its limit", 1e-7, "largest relative energy difference [-]",
+                 "has come to its limit",
+                 1e-7 + algebraic_limit(inclusion_cell(n, soft(), stiff(1e12))),
+                 "largest relative energy difference [-]",
                  [=]() -> StressAnswer
                  {
                    const auto of = [=](const double contrast)
@@ -274,13 +276,17 @@ void sliver_cases(std::vector<StressCase> &cases)
       {"row of needles across the stripes", stripes_on(with_thin_row(aspect), equal_lines(n))},
       {"one obtuse triangle", capped_stripes(n, soft(), stiff(10.), aspect)}};
     for (const auto &sliver : slivers)
-      group.finite(sliver.first + of, "is the laminate of the closed form",
-                   algebraic_limit(sliver.second), to_closed_form,
-                   [cell = sliver.second]()
-                   {
-                     refuse_unsound(cell);
-                     return against_laminate(cell, 1);
-                   });
+      if (aspect < 1e-5 && sliver.first != "one obtuse triangle")
+        // 6e-8 of the side where they meet the outline, less than the tolerance of images.
+        group.refused(sliver.first + of, "count as one", sliver.second);
+      else
+        group.finite(sliver.first + of, "is the laminate of the closed form",
+                     algebraic_limit(sliver.second), to_closed_form,
+                     [cell = sliver.second]()
+                     {
+                       refuse_unsound(cell);
+                       return against_laminate(cell, 1);
+                     });
   }
   for (const double aspect : {1e-2, 1e-4})
   {

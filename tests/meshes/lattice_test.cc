@@ -65,6 +65,26 @@ TEST(exact_lattice, a_sound_cell_has_no_faults_and_its_lower_left_corner_is_the_
   EXPECT_EQ(anchor_vertex(mesh, lattice), 0);
 }
 
+TEST(tripwire_lattice, two_vertices_of_the_outline_within_the_tolerance_are_named)
+{
+  const Lattice lattice = tests::square_lattice(1.);
+  for (const double gap : {5e-8, 2e-7})
+  {
+    TriangleMesh mesh = tests::parallelogram(lattice, 2, 4);
+    for (int v = 0; v < mesh.n_vertices(); ++v)
+      if (mesh.vertices(v, 1) == 0.25)
+        mesh.vertices(v, 1) = gap; // a row of needles above the lower side
+    const std::vector<std::string> faults = periodicity_faults(mesh, lattice, "cell.msh");
+    ASSERT_EQ(faults.size(), gap < 1e-7 ? 1u : 0u) << gap;
+    if (!faults.empty())
+    {
+      EXPECT_NE(faults[0].find("cell.msh: vertices "), std::string::npos) << faults[0];
+      EXPECT_NE(faults[0].find("count as one; expected more than 1e-07 m"), std::string::npos)
+        << faults[0];
+    }
+  }
+}
+
 TEST(tripwire_lattice, a_moved_boundary_vertex_is_named_with_its_candidate_and_the_remedy)
 {
   const Lattice lattice = tests::square_lattice(1.);

@@ -104,14 +104,7 @@ class Homogenize(InFolder):
 # so does one that holds again: then it leaves the list.
 ONE_NEWTON_STEP = ("beside a moving handle a step may not raise its own potential, which does not bound the energy "
                    "in the frame of the handle; implicit Euler holds")
-TOLERANCE_OF_STIFF = ("the residual is held against the forces of the stiff phase, so that at contrast 1e12 the energy of "
-                      "the soft one is known to 1e-5 only")
-TIED_SLIVER = ("a row of 6e-8 of the cell's side is thinner than the tolerance of images, 1e-7: its two ends on the outline "
-               "count as one point")
 KNOWN_FAILURES = {
-    ("cell contrast", "rigid; square inclusion; 1e9 beside 1e12"): TOLERANCE_OF_STIFF,
-    ("cell contrast", "rigid; two islands; 1e9 beside 1e12"): TOLERANCE_OF_STIFF,
-    ("cell slivers", "row of needles along the stripes; 1e-06"): TIED_SLIVER,
     ("motion", "pulled at 5 m/s; 10 ms; anisotropic 1e4"): ONE_NEWTON_STEP,
     ("motion", "pulled at 5 m/s; 50 ms; anisotropic 1e4"): ONE_NEWTON_STEP,
 }
