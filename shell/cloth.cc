@@ -205,18 +205,19 @@ void Cloth::try_step(const double h, const bool may_fail, StepReport &report)
   if (!closed)
     stored.reset();
   if (held.empty())
-    restore_angular_momentum(before, h);
+    report.spin_restored += restore_angular_momentum(before, h);
   if (closed)
-    limit_energy(energy, may_fail);
+    report.energy_removed += limit_energy(energy, may_fail);
 }
 
 /// Takes from the motion what energy a step brought into a closed cloth: velocities are drawn towards
 /// those of a rigid body with the same momenta, of a held cloth towards rest.
-void Cloth::limit_energy(const double before, const bool may_fail)
+/// @return what was taken [J]
+double Cloth::limit_energy(const double before, const bool may_fail)
 {
   const double of_terms = stored_energy(), kinetic = kinetic_energy();
   if (kinetic + of_terms <= before + energy_slack * (std::abs(before) + std::abs(of_terms)))
-    return;
+    return 0.;
   Vectors rigid = Vectors::Zero(x.rows(), 3);
   if (held.empty())
   {
@@ -230,10 +231,12 @@ void Cloth::limit_energy(const double before, const bool may_fail)
     throw meshes::NotConverged("a step raised the energy", {before, kinetic + of_terms});
   const double factor = room > 0. && of_rest > 0. ? std::sqrt(std::min(1., room / of_rest)) : 0.;
   v                   = rigid + factor * (v - rigid);
+  return kinetic - kinetic_energy();
 }
 
 /// So that L_{n+1} = L_n + h · torque of the external terms at x_{n+1}.
-void Cloth::restore_angular_momentum(const Eigen::RowVector3d &before, const double h)
+/// @return the size of what was added [kg m^2/s]
+double Cloth::restore_angular_momentum(const Eigen::RowVector3d &before, const double h)
 {
   Eigen::RowVector3d torque = Eigen::RowVector3d::Zero();
   if (std::any_of(terms().begin(), terms().end(),
@@ -247,7 +250,9 @@ void Cloth::restore_angular_momentum(const Eigen::RowVector3d &before, const dou
     for (Eigen::Index i = 0; i < x.rows(); ++i)
       torque -= (x.row(i) - centre).cross(external.row(i));
   }
-  add_spin(m, x, spin_of(m, x, before + h * torque - angular_momentum()), v);
+  const Eigen::RowVector3d missing = before + h * torque - angular_momentum();
+  add_spin(m, x, spin_of(m, x, missing), v);
+  return missing.norm();
 }
 
 StepReport Cloth::step(const double h)
