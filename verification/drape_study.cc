@@ -55,11 +55,11 @@ public:
             [&]()
             {
               std::filesystem::create_directories(options.output);
+              if (!options.resume)
+                remove_states(cells);
               check_inputs_file(options.output, inputs, options.resume, "inputs.json",
                                 "scenes, cells, materials, meshes, sizes, times, --variants, "
                                 "--methods or --references");
-              if (!options.resume)
-                remove_states(cells);
               output = std::make_unique<DrapeOutput>(options.output, scene.name, schedule.interval,
                                                      options.frames, options.costs, options.resume);
             });
@@ -73,7 +73,8 @@ public:
   }
 
 private:
-  /// A run that begins anew must not find the states of an earlier one when it is resumed.
+  /// A run that begins anew must not find the states of an earlier one when it is resumed: they go before its
+  /// inputs come.
   void remove_states(const std::vector<UnitCell> &cells) const
   {
     for (const UnitCell &cell : cells)

@@ -73,7 +73,7 @@ double gravity_energy(const Scene &scene, const Eigen::VectorXd &masses,
 {
   if (!scene.has("gravity"))
     return std::numeric_limits<double>::quiet_NaN();
-  return -masses.dot(positions * scene.gravity.transpose());
+  return 0. - masses.dot(positions * scene.gravity.transpose());
 }
 
 SceneCloth::SceneCloth(const Scene &scene, const meshes::ClothMesh &mesh,
