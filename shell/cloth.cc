@@ -205,18 +205,19 @@ void Cloth::try_step(const double h, const bool may_fail, StepReport &report)
   if (!closed)
     stored.reset();
   if (held.empty())
-    restore_angular_momentum(before, h);
+    report.spin_restored += restore_angular_momentum(before, h);
   if (closed)
-    limit_energy(energy, may_fail);
+    report.energy_removed += limit_energy(energy, may_fail);
 }
 
 /// Takes from the motion what energy a step brought into a closed cloth: velocities are drawn towards
 /// those of a rigid body with the same momenta, of a held cloth towards rest.
-void Cloth::limit_energy(const double before, const bool may_fail)
+/// @return what was taken [J]
+double Cloth::limit_energy(const double before, const bool may_fail)
 {
   const double of_terms = stored_energy(), kinetic = kinetic_energy();
   if (kinetic + of_terms <= before + energy_slack * (std::abs(before) + std::abs(of_terms)))
-    return;
+    return 0.;
   Vectors rigid = Vectors::Zero(x.rows(), 3);
   if (held.empty())
   {
@@ -230,11 +231,13 @@ void Cloth::limit_energy(const double before, const bool may_fail)
     throw meshes::NotConverged("a step raised the energy", {before, kinetic + of_terms});
   const double factor = room > 0. && of_rest > 0. ? std::sqrt(std::min(1., room / of_rest)) : 0.;
   v                   = rigid + factor * (v - rigid);
+  return kinetic - kinetic_energy();
 }
 
 /// So that L_{n+1} = L_n + h · torque of the external terms at x_{n+1}. They were evaluated with the velocities
 /// before the spin was put right, of which damping by mass at the rate α takes its part: (1 + h α) I ω is what is missing.
-void Cloth::restore_angular_momentum(const Eigen::RowVector3d &before, const double h)
+/// @return the size of what was added [kg m^2/s]
+double Cloth::restore_angular_momentum(const Eigen::RowVector3d &before, const double h)
 {
   Eigen::RowVector3d torque = Eigen::RowVector3d::Zero();
   if (std::any_of(terms().begin(), terms().end(),
@@ -251,7 +254,10 @@ void Cloth::restore_angular_momentum(const Eigen::RowVector3d &before, const dou
   double damping = 0.;
   for (const auto &term : terms())
     damping += term->mass_damping();
-  add_spin(m, x, spin_of(m, x, (before + h * torque - angular_momentum()) / (1. + h * damping)), v);
+  const Eigen::RowVector3d missing =
+    (before + h * torque - angular_momentum()) / (1. + h * damping);
+  add_spin(m, x, spin_of(m, x, missing), v);
+  return missing.norm();
 }
 
 StepReport Cloth::step(const double h)

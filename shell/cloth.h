@@ -46,6 +46,10 @@ struct StepReport : SolveCounts
 {
   int cuts    = 0; ///< halvings of the step
   int guarded = 0; ///< linearly implicit steps that went on with a line search
+  /// What was taken from the motion so that the energy of a closed cloth did not grow [J].
+  double energy_removed = 0.;
+  /// Sum over the parts of the step of |angular momentum| that was added to restore its balance [kg m^2/s].
+  double spin_restored = 0.;
 };
 
 /// What an equilibrium took.
@@ -132,8 +136,8 @@ private:
   void try_step(double h, bool may_fail, StepReport &report);
   Vectors linear_step(double h, StepReport &report);
   Vectors minimum(const Vectors &inertial, double h, StepReport &report);
-  void limit_energy(double before, bool may_fail);
-  void restore_angular_momentum(const Eigen::RowVector3d &before, double h);
+  double limit_energy(double before, bool may_fail);
+  double restore_angular_momentum(const Eigen::RowVector3d &before, double h);
   void check_finite(const Vectors &positions, double h) const;
 
   Vectors x, v, target;

@@ -15,16 +15,18 @@ namespace
 class MembraneTerm : public Term
 {
 public:
-  MembraneTerm(Membrane &&membrane, const double viscosity)
+  /// @param is_elastic false: the viscous part alone
+  MembraneTerm(Membrane &&membrane, const double viscosity, const bool is_elastic)
       : membrane(std::move(membrane))
       , viscosity(viscosity)
+      , is_elastic(is_elastic)
       , effective(this->membrane.stiffness)
   {
   }
 
   std::string name() const override
   {
-    return "membrane";
+    return is_elastic ? "membrane" : "viscosity";
   }
 
   void couple(std::vector<std::array<int, 2>> &pairs) const override
@@ -44,7 +46,8 @@ public:
     // An infinite step, an equilibrium, has no rate of strain.
     factor = viscosity / start.step;
     for (std::size_t phase = 0; phase < effective.size(); ++phase)
-      effective[phase] = MembraneStiffness((1. + factor) * membrane.stiffness[phase].D);
+      effective[phase] =
+        MembraneStiffness(((is_elastic ? 1. : 0.) + factor) * membrane.stiffness[phase].D);
     old_stress.resize(index(n_triangles()));
     for (int t = 0; t < n_triangles(); ++t)
       old_stress[index(t)] =
@@ -56,6 +59,8 @@ public:
   double energy(const Vectors &positions) const override
   {
     double sum = 0.;
+    if (!acts())
+      return sum;
     for (int t = 0; t < n_triangles(); ++t)
     {
       const RestTriangle &rest = membrane.rest[index(t)];
@@ -70,11 +75,13 @@ public:
 
   double stored_energy(const Vectors &positions) const override
   {
-    return membrane_energy<3>(membrane, positions);
+    return is_elastic ? membrane_energy<3>(membrane, positions) : 0.;
   }
 
   void add_gradient(const Vectors &positions, Vectors &gradient) const override
   {
+    if (!acts())
+      return;
     for (int t = 0; t < n_triangles(); ++t)
     {
       const RestTriangle &rest       = membrane.rest[index(t)];
@@ -91,6 +98,8 @@ public:
   void add_derivatives(const Vectors &positions, const Hessian kind, Vectors &gradient,
                        BlockMatrix &matrix) const override
   {
+    if (!acts())
+      return;
     for (int t = 0; t < n_triangles(); ++t)
     {
       const TriangleDerivatives<3> local =
@@ -111,6 +120,11 @@ public:
   }
 
 private:
+  /// Viscosity alone does nothing before the first step and in an equilibrium.
+  bool acts() const
+  {
+    return is_elastic || factor > 0.;
+  }
   int n_triangles() const
   {
     return static_cast<int>(membrane.triangles.rows());
@@ -134,9 +148,10 @@ private:
   }
 
   const Membrane membrane;
-  const double viscosity;                   ///< [s]
+  const double viscosity; ///< [s]
+  const bool is_elastic;
   double factor = 0.;                       ///< β/h
-  std::vector<MembraneStiffness> effective; ///< (1 + β/h) D
+  std::vector<MembraneStiffness> effective; ///< (1 + β/h) D, or β/h D
   std::vector<Eigen::Vector3d> old_stress;  ///< −β/h D e_n; empty without viscosity
   std::vector<TrianglePlaces> places;       ///< (m)
 };
@@ -149,7 +164,17 @@ std::unique_ptr<Term> membrane_term(const meshes::ClothMesh &cloth,
   if (!(viscosity >= 0.) || !std::isfinite(viscosity))
     throw meshes::BadInput("viscosity of the membrane: found " + std::to_string(viscosity) +
                            " s; expected zero or a positive time");
-  return std::make_unique<MembraneTerm>(membrane(cloth, stiffness), viscosity);
+  return std::make_unique<MembraneTerm>(membrane(cloth, stiffness), viscosity, true);
+}
+
+std::unique_ptr<Term> viscosity_term(const meshes::ClothMesh &cloth,
+                                     const std::vector<Eigen::Matrix3d> &stiffness,
+                                     const double viscosity)
+{
+  if (!(viscosity > 0.) || !std::isfinite(viscosity))
+    throw meshes::BadInput("viscosity of the membrane: found " + std::to_string(viscosity) +
+                           " s; expected a positive time");
+  return std::make_unique<MembraneTerm>(membrane(cloth, stiffness), viscosity, false);
 }
 
 Eigen::VectorXd lumped_masses(const meshes::ClothMesh &cloth,

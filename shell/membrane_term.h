@@ -23,6 +23,13 @@ std::unique_ptr<Term> membrane_term(const meshes::ClothMesh &cloth,
                                     const std::vector<Eigen::Matrix3d> &stiffness,
                                     double viscosity = 0.);
 
+/// The viscous part of E alone, for a cloth whose elasticity is that of another term (warping.h).
+/// @param viscosity β > 0 [s]
+/// @throws BadInput as membrane_term() does, and where the viscosity is zero
+std::unique_ptr<Term> viscosity_term(const meshes::ClothMesh &cloth,
+                                     const std::vector<Eigen::Matrix3d> &stiffness,
+                                     double viscosity);
+
 /// Lumped masses: a third of each triangle's mass to its corners.
 /// @param areal_density one per phase [kg/m^2]
 /// @return (n) [kg]

@@ -20,6 +20,32 @@ using homogenization::ReferenceElement;
 namespace
 {
 constexpr double machine_epsilon = std::numeric_limits<double>::epsilon();
+
+/// A field in space at the nodes of a triangle, one per row.
+using FieldAtNodes = Eigen::Matrix<double, Eigen::Dynamic, 3>;
+
+/// Sum over all triangles of all ranks of what each gives from a field at its nodes.
+template <typename Element, typename OfTriangle>
+double sum_over_triangles(const homogenization::Discretization &discretization,
+                          const std::vector<Element> &elements, const ElasticSolver::Vector &field,
+                          const OfTriangle &of_triangle)
+{
+  ElasticSolver::Vector ghosted(discretization.locally_owned, discretization.locally_relevant,
+                                discretization.communicator);
+  ghosted                    = field;
+  const double *const values = ghosted.begin();
+  double sum                 = 0.;
+  for (const Element &element : elements)
+    if (element.is_owned)
+    {
+      FieldAtNodes at(element.nodes.size(), 3);
+      for (std::size_t i = 0; i < element.nodes.size(); ++i)
+        at.row(static_cast<Eigen::Index>(i)) =
+          Eigen::Map<const Eigen::RowVector3d>(values + 3 * element.nodes[i]);
+      sum += of_triangle(element, at);
+    }
+  return Utilities::MPI::sum(sum, discretization.communicator);
+}
 } // namespace
 
 /// The matrix, and where each 3x3 block of each element goes in the rows of this rank, so that an
@@ -237,18 +263,16 @@ ClothReference::State ClothReference::evaluate(const Vector &positions, const In
 double ClothReference::stored_energy() const
 {
   const ReferenceElement &reference = discretization.nonlinear_quadrature;
-  Vector ghosted(discretization.locally_owned, discretization.locally_relevant,
-                 discretization.communicator);
-  ghosted               = position;
-  const double *const x = ghosted.begin();
-  double energy         = 0.;
-  for (const Element &element : elements)
-    if (element.is_owned)
+  return sum_over_triangles(
+    discretization, elements, position,
+    [&](const Element &element, const FieldAtNodes &at)
+    {
+      double energy = 0.;
       for (std::size_t q = 0; q < reference.weights.size(); ++q)
       {
         SpaceGradient F = SpaceGradient::Zero();
         for (std::size_t i = 0; i < element.nodes.size(); ++i)
-          F += Eigen::Map<const Eigen::Vector3d>(x + 3 * element.nodes[i]) *
+          F += at.row(static_cast<Eigen::Index>(i)).transpose() *
                (element.inverse_transpose * reference.gradients[q][i]).transpose();
         energy +=
           reference.weights[q] * element.determinant *
@@ -256,27 +280,19 @@ double ClothReference::stored_energy() const
                          F, Tangent::none)
             .energy;
       }
-  return Utilities::MPI::sum(energy, discretization.communicator);
+      return energy;
+    });
 }
 
 double ClothReference::kinetic_energy() const
 {
-  Vector ghosted(discretization.locally_owned, discretization.locally_relevant,
-                 discretization.communicator);
-  ghosted               = velocity;
-  const double *const v = ghosted.begin();
-  double energy         = 0.;
-  for (const Element &element : elements)
-    if (element.is_owned)
+  return sum_over_triangles(
+    discretization, elements, velocity,
+    [&](const Element &element, const FieldAtNodes &at)
     {
-      Eigen::Matrix<double, Eigen::Dynamic, 3> of_nodes(element.nodes.size(), 3);
-      for (std::size_t i = 0; i < element.nodes.size(); ++i)
-        of_nodes.row(static_cast<Eigen::Index>(i)) =
-          Eigen::Map<const Eigen::RowVector3d>(v + 3 * element.nodes[i]);
-      energy += 0.25 * element.determinant *
-                areal_density_of_phase[static_cast<std::size_t>(element.phase)] *
-                of_nodes.cwiseProduct(reference_mass * of_nodes).sum();
-    }
-  return Utilities::MPI::sum(energy, discretization.communicator);
+      return 0.25 * element.determinant *
+             areal_density_of_phase[static_cast<std::size_t>(element.phase)] *
+             at.cwiseProduct(reference_mass * at).sum();
+    });
 }
 } // namespace homespun::verification

@@ -36,7 +36,7 @@ struct CoarseRun
 CoarseRun run_coarse(const DrapedCell &draped, const std::string &variant,
                      const DrapeSchedule &schedule, DrapeOutput &output, Progress &progress);
 
-/// Writes terms.csv: median time per step and memory, with each term that the scene does not have forced
-/// upon it at zero strength.
+/// Writes terms.csv: median time per step with its spread, and memory, as the scene is and with each term that it
+/// does not have forced upon it at zero strength. A time of steps that do not converge stays empty.
 void measure_term_costs(const DrapedCell &draped, DrapeOutput &output, Progress &progress);
 } // namespace homespun::verification

@@ -13,14 +13,6 @@ using meshes::SpacePoints;
 namespace
 {
 constexpr double not_known = std::numeric_limits<double>::quiet_NaN();
-
-SpacePoints upsampled(const DrapedCell &draped, const std::string &method,
-                      const shell::Vectors &coarse)
-{
-  Upsampler3d::Fine fine;
-  draped.upsampler<double>(Method(method)).upsample(coarse, fine);
-  return fine;
-}
 } // namespace
 
 double DrapeErrorBar::at(const std::size_t frame, const double fluctuation_there) const
@@ -38,49 +30,81 @@ DrapeErrorBar drape_error_bar(const DrapedCell &draped, const Law law, const int
   const std::unique_ptr<FineRun> p1 = dealii_run(sheet, law, 1, communicator),
                                  p2 = dealii_run(sheet, law, 2, communicator);
   SceneCloth coarse(small, sheet.coarse, sheet.effective, sheet.coarse_motion());
+  const Upsampler3d affine = sheet.upsampler<double>(Method("affine"));
+  Upsampler3d::Fine motion;
   DrapeErrorBar bar;
   for (int frame = 0; frame <= schedule.n_frames; ++frame)
   {
     const double time = schedule.time_of(frame);
     for (int k = 0; k < schedule.steps_to(frame); ++k)
     {
-      if (schedule.is_static)
-        coarse.solve_equilibrium(time);
-      else
-        coarse.step(schedule.step);
+      // Every rank has the same coarse cloth, and they end together.
+      try
+      {
+        if (schedule.is_static)
+          coarse.solve_equilibrium(time);
+        else
+          coarse.step(schedule.step);
+      }
+      catch (const meshes::NotConverged &)
+      {
+        return bar;
+      }
       for (FineRun *const run : {p1.get(), p2.get()})
         if (!run->advance(schedule.is_static, schedule.step, time).why.empty())
           return bar;
     }
-    const SpacePoints motion = upsampled(sheet, "affine", coarse.cloth().positions());
+    affine.upsample(coarse.cloth().positions(), motion);
     bar.difference.push_back((p1->positions() - p2->positions()).rowwise().norm().mean());
     bar.fluctuation.push_back((p2->positions() - motion).rowwise().norm().mean());
   }
   return bar;
 }
 
-void compare(const DrapedCell &draped, const std::string &reference,
-             const std::vector<std::string> &methods, const std::vector<CoarseRun> &runs,
-             const int frame, const SpacePoints &positions, const DrapeErrorBar &bar,
-             DrapeOutput &output)
+DrapeComparison::DrapeComparison(const DrapedCell &draped, const std::vector<std::string> &methods,
+                                 const std::vector<CoarseRun> &runs)
+    : draped(draped)
+    , methods(methods)
+    , runs(runs)
+{
+  upsamplers.emplace("affine", draped.upsampler<double>(Method("affine")));
+  for (const std::string &method : methods)
+    if (upsamplers.count(method) == 0)
+      upsamplers.emplace(method, draped.upsampler<double>(Method(method)));
+}
+
+SpacePoints DrapeComparison::upsampled(const std::string &method,
+                                       const shell::Vectors &coarse) const
+{
+  Upsampler3d::Fine fine;
+  upsamplers.at(method).upsample(coarse, fine);
+  return fine;
+}
+
+std::vector<meshes::VertexData> DrapeComparison::compare(const std::string &reference,
+                                                         const int frame,
+                                                         const SpacePoints &positions,
+                                                         const DrapeErrorBar &bar,
+                                                         DrapeOutput &output) const
 {
   const auto at      = static_cast<std::size_t>(frame);
   double fluctuation = not_known;
+  std::vector<meshes::VertexData> error;
   for (const CoarseRun &run : runs)
   {
     if (run.frames.size() <= at)
       continue;
+    const SpacePoints affine = upsampled("affine", run.frames[at]);
     if (run.is_method())
     {
-      fluctuation =
-        (positions - upsampled(draped, "affine", run.frames[at])).rowwise().norm().mean();
+      fluctuation = (positions - affine).rowwise().norm().mean();
       // Where nothing has moved yet, round-off over round-off is no figure.
       if (fluctuation < 1e-12 * draped.side)
         fluctuation = not_known;
     }
     for (const std::string &method : methods)
     {
-      const SpacePoints up           = upsampled(draped, method, run.frames[at]);
+      const SpacePoints up = method == "affine" ? affine : upsampled(method, run.frames[at]);
       const Eigen::VectorXd distance = (up - positions).rowwise().norm();
       if (!distance.allFinite())
         throw meshes::NotConverged(draped.cell.name + ", " + run.variant + ", " + method +
@@ -91,14 +115,10 @@ void compare(const DrapedCell &draped, const std::string &reference,
                           std::sqrt(distance.squaredNorm() / static_cast<double>(distance.size())),
                           distance.maxCoeff(), distance.mean() / draped.side,
                           distance.mean() / fluctuation, bar.at(at, fluctuation)});
-      if (run.is_method() && method == "localized" && output.has_frames())
-      {
-        std::vector<meshes::VertexData> data = draped.fine_data();
-        data.push_back({"error", distance.cast<float>()});
-        output.write_frame(draped.cell.name + "-" + run.variant, "fine", frame, up.cast<float>(),
-                           draped.fine_triangles(), data, nullptr);
-      }
+      if (run.is_method() && method == "localized")
+        error = {{"error", distance.cast<float>()}};
     }
   }
+  return error;
 }
 } // namespace homespun::verification

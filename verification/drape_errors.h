@@ -11,6 +11,7 @@
 
 #include <mpi.h>
 
+#include <map>
 #include <string>
 #include <vector>
 
@@ -27,17 +28,37 @@ struct DrapeErrorBar
   double at(std::size_t frame, double fluctuation_there) const;
 };
 
-/// Runs the scene on a small sheet with P1 and P2. Ends at the first frame that one of them does not reach.
+/// Runs the scene on a small sheet with P1 and P2. Ends at the first frame that one of them, or the coarse cloth
+/// there, does not reach.
 /// @param law of the reference
 /// @param n_cells of the small sheet, per side
 DrapeErrorBar drape_error_bar(const DrapedCell &draped, Law law, int n_cells,
                               const DrapeSchedule &schedule, MPI_Comm communicator);
 
-/// Writes a row of drape.csv for each coarse run and method at a frame, and the frame of the method again,
-/// now with its error.
-/// @param positions of the reference at the vertices that up-sampling gives (n_fine,3) [m]
-/// @throws NotConverged where up-sampled positions are not finite
-void compare(const DrapedCell &draped, const std::string &reference,
-             const std::vector<std::string> &methods, const std::vector<CoarseRun> &runs, int frame,
-             const meshes::SpacePoints &positions, const DrapeErrorBar &bar, DrapeOutput &output);
+/// Holds the coarse runs of one cell, up-sampled by some methods, against references.
+class DrapeComparison
+{
+public:
+  /// Tabulates every method once.
+  /// @param runs kept by reference
+  DrapeComparison(const DrapedCell &draped, const std::vector<std::string> &methods,
+                  const std::vector<CoarseRun> &runs);
+
+  /// Writes a row of drape.csv for each coarse run and method at a frame.
+  /// @param positions of the reference at the vertices that up-sampling gives (n_fine,3) [m]
+  /// @return the distance of each vertex of the method from the reference (n_fine,1) [m], named `error`; nothing
+  ///   where it was not asked for or did not come so far
+  /// @throws NotConverged where up-sampled positions are not finite
+  std::vector<meshes::VertexData> compare(const std::string &reference, int frame,
+                                          const meshes::SpacePoints &positions,
+                                          const DrapeErrorBar &bar, DrapeOutput &output) const;
+
+private:
+  meshes::SpacePoints upsampled(const std::string &method, const shell::Vectors &coarse) const;
+
+  const DrapedCell &draped;
+  const std::vector<std::string> methods;
+  const std::vector<CoarseRun> &runs;
+  std::map<std::string, Upsampler3d> upsamplers; ///< of the methods, and `affine` in any case
+};
 } // namespace homespun::verification

@@ -35,13 +35,21 @@ const std::vector<std::string> motion_columns = {"scene",
                                                  "centre_y_m",
                                                  "centre_z_m",
                                                  "kinetic_J",
-                                                 "stored_J",
+                                                 "elastic_J",
+                                                 "gravity_J",
                                                  "max_stretch",
                                                  "seconds_coarse_step",
                                                  "seconds_upsampling"};
-const std::vector<std::string> term_columns   = {
-    "scene", "cell",        "term", "present", "seconds_per_step", "seconds_per_step_forced",
-    "bytes", "bytes_forced"};
+const std::vector<std::string> term_columns   = {"scene",
+                                                 "cell",
+                                                 "term",
+                                                 "present",
+                                                 "seconds_per_step",
+                                                 "seconds_per_step_forced",
+                                                 "bytes",
+                                                 "bytes_forced",
+                                                 "seconds_spread",
+                                                 "seconds_spread_forced"};
 
 void append(ResultTable &table, std::vector<std::string> keys, const std::vector<double> &values)
 {
@@ -89,8 +97,8 @@ void DrapeOutput::write_motion(const std::string &cell, const std::string &varia
                                const MotionRow &row)
 {
   append(*motion, {scene, cell, variant, std::to_string(frame)},
-         {frame * interval, row.centre(0), row.centre(1), row.centre(2), row.kinetic, row.stored,
-          row.stretch, row.step_seconds, row.upsampling});
+         {frame * interval, row.centre(0), row.centre(1), row.centre(2), row.kinetic, row.elastic,
+          row.gravity, row.stretch, row.step_seconds, row.upsampling});
 }
 
 bool DrapeOutput::has_term(const std::string &cell, const std::string &term) const
@@ -100,9 +108,10 @@ bool DrapeOutput::has_term(const std::string &cell, const std::string &term) con
 
 void DrapeOutput::write_term(const std::string &cell, const std::string &term, const TermRow &row)
 {
-  terms->append({scene, cell, term, row.is_present ? "true" : "false", csv_number(row.seconds),
-                 row.is_present ? "" : csv_number(row.forced_seconds), std::to_string(row.bytes),
-                 row.is_present ? "" : std::to_string(row.forced_bytes)});
+  terms->append({scene, cell, term, row.is_present ? "true" : "false", csv_number(row.time.median),
+                 csv_number(row.forced_time.median), std::to_string(row.bytes),
+                 row.is_present ? "" : std::to_string(row.forced_bytes),
+                 csv_number(row.time.spread), csv_number(row.forced_time.spread)});
 }
 
 void DrapeOutput::write_frame(const std::string &run, const std::string &what, const int frame,

@@ -8,6 +8,7 @@
 
 #include <Eigen/Core>
 
+#include <limits>
 #include <memory>
 #include <string>
 #include <vector>
@@ -17,9 +18,11 @@ namespace homespun::verification
 /// A row of motion.csv. What does not apply is not a number.
 struct MotionRow
 {
-  Eigen::RowVector3d centre;                 ///< of the vertex in the middle [m]
-  double kinetic = 0., stored = 0.;          ///< [J]
-  double stretch      = 0.;                  ///< the largest [-]
+  Eigen::RowVector3d centre; ///< of the vertex in the middle [m]
+  double kinetic      = 0.;  ///< [J]
+  double elastic      = 0.;  ///< of membrane and plate, not of terms without an energy [J]
+  double gravity      = 0.;  ///< potential of the weight, zero at the origin [J]
+  double stretch      = 0.;  ///< the largest [-]
   double step_seconds = 0., upsampling = 0.; ///< medians so far [s]
 };
 
@@ -31,11 +34,18 @@ struct ErrorRow
   double uncertainty = 0.; ///< of the reference [m]
 };
 
+/// Time of a step over repeats [s]; of a cloth that did not converge not a number.
+struct StepTime
+{
+  double median = std::numeric_limits<double>::quiet_NaN();
+  double spread = std::numeric_limits<double>::quiet_NaN(); ///< half of the interquartile range
+};
+
 /// A row of terms.csv.
 struct TermRow
 {
   bool is_present = false;
-  double seconds = 0., forced_seconds = 0.; ///< per step [s]
+  StepTime time, forced_time;
   std::size_t bytes = 0, forced_bytes = 0;
 };
 
@@ -64,11 +74,6 @@ public:
                    const meshes::FloatPoints &positions, const meshes::Triangles &triangles,
                    const std::vector<meshes::VertexData> &data,
                    meshes::FrameCollection *collection) const;
-
-  bool has_frames() const
-  {
-    return !formats.empty();
-  }
 
   /// Lists the frames that an earlier run wrote.
   void list_earlier_frames(const std::string &run, int n,

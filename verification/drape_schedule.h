@@ -1,24 +1,16 @@
 // SPDX-License-Identifier: MIT
-// How the time of a scene goes on: frames, and the steps between two of them.
+// How the time of a scene goes on: frames, and the steps between two of them. A frame is a whole number of steps
+// and a run a whole number of frames; what a duration has beyond that is not run.
 #pragma once
 
 #include "verification/scene.h"
-
-#include <cmath>
 
 namespace homespun::verification
 {
 struct DrapeSchedule
 {
-  explicit DrapeSchedule(const Scene &scene)
-      : is_static(scene.integration == TimeIntegration::equilibria)
-      , step(scene.time_step)
-      , interval(scene.frame_interval)
-      , n_frames(static_cast<int>(std::floor(scene.duration / scene.frame_interval + 1e-9)))
-      , steps_per_frame(
-          is_static ? 1 : static_cast<int>(std::lround(scene.frame_interval / scene.time_step)))
-  {
-  }
+  /// @throws BadInput where the duration is shorter than a step
+  explicit DrapeSchedule(const Scene &scene);
 
   /// Steps, or equilibria, that lead to a frame from the one before; the first is the beginning.
   int steps_to(const int frame) const
@@ -32,10 +24,16 @@ struct DrapeSchedule
     return frame * interval;
   }
 
-  const bool is_static;  ///< an equilibrium per frame
-  const double step;     ///< [s]
+  /// What is run [s].
+  double duration() const
+  {
+    return n_frames * interval;
+  }
+
+  const bool is_static; ///< an equilibrium per frame
+  const double step;    ///< [s]
+  const int steps_per_frame;
   const double interval; ///< [s]
   const int n_frames;    ///< after the first
-  const int steps_per_frame;
 };
 } // namespace homespun::verification

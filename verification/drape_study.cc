@@ -3,8 +3,10 @@
 
 #include "meshes/errors.h"
 #include "meshes/obj_file.h"
+#include "shell/membrane_term.h"
 #include "verification/cell_output.h"
 #include "verification/drape_errors.h"
+#include "verification/drape_inputs.h"
 #include "verification/obstacle_surface.h"
 #include "verification/on_root.h"
 #include "verification/progress.h"
@@ -23,11 +25,6 @@ using meshes::SpacePoints;
 
 namespace
 {
-bool is_dealii(const std::string &reference)
-{
-  return reference != "shell";
-}
-
 class DrapeStudy
 {
 public:
@@ -46,107 +43,48 @@ public:
 
   std::vector<Verdict> run()
   {
-    check();
+    check_references(options, scene);
     std::vector<UnitCell> cells;
     for (const std::string &file : scene.cell_files)
       cells.push_back(homogenization::read_unit_cell(file));
     check_names(cells);
-    check_cloth(cells);
+    check_cloth(options, scene, cells);
+    const nlohmann::ordered_json inputs = drape_inputs(options, scene, schedule, cells);
+    name_of_run                         = fingerprint(json_text(inputs));
     on_root(communicator,
             [&]()
             {
               std::filesystem::create_directories(options.output);
-              check_drape_inputs(cells);
+              if (!options.resume)
+                remove_states(cells);
+              check_inputs_file(options.output, inputs, options.resume, "inputs.json",
+                                "scenes, cells, materials, meshes, sizes, times, --variants, "
+                                "--methods or --references");
               output = std::make_unique<DrapeOutput>(options.output, scene.name, schedule.interval,
                                                      options.frames, options.costs, options.resume);
             });
+    if (schedule.duration() < scene.duration * (1. - 1e-6))
+      progress.note(scene.name + ": runs for " + csv_number(schedule.duration()) + " s of the " +
+                    csv_number(scene.duration) + " s asked for, whole frames of " +
+                    csv_number(schedule.interval) + " s");
     for (const UnitCell &cell : cells)
       study_cell(cell);
     return conclude();
   }
 
 private:
-  static Scene scene_of(const DrapeOptions &options)
+  /// A run that begins anew must not find the states of an earlier one when it is resumed: they go before its
+  /// inputs come.
+  void remove_states(const std::vector<UnitCell> &cells) const
   {
-    Scene scene = read_scene(options.scene_file);
-    if (!options.cell_files.empty())
-      scene.cell_files = options.cell_files;
-    if (options.n_cells > 0)
-      scene = scaled(scene, options.n_cells);
-    if (options.time_step > 0.)
-      scene.time_step = options.time_step;
-    if (options.duration > 0.)
-      scene.duration = options.duration;
-    scene.frame_interval =
-      std::min(scene.duration,
-               scene.time_step * std::max(1., std::round(scene.frame_interval / scene.time_step)));
-    return scene;
-  }
-
-  /// What a scene cannot be asked for.
-  void check() const
-  {
-    std::vector<std::string> faults;
-    for (const std::string &reference : options.references)
-    {
-      if (!is_dealii(reference))
-        continue;
-      if (!scene.is_sheet())
-        faults.push_back("--references " + reference + ": scene `" + scene.name +
-                         "` is a garment; expected a flat sheet, or the reference `shell`");
-      for (const char *term : {"bending", "wind", "obstacles"})
-        if (scene.has(term))
-          faults.push_back("--references " + reference + ": scene `" + scene.name +
-                           "` has the term `" + term +
-                           "`, which this reference lacks; expected the reference `shell`");
-      if (scene.has("damping") && scene.viscosity > 0.)
-        faults.push_back("--references " + reference + ": scene `" + scene.name +
-                         "` has a `Viscosity`, which this reference lacks; expected 0, or the "
-                         "reference `shell`");
-      for (const HeldPlace &held : scene.held)
-        if (held.place == "vertices" || held.place == "waist")
-          faults.push_back("--references " + reference + ": scene `" + scene.name +
-                           "` holds single vertices; expected edges or corners by name");
-    }
-    if (scene.integration == TimeIntegration::equilibria)
-      for (const char *term : {"wind", "obstacles"})
-        if (scene.has(term))
-          faults.push_back(scene.file + ": key `Integrator` = static with the term `" + term +
-                           "`; expected `implicit` or `linearly implicit`");
-    if (!faults.empty())
-      throw meshes::BadInput(faults);
-  }
-
-  /// Refuses a cloth that makes no sense before any file is written.
-  void check_cloth(const std::vector<UnitCell> &cells) const
-  {
-    int n_coarse = (scene.n1 + 1) * (scene.n2 + 1);
     for (const UnitCell &cell : cells)
-      if (scene.is_sheet())
-        meshes::tile(cell.mesh, cell.lattice, 1, 1);
-    if (!scene.is_sheet())
-      n_coarse = meshes::read_cloth(scene.mesh_file, scene.vt_unit).n_vertices();
-    std::vector<std::string> faults;
-    for (const HeldPlace &held : scene.held)
-      for (const int v : held.vertices)
-        if (v >= n_coarse)
-          faults.push_back(scene.file + ": held vertex " + std::to_string(v) +
-                           " does not exist; expected 0 ... " + std::to_string(n_coarse - 1));
-    if (!faults.empty())
-      throw meshes::BadInput(faults);
+      for (const std::string &reference : options.references)
+        std::filesystem::remove(state_file(cell.name + "-" + reference));
   }
 
-  /// Rows of different inputs never stand in one table.
-  void check_drape_inputs(const std::vector<UnitCell> &cells) const
+  std::string state_file(const std::string &name) const
   {
-    nlohmann::ordered_json inputs = {{"scene", scene.echo},
-                                     {"time_step", scene.time_step},
-                                     {"duration", scene.duration},
-                                     {"frame_interval", scene.frame_interval},
-                                     {"sheet_cells", {scene.n1, scene.n2}}};
-    for (const UnitCell &cell : cells)
-      inputs["cells"][cell.name] = fingerprint(cell);
-    check_inputs_file(options.output, inputs, options.resume, "drape.csv");
+    return options.output + "/" + name + "/checkpoint.h5";
   }
 
   void study_cell(const UnitCell &cell)
@@ -160,6 +98,7 @@ private:
     nlohmann::ordered_json description = description_of(draped);
 
     std::vector<CoarseRun> runs;
+    std::unique_ptr<DrapeComparison> comparison; // on the first rank
     on_root(communicator,
             [&]()
             {
@@ -172,9 +111,11 @@ private:
               }
               if (options.costs)
                 measure_term_costs(draped, *output, progress);
+              if (!options.references.empty())
+                comparison = std::make_unique<DrapeComparison>(draped, options.methods, runs);
             });
     for (const std::string &reference : options.references)
-      description["references"].push_back(run_reference(draped, reference, runs));
+      description["references"].push_back(run_reference(draped, reference, runs, comparison.get()));
     cell_descriptions.push_back(description);
   }
 
@@ -222,9 +163,11 @@ private:
   }
 
   /// A full-resolution cloth over all frames, and the errors of every coarse run against it.
+  /// @param comparison of the coarse runs, on the first rank
   /// @return what drape.json says of it
   nlohmann::ordered_json run_reference(const DrapedCell &draped, const std::string &reference,
-                                       const std::vector<CoarseRun> &runs)
+                                       const std::vector<CoarseRun> &runs,
+                                       const DrapeComparison *comparison)
   {
     const std::string name   = draped.cell.name + "-" + reference;
     const std::string folder = options.output + "/" + name;
@@ -242,22 +185,24 @@ private:
         drape_error_bar(draped, law_of(reference), std::min(options.n_cells_of_error_bar, scene.n1),
                         schedule, communicator);
     }
-    int first                    = 0;
-    const std::string checkpoint = folder + "/checkpoint.h5";
+    int first = 0;
+    std::vector<double> seconds;
     if (options.resume)
       // Every rank reads the same file.
-      if (const auto state = meshes::read_state(checkpoint, fine->n_vertices()))
+      if (const auto state = meshes::read_state(state_file(name), fine->n_vertices(), name_of_run))
       {
         fine->resume(*state);
-        first = state->frame + 1;
+        first   = state->frame + 1;
+        seconds = state->step_seconds;
       }
     std::unique_ptr<meshes::FrameCollection> list;
-    if (is_root)
-    {
-      list = std::make_unique<meshes::FrameCollection>(folder + "/fine.pvd");
-      output->list_earlier_frames(name, first, *list);
-    }
-    std::vector<double> seconds;
+    on_root(communicator,
+            [&]()
+            {
+              list = std::make_unique<meshes::FrameCollection>(folder + "/fine.pvd");
+              output->list_earlier_frames(name, first, *list);
+            });
+    const Eigen::VectorXd masses = shell::lumped_masses(draped.fine, draped.phases.areal_density);
     for (int frame = first; frame <= schedule.n_frames; ++frame)
     {
       progress.begin(title + " reference, frame " + std::to_string(frame), true);
@@ -273,20 +218,26 @@ private:
       const SpacePoints velocities = fine->velocities();
       const MotionRow motion       = {positions.row(draped.fine_centre_vertex),
                                       fine->kinetic_energy(),
-                                      fine->stored_energy(),
+                                      fine->elastic_energy(),
+                                      gravity_energy(scene, masses, fine->positions()),
                                       std::numeric_limits<double>::quiet_NaN(),
                                       median(seconds),
                                       std::numeric_limits<double>::quiet_NaN()};
-      on_root(
-        communicator,
-        [&]()
-        {
-          compare(draped, reference, options.methods, runs, frame, positions, bar, *output);
-          output->write_motion(draped.cell.name, reference, frame, motion);
-          output->write_frame(name, "fine", frame, positions.cast<float>(), draped.fine_triangles(),
-                              draped.fine_data(), list.get());
-          meshes::write_state({fine->positions(), velocities, fine->time(), frame}, checkpoint);
-        });
+      on_root(communicator,
+              [&]()
+              {
+                // The error belongs to method and reference, and stands with the frame that comes once for both.
+                std::vector<meshes::VertexData> data = draped.fine_data();
+                for (meshes::VertexData &error :
+                     comparison->compare(reference, frame, positions, bar, *output))
+                  data.push_back(std::move(error));
+                output->write_motion(draped.cell.name, reference, frame, motion);
+                output->write_frame(name, "fine", frame, positions.cast<float>(),
+                                    draped.fine_triangles(), data, list.get());
+                meshes::write_state(
+                  {fine->positions(), velocities, fine->time(), frame, name_of_run, seconds},
+                  state_file(name));
+              });
       if (frame > 0)
         progress.done();
     }
@@ -340,7 +291,7 @@ private:
                 {"command", options.command},
                 {"provenance", provenance(n_ranks)},
                 {"time_step_s", scene.time_step},
-                {"duration_s", scene.duration},
+                {"duration_s", schedule.duration()},
                 {"integrator", scene.echo.count("Integrator") ? scene.echo.at("Integrator") : ""},
                 {"terms", terms},
                 {"cells", cell_descriptions},
@@ -360,6 +311,7 @@ private:
   const bool is_root;
   const Scene scene;
   const DrapeSchedule schedule;
+  std::string name_of_run; ///< hash of what it is made of
   Progress progress;
   std::unique_ptr<DrapeOutput> output; ///< on the first rank
   nlohmann::ordered_json cell_descriptions = nlohmann::ordered_json::array(), sizes;

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace homespun::verification
 {
@@ -43,6 +44,31 @@ Scene scaled(const Scene &scene, const int n_cells)
   return result;
 }
 
+CoarseCloth::CoarseCloth(const Scene &scene, const homogenization::UnitCell &cell)
+{
+  if (!scene.is_sheet())
+  {
+    mesh = meshes::read_cloth(scene.mesh_file, scene.vt_unit);
+    mesh.rest.material.setZero(mesh.n_triangles());
+    return;
+  }
+  const meshes::Sheet first = meshes::tile(cell.mesh, cell.lattice, 1, 1);
+  origin                    = first.origin;
+  sides     = Eigen::Vector2d(scene.n1, scene.n2).asDiagonal() * first.lattice.vectors;
+  placement = placement_of(scene, origin, sides);
+  meshes::TriangleMesh rest =
+    meshes::coarse_sheet(origin, first.lattice.vectors, scene.n1, scene.n2);
+  rest.material = Eigen::VectorXi::Zero(rest.n_triangles());
+  mesh          = placed(rest, *placement);
+}
+
+HeldMotion CoarseCloth::motion(const Scene &scene) const
+{
+  if (placement)
+    return {scene, *placement, origin, sides};
+  return {scene, mesh};
+}
+
 DrapedCell::DrapedCell(const Scene &given, const homogenization::UnitCell &cell,
                        const meshes::HomogenizedCell &homogenized)
     : scene(given)
@@ -54,21 +80,16 @@ DrapedCell::DrapedCell(const Scene &given, const homogenization::UnitCell &cell,
   phases.stiffness = cell.stiffness_of_phase();
   for (const homogenization::Phase &phase : cell.phases)
     phases.areal_density.push_back(phase.thickness * phase.density);
-  meshes::TriangleMesh fine_rest;
+  CoarseCloth begin(scene, cell);
+  coarse    = std::move(begin.mesh);
+  placement = begin.placement;
   if (scene.is_sheet())
   {
-    sheet     = meshes::tile(cell.mesh, cell.lattice, scene.n1, scene.n2);
-    placement = placement_of(scene, sheet->origin, sheet->sides());
-    meshes::TriangleMesh rest =
-      meshes::coarse_sheet(sheet->origin, sheet->lattice.vectors, scene.n1, scene.n2);
-    rest.material = Eigen::VectorXi::Zero(rest.n_triangles());
-    coarse        = placed(rest, *placement);
-    fine          = placed(sheet->mesh, *placement);
+    sheet = meshes::tile(cell.mesh, cell.lattice, scene.n1, scene.n2);
+    fine  = placed(sheet->mesh, *placement);
   }
   else
   {
-    coarse = meshes::read_cloth(scene.mesh_file, scene.vt_unit);
-    coarse.rest.material.setZero(coarse.n_triangles());
     garment = meshes::fine_cloth(cell.mesh, cell.lattice, coarse);
     // Vertices in space are numbered without gaps.
     space_vertex.assign(static_cast<std::size_t>(garment->n_vertices()), -1);
@@ -85,12 +106,18 @@ DrapedCell::DrapedCell(const Scene &given, const homogenization::UnitCell &cell,
     for (int t = 0; t < fine.n_triangles(); ++t)
       for (int k = 0; k < 3; ++k)
         fine.triangles(t, k) = space_vertex[static_cast<std::size_t>(fine.triangles(t, k))];
+    fine_of_coarse.assign(static_cast<std::size_t>(coarse.n_vertices()), -1);
     for (int v = 0; v < garment->n_vertices(); ++v)
     {
       Eigen::RowVector3d at = Eigen::RowVector3d::Zero();
       for (int k = 0; k < 3; ++k)
-        at += garment->coarse_weights(v, k) *
-              coarse.positions.row(coarse.triangles(garment->coarse_triangle(v), k));
+      {
+        const int corner = coarse.triangles(garment->coarse_triangle(v), k);
+        at += garment->coarse_weights(v, k) * coarse.positions.row(corner);
+        if (garment->coarse_weights(v, k) > 1. - 1e-9)
+          fine_of_coarse[static_cast<std::size_t>(corner)] =
+            space_vertex[static_cast<std::size_t>(v)];
+      }
       fine.positions.row(space_vertex[static_cast<std::size_t>(v)]) = at;
     }
   }
@@ -126,7 +153,7 @@ HeldMotion DrapedCell::fine_motion() const
 {
   if (sheet)
     return {scene, *placement, sheet->origin, sheet->sides()};
-  return {scene, fine};
+  return {scene, coarse, fine_of_coarse};
 }
 
 int DrapedCell::n_fine() const

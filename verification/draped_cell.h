@@ -24,6 +24,20 @@ using Upsampler3d = localization::Upsampler<3, double>;
 /// The scene on a smaller or larger sheet: translations of handles go with its size.
 Scene scaled(const Scene &scene, int n_cells);
 
+/// The coarse cloth of a scene where it begins, and where it is held.
+struct CoarseCloth
+{
+  /// @throws BadInput where the mesh of the scene or the cell cannot be used
+  CoarseCloth(const Scene &scene, const homogenization::UnitCell &cell);
+
+  HeldMotion motion(const Scene &scene) const;
+
+  meshes::ClothMesh mesh;
+  std::optional<SheetPlacement> placement;                ///< of a sheet
+  Eigen::RowVector2d origin = Eigen::RowVector2d::Zero(); ///< of a sheet [m]
+  Eigen::Matrix2d sides     = Eigen::Matrix2d::Zero();    ///< of a sheet, rows [m]
+};
+
 class DrapedCell
 {
 public:
@@ -32,6 +46,7 @@ public:
              const meshes::HomogenizedCell &homogenized);
 
   HeldMotion coarse_motion() const;
+  /// @throws BadInput where a held vertex of the coarse cloth is none of the fine one
   HeldMotion fine_motion() const;
 
   template <typename Scalar>
@@ -72,5 +87,7 @@ public:
 private:
   std::vector<meshes::VertexData> data;
   std::vector<int> space_vertex; ///< of a garment's fine vertex
+  std::vector<int>
+    fine_of_coarse; ///< vertex of `fine` at each of `coarse` of a garment, −1 where there is none
 };
 } // namespace homespun::verification

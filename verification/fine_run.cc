@@ -57,7 +57,7 @@ public:
   {
     return reference.kinetic_energy();
   }
-  double stored_energy() const override
+  double elastic_energy() const override
   {
     return reference.stored_energy();
   }
@@ -151,9 +151,9 @@ public:
   {
     return run ? run->cloth().kinetic_energy() : 0.;
   }
-  double stored_energy() const override
+  double elastic_energy() const override
   {
-    return run ? run->cloth().stored_energy() : 0.;
+    return run ? run->elastic_energy() : 0.;
   }
   int n_vertices() const override
   {

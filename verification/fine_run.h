@@ -31,9 +31,10 @@ public:
   virtual meshes::SpacePoints velocities() const                          = 0;
   virtual double time() const                                             = 0;
   virtual double kinetic_energy() const                                   = 0;
-  virtual double stored_energy() const                                    = 0;
-  virtual int n_vertices() const                                          = 0;
-  virtual unsigned long n_dofs() const                                    = 0;
+  /// Of membrane and plate [J].
+  virtual double elastic_energy() const = 0;
+  virtual int n_vertices() const        = 0;
+  virtual unsigned long n_dofs() const  = 0;
 };
 
 /// By finite elements, on all ranks.

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "verification/held_motion.h"
 
+#include "meshes/errors.h"
+
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 
@@ -51,55 +53,88 @@ SheetPlacement placement_of(const Scene &scene, const Eigen::RowVector2d &origin
 
 HeldMotion::HeldMotion(const Scene &scene, const SheetPlacement &placement,
                        const Eigen::RowVector2d &origin, const Eigen::Matrix2d &sides)
-    : scene(scene)
-    , placement(placement)
+    : placement(placement)
 {
   for (const HeldPlace &held : scene.held)
   {
-    Eigen::RowVector2d f(0.5, 0.5);
-    if (held.place.find("left") != std::string::npos)
-      f(0) = 0.;
-    if (held.place.find("right") != std::string::npos)
-      f(0) = 1.;
-    if (held.place.find("bottom") != std::string::npos)
-      f(1) = 0.;
-    if (held.place.find("top") != std::string::npos)
-      f(1) = 1.;
-    places.push_back({held, placement.start(origin + f * sides)});
-  }
-}
-
-HeldMotion::HeldMotion(const Scene &scene, const meshes::ClothMesh &cloth)
-    : scene(scene)
-{
-  const double high = cloth.positions.col(2).maxCoeff(), low = cloth.positions.col(2).minCoeff();
-  waist = high - 1e-3 * (high - low);
-  for (const HeldPlace &held : scene.held)
-  {
-    Place place{held, Eigen::RowVector3d::Zero()};
-    int n = 0;
-    for (int v = 0; v < cloth.n_vertices(); ++v)
-      if (held.place == "waist" ? cloth.positions(v, 2) >= waist
-                                : std::count(held.vertices.begin(), held.vertices.end(), v) > 0)
-      {
-        place.centre += cloth.positions.row(v);
-        ++n;
-      }
-    place.centre /= std::max(n, 1);
+    Place place{held, Eigen::RowVector3d::Zero(), {}, {}};
+    for (const int v : held.vertices)
+    {
+      const int i = v % (scene.n1 + 1), j = v / (scene.n1 + 1);
+      place.fractions.emplace_back(static_cast<double>(i) / scene.n1,
+                                   static_cast<double>(j) / scene.n2);
+      place.centre += placement.start(origin + place.fractions.back() * sides) /
+                      static_cast<double>(held.vertices.size());
+    }
+    if (held.vertices.empty())
+    {
+      Eigen::RowVector2d f(0.5, 0.5);
+      if (held.place.find("left") != std::string::npos)
+        f(0) = 0.;
+      if (held.place.find("right") != std::string::npos)
+        f(0) = 1.;
+      if (held.place.find("bottom") != std::string::npos)
+        f(1) = 0.;
+      if (held.place.find("top") != std::string::npos)
+        f(1) = 1.;
+      place.centre = placement.start(origin + f * sides);
+    }
     places.push_back(place);
   }
 }
 
+HeldMotion::HeldMotion(const Scene &scene, const meshes::ClothMesh &coarse,
+                       const std::vector<int> &fine_of_coarse)
+{
+  const double high = coarse.positions.col(2).maxCoeff(), low = coarse.positions.col(2).minCoeff();
+  waist = high - 1e-3 * (high - low);
+  std::vector<std::string> faults;
+  for (const HeldPlace &held : scene.held)
+  {
+    Place place{held, Eigen::RowVector3d::Zero(), held.vertices, {}};
+    int n = 0;
+    for (int v = 0; v < coarse.n_vertices(); ++v)
+      if (holds(place, v, coarse))
+      {
+        place.centre += coarse.positions.row(v);
+        ++n;
+      }
+    place.centre /= std::max(n, 1);
+    if (!fine_of_coarse.empty())
+      for (int &v : place.vertices)
+      {
+        const int fine = fine_of_coarse.at(static_cast<std::size_t>(v));
+        if (fine < 0)
+          faults.push_back(scene.file + ": held vertex " + std::to_string(v) +
+                           " of the coarse cloth is no vertex of the full-resolution one; expected "
+                           "one on an outline or a lattice point, `waist`, or no reference");
+        v = fine;
+      }
+    places.push_back(place);
+  }
+  if (!faults.empty())
+    throw meshes::BadInput(faults);
+}
+
 bool HeldMotion::holds(const Place &place, const Eigen::RowVector2d &f) const
 {
+  if (place.held.place == "vertices")
+    return std::any_of(place.fractions.begin(), place.fractions.end(),
+                       [&](const Eigen::RowVector2d &of_vertex)
+                       { return (f - of_vertex).cwiseAbs().maxCoeff() < on_edge; });
   const std::string &name = place.held.place;
-  if (name == "vertices" || name == "waist")
-    return false;
-  const auto says = [&](const char *word) { return name.find(word) != std::string::npos; };
+  const auto says         = [&](const char *word) { return name.find(word) != std::string::npos; };
   return (!says("left") || std::abs(f(0)) < on_edge) &&
          (!says("right") || std::abs(f(0) - 1.) < on_edge) &&
          (!says("bottom") || std::abs(f(1)) < on_edge) &&
          (!says("top") || std::abs(f(1) - 1.) < on_edge);
+}
+
+bool HeldMotion::holds(const Place &place, const int vertex, const meshes::ClothMesh &garment) const
+{
+  if (place.held.place == "waist")
+    return garment.positions(vertex, 2) >= waist;
+  return std::count(place.vertices.begin(), place.vertices.end(), vertex) > 0;
 }
 
 std::optional<Eigen::RowVector3d> HeldMotion::at(const Eigen::RowVector2d &rest_point,
@@ -116,11 +151,9 @@ int HeldMotion::place_of_vertex(const int vertex, const meshes::ClothMesh &cloth
 {
   for (int p = static_cast<int>(places.size()) - 1; p >= 0; --p)
   {
-    const Place &place        = places[static_cast<std::size_t>(p)];
-    const std::vector<int> &v = place.held.vertices;
-    if (place.held.place == "vertices" ? std::count(v.begin(), v.end(), vertex) > 0
-        : placement ? holds(place, placement->fraction(cloth.rest.vertices.row(vertex)))
-                    : place.held.place == "waist" && cloth.positions(vertex, 2) >= waist)
+    const Place &place = places[static_cast<std::size_t>(p)];
+    if (placement ? holds(place, placement->fraction(cloth.rest.vertices.row(vertex)))
+                  : holds(place, vertex, cloth))
       return p;
   }
   return -1;
@@ -152,5 +185,18 @@ bool HeldMotion::moves_after(const double time) const
                        return place.held.motion.kind != Motion::Kind::rest &&
                               time < place.held.motion.seconds;
                      });
+}
+
+std::vector<std::string> HeldMotion::idle_places(const meshes::ClothMesh &cloth) const
+{
+  std::vector<bool> is_idle(places.size(), true);
+  for (int v = 0; v < cloth.n_vertices(); ++v)
+    if (const int p = place_of_vertex(v, cloth); p >= 0)
+      is_idle[static_cast<std::size_t>(p)] = false;
+  std::vector<std::string> names;
+  for (std::size_t p = 0; p < places.size(); ++p)
+    if (is_idle[p])
+      names.push_back(places[p].held.place);
+  return names;
 }
 } // namespace homespun::verification

@@ -40,11 +40,12 @@ HeldPlace place_from(const std::string &text, const bool is_sheet, const TextFau
   const bool edge   = (rows.count(first) || columns.count(first)) && second.empty();
   const bool corner = rows.count(first) && columns.count(second) && rest.empty();
   const bool waist  = first == "waist" && second.empty();
-  if (!edge && !corner && !waist)
-    fault(text,
-          "left, right, bottom, top, a corner such as `top left`, waist, or `vertices 0 1 2`");
-  else if ((edge || corner) && !is_sheet)
-    fault(text, "`waist` or `vertices ...`: a garment has no edges by name");
+  if (is_sheet && !edge && !corner)
+    fault(text, "left, right, bottom, top, a corner such as `top left`, or `vertices 0 1 2`" +
+                  std::string(waist ? ": a sheet has no waist" : ""));
+  if (!is_sheet && !waist)
+    fault(text, "`waist` or `vertices 0 1 2`" +
+                  std::string(edge || corner ? ": a garment has no edges by name" : ""));
   place.place = corner ? first + " " + second : first;
   return place;
 }

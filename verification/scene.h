@@ -33,7 +33,7 @@ struct Motion
 };
 
 /// A place that is held: `left`, `right`, `bottom`, `top` edge or a corner such as `top left` of a sheet;
-/// `waist`, the vertices of any cloth that begin highest; `vertices 0 1 2`.
+/// `waist`, the vertices of a garment that begin highest; `vertices 0 1 2` of the coarse cloth.
 struct HeldPlace
 {
   std::string place;

@@ -14,6 +14,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace homespun::verification
 {
@@ -59,11 +60,20 @@ MembraneModel membrane_model_of(const std::string &name)
                          "`; expected corotational, triangle-warping or nodal-warping");
 }
 
-const std::vector<std::string> &terms_that_can_be_forced()
+std::vector<std::string> terms_with_a_cost(const Scene &scene)
 {
-  static const std::vector<std::string> terms = {"bending", "gravity",   "damping",
-                                                 "wind",    "obstacles", "friction"};
+  std::vector<std::string> terms = {"bending", "gravity", "damping", "wind", "obstacles"};
+  if (scene.has("obstacles"))
+    terms.emplace_back("friction");
   return terms;
+}
+
+double gravity_energy(const Scene &scene, const Eigen::VectorXd &masses,
+                      const shell::Vectors &positions)
+{
+  if (!scene.has("gravity"))
+    return std::numeric_limits<double>::quiet_NaN();
+  return 0. - masses.dot(positions * scene.gravity.transpose());
 }
 
 SceneCloth::SceneCloth(const Scene &scene, const meshes::ClothMesh &mesh,
@@ -81,14 +91,12 @@ SceneCloth::SceneCloth(const Scene &scene, const meshes::ClothMesh &mesh,
   moving             = std::make_unique<shell::Cloth>(mesh.positions, masses, held, options);
   const auto forces  = [&](const char *term) { return forced.count(term) != 0; };
 
-  const bool damped = scene.has("damping");
+  const bool damped      = scene.has("damping");
+  const double viscosity = damped ? scene.viscosity : forces("damping") ? 1e-300 : 0.;
   switch (model)
   {
   case MembraneModel::corotational:
-    moving->add(shell::membrane_term(mesh, material.stiffness,
-                                     damped              ? scene.viscosity
-                                     : forces("damping") ? 1e-300
-                                                         : 0.));
+    moving->add(shell::membrane_term(mesh, material.stiffness, viscosity));
     break;
   case MembraneModel::triangle_warping:
     moving->add(shell::triangle_warping_term(mesh, material.stiffness));
@@ -97,6 +105,9 @@ SceneCloth::SceneCloth(const Scene &scene, const meshes::ClothMesh &mesh,
     moving->add(shell::nodal_warping_term(mesh, material.stiffness, masses));
     break;
   }
+  // The scene is the same for every model of the elasticity.
+  if (model != MembraneModel::corotational && viscosity > 0.)
+    moving->add(shell::viscosity_term(mesh, material.stiffness, viscosity));
   if (scene.has("bending") || forces("bending"))
   {
     const shell::PlateStiffness plate =
@@ -121,7 +132,7 @@ SceneCloth::SceneCloth(const Scene &scene, const meshes::ClothMesh &mesh,
       moving->add(
         shell::pressure_term(mesh, [pressure = scene.pressure](double) { return pressure; }));
   }
-  if (scene.has("obstacles") || forces("obstacles") || forces("friction"))
+  if (scene.has("obstacles") || forces("obstacles"))
   {
     shell::ContactParameters parameters;
     parameters.thickness = scene.contact_thickness;
@@ -157,6 +168,19 @@ void SceneCloth::solve_equilibrium(const double time)
   prescribe(time);
   moving->solve_equilibrium();
   moving->set_state(moving->positions(), moving->velocities(), time);
+}
+
+double SceneCloth::elastic_energy() const
+{
+  double sum = 0.;
+  for (const auto &term : moving->terms())
+  {
+    if (!term->has_energy())
+      return std::numeric_limits<double>::quiet_NaN();
+    if (term->name() != "gravity")
+      sum += term->stored_energy(moving->positions());
+  }
+  return sum;
 }
 
 double largest_stretch(const meshes::ClothMesh &mesh, const shell::Vectors &positions)

@@ -48,6 +48,9 @@ public:
   /// Equilibrium with the handles where they are at a time.
   void solve_equilibrium(double time);
 
+  /// What the membrane and the plate store [J]; not a number where the forces of the membrane have no energy.
+  double elastic_energy() const;
+
   shell::Cloth &cloth()
   {
     return *moving;
@@ -66,8 +69,13 @@ private:
   std::unique_ptr<shell::Cloth> moving;
 };
 
-/// Terms that can be forced on at zero strength.
-const std::vector<std::string> &terms_that_can_be_forced();
+/// Terms whose cost can be measured: those that the scene has, and those that can be forced on it at zero strength.
+/// Friction needs obstacles to act on.
+std::vector<std::string> terms_with_a_cost(const Scene &scene);
+
+/// Potential of the weight, −Σ m g·x [J]; not a number in a scene without gravity.
+double gravity_energy(const Scene &scene, const Eigen::VectorXd &masses,
+                      const shell::Vectors &positions);
 
 /// Largest principal stretch of any triangle [-].
 double largest_stretch(const meshes::ClothMesh &mesh, const shell::Vectors &positions);

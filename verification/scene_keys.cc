@@ -41,10 +41,12 @@ void SceneKeys::declare(dealii::ParameterHandler &keys, std::map<std::string, st
   add("Air density", air_density, "[kg/m^3].", "wind");
   add("Drag coefficient", drag, "Of the normal component [-].", "wind");
   add("Pressure", pressure, "On the side that the normal leaves, follower load [Pa].", "wind");
-  add("Pins", pins,
-      "Places that stay, separated by `;`: left, right, bottom, top (edges of a sheet), top left "
-      "and so on (corners), waist (the highest vertices), vertices 0 1 2.",
-      "pins");
+  add(
+    "Pins", pins,
+    "Places that stay, separated by `;`: left, right, bottom, top (edges of a sheet), top left "
+    "and so on (corners), waist (the highest vertices of a garment), vertices 0 1 2 (of the coarse "
+    "cloth).",
+    "pins");
   add("Handles", handles,
       "Places that move, `place: translate dx dy dz during s` or `place: rotate degrees about ax "
       "ay az during s` (about the centre of the place), separated by `;`.",

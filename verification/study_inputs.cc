@@ -27,20 +27,33 @@ std::uint64_t hashed(std::uint64_t hash, const Matrix &matrix)
     hash = (hash ^ bytes[k]) * 1099511628211u;
   return hash;
 }
+
+constexpr std::uint64_t start_of_hash = 14695981039346656037u;
+
+std::string printed(const std::uint64_t hash)
+{
+  char text[20];
+  std::snprintf(text, sizeof(text), "%016llx", static_cast<unsigned long long>(hash));
+  return text;
+}
 } // namespace
 
 std::string fingerprint(const UnitCell &cell)
 {
-  std::uint64_t hash = 14695981039346656037u;
+  std::uint64_t hash = start_of_hash;
   hash               = hashed(hash, cell.mesh.vertices);
   hash               = hashed(hash, cell.mesh.triangles);
   hash               = hashed(hash, cell.mesh.material);
   hash               = hashed(hash, cell.lattice.vectors);
   for (const Eigen::Matrix3d &stiffness : cell.stiffness_of_phase())
     hash = hashed(hash, stiffness);
-  char text[20];
-  std::snprintf(text, sizeof(text), "%016llx", static_cast<unsigned long long>(hash));
-  return text;
+  return printed(hash);
+}
+
+std::string fingerprint(const std::string &text)
+{
+  return printed(hashed(start_of_hash, Eigen::Map<const Eigen::Matrix<char, Eigen::Dynamic, 1>>(
+                                         text.data(), static_cast<Eigen::Index>(text.size()))));
 }
 
 void check_names(const std::vector<UnitCell> &cells)
@@ -71,7 +84,7 @@ void check_inputs(const std::vector<UnitCell> &cells, const int n_cells,
 }
 
 void check_inputs_file(const std::string &folder, const nlohmann::ordered_json &inputs,
-                       const bool resume, const std::string &table)
+                       const bool resume, const std::string &table, const std::string &what)
 {
   const std::string path = folder + "/inputs.json", text = json_text(inputs);
   if (resume && std::filesystem::exists(folder + "/" + table))
@@ -81,9 +94,9 @@ void check_inputs_file(const std::string &folder, const nlohmann::ordered_json &
                             std::istreambuf_iterator<char>());
     if (found != text)
       throw meshes::BadInput(
-        path + ": the rows there belong to other cells, materials, meshes or sizes than "
-               "this study; expected the same to resume: leave out --resume to begin "
-               "anew, or choose another --output");
+        path + ": the rows there belong to other " + what +
+        " than this study; expected the same to resume: leave out --resume to begin "
+        "anew, or choose another --output");
   }
   write_whole(path, text);
 }

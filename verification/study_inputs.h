@@ -25,10 +25,15 @@ void check_inputs(const std::vector<homogenization::UnitCell> &cells, int n_cell
 
 /// Writes any description of inputs as inputs.json into a folder of results.
 /// @param table whose presence makes a study one that can be resumed
+/// @param what the inputs are, for the message
 /// @throws BadInput where it is to be resumed with other inputs
 void check_inputs_file(const std::string &folder, const nlohmann::ordered_json &inputs, bool resume,
-                       const std::string &table);
+                       const std::string &table,
+                       const std::string &what = "cells, materials, meshes or sizes");
 
 /// A hash of a cell's mesh, lattice and stiffness.
 std::string fingerprint(const homogenization::UnitCell &cell);
+
+/// A hash of a text.
+std::string fingerprint(const std::string &text);
 } // namespace homespun::verification

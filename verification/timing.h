@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cstddef>
 #include <limits>
 #include <vector>
 
@@ -17,6 +18,15 @@ inline double median(std::vector<double> values)
   std::sort(values.begin(), values.end());
   const std::size_t n = values.size();
   return n % 2 == 1 ? values[n / 2] : 0.5 * (values[n / 2 - 1] + values[n / 2]);
+}
+
+/// Half of the distance between the medians of the lower and the upper half; not a number of less than two.
+inline double half_of_interquartile_range(std::vector<double> values)
+{
+  std::sort(values.begin(), values.end());
+  const auto half = static_cast<std::ptrdiff_t>(values.size() / 2);
+  return 0.5 * (median({values.end() - half, values.end()}) -
+                median({values.begin(), values.begin() + half}));
 }
 
 /// Wall time of some work [s].

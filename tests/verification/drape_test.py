@@ -3,12 +3,22 @@
 import csv
 import json
 import shutil
+import subprocess
+import sys
+import time
 import unittest
 
-from cli import CELLS, InFolder, run
+import h5py
+import numpy
+
+from cli import CELLS, PROGRAM, InFolder, run
+
+sys.path.append(str(CELLS.parents[1] / "verification" / "report"))
+from vtu import read_vtu  # noqa: E402
 
 SCENES = CELLS.parent / "scenes"
 TRIANGLE = "v 0 0 1\nv 0.1 0 0\nv 0 0.1 0\nvt 0 0\nvt 0.1 0\nvt 0 0.1\nf 1/1 2/2 3/3\n"
+TIMES = {"seconds_coarse_step", "seconds_upsampling"}
 
 
 def rows_of(path, leave_out=()):
@@ -16,7 +26,31 @@ def rows_of(path, leave_out=()):
         return [{key: value for key, value in row.items() if key not in leave_out} for row in csv.DictReader(file)]
 
 
-class Scenes(InFolder):
+def keep_rows(path, keep):
+    """Removes the other rows of a table."""
+    lines = path.read_text(encoding="utf-8").splitlines(keepends=True)
+    header = lines[0].strip().split(",")
+    path.write_text(lines[0] + "".join(line for line in lines[1:] if keep(dict(zip(header, line.strip().split(","))))),
+                    encoding="utf-8")
+
+
+class SceneCase(InFolder):
+    def scene(self, changes, name="hang", garment=None):
+        """A copy of a shipped scene with keys replaced, added, or, given None, removed."""
+        lines = (SCENES / f"{name}.prm").read_text(encoding="utf-8").replace("../cells", str(CELLS)).splitlines()
+        for key, value in changes.items():
+            lines = [line for line in lines if line.split("=")[0].split()[1:] != key.split()]
+            if value is not None:
+                lines.append(f"set {key} = {value}")
+        if garment is not None:
+            (self.folder / "cloth.obj").write_text(garment, encoding="utf-8")
+            lines.append("set Mesh = cloth.obj")
+        path = self.folder / "scene.prm"
+        path.write_text("\n".join(lines) + "\n", encoding="utf-8")
+        return path
+
+
+class Scenes(SceneCase):
     def test_every_shipped_scene_runs_with_both_cells(self):
         for scene in sorted(SCENES.glob("*.prm")):
             with self.subTest(scene=scene.name):
@@ -38,6 +72,38 @@ class Scenes(InFolder):
         for ending in ("vtu", "ply", "obj"):
             self.assertEqual(len(list(folder.glob(f"fine_*.{ending}"))), 3, ending)
 
+    def test_a_duration_is_run_in_whole_steps_and_said_as_it_was_run(self):
+        output = self.folder / "out"
+        self.assertEqual(run("drape", SCENES / "hang.prm", "--quick", "--duration", 0.035, "--no-frames", "--no-report",
+                             "--unit-cells", CELLS / "layered.prm", "--output", output).returncode, 0)
+        self.assertEqual([float(row["time_s"]) for row in rows_of(output / "motion.csv")], [0., 0.03])
+        self.assertAlmostEqual(json.loads((output / "drape.json").read_text())["duration_s"], 0.03)
+
+    def test_energies_of_a_hanging_cloth_and_its_references_obey_clapeyron(self):
+        # In equilibrium at small strain the weight has given twice what the cloth stores.
+        output = self.folder / "out"
+        scene = self.scene({"Integrator": "static"})
+        self.assertEqual(run("drape", scene, "--quick", "--duration", 0.05, "--references", "biot,shell", "--variants",
+                             "corotational,nodal-warping", "--unit-cells", CELLS / "layered.prm", "--no-frames", "--no-report",
+                             "--output", output).returncode, 0)
+        energies = {(row["variant"], int(row["frame"])): row for row in rows_of(output / "motion.csv")}
+        for name in ("corotational", "biot", "shell"):
+            elastic, given = (float(energies[name, 1][key]) - float(energies[name, 0][key]) for key in ("elastic_J", "gravity_J"))
+            self.assertGreater(elastic, 0.)
+            self.assertAlmostEqual(given, -2. * elastic, delta=0.01 * elastic, msg=name)
+        self.assertEqual(energies["nodal-warping", 0]["elastic_J"], "")
+
+    def test_what_absent_terms_cost_is_measured_with_its_spread(self):
+        output = self.folder / "out"
+        self.assertEqual(run("drape", SCENES / "pull.prm", "--quick", "--duration", 0.05, "--costs", "--unit-cells",
+                             CELLS / "layered.prm", "--no-frames", "--no-report", "--output", output).returncode, 0)
+        rows = {row["term"]: row for row in rows_of(output / "terms.csv")}
+        self.assertEqual(set(rows), {"bending", "gravity", "damping", "wind", "obstacles"})
+        for term, row in rows.items():
+            self.assertGreater(float(row["seconds_per_step"]), 0.)
+            self.assertGreaterEqual(float(row["seconds_spread"]), 0.)
+            self.assertEqual(row["seconds_spread_forced"] == "", row["present"] == "true", term)
+
     def test_the_two_references_agree_and_do_not_depend_on_the_ranks(self):
         errors = []
         for ranks in (1, 2):
@@ -55,39 +121,129 @@ class Scenes(InFolder):
 
     def test_a_resumed_run_equals_an_uninterrupted_one(self):
         study = ["drape", SCENES / "pull.prm", "--quick", "--references", "biot,shell", "--unit-cells",
-                 CELLS / "layered.prm", "--no-frames", "--no-report", "--output"]
-        whole = self.folder / "whole"
+                 CELLS / "layered.prm", "--no-report", "--output"]
+        whole, early = self.folder / "whole", self.folder / "early"
         self.assertEqual(run(*study, whole, "--duration", 0.3).returncode, 0)
-        # A run that was cut: rows of the last frames and the state of an earlier one.
+        self.assertEqual(run(*study, early, "--duration", 0.15).returncode, 0)
+        # What a kill leaves: the state of frame 3, rows and frames of the next one too, of the second reference nothing.
         cut = self.folder / "cut"
-        self.assertEqual(run(*study, cut, "--duration", 0.15).returncode, 0)
-        shutil.copy(whole / "inputs.json", cut)
+        shutil.copytree(whole, cut)
+        shutil.rmtree(cut / "layered-shell")
+        for frame in (5, 6):
+            (cut / "layered-biot" / f"fine_{frame:04d}.vtu").unlink()
+        for table in ("drape.csv", "motion.csv"):
+            keep_rows(cut / table, lambda row: row.get("variant") == "corotational" and "reference" not in row
+                      or "biot" in row.values() and int(row["frame"]) <= 4)
+        shutil.copy(early / "layered-biot" / "checkpoint.h5", cut / "layered-biot")
+        with h5py.File(whole / "layered-biot" / "checkpoint.h5") as of_whole, \
+                h5py.File(cut / "layered-biot" / "checkpoint.h5", "a") as of_cut:
+            of_cut.attrs["run"] = of_whole.attrs["run"]
+            self.assertEqual(of_cut.attrs["frame"], 3)
+        for name in ("drape.json", "verdicts.json"):
+            (cut / name).unlink()
         self.assertEqual(run(*study, cut, "--duration", 0.3, "--resume").returncode, 0)
 
-        def key(row):
-            return row["reference"], row["method"], int(row["frame"])
-        expected, found = (sorted(rows_of(folder / "drape.csv"), key=key) for folder in (whole, cut))
-        self.assertEqual([key(row) for row in found], [key(row) for row in expected])
+        self.assertEqual(sorted(path.relative_to(cut) for path in cut.rglob("*")),
+                         sorted(path.relative_to(whole) for path in whole.rglob("*")))
+        for table, keys in (("drape.csv", ("reference", "method")), ("motion.csv", ("variant",))):
+            expected, found = (sorted(rows_of(folder / table, TIMES), key=lambda row: [*(row[k] for k in keys), int(row["frame"])])
+                               for folder in (whole, cut))
+            self.assert_alike(found, expected)
+        verdicts = [json.loads((folder / "verdicts.json").read_text())["verdicts"] for folder in (whole, cut)]
+        self.assertEqual(*([{**verdict, "command": ""} for verdict in some] for some in verdicts))
+        for path in whole.rglob("*"):
+            there = cut / path.relative_to(whole)
+            if path.name == "inputs.json" or path.suffix == ".pvd":
+                self.assertEqual(there.read_text(), path.read_text(), path)
+            elif path.suffix == ".vtu":
+                one, two = read_vtu(there), read_vtu(path)
+                numpy.testing.assert_allclose(one.points, two.points, atol=1e-8)
+                self.assertEqual(set(one.point_data), set(two.point_data), path)
+                for name, values in two.point_data.items():
+                    numpy.testing.assert_allclose(one.point_data[name], values, atol=1e-8, err_msg=f"{path} {name}")
+        self.assertIn("error", read_vtu(cut / "layered-biot" / "fine_0001.vtu").point_data)
+        self.assertIn("error", read_vtu(cut / "layered-shell" / "fine_0006.vtu").point_data)
+        # Times are those of all steps, before and after the cut.
+        with h5py.File(cut / "layered-biot" / "checkpoint.h5") as of_cut, \
+                h5py.File(early / "layered-biot" / "checkpoint.h5") as of_early:
+            seconds = numpy.array(of_cut["step_seconds"])
+            self.assertEqual(len(seconds), 30)
+            numpy.testing.assert_array_equal(seconds[:15], of_early["step_seconds"])
+        reference = json.loads((cut / "drape.json").read_text())["cells"][0]["references"][0]
+        self.assertAlmostEqual(reference["seconds_per_step"], numpy.median(seconds), delta=1e-5)
+
+    def assert_alike(self, found, expected):
+        """Rows of a table, texts equal and numbers to what a solver leaves open."""
+        self.assertEqual(len(found), len(expected))
         for one, two in zip(found, expected):
-            error = float(two["error_mean_m"])
-            self.assertAlmostEqual(float(one["error_mean_m"]), error, delta=1e-5 * error + 1e-14)
+            for key, value in two.items():
+                try:
+                    number = float(value)
+                except ValueError:
+                    self.assertEqual(one[key], value, two)
+                else:
+                    self.assertAlmostEqual(float(one[key]), number, delta=2e-5 * abs(number) + 1e-13, msg=f"{key} of {two}")
+
+    def test_a_finished_run_that_is_resumed_keeps_its_times(self):
+        study = ["drape", SCENES / "pull.prm", "--quick", "--references", "shell", "--unit-cells", CELLS / "layered.prm",
+                 "--no-frames", "--no-report", "--duration", 0.1, "--output", self.folder / "out"]
+
+        def reference():
+            return json.loads((self.folder / "out" / "drape.json").read_text())["cells"][0]["references"][0]
+        self.assertEqual(run(*study).returncode, 0)
+        first = reference()
+        self.assertEqual(run(*study, "--resume").returncode, 0)
+        self.assertEqual(reference()["seconds_per_step"], first["seconds_per_step"])
+        self.assertIsNotNone(reference()["coarse_steps_per_step"])
+
+    def test_the_state_of_another_run_is_not_taken_up(self):
+        output = self.folder / "out"
+        study = ["drape", SCENES / "pull.prm", "--quick", "--references", "shell", "--unit-cells", CELLS / "layered.prm",
+                 "--no-frames", "--no-report", "--duration", 0.1, "--output", output]
+        self.assertEqual(run(*study).returncode, 0)
+        checkpoint, kept = output / "layered-shell" / "checkpoint.h5", self.folder / "kept.h5"
+        shutil.copy(checkpoint, kept)
+        other = [*study, "--time-step", 0.005]
+        # A new run begins without the state of the old one, even where it is killed before its first frame.
+        with subprocess.Popen([PROGRAM, *map(str, other)], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL) as process:
+            deadline = time.monotonic() + 60
+            while time.monotonic() < deadline and process.poll() is None:
+                if json.loads((output / "inputs.json").read_text())["time_step"] == 0.005 and (output / "drape.csv").exists():
+                    break
+                time.sleep(0.001)
+            process.kill()
+        if checkpoint.exists():
+            with h5py.File(checkpoint) as found, h5py.File(kept) as old:
+                self.assertNotEqual(found.attrs["run"], old.attrs["run"])
+        # One that comes back is refused, with and without the table.
+        for table in (True, False):
+            checkpoint.parent.mkdir(exist_ok=True)
+            shutil.copy(kept, checkpoint)
+            if not table:
+                (output / "drape.csv").unlink(missing_ok=True)
+            result = run(*other, "--resume")
+            self.assertEqual(result.returncode, 2, result.stdout)
+            self.assertIn("checkpoint.h5", result.stderr)
+            self.assertIn("leave out --resume", result.stderr)
+
+    def test_a_run_is_resumed_only_with_what_it_was_asked_for(self):
+        output = self.folder / "out"
+        study = ["drape", SCENES / "pull.prm", "--quick", "--unit-cells", CELLS / "layered.prm", "--no-frames", "--no-report",
+                 "--duration", 0.1, "--output", output]
+        asked = {"--variants": "corotational", "--methods": "localized", "--references": "shell"}
+        options = [word for pair in asked.items() for word in pair]
+        self.assertEqual(run(*study, *options).returncode, 0)
+        for name, more in (("--variants", "corotational,triangle-warping"), ("--methods", "affine,localized"),
+                           ("--references", "shell,biot")):
+            words = [word for pair in {**asked, name: more}.items() for word in pair]
+            (output / "drape.csv").unlink(missing_ok=True)
+            result = run(*study, *words, "--resume")
+            self.assertEqual(result.returncode, 2, name)
+            self.assertIn("inputs.json", result.stderr)
+            self.assertIn("--methods", result.stderr)
 
 
-class BadScenes(InFolder):
-    def scene(self, changes, name="hang", garment=None):
-        """A copy of a shipped scene with keys replaced, added, or, given None, removed."""
-        lines = (SCENES / f"{name}.prm").read_text(encoding="utf-8").replace("../cells", str(CELLS)).splitlines()
-        for key, value in changes.items():
-            lines = [line for line in lines if line.split("=")[0].split()[1:] != key.split()]
-            if value is not None:
-                lines.append(f"set {key} = {value}")
-        if garment is not None:
-            (self.folder / "cloth.obj").write_text(garment, encoding="utf-8")
-            lines.append("set Mesh = cloth.obj")
-        path = self.folder / "scene.prm"
-        path.write_text("\n".join(lines) + "\n", encoding="utf-8")
-        return path
-
+class BadScenes(SceneCase):
     def refused(self, path, *says, options=()):
         output = self.folder / "out"
         result = run("drape", path, *options, "--no-report", "--output", output)
@@ -107,6 +263,9 @@ class BadScenes(InFolder):
         self.refused(self.scene({"Pins": None}), "key `Pins` is missing")
         self.refused(self.scene({"Pins": "north"}), "found `north`", "`top left`")
         self.refused(self.scene({"Pins": "vertices 0 99999"}), "held vertex 99999 does not exist")
+        self.refused(self.scene({"Pins": "waist"}), "found `waist`", "a sheet has no waist")
+        self.refused(self.scene({"Pins": "left; left"}), "the place `left` holds no vertex")
+        self.refused(self.scene({"Pins": "vertices 0 1"}), "holds single vertices", options=["--references", "biot"])
         self.refused(self.scene({"Terms": "membrane, handles, damping", "Handles": "right: translate 1 during 2",
                                  "Pins": None, "Gravity": None}), "place: translate dx dy dz during s")
 
@@ -114,6 +273,8 @@ class BadScenes(InFolder):
         for value in ("0", "-0.01", "nan", "soon"):
             self.refused(self.scene({"Time step": value}), "key `Time step`", f"`{value}`", "positive")
         self.refused(self.scene({"Frame interval": "0.015"}), "multiple of the time step")
+        self.refused(self.scene({"Duration": "0.004", "Frame interval": "0.01"}), "`Duration`", "0.004 s", "0.01 s")
+        self.refused(SCENES / "hang.prm", "--duration", "0.004 s", "0.01 s", options=["--duration", "0.004"])
 
     def test_all_faults_at_once(self):
         text = self.refused(self.scene({"Time step": "0", "Pins": "north", "Terms": "membrane, pins, damping, magic"}))

@@ -95,7 +95,8 @@ def draw_curves(contents, drape, cell, gallery):
         contents["height"] = gallery.add(figure, f"{file}-height", f"{title}: height of the middle vertex.{words}")
     if figure := energy_figure(cell.motion):
         contents["energies"] = gallery.add(figure, f"{file}-energies", f"{title}: energies of the cloth and its "
-                                           "largest stretch (deformed over rest length). A curve that leaves its panel grows "
+                                           "largest stretch (deformed over rest length). The weight's energy is zero at "
+                                           "the origin; forces that have no energy (nodal warping) have no elastic one. A curve that leaves its panel grows "
                                            "beyond a thousand times the first cloth's largest value.")
     if figure := step_bars(cell):
         words = ""

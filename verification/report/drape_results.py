@@ -12,9 +12,10 @@ from vtu import BadFrame, read_pvd
 AGAIN = "Run `homespun drape` again."
 ERROR_HEADER = ("scene,cell,variant,reference,method,frame,time_s,error_mean_m,error_rms_m,error_max_m,"
                 "error_mean_per_cell,error_mean_per_fluctuation,reference_uncertainty_m").split(",")
-MOTION_HEADER = ("scene,cell,variant,frame,time_s,centre_x_m,centre_y_m,centre_z_m,kinetic_J,stored_J,max_stretch,"
-                 "seconds_coarse_step,seconds_upsampling").split(",")
-TERMS_HEADER = "scene,cell,term,present,seconds_per_step,seconds_per_step_forced,bytes,bytes_forced".split(",")
+MOTION_HEADER = ("scene,cell,variant,frame,time_s,centre_x_m,centre_y_m,centre_z_m,kinetic_J,elastic_J,gravity_J,"
+                 "max_stretch,seconds_coarse_step,seconds_upsampling").split(",")
+TERMS_HEADER = ("scene,cell,term,present,seconds_per_step,seconds_per_step_forced,bytes,bytes_forced,seconds_spread,"
+                "seconds_spread_forced").split(",")
 NUMBERS = {"frames", "steps", "cut_steps", "seconds_per_coarse_step", "seconds_per_upsampling", "threads", "ranks",
            "dofs", "seconds_per_step", "cell_side_m", "areal_density"}  # of cells, runs and references in drape.json
 PRESENT = {"true": True, "1": True, "yes": True, "false": False, "0": False, "no": False}

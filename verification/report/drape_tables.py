@@ -138,15 +138,19 @@ def term_rows(info):
 
 
 def cost_rows(cell):
-    """What a step costs with the terms of the scene, and would cost with one more forced upon it."""
+    """What a step costs with the terms of the scene, and would cost with one more forced upon it: medians with half of
+    the interquartile range."""
     def more(value, forced):
         return f"{100. * (forced / value - 1.):+.1f} %".replace("-", "−") if value > 0 and forced > 0 else "–"
+
+    def within(value, spread):
+        return seconds(value) if math.isnan(spread) else f"{seconds(value)} ± {seconds(spread)}"
     rows = []
     for row in cell.terms:
         time, forced = row["seconds_per_step"], row["seconds_per_step_forced"]
         memory, forced_memory = row["bytes"], row["bytes_forced"]
         rows.append([cell.name, row["term"], "present" if PRESENT[row["present"].lower()] else "left out",
-                     seconds(time), seconds(forced), more(time, forced),
+                     within(time, row["seconds_spread"]), within(forced, row["seconds_spread_forced"]), more(time, forced),
                      size_of(memory), size_of(forced_memory), more(memory, forced_memory)])
     return rows
 

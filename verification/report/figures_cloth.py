@@ -71,11 +71,13 @@ def spread(items, number):
 
 
 def error_of(surface, reference):
-    """Distance to the reference at each vertex (n) [m]; where the meshes differ, what the file says; or None."""
-    if reference is not None and numpy.array_equal(reference.triangles, surface.triangles):
+    """Distance to the reference at each vertex (n) [m]; where the triangles differ, what its frame says; or None."""
+    if reference is None:
+        return None
+    if numpy.array_equal(reference.triangles, surface.triangles):
         return numpy.linalg.norm(surface.points - reference.points, axis=1)
-    stored = surface.point_data.get("error")
-    return None if stored is None else stored.reshape(-1).astype(float)
+    stored = reference.point_data.get("error")
+    return None if stored is None or len(stored) != len(surface.points) else stored.reshape(-1).astype(float)
 
 
 def phase_colour_map(surfaces, names):

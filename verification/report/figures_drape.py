@@ -163,12 +163,13 @@ def height_figure(rows, up, gravity):
 
 
 def energy_figure(rows):
-    """Kinetic and stored energy and the largest stretch, against time; None without numbers.
+    """Kinetic and elastic energy, that of the weight, and the largest stretch, against time; None without numbers.
 
-    Energies stand on logarithmic axes where they are positive; a stored energy with gravity's is not.
+    Energies stand on logarithmic axes where they are positive; that of the weight is not. A curve is missing where
+    the cloth has no such energy.
     """
-    panels = [("kinetic_J", "kinetic energy [J]"), ("stored_J", "stored energy [J]"),
-              ("max_stretch", "largest stretch [1]")]
+    panels = [("kinetic_J", "kinetic energy [J]"), ("elastic_J", "elastic energy [J]"),
+              ("gravity_J", "energy of the weight [J]"), ("max_stretch", "largest stretch [1]")]
     panels = [(key, label) for key, label in panels if any(abs(row[key]) > 0. for row in rows)]
     if not panels:
         return None
@@ -176,7 +177,7 @@ def energy_figure(rows):
                                    layout="constrained")
     first = ordered_variants({row["variant"] for row in rows})[0]
     for axes, (key, label) in zip(grid[0], panels):
-        log = key != "max_stretch" and not any(row[key] < 0. for row in rows)
+        log = key not in ("max_stretch", "gravity_J") and not any(row[key] < 0. for row in rows)
         plot_members(axes, rows, key, positive=log)
         axes.set(xlabel="time [s]", title=label)
         # A variant that blows up must not flatten the others: it leaves the panel.

@@ -12,7 +12,7 @@ TEXT_COLUMNS = {"cell", "load", "reference", "method", "scene", "variant", "term
 FREE_TEXT_COLUMNS = {"figure", "limit", "judgement", "note"}  # may be empty
 NEEDED_NUMBERS = {"strain", "h"}  # above zero; every other number may be empty or nan
 TIMES = {"time_s"}           # needed, zero or above
-SIGNED_NUMBERS = {"centre_x_m", "centre_y_m", "centre_z_m", "stored_J",
+SIGNED_NUMBERS = {"centre_x_m", "centre_y_m", "centre_z_m", "elastic_J", "gravity_J",
                   "value", "observed_order", "order", "order_lowest", "richardson_limit", "share"}
 VERDICTS = ("PASS", "FAIL", "INCONCLUSIVE")
 RESUME = "Remove the line and run the study again with --resume."

@@ -41,7 +41,7 @@ class DrapePageTest(PageTest):
             self.assertEqual((moving.n_frames, moving.info["loop"]), (4, 0))
         for text in ("1.10 ms and its up-sampling 90.0 µs on 1 thread", "<b>1090 times</b> as long",
                      "the uncertainty of the reference is 10.0 µm", "the uncertainty of the reference is not known",
-                     "let go &lt;level&gt;", "the scene does not ask for it", "+13.6 %", "+23.5 %", "solver/tolerance", "1e-08", "printed-nodal-warping moves more than three times", "abc1234"):
+                     "let go &lt;level&gt;", "the scene does not ask for it", "1.10 ms ± 20.0 µs", "+13.6 %", "+23.5 %", "solver/tolerance", "1e-08", "printed-nodal-warping moves more than three times", "abc1234"):
             self.assertIn(text, page)
         links = re.findall(r'href="([^"#][^"]*)"', page)
         self.assertEqual(len(links), 2 * len(VARIANTS) + len(REFERENCES))

@@ -68,10 +68,11 @@ class SceneTest(unittest.TestCase):
     def test_error_is_measured_on_equal_meshes_and_read_on_others(self):
         flat, triangles, _ = square_mesh(1, 1.)
         points = numpy.column_stack([flat, 0. * flat[:, 0]])
-        surface = vtu.Surface(points, triangles, {"error": numpy.full(4, 7.)})
+        surface, error = vtu.Surface(points, triangles), {"error": numpy.full(4, 7.)}
         numpy.testing.assert_allclose(figures_cloth.error_of(surface, vtu.Surface(points + [0., 3., 4.], triangles)), 5.)
-        numpy.testing.assert_allclose(figures_cloth.error_of(surface, vtu.Surface(points, triangles[:1])), 7.)
-        self.assertIsNone(figures_cloth.error_of(vtu.Surface(points, triangles), None))
+        numpy.testing.assert_allclose(figures_cloth.error_of(surface, vtu.Surface(points, triangles[:1], error)), 7.)
+        self.assertIsNone(figures_cloth.error_of(surface, vtu.Surface(points[:3], triangles[:1], {"error": numpy.full(3, 7.)})))
+        self.assertIsNone(figures_cloth.error_of(surface, None))
 
     def test_free_fall_is_drawn_from_rest_alone(self):
         rows = [{"time_s": t, "height": 2., "kinetic_J": 0.} for t in (0., 1.)]
