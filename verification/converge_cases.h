@@ -2,9 +2,12 @@
 // The convergence studies, each a list of cases. What every case must show is written beside it, before any
 // number is known.
 //
-// mesh          uniform refinement of the cell, P1 and P2. C^H falls in the Loewner order (nested spaces). Its
-//               energy converges with order 2p where no phase has a corner; at corners with 2 lambda, lambda > 0
-//               unknown and below 1: an order between 0 and 2p. The limits of P1 and P2 agree.
+// mesh          uniform refinement of the cell, P1 and P2: cell_refinement.h. C^H falls in the Loewner order (nested
+//               spaces). A laminate has its closed form on every level. At corners the energy converges with
+//               twice their exponents, which are computed; the limits of P1 and P2 agree.
+// adaptive      the bracket on C^H with meshes refined where it is wide: relative width ~ DoFs^-1 with P1 and DoFs^-2
+//               with P2, as on smooth solutions (order 2p in DoFs^-1/2); in the limit narrower than on uniform meshes. A
+//               laminate's bracket closes to round-off at once.
 // scale         cells per sheet. What `affine` lacks is a fluctuation of the size of a cell: order 1 per
 //               sheet side. `localized` has at least that order, and at most 2.
 // coarse        coarse triangles per cell side at a fixed sheet. The energy falls (nested). Where a clamped
@@ -30,6 +33,7 @@ namespace homespun::verification
 struct ConvergenceSizes
 {
   std::vector<int> refinements_p1, refinements_p2;
+  unsigned adaptive_dofs = 400000; ///< of the larger of the two problems of a bracket
   std::vector<int> cells_per_sheet;
   int cells_of_coarse_study = 8;
   std::vector<double> coarse_per_cell; ///< coarse parallelograms per cell side
@@ -43,12 +47,10 @@ ConvergenceSizes convergence_sizes(bool quick);
 /// The names of the studies, in their order.
 const std::vector<std::string> &convergence_studies();
 
-/// Whether phases meet in corners: an interface, or the edge of a hole, that bends in a vertex or branches.
-/// There the solution is singular.
-bool has_corners(const homogenization::UnitCell &cell);
-
 std::vector<ConvergenceCase> mesh_cases(const homogenization::UnitCell &cell,
                                         const ConvergenceSizes &sizes, MPI_Comm communicator);
+std::vector<ConvergenceCase> adaptive_cases(const homogenization::UnitCell &cell,
+                                            const ConvergenceSizes &sizes, MPI_Comm communicator);
 /// @param homogenized P1 on the given mesh, the discretization of the reference
 std::vector<ConvergenceCase> strain_cases(const homogenization::UnitCell &cell,
                                           const meshes::HomogenizedCell &homogenized,

@@ -41,7 +41,8 @@ void add_converge_command(CLI::App &app, Action &action, Afterwards &afterwards,
                           const std::string &command_line)
 {
   CLI::App *command = app.add_subcommand(
-    "converge", "Observed orders in mesh, cells per sheet, coarse mesh, strain and time step");
+    "converge",
+    "Observed orders in mesh, adaptivity, cells per sheet, coarse mesh, strain and time step");
   const auto arguments           = std::make_shared<ConvergeArguments>();
   ConvergenceStudyOptions &study = arguments->study;
   study.studies                  = convergence_studies();
@@ -55,8 +56,8 @@ void add_converge_command(CLI::App &app, Action &action, Afterwards &afterwards,
   command->add_flag("--quiet", study.quiet, "Print nothing but faults");
   arguments->end.add_options(*command);
   command->footer(
-    "Studies: mesh (uniform refinement of the cell, P1 and P2), scale (cells per sheet), coarse (coarse\n"
-    "triangles per cell), strain (periodic loads under biot), time (steps of the coarse cloth), manufactured\n"
+    "Studies: mesh (uniform refinement of the cell, P1 and P2), adaptive (width of the bracket on C^H), scale\n"
+    "(cells per sheet), coarse (coarse triangles per cell), strain (periodic loads under biot), time (steps of the coarse cloth), manufactured\n"
     "(every solver against motions that it must reproduce; needs no cell, but is run once with the first).\n"
     "An order that has not settled is INCONCLUSIVE, not a failure.\n"
     "Example:\n  homespun converge mycell.prm --quick\n"

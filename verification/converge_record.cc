@@ -2,6 +2,7 @@
 #include "verification/converge_record.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace homespun::verification
@@ -25,6 +26,24 @@ std::vector<double> of_levels(const Series &series, double (*function)(const Con
   return result;
 }
 } // namespace
+
+void Series::extrapolate(const double floor, const double highest_order,
+                         const OrderJudgement &judged)
+{
+  Richardson limit = extrapolated(sizes(), values(), floor, highest_order);
+  if (!limit.exists)
+    return;
+  if (judged.outcome == Outcome::inconclusive)
+    limit.gci = none;
+  richardson = limit;
+  for (ConvergenceLevel &level : levels)
+    level.error = std::abs(*level.value - limit.limit);
+}
+
+bool Series::has_error_bar() const
+{
+  return richardson && std::isfinite(richardson->gci);
+}
 
 std::vector<double> Series::sizes() const
 {
@@ -78,8 +97,13 @@ ConvergenceRecord::ConvergenceRecord(const std::string &folder, const bool resum
     : rows(folder + "/converge.csv", converge_columns(), 6, resume)
     , claims(folder + "/claims.csv",
              {"cell", "study", "case", "claim", "verdict", "value", "limit"}, 4, resume)
-    , cases(folder + "/cases.csv", {"cell", "study", "case", "seconds", "note"}, 3, resume)
+    , cases(folder + "/cases.csv", {"cell", "study", "case", "seconds"}, 3, resume)
 {
+  const auto is_of_complete_case = [this](const std::vector<std::string> &row) {
+    return cases.contains({row[0], row[1], row[2]});
+  };
+  rows.keep(is_of_complete_case);
+  claims.keep(is_of_complete_case);
 }
 
 bool ConvergenceRecord::is_complete(const ConvergenceCase &one) const
@@ -88,7 +112,7 @@ bool ConvergenceRecord::is_complete(const ConvergenceCase &one) const
 }
 
 void ConvergenceRecord::add(const ConvergenceCase &one, const ConvergenceResult &result,
-                            const double seconds, const std::string &note)
+                            const double seconds)
 {
   const std::string name = field(one.name);
   for (const Series &series : result.series)
@@ -128,7 +152,8 @@ void ConvergenceRecord::add(const ConvergenceCase &one, const ConvergenceResult 
     claims.append(row);
   }
   // Last: where it is there, so is all that belongs to it.
-  cases.append({one.cell, one.study, name, csv_number(seconds), field(note)});
+  if (result.unfinished.empty())
+    cases.append({one.cell, one.study, name, csv_number(seconds)});
 }
 
 std::vector<Verdict> ConvergenceRecord::verdicts() const
@@ -145,15 +170,6 @@ std::vector<Verdict> ConvergenceRecord::verdicts() const
     verdict.limit   = row[6];
     result.push_back(verdict);
   }
-  return result;
-}
-
-std::vector<std::string> ConvergenceRecord::notes() const
-{
-  std::vector<std::string> result;
-  for (const std::vector<std::string> &row : cases.rows())
-    if (!row[4].empty())
-      result.push_back(row[0] + ", " + row[1] + ", " + row[2] + ": " + row[4]);
   return result;
 }
 } // namespace homespun::verification

@@ -4,6 +4,7 @@
 // study that was cut short is taken up again.
 #pragma once
 
+#include "meshes/errors.h"
 #include "verification/convergence.h"
 #include "verification/result_files.h"
 
@@ -33,6 +34,13 @@ struct Series
   std::optional<OrderJudgement> judgement; ///< none: reported, not judged
   std::optional<Richardson> richardson;
 
+  /// Sets the Richardson limit and the errors as distances from it; the error bar only where the order has
+  /// settled, else it would be that of an order that is not there.
+  /// @param floor, highest_order as extrapolated() @param judged the same values
+  void extrapolate(double floor, double highest_order, const OrderJudgement &judged);
+
+  bool has_error_bar() const;
+
   std::vector<double> sizes() const;
   std::vector<double> values() const;
   std::vector<double> errors() const;
@@ -43,6 +51,24 @@ struct ConvergenceResult
 {
   std::vector<Series> series;
   std::vector<Verdict> verdicts;
+  std::string unfinished; ///< why the levels end early; empty where all are solved
+
+  /// Runs one level. Where its solver does not converge the levels before it are kept, and the ladder ends.
+  /// @return whether it was solved
+  template <typename Level>
+  bool solves(Level &&level)
+  {
+    try
+    {
+      level();
+      return true;
+    }
+    catch (const meshes::NotConverged &failure)
+    {
+      unfinished = failure.what();
+      return false;
+    }
+  }
 
   /// Adds a series, and what its judgement claims: "CLAIM (order)".
   void add(Series one, const std::string &claim = "");
@@ -62,19 +88,17 @@ const std::vector<std::string> &converge_columns();
 class ConvergenceRecord
 {
 public:
+  /// With `resume` the rows and claims of complete cases are kept; what others left is dropped, because they run
+  /// again.
   ConvergenceRecord(const std::string &folder, bool resume);
 
   bool is_complete(const ConvergenceCase &one) const;
 
-  /// Rows, claims, and that the case is complete; `note` says why it could not be finished.
-  void add(const ConvergenceCase &one, const ConvergenceResult &result, double seconds,
-           const std::string &note = "");
+  /// Rows and claims, and where nothing is unfinished that the case is complete.
+  void add(const ConvergenceCase &one, const ConvergenceResult &result, double seconds);
 
-  /// Claims of all complete cases, in the order of the tables.
+  /// Claims of all cases, in the order of the tables.
   std::vector<Verdict> verdicts() const;
-
-  /// Notes of all complete cases.
-  std::vector<std::string> notes() const;
 
 private:
   ResultTable rows, claims, cases;

@@ -25,8 +25,8 @@ struct ConvergenceStudyOptions
 
 /// Runs the studies and writes, into the output folder, converge.csv (a row per level of every series),
 /// claims.csv, cases.csv, verdicts.json and study.json. What a case needs is on the disk when it is complete; with
-/// `resume` complete cases are not run again. A case whose solver does not converge is a claim that is
-/// INCONCLUSIVE, with a note of the reason.
+/// `resume` complete cases are not run again. A case whose solver does not converge FAILs with
+/// the reason, keeps the levels that were solved, and is run again with `resume`.
 /// @throws BadInput
 std::vector<Verdict> run_convergence_study(const ConvergenceStudyOptions &options,
                                            MPI_Comm communicator);

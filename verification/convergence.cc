@@ -45,6 +45,25 @@ std::string fault_of(const std::vector<double> &h, const std::vector<double> &va
   return "";
 }
 
+/// The least-squares slope of ln e against ln h on the levels [first, last).
+double slope_of(const std::vector<double> &h, const std::vector<double> &errors,
+                const std::size_t first, const std::size_t last)
+{
+  const double n = static_cast<double>(last - first);
+  double mean_x = 0., mean_y = 0., covariance = 0., variance = 0.;
+  for (std::size_t k = first; k < last; ++k)
+  {
+    mean_x += std::log(h[k]) / n;
+    mean_y += std::log(errors[k]) / n;
+  }
+  for (std::size_t k = first; k < last; ++k)
+  {
+    covariance += (std::log(h[k]) - mean_x) * (std::log(errors[k]) - mean_y);
+    variance += (std::log(h[k]) - mean_x) * (std::log(h[k]) - mean_x);
+  }
+  return covariance / variance;
+}
+
 /// Judges orders that follow one another, of which `result.order` is the measured one.
 void conclude(const std::vector<double> &orders, const OrderLimit &limit, OrderJudgement &result)
 {
@@ -130,18 +149,7 @@ OrderJudgement judge_errors(const std::vector<double> &h, const std::vector<doub
     }
   if (n >= 3)
   {
-    double mean_x = 0., mean_y = 0., covariance = 0., variance = 0.;
-    for (std::size_t k = n - 3; k < n; ++k)
-    {
-      mean_x += std::log(h[k]) / 3.;
-      mean_y += std::log(errors[k]) / 3.;
-    }
-    for (std::size_t k = n - 3; k < n; ++k)
-    {
-      covariance += (std::log(h[k]) - mean_x) * (std::log(errors[k]) - mean_y);
-      variance += (std::log(h[k]) - mean_x) * (std::log(h[k]) - mean_x);
-    }
-    result.order  = covariance / variance;
+    result.order  = slope_of(h, errors, n - 3, n);
     result.spread = std::max(std::abs(orders[orders.size() - 1] - result.order),
                              std::abs(orders[orders.size() - 2] - result.order));
   }
@@ -158,8 +166,50 @@ OrderJudgement judge_errors(const std::vector<double> &h, const std::vector<doub
   return finished(result);
 }
 
+OrderJudgement judge_uneven_errors(const std::vector<double> &h, const std::vector<double> &errors,
+                                   const OrderLimit &limit)
+{
+  constexpr std::size_t n_fitted = 5, n_last = 3;
+  OrderJudgement result = judgement(Outcome::inconclusive, "");
+  result.limits         = limit;
+  result.limit          = text_of(limit);
+  result.observed.assign(errors.size(), none);
+  const std::size_t n = errors.size();
+  std::string fault   = fault_of(h, errors);
+  if (fault.empty() &&
+      std::any_of(errors.begin(), errors.end(), [](const double e) { return !(e > 0.); }))
+    fault = "an error is not positive";
+  if (!fault.empty())
+  {
+    result.outcome = Outcome::fail;
+    result.why     = fault;
+    return result;
+  }
+  for (std::size_t k = 1; k < n; ++k)
+    result.observed[k] = slope_of(h, errors, k - 1, k + 1);
+  if (n < n_fitted)
+  {
+    result.why = std::to_string(n) + " levels; this order needs " + std::to_string(n_fitted);
+    return result;
+  }
+  result.order           = slope_of(h, errors, n - n_fitted, n);
+  const double last      = slope_of(h, errors, n - n_last, n);
+  result.spread          = std::abs(result.order - last);
+  const std::string both = "the slope of the last five levels is " + number(result.order) +
+                           " and of the last three " + number(last);
+  result.why = both;
+  if (limit.contains(result.order) && limit.contains(last))
+    result.outcome = Outcome::pass;
+  else if (result.spread <= settled && ((result.order < limit.lowest && last < limit.lowest) ||
+                                        (result.order > limit.highest && last > limit.highest)))
+    result.outcome = Outcome::fail;
+  else
+    result.why = "not in the asymptotic range: " + both;
+  return result;
+}
+
 Richardson extrapolated(const std::vector<double> &h, const std::vector<double> &values,
-                        const double floor)
+                        const double floor, const double formal_order)
 {
   Richardson result;
   result.order = result.limit = result.gci = none;
@@ -205,11 +255,11 @@ Richardson extrapolated(const std::vector<double> &h, const std::vector<double> 
     result.why = "the values run away: their differences do not fall";
     return result;
   }
-  result.exists = true;
-  const double correction =
-    fine * std::pow(h1, result.order) / (std::pow(h2, result.order) - std::pow(h1, result.order));
-  result.limit = values[n - 1] - correction;
-  result.gci   = safety_factor * std::abs(correction);
+  result.exists         = true;
+  const auto correction = [&](const double p)
+  { return fine * std::pow(h1, p) / (std::pow(h2, p) - std::pow(h1, p)); };
+  result.limit = values[n - 1] - correction(result.order);
+  result.gci   = safety_factor * std::abs(correction(std::min(result.order, formal_order)));
   return result;
 }
 

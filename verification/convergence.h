@@ -17,6 +17,7 @@
 
 #include "verification/verdict.h"
 
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -72,22 +73,33 @@ struct OrderJudgement
 OrderJudgement judge_errors(const std::vector<double> &h, const std::vector<double> &errors,
                             const OrderLimit &limit, double floor = 0.);
 
+/// Judges errors on levels that do not grow evenly, as adaptive meshes do, by the least-squares slopes of the last
+/// five levels (which is the order) and of the last three.
+/// PASS: both lie within the limit. FAIL: as in judge_errors(), or both lie outside on the same side and differ by no
+/// more than `settled`. INCONCLUSIVE: fewer than five levels, else.
+OrderJudgement judge_uneven_errors(const std::vector<double> &h, const std::vector<double> &errors,
+                                   const OrderLimit &limit);
+
 /// Order and limit of three values.
 struct Richardson
 {
   bool exists  = false; ///< false: the differences grow, change sign, or lie at the floor
   double order = 0.;    ///< negative where the values run away
   double limit = 0.;    ///< f0, in the unit of the values
-  double gci   = 0.;    ///< 1.25 |f1 − f0|, in the unit of the values
-  std::string why;      ///< where it does not exist
+  double gci =
+    0.; ///< 1.25 |f1 − f0| of an order no higher than that of the method [unit of the values]
+  std::string why; ///< where it does not exist
 };
 
 /// Extrapolates the last three values.
 /// @param h (n) sizes, falling; n >= 3
 /// @param values (n)
 /// @param floor differences up to this are what round-off and solvers leave
+/// @param highest_order of the method: the grid convergence index is made with no higher one, because an order
+///   seen above it is chance and would make the error bar too short
 Richardson extrapolated(const std::vector<double> &h, const std::vector<double> &values,
-                        double floor = 0.);
+                        double floor         = 0.,
+                        double highest_order = std::numeric_limits<double>::infinity());
 
 /// Judges values whose limit is not known, by the orders of each three that follow one another; from the
 /// first two on that differ by no more than the floor the levels are left out.

@@ -61,6 +61,7 @@ std::string csv_number(const double value)
 ResultTable::ResultTable(const std::string &path, const std::vector<std::string> &columns,
                          const std::size_t n_keys, const bool resume)
     : path(path)
+    , header(joined(columns))
     , n_keys(n_keys)
 {
   if (!resume || !std::filesystem::exists(path))
@@ -105,5 +106,22 @@ void ResultTable::append(const std::vector<std::string> &fields)
   append_line(path, joined(fields));
   row_of_keys[{fields.begin(), fields.begin() + static_cast<long>(n_keys)}] = all_rows.size();
   all_rows.push_back(fields);
+}
+
+void ResultTable::keep(const std::function<bool(const std::vector<std::string> &row)> &is_kept)
+{
+  std::vector<std::vector<std::string>> kept;
+  std::string text = header + "\n";
+  row_of_keys.clear();
+  for (const std::vector<std::string> &row : all_rows)
+    if (is_kept(row))
+    {
+      row_of_keys[{row.begin(), row.begin() + static_cast<long>(n_keys)}] = kept.size();
+      kept.push_back(row);
+      text += joined(row) + "\n";
+    }
+  if (kept.size() < all_rows.size())
+    write_whole(path, text);
+  all_rows = std::move(kept);
 }
 } // namespace homespun::verification

@@ -5,6 +5,7 @@
 
 #include "meshes/write_whole.h"
 
+#include <functional>
 #include <map>
 #include <string>
 #include <vector>
@@ -33,6 +34,9 @@ public:
 
   void append(const std::vector<std::string> &fields);
 
+  /// Drops the other rows, from the file too.
+  void keep(const std::function<bool(const std::vector<std::string> &row)> &is_kept);
+
   /// All rows, those that were there before and those appended.
   const std::vector<std::vector<std::string>> &rows() const
   {
@@ -40,7 +44,7 @@ public:
   }
 
 private:
-  const std::string path;
+  const std::string path, header;
   const std::size_t n_keys;
   std::vector<std::vector<std::string>> all_rows;
   std::map<std::vector<std::string>, std::size_t> row_of_keys;

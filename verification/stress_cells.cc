@@ -4,9 +4,7 @@
 #include "meshes/errors.h"
 #include "meshes/sheet.h"
 
-#include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
-#include <Eigen/LU>
 #include <Eigen/SparseCholesky>
 
 #include <algorithm>
@@ -49,18 +47,6 @@ void drop_unused(meshes::TriangleMesh &mesh)
 bool is_in_lower_half(const double y)
 {
   return y < 0.5;
-}
-
-/// L^-1 (A − B) L^-T with B = L L^T.
-Eigen::Vector3d relative_eigenvalues(const Eigen::Matrix3d &A, const Eigen::Matrix3d &B)
-{
-  const Eigen::LLT<Eigen::Matrix3d> factors(B);
-  if (factors.info() != Eigen::Success)
-    return Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
-  const Eigen::Matrix3d half = factors.matrixL().solve(A - B);
-  const Eigen::Matrix3d both = factors.matrixL().solve(half.transpose());
-  return Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(0.5 * (both + both.transpose()))
-    .eigenvalues();
 }
 } // namespace
 
@@ -307,30 +293,6 @@ Eigen::Matrix3d moved_tensor(const Eigen::Matrix3d &C, const Eigen::Matrix2d &Q)
   return moved;
 }
 
-Eigen::Matrix3d laminate_stiffness(const std::vector<Eigen::Matrix3d> &layers,
-                                   const std::vector<double> &fractions)
-{
-  Eigen::Matrix2d mean_inverse  = Eigen::Matrix2d::Zero();
-  Eigen::RowVector2d mean_ratio = Eigen::RowVector2d::Zero();
-  double mean_rest              = 0.;
-  for (std::size_t k = 0; k < layers.size(); ++k)
-  {
-    const Eigen::Matrix2d inverse = layers[k].bottomRightCorner<2, 2>().inverse();
-    const Eigen::RowVector2d c_ba = layers[k].block<1, 2>(0, 1);
-    mean_inverse += fractions[k] * inverse;
-    mean_ratio += fractions[k] * c_ba * inverse;
-    mean_rest += fractions[k] * (layers[k](0, 0) - c_ba * inverse * c_ba.transpose());
-  }
-  Eigen::Matrix3d C;
-  const Eigen::Matrix2d C_aa    = mean_inverse.inverse();
-  const Eigen::RowVector2d C_ba = mean_ratio * C_aa;
-  C.bottomRightCorner<2, 2>()   = C_aa;
-  C.block<1, 2>(0, 1)           = C_ba;
-  C.block<2, 1>(1, 0)           = C_ba.transpose();
-  C(0, 0)                       = mean_rest + C_ba * mean_ratio.transpose();
-  return C;
-}
-
 Eigen::Matrix3d factorized_stiffness(const UnitCell &cell)
 {
   const meshes::TriangleMesh &mesh            = cell.mesh;
@@ -404,15 +366,5 @@ Eigen::Matrix3d factorized_stiffness(const UnitCell &cell)
     energy += areas(t) * strain.transpose() * of_phase[index(mesh.material(t))] * strain;
   }
   return energy / cell.lattice.area();
-}
-
-double energy_difference(const Eigen::Matrix3d &A, const Eigen::Matrix3d &B)
-{
-  return relative_eigenvalues(A, B).cwiseAbs().maxCoeff();
-}
-
-double order_violation(const Eigen::Matrix3d &A, const Eigen::Matrix3d &B)
-{
-  return std::max(0., relative_eigenvalues(A, B).maxCoeff());
 }
 } // namespace homespun::verification

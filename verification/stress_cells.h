@@ -3,7 +3,9 @@
 // closed form of a laminate, the turned tensor, and a factorized cell problem beside the iterative one.
 #pragma once
 
+#include "homogenization/laminate.h"
 #include "homogenization/unit_cell.h"
+#include "verification/energy_order.h"
 
 #include <Eigen/Core>
 
@@ -13,6 +15,7 @@
 
 namespace homespun::verification
 {
+using homogenization::laminate_stiffness;
 using homogenization::Phase;
 using homogenization::UnitCell;
 
@@ -79,20 +82,7 @@ void refuse_unsound(const UnitCell &cell);
 /// @param Q turns or mirrors @return Voigt order 11, 22, 12 with engineering shear
 Eigen::Matrix3d moved_tensor(const Eigen::Matrix3d &C, const Eigen::Matrix2d &Q);
 
-/// C^H of layers stacked along axis 2, of any anisotropy. The strain 11 and the stresses 22 and 12 are the same
-/// in all; with a = (22, 12), b = 11 and <> the mean,
-///   C_aa = <c_aa^-1>^-1, C_ba = <c_ba c_aa^-1> C_aa, C_bb = <c_bb − c_ba c_aa^-1 c_ab> + C_ba C_aa^-1 C_ab.
-Eigen::Matrix3d laminate_stiffness(const std::vector<Eigen::Matrix3d> &layers,
-                                   const std::vector<double> &fractions);
-
 /// C^H of linear elements (paper Eqs. 2-4, energy form) by a sparse LDL^T factorization of the torus: no
 /// tolerance, no preconditioner, and nothing shared with homogenize() but the mesh and the law of the phases.
 Eigen::Matrix3d factorized_stiffness(const UnitCell &cell);
-
-/// Largest relative difference of the energies of any macro strain, the largest |eigenvalue| of
-/// L^-1 (A − B) L^-T with B = L L^T. Soft directions count as much as stiff ones.
-double energy_difference(const Eigen::Matrix3d &A, const Eigen::Matrix3d &B);
-
-/// By how much A <= B fails for the worst macro strain, relative to B; zero where it holds.
-double order_violation(const Eigen::Matrix3d &A, const Eigen::Matrix3d &B);
 } // namespace homespun::verification

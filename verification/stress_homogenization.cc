@@ -69,13 +69,13 @@ double bound_violation(const SolvedCell &found)
 {
   const double above = order_violation(found.stiffness, found.voigt);
   return found.reuss.isZero() ? above
-                              : std::max(above, order_violation(found.reuss, found.stiffness));
+                              : larger(above, order_violation(found.reuss, found.stiffness));
 }
 
 StressAnswer against_factorized(const UnitCell &cell)
 {
   const SolvedCell found = solved(cell);
-  return {std::max(energy_difference(found.stiffness, factorized_stiffness(cell)),
+  return {larger(energy_difference(found.stiffness, factorized_stiffness(cell)),
                    bound_violation(found)),
           found.stiffness};
 }
@@ -84,7 +84,7 @@ StressAnswer against_factorized(const UnitCell &cell)
 StressAnswer against_laminate(const UnitCell &cell, const unsigned int order)
 {
   const SolvedCell found = solved(cell, order);
-  return {std::max(energy_difference(found.stiffness,
+  return {larger(energy_difference(found.stiffness,
                                      laminate_stiffness(cell.stiffness_of_phase(), {0.5, 0.5})),
                    bound_violation(found)),
           found.stiffness};

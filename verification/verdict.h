@@ -31,6 +31,13 @@ struct Verdict
   std::string limit;
 };
 
+/// The larger of a maximum so far and one value more. Once one of them was not a number it stays so, where
+/// std::max would drop it and a check would pass.
+inline double larger(const double so_far, const double next)
+{
+  return std::isnan(so_far) || next <= so_far ? so_far : next;
+}
+
 /// A number as JSON; null where it is not finite.
 inline nlohmann::ordered_json json_number(const double value)
 {

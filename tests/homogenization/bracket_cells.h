@@ -61,6 +61,19 @@ inline BracketCell checkerboard_cell(const int n, const double contrast)
                       [](double f1, double f2) { return (f1 < 0.5) == (f2 < 0.5) ? 1 : 0; });
 }
 
+/// A pattern without symmetry.
+inline int odd_pattern(const double f1, const double f2)
+{
+  const int i = static_cast<int>(8. * f1), j = static_cast<int>(8. * f2);
+  return (i > 1 && i < 5 && j > 2 && j < 5) || (i == 4 && j > 4) ? 1 : 0;
+}
+
+/// The phase with area bulk modulus K and shear modulus G: E = 4 K G / (K + G), nu = (K − G)/(K + G).
+inline Eigen::Matrix3d of_bulk_and_shear(const double K, const double G)
+{
+  return isotropic_stiffness(4. * K * G / (K + G), (K - G) / (K + G));
+}
+
 inline homogenization::Bracket bracketed(const BracketCell &cell, const unsigned order)
 {
   return homogenization::bracket(homogenization::glued(cell.mesh, cell.lattice), cell.stiffness,

@@ -12,6 +12,8 @@
 using namespace homespun;
 using namespace homespun::homogenization;
 using tests::bracketed;
+using tests::odd_pattern;
+using tests::of_bulk_and_shear;
 using tests::relative_difference;
 
 namespace
@@ -21,13 +23,6 @@ bool is_ordered(const Eigen::Matrix3d &lower, const Eigen::Matrix3d &upper, cons
 {
   return Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(upper - lower).eigenvalues()(0) >=
          -slack * upper.cwiseAbs().maxCoeff();
-}
-
-/// A pattern without symmetry.
-int odd_pattern(const double f1, const double f2)
-{
-  const int i = static_cast<int>(8. * f1), j = static_cast<int>(8. * f2);
-  return (i > 1 && i < 5 && j > 2 && j < 5) || (i == 4 && j > 4) ? 1 : 0;
 }
 
 meshes::Lattice hexagonal_lattice()
@@ -48,12 +43,6 @@ std::vector<tests::BracketCell> geometries(const std::vector<Eigen::Matrix3d> &s
           tests::bracket_cell(hexagonal_lattice(), 8, 8, stiffness, tests::square_inclusion)};
 }
 
-/// The phase with area bulk modulus K and shear modulus G: E = 4 K G / (K + G), nu = (K − G)/(K + G).
-Eigen::Matrix3d of_bulk_and_shear(const double K, const double G)
-{
-  return tests::isotropic_stiffness(4. * K * G / (K + G), (K - G) / (K + G));
-}
-
 /// The exponent p of width ~ dofs^p over the last steps.
 double slope_of(const std::vector<std::array<double, 2>> &history, const std::size_t first)
 {
@@ -71,7 +60,7 @@ TEST(exact_bracket, laminates_close_to_round_off_because_both_spaces_hold_the_ex
 {
   // chi is piecewise linear; phi piecewise quadratic with a continuous gradient. Nothing is left to
   // converge.
-  const Eigen::Matrix3d exact = tests::laminate(tests::contrasting(10.), {0.5, 0.5});
+  const Eigen::Matrix3d exact = laminate_stiffness(tests::contrasting(10.), {0.5, 0.5});
   for (const unsigned order : {1u, 2u})
   {
     const Bracket b = bracketed(tests::stripes(6, 4, 10.), order);
@@ -92,7 +81,7 @@ TEST(exact_bracket, off_axis_anisotropic_laminates_close_at_any_angle_of_the_cel
                                                       [](double, double f2) {
                                                         return f2 < 0.25 ? 0 : f2 < 0.5 ? 1 : 2;
                                                       });
-  const Eigen::Matrix3d upright = tests::laminate(layers, {0.25, 0.25, 0.5});
+  const Eigen::Matrix3d upright = laminate_stiffness(layers, {0.25, 0.25, 0.5});
   ASSERT_GT(std::abs(upright(0, 2)), 0.1);
   for (const double degrees : {0., 20., -63.})
   {

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "homogenization/homogenize.h"
-#include "tests/homogenization/laminate.h"
+#include "homogenization/laminate.h"
 #include "tests/meshes/shapes.h"
 
 #include <functional>

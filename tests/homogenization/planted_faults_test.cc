@@ -29,7 +29,7 @@ double distance_with(const std::vector<Phase> &phases, const std::function<void(
     fault(phase);
   return tests::relative_difference(
     tests::solved(laminated(wrong), 1).stiffness,
-    tests::laminate(laminated(phases).stiffness_of_phase(), {0.5, 0.5}));
+    laminate_stiffness(laminated(phases).stiffness_of_phase(), {0.5, 0.5}));
 }
 
 /// The suite's tolerance is 1e-10; a fault must stand out far above that.

@@ -229,3 +229,42 @@ TEST(tripwire_convergence, an_error_that_is_not_a_number_never_passes)
       }
     }
 }
+
+TEST(exact_convergence, uneven_levels_are_judged_by_two_fits_that_must_agree)
+{
+  // Adaptive meshes: sizes that fall by factors of their own.
+  const std::vector<double> h = {1., 0.8, 0.5, 0.42, 0.3, 0.17, 0.12};
+  const auto judged           = [&](const double p)
+  {
+    return judge_uneven_errors(h, at(h, [&](double s, auto) { return std::pow(s, p); }),
+                               about(2., 0.4));
+  };
+  EXPECT_EQ(judged(2.).outcome, Outcome::pass);
+  EXPECT_NEAR(judged(2.).order, 2., 1e-12);
+  EXPECT_EQ(judged(1.5).outcome, Outcome::fail);
+  EXPECT_EQ(judged(2.5).outcome, Outcome::fail);
+  // On the way to order 2, and not there yet.
+  const auto late = at(h, [](double s, auto) { return std::pow(s, 4.) / std::pow(s + 0.3, 3.); });
+  EXPECT_EQ(judge_uneven_errors(h, late, about(2., 0.4)).outcome, Outcome::inconclusive);
+  EXPECT_EQ(judge_uneven_errors({1., 0.5, 0.2, 0.1}, {1., 0.25, 0.04, 0.01}, about(2.)).outcome,
+            Outcome::inconclusive);
+  std::vector<double> bad = at(h, [](double s, auto) { return s * s; });
+  for (const double value : {std::numeric_limits<double>::quiet_NaN(), 0., -1.})
+  {
+    bad[3] = value;
+    EXPECT_EQ(judge_uneven_errors(h, bad, about(2., 0.4)).outcome, Outcome::fail);
+  }
+}
+
+TEST(bound_convergence, an_order_above_that_of_the_method_does_not_shorten_the_error_bar)
+{
+  const std::vector<double> h      = sizes();
+  const std::vector<double> values = at(h, [](double s, auto) { return 1. + std::pow(s, 5.); });
+  const Richardson free = extrapolated(h, values), capped = extrapolated(h, values, 0., 2.);
+  EXPECT_NEAR(free.order, 5., 1e-6);
+  EXPECT_EQ(capped.limit, free.limit);
+  const double fine  = values[values.size() - 2] - values.back();
+  const double ratio = std::pow(h[h.size() - 2] / h.back(), 2.);
+  EXPECT_NEAR(capped.gci, 1.25 * fine / (ratio - 1.), 1e-12 * capped.gci + 1e-16);
+  EXPECT_GT(capped.gci, 5. * free.gci);
+}

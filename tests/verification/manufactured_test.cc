@@ -180,3 +180,40 @@ TEST(tripwire_manufactured, a_force_of_another_law_or_of_a_swapped_stiffness_doe
     EXPECT_LT(found.observed.back(), 0.5) << found.why; // the error stays, however fine the mesh
   }
 }
+
+TEST(tripwire_manufactured, an_algebraic_error_that_was_not_measured_proves_no_order)
+{
+  // A solver whose iterates change from one tolerance on, by so much.
+  const auto with = [](const double first_tolerance, const double change)
+  {
+    ManufacturedCase made_up;
+    made_up.order  = 1;
+    made_up.sizes  = {10, 20, 40, 80};
+    made_up.extent = 1.;
+    made_up.L2     = about(2.);
+    made_up.H1     = about(1.);
+    made_up.solve  = [=](const int size, const double tolerance, MPI_Comm)
+    {
+      ManufacturedSolution solution;
+      solution.error.L2 = 0.01 / (size * size); // side 0.1: 1/size²
+      solution.error.H1 = 0.1 / size;
+      solution.positions =
+        Eigen::MatrixXd::Constant(3, 1, tolerance < first_tolerance ? 0. : change);
+      return solution;
+    };
+    const ManufacturedLadder ladder = climb(made_up, MPI_COMM_SELF);
+    return judge(made_up, ladder);
+  };
+  const double finest = 0.1 / 6400.; // the smallest L2 error, as a length
+  for (const double first :
+       {1e-11, 1e-9, 1e-7}) // Newton's last step may jump below several tolerances
+  {
+    EXPECT_EQ(with(first, 1e-3 * finest).L2.outcome, Outcome::pass) << first;
+    EXPECT_NEAR(with(first, 1e-3 * finest).algebraic_share, 1e-3, 1e-9);
+    EXPECT_EQ(with(first, 0.1 * finest).L2.outcome, Outcome::inconclusive) << first;
+    EXPECT_EQ(with(first, 0.1 * finest).H1.outcome, Outcome::inconclusive) << first;
+  }
+  const ManufacturedClaims never = with(1., 1.);
+  EXPECT_TRUE(std::isnan(never.algebraic_share));
+  EXPECT_EQ(never.L2.outcome, Outcome::inconclusive);
+}

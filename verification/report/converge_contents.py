@@ -9,6 +9,7 @@ from style import three
 
 TITLES = {
     "mesh": "Mesh of the cell",
+    "adaptive": "Adaptive bracket",
     "scale": "Cells per sheet",
     "coarse": "Coarse mesh",
     "strain": "Strain under periodic loads",
@@ -17,9 +18,14 @@ TITLES = {
 }
 CAPTIONS = {
     "mesh": "Uniform refinement of the cell with P1 and P2: distance of the trace of C<sup>H</sup> from its Richardson "
-            "limit. C<sup>H</sup> falls from level to level, because the spaces are nested. Without corners of a phase "
-            "the order is 2p; at corners it is twice the exponent of the strongest one, which is not known. A cell whose "
-            "C<sup>H</sup> is the same on every level, as of a laminate, has no curve.",
+            "limit. C<sup>H</sup> falls from level to level, because the spaces are nested. Where phases meet in corners "
+            "the order is twice their exponents, which are computed from angles and stiffnesses: P2 must show orders between "
+            "those of the strongest and the weakest corner, P1 between that of the strongest and 2. A laminate has its "
+            "closed form on every level, and no curve.",
+    "adaptive": "Relative width of the bracket on C<sup>H</sup> against DoFs of the displacements: meshes refined where it "
+                "is wide (full lines) and everywhere (dashed). Adaptive meshes reach the order of smooth solutions, width "
+                "~ DoFs<sup>−1</sup> with P1 and DoFs<sup>−2</sup> with P2, where uniform ones stay at the exponent of the "
+                "corners. The bracket of a laminate closes to round-off on the given mesh, and has no curve.",
     "scale": "Sheets of more and more cells against the linear reference: mean error over all fine vertices. What the "
              "affine motion lacks is a fluctuation of the size of a cell, order 1 in sheet sides.",
     "coarse": "Coarse meshes of half a parallelogram per cell side and finer on one sheet. Where a clamped edge meets a "
@@ -35,7 +41,7 @@ CAPTIONS = {
 
 def limit_of(series):
     low, high = series.order_lowest, series.order_highest
-    if high - low < 0.7:
+    if not series.is_band:
         return f"{three((low + high) / 2)} ± {three((high - low) / 2)}"
     return f"{three(low)} to {three(high)}"
 
@@ -44,7 +50,7 @@ def row_of(series):
     """One judged series: where its levels begin and end, what order they show."""
     errors = [e for e in series.column("error") if not math.isnan(e)]
     richardson = "–"
-    if not math.isnan(series.richardson_limit):
+    if not math.isnan(series.richardson_limit) and not math.isnan(series.gci):
         richardson = f"{three(series.richardson_limit)} ± {three(series.gci)}"
     return {"cell": "" if series.cell == "none" else series.cell, "case": series.case,
             "quantity": series.quantity, "p": f"P{series.p}", "levels": len(series.rows),

@@ -9,7 +9,9 @@ AGAIN = "Run `homespun converge` again."
 HEADER = ("cell,study,case,quantity,order_p,level,h,h_unit,dofs,value,error,observed_order,order,spread,"
           "order_lowest,order_highest,richardson_limit,gci,judgement,seconds").split(",")
 KEYS = ("cell", "study", "case", "quantity", "order_p", "level")
-STUDIES = ("mesh", "scale", "coarse", "strain", "time", "manufactured")
+# Studies whose limits are bands, and the tolerance at both ends.
+BAND_TOLERANCES = {"mesh": 0.1, "scale": 0.15, "coarse": 0.1}
+STUDIES = ("mesh", "adaptive", "scale", "coarse", "strain", "time", "manufactured")
 
 
 @dataclass
@@ -44,13 +46,21 @@ class Series:
         pairs = [(row["h"], row["error"]) for row in self.rows if row["error"] > 0]
         return [h for h, _ in pairs], [error for _, error in pairs]
 
+    @property
+    def is_band(self):
+        """Whether theory allows orders between two, not one."""
+        return self.study in BAND_TOLERANCES
+
     def expected(self):
-        """The orders that theory allows: one, or the ends of a band without their tolerance and without 0; nothing where
-        the series is not judged."""
+        """The orders that theory allows: one, or the ends of a band without their tolerance; nothing where the series is
+        not judged."""
         low, high = self.order_lowest, self.order_highest
         if math.isnan(low):
             return []
-        return [(low + high) / 2] if high - low < 0.7 else [end for end in (round(low), round(high)) if end]
+        if not self.is_band:
+            return [(low + high) / 2]
+        tolerance = BAND_TOLERANCES[self.study]
+        return sorted({round(low + tolerance, 2), round(high - tolerance, 2)})
 
 
 @dataclass

@@ -12,6 +12,7 @@ LAW_COLOURS = {"linear": style.GREEN, "biot": style.BLUE, "green": style.VERMILL
 ORDER_MARKERS = {1: "o", 2: "^"}
 TIME_COLOURS = (style.BLUE, style.VERMILLION)
 METHOD_LINES = {"localized": "-", "affine": "--"}
+MESH_LINES = {"adaptive": "-", "uniform": "--"}
 
 
 class Line:
@@ -20,7 +21,7 @@ class Line:
     def __init__(self, series, label, colour, marker="o", line="-"):
         self.h, self.error = series.errors()
         self.expected, self.failed = series.expected(), series.judgement == "FAIL"
-        self.is_band = series.order_highest - series.order_lowest > 0.7
+        self.is_band = series.is_band
         self.label, self.colour, self.marker, self.line = label, colour, marker, line
 
 
@@ -101,17 +102,32 @@ def mesh_figure(convergence):
     return order_figure(panels)
 
 
-def scale_figure(convergence):
+def adaptive_figure(convergence):
+    """Width against DoFs; the slopes are those in DoFs."""
     panels = []
-    for cell in convergence.cells("scale"):
-        lines = []
-        for s in convergence.of("scale", cell):
-            if s.unit == "sheet sides":
-                method = s.name.split(":")[0]
-                lines.append(Line(s, f"{s.case}, {method}", style.load_colour(s.case), style.load_marker(s.case),
-                                  METHOD_LINES.get(method, ":")))
-        panels.append((cell, "cell sides per sheet side", "mean error per strain [sheet sides]", lines))
+    for cell in convergence.cells("adaptive"):
+        lines = [Line(s, f"P{s.p}, {s.name.split(' ')[0]}", style.BLUE if s.p == 1 else style.VERMILLION,
+                      ORDER_MARKERS[s.p], MESH_LINES[s.name.split(" ")[0]]) for s in convergence.of("adaptive", cell)]
+        for line in lines:
+            line.h, line.expected = [h ** -2 for h in line.h], [-order / 2 for order in line.expected]
+        panels.append((cell, "DoFs", "relative width of the bracket", lines))
     return order_figure(panels)
+
+
+def method_lines(some):
+    """A curve per load and method: colour and marker tell the load, dashes the method."""
+    lines = []
+    for s in some:
+        method = s.name.split(":")[0]
+        lines.append(Line(s, f"{s.case}, {method}", style.load_colour(s.case), style.load_marker(s.case),
+                          METHOD_LINES.get(method, ":")))
+    return lines
+
+
+def scale_figure(convergence):
+    return order_figure([(cell, "cell sides per sheet side", "mean error per strain [sheet sides]",
+                          method_lines(s for s in convergence.of("scale", cell) if s.unit == "sheet sides"))
+                         for cell in convergence.cells("scale")])
 
 
 def coarse_figure(convergence):
@@ -127,16 +143,10 @@ def coarse_figure(convergence):
 
 
 def strain_figure(convergence):
-    panels = []
-    for cell in convergence.cells("strain"):
-        lines = []
-        for s in convergence.of("strain", cell):
-            if s.judgement:  # what is zero to round-off has no order
-                method = s.name.split(":")[0]
-                lines.append(Line(s, f"{s.case}, {method}", style.load_colour(s.case), style.load_marker(s.case),
-                                  METHOD_LINES.get(method, ":")))
-        panels.append((cell, "strain", "mean error [cell sides]", lines))
-    return order_figure(panels)
+    # What is zero to round-off is not judged and has no order.
+    return order_figure([(cell, "strain", "mean error [cell sides]",
+                          method_lines(s for s in convergence.of("strain", cell) if s.judgement))
+                         for cell in convergence.cells("strain")])
 
 
 def time_figure(convergence):
@@ -169,5 +179,5 @@ def manufactured_figure(convergence):
     return order_figure(panels)
 
 
-FIGURES = {"mesh": mesh_figure, "scale": scale_figure, "coarse": coarse_figure, "strain": strain_figure,
+FIGURES = {"mesh": mesh_figure, "adaptive": adaptive_figure, "scale": scale_figure, "coarse": coarse_figure, "strain": strain_figure,
            "time": time_figure, "manufactured": manufactured_figure}

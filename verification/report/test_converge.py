@@ -1,15 +1,20 @@
 # SPDX-License-Identifier: MIT
 """Tests of the page of `homespun converge`, on made-up series."""
 import json
+import math
 import os
 import unittest
 
 import converge_results
+import figures_converge
 from figures_converge import Line
 from page_case import PageTest
+from style import three
 
 SERIES = [  # cell, study, case, quantity, p, h_unit, order, lowest, highest, judgement
     ("stripes", "mesh", "uniform refinement", "trace of C^H [N/m]", 1, "cell side", 2., 1.8, 2.2, "PASS"),
+    ("stripes", "adaptive", "bracket", "adaptive meshes: relative width of the bracket [-]", 2, "1 / sqrt(DoFs)", 4., 3.6,
+     4.4, "PASS"),
     ("stripes", "scale", "strip-1", "localized: mean error per strain [sheet sides]", 1, "cell sides per sheet side", 1.2,
      0.85, 2.15, "PASS"),
     ("stripes", "coarse", "strip-1", "energy of the coarse sheet at 1 % strain [J]", 1, "H in cell sides", 1.5, 0.9, 2.1,
@@ -55,7 +60,7 @@ class ConvergencePage(PageTest):
         for study in converge_results.STUDIES:
             self.assertIn(f'id="converge-{study}"', page)
             self.assertTrue(os.path.isfile(os.path.join(self.output, "figures", f"converge-{study}.pdf")))
-        self.assertIn("4 of 6 observed orders lie within their limits, 1 outside, 1 have not settled", page)
+        self.assertIn("5 of 7 observed orders lie within their limits, 1 outside, 1 have not settled", page)
         self.assertIn("3.00 ± 0.10", page)     # a two-sided limit
         self.assertIn("0.850 to 2.15", page)  # a band
         self.assertIn("homespun: convergence", page)
@@ -66,6 +71,23 @@ class ConvergencePage(PageTest):
                                                    []).of("manufactured")[0]
         self.assertEqual([round(order, 9) for order in Line(series, "", "k").expected], [3.])  # observed: 2
         self.assertEqual(len(Line(series, "", "k").h), 4)
+
+    def test_the_guide_of_a_band_has_its_ends_and_that_of_an_adaptive_bracket_the_slope_in_dofs(self):
+        convergence = converge_results.read_convergence(self.folder, "x", os.path.join(self.folder, "converge.csv"), [],
+                                                        [])
+        self.assertEqual(convergence.of("coarse")[0].expected(), [1., 2.])
+        self.assertEqual(convergence.of("mesh")[0].expected(), [1.9, 2.1])
+        self.assertEqual(convergence.of("adaptive")[0].expected(), [4.])
+        axes = figures_converge.adaptive_figure(convergence).axes[0]
+        guide = [line for line in axes.lines if line.get_linestyle() == ":"][0]
+        (x0, x1), (y0, y1) = guide.get_xdata(), guide.get_ydata()
+        self.assertAlmostEqual(math.log(y1 / y0) / math.log(x1 / x0), -2.)
+
+    def test_a_limit_without_an_error_bar_is_not_printed(self):
+        self.edit("converge.csv", lambda text: text.replace(",1.8,2.2,,,PASS", ",1.8,2.2,1234.5,,PASS"))
+        self.assertNotIn(three(1234.5), self.whole_page())
+        self.edit("converge.csv", lambda text: text.replace(",1.8,2.2,1234.5,,PASS", ",1.8,2.2,1234.5,7.5,PASS"))
+        self.assertIn(f"{three(1234.5)} ± 7.50", self.whole_page())
 
     def test_an_unknown_judgement_or_study_and_a_size_of_zero_are_refused(self):
         for before, after, says in (("FAIL", "BAD", "`judgement` is `BAD`"), (",time,", ",tome,", "`study` is `tome`"),

@@ -1,0 +1,193 @@
+// SPDX-License-Identifier: MIT
+// The claims about uniform refinement on made-up ladders: what theory says passes, planted faults do not.
+#include "homogenization/laminate.h"
+#include "verification/cell_refinement.h"
+#include "verification/stress_cells.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <limits>
+
+using namespace homespun;
+using namespace homespun::verification;
+
+namespace
+{
+const Phase soft = homogenization::isotropic("soft", 1e6, 0.3, 1e-3, 100.);
+const Phase hard = homogenization::isotropic("hard", 1e7, 0.3, 1e-3, 100.);
+
+UnitCell laminate()
+{
+  return stripe_cell(4, soft, hard);
+}
+
+UnitCell inclusion()
+{
+  return inclusion_cell(8, soft, hard);
+}
+
+Eigen::Matrix3d limit_stiffness()
+{
+  return homogenization::laminate_stiffness(laminate().stiffness_of_phase(), {0.5, 0.5});
+}
+
+homogenization::Singularity singularity()
+{
+  const UnitCell cell = inclusion();
+  return homogenization::singularity_of(
+    homogenization::corners_of(cell.mesh, cell.lattice, cell.stiffness_of_phase()));
+}
+
+/// Both orders on n levels, C = C_limit (1 + error(p, h)).
+std::vector<RefinementLadder>
+ladders_of(const std::function<double(unsigned order, double h)> &error, const int n = 6)
+{
+  std::vector<RefinementLadder> ladders = {{1, {}}, {2, {}}};
+  for (RefinementLadder &ladder : ladders)
+    for (int k = 0; k < n; ++k)
+    {
+      const double h = 0.1 * std::pow(0.5, k);
+      ladder.levels.push_back(
+        {h, 100ul << 2 * k, (1. + error(ladder.order, h)) * limit_stiffness(), 1.});
+    }
+  return ladders;
+}
+
+/// The order of the corners, with P1 ten times P2.
+std::vector<RefinementLadder> as_theory_says()
+{
+  return ladders_of(
+    [](const unsigned order, const double h)
+    { return (order == 1 ? 0.1 : 0.01) * std::pow(h, 2. * singularity().strongest); });
+}
+
+ConvergenceResult judged(const UnitCell &cell, const std::vector<RefinementLadder> &ladders)
+{
+  ConvergenceResult result;
+  judge_refinements(cell, ladders, result);
+  return result;
+}
+
+/// The outcome of the one claim that holds these words.
+Verdict claim(const ConvergenceResult &result, const std::string &words)
+{
+  std::vector<Verdict> found;
+  for (const Verdict &verdict : result.verdicts)
+    if (verdict.claim.find(words) != std::string::npos)
+      found.push_back(verdict);
+  EXPECT_EQ(found.size(), 1u) << words;
+  return found.empty() ? Verdict() : found[0];
+}
+
+std::vector<Outcome> outcomes(const ConvergenceResult &result)
+{
+  std::vector<Outcome> all;
+  for (const Verdict &verdict : result.verdicts)
+    all.push_back(verdict.outcome);
+  return all;
+}
+} // namespace
+
+TEST(exact_cell_refinement, orders_of_the_corners_pass_and_give_error_bars)
+{
+  const ConvergenceResult result = judged(inclusion(), as_theory_says());
+  EXPECT_EQ(outcomes(result), std::vector<Outcome>(5, Outcome::pass));
+  for (const Series &series : result.series)
+    if (series.quantity.rfind("C16", 0) != 0 && series.quantity.rfind("C26", 0) != 0)
+    {
+      EXPECT_TRUE(series.has_error_bar()) << series.quantity;
+    }
+    else // zero on every level: no limit is made of round-off
+    {
+      EXPECT_FALSE(series.richardson.has_value());
+    }
+}
+
+TEST(exact_cell_refinement, limits_of_orders_are_sharp)
+{
+  const homogenization::Singularity its = singularity();
+  ASSERT_TRUE(its.exists);
+  const OrderLimit p1 = order_of_energy(its, 1), p2 = order_of_energy(its, 2);
+  EXPECT_GT(p1.lowest, 1.);
+  EXPECT_NEAR(p1.highest, 2.1, 1e-12);
+  EXPECT_NEAR(p2.lowest, p1.lowest, 1e-12);
+  EXPECT_LT(p2.highest, 2.1);
+  EXPECT_LT(p2.highest - p2.lowest, 0.7);
+}
+
+TEST(exact_cell_refinement, a_laminate_is_held_against_its_closed_form)
+{
+  const auto exact             = ladders_of([](unsigned, double) { return 0.; });
+  const ConvergenceResult good = judged(laminate(), exact);
+  EXPECT_EQ(outcomes(good), std::vector<Outcome>(2, Outcome::pass));
+  for (const Series &series : good.series)
+    EXPECT_FALSE(series.richardson.has_value());
+  // The same on every level and wrong.
+  const auto wrong = ladders_of([](unsigned, double) { return 1e-6; });
+  EXPECT_EQ(claim(judged(laminate(), wrong), "closed form").outcome, Outcome::fail);
+}
+
+TEST(tripwire_cell_refinement, characteristic_displacements_lost_at_corners_are_noticed)
+{
+  // chi = 0 gives Voigt's mean on every level: it falls in the Loewner order, and it is the same everywhere.
+  const auto lost = ladders_of([](unsigned, double) { return 0.7; });
+  EXPECT_EQ(claim(judged(inclusion(), lost), "changes with mesh").outcome, Outcome::fail);
+}
+
+TEST(tripwire_cell_refinement, an_order_that_corners_do_not_allow_is_noticed)
+{
+  for (const double wrong : {0.8, 3., 4.})
+  {
+    const auto ladders =
+      ladders_of([&](const unsigned order, const double h)
+                 { return (order == 1 ? 0.1 : 0.01) * std::pow(10. * h, wrong); });
+    for (const char *order : {"; P1", "; P2"})
+      EXPECT_EQ(claim(judged(inclusion(), ladders), order).outcome, Outcome::fail) << wrong;
+  }
+}
+
+TEST(tripwire_cell_refinement, a_level_that_is_not_a_number_fails_every_claim)
+{
+  for (const std::size_t level : {0u, 3u, 5u})
+    for (const std::size_t ladder : {0u, 1u})
+    {
+      auto ladders = as_theory_says();
+      ladders[ladder].levels[level].stiffness.setConstant(std::numeric_limits<double>::quiet_NaN());
+      const ConvergenceResult corners = judged(inclusion(), ladders);
+      EXPECT_EQ(claim(corners, "Loewner").outcome, Outcome::fail);
+      EXPECT_EQ(claim(corners, "changes with mesh").outcome, Outcome::fail);
+      EXPECT_EQ(claim(corners, ladder == 0 ? "; P1" : "; P2").outcome, Outcome::fail);
+      EXPECT_EQ(claim(corners, "limits of P1 and P2").outcome, Outcome::inconclusive);
+      EXPECT_EQ(claim(judged(laminate(), ladders), "closed form").outcome, Outcome::fail);
+    }
+}
+
+TEST(tripwire_cell_refinement, a_rise_from_level_to_level_is_noticed)
+{
+  const auto rising = ladders_of([](unsigned, const double h) { return -std::pow(h, 1.4); });
+  EXPECT_EQ(claim(judged(inclusion(), rising), "Loewner").outcome, Outcome::fail);
+}
+
+TEST(exact_cell_refinement, limits_of_orders_that_drift_agree_by_chance_and_prove_nothing)
+{
+  const auto drifting =
+    ladders_of([](const unsigned order, const double h)
+               { return (order == 1 ? 0.1 : 0.01) * std::exp(-1. / (h + 0.02)); },
+               5);
+  const ConvergenceResult result = judged(inclusion(), drifting);
+  ASSERT_EQ(claim(result, "; P2").outcome, Outcome::inconclusive);
+  EXPECT_EQ(claim(result, "limits of P1 and P2").outcome, Outcome::inconclusive);
+  for (const Series &series : result.series)
+    EXPECT_FALSE(series.has_error_bar()) << series.quantity;
+}
+
+TEST(exact_cell_refinement,
+     a_ladder_that_ended_early_is_inconclusive_and_an_empty_one_claims_nothing)
+{
+  const ConvergenceResult brief =
+    judged(inclusion(), ladders_of([](unsigned, const double h) { return h; }, 2));
+  EXPECT_EQ(claim(brief, "; P1").outcome, Outcome::inconclusive);
+  EXPECT_TRUE(judged(inclusion(), {{1, {}}, {2, {}}}).verdicts.empty());
+}

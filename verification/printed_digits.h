@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: MIT
+// As many digits as an error bar justifies.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <string>
+
+namespace homespun::verification
+{
+/// "2.12 +- 0.02": the value rounded to the place of the bar's first digit, and the bar with what that rounding did
+/// to the value added, rounded up to one digit: what is printed never claims more than what is known.
+/// @param bar on the value, in its unit; not negative
+inline std::string with_bar(const double value, const double bar)
+{
+  char text[80];
+  if (!std::isfinite(value) || !std::isfinite(bar))
+  {
+    std::snprintf(text, sizeof(text), "%.3g +- %g", value, bar);
+    return text;
+  }
+  constexpr int most_decimals = 15;
+  int decimals = bar > 0. ? -static_cast<int>(std::floor(std::log10(bar))) : most_decimals;
+  decimals     = std::min(std::max(decimals, 0), most_decimals);
+  while (true)
+  {
+    const double per_unit = std::pow(10., decimals);
+    const double printed  = std::round(value * per_unit) / per_unit;
+    double units          = std::ceil((bar + std::abs(value - printed)) * per_unit);
+    if (units > 9. && decimals > 0)
+    {
+      --decimals;
+      continue;
+    }
+    if (units > 9.)
+    {
+      const double place = std::pow(10., std::floor(std::log10(units)));
+      units              = std::ceil(units / place) * place;
+    }
+    std::snprintf(text, sizeof(text), "%.*f +- %.1g", decimals, printed, units / per_unit);
+    return text;
+  }
+}
+} // namespace homespun::verification
