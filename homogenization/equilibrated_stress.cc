@@ -2,13 +2,11 @@
 #include "homogenization/equilibrated_stress.h"
 
 #include "homogenization/cholesky_solver.h"
-#include "meshes/errors.h"
 
 #include <Eigen/LU>
 
 #include <cmath>
 #include <limits>
-#include <numeric>
 
 namespace homespun::homogenization
 {
@@ -21,29 +19,11 @@ std::size_t at(const int index)
   return static_cast<std::size_t>(index);
 }
 
-/// Written out: GCC 12 with -O3 -march=native was seen, here alone, to leave the second component of
-/// an inlined Vector2d(...).normalized() undivided.
-Eigen::Vector2d normal_of(const TorusEdge &edge)
-{
-  const double length = edge.vector.norm();
-  return {edge.vector(1) / length, -edge.vector(0) / length};
-}
-
 double area_of(const std::array<Eigen::Vector2d, 3> &shape)
 {
   return 0.5 * (shape[1](0) * shape[2](1) - shape[1](1) * shape[2](0));
 }
 
-/// (value, d/dx, d/dy) of the stress functions of the unit mean stresses, one load per column:
-/// y²/2 for 11, x²/2 for 22, −xy for 12.
-Eigen::Matrix3d stress_functions_of_means(const Eigen::Vector2d &p)
-{
-  Eigen::Matrix3d q;
-  q << 0.5 * p(1) * p(1), 0.5 * p(0) * p(0), -p(0) * p(1), //
-    0., p(0), -p(1),                                       //
-    p(1), 0., -p(0);
-  return q;
-}
 /// The stresses of the shape functions, rows 11, 22, 12.
 Eigen::Matrix<double, 3, 12> stress_of_airy(const CloughTocher &element, const int piece,
                                             const Eigen::Vector3d &barycentric)
@@ -79,6 +59,7 @@ const std::array<FieldPoint, n_field_points> &field_points()
 EquilibratedStress::EquilibratedStress(const TorusMesh &mesh,
                                        const std::vector<Eigen::Matrix3d> &stiffness_of_material)
     : mesh(mesh)
+    , numbering(mesh)
 {
   for (const Eigen::Matrix3d &c : stiffness_of_material)
   {
@@ -93,154 +74,10 @@ EquilibratedStress::EquilibratedStress(const TorusMesh &mesh,
                                   .sum()
                                   .maxCoeff());
   }
-  find_holes();
-  number_unknowns();
+  n_dofs = static_cast<unsigned>(numbering.number - 1);
+  unknowns.setZero(numbering.number, 3);
   assemble_and_solve();
   evaluate();
-}
-
-void EquilibratedStress::find_holes()
-{
-  rim_of_vertex.assign(at(mesh.n_vertices), {});
-  rim_of_edge.assign(mesh.edges.size(), {});
-  const auto rims = rim_edges(mesh);
-  // Holes that touch in a vertex share value and gradient there, hence the whole affine function.
-  std::vector<int> parent(at(mesh.n_vertices));
-  std::iota(parent.begin(), parent.end(), 0);
-  const auto root = [&](int v)
-  {
-    while (parent[at(v)] != v)
-      v = parent[at(v)] = parent[at(parent[at(v)])];
-    return v;
-  };
-  for (const auto &[t, k] : rims)
-  {
-    const TorusTriangle &triangle              = mesh.triangles[at(t)];
-    parent[at(root(triangle.vertices[at(k)]))] = root(triangle.vertices[at((k + 1) % 3)]);
-  }
-  std::vector<int> hole_of_root(at(mesh.n_vertices), -1);
-  std::vector<Eigen::Vector2d> origins;
-  const double tolerance = meshes::image_tolerance * std::sqrt(mesh.lattice.area());
-  for (const auto &[t, k] : rims)
-  {
-    const TorusTriangle &triangle = mesh.triangles[at(t)];
-    const auto shape              = triangle.shape(mesh.edges);
-    int &hole                     = hole_of_root[at(root(triangle.vertices[at(k)]))];
-    if (hole < 0)
-    {
-      hole = static_cast<int>(origins.size());
-      origins.emplace_back(triangle.corner + shape[at(k)]);
-    }
-    const Eigen::Vector2d ends[2]          = {triangle.corner + shape[at(k)] - origins[at(hole)],
-                                              triangle.corner + shape[at((k + 1) % 3)] - origins[at(hole)]};
-    rim_of_edge[at(triangle.edges[at(k)])] = {hole, 0.5 * (ends[0] + ends[1])};
-    for (int end = 0; end < 2; ++end)
-    {
-      Rim &rim = rim_of_vertex[at(triangle.vertices[at((k + end) % 3)])];
-      if (rim.hole >= 0 && (rim.position - ends[end]).norm() > tolerance)
-        throw meshes::BadInput(
-          "a hole of the cell meets an image of itself or of another hole at the outline; expected "
-          "holes inside the cell: shift the cell, or fill the hole with a soft phase");
-      rim = {hole, ends[end]};
-    }
-  }
-  first_unknown_of_hole.resize(origins.size());
-}
-
-/// Close to a vertex P of the given mesh phi is stored as phi − phi(P), because next to a strong
-/// singularity it varies by less than the round-off of phi itself. That starts at 1/256 of the
-/// shortest edge at P: coarser meshes keep plain values. Triangles inside never see phi(P), which
-/// their stress does not depend on; those across the border have it as one unknown more.
-void EquilibratedStress::number_unknowns()
-{
-  constexpr double closeness = 1. / 256.;
-  int n                      = 0;
-  centre_of.assign(at(mesh.n_vertices), -1);
-  first_unknown.assign(at(mesh.n_vertices), -1);
-  for (int v = 0; v < mesh.n_vertices; ++v)
-  {
-    if (rim_of_vertex[at(v)].hole >= 0)
-      continue;
-    first_unknown[at(v)] = n;
-    n += 3;
-    const Home &home = mesh.homes[at(v)];
-    if (rim_of_vertex[at(home.vertex)].hole < 0 &&
-        home.offset.norm() < closeness * mesh.reach[at(home.vertex)])
-      centre_of[at(v)] = home.vertex;
-  }
-  unknown_of_edge.assign(mesh.edges.size(), -1);
-  for (int e = 0; e < mesh.n_edges(); ++e)
-    if (rim_of_edge[at(e)].hole < 0)
-      unknown_of_edge[at(e)] = n++;
-  for (int &first : first_unknown_of_hole)
-  {
-    first = n;
-    n += 3;
-  }
-  pinned =
-    first_unknown_of_hole.empty() ? first_unknown[at(mesh.anchor)] : first_unknown_of_hole.front();
-  n_dofs = static_cast<unsigned>(n - 1);
-  unknowns.setZero(n, 3);
-}
-
-EquilibratedStress::LocalDof
-EquilibratedStress::on_rim(const Rim &rim, const Eigen::RowVector3d &of_value_and_gradient) const
-{
-  // phi = A + B.x − q(x), of which the row takes a combination of value and gradient.
-  const int first         = first_unknown_of_hole[at(rim.hole)];
-  const Eigen::Vector2d x = rim.position;
-  LocalDof dof;
-  dof.unknowns = {first, first + 1, first + 2};
-  dof.factors  = {of_value_and_gradient(0),
-                  of_value_and_gradient(0) * x(0) + of_value_and_gradient(1),
-                  of_value_and_gradient(0) * x(1) + of_value_and_gradient(2)};
-  dof.known    = -of_value_and_gradient * stress_functions_of_means(x);
-  return dof;
-}
-
-EquilibratedStress::LocalDofs EquilibratedStress::local_dofs(const int t) const
-{
-  const TorusTriangle &triangle = mesh.triangles[at(t)];
-  LocalDofs dofs;
-  const auto centre    = [&](const int k) { return centre_of[at(triangle.vertices[at(k)])]; };
-  const bool is_inside = centre(0) >= 0 && centre(0) == centre(1) && centre(0) == centre(2);
-  for (int k = 0; k < 3; ++k)
-  {
-    const int v = triangle.vertices[at(k)], e = triangle.edges[at(k)];
-    if (rim_of_vertex[at(v)].hole >= 0)
-      for (int d = 0; d < 3; ++d)
-        dofs[at(3 * k + d)] = on_rim(rim_of_vertex[at(v)], Eigen::RowVector3d::Unit(d));
-    else
-    {
-      for (int d = 0; d < 3; ++d)
-      {
-        dofs[at(3 * k + d)].unknowns[0] = first_unknown[at(v)] + d;
-        dofs[at(3 * k + d)].factors[0]  = 1.;
-      }
-      if (is_inside && centre(k) == v)
-        dofs[at(3 * k)] = {};
-      else if (!is_inside && centre(k) >= 0 && centre(k) != v)
-      {
-        dofs[at(3 * k)].unknowns[1] = first_unknown[at(centre(k))];
-        dofs[at(3 * k)].factors[1]  = 1.;
-      }
-    }
-    if (rim_of_edge[at(e)].hole >= 0)
-    {
-      const Eigen::Vector2d normal = normal_of(mesh.edges[at(e)]);
-      dofs[at(9 + k)]              = on_rim(rim_of_edge[at(e)], {0., normal(0), normal(1)});
-    }
-    else
-    {
-      dofs[at(9 + k)].unknowns[0] = unknown_of_edge[at(e)];
-      dofs[at(9 + k)].factors[0]  = 1.;
-    }
-  }
-  for (LocalDof &dof : dofs)
-    for (int &unknown : dof.unknowns)
-      if (unknown == pinned)
-        unknown = -1;
-  return dofs;
 }
 
 CloughTocher EquilibratedStress::element(const int t) const
@@ -248,7 +85,7 @@ CloughTocher EquilibratedStress::element(const int t) const
   const TorusTriangle &triangle = mesh.triangles[at(t)];
   std::array<Eigen::Vector2d, 3> normals;
   for (int k = 0; k < 3; ++k)
-    normals[at(k)] = normal_of(mesh.edges[at(triangle.edges[at(k)])]);
+    normals[at(k)] = edge_normal(mesh.edges[at(triangle.edges[at(k)])]);
   return {triangle.shape(mesh.edges), normals};
 }
 
@@ -266,7 +103,7 @@ void EquilibratedStress::assemble_and_solve()
 {
   const int n = static_cast<int>(n_dofs);
   // Unknowns behind the pinned one move up by one place.
-  const auto row_of = [this](const int unknown) { return unknown - (unknown > pinned); };
+  const auto row_of = [this](const int unknown) { return unknown - (unknown > numbering.pinned); };
   std::vector<Eigen::Triplet<double>> entries;
   entries.reserve(80 * mesh.triangles.size());
   Eigen::MatrixXd loads = Eigen::MatrixXd::Zero(n, 3);
@@ -284,7 +121,7 @@ void EquilibratedStress::assemble_and_solve()
     for (int q = 0; q < n_field_points; ++q)
       load -= sB.middleRows<3>(3 * q).transpose();
 
-    const LocalDofs dofs = local_dofs(t);
+    const AiryDofs dofs = numbering.of_triangle(t);
     for (int i = 0; i < 12; ++i)
       for (int j = 0; j < 12; ++j)
         if (!dofs[at(j)].known.isZero(0.))
@@ -313,7 +150,7 @@ void EquilibratedStress::assemble_and_solve()
   const CholeskySolver::Solution solution =
     CholeskySolver(matrix, "complementary energy").solve(loads);
   for (int unknown = 0; unknown <= n; ++unknown)
-    if (unknown != pinned)
+    if (unknown != numbering.pinned)
       unknowns.row(unknown) = solution.values.row(row_of(unknown));
   excess     = solution.excess;
   iterations = solution.iterations;
@@ -321,7 +158,7 @@ void EquilibratedStress::assemble_and_solve()
 
 EquilibratedStress::LocalValues EquilibratedStress::local_values(const int t) const
 {
-  const LocalDofs dofs = local_dofs(t);
+  const AiryDofs dofs = numbering.of_triangle(t);
   LocalValues values;
   for (int i = 0; i < 12; ++i)
   {
@@ -339,7 +176,7 @@ EquilibratedStress::LocalValues EquilibratedStress::local_values(const int t) co
   {
     values.row(3 * k) -= value + shape[at(k)].transpose() * gradient;
     values.middleRows<2>(3 * k + 1) -= gradient;
-    values.row(9 + k) -= normal_of(mesh.edges[at(triangle.edges[at(k)])]).transpose() * gradient;
+    values.row(9 + k) -= edge_normal(mesh.edges[at(triangle.edges[at(k)])]).transpose() * gradient;
   }
   return values;
 }
@@ -426,7 +263,7 @@ void EquilibratedStress::evaluate()
     FieldOfLoads field            = B * values;
     // How wrong each may be: products of the rounded values, and the values from their differences.
     LocalValues bar                     = 12. * epsilon * values.cwiseAbs();
-    const LocalDofs dofs                = local_dofs(t);
+    const AiryDofs dofs                 = numbering.of_triangle(t);
     Eigen::RowVector3d size_of_gradient = Eigen::RowVector3d::Zero();
     for (int d = 1; d < 3; ++d)
       for (int a = 0; a < 3; ++a)

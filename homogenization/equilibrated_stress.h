@@ -6,6 +6,7 @@
 // is, its energy bounds the compliance from above, and C^H thereby from below.
 #pragma once
 
+#include "homogenization/airy_unknowns.h"
 #include "homogenization/clough_tocher.h"
 #include "homogenization/torus_mesh.h"
 
@@ -57,43 +58,19 @@ public:
   unsigned iterations;
 
 private:
-  /// A degree of freedom of a triangle, in terms of the unknowns: sum of factor x unknown + known.
-  struct LocalDof
-  {
-    std::array<int, 3> unknowns   = {-1, -1, -1}; ///< −1 where there is none
-    std::array<double, 3> factors = {0., 0., 0.};
-    Eigen::RowVector3d known      = Eigen::RowVector3d::Zero(); ///< per load
-  };
-  using LocalDofs   = std::array<LocalDof, 12>;
   using StressRows  = Eigen::Matrix<double, 3 * n_field_points, 12>;
   using LocalValues = Eigen::Matrix<double, 12, 3>;
 
-  void number_unknowns();
-  void find_holes();
-  LocalDofs local_dofs(int triangle) const;
   CloughTocher element(int triangle) const;
   StressRows stress_rows(int triangle) const;
   LocalValues local_values(int triangle) const;
   void assemble_and_solve();
   void evaluate();
 
-  /// phi on the rim of a hole: value, d/dx, d/dy at a point.
-  struct Rim
-  {
-    int hole = -1;
-    Eigen::Vector2d position; ///< from the first vertex of the hole's rim [m]
-  };
-  LocalDof on_rim(const Rim &rim, const Eigen::RowVector3d &of_value_and_gradient) const;
-
   const TorusMesh &mesh;
+  const AiryUnknowns numbering;
   std::vector<Eigen::Matrix3d> compliances; ///< c^-1 of each material
   double inversion_error = 0.;              ///< of these, relative
-  std::vector<int> first_unknown;           ///< of each vertex: value, d/dx, d/dy; −1 on rims
-  std::vector<int> unknown_of_edge;         ///< −1 on rims
-  std::vector<int> centre_of;               ///< see number_unknowns(); −1 for most vertices
-  std::vector<Rim> rim_of_vertex, rim_of_edge;
-  std::vector<int> first_unknown_of_hole;
-  int pinned = -1; ///< the value that takes out the constant
   Eigen::MatrixXd unknowns;
 };
 } // namespace homespun::homogenization

@@ -151,7 +151,7 @@ void judge_level(const Rows &rows, const std::array<std::string, 4> &level,
   at_most("resolution",
           "the homogenized sheet that counts as resolved is (change from a mesh half as fine, "
           "over the measured error)",
-          0.05);
+          0.1);
 }
 
 void judge_slope(const Rows &rows, const std::string &cell, const std::string &load,

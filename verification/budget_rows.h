@@ -51,7 +51,8 @@ std::vector<std::vector<std::string>> budget_rows(const std::string &cell, const
 /// - misfit at most 0.25 of the total, as far as the effectivity may be from 1: the mean length alone would not see
 ///   a sum that points elsewhere
 /// - part 7 at most 1 % of the total
-/// - `resolution` at most 5 % of the total: the homogenized sheet that counts as resolved is
+/// - `resolution` at most 0.1 of the total: the homogenized sheet that counts as resolved is, and what it lacks takes at most
+///   half of what the effectivity may be off
 /// and over the levels up to 2 %: the mean of part 2 grows as strain squared, slope 2 +- 0.1, or is zero to round-off at
 /// each; INCONCLUSIVE with fewer than three levels.
 std::vector<Verdict> budget_verdicts(const std::vector<std::vector<std::string>> &strain_rows,

@@ -35,10 +35,19 @@ bool BudgetStudy::is_missing(const std::string &cell_name, const std::string &lo
   return answer == 1;
 }
 
+bool BudgetStudy::is_missing(const std::string &cell_name, const std::string &load,
+                             const std::vector<double> &strains) const
+{
+  int answer = std::any_of(strains.begin(), strains.end(),
+                           [&](const double strain)
+                           { return row_is_missing(cell_name, load, law_of_budget, strain); });
+  MPI_Bcast(&answer, 1, MPI_INT, 0, communicator);
+  return answer == 1;
+}
+
 void BudgetStudy::begin_cell(const homogenization::UnitCell &new_cell,
                              const meshes::HomogenizedCell &given)
 {
-  cell                     = &new_cell;
   cells.given              = given;
   cells.stiffness_of_phase = new_cell.stiffness_of_phase();
   const auto homogenized   = [&](const unsigned int order, const double tolerance)
@@ -53,10 +62,15 @@ void BudgetStudy::begin_cell(const homogenization::UnitCell &new_cell,
   cells.tight = homogenized(1, 1e-13);
   of_load.reset();
   load_name.clear();
+  cell = &new_cell;
 }
 
-void BudgetStudy::begin_load(const meshes::Sheet &sheet, const Load &load, FineReference &reference)
+void BudgetStudy::begin_load(const homogenization::UnitCell &new_cell,
+                             const meshes::HomogenizedCell &given, const meshes::Sheet &sheet,
+                             const Load &load, FineReference &reference)
 {
+  if (cell != &new_cell)
+    begin_cell(new_cell, given);
   constexpr double strain  = 0.01; // any: the law is linear
   const auto linear_answer = [&](FineReference &of)
   {

@@ -23,7 +23,7 @@ struct UpsampledLevel
   meshes::Points upsampled;   ///< by `localized`, (n_fine,2), double precision [m]
 };
 
-/// Goes along with a strain study: begin_cell(), begin_load(), then measure() at each strain of one law, `biot` or
+/// Goes along with a strain study: begin_load(), then measure() at each strain of one law, `biot` or
 /// the study's first. Solves with deal.II on all ranks, measures on the first.
 class BudgetStudy
 {
@@ -40,11 +40,16 @@ public:
   /// The same, told to every rank.
   bool is_missing(const std::string &cell, const std::string &load, Law law, double strain) const;
 
-  /// Homogenizes the cell in the further ways that the budget compares.
-  void begin_cell(const homogenization::UnitCell &cell, const meshes::HomogenizedCell &given);
+  /// Whether the budget of any level of a load is asked for and not yet in the table, told to every rank.
+  bool is_missing(const std::string &cell, const std::string &load,
+                  const std::vector<double> &strains) const;
 
-  /// Solves the linear references, P1 and P2. `reference` is left without levels.
-  void begin_load(const meshes::Sheet &sheet, const Load &load, FineReference &reference);
+  /// Solves the linear references, P1 and P2, and at the first load of a cell homogenizes it in the further ways that the
+  /// budget compares. `reference` is left without levels.
+  /// @param cell to be kept by the caller while its loads last
+  /// @throws NotConverged on every rank
+  void begin_load(const homogenization::UnitCell &cell, const meshes::HomogenizedCell &given,
+                  const meshes::Sheet &sheet, const Load &load, FineReference &reference);
 
   /// Measures the parts at a level that `reference` has just reached, and writes their rows.
   /// @param positions of that level
@@ -53,11 +58,13 @@ public:
   std::string measure(Law law, double strain, const meshes::Points &positions,
                       FineReference &reference, const UpsampledLevel &solved);
 
+  const Law law_of_budget;
+
 private:
+  void begin_cell(const homogenization::UnitCell &cell, const meshes::HomogenizedCell &given);
   std::string measure_on_root(Law law, double strain, const meshes::Points &positions,
                               const meshes::Points &tight, const UpsampledLevel &solved);
 
-  const Law law_of_budget;
   ResultTable *const table;
   const MPI_Comm communicator;
   const homogenization::UnitCell *cell = nullptr;

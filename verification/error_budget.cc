@@ -30,7 +30,7 @@ Points ErrorBudget::sum() const
 
 int budget_refinement(const meshes::Sheet &sheet)
 {
-  return std::clamp(160 / std::max(sheet.n1, sheet.n2) / 2 * 2, 4, 8);
+  return std::clamp(160 / std::max(sheet.n1, sheet.n2) / 2 * 2, 4, 16);
 }
 
 namespace

@@ -32,8 +32,8 @@
 // any u, and the sum tests only that the method (Upsampler, LightweightCloth) does what the parts say of it. At 10 % it
 // tests part 2, whose cell problem shares nothing with the reference. That a link is called by its right name is tested by
 // its order: 2 in strain for part 2; 2 in H for part 3, which `resolution` is read off,
-//    resolution    [u + R w(E)] − the same with u on a mesh half as fine: at least three times what u lacks, if u converges
-//                  with order two; beside the sum;
+//    resolution    [u + R w(E)] − the same with u on a mesh half as fine: three times what u lacks if u converges with order
+//                  two, and as much as it lacks if corners leave it order one; beside the sum;
 // and for part 1 by the study of scale separation (converge).
 #pragma once
 
@@ -107,6 +107,6 @@ private:
   shell::Positions<2> last_displacement; ///< of the resolved sheet, per strain
 };
 
-/// 8 where the sheet is small, else what brings the refined mesh to about 160 quads per side, at least 4; even.
+/// 16 where the sheet is small, else what brings the refined mesh to about 160 quads per side, at least 4; even.
 int budget_refinement(const meshes::Sheet &sheet);
 } // namespace homespun::verification

@@ -97,7 +97,6 @@ private:
     const meshes::Sheet one_cell = meshes::tile(cell.mesh, cell.lattice, 1, 1);
     std::unique_ptr<meshes::Sheet> full; // made where a load asks for it
 
-    is_budget_begun = false;
     // One discretization serves all loads of a sheet.
     std::unique_ptr<FineReference> of_cell, of_sheet;
     for (const std::string &name : options.loads)
@@ -179,7 +178,7 @@ private:
       reference = std::make_unique<FineReference>(sheet, cell.stiffness_of_phase(),
                                                   ReferenceOptions(), communicator);
     LightweightCloth cloth(homogenized, sheet, load);
-    const bool has_budget = begin_budget(cell, homogenized, sheet, load, laws, *reference);
+    const bool has_budget = begin_budget(cell, homogenized, sheet, load, *reference);
     for (std::size_t k = 0; k < laws.size(); ++k)
     {
       const std::vector<double> missing = missing_strains(cell, load, laws[k]);
@@ -211,23 +210,14 @@ private:
   /// What the budget of a load asks for beside the study, if any level of it is missing.
   /// @return whether levels can be measured, on every rank
   bool begin_budget(const UnitCell &cell, const meshes::HomogenizedCell &homogenized,
-                    const meshes::Sheet &sheet, const Load &load, const std::vector<Law> &laws,
-                    FineReference &reference)
+                    const meshes::Sheet &sheet, const Load &load, FineReference &reference)
   {
-    bool is_missing = false;
-    for (const Law law : laws)
-      for (const double strain : options.strains)
-        is_missing =
-          is_missing || (budget && budget->is_missing(cell.name, load.name, law, strain));
-    if (!is_missing)
+    if (!budget || !budget->is_missing(cell.name, load.name, options.strains))
       return false;
     progress.begin(cell.name + ", " + load.name + ": linear references of the error budget");
     try
     {
-      if (!is_budget_begun)
-        budget->begin_cell(cell, homogenized);
-      is_budget_begun = true;
-      budget->begin_load(sheet, load, reference);
+      budget->begin_load(cell, homogenized, sheet, load, reference);
       return true;
     }
     catch (const meshes::NotConverged &failure)
@@ -236,7 +226,7 @@ private:
       on_root(communicator,
               [&]()
               {
-                write_note({cell.name, load.name, laws.front(), options.strains.front()},
+                write_note({cell.name, load.name, budget->law_of_budget, options.strains.front()},
                            "no error budget of this load; " + why);
               });
       return false;
@@ -403,48 +393,29 @@ private:
     getrusage(RUSAGE_SELF, &usage);
     const double peak_memory =
       dealii::Utilities::MPI::sum(static_cast<double>(usage.ru_maxrss) * 1024., communicator);
-    on_root(
-      communicator,
-      [&]()
-      {
-        for (const Verdict &verdict : strain_verdicts(output->strain_rows()))
-          verdicts.push_back(verdict);
-        output->write_validity();
-        if (options.budget)
-          for (const Verdict &verdict :
-               budget_verdicts(output->strain_rows(), output->budget->rows()))
-            verdicts.push_back(verdict);
-        const int n_unreached = output->n_unreached();
-        verdicts.push_back({"every level of every reference has an equilibrium (levels without)",
-                            n_unreached == 0 ? Outcome::pass : Outcome::inconclusive,
-                            static_cast<double>(n_unreached), "0"});
-        write_whole(options.output + "/verdicts.json",
-                    json_text(to_json(verdicts, options.command)));
-        write_whole(options.output + "/study.json", json_text(study_json(seconds, peak_memory)));
-      });
+    on_root(communicator,
+            [&]()
+            {
+              for (const Verdict &verdict : strain_verdicts(output->strain_rows()))
+                verdicts.push_back(verdict);
+              output->write_validity();
+              if (options.budget)
+                for (const Verdict &verdict :
+                     budget_verdicts(output->strain_rows(), output->budget->rows()))
+                  verdicts.push_back(verdict);
+              const int n_unreached = output->n_unreached();
+              verdicts.push_back(
+                {"every level of every reference has an equilibrium (levels without)",
+                 n_unreached == 0 ? Outcome::pass : Outcome::inconclusive,
+                 static_cast<double>(n_unreached), "0"});
+              write_whole(options.output + "/verdicts.json",
+                          json_text(to_json(verdicts, options.command)));
+              write_whole(options.output + "/study.json",
+                          json_text(describe(options, output->notes(),
+                                             {seconds, peak_memory, largest_residual, n_ranks})));
+            });
     share_failure(verdicts, communicator);
     return verdicts;
-  }
-
-  nlohmann::ordered_json study_json(const double seconds, const double peak_memory) const
-  {
-    nlohmann::ordered_json notes = notes_on_the_method();
-    for (const std::string &note : output->notes())
-      notes.push_back(note);
-    return {{"command", options.command},
-            {"strains", options.strains},
-            {"loads", options.loads},
-            {"references", options.references},
-            {"methods", options.methods},
-            {"cells_per_side", options.n_cells},
-            {"ranks", n_ranks},
-            {"threads_per_rank", 1},
-            {"seconds_total", seconds},
-            {"largest_relative_residual", largest_residual},
-            {"peak_memory_bytes", peak_memory},
-            {"left_out", what_was_left_out()},
-            {"notes", notes},
-            {"provenance", provenance(n_ranks)}};
   }
 
   const StrainStudyOptions options;
@@ -456,7 +427,6 @@ private:
   std::vector<UnitCell> cells;
   std::unique_ptr<StrainOutput> output; ///< first rank
   std::unique_ptr<BudgetStudy> budget;  ///< none where it is left out
-  bool is_budget_begun = false;         ///< of the present cell
   std::string folder;                   ///< of the present cell
   std::vector<Verdict> verdicts;
   double largest_residual = 0.;

@@ -1,14 +1,26 @@
 // SPDX-License-Identifier: MIT
-// What a strain study says of itself in words: what it left out and why, and how its numbers came to be.
+// What a strain study says of itself: how it was made, what it left out and why, how its numbers came to be.
 #pragma once
+
+#include "verification/strain_study.h"
 
 #include <nlohmann/json.hpp>
 
+#include <string>
+#include <vector>
+
 namespace homespun::verification
 {
-/// [{what, why}]
-nlohmann::ordered_json what_was_left_out();
+struct StudyCost
+{
+  double seconds          = 0.;
+  double peak_memory      = 0.; ///< of all ranks together [B]
+  double largest_residual = 0.; ///< of the references, relative
+  unsigned int ranks      = 1;
+};
 
-/// Sentences that a reader of the numbers needs.
-nlohmann::ordered_json notes_on_the_method();
+/// study.json.
+/// @param notes on levels, beside those on the method
+nlohmann::ordered_json describe(const StrainStudyOptions &options,
+                                const std::vector<std::string> &notes, const StudyCost &cost);
 } // namespace homespun::verification
