@@ -30,8 +30,9 @@ ConvergenceSizes convergence_sizes(const bool quick)
   sizes.coarse_per_cell       = {0.5, 1., 2., 4., 8.};
   if (!quick)
     sizes.coarse_per_cell.push_back(16.);
+  // At 1e-4 the rounding of F = 1 + grad u is 1e-12 of the strain, and Newton's method stalls above its tolerance.
   sizes.strains    = quick ? std::vector<double>{0.1, 0.03, 0.01, 0.003, 0.001}
-                           : std::vector<double>{0.1, 0.05, 0.02, 0.01, 0.005, 0.002, 0.001, 1e-4};
+                           : std::vector<double>{0.1, 0.05, 0.02, 0.01, 0.005, 0.002, 0.001};
   sizes.time_steps = quick ? std::vector<int>{50, 100, 200, 400}
                            : std::vector<int>{25, 50, 100, 200, 400, 800, 1600};
   return sizes;
