@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <map>
 
 namespace homespun::homogenization
@@ -33,6 +34,7 @@ struct TriangleCorner
   using Edge = std::array<int, 3>; ///< class of its other end, and lattice vectors to it
   Edge begin, end;
   double direction, angle; ///< of the first edge, and between both [rad]
+  double length;           ///< of the shorter one [m]
   int material;
 };
 
@@ -42,10 +44,11 @@ bool is_same(const Eigen::Matrix3d &a, const Eigen::Matrix3d &b)
 }
 
 /// Whether displacements stay smooth, up to kinks along one straight line.
-bool is_regular(const Corner &corner)
+/// @param tolerance of a straight angle
+bool is_regular(const Corner &corner, const double tolerance)
 {
   const auto is_half = [](const Sector &sector)
-  { return std::abs(sector.end - sector.begin - M_PI) < same_angle; };
+  { return std::abs(sector.end - sector.begin - M_PI) < tolerance; };
   const std::vector<Sector> &sectors = corner.sectors;
   if (sectors.size() == 1)
     return corner.is_closed || is_half(sectors[0]);
@@ -133,7 +136,8 @@ std::vector<Corner> corners_of(const meshes::TriangleMesh &mesh, const meshes::L
       const Eigen::RowVector2d b = mesh.vertices.row(ends[1]) - mesh.vertices.row(v);
       around[classes.representative[at(v)]].push_back(
         {edge_to(ends[0]), edge_to(ends[1]), std::atan2(a(1), a(0)),
-         std::atan2(a(0) * b(1) - a(1) * b(0), a.dot(b)), mesh.material(t)});
+         std::atan2(a(0) * b(1) - a(1) * b(0), a.dot(b)), std::min(a.norm(), b.norm()),
+         mesh.material(t)});
     }
   std::vector<Corner> corners;
   for (const auto &[vertex, its] : around)
@@ -150,9 +154,11 @@ std::vector<Corner> corners_of(const meshes::TriangleMesh &mesh, const meshes::L
     {
       Corner corner;
       corner.is_closed = is_closed;
+      double shortest  = std::numeric_limits<double>::infinity();
       for (double angle = its[i].direction; !is_used[i];)
       {
         is_used[i] = 1;
+        shortest   = std::min(shortest, its[i].length);
         corner.sectors.push_back(
           {angle, angle + its[i].angle, stiffness_of_material[at(its[i].material)]});
         angle           = corner.sectors.back().end;
@@ -161,7 +167,9 @@ std::vector<Corner> corners_of(const meshes::TriangleMesh &mesh, const meshes::L
           i = next->second;
       }
       merge(corner);
-      if (!is_regular(corner))
+      // A line may bend by what images may be off.
+      if (!is_regular(corner, std::max(same_angle, 4. * meshes::image_tolerance *
+                                                     std::sqrt(lattice.area()) / shortest)))
         corners.push_back(corner);
     };
     // Holes that touch leave several fans between them; each begins at an edge that ends none.
@@ -262,6 +270,8 @@ Singularity singularity_of(const std::vector<Corner> &corners)
         result.weakest   = std::max(result.weakest, exponent);
         result.strongest = std::min(result.strongest, exponent);
       }
+      else
+        result.next = std::min(result.next, exponent);
   }
   return result;
 }

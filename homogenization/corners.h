@@ -44,11 +44,12 @@ std::vector<Corner> corners_of(const meshes::TriangleMesh &mesh, const meshes::L
 /// Computation of Singular Solutions in Elliptic Problems and Elasticity, 1987, chapter 2.
 std::vector<double> exponents_of(const Corner &corner);
 
-/// The smallest and the largest exponent below 1 of all corners of a cell.
+/// The smallest and the largest exponent below 1 of all corners of a cell, and the smallest above 1.
 struct Singularity
 {
   bool exists      = false;
   double strongest = 1., weakest = 0.; ///< meaningless where there is none
+  double next      = 2.;               ///< 2 where there is none below
 };
 
 /// Corners that are alike are solved once.

@@ -256,8 +256,9 @@ double Cloth::restore_angular_momentum(const Eigen::RowVector3d &before, const d
     damping += term->mass_damping();
   const Eigen::RowVector3d missing =
     (before + h * torque - angular_momentum()) / (1. + h * damping);
+  const Eigen::RowVector3d old = angular_momentum();
   add_spin(m, x, spin_of(m, x, missing), v);
-  return missing.norm();
+  return (angular_momentum() - old).norm();
 }
 
 StepReport Cloth::step(const double h)

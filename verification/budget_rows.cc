@@ -146,7 +146,8 @@ void judge_level(const Rows &rows, const std::array<std::string, 4> &level,
                         value, "<= " + csv_number(limit)});
   };
   at_most("misfit",
-          "their sum is the measured error vertex by vertex (|sum - measured| / |measured|)", 0.25);
+          "their sum is the measured error vertex by vertex (|sum - measured| / |measured|)",
+          strain <= 0.0201 ? 0.1 : 0.25);
   at_most("solver", "what the solvers leave undone, over the measured error", 0.01);
   at_most("resolution",
           "the homogenized sheet that counts as resolved is (change from a mesh half as fine, "

@@ -48,8 +48,8 @@ std::vector<std::vector<std::string>> budget_rows(const std::string &cell, const
 /// Judges, for every cell and load among the rows of strain.csv and at the levels nearest to 1 % and 10 %:
 /// - effectivity within [0.8, 1.25]; INCONCLUSIVE where the reference was not reached or a part not found; where the total is
 ///   zero to round-off (below 1e-10 strain x cell side), whether the sum is as well
-/// - misfit at most 0.25 of the total, as far as the effectivity may be from 1: the mean length alone would not see
-///   a sum that points elsewhere
+/// - misfit at most 0.1 of the total up to 2 % strain, where the parts are links of a chain, and 0.25 beyond, as far as the
+///   effectivity may be from 1: the mean length alone would not see a sum that points elsewhere
 /// - part 7 at most 1 % of the total
 /// - `resolution` at most 0.1 of the total: the homogenized sheet that counts as resolved is, and what it lacks takes at most
 ///   half of what the effectivity may be off

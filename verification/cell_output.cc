@@ -295,7 +295,9 @@ ordered_json homogenize_json(const UnitCell &cell, const AssessedCell &assessed,
 AssessedCell assess(const UnitCell &cell, const homogenization::HomogenizationOptions &options,
                     const unsigned long max_dofs_of_estimate, const MPI_Comm communicator)
 {
-  AssessedCell assessed{homogenization::homogenize(cell, options, communicator), options, {}, {}};
+  AssessedCell assessed;
+  assessed.result  = homogenization::homogenize(cell, options, communicator);
+  assessed.options = options;
   homogenization::HomogenizationOptions finer = options;
   finer.order                                 = 2;
   ++finer.refine;

@@ -79,17 +79,24 @@ Verdict is_laminate(const UnitCell &cell, const std::vector<RefinementLadder> &l
     distance, distance <= closed_form_limit, "<= 1e-9");
 }
 
-Verdict changes_with_the_mesh(const std::vector<RefinementLadder> &ladders)
+Verdict changes_with_the_mesh(const std::vector<RefinementLadder> &ladders,
+                              const Singularity &singularity)
 {
   double change = 0.;
   for (const RefinementLadder &ladder : ladders)
     for (const RefinedCell &level : ladder.levels)
       change =
         larger(change, energy_difference(level.stiffness, ladders.back().levels.back().stiffness));
-  return within(
+  Verdict verdict = within(
     "C^H changes with mesh and order as it must at corners (largest relative difference of an "
     "energy)",
     change, change > stiffness_floor, "> 1e-10");
+  // Corners that are a rounding of coordinates, or between phases that hardly differ, change it by less.
+  constexpr double weak = 1e-4;
+  if (verdict.outcome == Outcome::fail && std::isfinite(change) &&
+      !(singularity.exists && singularity.strongest < 1. - weak))
+    verdict.outcome = Outcome::inconclusive;
+  return verdict;
 }
 
 /// Whether the limits of both orders are one value, by their error bars.
@@ -123,7 +130,7 @@ OrderLimit order_of_energy(const Singularity &singularity, const unsigned int or
   if (!singularity.exists) // weaker than any strain: an exponent between 1 and 2 at most
     return {2. - order_tolerance, highest + order_tolerance};
   return {2. * singularity.strongest - order_tolerance,
-          (order == 1 ? highest : 2. * singularity.weakest) + order_tolerance};
+          std::min(highest, 2. * singularity.next) + order_tolerance};
 }
 
 void judge_refinements(const UnitCell &cell, const std::vector<RefinementLadder> &ladders,
@@ -136,9 +143,9 @@ void judge_refinements(const UnitCell &cell, const std::vector<RefinementLadder>
     homogenization::corners_of(cell.mesh, cell.lattice, cell.stiffness_of_phase());
   const bool has_corners = !corners.empty();
   result.verdicts.push_back(nested(ladders));
-  result.verdicts.push_back(has_corners ? changes_with_the_mesh(ladders)
-                                        : is_laminate(cell, ladders));
   const Singularity singularity = homogenization::singularity_of(corners);
+  result.verdicts.push_back(has_corners ? changes_with_the_mesh(ladders, singularity)
+                                        : is_laminate(cell, ladders));
   const std::string exponents =
     singularity.exists ? "the energy converges with twice the exponents of the corners: from 2 x " +
                            number(singularity.strongest) + " to 2 x " + number(singularity.weakest)

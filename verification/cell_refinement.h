@@ -6,8 +6,9 @@
 //
 // How far an observed order may be from that: a sum of powers of h shows orders between those of its parts. P1
 // adds the h^2 of the smooth part, which no ladder tells from h^1.5 (the order of such a sum changes by less than
-// what counts as settled): 2 lambda_min to 2. P2's own h^4 stands far off: 2 lambda_min to 2 lambda_max of the
-// exponents below 1. Tolerance 0.1 at both ends.
+// what counts as settled): 2 lambda_min to 2. P2's own h^4 stands far off, but the corners have exponents above 1 too, the
+// weak ones of a polygon that stands for a circle more of them than below: 2 lambda_min to twice the smallest above 1.
+// Tolerance 0.1 at both ends.
 #pragma once
 
 #include "homogenization/corners.h"

@@ -68,8 +68,17 @@ Verdict is_narrower(const Series &adaptive, const Series &uniform)
   for (const ConvergenceLevel &level : adaptive.levels)
     if (level.n_dofs <= finest.n_dofs)
       verdict.value = *level.error / *finest.error; // the last one is the largest such mesh
-  // True in the limit: before the corners show, halving every triangle may be as good.
-  verdict.outcome = verdict.value < 1. ? Outcome::pass : Outcome::inconclusive;
+  // Before the corners show, halving every triangle may be as good: the uniform width then falls with nearly the order
+  // of the elements.
+  const ConvergenceLevel &before = uniform.levels[uniform.levels.size() - 2];
+  const double order_of_uniform =
+    2. * std::log(*before.error / *finest.error) /
+    std::log(static_cast<double>(finest.n_dofs) / static_cast<double>(before.n_dofs));
+  verdict.outcome = verdict.value < 1.                             ? Outcome::pass
+                    : order_of_uniform > 2. * adaptive.order - 0.4 ? Outcome::inconclusive
+                                                                   : Outcome::fail;
+  if (std::isnan(verdict.value))
+    verdict.outcome = Outcome::inconclusive;
   return verdict;
 }
 

@@ -109,7 +109,15 @@ private:
   {
     std::filesystem::create_directories(options.output);
     nlohmann::ordered_json inputs;
-    inputs["quick"] = options.quick;
+    const ConvergenceSizes sizes    = convergence_sizes(options.quick);
+    inputs["refinements_p1"]        = sizes.refinements_p1;
+    inputs["refinements_p2"]        = sizes.refinements_p2;
+    inputs["adaptive_dofs"]         = sizes.adaptive_dofs;
+    inputs["cells_per_sheet"]       = sizes.cells_per_sheet;
+    inputs["cells_of_coarse_study"] = sizes.cells_of_coarse_study;
+    inputs["coarse_per_cell"]       = sizes.coarse_per_cell;
+    inputs["strains"]               = sizes.strains;
+    inputs["time_steps"]            = sizes.time_steps;
     for (const UnitCell &cell : cells)
       inputs["cells"][cell.name] = fingerprint(cell);
     check_inputs_file(options.output, inputs, options.resume, "converge.csv");

@@ -22,23 +22,19 @@ inline std::string with_bar(const double value, const double bar)
   }
   constexpr int most_decimals = 15;
   int decimals = bar > 0. ? -static_cast<int>(std::floor(std::log10(bar))) : most_decimals;
-  decimals     = std::min(std::max(decimals, 0), most_decimals);
+  decimals     = std::min(decimals, most_decimals); // below zero: of tens, hundreds, ...
   while (true)
   {
     const double per_unit = std::pow(10., decimals);
     const double printed  = std::round(value * per_unit) / per_unit;
-    double units          = std::ceil((bar + std::abs(value - printed)) * per_unit);
-    if (units > 9. && decimals > 0)
+    const double units    = std::ceil((bar + std::abs(value - printed)) * per_unit);
+    if (units > 9.)
     {
       --decimals;
       continue;
     }
-    if (units > 9.)
-    {
-      const double place = std::pow(10., std::floor(std::log10(units)));
-      units              = std::ceil(units / place) * place;
-    }
-    std::snprintf(text, sizeof(text), "%.*f +- %.1g", decimals, printed, units / per_unit);
+    std::snprintf(text, sizeof(text), "%.*f +- %.1g", std::max(decimals, 0), printed,
+                  units / per_unit);
     return text;
   }
 }

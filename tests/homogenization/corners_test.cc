@@ -62,6 +62,33 @@ TEST(exact_corners, a_stiff_and_a_soft_inclusion_tend_to_a_clamped_and_to_a_free
   EXPECT_GT(exponents_of(quarter(1. + 1e-4))[0], 0.999);
 }
 
+TEST(exact_corners, a_stiff_square_in_a_soft_plane_has_the_roots_of_its_determinant)
+{
+  // Zeros of the 8 x 8 determinant of Muskhelishvili's potentials in both sectors, plane stress, nu = 0.3, E 100 : 1.
+  const Corner corner = {{{0., 0.5 * M_PI, tests::isotropic_stiffness(100., 0.3)},
+                          {0.5 * M_PI, 2. * M_PI, tests::isotropic_stiffness(1., 0.3)}},
+                         true};
+  const auto found    = exponents_of(corner);
+  ASSERT_GE(found.size(), 3u);
+  EXPECT_NEAR(found[0], 0.632, 1e-3);
+  EXPECT_NEAR(found[1], 0.749, 1e-3);
+  EXPECT_NEAR(found[2], 1.200, 1e-3);
+  EXPECT_NEAR(singularity_of({corner}).next, 1.200, 1e-3);
+}
+
+TEST(exact_corners, an_interface_that_bends_by_what_images_may_be_off_is_straight)
+{
+  // Vertices of the middle of stripes go up and down; an angle of 1e-4 is a corner, what a part of 1e-8 of the side makes none.
+  for (const auto &[shift, has_corners] : {std::pair{1e-8, false}, std::pair{1e-4, true}})
+  {
+    tests::BracketCell cell = tests::stripes(4, 4, 10.);
+    for (int v = 0; v < cell.mesh.n_vertices(); ++v)
+      if (std::abs(cell.mesh.vertices(v, 1) - 0.5) < 1e-9)
+        cell.mesh.vertices(v, 1) += shift * std::cos(2. * M_PI * cell.mesh.vertices(v, 0));
+    EXPECT_EQ(!corners_of(cell).empty(), has_corners) << shift;
+  }
+}
+
 TEST(invariant_corners, turning_a_corner_or_its_units_changes_no_exponent)
 {
   Corner corner     = quarter(30.);
