@@ -47,7 +47,7 @@ bool is_same(const Eigen::Matrix3d &a, const Eigen::Matrix3d &b)
 /// @param tolerance of a straight angle
 bool is_regular(const Corner &corner, const double tolerance)
 {
-  const auto is_half = [](const Sector &sector)
+  const auto is_half = [&](const Sector &sector)
   { return std::abs(sector.end - sector.begin - M_PI) < tolerance; };
   const std::vector<Sector> &sectors = corner.sectors;
   if (sectors.size() == 1)
