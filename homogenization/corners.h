@@ -49,7 +49,7 @@ struct Singularity
 {
   bool exists      = false;
   double strongest = 1., weakest = 0.; ///< meaningless where there is none
-  double next      = 2.;               ///< 2 where there is none below
+  double next = 2.;                    ///< 2 where there is none below
 };
 
 /// Corners that are alike are solved once.

@@ -75,9 +75,9 @@ double bound_violation(const SolvedCell &found)
 StressAnswer against_factorized(const UnitCell &cell)
 {
   const SolvedCell found = solved(cell);
-  return {larger(energy_difference(found.stiffness, factorized_stiffness(cell)),
-                   bound_violation(found)),
-          found.stiffness};
+  return {
+    larger(energy_difference(found.stiffness, factorized_stiffness(cell)), bound_violation(found)),
+    found.stiffness};
 }
 
 /// Layers stacked along axis 2, half of the cell each.
@@ -85,8 +85,8 @@ StressAnswer against_laminate(const UnitCell &cell, const unsigned int order)
 {
   const SolvedCell found = solved(cell, order);
   return {larger(energy_difference(found.stiffness,
-                                     laminate_stiffness(cell.stiffness_of_phase(), {0.5, 0.5})),
-                   bound_violation(found)),
+                                   laminate_stiffness(cell.stiffness_of_phase(), {0.5, 0.5})),
+                 bound_violation(found)),
           found.stiffness};
 }
 
