@@ -2,8 +2,10 @@
 #include "verification/cell_refinement.h"
 
 #include "homogenization/laminate.h"
+#include "verification/algebraic_limit.h"
 #include "verification/energy_order.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdio>
@@ -52,7 +54,7 @@ Series series_of(const RefinementLadder &ladder, const std::string &quantity,
 }
 
 /// Largest violation of the Loewner order from level to level.
-Verdict nested(const std::vector<RefinementLadder> &ladders)
+Verdict nested(const std::vector<RefinementLadder> &ladders, const double round_off)
 {
   double violation = 0.;
   for (const RefinementLadder &ladder : ladders)
@@ -62,10 +64,12 @@ Verdict nested(const std::vector<RefinementLadder> &ladders)
   return within(
     "C^H falls from level to level in the Loewner order: P1 and P2 (largest relative rise of an "
     "energy)",
-    violation, violation <= stiffness_floor, "<= 1e-10");
+    violation, violation <= std::max(stiffness_floor, round_off),
+    "<= " + number(std::max(stiffness_floor, round_off)));
 }
 
-Verdict is_laminate(const UnitCell &cell, const std::vector<RefinementLadder> &ladders)
+Verdict is_laminate(const UnitCell &cell, const std::vector<RefinementLadder> &ladders,
+                    const double round_off)
 {
   const Eigen::Matrix3d exact =
     homogenization::laminate_stiffness(cell.mesh, cell.lattice, cell.stiffness_of_phase());
@@ -76,11 +80,12 @@ Verdict is_laminate(const UnitCell &cell, const std::vector<RefinementLadder> &l
   return within(
     "C^H is the closed form of the laminate on every level and for both orders; the cell has no "
     "corners (largest relative difference of an energy)",
-    distance, distance <= closed_form_limit, "<= 1e-9");
+    distance, distance <= std::max(closed_form_limit, round_off),
+    "<= " + number(std::max(closed_form_limit, round_off)));
 }
 
 Verdict changes_with_the_mesh(const std::vector<RefinementLadder> &ladders,
-                              const Singularity &singularity)
+                              const Singularity &singularity, const double round_off)
 {
   double change = 0.;
   for (const RefinementLadder &ladder : ladders)
@@ -90,7 +95,8 @@ Verdict changes_with_the_mesh(const std::vector<RefinementLadder> &ladders,
   Verdict verdict = within(
     "C^H changes with mesh and order as it must at corners (largest relative difference of an "
     "energy)",
-    change, change > stiffness_floor, "> 1e-10");
+    change, change > std::max(stiffness_floor, round_off),
+    "> " + number(std::max(stiffness_floor, round_off)));
   // Corners that are a rounding of coordinates, or between phases that hardly differ, change it by less.
   constexpr double weak = 1e-4;
   if (verdict.outcome == Outcome::fail && std::isfinite(change) &&
@@ -141,11 +147,17 @@ void judge_refinements(const UnitCell &cell, const std::vector<RefinementLadder>
       return; // there is nothing to hold it against
   const auto corners =
     homogenization::corners_of(cell.mesh, cell.lattice, cell.stiffness_of_phase());
-  const bool has_corners = !corners.empty();
-  result.verdicts.push_back(nested(ladders));
+  const bool has_corners  = !corners.empty();
+  unsigned long most_dofs = 0;
+  for (const RefinementLadder &ladder : ladders)
+    for (const RefinedCell &level : ladder.levels)
+      most_dofs = std::max(most_dofs, level.n_dofs);
+  // Two degrees of freedom per node, as many nodes along a side as rows.
+  const double round_off = algebraic_limit(cell, std::sqrt(0.5 * static_cast<double>(most_dofs)));
+  result.verdicts.push_back(nested(ladders, round_off));
   const Singularity singularity = homogenization::singularity_of(corners);
-  result.verdicts.push_back(has_corners ? changes_with_the_mesh(ladders, singularity)
-                                        : is_laminate(cell, ladders));
+  result.verdicts.push_back(has_corners ? changes_with_the_mesh(ladders, singularity, round_off)
+                                        : is_laminate(cell, ladders, round_off));
   const std::string exponents =
     singularity.exists ? "the energy converges with twice the exponents of the corners: from 2 x " +
                            number(singularity.strongest) + " to 2 x " + number(singularity.weakest)

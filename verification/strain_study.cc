@@ -5,13 +5,12 @@
 #include "verification/budget_study.h"
 #include "verification/cell_study.h"
 #include "verification/fine_reference.h"
-#include "verification/lightweight_cloth.h"
 #include "verification/on_root.h"
 #include "verification/progress.h"
 #include "verification/provenance.h"
 #include "verification/reference_uncertainty.h"
 #include "verification/run_time.h"
-#include "verification/sheet_fields.h"
+#include "verification/strain_comparison.h"
 #include "verification/strain_output.h"
 #include "verification/strain_verdicts.h"
 #include "verification/study_description.h"
@@ -23,7 +22,6 @@
 #include <chrono>
 #include <cmath>
 #include <filesystem>
-#include <limits>
 
 #include <sys/resource.h>
 
@@ -85,7 +83,7 @@ private:
   {
     progress.begin(cell.name + ": homogenization", true);
     const AssessedCell assessed = assess_for_study(cell, communicator, verdicts);
-    folder                      = options.output + "/" + cell.name;
+    const std::string folder    = options.output + "/" + cell.name;
     on_root(communicator,
             [&]()
             {
@@ -111,14 +109,8 @@ private:
     }
     of_cell.reset();
     of_sheet.reset(); // the run times have references of their own
-    if (full && options.run_time && has_biot())
+    if (full && options.run_time && has_biot(options))
       study_run_time(cell, homogenized, {assessed.result.voigt, assessed.result.reuss}, *full);
-  }
-
-  bool has_biot() const
-  {
-    return std::find(options.references.begin(), options.references.end(), "biot") !=
-           options.references.end();
   }
 
   /// Every way to the positions under one load, in which the coarse mesh matters most, at the pictured strain.
@@ -130,7 +122,7 @@ private:
       {
         const Load load(name);
         RunTimeOptions of_run;
-        of_run.strain = pictured_strain();
+        of_run.strain = pictured_strain(options);
         const std::vector<std::vector<std::string>> none;
         const std::string fault = run_time_study(
           cell, homogenized, bounds, sheet, load, of_run,
@@ -296,9 +288,9 @@ private:
             {
               try
               {
-                solved =
-                  compare(level, sheet, load, fine, reference.n_dofs(), cloth,
-                          {{}, 0., std::sqrt(cell.lattice.area()), uncertainty, 0., fine.seconds});
+                solved    = compare_methods(options, level,
+                                            {sheet, fine, reference.n_dofs(), n_ranks, uncertainty},
+                                            cloth, load, *output);
                 is_solved = 1;
               }
               catch (const meshes::NotConverged &failure)
@@ -320,63 +312,6 @@ private:
               });
     }
     return true;
-  }
-
-  /// @param errors what all methods have in common
-  UpsampledLevel compare(const StrainLevel &level, const meshes::Sheet &sheet, const Load &load,
-                         const ReferenceStep &fine, const unsigned long n_dofs,
-                         LightweightCloth &cloth, StrainErrors errors)
-  {
-    const CoarseStep coarse   = cloth.solve(level.law, level.strain);
-    const auto upsampled_with = [&](const std::string &name)
-    {
-      UpsampledSheet upsampled = cloth.upsample(Method(name), level.law, coarse.positions);
-      if (!upsampled.positions.allFinite())
-        throw meshes::NotConverged(
-          level.cell + ", " + level.load + ", " + name + ": positions that are not finite", {});
-      return upsampled;
-    };
-    const auto distance_of = [&](const meshes::Points &positions)
-    { return (positions - fine.positions).rowwise().norm(); };
-    const UpsampledSheet affine = upsampled_with("affine"), localized = upsampled_with("localized");
-    errors.fluctuation = distance_of(affine.positions).mean();
-    for (const std::string &name : options.methods)
-    {
-      if (!Method(name).has_meaning(level.law) || output->has_errors(level, name))
-        continue;
-      const UpsampledSheet upsampled = name == "affine"      ? affine
-                                       : name == "localized" ? localized
-                                                             : upsampled_with(name);
-      errors.distance                = distance_of(upsampled.positions);
-      errors.seconds                 = coarse.seconds + upsampled.seconds;
-      // The row comes last: where it is there, so is all that belongs to it.
-      if (name == "localized")
-      {
-        if (is_pictured(load, level.law, level.strain))
-          write_sheet_fields(folder + "/fields-" + load.name + ".h5", sheet, cloth.coarse,
-                             {load.name, level.strain, name_of(level.law), name, fine.positions,
-                              upsampled.positions, coarse.positions});
-        output->write_step(level, {coarse.seconds, upsampled.seconds, fine.seconds,
-                                   coarse.iterations, fine.n_newton, n_dofs, n_ranks});
-      }
-      output->write_errors(level, name, sheet, cloth.coarse.n_triangles(), errors);
-    }
-    return {coarse.positions, localized.positions};
-  }
-
-  /// The level nearest to 10 %.
-  double pictured_strain() const
-  {
-    return *std::min_element(options.strains.begin(), options.strains.end(),
-                             [](double a, double b)
-                             { return std::abs(std::log(a / 0.1)) < std::abs(std::log(b / 0.1)); });
-  }
-
-  /// One picture per sheet load: at the level nearest to 10 %, against biot if it is there.
-  bool is_pictured(const Load &load, const Law law, const double strain) const
-  {
-    return !load.is_periodic() && strain == pictured_strain() &&
-           (has_biot() ? law == Law::biot : name_of(law) == options.references.front());
   }
 
   /// A remark on a level, for the terminal and the report.
@@ -427,7 +362,6 @@ private:
   std::vector<UnitCell> cells;
   std::unique_ptr<StrainOutput> output; ///< first rank
   std::unique_ptr<BudgetStudy> budget;  ///< none where it is left out
-  std::string folder;                   ///< of the present cell
   std::vector<Verdict> verdicts;
   double largest_residual = 0.;
 };

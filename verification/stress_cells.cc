@@ -253,18 +253,6 @@ UnitCell with_contrast(const UnitCell &cell, const double contrast)
   return other;
 }
 
-double contrast_of(const UnitCell &cell)
-{
-  double least = std::numeric_limits<double>::infinity(), most = 0.;
-  for (const Eigen::Matrix3d &c : cell.stiffness_of_phase())
-  {
-    const Eigen::Vector3d values = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(c).eigenvalues();
-    least                        = std::min(least, values(0));
-    most                         = std::max(most, values(2));
-  }
-  return most / least;
-}
-
 void refuse_unsound(const UnitCell &cell)
 {
   std::vector<std::string> faults = meshes::faults_of(cell.mesh, "cell");

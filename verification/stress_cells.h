@@ -5,6 +5,7 @@
 
 #include "homogenization/laminate.h"
 #include "homogenization/unit_cell.h"
+#include "verification/algebraic_limit.h"
 #include "verification/energy_order.h"
 
 #include <Eigen/Core>
@@ -70,9 +71,6 @@ UnitCell with_contrast(const UnitCell &cell, double contrast);
 
 /// Whether two phases differ in Young's modulus.
 bool has_contrast(const UnitCell &cell);
-
-/// Largest over smallest eigenvalue of the stiffness of all phases.
-double contrast_of(const UnitCell &cell);
 
 /// What a cell file must fulfil, of a cell made in memory.
 /// @throws BadInput with the faults of mesh, phases and periodicity

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: MIT
+// What a strain study compares at one level: every method against the resolved sheet, vertex by vertex.
+#pragma once
+
+#include "meshes/sheet.h"
+#include "verification/budget_study.h"
+#include "verification/fine_reference.h"
+#include "verification/lightweight_cloth.h"
+#include "verification/strain_output.h"
+
+namespace homespun::verification
+{
+/// The resolved sheet at one level.
+struct ResolvedLevel
+{
+  const meshes::Sheet &sheet;
+  const ReferenceStep &fine;
+  unsigned long n_dofs;
+  unsigned int n_ranks;
+  double uncertainty; ///< of its positions, mean over the vertices [m]
+};
+
+/// Whether biot is among the references.
+bool has_biot(const StrainStudyOptions &options);
+
+/// The level nearest to 10 %: it is pictured, and its run times are measured.
+double pictured_strain(const StrainStudyOptions &options);
+
+/// Moves the coarse cloth to a level, up-samples it by every method, and writes the errors whose row is not there,
+/// the times, and the picture if this is the level for one. First rank.
+/// @return the coarse cloth, and the fine positions of `localized`
+/// @throws NotConverged where the coarse cloth finds no equilibrium, or positions are not finite
+UpsampledLevel compare_methods(const StrainStudyOptions &options, const StrainLevel &level,
+                               const ResolvedLevel &resolved, LightweightCloth &cloth,
+                               const Load &load, StrainOutput &output);
+} // namespace homespun::verification
