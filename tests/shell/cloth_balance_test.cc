@@ -32,6 +32,19 @@ Vectors spinning(const Vectors &positions, const Eigen::VectorXd &masses,
     v.row(i) = omega.cross(positions.row(i) - centre);
   return v;
 }
+
+/// Two states of a sheet that lie apart by random displacements, and displacements of zero.
+struct CrumpledStates
+{
+  Vectors before, x, zero;
+};
+
+CrumpledStates two_crumpled_states(const meshes::ClothMesh &mesh, std::mt19937 &generator)
+{
+  const int n          = mesh.n_vertices();
+  const Vectors before = mesh.positions + 0.01 * random_matrix<Vectors>(generator, n, 3);
+  return {before, before + 0.01 * random_matrix<Vectors>(generator, n, 3), Vectors::Zero(n, 3)};
+}
 } // namespace
 
 TEST(invariant_cloth, any_rigid_motion_has_no_force)
@@ -51,11 +64,8 @@ TEST(invariant_cloth, any_rigid_motion_has_no_force)
 TEST(invariant_cloth, forces_of_membrane_viscosity_and_bending_sum_to_zero_and_have_no_torque)
 {
   const meshes::ClothMesh mesh = lying_sheet(8);
-  const int n                  = mesh.n_vertices();
   std::mt19937 generator(3);
-  const Vectors before = mesh.positions + 0.01 * random_matrix<Vectors>(generator, n, 3),
-                x      = before + 0.01 * random_matrix<Vectors>(generator, n, 3),
-                zero   = Vectors::Zero(n, 3);
+  const auto [before, x, zero] = two_crumpled_states(mesh, generator);
   std::vector<std::unique_ptr<Term>> terms;
   terms.push_back(membrane_term(mesh, {anisotropic()}));
   terms.push_back(membrane_term(mesh, {anisotropic()}, 0.01));
@@ -76,14 +86,11 @@ TEST(invariant_cloth, forces_of_membrane_viscosity_and_bending_sum_to_zero_and_h
 TEST(exact_cloth, viscosity_alone_is_what_it_adds_to_the_membrane)
 {
   const meshes::ClothMesh mesh = lying_sheet(5);
-  const int n                  = mesh.n_vertices();
   std::mt19937 generator(4);
-  const Vectors before = mesh.positions + 0.01 * random_matrix<Vectors>(generator, n, 3),
-                x      = before + 0.01 * random_matrix<Vectors>(generator, n, 3),
-                zero   = Vectors::Zero(n, 3);
-  const auto elastic   = membrane_term(mesh, {anisotropic()}),
-             both      = membrane_term(mesh, {anisotropic()}, 0.02),
-             alone     = viscosity_term(mesh, {anisotropic()}, 0.02);
+  const auto [before, x, zero] = two_crumpled_states(mesh, generator);
+  const auto elastic           = membrane_term(mesh, {anisotropic()}),
+             both              = membrane_term(mesh, {anisotropic()}, 0.02),
+             alone             = viscosity_term(mesh, {anisotropic()}, 0.02);
   EXPECT_EQ(gradient_of(*alone, x).norm(), 0.) << "before the first step";
   for (Term *const term : {elastic.get(), both.get(), alone.get()})
     term->begin_step({before, zero, 0., 0.005});
@@ -91,7 +98,7 @@ TEST(exact_cloth, viscosity_alone_is_what_it_adds_to_the_membrane)
   EXPECT_LT((gradient_of(*alone, x) - expected).norm(), 1e-13 * gradient_of(*both, x).norm());
   EXPECT_EQ(alone->stored_energy(x), 0.);
   const TaylorOrders orders =
-    taylor_orders(*alone, x, 0.02 * random_matrix<Vectors>(generator, n, 3));
+    taylor_orders(*alone, x, 0.02 * random_matrix<Vectors>(generator, mesh.n_vertices(), 3));
   EXPECT_NEAR(orders.gradient, 2., 0.1);
   EXPECT_NEAR(orders.hessian, 3., 0.1);
   // At rest nothing is viscous: the strain is where it began.
