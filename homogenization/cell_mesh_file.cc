@@ -1,45 +1,145 @@
 // SPDX-License-Identifier: MIT
 #include "homogenization/cell_mesh_file.h"
 
+#include "homogenization/mesh_formats.h"
+#include "homogenization/parameter_text.h"
 #include "meshes/errors.h"
 
+#include <deal.II/base/config.h>
 #include <deal.II/base/exceptions.h>
 #include <deal.II/grid/grid_in.h>
 #include <deal.II/grid/tria.h>
 
 #include <filesystem>
-#include <fstream>
 #include <sstream>
 
 namespace homespun::homogenization
 {
 namespace
 {
-/// Names of the two-dimensional physical groups, from the section $PhysicalNames of a .msh file.
-std::map<std::string, int> physical_names(const std::string &file)
+constexpr const char *known_formats =
+  "Gmsh .msh 2 or 4, .vtk, .vtu, .inp, .ucd or .unv with triangles or quadrilaterals";
+
+/// Formats that are left to deal.II, which renumbers nothing but quadrilaterals.
+RawMesh read_by_dealii(const std::string &file)
 {
-  std::map<std::string, int> number_of_name;
-  std::ifstream input(file);
-  std::string line;
-  while (std::getline(input, line))
-    if (line.rfind("$PhysicalNames", 0) == 0)
+  dealii::Triangulation<2> triangulation;
+  try
+  {
+    dealii::GridIn<2> reader(triangulation);
+    reader.read(file);
+  }
+  catch (const std::exception &exception)
+  {
+    throw meshes::BadInput(unreadable(file) + reason_of(exception) + "; expected a whole file, " +
+                           known_formats + ": write it again in one of these");
+  }
+  RawMesh raw;
+  for (const auto &point : triangulation.get_vertices())
+    raw.points.emplace_back(point[0], point[1], 0.);
+  for (const auto &cell : triangulation.active_cell_iterators())
+  {
+    const auto corner = [&](const unsigned int k)
+    { return static_cast<int>(cell->vertex_index(k)); };
+    const bool is_triangle = cell->n_vertices() == 3;
+    RawMesh::Cell its{
+      {corner(0), corner(1), corner(2), 0}, 3, static_cast<int>(cell->material_id())};
+    if (!is_triangle) // deal.II numbers a quadrilateral lexicographically
+      its.corners = {corner(0), corner(1), corner(3), corner(2)}, its.n_corners = 4;
+    raw.cells.push_back(its);
+  }
+  return raw;
+}
+
+RawMesh read_exodus(const std::string &file)
+{
+#ifdef DEAL_II_TRILINOS_WITH_SEACAS
+  return read_by_dealii(file);
+#else
+  throw meshes::BadInput(
+    unreadable(file) +
+    "it is an Exodus file, and the deal.II of this program is built without SEACAS, which reads "
+    "them; expected " +
+    known_formats + ": convert it, in ParaView by Save Data as .vtu");
+#endif
+}
+
+RawMesh read_any(const std::string &file)
+{
+  const std::string ending = lower(std::filesystem::path(file).extension().string());
+  if (ending == ".vtu")
+    return read_vtu(file);
+  if (ending == ".e" || ending == ".ex2" || ending == ".exo" || ending == ".exodus")
+    return read_exodus(file);
+  if (ending != ".msh" && ending != ".vtk" && ending != ".unv" && ending != ".ucd" &&
+      ending != ".inp")
+    return read_by_dealii(file);
+  MeshText text(file);
+  if (ending == ".msh")
+    return read_msh(text);
+  if (ending == ".vtk")
+    return read_vtk(text);
+  if (ending == ".unv")
+    return read_unv(text);
+  // Both AVS and Abaqus write .inp: Abaqus' keywords and comments begin with stars.
+  const std::size_t first = text.content.find_first_not_of(" \t\r\n");
+  const bool is_abaqus    = first != std::string::npos && text.content[first] == '*';
+  return is_abaqus ? read_abaqus(text) : read_ucd(text);
+}
+
+void require_flat(const std::string &file, const RawMesh &raw)
+{
+  Eigen::Vector3d low = raw.points[0], high = raw.points[0];
+  for (const RawMesh::Cell &cell : raw.cells)
+    for (int k = 0; k < cell.n_corners; ++k)
     {
-      int count = 0;
-      input >> count;
-      for (int k = 0; k < count && input; ++k)
-      {
-        int dimension = 0, number = 0;
-        input >> dimension >> number;
-        std::getline(input, line);
-        const std::size_t first = line.find('"'), last = line.rfind('"');
-        if (input && dimension == 2 && first != std::string::npos && last > first)
-          number_of_name[line.substr(first + 1, last - first - 1)] = number;
-      }
-      break;
+      const Eigen::Vector3d &x =
+        raw.points[static_cast<std::size_t>(cell.corners[static_cast<std::size_t>(k)])];
+      low  = low.cwiseMin(x);
+      high = high.cwiseMax(x);
     }
-    else if (line.rfind("$Nodes", 0) == 0)
-      break;
-  return number_of_name;
+  // Rounded to eight digits, as old tools write.
+  if (high(2) - low(2) > 1e-7 * (high - low).norm())
+  {
+    std::ostringstream text;
+    text
+      << file << ": the mesh is not flat: z reaches from " << low(2) << " to " << high(2)
+      << " mesh units; expected a cell in the plane of x and y: turn it into that plane, or project it";
+    throw meshes::BadInput(text.str());
+  }
+}
+
+double area(const RawMesh &raw, const int a, const int b, const int c)
+{
+  const auto at = [&](const int k) { return raw.points[static_cast<std::size_t>(k)].head<2>(); };
+  const Eigen::Vector2d u = at(b) - at(a), v = at(c) - at(a);
+  return 0.5 * (u(0) * v(1) - u(1) * v(0));
+}
+
+/// The triangles of an element, counter-clockwise.
+std::vector<std::array<int, 3>> triangles_of(const RawMesh &raw, const RawMesh::Cell &cell)
+{
+  auto [a, b, c, d] = cell.corners;
+  if (cell.n_corners == 3)
+    return area(raw, a, b, c) < 0. ? std::vector<std::array<int, 3>>{{a, c, b}}
+                                   : std::vector<std::array<int, 3>>{{a, b, c}};
+  if (area(raw, a, b, c) + area(raw, a, c, d) < 0.)
+    std::swap(b, d);
+  const auto smaller = [&](const std::array<int, 3> &one, const std::array<int, 3> &two)
+  { return std::min(area(raw, one[0], one[1], one[2]), area(raw, two[0], two[1], two[2])); };
+  const auto length = [&](const int from, const int to)
+  {
+    return (raw.points[static_cast<std::size_t>(from)] - raw.points[static_cast<std::size_t>(to)])
+      .norm();
+  };
+  const std::vector<std::array<int, 3>> by_ac = {{a, b, c}, {a, c, d}},
+                                        by_bd = {{a, b, d}, {b, c, d}};
+  const bool ac_inside                        = smaller(by_ac[0], by_ac[1]) > 0.,
+             bd_inside                        = smaller(by_bd[0], by_bd[1]) > 0.;
+  if (ac_inside != bd_inside)
+    return ac_inside ? by_ac : by_bd;
+  // Equal but for round-off, as in rectangles, is equal.
+  return length(a, c) <= length(b, d) * (1. + 1e-9) ? by_ac : by_bd;
 }
 } // namespace
 
@@ -55,8 +155,8 @@ std::string reason_of(const std::exception &exception)
     else if (inside &&
              (line.empty() || line.find("Stacktrace") != std::string::npos || line[0] == '-'))
       break;
-    else if (inside)
-      reason += (reason.empty() ? "" : " ") + line.substr(line.find_first_not_of(' '));
+    else if (inside && !trimmed(line).empty())
+      reason += (reason.empty() ? "" : " ") + trimmed(line);
   }
   return reason.empty() ? "no reason given" : reason;
 }
@@ -67,52 +167,49 @@ CellMeshFile read_cell_mesh(const std::string &file)
     throw meshes::BadInput(file +
                            ": no such file; expected a mesh: mend the key `Mesh`, whose path is "
                            "relative to the .prm file");
-  CellMeshFile result;
-  dealii::Triangulation<2> triangulation;
-  try
-  {
-    dealii::GridIn<2> reader(triangulation);
-    reader.read(file);
-  }
-  catch (const std::exception &exception)
-  {
-    throw meshes::BadInput(
-      file + ": cannot be read as a mesh: " + reason_of(exception) +
-      "; expected a whole file of a format that deal.II's GridIn reads (Gmsh .msh 2 or "
-      "4, .vtk, .vtu, .inp, .ucd, .unv) with triangles or quadrilaterals: write it again");
-  }
-  if (triangulation.n_active_cells() == 0)
+  const RawMesh raw = read_any(file);
+  if (raw.cells.empty())
     throw meshes::BadInput(
       file + ": holds no triangles or quadrilaterals; expected the cell's mesh: in Gmsh, "
              "add a Physical Surface and mesh with -2");
+  require_flat(file, raw);
 
-  const auto &points         = triangulation.get_vertices();
+  CellMeshFile result;
+  result.number_of_name      = raw.number_of_name;
+  result.n_elements          = static_cast<int>(raw.cells.size());
   meshes::TriangleMesh &mesh = result.mesh;
-  mesh.vertices.resize(static_cast<Eigen::Index>(points.size()), 2);
-  for (std::size_t v = 0; v < points.size(); ++v)
-    mesh.vertices.row(static_cast<Eigen::Index>(v)) << points[v][0], points[v][1];
-  int n_triangles = 0;
-  for (const auto &cell : triangulation.active_cell_iterators())
-    n_triangles += cell->n_vertices() == 3 ? 1 : 2;
+  std::vector<int> new_index(raw.points.size(), -1);
+  for (const RawMesh::Cell &cell : raw.cells)
+    for (int k = 0; k < cell.n_corners; ++k)
+      new_index[static_cast<std::size_t>(cell.corners[static_cast<std::size_t>(k)])] = 0;
+  int n_vertices = 0;
+  for (int &index : new_index)
+    index = index < 0 ? -1 : n_vertices++;
+  mesh.vertices.resize(n_vertices, 2);
+  for (std::size_t p = 0; p < raw.points.size(); ++p)
+    if (new_index[p] >= 0)
+      mesh.vertices.row(new_index[p]) = raw.points[p].head<2>().transpose();
+
+  Eigen::Index n_triangles = 0;
+  for (const RawMesh::Cell &cell : raw.cells)
+    n_triangles += cell.n_corners - 2;
   mesh.triangles.resize(n_triangles, 3);
   mesh.material.resize(n_triangles);
-  int t = 0;
-  const auto add =
-    [&](const auto &cell, const unsigned int a, const unsigned int b, const unsigned int c)
-  {
-    mesh.material(t) = static_cast<int>(cell->material_id());
-    mesh.triangles.row(t++) << static_cast<int>(cell->vertex_index(a)),
-      static_cast<int>(cell->vertex_index(b)), static_cast<int>(cell->vertex_index(c));
-  };
-  for (const auto &cell : triangulation.active_cell_iterators())
-    if (cell->n_vertices() == 3)
-      add(cell, 0, 1, 2);
-    else // deal.II numbers a quadrilateral lexicographically
+  result.element.resize(n_triangles);
+  result.angle.resize(raw.angles.empty() ? 0 : n_triangles);
+  Eigen::Index t = 0;
+  for (std::size_t e = 0; e < raw.cells.size(); ++e)
+    for (const std::array<int, 3> &corners : triangles_of(raw, raw.cells[e]))
     {
-      add(cell, 0, 1, 3);
-      add(cell, 0, 3, 2);
+      for (int k = 0; k < 3; ++k)
+        mesh.triangles(t, k) =
+          new_index[static_cast<std::size_t>(corners[static_cast<std::size_t>(k)])];
+      mesh.material(t)  = raw.cells[e].group;
+      result.element(t) = static_cast<int>(e);
+      if (!raw.angles.empty())
+        result.angle(t) = raw.angles[e];
+      ++t;
     }
-  result.number_of_name = physical_names(file);
   return result;
 }
 } // namespace homespun::homogenization

@@ -2,6 +2,8 @@
 // Collects the faults of a mesh, so that a user mends all at once, and not a thousand of one kind.
 #pragma once
 
+#include "meshes/mesh_fault.h"
+
 #include <map>
 #include <string>
 #include <utility>
@@ -21,11 +23,11 @@ public:
 
   /// @param kind plural, completes "and 5 more ..."
   /// @param message what was found, what was expected, what to do
-  void add(const std::string &kind, const std::string &message)
+  void add(const std::string &kind, const std::string &message, const Place &place = Place())
   {
     const int n = ++count[kind];
     if (n <= 3)
-      faults.push_back(name + ": " + message);
+      faults.push_back({name + ": " + message, place});
   }
 
   bool empty() const
@@ -36,9 +38,14 @@ public:
   /// All messages, the counts at the end; the list is empty afterwards.
   std::vector<std::string> take()
   {
+    return messages_of(take_placed());
+  }
+
+  std::vector<MeshFault> take_placed()
+  {
     for (const auto &[kind, n] : count)
       if (n > 3)
-        faults.push_back(name + ": and " + std::to_string(n - 3) + " more " + kind);
+        faults.push_back({name + ": and " + std::to_string(n - 3) + " more " + kind, Place()});
     count.clear();
     return std::exchange(faults, {});
   }
@@ -46,6 +53,6 @@ public:
 private:
   std::string name;
   std::map<std::string, int> count;
-  std::vector<std::string> faults;
+  std::vector<MeshFault> faults;
 };
 } // namespace homespun::meshes

@@ -2,6 +2,7 @@
 #include "meshes/lattice.h"
 
 #include "meshes/errors.h"
+#include "meshes/mesh_fault.h"
 
 #include <Eigen/LU>
 
@@ -166,14 +167,24 @@ std::vector<std::string> periodicity_faults(const TriangleMesh &mesh, const Latt
                                             const std::string &name,
                                             const double relative_tolerance)
 {
-  std::vector<std::string> faults;
+  return messages_of(placed_periodicity_faults(mesh, lattice, name, relative_tolerance));
+}
+
+std::vector<MeshFault> placed_periodicity_faults(const TriangleMesh &mesh, const Lattice &lattice,
+                                                 const std::string &name,
+                                                 const double relative_tolerance)
+{
+  std::vector<MeshFault> faults;
+  const auto place_at = [&](const int vertex) {
+    return Place{mesh.vertices.row(vertex), -1, vertex};
+  };
   if (!lattice.vectors.allFinite() ||
       !(lattice.area() > 1e-6 * lattice.vectors.rowwise().norm().prod()))
   {
     std::ostringstream text;
     text << name << ": the lattice vectors (" << lattice.vectors.row(0) << ") and ("
          << lattice.vectors.row(1) << ") m are parallel or zero; expected two independent vectors";
-    return {text.str()};
+    return {{text.str(), Place()}};
   }
 
   const std::vector<int> loop = outline(mesh);
@@ -194,7 +205,7 @@ std::vector<std::string> periodicity_faults(const TriangleMesh &mesh, const Latt
          << lattice.vectors.row(1) << ") m span " << lattice.area()
          << " m^2; expected equal areas: mend `Lattice vectors`, or mesh exactly one cell (a hole "
             "must not cut the outline: shift the cell so that it lies inside)";
-    faults.push_back(text.str());
+    faults.push_back({text.str(), Place()});
   }
   const double covered = signed_areas(mesh).cwiseAbs().sum();
   if (covered > enclosed * (1. + 1e-9))
@@ -203,7 +214,7 @@ std::vector<std::string> periodicity_faults(const TriangleMesh &mesh, const Latt
     text
       << name << ": the triangles cover " << covered << " m^2 inside an outline of " << enclosed
       << " m^2; expected at most that: some triangles overlap, remove one of two coinciding parts";
-    faults.push_back(text.str());
+    faults.push_back({text.str(), Place()});
   }
 
   const ImageClasses classes = match_images(points, lattice, relative_tolerance);
@@ -223,7 +234,7 @@ std::vector<std::string> periodicity_faults(const TriangleMesh &mesh, const Latt
          << points.row(i) << ") m on the outline count as one; expected more than "
          << relative_tolerance * cell_size
          << " m between them, the tolerance of periodic images: merge them, or move them apart";
-    faults.push_back(text.str());
+    faults.push_back({text.str(), place_at(loop[static_cast<std::size_t>(i)])});
     break;
   }
   int unmatched = 0;
@@ -257,11 +268,12 @@ std::vector<std::string> periodicity_faults(const TriangleMesh &mesh, const Latt
       << "; expected one within " << relative_tolerance * cell_size
       << " m: mesh opposite sides alike (Gmsh: Periodic Curve {right} = {left} Translate {dx, dy, "
          "0};) or mend `Lattice vectors`";
-    faults.push_back(text.str());
+    faults.push_back({text.str(), place_at(loop[static_cast<std::size_t>(i)])});
   }
   if (unmatched > 3)
-    faults.push_back(name + ": and " + std::to_string(unmatched - 3) +
-                     " more vertices of the outline without a periodic image");
+    faults.push_back({name + ": and " + std::to_string(unmatched - 3) +
+                        " more vertices of the outline without a periodic image",
+                      Place()});
   return faults;
 }
 

@@ -28,6 +28,14 @@ std::string at(const TriangleMesh &mesh, const int vertex)
   text << '(' << mesh.vertices(vertex, 0) << ", " << mesh.vertices(vertex, 1) << ") m";
   return text.str();
 }
+
+Place place_of_triangle(const TriangleMesh &mesh, const int t)
+{
+  return {(mesh.vertices.row(mesh.triangles(t, 0)) + mesh.vertices.row(mesh.triangles(t, 1)) +
+           mesh.vertices.row(mesh.triangles(t, 2))) /
+            3.,
+          t, -1};
+}
 } // namespace
 
 Eigen::VectorXd signed_areas(const TriangleMesh &mesh)
@@ -116,6 +124,11 @@ std::vector<std::vector<int>> boundary_loops(const TriangleMesh &mesh)
 
 std::vector<std::string> faults_of(const TriangleMesh &mesh, const std::string &name)
 {
+  return messages_of(placed_faults_of(mesh, name));
+}
+
+std::vector<MeshFault> placed_faults_of(const TriangleMesh &mesh, const std::string &name)
+{
   FaultList faults(name);
   if (mesh.n_triangles() == 0)
     faults.add("empty meshes", "no triangle found; expected at least one");
@@ -142,7 +155,7 @@ std::vector<std::string> faults_of(const TriangleMesh &mesh, const std::string &
         usable = false;
       }
   if (!usable)
-    return faults.take();
+    return faults.take_placed();
 
   const Eigen::VectorXd areas = signed_areas(mesh);
   for (int t = 0; t < mesh.n_triangles(); ++t)
@@ -159,19 +172,24 @@ std::vector<std::string> faults_of(const TriangleMesh &mesh, const std::string &
     {
       text << " has area " << areas(t) << " m^2 with a longest edge of " << std::sqrt(longest)
            << " m; expected a proper triangle: merge its vertices or remesh";
-      faults.add("triangles without area", text.str());
+      faults.add("triangles without area", text.str(), place_of_triangle(mesh, t));
     }
     else if (areas(t) < 0.)
     {
       text << " is inverted (area " << areas(t)
            << " m^2); expected vertices in counter-clockwise order: reverse it, or untangle "
               "the mesh there";
-      faults.add("inverted triangles", text.str());
+      faults.add("inverted triangles", text.str(), place_of_triangle(mesh, t));
     }
   }
 
   std::map<std::array<int, 3>, int> first_with;
-  std::unordered_map<std::uint64_t, int> sharing;
+  /// Triangles at an edge: how many, how many of them from the lower vertex to the higher, the first.
+  struct Sharing
+  {
+    int n = 0, upwards = 0, first = -1;
+  };
+  std::unordered_map<std::uint64_t, Sharing> sharing;
   std::vector<char> is_used(static_cast<std::size_t>(mesh.n_vertices()), 0);
   for (int t = 0; t < mesh.n_triangles(); ++t)
   {
@@ -179,25 +197,40 @@ std::vector<std::string> faults_of(const TriangleMesh &mesh, const std::string &
     std::sort(corners.begin(), corners.end());
     const auto [place, is_new] = first_with.emplace(corners, t);
     if (!is_new)
-      faults.add("duplicate triangles", "triangle " + std::to_string(t) + " repeats triangle " +
-                                          std::to_string(place->second) +
-                                          "; expected each once: delete one");
+      faults.add("duplicate triangles",
+                 "triangle " + std::to_string(t) + " repeats triangle " +
+                   std::to_string(place->second) + "; expected each once: delete one",
+                 place_of_triangle(mesh, t));
     for (int k = 0; k < 3; ++k)
     {
       is_used[static_cast<std::size_t>(corners[static_cast<std::size_t>(k)])] = 1;
       const int from = mesh.triangles(t, k), to = mesh.triangles(t, (k + 1) % 3);
-      if (++sharing[key(std::min(from, to), std::max(from, to))] == 3)
+      Sharing &edge = sharing[key(std::min(from, to), std::max(from, to))];
+      edge.first    = edge.n == 0 ? t : edge.first;
+      edge.upwards += from < to ? 1 : 0;
+      const Place place_of_edge{0.5 * (mesh.vertices.row(from) + mesh.vertices.row(to)), t, -1};
+      const std::string its_name = "the edge between vertices " + std::to_string(from) + " and " +
+                                   std::to_string(to) + " near " + at(mesh, from);
+      if (++edge.n == 3)
         faults.add("edges with more than two triangles",
-                   "the edge between vertices " + std::to_string(from) + " and " +
-                     std::to_string(to) + " near " + at(mesh, from) +
-                     " belongs to more than two triangles; expected one or two: triangles "
-                     "overlap there");
+                   its_name + " belongs to more than two triangles; expected one or two: triangles "
+                              "overlap there",
+                   place_of_edge);
+      else if (is_new && edge.n == 2 && edge.upwards != 1)
+        faults.add("edges with both triangles on one side",
+                   its_name + " has triangles " + std::to_string(edge.first) + " and " +
+                     std::to_string(t) +
+                     " on the same side; expected one on each: the mesh folds "
+                     "over itself there, untangle it",
+                   place_of_edge);
     }
   }
   for (int v = 0; v < mesh.n_vertices(); ++v)
     if (!is_used[static_cast<std::size_t>(v)])
-      faults.add("isolated vertices", "vertex " + std::to_string(v) + " at " + at(mesh, v) +
-                                        " belongs to no triangle; expected none such: remove it");
-  return faults.take();
+      faults.add("isolated vertices",
+                 "vertex " + std::to_string(v) + " at " + at(mesh, v) +
+                   " belongs to no triangle; expected none such: remove it",
+                 {mesh.vertices.row(v), -1, v});
+  return faults.take_placed();
 }
 } // namespace homespun::meshes

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// homespun check, homogenize, cells: what concerns a cell alone.
+// homespun homogenize, cells: what concerns a cell alone.
 #include "meshes/errors.h"
 #include "verification/build_info.h"
 #include "verification/cell_study.h"
@@ -25,48 +25,6 @@ using homogenization::UnitCell;
 
 namespace
 {
-int check(const std::vector<std::string> &files)
-{
-  std::vector<std::string> faults;
-  for (const std::string &file : files)
-    try
-    {
-      const UnitCell cell = homogenization::read_unit_cell(file);
-      if (!is_root(MPI_COMM_WORLD))
-        continue;
-      const double side = std::sqrt(cell.lattice.area());
-      std::cout << file << ": sound. " << cell.mesh.n_triangles() << " triangles, "
-                << cell.mesh.n_vertices() << " vertices, cell of " << side * 100.
-                << " cm (|Y| = " << cell.lattice.area() << " m^2), lattice ("
-                << cell.lattice.vectors.row(0) << ") and (" << cell.lattice.vectors.row(1)
-                << ") m, " << cell.areal_density() << " kg/m^2\n";
-      const Eigen::VectorXd areas = meshes::signed_areas(cell.mesh);
-      for (std::size_t p = 0; p < cell.phases.size(); ++p)
-      {
-        double area = 0.;
-        for (int t = 0; t < cell.mesh.n_triangles(); ++t)
-          if (cell.mesh.material(t) == static_cast<int>(p))
-            area += areas(t);
-        const homogenization::Phase &phase = cell.phases[p];
-        std::cout << "  " << phase.name << ": " << 100. * area / cell.lattice.area()
-                  << " % of the area, E " << phase.E1;
-        if (phase.E2 != phase.E1)
-          std::cout << " and " << phase.E2;
-        std::cout << " Pa, nu " << phase.nu12 << ", thickness " << phase.thickness << " m\n";
-      }
-      const double covered = areas.sum() / cell.lattice.area();
-      if (covered < 1. - 1e-9)
-        std::cout << "  holes: " << 100. * (1. - covered) << " % of the area\n";
-    }
-    catch (const meshes::BadInput &bad)
-    {
-      faults.insert(faults.end(), bad.faults().begin(), bad.faults().end());
-    }
-  if (!faults.empty())
-    throw meshes::BadInput(faults);
-  return 0;
-}
-
 struct HomogenizeArguments
 {
   std::string file;
@@ -116,16 +74,6 @@ std::string cells_folder()
   const std::string in_sources = std::string(HOMESPUN_SOURCE_DIR) + "/meshes/cells";
   return std::filesystem::is_directory(in_sources) ? in_sources
                                                    : std::string(HOMESPUN_DATA_DIR) + "/cells";
-}
-
-void add_check_command(CLI::App &app, Action &action)
-{
-  CLI::App *command =
-    app.add_subcommand("check", "Read and validate cells; name every fault at once; solve nothing");
-  const auto files = std::make_shared<std::vector<std::string>>();
-  command->add_option("CELL.prm", *files, "Cell files")->required();
-  command->footer("Keys of a cell file:\n\n" + homogenization::unit_cell_keys());
-  command->callback([&action, files]() { action = [files]() { return check(*files); }; });
 }
 
 void add_homogenize_command(CLI::App &app, Action &action)

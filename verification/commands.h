@@ -6,6 +6,8 @@
 #include <CLI/App.hpp>
 
 #include <functional>
+#include <string>
+#include <vector>
 
 namespace homespun::verification
 {
@@ -16,7 +18,7 @@ using Action = std::function<int()>;
 /// processes and needs the cores that idle ranks would keep busy.
 using Afterwards = std::function<void()>;
 
-void add_check_command(CLI::App &app, Action &action);
+void add_check_command(CLI::App &app, Action &action, Afterwards &afterwards);
 void add_homogenize_command(CLI::App &app, Action &action);
 void add_strain_command(CLI::App &app, Action &action, Afterwards &afterwards,
                         const std::string &command_line);
@@ -34,6 +36,11 @@ void add_cells_command(CLI::App &app, Action &action);
 /// Makes report.html from folders of results, with Debian's Python.
 /// @throws BadInput where the results cannot be read or drawn
 void make_report(const std::vector<std::string> &folders, const std::string &output, bool quiet);
+
+/// Runs a script of the folder report/ with Debian's Python, on all cores.
+/// @return its exit status
+/// @throws BadInput where Python cannot be run
+int run_report_script(const std::string &name, const std::vector<std::string> &arguments);
 
 /// The folder of the shipped cells: where the sources are, or where they were installed.
 std::string cells_folder();

@@ -71,7 +71,7 @@ int run(int argc, char **argv, homespun::verification::Afterwards &afterwards)
     "converge.\n`homespun COMMAND --help` teaches a command; `mpirun -n N homespun ...` works for "
     "every command that solves.");
   Action action;
-  add_check_command(app, action);
+  add_check_command(app, action, afterwards);
   add_homogenize_command(app, action);
   add_strain_command(app, action, afterwards, command_line);
   add_drape_command(app, action, afterwards, command_line);

@@ -21,21 +21,18 @@
 
 namespace homespun::verification
 {
-void make_report(const std::vector<std::string> &folders, const std::string &output,
-                 const bool quiet)
+int run_report_script(const std::string &name, const std::vector<std::string> &arguments)
 {
-  const std::string in_sources =
-    std::string(HOMESPUN_SOURCE_DIR) + "/verification/report/report.py";
-  const std::string script       = std::filesystem::exists(in_sources)
-                                     ? in_sources
-                                     : std::string(HOMESPUN_DATA_DIR) + "/report/report.py";
+  const std::string in_sources = std::string(HOMESPUN_SOURCE_DIR) + "/verification/report/" + name;
+  const std::string script     = std::filesystem::exists(in_sources)
+                                   ? in_sources
+                                   : std::string(HOMESPUN_DATA_DIR) + "/report/" + name;
   std::vector<std::string> words = {HOMESPUN_PYTHON, script};
-  words.insert(words.end(), folders.begin(), folders.end());
-  words.insert(words.end(), {"--output", output});
-  std::vector<char *> arguments;
+  words.insert(words.end(), arguments.begin(), arguments.end());
+  std::vector<char *> pointers;
   for (std::string &word : words)
-    arguments.push_back(word.data());
-  arguments.push_back(nullptr);
+    pointers.push_back(word.data());
+  pointers.push_back(nullptr);
 
   // mpirun binds a rank to one core, and a child inherits that.
   cpu_set_t all_cores;
@@ -44,13 +41,21 @@ void make_report(const std::vector<std::string> &folders, const std::string &out
 
   pid_t child = 0;
   int status  = 0;
-  if (posix_spawn(&child, HOMESPUN_PYTHON, nullptr, nullptr, arguments.data(), environ) != 0 ||
+  if (posix_spawn(&child, HOMESPUN_PYTHON, nullptr, nullptr, pointers.data(), environ) != 0 ||
       waitpid(child, &status, 0) != child || !WIFEXITED(status))
     throw meshes::BadInput(
       std::string(HOMESPUN_PYTHON) + " " + script +
       ": cannot be run; expected Debian's Python with numpy, h5py, matplotlib and "
       "jinja2: ./bootstrap installs them");
-  if (WEXITSTATUS(status) != 0)
+  return WEXITSTATUS(status);
+}
+
+void make_report(const std::vector<std::string> &folders, const std::string &output,
+                 const bool quiet)
+{
+  std::vector<std::string> arguments = folders;
+  arguments.insert(arguments.end(), {"--output", output});
+  if (run_report_script("report.py", arguments) != 0)
     throw meshes::BadInput("the report could not be made, see above; the results are in " +
                            folders[0] + ": mend them, then `homespun report " + folders[0] + "`");
   if (!quiet)

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: MIT
+// What hurts later in a cell that can be read: shapes, sides, units, contrast, thin parts, mechanisms. Each finding says what,
+// where and what to do; none of them needs a solution.
+#pragma once
+
+#include "homogenization/finding.h"
+#include "homogenization/unit_cell.h"
+
+#include <vector>
+
+namespace homespun::homogenization
+{
+/// Slivers, and vertices that coincide without being one: needs a mesh alone.
+/// @param metres_per_unit of the mesh file, for places in its own unit
+std::vector<Finding> lint_shape(const meshes::TriangleMesh &mesh, double metres_per_unit);
+
+/// Sides that only just match: needs a lattice that fits.
+std::vector<Finding> lint_sides(const meshes::TriangleMesh &mesh, const meshes::Lattice &lattice,
+                                double metres_per_unit);
+
+/// Parts that move without energy, and hinges: needs a lattice that fits.
+std::vector<Finding> lint_mechanisms(const meshes::TriangleMesh &mesh,
+                                     const meshes::Lattice &lattice, double metres_per_unit);
+
+/// A cell of a size that no cloth has, most often millimetres taken for metres.
+/// @param side of the cell [m]
+std::vector<Finding> lint_size(double side, double metres_per_unit);
+
+/// Thickness, stiffness and mass that no fabric has, and contrast beyond double precision.
+/// @param side of the cell [m]
+std::vector<Finding> lint_phases(const UnitCell &cell, double side);
+
+/// Phases with a single element across: needs a mesh with phases, and a lattice that fits.
+std::vector<Finding> lint_thin_parts(const UnitCell &cell, double metres_per_unit);
+} // namespace homespun::homogenization

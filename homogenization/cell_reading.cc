@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: MIT
+#include "homogenization/cell_reading.h"
+
+#include "homogenization/cell_keys.h"
+#include "homogenization/cell_lint.h"
+#include "meshes/errors.h"
+
+#include <cmath>
+#include <filesystem>
+
+namespace homespun::homogenization
+{
+namespace
+{
+void add(std::vector<Finding> &findings, const std::string &kind,
+         const std::vector<std::string> &messages)
+{
+  for (const std::string &message : messages)
+    findings.push_back(finding_of(kind, message));
+}
+
+void add(std::vector<Finding> &findings, const std::string &kind,
+         const std::vector<meshes::MeshFault> &faults)
+{
+  for (const meshes::MeshFault &fault : faults)
+    findings.push_back(finding_of(kind, fault.message, fault.place));
+}
+
+void append(std::vector<Finding> &findings, std::vector<Finding> more)
+{
+  for (Finding &finding : more)
+    findings.push_back(std::move(finding));
+}
+
+/// A part can only move where the mesh has a boundary other than its outline.
+bool may_move(const meshes::TriangleMesh &mesh)
+{
+  return meshes::boundary_loops(mesh).size() > 1;
+}
+
+/// The keys, with the length unit [m]; faults become findings.
+CellKeys read_keys(const std::string &prm_file, CellReading &reading)
+{
+  Faults faults;
+  CellKeys keys;
+  dealii::ParameterHandler handler;
+  keys.declare(handler);
+  parse_parameters(prm_file, handler, faults);
+  const auto unit = numbers(keys.length_unit);
+  if (unit && unit->size() == 1 && (*unit)[0] > 0. && std::isfinite((*unit)[0]))
+    reading.metres_per_unit = (*unit)[0];
+  else
+    faults.push_back(prm_file + ": key `Length unit`: found `" + keys.length_unit +
+                     "`; expected metres per mesh unit as one positive number like `0.01`");
+  if (faults.empty() && trimmed(keys.mesh).empty())
+    faults.push_back(prm_file + ": key `Mesh` is missing; expected the mesh of one cell");
+  add(reading.findings, "key", faults);
+  return keys;
+}
+} // namespace
+
+CellReading read_cell(const std::string &prm_file)
+{
+  CellReading reading;
+  UnitCell &cell                 = reading.cell;
+  std::vector<Finding> &findings = reading.findings;
+  cell.file                      = prm_file;
+  cell.name                      = std::filesystem::path(prm_file).stem().string();
+  if (!std::filesystem::is_regular_file(prm_file))
+  {
+    add(findings, "file",
+        {prm_file + ": no such file; expected a cell file (.prm): `homespun cells` lists "
+                    "the shipped ones"});
+    return reading;
+  }
+  const CellKeys keys = read_keys(prm_file, reading);
+  if (has_errors(findings))
+    return reading;
+
+  const std::string mesh_path =
+    (std::filesystem::path(prm_file).parent_path() / trimmed(keys.mesh)).string();
+  CellMeshFile mesh_file;
+  try
+  {
+    mesh_file = read_cell_mesh(mesh_path);
+  }
+  catch (const meshes::BadInput &bad)
+  {
+    add(findings, "mesh file", bad.faults());
+    return reading;
+  }
+  mesh_file.mesh.vertices *= reading.metres_per_unit;
+  reading.has_mesh = true;
+
+  add(findings, "mesh", meshes::placed_faults_of(mesh_file.mesh, mesh_path));
+  const bool mesh_is_sound = !has_errors(findings);
+  Faults of_phases;
+  const Eigen::VectorXi groups = mesh_file.mesh.material;
+  cell.phases                  = assign_phases(prm_file, keys, mesh_file, of_phases);
+  cell.mesh                    = std::move(mesh_file.mesh);
+  if (!of_phases.empty())
+    cell.mesh.material = groups;
+  add(findings, "phases", of_phases);
+
+  bool fits = false;
+  try
+  {
+    Faults of_lattice;
+    const auto lattice =
+      lattice_from(prm_file, keys, reading.metres_per_unit, cell.mesh, of_lattice);
+    add(findings, "lattice", of_lattice);
+    if (lattice)
+    {
+      cell.lattice      = *lattice;
+      const auto faults = meshes::placed_periodicity_faults(cell.mesh, cell.lattice, mesh_path);
+      add(findings, "periodicity", faults);
+      fits = faults.empty();
+    }
+    if (fits && mesh_is_sound && may_move(cell.mesh))
+      for (Finding &finding : lint_mechanisms(cell.mesh, cell.lattice, reading.metres_per_unit))
+      {
+        finding.what = mesh_path + ": " + finding.what;
+        findings.push_back(std::move(finding));
+      }
+  }
+  catch (const meshes::BadInput &bad)
+  {
+    add(findings, "mesh", {mesh_path + ": " + bad.what()});
+    fits = false;
+  }
+  reading.is_whole = mesh_is_sound && fits && of_phases.empty();
+  return reading;
+}
+
+CellReading inspect_cell(const std::string &prm_file)
+{
+  CellReading reading  = read_cell(prm_file);
+  const UnitCell &cell = reading.cell;
+  if (!reading.has_mesh || !cell.mesh.vertices.allFinite())
+    return reading;
+  std::vector<Finding> more = lint_shape(cell.mesh, reading.metres_per_unit);
+  const Eigen::RowVector2d box =
+    cell.mesh.vertices.colwise().maxCoeff() - cell.mesh.vertices.colwise().minCoeff();
+  const double side = reading.is_whole ? std::sqrt(cell.lattice.area()) : std::sqrt(box.prod());
+  append(more, lint_size(side, reading.metres_per_unit));
+  if (reading.is_whole)
+  {
+    append(more, lint_sides(cell.mesh, cell.lattice, reading.metres_per_unit));
+    append(more, lint_phases(cell, side));
+    append(more, lint_thin_parts(cell, reading.metres_per_unit));
+  }
+  for (Finding &finding : more)
+    finding.what = prm_file + ": " + finding.what;
+  append(reading.findings, std::move(more));
+  return reading;
+}
+} // namespace homespun::homogenization

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: MIT
+// A cell file read as far as it can be, with all that is wrong: what read_unit_cell() refuses, and what the
+// linter shows.
+#pragma once
+
+#include "homogenization/finding.h"
+#include "homogenization/unit_cell.h"
+
+#include <string>
+#include <vector>
+
+namespace homespun::homogenization
+{
+struct CellReading
+{
+  UnitCell
+    cell; ///< [m]; where its phases could not be given, material holds the numbers of the mesh file
+  double metres_per_unit = 1.;    ///< of the mesh file
+  bool has_mesh          = false; ///< the mesh file was read
+  bool is_whole          = false; ///< mesh, phases and lattice are sound: a UnitCell
+  std::vector<Finding> findings;
+};
+
+/// Reads a cell; parts that move freely are errors here already, because no solver could answer.
+CellReading read_cell(const std::string &prm_file);
+
+/// Reads a cell and adds the findings of the linter, as many as the state of the cell allows.
+CellReading inspect_cell(const std::string &prm_file);
+} // namespace homespun::homogenization
