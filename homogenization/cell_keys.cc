@@ -2,6 +2,7 @@
 #include "homogenization/cell_keys.h"
 
 #include "meshes/errors.h"
+#include "meshes/general_lattice.h"
 
 #include <Eigen/LU>
 
@@ -51,9 +52,11 @@ std::optional<meshes::Lattice> lattice_from(const std::string &file, const CellK
     }
     catch (const meshes::BadInput &fault)
     {
-      faults.push_back(file + ": key `Lattice vectors` = auto: " + fault.what());
+      const auto general = meshes::lattice_by_matching(mesh);
+      if (!general)
+        faults.push_back(file + ": key `Lattice vectors` = auto: " + fault.what());
+      return general;
     }
-    return std::nullopt;
   }
   const std::vector<std::string> rows = split(keys.lattice, ';');
   bool good                           = rows.size() == 2;

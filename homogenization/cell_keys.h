@@ -46,7 +46,8 @@ struct CellKeys
       "group.");
     keys.add_parameter(
       "Lattice vectors", lattice,
-      "`auto` finds the sides of a parallelogram; or `x1 y1; x2 y2` in mesh units.");
+      "`auto` finds the sides of a parallelogram, or the translations that match any other "
+      "outline; or `x1 y1; x2 y2` in mesh units.");
   }
 };
 

@@ -7,6 +7,7 @@
 
 #include <cmath>
 #include <filesystem>
+#include <sstream>
 
 namespace homespun::homogenization
 {
@@ -36,6 +37,41 @@ void append(std::vector<Finding> &findings, std::vector<Finding> more)
 bool may_move(const meshes::TriangleMesh &mesh)
 {
   return meshes::boundary_loops(mesh).size() > 1;
+}
+
+/// Pieces side by side: boundary loops other than the outline that reach beyond its box. What lies inside is left to
+/// lint_mechanisms().
+std::vector<meshes::MeshFault> piece_faults(const meshes::TriangleMesh &mesh,
+                                            const std::string &name)
+{
+  const std::vector<int> outer = meshes::outline(mesh);
+  Eigen::RowVector2d low = mesh.vertices.row(outer[0]), high = low;
+  for (const int v : outer)
+  {
+    low  = low.cwiseMin(mesh.vertices.row(v));
+    high = high.cwiseMax(mesh.vertices.row(v));
+  }
+  const double slack = 1e-6 * (high - low).norm();
+  int n_pieces       = 1;
+  meshes::Place place;
+  for (const std::vector<int> &loop : meshes::boundary_loops(mesh))
+    for (const int v : loop)
+    {
+      const Eigen::RowVector2d x = mesh.vertices.row(v);
+      if (((low - x).array() < slack).all() && ((x - high).array() < slack).all())
+        continue;
+      ++n_pieces;
+      place = {x, -1, v};
+      break;
+    }
+  if (n_pieces == 1)
+    return {};
+  std::ostringstream text;
+  text << name << ": the mesh falls into " << n_pieces
+       << " pieces that share no edge, one with vertex " << place.vertex << " at (" << place.point
+       << ") m; expected one outline: join parts that lie side by side so that they share points "
+          "(Gmsh: BooleanFragments, or Coherence), or mesh what connects them";
+  return {{text.str(), place}};
 }
 
 /// The keys, with the length unit [m]; faults become findings.
@@ -105,9 +141,12 @@ CellReading read_cell(const std::string &prm_file)
   bool fits = false;
   try
   {
+    const auto pieces = piece_faults(cell.mesh, mesh_path);
+    add(findings, "pieces", pieces);
     Faults of_lattice;
-    const auto lattice =
-      lattice_from(prm_file, keys, reading.metres_per_unit, cell.mesh, of_lattice);
+    std::optional<meshes::Lattice> lattice;
+    if (pieces.empty())
+      lattice = lattice_from(prm_file, keys, reading.metres_per_unit, cell.mesh, of_lattice);
     add(findings, "lattice", of_lattice);
     if (lattice)
     {

@@ -34,18 +34,26 @@ TorusVertices torus_vertices(const TriangleMesh &mesh, const Lattice &lattice)
   torus.representative.resize(static_cast<std::size_t>(mesh.n_vertices()));
   std::iota(torus.representative.begin(), torus.representative.end(), 0);
   torus.offset.assign(static_cast<std::size_t>(mesh.n_vertices()), Shift(0, 0));
-  // Only vertices of the outline have images, and only these may be matched: holes may come as near to each other as
-  // the mesh resolves.
-  const std::vector<int> outer = meshes::outline(mesh);
-  meshes::Points points(static_cast<Eigen::Index>(outer.size()), 2);
-  for (std::size_t k = 0; k < outer.size(); ++k)
-    points.row(static_cast<Eigen::Index>(k)) = mesh.vertices.row(outer[k]);
+  // Only vertices of a boundary have images. Where two of them coincide, as on both banks of a slit, they are not joined:
+  // only the first takes part.
+  std::set<int> boundary;
+  for (const std::array<int, 2> &edge : meshes::boundary_edges(mesh))
+    boundary.insert(edge.begin(), edge.end());
+  const std::vector<int> vertices(boundary.begin(), boundary.end());
+  meshes::Points points(static_cast<Eigen::Index>(vertices.size()), 2);
+  for (std::size_t k = 0; k < vertices.size(); ++k)
+    points.row(static_cast<Eigen::Index>(k)) = mesh.vertices.row(vertices[k]);
   const meshes::ImageClasses classes = meshes::match_images(points, lattice);
-  for (std::size_t k = 0; k < outer.size(); ++k)
+  std::set<std::array<int, 3>> taken;
+  for (std::size_t k = 0; k < vertices.size(); ++k)
   {
-    const auto v            = static_cast<std::size_t>(outer[k]);
-    torus.representative[v] = outer[static_cast<std::size_t>(classes.representative[k])];
-    torus.offset[v]         = classes.offset.row(static_cast<Eigen::Index>(k));
+    const auto row   = static_cast<Eigen::Index>(k);
+    const int lowest = vertices[static_cast<std::size_t>(classes.representative[k])];
+    if (!taken.insert({lowest, classes.offset(row, 0), classes.offset(row, 1)}).second)
+      continue;
+    const auto v            = static_cast<std::size_t>(vertices[k]);
+    torus.representative[v] = lowest;
+    torus.offset[v]         = classes.offset.row(row);
   }
   return torus;
 }

@@ -160,8 +160,8 @@ private:
       text.skip(4 * text.count("colours"), "a colour");
       return;
     }
-    const std::string type = std::string(text.word());
-    long components        = 0;
+    text.word(); // the type of the numbers
+    long components = 0;
     if (kind == "scalars")
     {
       components = 1;

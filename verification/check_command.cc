@@ -6,6 +6,7 @@
 #include "meshes/write_whole.h"
 #include "verification/commands.h"
 #include "verification/on_root.h"
+#include "verification/report_script.h"
 
 #include <nlohmann/json.hpp>
 

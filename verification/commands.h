@@ -6,8 +6,6 @@
 #include <CLI/App.hpp>
 
 #include <functional>
-#include <string>
-#include <vector>
 
 namespace homespun::verification
 {
@@ -37,11 +35,6 @@ void add_cells_command(CLI::App &app, Action &action);
 /// @throws BadInput where the results cannot be read or drawn
 void make_report(const std::vector<std::string> &folders, const std::string &output, bool quiet);
 
-/// Runs a script of the folder report/ with Debian's Python, on all cores.
-/// @return its exit status
-/// @throws BadInput where Python cannot be run
-int run_report_script(const std::string &name, const std::vector<std::string> &arguments);
-
-/// The folder of the shipped cells: where the sources are, or where they were installed.
+/// The folder of the shipped cells: where they were installed with the program, or in the sources.
 std::string cells_folder();
 } // namespace homespun::verification

@@ -4,6 +4,7 @@
 #include "verification/build_info.h"
 #include "verification/commands.h"
 #include "verification/on_root.h"
+#include "verification/report_script.h"
 
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>

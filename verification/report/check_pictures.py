@@ -46,8 +46,9 @@ def draw(cell, vertices, triangles, material):
     if len(findings) > MOST_TOLD:
         told.append(f"and {len(findings) - MOST_TOLD} more in check.json")
     # A long path before the words would fill the picture.
-    words = "\n".join("\n".join(textwrap.wrap(text.replace(os.path.dirname(cell["file"]) + "/", ""), 100,
-                                              subsequent_indent="    ")) for text in told) or "nothing found"
+    folder = os.path.join(os.path.dirname(cell["file"]), "")
+    told = [text.replace(folder, "") if folder else text for text in told]
+    words = "\n".join("\n".join(textwrap.wrap(text, 100, subsequent_indent="    ")) for text in told) or "nothing found"
     lines = words.count("\n") + 1
     figure, axes = pyplot.subplots(figsize=(7., 5.2 + 0.15 * lines), layout="constrained")
     keep = usable(vertices, triangles)
