@@ -167,7 +167,8 @@ CellReading read_cell(const std::string &prm_file)
     add(findings, "mesh", {mesh_path + ": " + bad.what()});
     fits = false;
   }
-  reading.is_whole = mesh_is_sound && fits && of_phases.empty();
+  reading.has_phases = of_phases.empty();
+  reading.is_whole   = mesh_is_sound && fits && reading.has_phases;
   return reading;
 }
 

@@ -101,7 +101,8 @@ bool MeshText::line(std::string_view &rest)
   if (at_end())
     return false;
   rest = peek_line();
-  position += rest.size() + 1;
+  // The last line may lack its end.
+  position = std::min(position + rest.size() + 1, content.size());
   ++line_number;
   if (!rest.empty() && rest.back() == '\r')
     rest.remove_suffix(1);

@@ -133,7 +133,7 @@ void write_results(const std::vector<CellReading> &readings, const std::string &
       cell["mesh"] = name + "-mesh.h5";
       write_mesh(reading, output + "/" + name + "-mesh.h5");
     }
-    if (reading.is_whole)
+    if (reading.has_phases)
       for (const homogenization::Phase &phase : reading.cell.phases)
         cell["phases"].push_back(phase.name);
     cells.push_back(cell);

@@ -64,15 +64,18 @@ def draw(cell, vertices, triangles, material):
     axes.set(xlim=(low[0] - pad, high[0] + pad), ylim=(low[1] - pad, high[1] + pad), aspect="equal",
              xlabel="x [mesh units]", ylabel="y [mesh units]", title=cell["name"])
     axes.grid(False)
+    numbers_at = {}
     for number, finding in enumerate(findings, 1):
         if finding["point"]:
             marker, colour = MARKS[finding["severity"]]
             axes.plot(*finding["point"], marker=marker, markersize=11, markeredgecolor=colour if marker == "o" else "white",
                       markeredgewidth=2. if marker == "o" else 0.8, zorder=5, linestyle="none",
                       markerfacecolor="none" if marker == "o" else colour)
-            axes.annotate(str(number), finding["point"], xytext=(8, 6), textcoords="offset points", zorder=6,
-                          fontweight="bold", color=style.BLACK,
-                          bbox={"boxstyle": "round,pad=0.15", "facecolor": "white", "edgecolor": "none", "alpha": 0.8})
+            numbers_at.setdefault(tuple(finding["point"]), []).append(str(number))
+    for point, told_there in numbers_at.items():
+        axes.annotate(", ".join(told_there), point, xytext=(8, 6), textcoords="offset points", zorder=6,
+                      fontweight="bold", color=style.BLACK,
+                      bbox={"boxstyle": "round,pad=0.15", "facecolor": "white", "edgecolor": "none", "alpha": 0.8})
     names = cell["phases"] if len(cell["phases"]) > max(numbers, default=0) else {}
     handles = [Patch(facecolor=colours[k], edgecolor="#555555", label=names[k] if names else f"group {k}") for k in numbers[:12]]
     for severity, (marker, colour) in MARKS.items():
