@@ -19,8 +19,8 @@ TITLES = {
 CAPTIONS = {
     "mesh": "Uniform refinement of the cell with P1 and P2: distance of the trace of C<sup>H</sup> from its Richardson "
             "limit. C<sup>H</sup> falls from level to level, because the spaces are nested. Where phases meet in corners "
-            "the order is twice their exponents, which are computed from angles and stiffnesses: P2 must show orders between "
-            "those of the strongest and the weakest corner, P1 between that of the strongest and 2. A laminate has its "
+            "the order is twice their exponents, which are computed from angles and stiffnesses: orders lie between that of "
+            "the strongest corner and that of the smallest exponent above 1, with P1 at most 2. A laminate has its "
             "closed form on every level, and no curve.",
     "adaptive": "Relative width of the bracket on C<sup>H</sup> against DoFs of the displacements: meshes refined where it "
                 "is wide (full lines) and everywhere (dashed). Adaptive meshes reach the order of smooth solutions, width "
