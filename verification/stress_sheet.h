@@ -59,8 +59,10 @@ shell::Cloth sheet_cloth(const meshes::ClothMesh &mesh, const SheetStiffness &st
 /// Positions and velocities side by side (n,6): what a user gets.
 Eigen::MatrixXd state_of(const shell::Cloth &cloth);
 
-/// Takes steps. @return the largest growth of kinetic and stored energy within one step, over the largest
-/// energy met [-]; zero where it never grows
+/// Takes steps. What a step took from the motion so that the energy does not grow counts as growth: it is the integrator
+/// that is judged, not its guard.
+/// @return the largest growth of kinetic and stored energy within one step, over the largest energy met [-]; zero where
+///   it never grows
 double largest_energy_growth(shell::Cloth &cloth, double h, int n_steps);
 
 /// Independent numbers between −1 and 1.
