@@ -114,10 +114,9 @@ void anisotropy_cases(std::vector<StressCase> &cases)
     const std::string of   = "; 1e4 to 1 at " + csv_number(angle) + " degrees";
     const UnitCell stripes = stripe_cell(rows_of_built_in, soft_phase(), yarn_phase(angle));
     for (const unsigned int order : {1u, 2u})
-      group.finite(
-        "yarns turned within stripes; P" + std::to_string(order) + of,
-        "is the laminate of the closed form", limit_of(stripes), to_closed_form,
-        [=]() { return against_laminate(stripes, order); });
+      group.finite("yarns turned within stripes; P" + std::to_string(order) + of,
+                   "is the laminate of the closed form", limit_of(stripes), to_closed_form,
+                   [=]() { return against_laminate(stripes, order); });
     group.finite(
       "homogeneous" + of, "turns with the yarn", limit_of(stripes), to_closed_form,
       [=]() -> StressAnswer
