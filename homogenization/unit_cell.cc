@@ -215,6 +215,26 @@ std::vector<Phase> assign_phases(const std::string &file, const CellKeys &keys,
 }
 } // namespace
 
+namespace
+{
+/// The path of a file that a cell file names. It stays in the folder of the cell file, links followed, so that a cell
+/// from elsewhere opens nothing but what came with it.
+/// @throws BadInput where it leads out of the folder
+std::string file_beside(const std::string &prm_file, const std::string &name)
+{
+  const std::filesystem::path folder = std::filesystem::path(prm_file).parent_path(),
+                              path   = folder / name;
+  const std::filesystem::path within = std::filesystem::weakly_canonical(path).lexically_relative(
+    std::filesystem::weakly_canonical(folder.empty() ? "." : folder));
+  if (std::filesystem::path(name).is_absolute() || within.empty() || *within.begin() == "..")
+    throw meshes::BadInput(
+      prm_file + ": key `Mesh`: found `" + name +
+      "`, which lies outside of the folder of the cell file; expected a file in it or below: "
+      "copy the mesh there");
+  return path.string();
+}
+} // namespace
+
 std::vector<Eigen::Matrix3d> UnitCell::stiffness_of_phase() const
 {
   std::vector<Eigen::Matrix3d> stiffness;
@@ -261,9 +281,8 @@ UnitCell read_unit_cell(const std::string &prm_file)
   cell.name = std::filesystem::path(prm_file).stem().string();
   if (trimmed(keys.mesh).empty())
     throw meshes::BadInput(prm_file + ": key `Mesh` is missing; expected the mesh of one cell");
-  const std::string mesh_path =
-    (std::filesystem::path(prm_file).parent_path() / trimmed(keys.mesh)).string();
-  CellMeshFile mesh_file = read_cell_mesh(mesh_path);
+  const std::string mesh_path = file_beside(prm_file, trimmed(keys.mesh));
+  CellMeshFile mesh_file      = read_cell_mesh(mesh_path);
   mesh_file.mesh.vertices *= length_unit;
 
   faults      = meshes::faults_of(mesh_file.mesh, mesh_path);
