@@ -68,6 +68,7 @@ class Manual(unittest.TestCase):
             listed = set(re.findall(r"^\.TP\n\\fB(?:-\w,)?(--[a-z-]+)", sections[words], re.MULTILINE))
             self.assertEqual(listed | {"--help"}, options_of(text), words)
 
+    @unittest.skipUnless(shutil.which("man"), "man is not installed")
     def test_the_page_has_every_word_of_the_help(self):
         """Nothing is lost on the way: footers, examples, keys and their values."""
         page = subprocess.run(["man", "-l", self.roff], capture_output=True, text=True, check=True,
