@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: MIT
 """What the program says of itself: the texts of --help, read into commands with options."""
 import dataclasses
-import re
 import subprocess
 
 HEADINGS = ("Positionals:", "Options:", "Subcommands:")
