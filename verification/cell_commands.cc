@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // homespun check, homogenize, cells: what concerns a cell alone.
 #include "meshes/errors.h"
-#include "verification/build_info.h"
 #include "verification/cell_study.h"
 #include "verification/commands.h"
+#include "verification/data_folder.h"
 #include "verification/on_root.h"
 #include "verification/progress.h"
 
@@ -113,9 +113,7 @@ int list_cells()
 
 std::string cells_folder()
 {
-  const std::string in_sources = std::string(HOMESPUN_SOURCE_DIR) + "/meshes/cells";
-  return std::filesystem::is_directory(in_sources) ? in_sources
-                                                   : std::string(HOMESPUN_DATA_DIR) + "/cells";
+  return data_folder("cells", "meshes/cells");
 }
 
 void add_check_command(CLI::App &app, Action &action)

@@ -35,6 +35,6 @@ void add_cells_command(CLI::App &app, Action &action);
 /// @throws BadInput where the results cannot be read or drawn
 void make_report(const std::vector<std::string> &folders, const std::string &output, bool quiet);
 
-/// The folder of the shipped cells: where the sources are, or where they were installed.
+/// The folder of the shipped cells: where they were installed with the program, or in the sources.
 std::string cells_folder();
 } // namespace homespun::verification

@@ -3,6 +3,7 @@
 #include "meshes/errors.h"
 #include "verification/build_info.h"
 #include "verification/commands.h"
+#include "verification/data_folder.h"
 #include "verification/on_root.h"
 
 #include <CLI/Config.hpp>
@@ -24,12 +25,9 @@ namespace homespun::verification
 void make_report(const std::vector<std::string> &folders, const std::string &output,
                  const bool quiet)
 {
-  const std::string in_sources =
-    std::string(HOMESPUN_SOURCE_DIR) + "/verification/report/report.py";
-  const std::string script       = std::filesystem::exists(in_sources)
-                                     ? in_sources
-                                     : std::string(HOMESPUN_DATA_DIR) + "/report/report.py";
-  std::vector<std::string> words = {HOMESPUN_PYTHON, script};
+  const std::string script = data_folder("report", "verification/report") + "/report.py";
+  // -B: no __pycache__ in a folder that a package manager keeps.
+  std::vector<std::string> words = {HOMESPUN_PYTHON, "-B", script};
   words.insert(words.end(), folders.begin(), folders.end());
   words.insert(words.end(), {"--output", output});
   std::vector<char *> arguments;
