@@ -53,6 +53,10 @@ For attempt In {1 : 200 * dots}
     db   = Min(b, 1 - b);
     dc   = Sqrt(da * da + db * db);
     fits = Fabs(da - s) > margin && Fabs(db - s) > margin && Fabs(dc - s) > margin ? 1 : 0;
+    // A circle begins with a vertex beside its centre, at the same height.
+    If (db < margin)
+      fits = 0;
+    EndIf
     For k In {0 : #x[] - 1}
       da = Fabs(a - x[k]);
       da = Min(da, 1 - da);
