@@ -25,10 +25,10 @@ struct Symmetry
 
 const std::vector<Symmetry> symmetries = {
   {"plain-weave", true, 0., false, 1e-9},   {"twill", true, 1., false, 1e-9},
-  {"satin", true, -1., false, 1e-9},        {"hexagonal-dots", true, 0., true, 2e-3},
-  {"honeycomb", true, 0., true, 5e-3},      {"auxetic", false, 0., false, 2e-3},
-  {"chevron", false, 0., false, 2e-3},      {"checkerboard", true, 0., false, 1e-9},
-  {"printed-patch", false, 0., false, 2e-3}};
+  {"satin", true, -1., false, 1e-9},        {"hexagonal-dots", true, 0., true, 2e-4},
+  {"honeycomb", true, 0., true, 2e-3},      {"auxetic", false, 0., false, 5e-4},
+  {"chevron", false, 0., false, 2e-4},      {"checkerboard", true, 0., false, 1e-9},
+  {"printed-patch", false, 0., false, 2e-4}};
 
 UnitCell shipped(const std::string &name)
 {
