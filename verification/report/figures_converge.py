@@ -48,7 +48,7 @@ def draw_panel(axes, lines, title, xlabel, ylabel):
     for line in lines:
         if line.h:
             axes.plot(line.h, line.error, line.line, color=line.colour, marker=line.marker,
-                      markerfacecolor="white" if not line.failed else line.colour, ms=5)
+                      markerfacecolor="white" if not line.failed else line.colour, ms=5, label=line.label)
     slope_guides(axes, lines)
     style.log_axes(axes)
     sizes = [h for line in lines for h in line.h]

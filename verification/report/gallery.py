@@ -1,13 +1,16 @@
 # SPDX-License-Identifier: MIT
-"""Saves figures as PDF and SVG, animations as WebP, and inlines them into the page."""
+"""Saves figures as PDF and SVG with their numbers as CSV, animations as WebP, and inlines them into the page."""
 import base64
 import io
+import json
 import os
 import re
 from dataclasses import dataclass
 
 from matplotlib import pyplot
 from PIL import Image
+
+import plot_data
 
 PAD = 0.04      # inches around a figure
 PAGE_DPI = 130  # of images on the page; the saved files are finer
@@ -22,7 +25,9 @@ class Picture:
     source: str   # data URI
     caption: str
     width: int    # CSS pixels
-    ending: str = ".pdf"  # of the file that the caption names
+    endings: tuple = ("pdf", "svg")  # of its files, as far as there are any
+    plot: str = ""     # JSON of panels and curves, for the interactive plot
+    view: str = ""     # JSON of a cloth to turn and zoom
 
 
 def short_svg(svg):
@@ -63,6 +68,13 @@ def file_name(name):
     return re.sub(r"[^A-Za-z0-9._-]+", "-", name).strip("-.")
 
 
+def in_page(value):
+    """JSON that may stand in a script element; empty for None."""
+    if value is None:
+        return ""
+    return json.dumps(value, ensure_ascii=False, allow_nan=False, separators=(",", ":")).replace("<", "\\u003c")
+
+
 class Gallery:
     """Saves figures into a folder and keeps them as data URIs for the page."""
 
@@ -81,10 +93,12 @@ class Gallery:
         self.names.add(name)
         return name
 
-    def add(self, figure, name, caption, as_image=False):
-        """Saves `name`.pdf and `name`.svg and closes the figure.
+    def add(self, figure, name, caption, as_image=False, table=None, view=None):
+        """Saves `name`.pdf, `name`.svg and, of figures with numbers, `name`.csv, and closes the figure.
 
         @param as_image whether the page shows an image of dots, "webp" for one of shaded pictures; else the SVG
+        @param table (header, rows) of the CSV file; None: the numbers of the curves and bars
+        @param view what the page needs to show the same cloth in space, or None
         @return Picture
         """
         name = self.own_name(name)
@@ -101,9 +115,15 @@ class Gallery:
         else:
             with open(os.path.join(self.folder, name + ".svg"), encoding="utf-8") as file:
                 kind, data = "svg+xml", short_svg(file.read()).encode()
+        panels = None if as_image else plot_data.panels_of(figure)
+        header, rows = table or (plot_data.HEADER, [] if as_image else plot_data.rows_of(figure))
+        endings = ("pdf", "svg") + (("csv",) if rows else ())
+        if rows:
+            with open(os.path.join(self.folder, name + ".csv"), "w", encoding="utf-8") as file:
+                file.write(plot_data.csv_text(rows, header))
         pyplot.close(figure)
         source = f"data:image/{kind};base64," + base64.b64encode(data).decode("ascii")
-        return Picture(name, source, caption, round(105. * box.width))
+        return Picture(name, source, caption, round(105. * box.width), endings, in_page(panels), in_page(view))
 
     def add_animation(self, data, name, width, caption):
         """Saves `name`.webp, a looping picture of so many pixels' width.
@@ -114,4 +134,4 @@ class Gallery:
         with open(os.path.join(self.folder, name + ".webp"), "wb") as file:
             file.write(data)
         source = "data:image/webp;base64," + base64.b64encode(data).decode("ascii")
-        return Picture(name, source, caption, width, ".webp")
+        return Picture(name, source, caption, width, ("webp",))
