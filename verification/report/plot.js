@@ -29,9 +29,9 @@
     title: { display: true, text: description.label, color: style.ink(), font: { size: 12 } },
     grid: { color: style.faint(), borderColor: style.ink() },
     ticks: { color: style.ink(), font: { size: 11 }, autoSkip: !is_log, maxRotation: 0,
-      callback: (value) => {
-        const k = Math.log10(value);
-        return is_log && Math.abs(k - Math.round(k)) < 1e-9 && (k < -2.5 || k > 4.5) ? style.power(Math.round(k)) : style.number(value);
+      callback(value) {
+        const k = Math.log10(value), long = this.min < 2e-3 || this.max > 2e4;
+        return is_log && long && Math.abs(k - Math.round(k)) < 1e-9 ? style.power(Math.round(k)) : style.number(value);
       } },
     afterBuildTicks: (scale) => {
       if (is_log) scale.ticks = style.log_ticks(scale.min, scale.max).map((value) => ({ value }));
