@@ -8,6 +8,7 @@ import style
 import tables
 from budget_contents import budget_contents
 from cell_results import read_fields
+from comparison import comparison_contents
 from converge_contents import convergence_contents
 from drape_contents import drape_contents
 from figures_cell import characteristic_figure, phase_figure, phase_legend
@@ -25,6 +26,7 @@ from view_data import sheet_table, sheet_view
 
 HEADINGS = {
     "verdicts": "Verdicts",
+    "comparison": "Comparison",
     "short": "In short",
     "strain": "Error and run time against strain",
     "stiffness": "Effective stiffness",
@@ -60,7 +62,8 @@ def page_contents(results, gallery, output):
         d["name"] = d["scene"] if scenes.count(d["scene"]) == 1 else f"{d['scene']} ({drape.folder})"
     lists_all = any(study.lists_all for study in results.studies)
     strain_shown = bool(results.cells) or not (drapes or stress or convergence or lists_all)
-    headings = headings_of(drapes, stress, convergence, strain_shown)
+    comparison = comparison_contents(results, gallery)
+    headings = headings_of(drapes, stress, convergence, strain_shown, comparison)
     cells = contents_of_cells(results, gallery)
     reasons = {key: [] for key in ("verdicts", "short", "strain", "uncertainty")}
     words = {"verdicts": "verdicts", "strain": "error against strain", "uncertainty": "error bar"}
@@ -82,6 +85,7 @@ def page_contents(results, gallery, output):
         "title": "homespun: " + ", ".join([d["scene"] for d in drapes] + ["stress"] * bool(stress)
                                         + ["convergence"] * bool(convergence) + list(results.cells)),
         "lead": lead(bool(drapes), bool(stress), bool(convergence), strain_shown),
+        "comparison": comparison,
         "drapes": drapes,
         "stress": stress,
         "convergence": convergence,
@@ -115,15 +119,15 @@ def contents_of_drapes(results, gallery, output):
                 for i, drape in enumerate(results.drapes, 1)]
 
 
-def headings_of(drapes, stress, convergence, strain_shown):
+def headings_of(drapes, stress, convergence, strain_shown, comparison=None):
     """id -> heading of the sections that this page has, in their order."""
-    headings = {"verdicts": HEADINGS["verdicts"]}
+    headings = {key: HEADINGS[key] for key in ("verdicts", "comparison") if key == "verdicts" or comparison}
     if drapes:
         headings["drape-short"] = "In short: cloth in motion" if strain_shown else "In short"
     headings.update((d["id"], f"Drape: {d['name']}") for d in drapes)
     headings.update((s["id"], "Stress cases" + (f": {s['name']}" if len(stress) > 1 else "")) for s in stress)
     headings.update((c["id"], "Convergence" + (f": {c['name']}" if len(convergence) > 1 else "")) for c in convergence)
-    headings.update((key, text) for key, text in HEADINGS.items() if strain_shown or key in COMMON)
+    headings.update((key, text) for key, text in HEADINGS.items() if (strain_shown or key in COMMON) and (comparison or key != "comparison"))
     return headings
 
 
