@@ -65,7 +65,7 @@ def draw_cloth(contents, drape, cell, gallery, limit, pool, scenes):
             words += " Below: the framed part of the last time."
         contents["pictures"] = gallery.add(
             figure, f"{file}-cloth", f"{title}, {film.variant} cloth. One camera for all; parallel projection, "
-            f"true scale, not exaggerated.{words}", as_image="webp",
+            f"true scale, not exaggerated.{words}", as_image="shaded",
             view=film_view(film, camera, drape.up(), len(drape.cells) * scenes))
         if moving := animation(film, camera, phases, limit, pool, bodies):
             data, width, loop, (first, last) = moving

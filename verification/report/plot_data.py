@@ -12,7 +12,7 @@ import re
 
 import numpy
 from matplotlib.colors import to_hex
-from matplotlib.ticker import FixedFormatter
+from matplotlib.ticker import FixedLocator
 
 ROUND_OFF_NOTE = "zero to round-off"
 DASHES = {"-": [], "--": [6, 3], "-.": [7, 3, 1.5, 3], ":": [1.5, 2.5], "None": None, "": None, " ": None}
@@ -87,12 +87,18 @@ def panel_of(axes):
 
 
 def shared_labels(panels):
-    """Panels of one row share the label of an axis, which only the first of them carries."""
+    """Panels of a row or a column share the label of an axis, which one of them carries."""
     for key in "xy":
-        last = ""
-        for panel in panels:
-            last = panel[key]["label"] = panel[key]["label"] or last
+        for some in (panels, panels[::-1]):
+            last = ""
+            for panel in some:
+                last = panel[key]["label"] = panel[key]["label"] or last
     return panels
+
+
+def has_words(axis):
+    """Whether an axis has words at its ticks, groups of cases or loads, instead of numbers."""
+    return isinstance(axis.get_major_locator(), FixedLocator)
 
 
 def cartesian(figure):
@@ -109,7 +115,7 @@ def panels_of(figure):
         if any(axes.get_visible() for axes in figure.axes if axes not in all_axes):
             return None
     for axes in all_axes:
-        if any(isinstance(axis.get_major_formatter(), FixedFormatter) for axis in (axes.xaxis, axes.yaxis)):
+        if any(has_words(axis) for axis in (axes.xaxis, axes.yaxis)):
             return None
     panels = shared_labels([panel_of(axes) for axes in all_axes])
     return panels if any(curve.get("label") for panel in panels for curve in panel["curves"]) else None
@@ -117,7 +123,7 @@ def panels_of(figure):
 
 def category(axis, place):
     """The words at the tick nearest to a place, empty where ticks are numbers."""
-    if not isinstance(axis.get_major_formatter(), FixedFormatter):
+    if not has_words(axis):
         return ""
     ticks = list(axis.get_ticklocs())
     nearest = min(range(len(ticks)), key=lambda i: abs(ticks[i] - place), default=None)

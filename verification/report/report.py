@@ -23,6 +23,7 @@ style.use()  # before anything draws
 from contents import page_contents  # noqa: E402
 from gallery import Gallery  # noqa: E402
 from page import render  # noqa: E402
+from page_size import fitted  # noqa: E402
 from results import BadResults, read_results  # noqa: E402
 
 
@@ -45,6 +46,7 @@ def write_report(folders, output):
         sheets = sum(len(cell.field_files) for cell in results.cells.values())
         gallery = Gallery(os.path.join(workplace, "figures"), sheets)
         html = render(page_contents(results, gallery, output))
+        html = fitted(html, {name[:-5] for name in os.listdir(gallery.folder) if name.endswith(".webp")})
         with open(os.path.join(workplace, "report.html"), "w", encoding="utf-8") as file:
             file.write(html)
         os.makedirs(os.path.join(output, "figures"), exist_ok=True)

@@ -8,13 +8,16 @@ import re
 import shutil
 import subprocess
 import unittest
+import urllib.parse
 from unittest import mock
 
 import numpy
 from matplotlib import pyplot
 
 import figures_cloth
+import gallery
 import page_checks
+import page_size
 import plot_data
 import scripts
 import view_data
@@ -114,9 +117,30 @@ class WholePageTest(PageTest):
         except subprocess.TimeoutExpired:
             self.skipTest("the browser did not answer within its time")
         self.assertFalse(re.findall(r"CONSOLE.*(?:Error|error).*", done.stderr))
-        self.assertIn('data-theme="dark"', done.stdout)
+        self.assertTrue('<html lang="en" data-theme="dark">' in done.stdout, "the theme is dark on request")
         self.assertEqual(done.stdout.count('class="plot"'), len(page_checks.data_of(self.text, "plot-data")))
-        self.assertIn('class="view" data-ready="96"', done.stdout)  # corners of 32 triangles
+        self.assertEqual(re.findall(r'class="view" data-ready="(\d+)"', done.stdout), [str(3 * 72)])  # corners of all triangles
+
+
+class PageSizeTest(unittest.TestCase):
+    def test_the_largest_pictures_go_beside_a_page_that_is_too_large(self):
+        def figure(name, length):
+            return f'<figure id="{name}">\n<img src="data:image/webp;base64,{"A" * length}" alt=""></figure>'
+        page = figure("small", 100) + figure("moves", 3000) + figure("large", 2000) + page_size.PLACE
+        with mock.patch.object(page_size, "LIMIT_BYTES", 1000):
+            text = page_size.fitted(page, {"moves"})
+        self.assertLess(len(text), 1000)
+        self.assertIn('<img src="figures/moves.webp" alt=', text)
+        self.assertIn('<img src="figures/large.svg" alt=', text)
+        self.assertIn("2 pictures lie beside the page in figures/, because with them it would exceed 8 MB: large, moves.", text)
+        self.assertEqual(page_size.fitted(page), page.replace(page_size.PLACE, ""))
+
+    def test_an_svg_in_percent_encoding_is_the_same_picture(self):
+        svg = '<svg id="unused"><!-- a --><path id="p" d="M 1.23456 2 %\nL 3 4"/><use href="#p" style="fill: #ffffff"/></svg>'
+        address = gallery.svg_address(gallery.short_svg(svg))
+        self.assertFalse(set(address) & set('"&#'))
+        self.assertEqual(urllib.parse.unquote(address.split(",", 1)[1]),
+                         "<svg><path id='p' d='M 1.2 2 % L 3 4'/><use href='#p' style='fill:#ffffff'/></svg>")
 
 
 class PlotDataTest(unittest.TestCase):
