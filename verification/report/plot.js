@@ -6,7 +6,7 @@
   const style = plot_style;
 
   // A curve without a label is a guide: not in the legend, and the pointer passes it by.
-  const dataset = (curve, panel) => {
+  const dataset = (curve, panel, index) => {
     const { x, y } = panel;
     const points = curve.across === "x" ? y.range.map((value) => ({ x: curve.at, y: value }))
       : curve.across === "y" ? x.range.map((value) => ({ x: value, y: curve.at }))
@@ -21,17 +21,19 @@
       pointHoverRadius: curve.label ? 6 : 0, pointHitRadius: curve.label && !curve.fill ? 8 : 0,
       pointBackgroundColor: curve.hollow ? (style.is_dark() ? "#14171a" : "#ffffff") : colour,
       pointBorderColor: curve.hollow ? colour : (style.is_dark() ? "#14171a" : "#ffffff"),
-      pointBorderWidth: curve.hollow ? 1.4 : 0.6, order: curve.fill ? 2 : curve.label ? 0 : 1, clip: 8 };
+      pointBorderWidth: curve.hollow ? 1.4 : 0.6, clip: 8,
+      order: curve.fill ? 2 : curve.label ? -index : 1 };  // the last one on top, as in the picture
   };
 
   const axis = (description, is_log) => ({
     type: is_log ? "logarithmic" : "linear", min: is_log || !description.log ? description.range[0] : 0, max: description.range[1],
-    title: { display: true, text: description.label, color: style.ink(), font: { size: 12 } },
+    title: { display: true, text: style.lines(description.label), color: style.ink(), font: { size: 12 } },
     grid: { color: style.faint(), borderColor: style.ink() },
     ticks: { color: style.ink(), font: { size: 11 }, autoSkip: !is_log, maxRotation: 0,
       callback(value) {
-        const k = Math.log10(value), long = this.min < 2e-3 || this.max > 2e4;
-        return is_log && long && Math.abs(k - Math.round(k)) < 1e-9 ? style.power(Math.round(k)) : style.number(value);
+        const is_power = (v) => Math.abs(Math.log10(v) - Math.round(Math.log10(v))) < 1e-9;
+        const long = (this.min < 2e-3 || this.max > 2e4) && this.ticks.every((tick) => is_power(tick.value));
+        return is_log && long ? style.power(Math.round(Math.log10(value))) : style.number(value);
       } },
     afterBuildTicks: (scale) => {
       if (is_log) scale.ticks = style.log_ticks(scale.min, scale.max).map((value) => ({ value }));
@@ -50,7 +52,7 @@
 
   const draw = (canvas, panel, logs, hidden) => new Chart(canvas, {
     type: "scatter",
-    data: { datasets: panel.curves.map((curve) => ({ ...dataset(curve, panel), hidden: !!curve.label && hidden.has(curve.label) })) },
+    data: { datasets: panel.curves.map((curve, i) => ({ ...dataset(curve, panel, i), hidden: !!curve.label && hidden.has(curve.label) })) },
     options: { responsive: true, maintainAspectRatio: false, animation: false, devicePixelRatio: Math.max(2, devicePixelRatio),
       interaction: { mode: "nearest", intersect: false, axis: "xy" },
       scales: { x: axis(panel.x, panel.x.log && logs.x), y: axis(panel.y, panel.y.log && logs.y) },
@@ -58,7 +60,7 @@
         title: { display: !!panel.title, text: panel.title, align: "start", color: style.ink(), font: { size: 12.5 } },
         tooltip: { displayColors: false, callbacks: { title: () => "", label: (item) => lines(item, panel) },
           filter: (item, index) => index === 0 && !!item.dataset.label && !item.dataset.curve.fill
-            && item.dataset.pointRadius !== 0 && (!item.dataset.curve.shown || item.dataset.curve.shown.includes(item.dataIndex)) } } } });
+            && (!item.dataset.curve.shown || item.dataset.curve.shown.includes(item.dataIndex)) } } } });
 
   const make = (figure, data) => {
     const panels = JSON.parse(data.textContent), logs = { x: true, y: true }, hidden = new Set(), charts = new Map();

@@ -45,6 +45,14 @@ const plot_style = (() => {
     return parts ? [parts[1], parts[2] === "-" || parts[2] === "1" ? "" : parts[2]] : [label, ""];
   };
 
+  // A long label in two lines, broken at the middle.
+  const lines = (label) => {
+    if (label.length < 36) return label;
+    const gaps = [...label.matchAll(/ /g)].map((match) => match.index);
+    const middle = gaps.reduce((best, at) => Math.abs(at - label.length / 2) < Math.abs(best - label.length / 2) ? at : best, 0);
+    return [label.slice(0, middle), label.slice(middle + 1)];
+  };
+
   // The sample of a curve in the legend, as a small drawing.
   const sample = (curve) => {
     const stroke = colour(curve.colour);
@@ -60,5 +68,5 @@ const plot_style = (() => {
     return `<svg width="26" height="12">${dash}${mark}</svg>`;
   };
 
-  return { MARKS, TURNED, colour, faint, ink, is_dark, log_ticks, number, power, quantity, sample };
+  return { MARKS, TURNED, colour, faint, ink, is_dark, lines, log_ticks, number, power, quantity, sample };
 })();

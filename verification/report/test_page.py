@@ -108,18 +108,34 @@ class WholePageTest(PageTest):
 
     @unittest.skipUnless(CHROMIUM and HAS_CHART, "needs chromium and libjs-chart.js")
     def test_a_browser_draws_plots_and_a_view_without_a_fault(self):
-        page = os.path.join(self.made_in, "report.html")
-        command = [CHROMIUM, "--headless", "--no-sandbox", "--use-gl=angle", "--use-angle=swiftshader",
-                   "--enable-unsafe-swiftshader", "--enable-logging=stderr", "--virtual-time-budget=20000",
-                   "--window-size=390,20000", f"--user-data-dir={self.made_in}/browser", "--dump-dom", f"file://{page}?theme=dark&view=1"]
-        try:
-            done = subprocess.run(command, capture_output=True, text=True, timeout=240, check=False)
-        except subprocess.TimeoutExpired:
-            self.skipTest("the browser did not answer within its time")
+        done = self.browse(os.path.join(self.made_in, "report.html") + "?theme=dark&view=1")
         self.assertFalse(re.findall(r"CONSOLE.*(?:Error|error).*", done.stderr))
         self.assertTrue('<html lang="en" data-theme="dark">' in done.stdout, "the theme is dark on request")
         self.assertEqual(done.stdout.count('class="plot"'), len(page_checks.data_of(self.text, "plot-data")))
         self.assertEqual(re.findall(r'class="view" data-ready="(\d+)"', done.stdout), [str(3 * 72)])  # corners of all triangles
+
+
+    @unittest.skipUnless(CHROMIUM, "needs chromium")
+    def test_page_does_not_scroll_sideways_on_a_phone(self):
+        frame = os.path.join(self.made_in, "frame.html")
+        with open(frame, "w", encoding="utf-8") as file:
+            file.write('<iframe width="390" height="4000" src="report.html"></iframe><p></p><script>onload = () => setTimeout(() => {'
+                       'const page = document.querySelector("iframe").contentDocument.documentElement;'
+                       'document.querySelector("p").textContent = `${page.scrollWidth} of ${page.clientWidth}`; }, 3000)</script>')
+        needed, shown = map(int, re.search(r"<p>(\d+) of (\d+)</p>", self.browse(frame).stdout).groups())
+        self.assertGreater(shown, 300)
+        self.assertEqual(needed, shown)
+
+    def browse(self, address):
+        """What the browser makes of a page: its elements on stdout, messages of scripts on stderr."""
+        command = [CHROMIUM, "--headless", "--no-sandbox", "--use-gl=angle", "--use-angle=swiftshader",
+                   "--enable-unsafe-swiftshader", "--enable-logging=stderr", "--virtual-time-budget=20000",
+                   "--allow-file-access-from-files", "--window-size=600,8000", f"--user-data-dir={self.made_in}/browser",
+                   "--dump-dom", f"file://{address}"]
+        try:
+            return subprocess.run(command, capture_output=True, text=True, timeout=240, check=False)
+        except subprocess.TimeoutExpired:
+            self.skipTest("the browser did not answer within its time")
 
 
 class PageSizeTest(unittest.TestCase):

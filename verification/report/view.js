@@ -166,6 +166,15 @@
     return keys;
   };
 
+  // A bar of 1, 2 or 5 times a power of ten, some hundred pixels long; the projection is parallel, it holds everywhere.
+  const scale_bar = (bar, pixels) => {
+    const most = 140 / pixels, power = 10 ** Math.floor(Math.log10(most));
+    const length = power * [5, 2, 1].find((factor) => factor * power <= most);
+    const [factor, unit] = length >= 1 ? [1, "m"] : length >= 0.01 ? [100, "cm"] : length >= 1e-3 ? [1e3, "mm"] : [1e6, "µm"];
+    bar.style.width = `${length * pixels}px`;
+    bar.textContent = `${Number((factor * length).toPrecision(3))} ${unit}`;
+  };
+
   let open = null; // browsers hold a few drawing contexts only: one view at a time
   const show = async (figure, button) => {
     open?.();
@@ -176,12 +185,13 @@
     try {
       const view = new View(description, await unpack(description)), canvas = element("canvas");
       canvas.setAttribute("aria-label", "cloth in space: drag to turn, two fingers or wheel to zoom, shift and drag to move");
-      const scene_box = element("div");
-      scene_box.append(canvas);
+      const scene_box = element("div", "", { className: "stage" }), scale = element("span", "", { className: "scale" });
+      scene_box.append(canvas, scale);
       box.append(scene_box);
       const scene = new ViewScene(canvas);
+      scene.on_draw = (pixels) => scale_bar(scale, pixels);
       scene.look_at(...view.bounds());
-      scene.home = { yaw: 0, pitch: view.parts === 2 ? -0.35 : -1.22, zoom: 1, shift: [0, 0] };
+      scene.home = { yaw: 0, pitch: view.parts === 2 ? -0.35 : -1.22, zoom: view.parts === 2 ? 1.2 : 1, shift: [0, 0] };
       scene.reset();
       const redraw = () => view.show(scene);
       box.prepend(controls(view, redraw, () => { scene.reset(); scene.draw(); }));
@@ -197,7 +207,7 @@
 
   const figures = [...document.querySelectorAll("script.view-data")].map((data) => data.closest("figure"));
   const buttons = figures.map((figure) => {
-    const button = element("button", "Turn it in space", { type: "button" });
+    const button = element("button", "View in 3D", { type: "button" });
     button.onclick = () => show(figure, button);
     figure.insertBefore(button, figure.querySelector("figcaption"));
     return button;

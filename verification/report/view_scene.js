@@ -123,6 +123,7 @@ class ViewScene {
     gl.uniform1f(this.uniform("contrast"), 0);
     gl.uniform1f(this.uniform("nearer"), 0.004);
     if (this.edge_ends) gl.drawArrays(gl.LINES, 0, this.edge_ends);
+    this.on_draw?.(0.5 * zoom * shorter / ratio);  // pixels of the page per metre
   }
 
   bind(names) {
