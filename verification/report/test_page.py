@@ -2,6 +2,8 @@
 """Tests of what every page must be: whole, small, alone, with its numbers; and of what stands in its plots and views."""
 import csv
 import glob
+import html
+import json
 import math
 import os
 import re
@@ -126,10 +128,29 @@ class WholePageTest(PageTest):
         self.assertGreater(shown, 300)
         self.assertEqual(needed, shown)
 
+    @unittest.skipUnless(CHROMIUM and HAS_CHART, "needs chromium and libjs-chart.js")
+    def test_a_reader_hovers_switches_curves_and_axes_and_saves_what_the_file_holds(self):
+        frame = os.path.join(self.made_in, "actions.html")
+        with open(frame, "w", encoding="utf-8") as file:
+            file.write('<iframe width="1300" height="7900" src="report.html?view=1"></iframe><pre></pre><script>'
+                       + scripts.own("page_actions.js") + "</script>")
+        answer = re.search(r"<pre>(.*?)</pre>", self.browse(frame).stdout, flags=re.S).group(1)
+        self.assertTrue(answer, "the page did not answer")
+        found = json.loads(html.unescape(answer))
+        self.assertEqual(found["faults"], [])
+        self.assertIn("up-sampled − reference × 10 (exaggerated)", found["sliders"])
+        self.assertEqual((found["hidden"], found["axis"]), (["affine against biot"], "linear"))
+        self.assertEqual(found["beside_the_pointer"], ["localized against biot", "strain: 1 %", "mean error: 8 × 10⁻⁵ cell sides"])
+        with open(os.path.join(self.made_in, "figures", "stripes-error-strain.csv"), encoding="utf-8", newline="") as file:
+            stored = list(csv.reader(file))
+        saved = list(csv.reader(found["csv"].splitlines()))
+        self.assertEqual([row[:4] for row in saved], [row[:4] for row in stored])
+        self.assertEqual([float(row[6]) for row in saved[1:]], [float(row[6]) for row in stored[1:]])
+
     def browse(self, address):
         """What the browser makes of a page: its elements on stdout, messages of scripts on stderr."""
         command = [CHROMIUM, "--headless", "--no-sandbox", "--use-gl=angle", "--use-angle=swiftshader",
-                   "--enable-unsafe-swiftshader", "--enable-logging=stderr", "--virtual-time-budget=20000",
+                   "--enable-unsafe-swiftshader", "--enable-logging=stderr", "--virtual-time-budget=30000",
                    "--allow-file-access-from-files", "--window-size=600,8000", f"--user-data-dir={self.made_in}/browser",
                    "--dump-dom", f"file://{address}"]
         try:
