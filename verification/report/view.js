@@ -148,9 +148,11 @@
     keys.append(choices("colours", colours, view.colour, set("colour")));
     if (view.frames > 1)
       keys.append(slider(0, view.frames - 1, 1, view.frame, (i) => `time ${Number(description.times[i].toPrecision(4))} s`, set("frame")));
-    if (arrays.difference)
-      keys.append(slider(0, 2, 0.05, 0, (x) => `up-sampled − reference × ${Number((10 ** x).toPrecision(2))}${x > 0 ? " (exaggerated)" : " (true)"}`,
-        (x) => set("factor")(10 ** x)));
+    if (arrays.difference) {
+      const most = Math.min(6, Math.max(1, Math.log10(0.1 * view.extent / (description.error.largest || 1)))); // a tenth of the cloth
+      const words = (x) => `up-sampled − reference × ${Number((10 ** x).toPrecision(2))}${x > 0 ? " (exaggerated)" : " (true)"}`;
+      keys.append(slider(0, most, "any", 0, words, (x) => set("factor")(10 ** x)));
+    }
     if (arrays.coarse) keys.append(box_of("coarse mesh", set("mesh")));
     if (view.parts === 2 && description.error) keys.append(box_of("error as height (not to scale)", set("height")));
     const home = element("button", "reset view", { type: "button", onclick: reset });

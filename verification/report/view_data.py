@@ -16,10 +16,10 @@ from figures_cloth import ERROR_MAP, phase_colour_map, spread
 from figures_sheet import unit_of
 from vtu import read_vtu
 
-SHEET_VERTICES = 20000    # of one sheet at most, and
-ALL_SHEET_VERTICES = 84000  # of all of a page
-FILM_NUMBERS = 400000     # coordinates of one film at most, and
-ALL_FILM_NUMBERS = 900000   # of all of a page
+SHEET_VERTICES = 20000       # of one sheet at most, and
+ALL_SHEET_VERTICES = 120000  # of all of a page
+FILM_NUMBERS = 400000       # coordinates of one film at most, and
+ALL_FILM_NUMBERS = 1600000  # of all of a page
 FRAMES = 9
 LARGEST_INTEGER = 32767
 SHOWN_PERCENTILE = 99.5   # where the colours end, as in the pictures
