@@ -62,9 +62,10 @@ class Results:
                 and not math.isnan(row["error_mean_m"]) and cell in (None, row["cell"])]
 
     def claims(self):
-        """(study, verdict) of every claim; where a folder lists those of all parts, they are all there are."""
-        lists = [study for study in self.studies if study.lists_all]
-        return [(study, verdict) for study in lists or self.studies for verdict in study.verdicts]
+        """(study, verdict) of every claim; the folder of a `verify` lists those of all its parts, which then stand back."""
+        listed = {study.place for study in self.studies if study.lists_all}
+        return [(study, verdict) for study in self.studies if study.lists_all or study.place not in listed
+                for verdict in study.verdicts]
 
     def unreached(self):
         return [row for row in self.strain if row["method"] == UNREACHED]
