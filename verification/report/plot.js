@@ -3,7 +3,7 @@
 // curves off, axes that turn from logarithmic to linear, values beside the pointer.
 "use strict";
 (() => {
-  const style = plot_style;
+  const style = plot_style, AHEAD = 600; // pixels below the window
 
   // A curve without a label is a guide: not in the legend, and the pointer passes it by.
   const dataset = (curve, panel, index) => {
@@ -110,25 +110,30 @@
     figure.insertBefore(box, figure.querySelector("figcaption"));
     figure.classList.add("live");
     // A panel is drawn when it comes near: a page may have a hundred.
+    const draw_once = (i) => { if (!charts.has(i)) charts.set(i, draw(canvases[i], panels[i], logs, hidden)); };
     const watch = new IntersectionObserver((entries) => entries.forEach((entry) => {
-      const i = canvases.indexOf(entry.target.firstChild);
-      if (entry.isIntersecting && !charts.has(i)) charts.set(i, draw(canvases[i], panels[i], logs, hidden));
-    }), { rootMargin: "600px" });
-    canvases.forEach((canvas) => watch.observe(canvas.parentNode));
+      if (entry.isIntersecting) draw_once(canvases.indexOf(entry.target.firstChild));
+    }), { rootMargin: `${AHEAD}px` });
     addEventListener("theme", () => { legend(); redraw(); });
+    return () => canvases.forEach((canvas, i) => {
+      if (canvas.getBoundingClientRect().top < innerHeight + AHEAD) draw_once(i);
+      watch.observe(canvas.parentNode);
+    });
   };
 
   const start = () => {
+    const begin = [];
     for (const data of document.querySelectorAll("script.plot-data")) {
       const figure = data.closest("figure");
       try {
-        make(figure, data);
+        begin.push(make(figure, data));
       } catch (error) {  // the picture is still there
         figure.classList.remove("live");
         figure.querySelector(".plot")?.remove();
         console.error(error);
       }
     }
+    begin.forEach((draw_near) => draw_near());  // when all have their places
   };
   start();
 })();
