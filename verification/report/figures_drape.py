@@ -183,7 +183,7 @@ def energy_figure(rows):
     for axes, (key, label) in zip(grid[0], panels):
         log = key not in ("max_stretch", "gravity_J") and not any(row[key] < 0. for row in rows)
         plot_members(axes, rows, key, positive=log)
-        axes.set(xlabel="time [s]", title=label)
+        axes.set(xlabel="time [s]", ylabel=label)
         # A variant that blows up must not flatten the others: it leaves the panel.
         every = [row[key] for row in rows if not math.isnan(row[key])]
         calm = [row[key] for row in rows if row["variant"] == first and not math.isnan(row[key])] or every
