@@ -2,6 +2,8 @@
 """What the report shows of `homespun converge`: per study a figure and the table of its orders."""
 import math
 
+from markupsafe import Markup
+
 from converge_results import STUDIES
 from figures_converge import FIGURES
 from stress_results import MARKS
@@ -69,7 +71,7 @@ def convergence_contents(convergence, gallery):
         if not some:
             continue
         figure = FIGURES[study](convergence)
-        picture = gallery.add(figure, f"converge-{study}", CAPTIONS[study]) if figure else None
+        picture = gallery.add(figure, f"converge-{study}", Markup(CAPTIONS[study])) if figure else None
         judged = [s for s in some if s.judgement]
         studies.append({"title": TITLES[study], "picture": picture, "rows": [row_of(s) for s in judged],
                         "cells": any(s.cell != "none" for s in judged)})
