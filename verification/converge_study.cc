@@ -221,6 +221,7 @@ private:
                                      {"quick", options.quick},
                                      {"ranks", n_ranks},
                                      {"seconds_total", seconds},
+                                     {"resumed", options.resume},
                                      {"left_out", what_was_left_out(options)},
                                      {"notes", all_notes},
                                      {"provenance", provenance(n_ranks)}}));

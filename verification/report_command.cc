@@ -66,7 +66,10 @@ void add_report_command(CLI::App &app, Action &action, Afterwards &afterwards)
     bool quiet = false;
   };
   const auto arguments = std::make_shared<Arguments>();
-  command->add_option("DIR", arguments->folders, "Folders of results")->required();
+  command
+    ->add_option("DIR", arguments->folders,
+                 "Folders of results; several cells or versions are compared in one page")
+    ->required();
   command->add_option("--output", arguments->output,
                       "Folder of the report (default the first DIR)");
   command->add_flag("--quiet", arguments->quiet, "Print nothing but faults");

@@ -230,6 +230,7 @@ private:
       {"repeats", options.repeats},
       {"sheets", sheets},
       {"seconds_total", seconds},
+      {"resumed", options.resume},
       {"left_out", what_was_left_out(options.most_triangles, n_ranks())},
       {"notes", notes()},
       {"provenance", provenance(static_cast<unsigned int>(n_ranks()))}};

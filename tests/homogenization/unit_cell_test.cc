@@ -164,7 +164,8 @@ TEST(tripwire_unit_cell, a_mesh_outside_of_the_folder_of_its_cell_is_refused)
     {
       EXPECT_SAYS(std::string(bad.what()), "outside of the folder");
     }
-  EXPECT_SAYS(folder.refusal(replaced(keys, "cell.msh", "/etc/passwd"), ""), "outside of the folder");
+  EXPECT_SAYS(folder.refusal(replaced(keys, "cell.msh", "/etc/passwd"), ""),
+              "outside of the folder");
   // Below is inside.
   std::filesystem::create_directories(folder.path / "meshes");
   std::ofstream(folder.path / "meshes" / "below.msh") << msh(stripes());

@@ -164,9 +164,10 @@ def summary(results):
         if info.get("ranks") is not None:
             parts.append(f"{info['ranks']} rank{'s' if info['ranks'] != 1 else ''}")
         if info.get("seconds_total") is not None:
-            parts.append(f"{seconds(float(info['seconds_total']))} in all")
+            what = "since it was taken up again" if info.get("resumed") else "in all"
+            parts.append(f"{seconds(float(info['seconds_total']))} {what}")
         if info.get("peak_memory_bytes") is not None:
-            parts.append(f"{three(info['peak_memory_bytes'] / 2. ** 30)} GiB of memory at most")
+            parts.append(f"{three(info['peak_memory_bytes'] / 2. ** 30)} GiB of memory at most" + (" since then" if info.get("resumed") else ""))
         if parts:
             name = f"{study.name}: " if len(results.studies) > 1 else ""
             sentences.append(name + ", ".join(parts) + ".")

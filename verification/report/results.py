@@ -138,7 +138,10 @@ def read_folder(folder, results, faults):
         if path := path_of("study.json", "command, sizes and provenance of the study"):
             if value := read_json(path, faults):
                 study.info = {**study.info, **check_study(value, path, faults)}
-    if path := path_of("verdicts.json", "verdicts"):
+    # A cell of `verify` has its claims in the list of all parts.
+    is_listed = any(other.lists_all and os.path.realpath(folder).startswith(os.path.realpath(other.folder) + os.sep)
+                    for other in results.studies)
+    if (holds("verdicts.json") or not is_listed) and (path := path_of("verdicts.json", "verdicts")):
         if value := read_json(path, faults):
             study.verdicts = check_verdicts(value, path, faults)
     if has_strain:
