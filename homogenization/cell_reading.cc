@@ -74,6 +74,22 @@ std::vector<meshes::MeshFault> piece_faults(const meshes::TriangleMesh &mesh,
   return {{text.str(), place}};
 }
 
+/// The path of a file that a cell file names. It stays in the folder of the cell file, links followed, so that a cell
+/// from elsewhere opens nothing but what came with it.
+/// @throws BadInput where it leads out of the folder
+std::string file_beside(const std::string &prm_file, const std::string &name)
+{
+  const std::filesystem::path folder = std::filesystem::path(prm_file).parent_path(),
+                              path   = folder / name;
+  const std::filesystem::path within = std::filesystem::weakly_canonical(path).lexically_relative(
+    std::filesystem::weakly_canonical(folder.empty() ? "." : folder));
+  if (std::filesystem::path(name).is_absolute() || within.empty() || *within.begin() == "..")
+    throw meshes::BadInput(
+      prm_file + ": key `Mesh`: found `" + name +
+      "`, which lies outside of the folder of the cell file; expected a file in it or below: "
+      "copy the mesh there");
+  return path.string();
+}
 /// The keys, with the length unit [m]; faults become findings.
 CellKeys read_keys(const std::string &prm_file, CellReading &reading)
 {
@@ -113,11 +129,11 @@ CellReading read_cell(const std::string &prm_file)
   if (has_errors(findings))
     return reading;
 
-  const std::string mesh_path =
-    (std::filesystem::path(prm_file).parent_path() / trimmed(keys.mesh)).string();
+  std::string mesh_path;
   CellMeshFile mesh_file;
   try
   {
+    mesh_path = file_beside(prm_file, trimmed(keys.mesh));
     mesh_file = read_cell_mesh(mesh_path);
   }
   catch (const meshes::BadInput &bad)

@@ -2,12 +2,10 @@
 #include "meshes/cell_file.h"
 
 #include "meshes/errors.h"
+#include "meshes/hdf5_reader.h"
 #include "meshes/hdf5_writer.h"
 
 #include <Eigen/Eigenvalues>
-
-#include <hdf5.h>
-#include <hdf5_hl.h>
 
 #include <cstdio>
 #include <cstdlib>
@@ -19,81 +17,6 @@ namespace homespun::meshes
 {
 namespace
 {
-/// An open HDF5 file.
-class File
-{
-public:
-  File(const hid_t id)
-      : id(id)
-  {
-  }
-  File(const File &)            = delete;
-  File &operator=(const File &) = delete;
-  ~File()
-  {
-    if (id >= 0)
-      H5Fclose(id);
-  }
-  const hid_t id;
-};
-
-std::string shape_text(const std::vector<hsize_t> &shape)
-{
-  std::ostringstream text;
-  text << '(';
-  for (std::size_t k = 0; k < shape.size(); ++k)
-    text << (k ? "," : "") << shape[k];
-  text << ')';
-  return text.str();
-}
-
-void require(const bool condition, const std::string &message)
-{
-  if (!condition)
-    throw BadInput(message);
-}
-
-/// The shape of a dataset, which must have the given number of axes; 0 in `expected` is free.
-std::vector<hsize_t> shape_of(const File &file, const std::string &path, const char *name,
-                              const std::vector<hsize_t> &expected)
-{
-  int rank = -1;
-  require(H5LTfind_dataset(file.id, name + 1) == 1 &&
-            H5LTget_dataset_ndims(file.id, name, &rank) >= 0,
-          path + ": dataset " + name +
-            " is missing; expected a cell written by `homespun homogenize`: run it again");
-  std::vector<hsize_t> shape(static_cast<std::size_t>(rank));
-  H5T_class_t type;
-  std::size_t bytes;
-  require(H5LTget_dataset_info(file.id, name, shape.data(), &type, &bytes) >= 0 &&
-            (type == H5T_FLOAT || type == H5T_INTEGER),
-          path + ": dataset " + name + " does not hold numbers; expected numbers");
-  bool fits = shape.size() == expected.size();
-  for (std::size_t k = 0; fits && k < shape.size(); ++k)
-    fits = expected[k] == 0 || expected[k] == shape[k];
-  std::string wanted = shape_text(expected);
-  for (std::size_t at = 0; (at = wanted.find('0', at)) != std::string::npos && expected.size();)
-    if ((at == 1 || wanted[at - 1] == ',') && (wanted[at + 1] == ',' || wanted[at + 1] == ')'))
-      wanted.replace(at++, 1, "any");
-    else
-      ++at;
-  require(fits,
-          path + ": dataset " + name + " has shape " + shape_text(shape) + "; expected " + wanted);
-  return shape;
-}
-
-void read(const File &file, const std::string &path, const char *name, double *values)
-{
-  require(H5LTread_dataset_double(file.id, name, values) >= 0,
-          path + ": dataset " + name + " cannot be read: the file is damaged, write it again");
-}
-
-void read(const File &file, const std::string &path, const char *name, int *values)
-{
-  require(H5LTread_dataset_int(file.id, name, values) >= 0,
-          path + ": dataset " + name + " cannot be read: the file is damaged, write it again");
-}
-
 /// What every cell fulfils, whoever made it.
 std::vector<std::string> faults_of(const HomogenizedCell &cell, const std::string &path)
 {
@@ -165,57 +88,35 @@ void write_cell(const HomogenizedCell &cell, const std::string &path)
 
 HomogenizedCell read_cell(const std::string &path)
 {
-  silence_hdf5();
-  require(std::filesystem::is_regular_file(path),
-          path + ": no such file; expected a cell.h5: make it with `homespun homogenize`");
-  const File file(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT));
-  require(file.id >= 0,
-          path +
-            ": is not a readable HDF5 file (truncated, or of another kind); expected a cell.h5: "
-            "make it with `homespun homogenize`");
+  const Hdf5Reader file(path, "a cell.h5: make it with `homespun homogenize`");
+  const auto n = file.shape_of("/vertices", {Hdf5Reader::any, 2})[0],
+             m = file.shape_of("/triangles", {Hdf5Reader::any, 3})[0];
 
   HomogenizedCell cell;
-  const hsize_t n = shape_of(file, path, "/vertices", {0, 2})[0];
-  const hsize_t m = shape_of(file, path, "/triangles", {0, 3})[0];
-  shape_of(file, path, "/material", {m});
-  shape_of(file, path, "/lattice", {2, 2});
-  shape_of(file, path, "/chi", {n, 2, 3});
-  shape_of(file, path, "/C", {3, 3});
-  shape_of(file, path, "/areal_density", {1});
-
-  cell.mesh.vertices.resize(static_cast<Eigen::Index>(n), 2);
-  cell.mesh.triangles.resize(static_cast<Eigen::Index>(m), 3);
-  cell.mesh.material.resize(static_cast<Eigen::Index>(m));
-  read(file, path, "/vertices", cell.mesh.vertices.data());
-  read(file, path, "/triangles", cell.mesh.triangles.data());
-  read(file, path, "/material", cell.mesh.material.data());
-  Eigen::Matrix<double, 2, 2, Eigen::RowMajor> lattice;
-  read(file, path, "/lattice", lattice.data());
-  cell.lattice.vectors = lattice;
-  std::vector<double> chi(6 * static_cast<std::size_t>(n));
-  read(file, path, "/chi", chi.data());
-  cell.chi.resize(static_cast<Eigen::Index>(n), 6);
-  for (Eigen::Index v = 0; v < cell.chi.rows(); ++v)
+  const auto rows = static_cast<Eigen::Index>(n), triangles = static_cast<Eigen::Index>(m);
+  const std::vector<double> vertices = file.numbers("/vertices", {n, 2}),
+                            lattice  = file.numbers("/lattice", {2, 2}),
+                            chi = file.numbers("/chi", {n, 2, 3}), C = file.numbers("/C", {3, 3});
+  const std::vector<int> corners  = file.integers("/triangles", {m, 3}),
+                         material = file.integers("/material", {m});
+  cell.mesh.vertices              = Eigen::Map<const Points>(vertices.data(), rows, 2);
+  cell.mesh.triangles             = Eigen::Map<const Triangles>(corners.data(), triangles, 3);
+  cell.mesh.material              = Eigen::Map<const Eigen::VectorXi>(material.data(), triangles);
+  cell.lattice.vectors =
+    Eigen::Map<const Eigen::Matrix<double, 2, 2, Eigen::RowMajor>>(lattice.data());
+  cell.stiffness     = Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(C.data());
+  cell.areal_density = file.numbers("/areal_density", {1})[0];
+  cell.chi.resize(rows, 6);
+  for (Eigen::Index v = 0; v < rows; ++v)
     for (int a = 0; a < 3; ++a)
       for (int c = 0; c < 2; ++c)
         cell.chi(v, 2 * a + c) = chi[static_cast<std::size_t>(6 * v + 3 * c + a)];
-  require(H5LTget_attribute_int(file.id, "/chi", "anchor", &cell.anchor) >= 0,
-          path + ": attribute anchor of /chi is missing; expected the vertex where chi is zero");
-  Eigen::Matrix<double, 3, 3, Eigen::RowMajor> stiffness;
-  read(file, path, "/C", stiffness.data());
-  cell.stiffness = stiffness;
-  read(file, path, "/areal_density", &cell.areal_density);
-
-  hsize_t length = 0;
-  H5T_class_t type;
-  std::size_t bytes = 0;
-  if (H5LTget_attribute_info(file.id, "/", "provenance", &length, &type, &bytes) >= 0 &&
-      type == H5T_STRING && bytes < 1000000)
-  {
-    std::vector<char> text(bytes + 1, '\0');
-    if (H5LTget_attribute_string(file.id, "/", "provenance", text.data()) >= 0)
-      cell.provenance = text.data();
-  }
+  const std::optional<int> anchor = file.integer_attribute("/chi", "anchor");
+  if (!anchor)
+    throw BadInput(path +
+                   ": attribute anchor of /chi is missing; expected the vertex where chi is zero");
+  cell.anchor                           = *anchor;
+  cell.provenance                       = file.text_attribute("/", "provenance").value_or("");
   const std::vector<std::string> faults = faults_of(cell, path);
   if (!faults.empty())
     throw BadInput(faults);

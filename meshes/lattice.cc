@@ -163,6 +163,36 @@ Lattice lattice_of_outline(const TriangleMesh &mesh)
   return lattice;
 }
 
+namespace
+{
+/// Two vertices within the tolerance of periodic images, anywhere in the mesh: whoever matches images would take them
+/// for one.
+std::vector<MeshFault> coincidence_faults(const TriangleMesh &mesh, const Lattice &lattice,
+                                          const std::string &name, const double relative_tolerance)
+{
+  const ImageClasses classes = match_images(mesh.vertices, lattice, relative_tolerance);
+  std::map<std::array<int, 3>, int> vertex_at;
+  for (int v = 0; v < mesh.n_vertices(); ++v)
+  {
+    const auto [other, is_new] =
+      vertex_at.insert({{classes.representative[static_cast<std::size_t>(v)], classes.offset(v, 0),
+                         classes.offset(v, 1)},
+                        v});
+    if (is_new)
+      continue;
+    std::ostringstream text;
+    text.precision(10);
+    text << name << ": vertices " << other->second << " at (" << mesh.vertices.row(other->second)
+         << ") m and " << v << " at (" << mesh.vertices.row(v)
+         << ") m count as one; expected more than "
+         << relative_tolerance * std::sqrt(lattice.area())
+         << " m between them, the tolerance of periodic images: merge them, or move them apart";
+    return {{text.str(), {mesh.vertices.row(v), -1, v}}};
+  }
+  return {};
+}
+} // namespace
+
 std::vector<std::string> periodicity_faults(const TriangleMesh &mesh, const Lattice &lattice,
                                             const std::string &name,
                                             const double relative_tolerance)
@@ -217,27 +247,10 @@ std::vector<MeshFault> placed_periodicity_faults(const TriangleMesh &mesh, const
     faults.push_back({text.str(), Place()});
   }
 
+  for (const MeshFault &fault : coincidence_faults(mesh, lattice, name, relative_tolerance))
+    faults.push_back(fault);
   const ImageClasses classes = match_images(points, lattice, relative_tolerance);
-  std::map<std::array<int, 3>, Eigen::Index> vertex_at;
-  for (Eigen::Index i = 0; i < points.rows(); ++i)
-  {
-    const auto [other, is_new] =
-      vertex_at.insert({{classes.representative[static_cast<std::size_t>(i)], classes.offset(i, 0),
-                         classes.offset(i, 1)},
-                        i});
-    if (is_new)
-      continue;
-    std::ostringstream text;
-    text.precision(10);
-    text << name << ": vertices " << loop[static_cast<std::size_t>(other->second)] << " at ("
-         << points.row(other->second) << ") m and " << loop[static_cast<std::size_t>(i)] << " at ("
-         << points.row(i) << ") m on the outline count as one; expected more than "
-         << relative_tolerance * cell_size
-         << " m between them, the tolerance of periodic images: merge them, or move them apart";
-    faults.push_back({text.str(), place_at(loop[static_cast<std::size_t>(i)])});
-    break;
-  }
-  int unmatched = 0;
+  int unmatched              = 0;
   for (Eigen::Index i = 0; i < points.rows(); ++i)
   {
     if (classes.size[static_cast<std::size_t>(i)] > 1)

@@ -2,12 +2,12 @@
 #include "meshes/state_file.h"
 
 #include "meshes/errors.h"
+#include "meshes/hdf5_reader.h"
 #include "meshes/hdf5_writer.h"
 
-#include <hdf5.h>
-#include <hdf5_hl.h>
-
+#include <cmath>
 #include <filesystem>
+#include <utility>
 
 namespace homespun::meshes
 {
@@ -32,56 +32,23 @@ std::optional<ClothState> read_state(const std::string &file, const int n_vertic
 {
   if (!std::filesystem::exists(file))
     return std::nullopt;
-  silence_hdf5();
-  const hid_t id = H5Fopen(file.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
+  const std::string what = "what the same run wrote: leave out --resume, or remove the file";
+  const Hdf5Reader reader(file, what);
+  const auto n = static_cast<unsigned long long>(n_vertices);
   ClothState state;
-  state.positions.resize(n_vertices, 3);
-  state.velocities.resize(n_vertices, 3);
-  H5T_class_t type;
-  std::size_t bytes = 0;
-  const auto read   = [&](const char *name, double *values)
-  {
-    int rank         = 0;
-    hsize_t shape[2] = {0, 0};
-    return H5LTfind_dataset(id, name) == 1 && H5LTget_dataset_ndims(id, name, &rank) >= 0 &&
-           rank == 2 && H5LTget_dataset_info(id, name, shape, &type, &bytes) >= 0 &&
-           shape[0] == static_cast<hsize_t>(n_vertices) && shape[1] == 3 &&
-           H5LTread_dataset_double(id, name, values) >= 0;
-  };
-  const auto read_seconds = [&]()
-  {
-    int rank  = 0;
-    hsize_t n = 0;
-    if (H5LTfind_dataset(id, "step_seconds") != 1 ||
-        H5LTget_dataset_ndims(id, "step_seconds", &rank) < 0 || rank != 1 ||
-        H5LTget_dataset_info(id, "step_seconds", &n, &type, &bytes) < 0)
-      return false;
-    state.step_seconds.resize(n);
-    return n == 0 || H5LTread_dataset_double(id, "step_seconds", state.step_seconds.data()) >= 0;
-  };
-  const auto read_run = [&]()
-  {
-    hsize_t unused = 0;
-    if (H5LTfind_attribute(id, "run") != 1 ||
-        H5LTget_attribute_info(id, "/", "run", &unused, &type, &bytes) < 0 || type != H5T_STRING)
-      return false;
-    std::vector<char> text(bytes + 1, '\0');
-    if (H5LTget_attribute_string(id, "/", "run", text.data()) < 0)
-      return false;
-    state.run = text.data();
-    return true;
-  };
-  const bool good = id >= 0 && read("positions", state.positions.data()) &&
-                    read("velocities", state.velocities.data()) && read_seconds() && read_run() &&
-                    H5LTget_attribute_double(id, "/", "time", &state.time) >= 0 &&
-                    H5LTget_attribute_int(id, "/", "frame", &state.frame) >= 0 &&
-                    state.positions.allFinite() && state.velocities.allFinite();
-  if (id >= 0)
-    H5Fclose(id);
-  if (!good)
-    throw BadInput(
-      file + ": holds no state of " + std::to_string(n_vertices) +
-      " vertices; expected what the same run wrote: leave out --resume, or remove the file");
+  for (const auto &[name, field] : {std::make_pair("/positions", &state.positions),
+                                    std::make_pair("/velocities", &state.velocities)})
+    *field = Eigen::Map<const SpacePoints>(reader.numbers(name, {n, 3}).data(), n_vertices, 3);
+  state.step_seconds     = reader.numbers("/step_seconds", {Hdf5Reader::any});
+  const auto run_of_file = reader.text_attribute("/", "run");
+  const auto time        = reader.number_attribute("/", "time");
+  const auto frame       = reader.integer_attribute("/", "frame");
+  if (!run_of_file || !time || !frame || !std::isfinite(*time) || *frame < 0 ||
+      !state.positions.allFinite() || !state.velocities.allFinite())
+    throw BadInput(file + ": holds no state of a run; expected " + what);
+  state.run   = *run_of_file;
+  state.time  = *time;
+  state.frame = *frame;
   if (state.run != run)
     throw BadInput(file + ": holds the state of a run with other inputs (" + state.run +
                    "); expected that of this one (" + run +

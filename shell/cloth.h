@@ -65,7 +65,7 @@ class Cloth
 public:
   /// @param positions (n,3) at the beginning, velocities are zero [m]
   /// @param masses (n) [kg]
-  /// @param held vertices that are moved by prescribe() or stay
+  /// @param held_vertices those that are moved by prescribe() or stay
   /// @throws BadInput where sizes do not match, a number is not finite, a mass not positive, a held vertex
   ///   does not exist
   Cloth(const Vectors &positions, const Eigen::VectorXd &masses,

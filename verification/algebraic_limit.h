@@ -6,9 +6,6 @@
 
 namespace homespun::verification
 {
-/// Largest over smallest eigenvalue of the stiffness of all phases.
-double contrast_of(const homogenization::UnitCell &cell);
-
 /// What round-off and the solver may do to a C^H whose discrete problem is solved exactly by theory, as the largest
 /// relative difference of an energy.
 ///

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
 // homespun homogenize, cells: what concerns a cell alone.
 #include "meshes/errors.h"
-#include "verification/build_info.h"
 #include "verification/cell_study.h"
+#include "verification/cells_make.h"
 #include "verification/commands.h"
+#include "verification/data_folder.h"
 #include "verification/on_root.h"
 #include "verification/progress.h"
 
@@ -44,36 +45,58 @@ int homogenize(HomogenizeArguments arguments)
   return any_failed(assessed.checks) ? 1 : 0;
 }
 
-/// The comment lines at the head of a cell file: its story.
+/// The first sentence of the comment at the head of a cell file: its story in one line.
 std::string story_of(const std::string &file)
 {
   std::ifstream input(file);
   std::string line, story;
   while (std::getline(input, line) && line.rfind("#", 0) == 0)
-    story += "    " + line.substr(std::min<std::size_t>(2, line.size())) + "\n";
-  return story;
+    story += (story.empty() ? "" : " ") + line.substr(std::min<std::size_t>(2, line.size()));
+  return story.substr(0, story.find(". "));
 }
 
 int list_cells()
 {
   if (!is_root(MPI_COMM_WORLD))
     return 0;
-  std::vector<std::string> files;
+  std::vector<std::filesystem::path> files;
   for (const auto &entry : std::filesystem::directory_iterator(cells_folder()))
     if (entry.path().extension() == ".prm")
-      files.push_back(entry.path().string());
+      files.push_back(entry.path());
   std::sort(files.begin(), files.end());
-  for (const std::string &file : files)
-    std::cout << file << "\n" << story_of(file);
+  for (std::filesystem::path file : files)
+  {
+    std::cout << file.string() << "\n    " << story_of(file.string()) << "\n    --set";
+    const char *separator = " ";
+    for (const CellParameter &parameter : cell_parameters(file.replace_extension(".geo").string()))
+    {
+      std::cout << separator << description(parameter);
+      separator = ", ";
+    }
+    std::cout << "\n";
+  }
+  return 0;
+}
+
+/// Makes a variant and says of it what `homespun check` says.
+int make(const CellVariant &variant)
+{
+  std::string file;
+  on_root(MPI_COMM_WORLD,
+          [&]()
+          {
+            file = make_cell(variant);
+            std::cout << "Made " << file << ", with its .geo and .msh\n";
+            // One rank alone: the others do not know the file's name.
+            check({file});
+          });
   return 0;
 }
 } // namespace
 
 std::string cells_folder()
 {
-  const std::string in_sources = std::string(HOMESPUN_SOURCE_DIR) + "/meshes/cells";
-  return std::filesystem::is_directory(in_sources) ? in_sources
-                                                   : std::string(HOMESPUN_DATA_DIR) + "/cells";
+  return data_folder("cells", "meshes/cells");
 }
 
 void add_homogenize_command(CLI::App &app, Action &action)
@@ -119,7 +142,33 @@ void add_homogenize_command(CLI::App &app, Action &action)
 
 void add_cells_command(CLI::App &app, Action &action)
 {
-  CLI::App *command = app.add_subcommand("cells", "List the shipped cells");
-  command->callback([&action]() { action = list_cells; });
+  CLI::App *command =
+    app.add_subcommand("cells", "List the shipped cells with their parameters; make variants");
+  command->require_subcommand(0, 1);
+  command->callback(
+    [&action, command]()
+    {
+      if (command->get_subcommands().empty())
+        action = list_cells;
+    });
+  command->footer("Example:\n  homespun cells\n  homespun cells make twill --set yarn_width=0.4");
+
+  CLI::App *make_command = command->add_subcommand(
+    "make", "Copy a shipped cell, change parameters of its Gmsh source, mesh and check it");
+  const auto variant = std::make_shared<CellVariant>();
+  make_command->add_option("NAME", variant->cell, "A shipped cell")->required();
+  make_command
+    ->add_option("--set", variant->settings,
+                 "`key=value`, a parameter of the cell; may be given several times")
+    ->allow_extra_args(false);
+  make_command->add_option("--name", variant->name, "Name of the new files (default NAME)");
+  make_command->add_option("--output", variant->output, "Folder of the new files")
+    ->capture_default_str();
+  make_command->footer(
+    "Writes NAME.geo, NAME.msh and NAME.prm, or nothing. Gmsh makes the mesh: apt "
+    "install gmsh.\nExample:\n"
+    "  homespun cells make twill --set yarn_width=0.4 --output mine\n"
+    "  homespun cells make random-dots --set seed=7 --set dots=20 --name random-7");
+  make_command->callback([&action, variant]() { action = [variant]() { return make(*variant); }; });
 }
 } // namespace homespun::verification

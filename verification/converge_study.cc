@@ -71,7 +71,8 @@ nlohmann::ordered_json notes()
     "Where the exact value is not known, errors are distances from the Richardson limit of the last three levels, "
     "and the error bar is the grid convergence index with the safety factor 1.25.",
     "mesh: h is the square root of the mean area of a triangle over the cell side. Where phases meet in corners "
-    "the order is twice the exponent of the strongest one, computed from angles and stiffnesses; C^H falls from "
+    "the order is at least twice the exponent of the strongest one and at most twice the smallest exponent above 1 (with "
+    "P1 at most 2), all computed from angles and stiffnesses: finer meshes come nearer to the first. C^H falls from "
     "level to level. An error bar is given only where the order has settled.",
     "adaptive: h is one over the square root of the DoFs of the displacements. Adaptive meshes do not grow evenly: "
     "the order is fitted to the last five levels and to the last three, and both must lie within the limit.",
@@ -220,6 +221,7 @@ private:
                                      {"quick", options.quick},
                                      {"ranks", n_ranks},
                                      {"seconds_total", seconds},
+                                     {"resumed", options.resume},
                                      {"left_out", what_was_left_out(options)},
                                      {"notes", all_notes},
                                      {"provenance", provenance(n_ranks)}}));

@@ -92,7 +92,7 @@ void add_drape_command(CLI::App &app, Action &action, Afterwards &afterwards,
   command->footer(
     "References: shell is this program's own cloth with a stiffness per triangle, the naive way at its\n"
     "best; biot and green are finite elements (deal.II), on all ranks, for sheets under gravity that are\n"
-    "held by edges or corners.\n"
+    "held by edges, corners or vertices.\n"
     "Examples:\n  homespun drape meshes/scenes/hang.prm\n"
     "  mpirun -n 2 homespun drape meshes/scenes/pull.prm --references biot\n"
     "  homespun drape meshes/scenes/clamp-four.prm --variants corotational,nodal-warping\n\n"

@@ -121,4 +121,18 @@ std::vector<meshes::VertexData> DrapeComparison::compare(const std::string &refe
   }
   return error;
 }
+
+bool DrapeComparison::has_rows(const std::string &reference, const int frame,
+                               const DrapeOutput &output) const
+{
+  const std::string &cell = draped.cell.name;
+  if (!output.has_motion(cell, reference, frame))
+    return false;
+  for (const CoarseRun &run : runs)
+    if (run.frames.size() > static_cast<std::size_t>(frame))
+      for (const std::string &method : methods)
+        if (!output.has_error(cell, run.variant, reference, method, frame))
+          return false;
+  return true;
+}
 } // namespace homespun::verification

@@ -53,6 +53,9 @@ public:
                                           const meshes::SpacePoints &positions,
                                           const DrapeErrorBar &bar, DrapeOutput &output) const;
 
+  /// Whether the rows of a frame are on the disk: those that compare() writes, and that of the reference's motion.
+  bool has_rows(const std::string &reference, int frame, const DrapeOutput &output) const;
+
 private:
   meshes::SpacePoints upsampled(const std::string &method, const shell::Vectors &coarse) const;
 

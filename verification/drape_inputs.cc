@@ -62,12 +62,18 @@ void check_references(const DrapeOptions &options, const Scene &scene)
       faults.push_back("--references " + reference + ": scene `" + scene.name +
                        "` has a `Viscosity`, which this reference lacks; expected 0, or the "
                        "reference `shell`");
-    // Their indices mean other places on the small sheet of the error bar.
-    for (const HeldPlace &held : scene.held)
-      if (held.place == "vertices")
-        faults.push_back("--references " + reference + ": scene `" + scene.name +
-                         "` holds single vertices; expected edges or corners by name, or the "
-                         "reference `shell`");
+    // What the error bar would refuse when it is made.
+    if (options.n_cells_of_error_bar > 0)
+      try
+      {
+        scaled(scene, std::min(options.n_cells_of_error_bar, scene.n1));
+      }
+      catch (const meshes::BadInput &fault)
+      {
+        faults.push_back(
+          "--references " + reference +
+          " has an error bar on a small sheet, the reference `shell` has none: " + fault.what());
+      }
   }
   if (scene.integration == TimeIntegration::equilibria)
     for (const char *term : {"wind", "obstacles"})
@@ -128,11 +134,7 @@ nlohmann::ordered_json drape_inputs(const DrapeOptions &options, const Scene &sc
     if (!obstacle.file.empty())
       inputs["meshes"].push_back(fingerprint_of_file(obstacle.file));
   for (const UnitCell &cell : cells)
-  {
     inputs["cells"][cell.name] = fingerprint(cell);
-    for (const homogenization::Phase &phase : cell.phases)
-      inputs["areal_density"][cell.name].push_back(phase.thickness * phase.density);
-  }
   return inputs;
 }
 } // namespace homespun::verification

@@ -101,6 +101,19 @@ void DrapeOutput::write_motion(const std::string &cell, const std::string &varia
           row.gravity, row.stretch, row.step_seconds, row.upsampling});
 }
 
+bool DrapeOutput::has_error(const std::string &cell, const std::string &variant,
+                            const std::string &reference, const std::string &method,
+                            const int frame) const
+{
+  return errors->contains({scene, cell, variant, reference, method, std::to_string(frame)});
+}
+
+bool DrapeOutput::has_motion(const std::string &cell, const std::string &variant,
+                             const int frame) const
+{
+  return motion->contains({scene, cell, variant, std::to_string(frame)});
+}
+
 bool DrapeOutput::has_term(const std::string &cell, const std::string &term) const
 {
   return terms->contains({scene, cell, term});

@@ -62,8 +62,11 @@ public:
   void write_error(const std::string &cell, const std::string &variant,
                    const std::string &reference, const std::string &method, int frame,
                    const ErrorRow &row);
+  bool has_error(const std::string &cell, const std::string &variant, const std::string &reference,
+                 const std::string &method, int frame) const;
   void write_motion(const std::string &cell, const std::string &variant, int frame,
                     const MotionRow &row);
+  bool has_motion(const std::string &cell, const std::string &variant, int frame) const;
   bool has_term(const std::string &cell, const std::string &term) const;
   void write_term(const std::string &cell, const std::string &term, const TermRow &row);
 

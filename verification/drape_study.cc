@@ -4,7 +4,7 @@
 #include "meshes/errors.h"
 #include "meshes/obj_file.h"
 #include "shell/membrane_term.h"
-#include "verification/cell_output.h"
+#include "verification/cell_study.h"
 #include "verification/drape_errors.h"
 #include "verification/drape_inputs.h"
 #include "verification/obstacle_surface.h"
@@ -17,6 +17,7 @@
 #include <cmath>
 #include <filesystem>
 #include <limits>
+#include <optional>
 
 namespace homespun::verification
 {
@@ -90,9 +91,7 @@ private:
   void study_cell(const UnitCell &cell)
   {
     progress.begin(cell.name + ": homogenization", true);
-    homogenization::HomogenizationOptions p1;
-    p1.order                    = 1;
-    const AssessedCell assessed = assess(cell, p1, 0, communicator);
+    const AssessedCell assessed = assess_for_study(cell, communicator, verdicts);
     const DrapedCell draped(
       scene, cell, homogenization::homogenized_cell(cell, assessed.result, provenance_line()));
     nlohmann::ordered_json description = description_of(draped);
@@ -177,24 +176,22 @@ private:
     const std::unique_ptr<FineRun> fine = is_dealii(reference)
                                             ? dealii_run(draped, law_of(reference), 1, communicator)
                                             : shell_run(draped, communicator);
+    int first                           = 0;
+    std::vector<double> seconds;
+    if (const auto state = state_to_resume(name, reference, fine->n_vertices(), comparison))
+    {
+      fine->resume(*state);
+      first   = state->frame + 1;
+      seconds = state->step_seconds;
+    }
     DrapeErrorBar bar;
-    if (is_dealii(reference) && options.n_cells_of_error_bar > 0)
+    if (is_dealii(reference) && options.n_cells_of_error_bar > 0 && first <= schedule.n_frames)
     {
       progress.begin(title + ": error bar", true);
       bar =
         drape_error_bar(draped, law_of(reference), std::min(options.n_cells_of_error_bar, scene.n1),
                         schedule, communicator);
     }
-    int first = 0;
-    std::vector<double> seconds;
-    if (options.resume)
-      // Every rank reads the same file.
-      if (const auto state = meshes::read_state(state_file(name), fine->n_vertices(), name_of_run))
-      {
-        fine->resume(*state);
-        first   = state->frame + 1;
-        seconds = state->step_seconds;
-      }
     std::unique_ptr<meshes::FrameCollection> list;
     on_root(communicator,
             [&]()
@@ -256,6 +253,35 @@ private:
             {"ranks", is_dealii(reference) ? n_ranks : 1u},
             {"threads", 1},
             {"dofs", fine->n_dofs()}};
+  }
+
+  /// The state from which a reference goes on; nothing where it begins anew, as it does where a table has lost rows
+  /// of the frames before.
+  /// @param comparison on the first rank
+  std::optional<meshes::ClothState> state_to_resume(const std::string &name,
+                                                    const std::string &reference,
+                                                    const int n_vertices,
+                                                    const DrapeComparison *comparison)
+  {
+    if (!options.resume)
+      return std::nullopt;
+    // Every rank reads the same file.
+    std::optional<meshes::ClothState> state =
+      meshes::read_state(state_file(name), n_vertices, name_of_run);
+    int first_without_rows = 0;
+    on_root(communicator,
+            [&]()
+            {
+              while (state && first_without_rows <= state->frame &&
+                     comparison->has_rows(reference, first_without_rows, *output))
+                ++first_without_rows;
+            });
+    MPI_Bcast(&first_without_rows, 1, MPI_INT, 0, communicator);
+    if (!state || first_without_rows > state->frame)
+      return state;
+    progress.note(name + ": rows of frame " + std::to_string(first_without_rows) +
+                  " are missing in drape.csv or motion.csv: the reference begins anew");
+    return std::nullopt;
   }
 
   /// To the next frame. @return the reason where it was not reached

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "verification/draped_cell.h"
 
+#include "meshes/errors.h"
 #include "meshes/obj_file.h"
 
 #include <algorithm>
@@ -29,18 +30,53 @@ meshes::ClothMesh placed(const meshes::TriangleMesh &rest, const SheetPlacement 
     cloth.positions.row(v) = placement.start(rest.vertices.row(v));
   return cloth;
 }
+
+std::string size_of(const Scene &sheet)
+{
+  return std::to_string(sheet.n1) + " x " + std::to_string(sheet.n2) + " cells";
+}
+
+/// The vertices of another sheet that are at the places of these.
+std::vector<int> at_same_places(const std::vector<int> &vertices, const Scene &from,
+                                const Scene &to, std::vector<std::string> &faults)
+{
+  std::vector<int> result;
+  for (const int v : vertices)
+  {
+    const int i = v % (from.n1 + 1), j = v / (from.n1 + 1);
+    const std::string name = from.file + ": held vertex " + std::to_string(v);
+    if (j > from.n2)
+      faults.push_back(name + " does not exist; expected 0 ... " +
+                       std::to_string((from.n1 + 1) * (from.n2 + 1) - 1));
+    else if (i * to.n1 % from.n1 != 0 || j * to.n2 % from.n2 != 0)
+      faults.push_back(name + ", at (" + std::to_string(i) + ", " + std::to_string(j) + ") of " +
+                       size_of(from) + ", is no vertex of a sheet of " + size_of(to) +
+                       "; expected an edge or a corner by name, or --cells for which it is one");
+    else
+      result.push_back(j * to.n2 / from.n2 * (to.n1 + 1) + i * to.n1 / from.n1);
+  }
+  return result;
+}
 } // namespace
 
 Scene scaled(const Scene &scene, const int n_cells)
 {
-  Scene result       = scene;
+  Scene result = scene;
+  if (!scene.is_sheet())
+    return result;
   const double ratio = static_cast<double>(n_cells) / scene.n1;
+  result.n2          = std::max(1, static_cast<int>(std::lround(ratio * scene.n2)));
+  result.n1          = n_cells;
+  result.disturbance *= ratio;
+  std::vector<std::string> faults;
   for (HeldPlace &held : result.held)
+  {
     if (held.motion.kind == Motion::Kind::translate)
       held.motion.along *= ratio;
-  result.n2 = std::max(1, static_cast<int>(std::lround(ratio * scene.n2)));
-  result.n1 = n_cells;
-  result.disturbance *= ratio;
+    held.vertices = at_same_places(held.vertices, scene, result, faults);
+  }
+  if (!faults.empty())
+    throw meshes::BadInput(faults);
   return result;
 }
 

@@ -21,7 +21,9 @@ namespace homespun::verification
 using Upsampler3f = localization::Upsampler<3, float>;
 using Upsampler3d = localization::Upsampler<3, double>;
 
-/// The scene on a smaller or larger sheet: translations of handles go with its size.
+/// The scene on a smaller or larger sheet: translations of handles go with its size, held vertices are those at the
+/// same places. A garment has no cells per side and stays as it is.
+/// @throws BadInput where a held vertex is none of the other sheet, or of the given one
 Scene scaled(const Scene &scene, int n_cells);
 
 /// The coarse cloth of a scene where it begins, and where it is held.

@@ -2,10 +2,12 @@
 #include "verification/error_budget.h"
 
 #include "localization/upsampler.h"
+#include "meshes/errors.h"
 
 #include <Eigen/QR>
 
 #include <algorithm>
+#include <limits>
 
 namespace homespun::verification
 {
@@ -120,11 +122,8 @@ ErrorBudget LoadBudget::measure(const Law law, const SolvedLevel &level)
     law == Law::linear ? zero : nonlinearity(law, u, with_exact, budget);
   budget.parts["coarse-mesh"] =
     localized(coarse.at_fine_vertices(law, level.coarse), cells.given, sheet) - with_averaged;
-  budget.parts["blending"] = with_averaged - with_exact;
-  budget.parts["resolution"] =
-    with_exact - localized(half_resolved.at_fine_vertices(
-                             law, half_resolved.solve(law, half_resolved.prescribed(strain))),
-                           cells.given, sheet);
+  budget.parts["blending"]   = with_averaged - with_exact;
+  budget.parts["resolution"] = resolution(law, strain, with_exact);
 
   const shell::Positions<2> u_best =
     coarse_best.solve(law, coarse_best.with_held(level.coarse, strain));
@@ -144,6 +143,28 @@ ErrorBudget LoadBudget::measure(const Law law, const SolvedLevel &level)
   budget.parts["precision"] = in_float.cast<double>() - level.upsampled;
   budget.parts["time-step"] = zero;
   return budget;
+}
+
+/// What the homogenized sheet moves by from a mesh half as fine. It stands beside the sum: where that mesh finds no
+/// equilibrium it is not a number, and the other parts stay.
+Points LoadBudget::resolution(const Law law, const double strain, const Points &with_exact)
+{
+  if (load.is_periodic()) // the affine motion is exact on any mesh
+    return Points::Zero(with_exact.rows(), 2);
+  shell::Positions<2> start = half_resolved.prescribed(strain);
+  if (last_half_displacement.size() > 0)
+    start = half_resolved.with_held(half_resolved.mesh.vertices + strain * last_half_displacement,
+                                    strain);
+  try
+  {
+    const shell::Positions<2> u = half_resolved.solve(law, start);
+    last_half_displacement      = (u - half_resolved.mesh.vertices) / strain;
+    return with_exact - localized(half_resolved.at_fine_vertices(law, u), cells.given, sheet);
+  }
+  catch (const meshes::NotConverged &)
+  {
+    return Points::Constant(with_exact.rows(), 2, std::numeric_limits<double>::quiet_NaN());
+  }
 }
 
 /// Part 2: the homogenized sheet and its localization by the small-strain theory, against both at finite strain.

@@ -97,14 +97,16 @@ public:
 private:
   meshes::Points nonlinearity(Law law, const shell::Positions<2> &u,
                               const meshes::Points &with_exact, ErrorBudget &budget) const;
+  meshes::Points resolution(Law law, double strain, const meshes::Points &with_exact);
 
   const BudgetCells &cells;
   const meshes::Sheet &sheet;
   const Load load;
   HomogenizedSheet coarse, coarse_best, coarse_tight, resolved, half_resolved;
-  meshes::Points scale, reference;       ///< per unit strain [m]
-  Eigen::Matrix<double, 3, 2> constant;  ///< of w, per unit strain [m]
-  shell::Positions<2> last_displacement; ///< of the resolved sheet, per strain
+  meshes::Points scale, reference;      ///< per unit strain [m]
+  Eigen::Matrix<double, 3, 2> constant; ///< of w, per unit strain [m]
+  shell::Positions<2> last_displacement,
+    last_half_displacement; ///< of the resolved sheets, per strain
 };
 
 /// 16 where the sheet is small, else what brings the refined mesh to about 160 quads per side, at least 4; even.

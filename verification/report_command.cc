@@ -3,6 +3,7 @@
 #include "meshes/errors.h"
 #include "verification/build_info.h"
 #include "verification/commands.h"
+#include "verification/data_folder.h"
 #include "verification/on_root.h"
 #include "verification/report_script.h"
 
@@ -24,11 +25,9 @@ namespace homespun::verification
 {
 int run_report_script(const std::string &name, const std::vector<std::string> &arguments)
 {
-  const std::string in_sources = std::string(HOMESPUN_SOURCE_DIR) + "/verification/report/" + name;
-  const std::string script     = std::filesystem::exists(in_sources)
-                                   ? in_sources
-                                   : std::string(HOMESPUN_DATA_DIR) + "/report/" + name;
-  std::vector<std::string> words = {HOMESPUN_PYTHON, script};
+  const std::string script = data_folder("report", "verification/report") + "/" + name;
+  // -B: no __pycache__ in a folder that a package manager keeps.
+  std::vector<std::string> words = {HOMESPUN_PYTHON, "-B", script};
   words.insert(words.end(), arguments.begin(), arguments.end());
   std::vector<char *> pointers;
   for (std::string &word : words)
@@ -74,7 +73,10 @@ void add_report_command(CLI::App &app, Action &action, Afterwards &afterwards)
     bool quiet = false;
   };
   const auto arguments = std::make_shared<Arguments>();
-  command->add_option("DIR", arguments->folders, "Folders of results")->required();
+  command
+    ->add_option("DIR", arguments->folders,
+                 "Folders of results; several cells or versions are compared in one page")
+    ->required();
   command->add_option("--output", arguments->output,
                       "Folder of the report (default the first DIR)");
   command->add_flag("--quiet", arguments->quiet, "Print nothing but faults");

@@ -55,15 +55,17 @@ UpsampledLevel compare_methods(const StrainStudyOptions &options, const StrainLe
   errors.side              = std::sqrt(resolved.sheet.lattice.area());
   errors.uncertainty       = resolved.uncertainty;
   errors.seconds_reference = fine.seconds;
+  // All methods before the first row: a level has the errors of all, or is unreached.
+  std::vector<std::pair<std::string, UpsampledSheet>> missing;
   for (const std::string &name : options.methods)
+    if (Method(name).has_meaning(level.law) && !output.has_errors(level, name))
+      missing.emplace_back(name, name == "affine"      ? affine
+                                 : name == "localized" ? localized
+                                                       : upsampled_with(name));
+  for (const auto &[name, upsampled] : missing)
   {
-    if (!Method(name).has_meaning(level.law) || output.has_errors(level, name))
-      continue;
-    const UpsampledSheet upsampled = name == "affine"      ? affine
-                                     : name == "localized" ? localized
-                                                           : upsampled_with(name);
-    errors.distance                = distance_of(upsampled.positions);
-    errors.seconds                 = coarse.seconds + upsampled.seconds;
+    errors.distance = distance_of(upsampled.positions);
+    errors.seconds  = coarse.seconds + upsampled.seconds;
     // The row comes last: where it is there, so is all that belongs to it.
     if (name == "localized")
     {

@@ -76,7 +76,7 @@ StrainOutput::StrainOutput(const StrainStudyOptions &options)
     , methods(options.methods)
     , strain(table(options, "strain.csv", strain_columns(), 5))
     , steps(table(options, "steps.csv", step_columns, 4))
-    , note_table(table(options, "notes.csv", {"cell", "load", "reference", "strain", "note"}, 4))
+    , note_table(table(options, "notes.csv", {"cell", "load", "reference", "strain", "note"}, 5))
 {
 }
 
@@ -150,11 +150,9 @@ std::string StrainOutput::write_note(const StrainLevel &level, std::string text)
   std::vector<std::string> row = level_keys(level);
   const std::string line =
     row[0] + ", " + row[1] + ", " + row[2] + " reference at strain " + row[3] + ": " + text;
+  row.push_back(text);
   if (!note_table->contains(row))
-  {
-    row.push_back(text);
     note_table->append(row);
-  }
   return line;
 }
 

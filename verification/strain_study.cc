@@ -257,6 +257,7 @@ private:
     return answer == 1;
   }
 
+  /// @return whether reference and coarse cloth found an equilibrium, so that the next level may start from it
   bool study_strain(const UnitCell &cell, const meshes::Sheet &sheet, const Load &load,
                     const Law law, const double strain, FineReference &reference,
                     LightweightCloth &cloth, const double uncertainty, const bool has_budget)
@@ -311,7 +312,7 @@ private:
                   write_note(level, "error budget: " + fault);
               });
     }
-    return true;
+    return is_solved == 1;
   }
 
   /// A remark on a level, for the terminal and the report.

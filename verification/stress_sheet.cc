@@ -92,19 +92,29 @@ Eigen::MatrixXd state_of(const shell::Cloth &cloth)
   return state;
 }
 
-double largest_energy_growth(shell::Cloth &cloth, const double h, const int n_steps)
+EnergyGrowth energy_growth(shell::Cloth &cloth, const double h, const int n_steps)
 {
   double before  = cloth.kinetic_energy() + cloth.stored_energy();
-  double largest = cloth.kinetic_energy() + std::abs(cloth.stored_energy()), growth = 0.;
+  double largest = cloth.kinetic_energy() + std::abs(cloth.stored_energy());
+  EnergyGrowth growth;
   for (int k = 0; k < n_steps; ++k)
   {
-    cloth.step(h);
-    const double after = cloth.kinetic_energy() + cloth.stored_energy();
-    growth             = std::max(growth, after - before);
+    const double removed = cloth.step(h).energy_removed;
+    const double after   = cloth.kinetic_energy() + cloth.stored_energy();
+    growth.left          = std::max(growth.left, after - before);
+    growth.removed       = std::max(growth.removed, removed);
+    growth.whole         = std::max(growth.whole, after + removed - before);
     largest = std::max(largest, cloth.kinetic_energy() + std::abs(cloth.stored_energy()));
     before  = after;
   }
-  return growth > 0. ? growth / largest : 0.;
+  for (double *const one : {&growth.left, &growth.removed, &growth.whole})
+    *one = *one > 0. ? *one / largest : 0.;
+  return growth;
+}
+
+double largest_energy_growth(shell::Cloth &cloth, const double h, const int n_steps)
+{
+  return energy_growth(cloth, h, n_steps).whole;
 }
 
 shell::Vectors random_vectors(const Eigen::Index n, const unsigned int seed)

@@ -47,6 +47,8 @@ std::string fingerprint(const UnitCell &cell)
   hash               = hashed(hash, cell.lattice.vectors);
   for (const Eigen::Matrix3d &stiffness : cell.stiffness_of_phase())
     hash = hashed(hash, stiffness);
+  for (const homogenization::Phase &phase : cell.phases)
+    hash = hashed(hash, Eigen::Matrix<double, 1, 1>(phase.thickness * phase.density));
   return printed(hash);
 }
 

@@ -16,8 +16,8 @@ namespace homespun::verification
 /// @throws BadInput where two cells share one, or one holds a comma, a quote or a line break
 void check_names(const std::vector<homogenization::UnitCell> &cells);
 
-/// Writes inputs.json into a folder of results: sizes of the sheets, and for each cell a hash of its
-/// mesh, lattice and stiffness.
+/// Writes inputs.json into a folder of results: sizes of the sheets, and for each cell its
+/// fingerprint.
 /// @param resume true: what is there must be the same
 /// @throws BadInput where a study is to be resumed with other inputs
 void check_inputs(const std::vector<homogenization::UnitCell> &cells, int n_cells,
@@ -31,7 +31,7 @@ void check_inputs_file(const std::string &folder, const nlohmann::ordered_json &
                        const std::string &table,
                        const std::string &what = "cells, materials, meshes or sizes");
 
-/// A hash of a cell's mesh, lattice and stiffness.
+/// A hash of a cell's mesh and lattice, and of stiffness and mass per area of its phases.
 std::string fingerprint(const homogenization::UnitCell &cell);
 
 /// A hash of a text.

@@ -145,7 +145,8 @@ validity_rows(const std::vector<std::vector<std::string>> &strain_rows)
         std::vector<std::string> row = row_of(keys, measure, limit, levels);
         if (row[5] == ">" && std::isfinite(first_unreached))
           row[9] += std::string(row[9].empty() ? "" : "; ") +
-                    "the reference finds no equilibrium at strain " + csv_number(first_unreached);
+                    "no equilibrium of reference or coarse cloth was found at strain " +
+                    csv_number(first_unreached);
         rows.push_back(row);
       }
     }

@@ -26,7 +26,7 @@ DefineConstant[
   Q      = { 0.40, Min 0.35, Max 0.5, Name "Parameters/radius of the hollow" }
   head_x = { 0.325, Min 0.3, Max 0.4, Name "Parameters/centre of the head, axis 1" }
   head_y = { 0.405, Min 0.35, Max 0.45, Name "Parameters/centre of the head, axis 2" }
-  h      = { 0.0602, Min 0.005, Max 0.2, Name "Parameters/mesh size: 720 triangles" }
+  h      = { 0.0602, Min 0.005, Max 0.2, Name "Parameters/mesh size; 720 triangles as shipped" }
 ];
 
 Mesh.Algorithm = 6;      // Frontal-Delaunay: near-equilateral triangles

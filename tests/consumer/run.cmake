@@ -5,6 +5,7 @@
 #   BUILD     build tree of homespun         CONSUMER  folder of the consumer
 #   WORK      where all this happens         MAKE_CELL program that writes a cell file
 #   SETTINGS  generator, compiler and flags of the consumer
+#   WITH_DEALII whether homogenization was built
 function(run what)
   execute_process(COMMAND ${ARGN} RESULT_VARIABLE status OUTPUT_VARIABLE output ERROR_VARIABLE output)
   if(NOT status EQUAL 0)
@@ -21,12 +22,34 @@ set(settings -D CMAKE_PREFIX_PATH=${prefix} ${SETTINGS})
 run("configure the consumer" ${CMAKE_COMMAND} -S ${CONSUMER} -B ${WORK}/build ${settings})
 run("build the consumer" ${CMAKE_COMMAND} --build ${WORK}/build)
 
-# Components that homespun has not are refused, all of them by name.
-execute_process(COMMAND ${CMAKE_COMMAND} -S ${CONSUMER}/unknown -B ${WORK}/unknown ${settings}
-  RESULT_VARIABLE status OUTPUT_VARIABLE output ERROR_VARIABLE output)
-string(REGEX REPLACE "[ \n]+" " " message "${output}") # CMake breaks lines
-if(status EQUAL 0 OR NOT message MATCHES "has no component looms, weave; expected some of meshes, shell, localization, cell_file")
-  message(FATAL_ERROR "components that homespun has not were not refused by name:\n${output}")
+# Who asks for little needs little: neither deal.II nor HDF5 is looked for.
+set(without -D CMAKE_DISABLE_FIND_PACKAGE_deal.II=ON -D CMAKE_DISABLE_FIND_PACKAGE_HDF5=ON -D CMAKE_DISABLE_FIND_PACKAGE_MPI=ON)
+run("configure with shell and localization alone" ${CMAKE_COMMAND} -S ${CONSUMER}/components -B ${WORK}/components
+  ${settings} ${without} -D COMPONENTS=shell,localization)
+
+# refused(WHAT COMPONENTS MESSAGE): configuring with these components must fail with this message.
+function(refused what components message)
+  execute_process(COMMAND ${CMAKE_COMMAND} -S ${CONSUMER}/components -B ${WORK}/refused ${settings} -D COMPONENTS=${components}
+    RESULT_VARIABLE status OUTPUT_VARIABLE output ERROR_VARIABLE output)
+  string(REGEX REPLACE "[ \n]+" " " text "${output}") # CMake breaks lines
+  if(status EQUAL 0 OR NOT text MATCHES "${message}")
+    message(FATAL_ERROR "${what} were not refused by name:\n${output}")
+  endif()
+endfunction()
+refused("components that homespun has not" shell,looms,weave
+  "has no component looms, weave; expected some of meshes, shell, localization, cell_file")
+
+if(WITH_DEALII)
+  # layered.prm: soft and hard stripes across axis 2, hence C22 = 1 / <1/D>, D = E h / (1 - nu^2) of 1e6 Pa and 1e7 Pa.
+  run("configure a program that homogenizes" ${CMAKE_COMMAND} -S ${CONSUMER}/homogenization -B ${WORK}/homogenization ${settings})
+  run("build a program that homogenizes" ${CMAKE_COMMAND} --build ${WORK}/homogenization)
+  run("homogenize" ${WORK}/homogenization/stiffness ${CONSUMER}/../../meshes/cells/layered.prm)
+  if(NOT output MATCHES "[ \n]99[89]\\.?[0-9]*[ \n]")
+    message(FATAL_ERROR "C22 of layered.prm is 999.0 N/m in closed form, the program says:\n${output}")
+  endif()
+else()
+  refused("components that were not built" "homogenization"
+    "has no component homogenization; .*built without deal.II, .* build homespun with -D HOMESPUN_WITH_DEALII=ON")
 endif()
 
 run("make a cell" ${MAKE_CELL} ${WORK}/cell.h5)

@@ -146,6 +146,32 @@ TEST(exact_unit_cell, poissons_ratio_of_one_half_is_fine)
   EXPECT_EQ(Folder().refusal(replaced(keys, "soft: 0.3", "soft: 0.5"), msh(stripes())), "");
 }
 
+TEST(tripwire_unit_cell, a_mesh_outside_of_the_folder_of_its_cell_is_refused)
+{
+  const Folder folder;
+  std::ofstream(folder.path / "other.msh") << msh(stripes());
+  std::filesystem::create_directories(folder.path / "inside");
+  std::ofstream(folder.path / "inside" / "cell.prm") << replaced(keys, "cell.msh", "../other.msh");
+  std::ofstream(folder.path / "inside" / "linked.prm") << replaced(keys, "cell.msh", "link.msh");
+  std::filesystem::create_symlink("../other.msh", folder.path / "inside" / "link.msh");
+  for (const char *const name : {"inside/cell.prm", "inside/linked.prm"})
+    try
+    {
+      read_unit_cell((folder.path / name).string());
+      ADD_FAILURE() << name << " was read";
+    }
+    catch (const meshes::BadInput &bad)
+    {
+      EXPECT_SAYS(std::string(bad.what()), "outside of the folder");
+    }
+  EXPECT_SAYS(folder.refusal(replaced(keys, "cell.msh", "/etc/passwd"), ""),
+              "outside of the folder");
+  // Below is inside.
+  std::filesystem::create_directories(folder.path / "meshes");
+  std::ofstream(folder.path / "meshes" / "below.msh") << msh(stripes());
+  EXPECT_EQ(folder.refusal(replaced(keys, "cell.msh", "meshes/below.msh"), ""), "");
+}
+
 TEST(tripwire_unit_cell, missing_files_are_named)
 {
   const Folder folder;

@@ -85,6 +85,24 @@ TEST(tripwire_lattice, two_vertices_of_the_outline_within_the_tolerance_are_name
   }
 }
 
+TEST(tripwire_lattice, two_vertices_inside_within_the_tolerance_are_named)
+{
+  // Both ends of the short edge would be one vertex to whoever matches images: corners, sheets, tables of chi.
+  const Lattice lattice = tests::square_lattice(1.);
+  for (const double gap : {5e-8, 2e-7})
+  {
+    TriangleMesh mesh                     = tests::parallelogram(lattice, 4, 4);
+    mesh.vertices.row(12)                 = mesh.vertices.row(6) + Eigen::RowVector2d(0., gap);
+    const std::vector<std::string> faults = periodicity_faults(mesh, lattice, "cell.msh");
+    ASSERT_EQ(faults.size(), gap < 1e-7 ? 1u : 0u) << gap;
+    if (!faults.empty())
+    {
+      EXPECT_NE(faults[0].find("vertices 6 at"), std::string::npos) << faults[0];
+      EXPECT_NE(faults[0].find("and 12 at"), std::string::npos) << faults[0];
+    }
+  }
+}
+
 TEST(tripwire_lattice, a_moved_boundary_vertex_is_named_with_its_candidate_and_the_remedy)
 {
   const Lattice lattice = tests::square_lattice(1.);

@@ -104,7 +104,11 @@ class Homogenize(InFolder):
 # so does one that holds again: then it leaves the list.
 ONE_NEWTON_STEP = ("beside a moving handle a step may not raise its own potential, which does not bound the energy "
                    "in the frame of the handle; implicit Euler holds")
+GUARD = ("the minimum of a step's potential far from equilibrium may have more energy than the step began with; the guard takes "
+         "it away (5e-4 of the energy), and more Newton steps do not help")
 KNOWN_FAILURES = {
+    ("start", "random vertices; hung by two corners; 1 ms; anisotropic 1e4"): GUARD,
+    ("start", "flattened to another plane; hung by two corners; 1 ms; anisotropic 1e4"): GUARD,
     ("motion", "pulled at 5 m/s; 10 ms; anisotropic 1e4"): ONE_NEWTON_STEP,
     ("motion", "pulled at 5 m/s; 50 ms; anisotropic 1e4"): ONE_NEWTON_STEP,
 }

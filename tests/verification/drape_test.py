@@ -93,6 +93,32 @@ class Scenes(SceneCase):
             self.assertAlmostEqual(given, -2. * elastic, delta=0.01 * elastic, msg=name)
         self.assertEqual(energies["nodal-warping", 0]["elastic_J"], "")
 
+    def test_held_vertices_of_a_smaller_sheet_are_at_the_same_places(self):
+        # Both ends of the lower edge of 20 x 20 cells hold the sheet, which falls upwards.
+        scene = self.scene({"Pins": "vertices 0 20", "Gravity": "0 0 9.81"})
+        output = self.folder / "out"
+        result = run("drape", scene, "--quick", "--duration", 0.05, "--references", "biot", "--unit-cells",
+                     CELLS / "layered.prm", "--no-report", "--output", output)
+        self.assertEqual(result.returncode, 0, result.stdout + result.stderr)
+        for name in ("layered-corotational", "layered-biot"):
+            before, after = (read_vtu(output / name / f"fine_000{frame}.vtu").points for frame in (0, 1))
+            moved = numpy.linalg.norm(after - before, axis=1)
+            low, high = before.min(axis=0), before.max(axis=0)
+            self.assertAlmostEqual(high[0] - low[0], 0.04, delta=1e-6)
+            ends = [[x, 0., low[2]] for x in (low[0], high[0])]
+            held = [numpy.linalg.norm(before - end, axis=1).argmin() for end in ends]
+            numpy.testing.assert_allclose(before[held], ends, atol=1e-7)
+            self.assertEqual(sorted(numpy.flatnonzero(moved < 1e-7)), sorted(held), name)
+
+    def test_the_checks_of_each_effective_stiffness_are_among_the_verdicts(self):
+        output = self.folder / "out"
+        self.assertEqual(run("drape", SCENES / "hang.prm", "--quick", "--duration", 0.05, "--no-frames", "--no-report",
+                             "--output", output).returncode, 0)
+        claims = [verdict["claim"] for verdict in json.loads((output / "verdicts.json").read_text())["verdicts"]]
+        for cell in ("layered", "three-stiffness"):
+            for check in ("Hill-Mandel", "C^H <= Voigt", "C^H >= Reuss", "C_lower <= C_upper"):
+                self.assertEqual(sum(claim.startswith(f"{cell}: {check}") for claim in claims), 1, (cell, check))
+
     def test_what_absent_terms_cost_is_measured_with_its_spread(self):
         output = self.folder / "out"
         self.assertEqual(run("drape", SCENES / "pull.prm", "--quick", "--duration", 0.05, "--costs", "--unit-cells",
@@ -265,7 +291,10 @@ class BadScenes(SceneCase):
         self.refused(self.scene({"Pins": "vertices 0 99999"}), "held vertex 99999 does not exist")
         self.refused(self.scene({"Pins": "waist"}), "found `waist`", "a sheet has no waist")
         self.refused(self.scene({"Pins": "left; left"}), "the place `left` holds no vertex")
-        self.refused(self.scene({"Pins": "vertices 0 1"}), "holds single vertices", options=["--references", "biot"])
+        for options in (["--quick"], ["--cells", 4], ["--references", "biot"]):  # the last one for its error bar
+            self.refused(self.scene({"Pins": "vertices 0 1"}), "held vertex 1, at (1, 0) of 20 x 20 cells", "4 x 4 cells",
+                         options=options)
+        self.refused(self.scene({"Pins": "vertices 0 99999"}), "held vertex 99999 does not exist", options=["--quick"])
         self.refused(self.scene({"Terms": "membrane, handles, damping", "Handles": "right: translate 1 during 2",
                                  "Pins": None, "Gravity": None}), "place: translate dx dy dz during s")
 

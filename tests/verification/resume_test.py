@@ -12,6 +12,8 @@ from cli import CELLS, PROGRAM, InFolder, run
 
 STUDY = ["strain", CELLS / "layered.prm", "--cells", "3", "--strains", "0.01,0.05,0.1", "--loads",
          "periodic-12,strip-2", "--references", "linear,biot", "--no-budget", "--no-runtime", "--no-report", "--quiet"]
+SCENE = ["drape", CELLS.parent / "scenes" / "pull.prm", "--unit-cells", CELLS / "layered.prm", "--cells", "2", "--duration",
+         "0.1", "--no-frames", "--no-report"]
 TIMES = {"seconds_method", "seconds_reference"}
 
 
@@ -51,6 +53,60 @@ class Resume(InFolder):
             self.assertNotEqual(result.returncode, 0)
             self.assertIn("leave out --resume", result.stderr)
         self.assertEqual(run(*small, "--cells", 2, "--resume").returncode, 0)
+
+    def test_rows_of_another_density_are_not_mixed_in(self):
+        other = self.cell_with("soft: 400, hard: 400", "soft: 400, hard: 500")
+        studies = {"strain": ["--loads", "periodic-12", "--strains", "0.01", "--references", "biot", "--cells", "2",
+                              "--no-budget", "--no-runtime"],
+                   "converge": ["--quick", "--studies", "mesh"]}
+        for name, options in studies.items():
+            end = [*options, "--no-report", "--quiet", "--output", self.folder / name]
+            self.assertEqual(run(name, CELLS / "layered.prm", *end).returncode, 0)
+            result = run(name, other, *end, "--resume")
+            self.assertEqual(result.returncode, 2, name)
+            self.assertIn("inputs.json", result.stderr)
+        scene = [*SCENE, "--quiet", "--output", self.folder / "scene"]
+        self.assertEqual(run(*scene).returncode, 0)
+        result = run(*(other if word == CELLS / "layered.prm" else word for word in scene), "--resume")
+        self.assertEqual(result.returncode, 2)
+        self.assertIn("inputs.json", result.stderr)
+
+    def test_a_finished_scene_whose_tables_lost_rows_is_completed(self):
+        output = self.folder / "scene"
+        study = [*SCENE, "--references", "biot,shell", "--output", output]
+        first = run(*study)
+        self.assertEqual(first.returncode, 0, first.stderr)
+        self.assertIn("error bar", first.stderr)
+        whole = {name: (output / name).read_text() for name in ("drape.csv", "motion.csv")}
+        # Nothing is left to do, not even the error bar.
+        again = run(*study, "--resume")
+        self.assertEqual(again.returncode, 0, again.stderr)
+        self.assertNotIn("error bar", again.stderr)
+        for name, text in whole.items():
+            self.assertEqual((output / name).read_text(), text)
+        for name, n_kept, ranks in (("drape.csv", -2, 1), ("motion.csv", -1, 2), ("drape.csv", 1, 2)):
+            with self.subTest(table=name, kept=n_kept):
+                lines = whole[name].splitlines(keepends=True)
+                (output / name).write_text("".join(lines[:n_kept]))
+                result = run(*study, "--resume", ranks=ranks)
+                self.assertEqual(result.returncode, 0, result.stderr)
+                self.assertIn(f"rows of frame {2 if n_kept < 0 else 0} are missing", result.stderr)
+                self.assert_same_rows((output / name).read_text(), whole[name])
+
+    def assert_same_rows(self, found, expected):
+        """Texts are equal, and numbers but times to what a solver leaves open."""
+        tables = [list(csv.DictReader(text.splitlines())) for text in (found, expected)]
+        self.assertEqual(*map(len, tables))
+        for one, two in zip(*tables):
+            for key, value in two.items():
+                if key.startswith("seconds"):
+                    continue
+                try:
+                    number = float(value)
+                except ValueError:
+                    self.assertEqual(one[key], value, two)
+                else:
+                    self.assertAlmostEqual(float(one[key]), number, delta=2e-5 * abs(number) + 1e-12, msg=f"{key} of {two}")
 
     def test_a_single_level_outside_the_window_of_the_verdicts_ends_well(self):
         result = run("strain", CELLS / "layered.prm", "--loads", "periodic-12", "--strains", "0.2", "--references",

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 // The cloth of a scene is made of the terms that the scene lists, whatever models its membrane.
 #include "meshes/sheet.h"
+#include "tests/refusal.h"
+#include "verification/draped_cell.h"
 #include "verification/scene_cloth.h"
 
 #include <gtest/gtest.h>
@@ -121,4 +123,44 @@ TEST(invariant_scene_cloth, no_two_terms_whose_cost_is_measured_make_the_same_cl
                                  terms      = terms_with_a_cost(with_floor);
   EXPECT_EQ(std::count(bare_terms.begin(), bare_terms.end(), "friction"), 0);
   EXPECT_EQ(std::count(terms.begin(), terms.end(), "friction"), 1);
+}
+
+TEST(exact_scene_cloth, held_vertices_of_a_scaled_sheet_are_those_at_the_same_places)
+{
+  Scene scene = scene_with({"membrane", "pins"});
+  scene.n1    = 20;
+  scene.n2    = 10;
+  // Corners, the middle, and (5, 5) of the cells.
+  scene.held        = {{"vertices", {0, 20, 210, 230, 115, 110}, {}}, {"top", {}, {}}};
+  const Scene small = scaled(scene, 4);
+  ASSERT_EQ(small.n2, 2);
+  EXPECT_EQ(small.held[0].vertices, (std::vector<int>{0, 4, 10, 14, 7, 6}));
+  EXPECT_TRUE(small.held[1].vertices.empty());
+  EXPECT_EQ(scaled(small, 20).held[0].vertices, scene.held[0].vertices);
+}
+
+TEST(tripwire_scene_cloth,
+     a_held_vertex_that_a_scaled_sheet_does_not_have_is_refused_with_its_place)
+{
+  Scene scene            = scene_with({"membrane", "pins"});
+  scene.file             = "scene.prm";
+  scene.n1               = 20;
+  scene.n2               = 10;
+  scene.held             = {{"vertices", {0, 43}, {}}, {"vertices", {500}, {}}};
+  const std::string text = tests::refusal([&] { scaled(scene, 4); });
+  for (const char *part : {"scene.prm", "held vertex 43", "(1, 2) of 20 x 10 cells", "4 x 2 cells",
+                           "--cells", "held vertex 500 does not exist", "0 ... 230"})
+    EXPECT_NE(text.find(part), std::string::npos) << text;
+}
+
+TEST(invariant_scene_cloth, a_garment_is_not_scaled)
+{
+  Scene scene          = scene_with({"membrane", "handles"});
+  scene.mesh_file      = "cloth.obj";
+  Motion motion        = {Motion::Kind::translate, {0., 0., 0.1}, 0., 1.};
+  scene.held           = {{"vertices", {7}, motion}};
+  const Scene the_same = scaled(scene, 1);
+  EXPECT_EQ(the_same.n1, n);
+  EXPECT_EQ(the_same.held[0].vertices, scene.held[0].vertices);
+  EXPECT_EQ(the_same.held[0].motion.along, motion.along);
 }

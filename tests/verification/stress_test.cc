@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "meshes/errors.h"
+#include "shell/membrane_term.h"
 #include "verification/stress_cases.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <limits>
+#include <memory>
 
 using namespace homespun;
 using namespace homespun::verification;
@@ -122,6 +124,88 @@ TEST(tripwire_stress, energy_that_a_handle_brings_in_is_seen)
   shell::Cloth cloth           = sheet_cloth(mesh, built_in_stiffnesses()[0], {20});
   cloth.prescribe(20, mesh.positions.row(20) + Eigen::RowVector3d(0., 0., 0.1));
   EXPECT_GT(largest_energy_growth(cloth, 0.01, 1), 1e-2);
+}
+
+namespace
+{
+/// The forces of a membrane of half the stiffness whose energy it states: stretching gains energy from nowhere.
+class ForcesOfAnother : public shell::Term
+{
+public:
+  ForcesOfAnother(const meshes::ClothMesh &mesh, const Eigen::Matrix3d &D)
+      : stated(shell::membrane_term(mesh, {D}))
+      , acting(shell::membrane_term(mesh, {0.5 * D}))
+  {
+  }
+
+  std::string name() const override
+  {
+    return "forces of another membrane";
+  }
+
+  void couple(std::vector<std::array<int, 2>> &pairs) const override
+  {
+    acting->couple(pairs);
+  }
+
+  void attach(const shell::BlockMatrix &matrix) override
+  {
+    acting->attach(matrix);
+  }
+
+  void begin_step(const shell::StepStart &start) override
+  {
+    stated->begin_step(start);
+    acting->begin_step(start);
+  }
+
+  double energy(const shell::Vectors &positions) const override
+  {
+    return stated->energy(positions);
+  }
+
+  void add_gradient(const shell::Vectors &positions, shell::Vectors &gradient) const override
+  {
+    acting->add_gradient(positions, gradient);
+  }
+
+  void add_derivatives(const shell::Vectors &positions, const shell::Hessian kind,
+                       shell::Vectors &gradient, shell::BlockMatrix &matrix) const override
+  {
+    acting->add_derivatives(positions, kind, gradient, matrix);
+  }
+
+  std::size_t bytes() const override
+  {
+    return acting->bytes();
+  }
+
+private:
+  const std::unique_ptr<shell::Term> stated, acting;
+};
+} // namespace
+
+TEST(tripwire_stress, energy_that_a_step_takes_away_again_is_seen)
+{
+  const meshes::ClothMesh mesh = hanging_mesh(4);
+  const SheetStiffness sheet   = built_in_stiffnesses()[0];
+  for (const bool is_wrong : {false, true})
+  {
+    shell::Cloth cloth(mesh.positions, shell::lumped_masses(mesh, {sheet.areal_density}), {});
+    if (is_wrong)
+      cloth.add(std::make_unique<ForcesOfAnother>(mesh, sheet.D));
+    else
+      cloth.add(shell::membrane_term(mesh, {sheet.D}));
+    cloth.set_state(mesh.positions, 5. * mesh.positions, 0.); // it flies apart
+    const double before = cloth.kinetic_energy() + cloth.stored_energy();
+    const double growth = largest_energy_growth(cloth, 1e-4, 10);
+    // The guard hides it from the sum of both energies.
+    EXPECT_LE(cloth.kinetic_energy() + cloth.stored_energy(), before * (1. + 1e-12));
+    if (is_wrong)
+      EXPECT_GT(growth, 1e-3);
+    else
+      EXPECT_LE(growth, energy_round_off);
+  }
 }
 
 TEST(bound_stress, time_steps_of_ten_microseconds_to_a_second_do_not_raise_the_energy)

@@ -8,9 +8,10 @@ import style
 import tables
 from budget_contents import budget_contents
 from cell_results import read_fields
+from comparison import comparison_contents
 from converge_contents import convergence_contents
 from drape_contents import drape_contents
-from figures_cell import characteristic_figure, phase_figure
+from figures_cell import characteristic_figure, phase_figure, phase_legend
 from figures_cloth import MOVING_BYTES, workers
 from figures_sheet import sheet_figure
 from figures_stiffness import bracket_figure, polar_figure
@@ -20,9 +21,12 @@ from gallery import file_name
 from results import BadResults, cell_side
 from stress_results import MARKS, stress_contents
 from style import percent, seconds, three
+from vertex_tables import cell_table, chi_table
+from view_data import sheet_table, sheet_view
 
 HEADINGS = {
     "verdicts": "Verdicts",
+    "comparison": "Comparison",
     "short": "In short",
     "strain": "Error and run time against strain",
     "stiffness": "Effective stiffness",
@@ -58,7 +62,8 @@ def page_contents(results, gallery, output):
         d["name"] = d["scene"] if scenes.count(d["scene"]) == 1 else f"{d['scene']} ({drape.folder})"
     lists_all = any(study.lists_all for study in results.studies)
     strain_shown = bool(results.cells) or not (drapes or stress or convergence or lists_all)
-    headings = headings_of(drapes, stress, convergence, strain_shown)
+    comparison = comparison_contents(results, gallery)
+    headings = headings_of(drapes, stress, convergence, strain_shown, comparison)
     cells = contents_of_cells(results, gallery)
     reasons = {key: [] for key in ("verdicts", "short", "strain", "uncertainty")}
     words = {"verdicts": "verdicts", "strain": "error against strain", "uncertainty": "error bar"}
@@ -80,6 +85,7 @@ def page_contents(results, gallery, output):
         "title": "homespun: " + ", ".join([d["scene"] for d in drapes] + ["stress"] * bool(stress)
                                         + ["convergence"] * bool(convergence) + list(results.cells)),
         "lead": lead(bool(drapes), bool(stress), bool(convergence), strain_shown),
+        "comparison": comparison,
         "drapes": drapes,
         "stress": stress,
         "convergence": convergence,
@@ -109,19 +115,19 @@ def contents_of_drapes(results, gallery, output):
         return []
     limit = min(MOVING_BYTES, 2 * MOVING_BYTES // max(1, sum(len(drape.cells) for drape in results.drapes)))
     with workers() as pool:
-        return [{**drape_contents(drape, gallery, output, limit, pool), "id": f"scene-{i}"}
+        return [{**drape_contents(drape, gallery, output, limit, pool, len(results.drapes)), "id": f"scene-{i}"}
                 for i, drape in enumerate(results.drapes, 1)]
 
 
-def headings_of(drapes, stress, convergence, strain_shown):
+def headings_of(drapes, stress, convergence, strain_shown, comparison=None):
     """id -> heading of the sections that this page has, in their order."""
-    headings = {"verdicts": HEADINGS["verdicts"]}
+    headings = {key: HEADINGS[key] for key in ("verdicts", "comparison") if key == "verdicts" or comparison}
     if drapes:
         headings["drape-short"] = "In short: cloth in motion" if strain_shown else "In short"
     headings.update((d["id"], f"Drape: {d['name']}") for d in drapes)
     headings.update((s["id"], "Stress cases" + (f": {s['name']}" if len(stress) > 1 else "")) for s in stress)
     headings.update((c["id"], "Convergence" + (f": {c['name']}" if len(convergence) > 1 else "")) for c in convergence)
-    headings.update((key, text) for key, text in HEADINGS.items() if strain_shown or key in COMMON)
+    headings.update((key, text) for key, text in HEADINGS.items() if (strain_shown or key in COMMON) and (comparison or key != "comparison"))
     return headings
 
 
@@ -158,9 +164,10 @@ def summary(results):
         if info.get("ranks") is not None:
             parts.append(f"{info['ranks']} rank{'s' if info['ranks'] != 1 else ''}")
         if info.get("seconds_total") is not None:
-            parts.append(f"{seconds(float(info['seconds_total']))} in all")
+            what = "since it was taken up again" if info.get("resumed") else "in all"
+            parts.append(f"{seconds(float(info['seconds_total']))} {what}")
         if info.get("peak_memory_bytes") is not None:
-            parts.append(f"{three(info['peak_memory_bytes'] / 2. ** 30)} GiB of memory at most")
+            parts.append(f"{three(info['peak_memory_bytes'] / 2. ** 30)} GiB of memory at most" + (" since then" if info.get("resumed") else ""))
         if parts:
             name = f"{study.name}: " if len(results.studies) > 1 else ""
             sentences.append(name + ", ".join(parts) + ".")
@@ -253,13 +260,14 @@ def cell_contents(results, name, gallery):
     if cell.vertices is not None:
         contents["phases_picture"] = gallery.add(
             phase_figure(cell), f"{name}-cell", f"{name}: the unit cell, {len(cell.triangles):,} triangles, "
-            f"{len(cell.vertices):,} vertices, coloured by phase, light is soft; arrows are lattice vectors.")
+            f"{len(cell.vertices):,} vertices, coloured by phase, light is soft; arrows are lattice vectors.", table=cell_table(cell))
         contents["chi"] = gallery.add(
             characteristic_figure(cell), f"{name}-characteristic-displacements",
             f"{name}: characteristic displacements, exaggerated so that the largest is a tenth of the cell "
-            "side. White lines: edges of the phases; dashed: the cell at rest.", as_image=True)
+            "side. White lines: edges of the phases; dashed: the cell at rest.", as_image=True, table=chi_table(cell))
+    sheets = sum(len(one.field_files) for one in results.cells.values())
     for path in cell.field_files:
-        contents["sheets"].append(sheet_picture(cell, path, side, gallery))
+        contents["sheets"].append(sheet_picture(cell, path, side, gallery, sheets))
     strains = tables.nearest_strains([row for row in rows if row["reference"] == reference])
     if figure := error_time_figure(rows, methods, reference, strains, side):
         contents["error_time"] = gallery.add(
@@ -299,8 +307,11 @@ def draw_strain(contents, rows, methods, reference, side, gallery):
             f"{reference}." + (floor if at_floor else ""))
 
 
-def sheet_picture(cell, path, side, gallery):
-    """Picture of one stored sheet, with its numbers in the caption."""
+def sheet_picture(cell, path, side, gallery, sheets):
+    """Picture of one stored sheet, with its numbers in the caption, and what the page needs to turn it.
+
+    @param sheets how many the page shows
+    """
     faults = []
     sheet = read_fields(path, faults)
     if sheet is None:
@@ -311,5 +322,7 @@ def sheet_picture(cell, path, side, gallery):
                f"triangles: {sheet['method']} against {sheet['reference_law']}. Mean error "
                f"{tables.length(numbers['error_mean'])}, largest {tables.length(numbers['error_max'])}; mean "
                f"fluctuation {tables.length(numbers['fluctuation_mean'])}. Colour bars end at the 99.5th "
-               "percentile. True scale, not exaggerated. Below: the framed cells.")
-    return gallery.add(figure, f"{cell.name}-sheet-{sheet['load']}", caption, as_image=True)
+               "percentile. True scale, not exaggerated. Below: the framed cells. The CSV file holds the vertices of the view in space.")
+    colours = {number: colour for number, colour, _ in phase_legend(cell, sheet["material"])}
+    view, few = sheet_view(sheet, colours, sheets)
+    return gallery.add(figure, f"{cell.name}-sheet-{sheet['load']}", caption, as_image=True, table=sheet_table(sheet, few), view=view)

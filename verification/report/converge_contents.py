@@ -2,6 +2,8 @@
 """What the report shows of `homespun converge`: per study a figure and the table of its orders."""
 import math
 
+from markupsafe import Markup
+
 from converge_results import STUDIES
 from figures_converge import FIGURES
 from stress_results import MARKS
@@ -19,8 +21,8 @@ TITLES = {
 CAPTIONS = {
     "mesh": "Uniform refinement of the cell with P1 and P2: distance of the trace of C<sup>H</sup> from its Richardson "
             "limit. C<sup>H</sup> falls from level to level, because the spaces are nested. Where phases meet in corners "
-            "the order is twice their exponents, which are computed from angles and stiffnesses: P2 must show orders between "
-            "those of the strongest and the weakest corner, P1 between that of the strongest and 2. A laminate has its "
+            "the order is twice their exponents, which are computed from angles and stiffnesses: orders lie between that of "
+            "the strongest corner and that of the smallest exponent above 1, with P1 at most 2. A laminate has its "
             "closed form on every level, and no curve.",
     "adaptive": "Relative width of the bracket on C<sup>H</sup> against DoFs of the displacements: meshes refined where it "
                 "is wide (full lines) and everywhere (dashed). Adaptive meshes reach the order of smooth solutions, width "
@@ -69,7 +71,7 @@ def convergence_contents(convergence, gallery):
         if not some:
             continue
         figure = FIGURES[study](convergence)
-        picture = gallery.add(figure, f"converge-{study}", CAPTIONS[study]) if figure else None
+        picture = gallery.add(figure, f"converge-{study}", Markup(CAPTIONS[study])) if figure else None
         judged = [s for s in some if s.judgement]
         studies.append({"title": TITLES[study], "picture": picture, "rows": [row_of(s) for s in judged],
                         "cells": any(s.cell != "none" for s in judged)})

@@ -9,25 +9,27 @@ from figures_drape import (energy_figure, error_time_curves, height_figure, orde
                            step_bars)
 from stored import BadResults
 from style import three
+from view_data import film_view
 from vtu import BadFrame, read_vtu
 
 
-def drape_contents(drape, gallery, output, limit, pool):
+def drape_contents(drape, gallery, output, limit, pool, scenes=1):
     """One scene as the template shows it.
 
     @param output folder of the page, for links to the frames
     @param limit bytes of one animation
     @param pool of processes that render
+    @param scenes how many the page shows
     @throws BadResults where a frame cannot be read
     """
     return {"scene": drape.scene, "story": drape.info.get("story") or "", "facts": facts(drape.info),
-            "cells": [cell_contents(drape, cell, gallery, output, limit, pool) for cell in drape.cells],
+            "cells": [cell_contents(drape, cell, gallery, output, limit, pool, scenes) for cell in drape.cells],
             "terms": term_rows(drape.info),
             "costs": [row for cell in drape.cells for row in cost_rows(cell)],
             "parameters": [(key, exactly(value)) for key, value in drape.parameters()]}
 
 
-def cell_contents(drape, cell, gallery, output, limit, pool):
+def cell_contents(drape, cell, gallery, output, limit, pool, scenes):
     """Pictures, curves and tables of one cell in the scene; what has no data is None or empty."""
     info = cell.info
     side, density = info.get("cell_side_m"), info.get("areal_density")
@@ -37,12 +39,12 @@ def cell_contents(drape, cell, gallery, output, limit, pool):
                 "side": tables.length(float(side)) if side else None,
                 "density": f"{three(float(density))} kg/m²" if density else None,
                 "links": [(os.path.relpath(path, drape.folder), os.path.relpath(path, output)) for path in cell.lists]}
-    draw_cloth(contents, drape, cell, gallery, limit, pool)
+    draw_cloth(contents, drape, cell, gallery, limit, pool, scenes)
     draw_curves(contents, drape, cell, gallery)
     return contents
 
 
-def draw_cloth(contents, drape, cell, gallery, limit, pool):
+def draw_cloth(contents, drape, cell, gallery, limit, pool, scenes):
     """The rendered pictures and the animation of a cell."""
     variants = ordered_variants(run["variant"] for run in cell.runs)
     references = ordered_references(reference["reference"] for reference in cell.references)
@@ -63,7 +65,8 @@ def draw_cloth(contents, drape, cell, gallery, limit, pool):
             words += " Below: the framed part of the last time."
         contents["pictures"] = gallery.add(
             figure, f"{file}-cloth", f"{title}, {film.variant} cloth. One camera for all; parallel projection, "
-            f"true scale, not exaggerated.{words}", as_image="webp")
+            f"true scale, not exaggerated.{words}", as_image="shaded",
+            view=film_view(film, camera, drape.up(), len(drape.cells) * scenes))
         if moving := animation(film, camera, phases, limit, pool, bodies):
             data, width, loop, (first, last) = moving
             at_speed = abs(loop - (last - first)) <= 0.05 * loop

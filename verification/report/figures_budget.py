@@ -58,12 +58,13 @@ def draw_stack(axes, x, parts, drawn):
             continue
         drawn.add(part)
         axes.bar(x, share, 0.62, bottom=up if share > 0 else down, color=PART_COLOURS[part], edgecolor="white",
-                 linewidth=0.5, zorder=2)
+                 linewidth=0.5, zorder=2, label=PARTS[part])
         if share > 0:
             up += share
         else:
             down += share
     share = parts["sum"]["share"]
+    axes.bar(x, share, 0., lw=0, label="sum of the parts")  # its number, for the CSV file
     axes.plot(x, share, "D", color="white", markeredgecolor="#222222", ms=5, zorder=5)
     axes.annotate(f"{effectivity(parts):.2f}", (x, max(up, share, 1.)), xytext=(0, 4), textcoords="offset points",
                   ha="center", fontsize=7.5, zorder=6, bbox={"facecolor": "white", "edgecolor": "none", "pad": 0.6})
@@ -104,10 +105,10 @@ def way_figure(ways, side):
     errors = [w["error_mean_per_cell"] for w in front]
     axes.step(times, errors + errors[-1:], where="post", color="#222222", lw=1., zorder=1)
     for way in known:
-        _, marker, colour = FAMILIES[family(way["way"])]
+        name, marker, colour = FAMILIES[family(way["way"])]
         on_front = way in front
         axes.plot(way["seconds"], way["error_mean_per_cell"], marker, color=colour if on_front else "white",
-                  markeredgecolor=colour, mew=1.3, ms=7, zorder=3)
+                  markeredgecolor=colour, mew=1.3, ms=7, zorder=3, label=name, gid=way["way"])
         # Ways that take the same time lie above each other, as P1 and the corotational element do: labels apart.
         above = family(way["way"]) == "affine" or way["way"] in ("fine-p1", "fine-p2")
         axes.annotate(label_of(way["way"]), (way["seconds"], way["error_mean_per_cell"]),

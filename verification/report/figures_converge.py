@@ -8,6 +8,7 @@ from matplotlib.lines import Line2D
 import style
 
 GUIDE = "#6B6B6B"
+THEORY = "order of the theory, or its bounds"
 LAW_COLOURS = {"linear": style.GREEN, "biot": style.BLUE, "green": style.VERMILLION}
 ORDER_MARKERS = {1: "o", 2: "^"}
 TIME_COLOURS = (style.BLUE, style.VERMILLION)
@@ -39,7 +40,7 @@ def slope_guides(axes, lines):
             x0, x1 = line.h[-1], line.h[-2 if line.is_band else -3]
             y0 = 0.45 * line.error[-1]
             y1 = y0 * (x1 / x0) ** order
-            axes.plot([x0, x1], [y0, y1], ":", color=GUIDE, lw=1.6, zorder=1)
+            axes.plot([x0, x1], [y0, y1], ":", color=GUIDE, lw=1.6, zorder=1, label=THEORY, gid=f"order {order:g}")
             axes.annotate(f"{order:g}", (x1, y1), xytext=(4, -2), textcoords="offset points", fontsize=8,
                           color=GUIDE, va="top")
 
@@ -48,7 +49,7 @@ def draw_panel(axes, lines, title, xlabel, ylabel):
     for line in lines:
         if line.h:
             axes.plot(line.h, line.error, line.line, color=line.colour, marker=line.marker,
-                      markerfacecolor="white" if not line.failed else line.colour, ms=5)
+                      markerfacecolor="white" if not line.failed else line.colour, ms=5, label=line.label)
     slope_guides(axes, lines)
     style.log_axes(axes)
     sizes = [h for line in lines for h in line.h]
@@ -86,7 +87,7 @@ def order_figure(panels, columns=0):
             if line.h:
                 handles.setdefault(line.label, Line2D([], [], color=line.colour, ls=line.line, marker=line.marker,
                                                       markerfacecolor="white", label=line.label))
-    guide = Line2D([], [], color=GUIDE, ls=":", lw=1.6, label="order of the theory, or its bounds")
+    guide = Line2D([], [], color=GUIDE, ls=":", lw=1.6, label=THEORY)
     handles = list(handles.values()) + [guide]
     figure.legend(handles=handles, loc="lower center", bbox_to_anchor=(0.5, 1.), ncol=min(4, len(handles)),
                   handlelength=2.8)

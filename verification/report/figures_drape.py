@@ -9,6 +9,7 @@ from matplotlib.patches import Patch
 
 import style
 from figures_sheet import unit_of
+from plot_data import band
 
 BLOWN = 1e3  # times the largest value of the first cloth
 VARIANTS = ("corotational", "triangle-warping", "nodal-warping")
@@ -70,12 +71,12 @@ def error_time_curves(rows):
             here = [r for r in rows if r["variant"] == variant and r["reference"] == reference]
             time, bar = curve([r for r in here if r["method"] == here[0]["method"]], "reference_uncertainty_m", factor)
             if len(time):
-                axes.fill_between(time, bar, lower / 100., color="#BDBDBD", alpha=0.55, lw=0, zorder=0)
+                band(axes, time, bar, lower / 100., "uncertainty of the reference")
             for method in methods:
                 time, value = curve([r for r in here if r["method"] == method], "error_mean_m", factor)
                 if len(time):
                     axes.plot(time, value, color=style.method_colour(method, methods),
-                              marker="o" if len(time) < 12 else "")
+                              marker="o" if len(time) < 12 else "", label=method)
             axes.set(yscale="log", ylim=(lower, upper))
             axes.yaxis.set_minor_locator(ticker.NullLocator())
             axes.set_title(f"{variant} against {reference}", loc="left", fontweight="bold",
@@ -95,9 +96,11 @@ def plot_members(axes, rows, key, factor=1., positive=False):
         if positive:
             time, value = time[value > 0.], value[value > 0.]
         if name in REFERENCES:
-            axes.plot(time, value, color=style.BLACK, ls=REFERENCE_LINES[name], lw=1.6, zorder=4)
+            axes.plot(time, value, color=style.BLACK, ls=REFERENCE_LINES[name], lw=1.6, zorder=4,
+                      label=f"reference {name}")
         else:
-            axes.plot(time, value, color=variant_colour(name), lw=2.2 if name == VARIANTS[0] else 1.5)
+            axes.plot(time, value, color=variant_colour(name), lw=2.2 if name == VARIANTS[0] else 1.5,
+                      label=name)
 
 
 def members(rows):
@@ -146,7 +149,8 @@ def height_figure(rows, up, gravity):
     parabola = free_fall(rows, gravity)
     for axes, some in zip(grid[0], (rows, staying)):
         if parabola is not None:
-            axes.plot(parabola[0], 100. * parabola[1], color="#777777", lw=4., alpha=0.45, zorder=0)
+            axes.plot(parabola[0], 100. * parabola[1], color="#777777", lw=4., alpha=0.45, zorder=0,
+                      label="free fall")
         plot_members(axes, some, "height", 100.)
         heights = [100. * row["height"] for row in some]
         pad = 0.06 * (max(heights) - min(heights)) or 1.
@@ -179,7 +183,7 @@ def energy_figure(rows):
     for axes, (key, label) in zip(grid[0], panels):
         log = key not in ("max_stretch", "gravity_J") and not any(row[key] < 0. for row in rows)
         plot_members(axes, rows, key, positive=log)
-        axes.set(xlabel="time [s]", title=label)
+        axes.set(xlabel="time [s]", ylabel=label)
         # A variant that blows up must not flatten the others: it leaves the panel.
         every = [row[key] for row in rows if not math.isnan(row[key])]
         calm = [row[key] for row in rows if row["variant"] == first and not math.isnan(row[key])] or every
@@ -238,7 +242,7 @@ def step_bars(cell):
     figure, axes = pyplot.subplots(figsize=(8.4, 0.7 + 0.36 * len(entries)), layout="constrained")
     lower = 10. ** math.floor(math.log10(min(entry[1] for entry in entries)) - 0.3)
     for i, (_, value, colour, ratio) in enumerate(entries):
-        axes.barh(i, value - lower, 0.72, left=lower, color=colour)
+        axes.barh(i, value - lower, 0.72, left=lower, color=colour, label="median time per step")
         text = style.seconds(value)
         text += "" if ratio is None or math.isnan(ratio) else f",  {style.three(float(ratio))} ×"
         axes.annotate(text, (value, i), xytext=(4, 0), textcoords="offset points", va="center", fontsize=8)

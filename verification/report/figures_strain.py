@@ -12,6 +12,7 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
 import style
+from plot_data import ROUND_OFF_NOTE, band
 
 MARKED_STRAIN = 0.01  # real textiles hardly stretch more under their own weight
 
@@ -62,7 +63,7 @@ def draw_panel(axes, rows, load, methods, references, key, factor, floor, side):
         uncertain = sorted((s, u) for s, u in uncertain.items() if u > style.ROUND_OFF)
         if uncertain:
             strain, bar = numpy.array(uncertain).T
-            axes.fill_between(100 * strain, bar, floor / 100., color="#BDBDBD", alpha=0.55, lw=0, zorder=0)
+            band(axes, 100 * strain, bar, floor / 100., "uncertainty of the reference")
     for method in methods:
         for reference in references:
             some = [r for r in rows if r["method"] == method and r["reference"] == reference]
@@ -72,11 +73,13 @@ def draw_panel(axes, rows, load, methods, references, key, factor, floor, side):
             line, marker = style.reference_style(reference)
             colour = style.method_colour(method, methods)
             axes.plot(100 * strain, numpy.where(low, floor, value), line, marker=marker, color=colour,
-                      markevery=list(numpy.flatnonzero(~low)), markerfacecolor="white", markeredgewidth=1)
+                      markevery=list(numpy.flatnonzero(~low)), markerfacecolor="white", markeredgewidth=1,
+                      label=f"{method} against {reference}")
             if low.any():
                 at_floor = True
                 axes.plot(100 * strain[low], numpy.full(low.sum(), floor), "v", color=colour,
-                          markerfacecolor="none", clip_on=False, zorder=5)
+                          markerfacecolor="none", clip_on=False, zorder=5, label=f"{method} against {reference}",
+                          gid=ROUND_OFF_NOTE)
     if load.startswith("periodic") and key == "error_mean_per_cell":
         some = [r for r in rows if r["method"] == "localized" and r["reference"] == "biot"]
         strain, value, low = floored(some, key, factor)

@@ -62,8 +62,9 @@ def margin_figure(rows):
             low = numpy.array([margin(row) < LOWEST for _, row in shown], dtype=bool)
             if len(x):
                 axes.plot(x[~low], y[~low], mark, color=colour, ms=3.5 if verdict == "PASS" else 6.5, alpha=0.75, mew=0,
-                          zorder=3 if verdict == "PASS" else 5)
-                axes.plot(x[low], y[low], "<", color=colour, ms=3.5, alpha=0.75, mew=0, zorder=3)
+                          zorder=3 if verdict == "PASS" else 5, label=f"{group}, {verdict}")
+                axes.plot(x[low], y[low], "<", color=colour, ms=3.5, alpha=0.75, mew=0, zorder=3,
+                          label=f"{group}, {verdict}", gid="at the edge")
             if verdict == "FAIL" and shown:
                 worst = max(range(len(shown)), key=lambda k: x[k])
                 more = f" (and {len(shown) - 1} more)" if len(shown) > 1 else ""
@@ -138,7 +139,8 @@ def solver_figure(rows, key):
                 series = sorted((row["value"], row[key]) for row in some
                                 if row["cell"] == cell and row["order"] == order and row[key] > 0)
                 if series:
-                    axes.plot(*numpy.array(series).T, line, marker=mark, color=colour, markerfacecolor="white")
+                    axes.plot(*numpy.array(series).T, line, marker=mark, color=colour, markerfacecolor="white",
+                              label=f"{cell}, P{order}")
                 gave_up = [row["value"] for row in some if row["cell"] == cell and row["order"] == order
                            and row["outcome"] != "converged"]
                 if gave_up:

@@ -10,6 +10,7 @@ from matplotlib.patches import Patch
 
 import style
 from figures_strain import series
+from plot_data import ROUND_OFF_NOTE
 
 METHOD = "localized"
 
@@ -36,10 +37,10 @@ def run_time_figure(rows, reference):
     for axes, (title, group) in zip(grid[0], groups):
         for load in group:
             some = [row for row in rows if row["load"] == load]
-            for key, line in (("seconds_reference", "-"), ("seconds_method", "--")):
+            for key, line, what in (("seconds_reference", "-", "full resolution"), ("seconds_method", "--", "coarse")):
                 strain, value = series(some, key)
                 axes.plot(100 * strain, value, line, color=style.load_colour(load),
-                          marker=style.load_marker(load), markerfacecolor="white")
+                          marker=style.load_marker(load), markerfacecolor="white", label=f"{load}, {what}")
         ratios = [row["seconds_reference"] / row["seconds_method"] for row in rows if row["load"] in group]
         axes.set_title(f"{title}: {style.three(float(median(ratios)))} times faster", loc="left")
         style.log_axes(axes)
@@ -73,12 +74,12 @@ def step_figure(steps):
     for i, load in enumerate(loads):
         some = [step for step in steps if step["load"] == load]
         light = median(s["seconds_coarse_solve"] + s["seconds_upsample"] for s in some)
-        for k, (key, reference, _, colour) in enumerate(bars):
+        for k, (key, reference, label, colour) in enumerate(bars):
             values = [s[key] for s in some if reference in (None, s["reference"])]
             if not values:
                 continue
             value, y = median(values), i - 0.4 + (k + 0.5) * height
-            axes.barh(y, value - lower, 0.9 * height, left=lower, color=colour)
+            axes.barh(y, value - lower, 0.9 * height, left=lower, color=colour, label=label)
             if reference:
                 axes.annotate(f"{style.three(float(value / light))} ×", (value, y), xytext=(4, 0),
                               textcoords="offset points", va="center", fontsize=7.5)
@@ -119,13 +120,15 @@ def error_time_figure(rows, methods, reference, strains, side):
             axes.plot(row["seconds_method"], floor if low else error, style.load_marker(row["load"]),
                       ms=7, clip_on=False, markerfacecolor="none" if low else style.method_colour(row["method"], methods),
                       markeredgecolor=style.method_colour(row["method"], methods) if low else "white",
-                      mew=1.2 if low else 0.6)
+                      mew=1.2 if low else 0.6, label=row["method"],
+                      gid=f"{ROUND_OFF_NOTE}, {row['load']}" if low else row["load"])
             if row["method"] == METHOD and row["seconds_reference"] > 0 and side \
                     and row["reference_uncertainty_m"] > 0:
                 full = True
                 axes.plot(row["seconds_reference"], max(floor, row["reference_uncertainty_m"] / side),
                           style.load_marker(row["load"]), color="#666666", ms=7, mew=0.6,
-                          markeredgecolor="white", clip_on=False)
+                          markeredgecolor="white", clip_on=False, label="full resolution, at its uncertainty",
+                          gid=row["load"])
         axes.set_title(f"{style.percent(strain)} strain, against {reference}", loc="left")
         style.log_axes(axes)
         axes.set_xlabel("time per strain level [s]")

@@ -1,13 +1,18 @@
 # SPDX-License-Identifier: MIT
-"""Saves figures as PDF and SVG, animations as WebP, and inlines them into the page."""
+"""Saves figures as PDF and SVG with their numbers as CSV, animations as WebP, and inlines them into the page."""
 import base64
 import io
+import json
 import os
 import re
+import urllib.parse
 from dataclasses import dataclass
 
 from matplotlib import pyplot
+from markupsafe import Markup
 from PIL import Image
+
+import plot_data
 
 PAD = 0.04      # inches around a figure
 PAGE_DPI = 130  # of images on the page; the saved files are finer
@@ -22,45 +27,51 @@ class Picture:
     source: str   # data URI
     caption: str
     width: int    # CSS pixels
-    ending: str = ".pdf"  # of the file that the caption names
+    endings: tuple = ("pdf", "svg")  # of its files, as far as there are any
+    plot: str = ""     # JSON of panels and curves, for the interactive plot
+    view: str = ""     # JSON of a cloth to turn and zoom
 
 
 def short_svg(svg):
-    """An SVG with coordinates of two decimals (1/7200 inch) and without metadata: half the size.
+    """An SVG with coordinates of one decimal (1/720 inch) and without metadata, comments and unused names.
 
     Only paths, positions and shifts are rounded; scale factors keep their digits.
     """
-    svg = re.sub(r"<metadata>.*?</metadata>", "", svg, flags=re.S)
+    svg = re.sub(r"<metadata>.*?</metadata>|<!--.*?-->|<\?xml.*?\?>|<!DOCTYPE.*?>", "", svg, flags=re.S)
+    used = set(re.findall(r'(?:href="|url\()#([^")]*)', svg))
+    svg = re.sub(r' id="([^"]*)"', lambda match: match.group(0) if match.group(1) in used else "", svg)
 
     def rounded(match):
-        return re.sub(r"(\d+\.\d{2})\d+", r"\1", match.group(0))
+        return re.sub(r"(\d+\.\d)\d+", r"\1", match.group(0))
     svg = re.sub(r'\b(?:d|x|y|points)="[^"]*"|translate\([^)]*\)', rounded, svg)
-    return re.sub(r"\s*\n\s*", "\n", svg)
+    return re.sub(r"\s+", " ", svg).replace("> <", "><").replace("; ", ";").replace(": ", ":").strip()
 
 
-def small_png(figure, box, dpi):
-    """A PNG for the page. Colours keep 6 bits per channel, which no eye misses and which halves the file."""
-    buffer = io.BytesIO()
-    figure.savefig(buffer, format="png", dpi=dpi, bbox_inches=box)
-    picture = Image.open(buffer).convert("RGB").point([(v & 0xFC) | (v >> 6) for v in range(256)] * 3)
-    buffer = io.BytesIO()
-    picture.save(buffer, format="png", optimize=True)
-    return buffer.getvalue()
+def svg_address(svg):
+    """An SVG as a data URI in percent encoding: a quarter shorter than base64."""
+    return "data:image/svg+xml," + urllib.parse.quote(svg.replace('"', "'"), safe=" !$()*+,-./:;=?@[]_~'<>{}|^`")
 
 
 def small_webp(figure, box, dpi):
-    """A WebP for the page: a tenth of the PNG, and the eye misses nothing in shaded cloth."""
+    """A WebP for the page: a third to a tenth of the PNG, and the eye misses nothing."""
     buffer = io.BytesIO()
     figure.savefig(buffer, format="png", dpi=dpi, bbox_inches=box)
     picture = Image.open(buffer).convert("RGB")
     buffer = io.BytesIO()
-    picture.save(buffer, format="webp", quality=88, method=4)
+    picture.save(buffer, format="webp", quality=84, method=4)
     return buffer.getvalue()
 
 
 def file_name(name):
     """A name without characters that file systems and links dislike."""
     return re.sub(r"[^A-Za-z0-9._-]+", "-", name).strip("-.")
+
+
+def in_page(value):
+    """JSON that may stand in a script element; empty for None."""
+    if value is None:
+        return ""
+    return json.dumps(value, ensure_ascii=False, allow_nan=False, separators=(",", ":")).replace("<", "\\u003c")
 
 
 class Gallery:
@@ -81,10 +92,12 @@ class Gallery:
         self.names.add(name)
         return name
 
-    def add(self, figure, name, caption, as_image=False):
-        """Saves `name`.pdf and `name`.svg and closes the figure.
+    def add(self, figure, name, caption, as_image=False, table=None, view=None):
+        """Saves `name`.pdf, `name`.svg and, of figures with numbers, `name`.csv, and closes the figure.
 
-        @param as_image whether the page shows an image of dots, "webp" for one of shaded pictures; else the SVG
+        @param as_image whether the page shows an image of dots, "shaded" for a fine one of shaded pictures; else the SVG
+        @param table (header, rows) of the CSV file; None: the numbers of the curves and bars
+        @param view what the page needs to show the same cloth in space, or None
         @return Picture
         """
         name = self.own_name(name)
@@ -94,16 +107,20 @@ class Gallery:
         for kind, metadata in (("pdf", {"CreationDate": None, "Producer": None, "Creator": "homespun"}),
                                ("svg", {"Date": None, "Creator": "homespun"})):
             figure.savefig(os.path.join(self.folder, f"{name}.{kind}"), metadata=metadata, bbox_inches=box)
-        if as_image == "webp":
-            kind, data = "webp", small_webp(figure, box, SHADED_DPI)
-        elif as_image:
-            kind, data = "png", small_png(figure, box, self.dpi)
+        if as_image:
+            data = small_webp(figure, box, SHADED_DPI if as_image == "shaded" else self.dpi)
+            source = "data:image/webp;base64," + base64.b64encode(data).decode("ascii")
         else:
             with open(os.path.join(self.folder, name + ".svg"), encoding="utf-8") as file:
-                kind, data = "svg+xml", short_svg(file.read()).encode()
+                source = Markup(svg_address(short_svg(file.read())))  # without quotes and ampersands
+        panels = None if as_image else plot_data.panels_of(figure)
+        header, rows = table or (plot_data.HEADER, [] if as_image else plot_data.rows_of(figure))
+        endings = ("pdf", "svg") + (("csv",) if rows else ())
+        if rows:
+            with open(os.path.join(self.folder, name + ".csv"), "w", encoding="utf-8") as file:
+                file.write(plot_data.csv_text(rows, header))
         pyplot.close(figure)
-        source = f"data:image/{kind};base64," + base64.b64encode(data).decode("ascii")
-        return Picture(name, source, caption, round(105. * box.width))
+        return Picture(name, source, caption, round(105. * box.width), endings, in_page(panels), in_page(view))
 
     def add_animation(self, data, name, width, caption):
         """Saves `name`.webp, a looping picture of so many pixels' width.
@@ -114,4 +131,4 @@ class Gallery:
         with open(os.path.join(self.folder, name + ".webp"), "wb") as file:
             file.write(data)
         source = "data:image/webp;base64," + base64.b64encode(data).decode("ascii")
-        return Picture(name, source, caption, width, ".webp")
+        return Picture(name, source, caption, width, ("webp",))

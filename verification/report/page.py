@@ -5,6 +5,8 @@ import os
 import jinja2
 from markupsafe import Markup
 
+from scripts import scripts
+
 HERE = os.path.dirname(os.path.abspath(__file__))
 
 
@@ -14,4 +16,4 @@ def render(contents):
                                      undefined=jinja2.StrictUndefined)
     with open(os.path.join(HERE, "report.css"), encoding="utf-8") as file:
         css = Markup(file.read())
-    return environment.get_template("report.html.j2").render(css=css, **contents)
+    return environment.get_template("report.html.j2").render(css=css, scripts=scripts, **contents)

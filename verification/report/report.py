@@ -1,8 +1,10 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: MIT
-"""Makes report.html, one self-contained page, and the figures as PDF and SVG from stored results.
+"""Makes report.html, one self-contained page, and the figures as PDF, SVG and CSV from stored results.
 
     report.py DIR [DIR...] --output FOLDER
+
+Of several cells, or of several versions of one cell, the page compares what they share.
 
 Exit status: 0 the report is written; 2 the results cannot be used, one message per fault on stderr.
 FOLDER/report.html and FOLDER/figures/ appear when all of them are complete, or not at all.
@@ -21,6 +23,7 @@ style.use()  # before anything draws
 from contents import page_contents  # noqa: E402
 from gallery import Gallery  # noqa: E402
 from page import render  # noqa: E402
+from page_size import fitted  # noqa: E402
 from results import BadResults, read_results  # noqa: E402
 
 
@@ -43,6 +46,7 @@ def write_report(folders, output):
         sheets = sum(len(cell.field_files) for cell in results.cells.values())
         gallery = Gallery(os.path.join(workplace, "figures"), sheets)
         html = render(page_contents(results, gallery, output))
+        html = fitted(html, {name[:-5] for name in os.listdir(gallery.folder) if name.endswith(".webp")})
         with open(os.path.join(workplace, "report.html"), "w", encoding="utf-8") as file:
             file.write(html)
         os.makedirs(os.path.join(output, "figures"), exist_ok=True)
@@ -63,7 +67,7 @@ def write_report(folders, output):
 def main(arguments=None):
     parser = argparse.ArgumentParser(prog="homespun report", description=__doc__.splitlines()[0])
     parser.add_argument("folders", nargs="+", metavar="DIR", help="output folder of `homespun strain`, `homogenize`, "
-                        "`drape`, `stress` or `converge`")
+                        "`drape`, `stress`, `converge` or `verify`; of several the page compares cells and versions")
     parser.add_argument("--output", required=True, metavar="FOLDER", help="where report.html and figures/ go")
     parser.add_argument("--quiet", action="store_true", help="say nothing unless something is wrong")
     options = parser.parse_args(arguments)

@@ -16,6 +16,7 @@ from converge_results import read_convergence
 from drape_results import read_drape
 from stored import BadResults, check_verdicts, latest, read_csv, read_json
 from stress_results import read_stress
+from versions import merged, place_of, with_parts
 
 STRAIN_HEADER = ("cell,load,strain,reference,method,cells,coarse_triangles,fine_triangles,error_mean_m,"
                  "error_rms_m,error_max_m,error_mean_per_cell,error_mean_per_fluctuation,"
@@ -34,6 +35,7 @@ class Study:
     name: str
     info: dict = field(default_factory=dict)      # study.json, or what drape.json says alike
     verdicts: list = field(default_factory=list)  # verdicts.json
+    place: str = ""                               # folder of the version: that of `verify`, or its own
     lists_all: bool = False                       # of `homespun verify`: the claims of every part, and nothing else
 
 
@@ -52,6 +54,7 @@ class Results:
     stress: list = field(default_factory=list)  # Stress, one per folder
     convergence: list = field(default_factory=list)  # Convergence, one per folder
     missing: list = field(default_factory=list)  # {"what", "why"}
+    subjects: list = field(default_factory=list)  # Subject: each cell in each version
 
     def reached(self, cell=None):
         """Rows of strain.csv with an error in them."""
@@ -59,9 +62,10 @@ class Results:
                 and not math.isnan(row["error_mean_m"]) and cell in (None, row["cell"])]
 
     def claims(self):
-        """(study, verdict) of every claim; where a folder lists those of all parts, they are all there are."""
-        lists = [study for study in self.studies if study.lists_all]
-        return [(study, verdict) for study in lists or self.studies for verdict in study.verdicts]
+        """(study, verdict) of every claim; the folder of a `verify` lists those of all its parts, which then stand back."""
+        listed = {study.place for study in self.studies if study.lists_all}
+        return [(study, verdict) for study in self.studies if study.lists_all or study.place not in listed
+                for verdict in study.verdicts]
 
     def unreached(self):
         return [row for row in self.strain if row["method"] == UNREACHED]
@@ -118,7 +122,7 @@ def read_folder(folder, results, faults):
     if not (has_drape or has_stress or has_strain or has_convergence):
         faults.append(f"{folder}: holds no results: neither strain.csv nor CELL/homogenize.json nor drape.json nor "
                       "stress.csv nor converge.csv. Give the --output folder of `homespun strain`, `homogenize`, `drape`, "
-                      "`stress` or `converge`.")
+                      "`stress`, `converge` or `verify`.")
         return
     results.studies.append(study)
     if has_drape and (drape := read_drape(folder, path_of, faults, results.missing)):
@@ -134,7 +138,10 @@ def read_folder(folder, results, faults):
         if path := path_of("study.json", "command, sizes and provenance of the study"):
             if value := read_json(path, faults):
                 study.info = {**study.info, **check_study(value, path, faults)}
-    if path := path_of("verdicts.json", "verdicts"):
+    # A cell of `verify` has its claims in the list of all parts.
+    is_listed = any(other.lists_all and os.path.realpath(folder).startswith(os.path.realpath(other.folder) + os.sep)
+                    for other in results.studies)
+    if (holds("verdicts.json") or not is_listed) and (path := path_of("verdicts.json", "verdicts")):
         if value := read_json(path, faults):
             study.verdicts = check_verdicts(value, path, faults)
     if has_strain:
@@ -158,11 +165,7 @@ def read_strain(folder, cell_folders, path_of, results, faults):
                                 results.missing)
     read_budget(path_of, results, faults)
     for name, cell_folder in cell_folders.items():
-        if name in results.cells:
-            results.missing.append({"what": f"cell `{name}` of {folder}",
-                                    "why": f"a cell of this name was read from {results.cells[name].folder}"})
-        else:
-            results.cells[name] = read_cell(name, cell_folder, read_json, faults, results.missing)
+        results.cells[name] = read_cell(name, cell_folder, read_json, faults, results.missing)
 
 
 def read_results(folders):
@@ -171,13 +174,17 @@ def read_results(folders):
     @return Results
     @throws BadResults with every fault of every file
     """
-    results, faults = Results(), []
+    faults, parts = [], []
+    folders = with_parts(folders)
     for folder in folders:
-        read_folder(folder, results, faults)
-    for row in results.strain:
-        results.cells.setdefault(row["cell"], Cell(row["cell"]))
+        part = Results()
+        read_folder(folder, part, faults)
+        parts.append((folder, part))
     if faults:
         raise BadResults(faults)
+    results = merged(parts, folders, Results, Cell)
+    for study in results.studies:
+        study.place = place_of(study.folder, folders)
     return results
 
 

@@ -167,7 +167,7 @@ def unreached_notes(rows):
         groups.setdefault((row["cell"], row["load"], row["reference"]), set()).add(row["strain"])
     return [{"what": f"{cell}, {load}, reference {reference} at "
                      + ", ".join(percent(s) for s in sorted(strains)),
-             "why": "the reference could not be solved at this strain"}
+             "why": "no equilibrium of the reference or of the coarse cloth was found there, or at a strain below"}
             for (cell, load, reference), strains in groups.items()]
 
 

@@ -1,0 +1,103 @@
+# SPDX-License-Identifier: MIT
+"""The library of cells: the list, what `cells make` refuses, and what it makes where Gmsh is installed."""
+import os
+import re
+import shutil
+import unittest
+
+from cli import CELLS, InFolder, run
+
+NAMES = sorted(path.stem for path in CELLS.glob("*.prm"))
+
+
+def n_triangles(cell):
+    """Triangles of a cell, as `homespun check` counts them."""
+    return int(re.search(r"(\d+) triangles", run("check", cell).stdout).group(1))
+
+
+class List(unittest.TestCase):
+    def test_every_cell_is_sound_and_listed_with_a_line_of_story_and_its_parameters(self):
+        lines = run("cells").stdout.splitlines()
+        self.assertEqual(len(lines), 3 * len(NAMES))
+        for file, story, parameters in zip(lines[::3], lines[1::3], lines[2::3]):
+            name = os.path.basename(file)[:-4]
+            self.assertIn(name, NAMES)
+            self.assertTrue(story.strip().startswith(f"{name}: "), story)
+            self.assertRegex(parameters, r"--set \w+ \([\d.]+; [\d.]+ to [\d.]+\)")
+        self.assertEqual(run("check", *CELLS.glob("*.prm")).returncode, 0)
+
+
+class Refusals(InFolder):
+    def refused(self, *arguments, says, **options):
+        result = run("cells", "make", *arguments, "--output", self.folder, **options)
+        self.assertEqual(result.returncode, 2, result.stdout + result.stderr)
+        for part in says:
+            self.assertIn(part, result.stderr)
+        self.assertEqual(list(self.folder.iterdir()), [])
+
+    def test_a_cell_that_does_not_exist_is_refused_with_those_that_do(self):
+        self.refused("houndstooth", says=["found `houndstooth`", *NAMES])
+        self.refused("../cells/twill", says=["expected a shipped cell"])
+
+    def test_all_faults_of_the_settings_come_at_once(self):
+        self.refused("random-dots", "--set", "colour=3", "--set", "radius=9", "--set", "seed=1.5", "--set", "h=fine",
+                     "--set", "dots", "--set", "radius=0.1", "--set", "h=nan", "--name", "a/b",
+                     says=["found `colour=3`; expected a parameter of `random-dots`: seed (1; 1 to 1000000), dots",
+                           "found `radius=9`; expected a number from 0.03 to 0.15",
+                           "found `seed=1.5`; expected a whole number from 1 to 1000000",
+                           "found `h=fine`; expected a number", "found `dots`; expected `key=value`",
+                           "found `radius=0.1`; expected each parameter once", "--name: found `a/b`"])
+        self.refused("twill", "--set", "yarn_width=nan", says=["found `yarn_width=nan`; expected a number from 0.3"])
+
+    def test_files_that_exist_are_left_alone(self):
+        (self.folder / "twill.prm").write_text("mine", encoding="utf-8")
+        result = run("cells", "make", "twill", "--output", self.folder)
+        self.assertEqual(result.returncode, 2)
+        self.assertIn("twill.prm: exists already", result.stderr)
+        self.assertEqual((self.folder / "twill.prm").read_text(encoding="utf-8"), "mine")
+
+    def test_a_missing_gmsh_is_named_with_its_package(self):
+        tools = self.folder.parent / (self.folder.name + "-tools")
+        tools.mkdir()
+        self.addCleanup(shutil.rmtree, tools)
+        (tools / "ssh").symlink_to("/bin/true")  # Open MPI does not begin without
+        self.refused("twill", says=["install the package gmsh"], env={**os.environ, "PATH": str(tools)})
+
+
+@unittest.skipUnless(shutil.which("gmsh"), "Gmsh is not installed")
+class Making(InFolder):
+    def test_a_variant_is_sound_and_its_source_makes_it_again(self):
+        result = run("cells", "make", "twill", "--set", "yarn_width=0.4", "--name", "open", "--output", self.folder)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertRegex(result.stdout, r"open\.prm: sound")
+        self.assertIn("holes: 36 % of the area", result.stdout)  # (1 - 0.4)^2
+        self.assertEqual({path.name for path in self.folder.iterdir()}, {"open.geo", "open.msh", "open.prm"})
+        self.assertIn("yarn_width = { 0.4, Min", (self.folder / "open.geo").read_text(encoding="utf-8"))
+        self.assertIn("twill, made by homespun: yarn_width = 0.4.",
+                      (self.folder / "open.prm").read_text(encoding="utf-8"))
+
+    def test_every_shipped_mesh_is_what_its_source_makes(self):
+        for name in NAMES:
+            result = run("cells", "make", name, "--output", self.folder)
+            self.assertEqual(result.returncode, 0, result.stderr)
+            made, shipped = n_triangles(self.folder / f"{name}.prm"), n_triangles(CELLS / f"{name}.prm")
+            self.assertLess(abs(made - shipped), 0.05 * shipped, name)  # versions of Gmsh differ a little
+
+    def test_the_seed_decides(self):
+        for name, seed in (("one", 3), ("again", 3), ("other", 4)):
+            run("cells", "make", "random-dots", "--set", f"seed={seed}", "--name", name, "--output", self.folder)
+        # Nodes and elements: Gmsh lists the periodic curves after them, in any order.
+        one, again, other = ((self.folder / f"{name}.msh").read_text(encoding="utf-8").split("$Periodic")[0]
+                             for name in ("one", "again", "other"))
+        self.assertEqual(one, again)
+        self.assertNotEqual(one, other)
+
+    def test_values_that_do_not_fit_together_leave_nothing_behind(self):
+        result = run("cells", "make", "random-dots", "--set", "dots=60", "--set", "radius=0.15", "--output", self.folder)
+        self.assertEqual(result.returncode, 2)
+        self.assertIn("of 60 dots found a place", result.stderr)
+        self.assertEqual(list(self.folder.iterdir()), [])
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,90 @@
+# SPDX-License-Identifier: MIT
+"""Tests of the comparison of several cells and of several versions of one."""
+import json
+import os
+import unittest
+
+import results
+import versions
+from comparison import claims_side_by_side, key_of
+from made_up_study import write_results
+from page_case import PageTest
+from results import read_results
+
+
+class ComparisonTest(PageTest):
+    def write(self, *parts, changes=()):
+        """A result folder, with strings of its strain.csv replaced."""
+        folder = os.path.join(self.place, *parts)
+        write_results(folder)
+        for name, old, new in changes:
+            path = os.path.join(folder, name)
+            with open(path, encoding="utf-8") as file:
+                text = file.read()
+            with open(path, "w", encoding="utf-8") as file:
+                file.write(text.replace(old, new))
+        os.remove(os.path.join(folder, "stripes", "fields-shear-frame.h5"))  # its picture takes seconds
+        return folder
+
+    def test_two_versions_of_a_cell_stand_side_by_side(self):
+        claim = [("verdicts.json", "slope 2", "stripes: slope 2")]
+        one = self.write("old", "strain", changes=claim)
+        two = self.write("new", "strain", changes=claim + [("verdicts.json", "PASS", "FAIL"), ("stripes/homogenize.json", "2839.91", "2900.0")])
+        self.assertEqual(self.run_report(one, two), (0, ""))
+        page = self.page()
+        start = page.index('<h2 id="comparison">')
+        section = page[start:page.index("<h2", start + 4)]
+        for text in ("stripes (old)", "stripes (new)", "2840", "2900", "…: slope 2", "the verdicts of 1 differ", '<tr class="differs">',
+                     "periodic-22", "0 (2.00)", "0.0800 (2.00)"):
+            self.assertIn(text, section)
+        self.assertIn('id="comparison-error-strain"', section)
+        self.assertLess(page.index('<h2 id="verdicts">'), start)
+        self.assertIn('href="#comparison"', page)
+
+    def test_rows_of_two_versions_are_not_mixed(self):
+        one, two = self.write("old", "strain"), self.write("new", "strain", changes=[("strain.csv", ",0.01,", ",0.02,")])
+        found = read_results([one, two])
+        self.assertEqual({row["strain"] for row in found.reached("stripes (old)")}, {0.001, 0.01, 0.1})
+        self.assertEqual({row["strain"] for row in found.reached("stripes (new)")}, {0.001, 0.02, 0.1})
+
+    def test_one_cell_is_not_compared(self):
+        self.assertEqual(self.run_report(self.write("alone")), (0, ""))
+        self.assertNotIn("comparison", self.page().split("</style>")[1].split("<script>")[0])
+
+    def test_homogenized_and_strained_cell_are_one(self):
+        strained, homogenized = self.write("strain"), os.path.join(self.write("other"), "stripes")
+        os.remove(os.path.join(strained, "stripes", "cell.h5"))
+        found = read_results([strained, homogenized])
+        self.assertEqual(list(found.cells), ["stripes"])
+        self.assertIsNotNone(found.cells["stripes"].vertices)
+
+    def test_folder_of_verify_stands_for_its_parts(self):
+        strain = self.write("verify", "strain")
+        top = os.path.dirname(strain)
+        with open(os.path.join(top, "verdicts.json"), "w", encoding="utf-8") as file:
+            json.dump({"verdicts": []}, file)
+        self.assertEqual(versions.with_parts([top]), [top, strain])
+        self.assertEqual(versions.with_parts([top, strain]), [top, strain])
+        self.assertEqual(len(read_results([top]).strain), len(read_results([strain]).strain))
+        another = self.write("again", "strain")
+        self.assertEqual([s.name for s in read_results([top, another]).subjects], ["stripes (verify)", "stripes (strain)"])
+
+    def test_claims_are_matched_without_the_name_of_their_cell(self):
+        self.assertEqual(key_of("layered, strip-1: slope", "layered"), "CELL, strip-1: slope")
+        self.assertEqual(key_of("homogenize cells/layered: gap", "layered"), "homogenize cells/CELL: gap")
+        self.assertIsNone(key_of("three-layered: slope", "layered"))
+        found = results.Results(studies=[results.Study("a", "a", place="a", verdicts=[
+            {"claim": f"{cell}: slope", "verdict": verdict, "value": 2., "limit": "2"} for cell, verdict in (("one", "PASS"), ("two", "FAIL"))]
+            + [{"claim": "one: alone", "verdict": "PASS"}])])
+        subjects = [versions.Subject(name, name, "a") for name in ("one", "two")]
+        (block,) = claims_side_by_side(found, subjects)
+        self.assertEqual([(row["claim"], row["differs"]) for row in block["rows"]], [("…: slope", True)])
+
+    def test_names_of_versions_are_short_and_differ(self):
+        self.assertEqual(versions.tags(["/a/v1/strain", "/a/v2/strain"]), {"/a/v1/strain": "v1", "/a/v2/strain": "v2"})
+        self.assertEqual(versions.tags(["/a/one", "/b/two"]), {"/a/one": "one", "/b/two": "two"})
+        self.assertEqual(len(set(versions.tags(["/a/x/1", "/a/y/1", "/a/y/2"]).values())), 3)
+
+
+if __name__ == "__main__":
+    unittest.main()
