@@ -143,6 +143,12 @@ CellReading read_cell(const std::string &prm_file)
   }
   mesh_file.mesh.vertices *= reading.metres_per_unit;
   reading.has_mesh = true;
+  if (mesh_file.angle.size() > 0)
+    add(
+      findings, "angle",
+      {mesh_path +
+       ": has cell data `angle`, a direction for each triangle, which is not supported; expected one angle per group "
+       "in key `Orthotropic`: make a group per direction, and leave the data out"});
 
   add(findings, "mesh", meshes::placed_faults_of(mesh_file.mesh, mesh_path));
   const bool mesh_is_sound = !has_errors(findings);

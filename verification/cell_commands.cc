@@ -3,6 +3,7 @@
 #include "meshes/errors.h"
 #include "verification/cell_study.h"
 #include "verification/cells_make.h"
+#include "verification/check_command.h"
 #include "verification/commands.h"
 #include "verification/data_folder.h"
 #include "verification/on_root.h"
@@ -88,7 +89,7 @@ int make(const CellVariant &variant)
             file = make_cell(variant);
             std::cout << "Made " << file << ", with its .geo and .msh\n";
             // One rank alone: the others do not know the file's name.
-            check({file});
+            tell_findings(file);
           });
   return 0;
 }

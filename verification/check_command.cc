@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // homespun check: all findings of the linter, as text, as check.json and as a picture of each cell.
-#include "homogenization/cell_reading.h"
+#include "verification/check_command.h"
+
 #include "meshes/errors.h"
 #include "meshes/hdf5_writer.h"
 #include "meshes/write_whole.h"
@@ -151,18 +152,8 @@ int check(const CheckArguments &arguments, Afterwards &afterwards)
   bool any_error = false;
   for (const std::string &file : arguments.files)
   {
-    readings.push_back(homogenization::inspect_cell(file));
-    const CellReading &reading = readings.back();
-    const bool is_refused      = homogenization::has_errors(reading.findings);
-    any_error                  = any_error || is_refused;
-    if (!is_refused)
-      describe(reading.cell, number_of(reading.findings, Severity::warning));
-    std::cout << std::flush;
-    for (const Finding &finding : reading.findings)
-      if (finding.severity == Severity::error)
-        std::cerr << "homespun: " << homogenization::text_of(finding) << "\n";
-      else
-        std::cout << "  warning: " << homogenization::text_of(finding) << "\n";
+    readings.push_back(tell_findings(file));
+    any_error = any_error || homogenization::has_errors(readings.back().findings);
   }
   if (!arguments.output.empty())
   {
@@ -178,6 +169,20 @@ int check(const CheckArguments &arguments, Afterwards &afterwards)
   return any_error ? 2 : 0;
 }
 } // namespace
+
+CellReading tell_findings(const std::string &file)
+{
+  const CellReading reading = homogenization::inspect_cell(file);
+  if (!homogenization::has_errors(reading.findings))
+    describe(reading.cell, number_of(reading.findings, Severity::warning));
+  std::cout << std::flush;
+  for (const Finding &finding : reading.findings)
+    if (finding.severity == Severity::error)
+      std::cerr << "homespun: " << homogenization::text_of(finding) << "\n";
+    else
+      std::cout << "  warning: " << homogenization::text_of(finding) << "\n";
+  return reading;
+}
 
 void add_check_command(CLI::App &app, Action &action, Afterwards &afterwards)
 {
