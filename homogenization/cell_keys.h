@@ -27,8 +27,8 @@ struct CellKeys
   {
     keys.add_parameter(
       "Mesh", mesh,
-      "Mesh of one periodic cell, a path relative to this file; anything deal.II's GridIn "
-      "reads, with triangles or quadrilaterals.");
+      "Mesh of one periodic cell, a file in the folder of this one or below: .msh, .vtk, .vtu, "
+      ".ucd, .inp or .unv, with triangles or quadrilaterals.");
     keys.add_parameter("Length unit", length_unit,
                        "Metres per mesh unit [m], positive; 0.01 for a mesh in centimetres.");
     keys.add_parameter(
