@@ -116,7 +116,6 @@ class WholePageTest(PageTest):
         self.assertEqual(done.stdout.count('class="plot"'), len(page_checks.data_of(self.text, "plot-data")))
         self.assertEqual(re.findall(r'class="view" data-ready="(\d+)"', done.stdout), [str(3 * 72)])  # corners of all triangles
 
-
     @unittest.skipUnless(CHROMIUM, "needs chromium")
     def test_page_does_not_scroll_sideways_on_a_phone(self):
         frame = os.path.join(self.made_in, "frame.html")
@@ -134,7 +133,10 @@ class WholePageTest(PageTest):
         with open(frame, "w", encoding="utf-8") as file:
             file.write('<iframe width="1300" height="7900" src="report.html?view=1"></iframe><pre></pre><script>'
                        + scripts.own("page_actions.js") + "</script>")
-        answer = re.search(r"<pre>(.*?)</pre>", self.browse(frame).stdout, flags=re.S).group(1)
+        for budget in (30, 120, 480):  # a busy machine loads the page after the browser's clock has run out
+            answer = re.search(r"<pre>(.*?)</pre>", self.browse(frame, budget).stdout, flags=re.S).group(1)
+            if answer:
+                break
         self.assertTrue(answer, "the page did not answer")
         found = json.loads(html.unescape(answer))
         self.assertEqual(found["faults"], [])
@@ -147,10 +149,10 @@ class WholePageTest(PageTest):
         self.assertEqual([row[:4] for row in saved], [row[:4] for row in stored])
         self.assertEqual([float(row[6]) for row in saved[1:]], [float(row[6]) for row in stored[1:]])
 
-    def browse(self, address):
+    def browse(self, address, seconds=30):
         """What the browser makes of a page: its elements on stdout, messages of scripts on stderr."""
         command = [CHROMIUM, "--headless", "--no-sandbox", "--use-gl=angle", "--use-angle=swiftshader",
-                   "--enable-unsafe-swiftshader", "--enable-logging=stderr", "--virtual-time-budget=30000",
+                   "--enable-unsafe-swiftshader", "--enable-logging=stderr", f"--virtual-time-budget={1000 * seconds}",
                    "--allow-file-access-from-files", "--window-size=600,8000", f"--user-data-dir={self.made_in}/browser",
                    "--dump-dom", f"file://{address}"]
         try:
