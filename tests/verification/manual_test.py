@@ -11,7 +11,7 @@ import unittest
 
 from cli import PROGRAM, run
 
-SCRIPT = pathlib.Path(__file__).resolve().parents[2] / "packaging" / "manual.py"
+SCRIPT = pathlib.Path(__file__).resolve().parents[2] / "verification" / "manual" / "manual.py"
 VERSION = "1.2.3"
 
 
