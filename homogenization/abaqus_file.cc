@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: MIT
-// Abaqus' input deck, as far as it is a mesh: *NODE, *ELEMENT, *ELSET. All else is passed over.
+// Abaqus' input deck, as far as it is a mesh: *NODE, *ELEMENT, *ELSET. What would make or move points and elements is
+// refused, all else passed over.
 #include "homogenization/mesh_formats.h"
 #include "homogenization/parameter_text.h"
+
+#include <limits>
+#include <set>
 
 namespace homespun::homogenization
 {
@@ -53,6 +57,16 @@ int corners_of(const MeshText &text, const std::string &type)
   text.fail("holds elements of Abaqus' type `" + type + "`" + straight_and_flat);
 }
 
+/// Keywords that make or move points and elements by rules.
+bool is_generator(const std::string &keyword)
+{
+  for (const char *name :
+       {"system", "ngen", "ncopy", "nfill", "nmap", "elgen", "elcopy", "element generation"})
+    if (keyword == name)
+      return true;
+  return false;
+}
+
 class AbaqusReader
 {
 public:
@@ -68,15 +82,26 @@ public:
     {
       if (line.size() < 2 || line[0] != '*' || line[1] == '*')
         continue;
-      const Keyword keyword(line);
+      std::string whole(line);
+      while (!trimmed(whole).empty() && trimmed(whole).back() == ',' && text.line(line))
+        whole += line;
+      const Keyword keyword(whole);
+      const bool is_mesh =
+        keyword.name == "node" || keyword.name == "element" || keyword.name == "elset";
+      if (keyword.name == "include" || (is_mesh && keyword.parameters.count("input") > 0))
+        text.fail("found data in another file; expected one whole file: insert the other one");
+      if (is_generator(keyword.name))
+        text.fail("found *" + keyword.name +
+                  ", which makes or moves points or elements; expected all of them in *NODE and "
+                  "*ELEMENT: let the program that wrote the file write the mesh itself");
       if (keyword.name == "node")
-        nodes();
+        nodes(keyword);
       else if (keyword.name == "element")
         elements(keyword);
       else if (keyword.name == "elset")
         element_set(keyword);
-      else if (keyword.name == "include")
-        text.fail("found *INCLUDE; expected one whole file: insert the other one");
+      else if (keyword.name == "instance")
+        instance();
     }
     assign_groups();
     return std::move(mesh);
@@ -107,8 +132,24 @@ private:
     return value;
   }
 
-  void nodes()
+  /// An instance may stand anywhere but where its part was drawn.
+  void instance()
   {
+    for_each_data_line(
+      [&](const std::vector<std::string> &)
+      {
+        text.fail("found an *INSTANCE that moves or turns its part; expected a part where it was "
+                  "drawn: leave out the lines after *INSTANCE");
+      });
+  }
+
+  void nodes(const Keyword &keyword)
+  {
+    const std::string system = lower(keyword.value("system"));
+    if (!system.empty() && system != "r")
+      text.fail(
+        "found points in cylindrical or spherical coordinates; expected x, y and z: leave out "
+        "SYSTEM");
     for_each_data_line(
       [&](const std::vector<std::string> &values)
       {
@@ -138,48 +179,116 @@ private:
                     " is given twice; expected each number once: write one part alone");
         mesh.cells.push_back(cell);
         own_set.push_back(set);
+        number_of_cell.push_back(integer(values, 0));
       });
   }
 
+  /// Members of a set: the elements first, first + step, ..., last, or those of another set.
+  struct Members
+  {
+    long first = 0, last = 0, step = 1;
+    std::string set;
+  };
+
   void element_set(const Keyword &keyword)
   {
-    const std::string name = keyword.value("elset");
-    const bool generates   = keyword.parameters.count("generate") != 0;
+    std::vector<Members> &members = sets[keyword.value("elset")];
+    const bool generates          = keyword.parameters.count("generate") != 0;
     for_each_data_line(
       [&](const std::vector<std::string> &values)
       {
         if (generates)
         {
-          const long first = integer(values, 0), last = integer(values, 1);
-          const long step = values.size() > 2 && !values[2].empty() ? integer(values, 2) : 1;
-          if (step < 1 || (last - first) / step > static_cast<long>(text.content.size()))
-            text.fail("found a range of elements without end; expected `first, last, step`");
-          for (long number = first; number <= last; number += step)
-            put(number, name);
+          const bool has_step = values.size() > 2 && !values[2].empty();
+          const Members range{integer(values, 0), integer(values, 1),
+                              has_step ? integer(values, 2) : 1, ""};
+          if (range.step < 1 || range.first < 1 || range.last < range.first ||
+              range.last > std::numeric_limits<int>::max())
+            text.fail("found the range `" + values[0] + ", " + values[1] +
+                      "` of elements; expected `first, last, step`, positive and rising");
+          members.push_back(range);
           return;
         }
-        long number = 0;
         for (const std::string &value : values)
-          if (to_integer(value, number))
-            put(number, name);
+        {
+          long number = 0;
+          if (to_integer(value, number) && number > 0 && number <= std::numeric_limits<int>::max())
+            members.push_back({number, number, 1, ""});
+          else if (!value.empty())
+            members.push_back({0, 0, 1, value});
+        }
       });
   }
 
-  /// A set may hold lines as well, which cells have no use for.
-  void put(const long number, const std::string &name)
+  /// The elements of a set and of the sets in it become those of the set `name`. Lines, which cells have no use for, are
+  /// passed over.
+  void put(const std::string &set, const std::string &name, std::set<std::string> &done)
   {
-    const auto cell = index_of.find(number);
-    if (cell == index_of.end())
+    if (!done.insert(set).second)
       return;
-    const auto [place, is_new] = named_set.emplace(cell->second, name);
+    bool is_known = false;
+    for (std::size_t cell = 0; cell < own_set.size(); ++cell)
+      if (own_set[cell] == set)
+      {
+        is_known = true;
+        put(cell, name);
+      }
+    const auto found = sets.find(set);
+    if (found == sets.end())
+    {
+      if (!is_known)
+        text.fail("*ELSET `" + name + "` holds `" + set +
+                  "`, which is neither a number nor a set; expected elements or sets of them");
+      return;
+    }
+    for (const Members &members : found->second)
+      if (!members.set.empty())
+        put(members.set, name, done);
+      else
+        for (const auto &[number, cell] : within(members))
+          put(cell, name);
+  }
+
+  /// Those elements of a range that there are, however long it is.
+  std::vector<std::pair<long, std::size_t>> within(const Members &range) const
+  {
+    std::vector<std::pair<long, std::size_t>> found;
+    if ((range.last - range.first) / range.step < static_cast<long>(index_of.size()))
+    {
+      for (long number = range.first; number <= range.last; number += range.step)
+        if (const auto cell = index_of.find(number); cell != index_of.end())
+          found.push_back(*cell);
+      return found;
+    }
+    for (const auto &element : index_of)
+      if (element.first >= range.first && element.first <= range.last &&
+          (element.first - range.first) % range.step == 0)
+        found.push_back(element);
+    return found;
+  }
+
+  void put(const std::size_t cell, const std::string &name)
+  {
+    const auto [place, is_new] = named_set.emplace(cell, name);
     if (!is_new && place->second != name)
-      text.fail("element " + std::to_string(number) + " is in the sets `" + place->second +
-                "` and `" + name +
+      text.fail("element " + std::to_string(number_of_cell[cell]) + " is in the sets `" +
+                place->second + "` and `" + name +
                 "`; expected one set per element, that of its material: remove the other *ELSET");
   }
 
+  /// Only at the end: sets may stand before their elements. A set that others hold stands for them alone.
   void assign_groups()
   {
+    std::set<std::string> is_held;
+    for (const auto &[name, members] : sets)
+      for (const Members &its : members)
+        is_held.insert(its.set);
+    for (const auto &[name, members] : sets)
+      if (is_held.count(name) == 0)
+      {
+        std::set<std::string> done;
+        put(name, name, done);
+      }
     const auto number_of = [&](const std::string &name)
     {
       return mesh.number_of_name.emplace(name, static_cast<int>(mesh.number_of_name.size()) + 1)
@@ -198,6 +307,8 @@ private:
   PointNumbers numbers;
   std::unordered_map<long, std::size_t> index_of;
   std::vector<std::string> own_set; ///< of *ELEMENT, per cell
+  std::vector<long> number_of_cell;
+  std::map<std::string, std::vector<Members>> sets; ///< of *ELSET
   std::unordered_map<std::size_t, std::string> named_set;
 };
 } // namespace

@@ -7,6 +7,7 @@
 #include <Eigen/LU>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <set>
 
@@ -37,6 +38,43 @@ std::map<std::string, std::vector<double>> group_values(const std::string &file,
   return values;
 }
 
+/// A phase for each angle that the triangles of an orthotropic group have on top of that of the group.
+void turn_phases(const std::string &file, const std::string &mesh_name,
+                 const std::vector<char> &is_orthotropic, CellMeshFile &mesh_file,
+                 std::vector<Phase> &phases, Faults &faults)
+{
+  if (std::find(is_orthotropic.begin(), is_orthotropic.end(), 1) == is_orthotropic.end())
+  {
+    faults.push_back(
+      file + ": the mesh " + mesh_name +
+      " has cell data `angle`, and no group is in key `Orthotropic`; expected the group "
+      "that the angles are for: add it there, or leave the data out");
+    return;
+  }
+  const std::vector<Phase> groups = std::move(phases);
+  phases.clear();
+  std::map<std::pair<int, double>, int> phase_of; // by group and angle on top
+  for (Eigen::Index t = 0; t < mesh_file.angle.size(); ++t)
+  {
+    int &material       = mesh_file.mesh.material(t);
+    const auto group    = static_cast<std::size_t>(material);
+    const double on_top = is_orthotropic[group] ? mesh_file.angle(t) : 0.;
+    if (!std::isfinite(on_top))
+    {
+      faults.push_back(file + ": the mesh " + mesh_name + ": triangle " + std::to_string(t) +
+                       " has no finite number as cell data `angle`; expected degrees");
+      return;
+    }
+    const auto [place, is_new] =
+      phase_of.emplace(std::pair(material, on_top), static_cast<int>(phases.size()));
+    if (is_new)
+    {
+      phases.push_back(groups[group]);
+      phases.back().angle += on_top;
+    }
+    material = place->second;
+  }
+}
 } // namespace
 
 std::optional<meshes::Lattice> lattice_from(const std::string &file, const CellKeys &keys,
@@ -133,6 +171,7 @@ std::vector<Phase> assign_phases(const std::string &file, const CellKeys &keys,
     }
 
   std::vector<Phase> phases;
+  std::vector<char> is_orthotropic;
   std::map<int, int> phase_of;
   for (const int number : present)
   {
@@ -173,9 +212,12 @@ std::vector<Phase> assign_phases(const std::string &file, const CellKeys &keys,
         faults.push_back(file + ": " + fault);
     phase_of[number] = static_cast<int>(phases.size());
     phases.push_back(phase);
+    is_orthotropic.push_back(yarn != orthotropic.end());
   }
   for (int &number : mesh_file.mesh.material)
     number = phase_of[number];
+  if (mesh_file.angle.size() > 0)
+    turn_phases(file, keys.mesh, is_orthotropic, mesh_file, phases, faults);
   return phases;
 }
 } // namespace homespun::homogenization

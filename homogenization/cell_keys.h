@@ -43,7 +43,7 @@ struct CellKeys
       "Orthotropic", orthotropic,
       "`group: E1 E2 nu12 G12 angle, ...` in [Pa], [Pa], [-], [Pa] and [deg] from the x axis to "
       "the first axis of the material; replaces Young's modulus and Poisson's ratio for that "
-      "group.");
+      "group. Cell data `angle` [deg] of a .vtk or .vtu mesh, one value per triangle, is added.");
     keys.add_parameter(
       "Lattice vectors", lattice,
       "`auto` finds the sides of a parallelogram, or the translations that match any other "
@@ -58,7 +58,8 @@ std::optional<meshes::Lattice> lattice_from(const std::string &file, const CellK
                                             double length_unit, const meshes::TriangleMesh &mesh,
                                             Faults &faults);
 
-/// Gives every group of the mesh its phase; renumbers mesh.material to indices into the phases.
+/// Gives every group of the mesh its phase, an orthotropic one a phase per angle where the mesh has an angle per triangle;
+/// renumbers mesh.material to indices into the phases.
 std::vector<Phase> assign_phases(const std::string &file, const CellKeys &keys,
                                  CellMeshFile &mesh_file, Faults &faults);
 } // namespace homespun::homogenization

@@ -56,8 +56,9 @@ double angle_at(const TriangleMesh &mesh, const int t, const int k)
   return std::atan2(std::abs(a(0) * b(1) - a(1) * b(0)), a.dot(b)) * 180. / M_PI;
 }
 
-void lint_slivers(const TriangleMesh &mesh, const double metres_per_unit,
-                  std::vector<Finding> &findings)
+} // namespace
+
+std::vector<Finding> lint_slivers(const TriangleMesh &mesh, const double metres_per_unit)
 {
   int n = 0, worst = -1;
   double least = smallest_angle;
@@ -73,7 +74,7 @@ void lint_slivers(const TriangleMesh &mesh, const double metres_per_unit,
     }
   }
   if (worst < 0)
-    return;
+    return {};
   std::ostringstream what, remedy;
   what << n << (n == 1 ? " sliver" : " slivers") << ": triangle " << worst
        << at(place_of(mesh, worst).point, metres_per_unit) << " has an angle of " << least
@@ -81,12 +82,10 @@ void lint_slivers(const TriangleMesh &mesh, const double metres_per_unit,
   remedy
     << "expected at least " << smallest_angle
     << ", below which solvers slow down and fields are wrong there: remesh, or merge points that nearly coincide";
-  findings.push_back(
-    {Severity::warning, "sliver", what.str(), remedy.str(), place_of(mesh, worst)});
+  return {{Severity::warning, "sliver", what.str(), remedy.str(), place_of(mesh, worst)}};
 }
 
-void lint_coincidence(const TriangleMesh &mesh, const double metres_per_unit,
-                      std::vector<Finding> &findings)
+std::vector<Finding> lint_coincidence(const TriangleMesh &mesh, const double metres_per_unit)
 {
   // Only vertices on a boundary can lie side by side without being joined.
   std::unordered_map<long, int> n_triangles;
@@ -130,26 +129,17 @@ void lint_coincidence(const TriangleMesh &mesh, const double metres_per_unit,
       }
   }
   if (n == 0)
-    return;
+    return {};
   const Place place{mesh.vertices.row(first), -1, first};
-  findings.push_back(
-    {Severity::warning, "coinciding vertices",
+  return {
+    {Severity::error, "coinciding vertices",
      std::to_string(n) + (n == 1 ? " pair" : " pairs") +
        " of vertices coincide without being one, the first " + std::to_string(first) + " and " +
        std::to_string(other) + at(place.point, metres_per_unit) +
        ": parts that lie side by side there are not joined",
-     "expected one vertex at a place, unless a slit is meant: join the parts before "
-     "meshing (Gmsh: BooleanFragments, or Coherence)",
-     place});
-}
-} // namespace
-
-std::vector<Finding> lint_shape(const TriangleMesh &mesh, const double metres_per_unit)
-{
-  std::vector<Finding> findings;
-  lint_slivers(mesh, metres_per_unit, findings);
-  lint_coincidence(mesh, metres_per_unit, findings);
-  return findings;
+     "expected one vertex at a place: join the parts before meshing (Gmsh: BooleanFragments, or "
+     "Coherence)",
+     place}};
 }
 
 std::vector<Finding> lint_sides(const TriangleMesh &mesh, const Lattice &lattice,
@@ -242,6 +232,15 @@ std::vector<Finding> lint_mechanisms(const TriangleMesh &mesh, const Lattice &la
        "connection, or fill the void with a soft phase",
        found.parts[0].place});
   }
+  if (!found.is_determined)
+    findings.push_back(
+      {Severity::error, "mechanism",
+       "the mesh falls into " + std::to_string(found.parts.size()) +
+         " parts that share no edge, more than the " + std::to_string(most_parts) +
+         " of which free motions are looked for: whether they hold one another is not known",
+       "expected parts to be connected along edges: widen the bridges, or join parts that lie side by side "
+       "(Gmsh: BooleanFragments, or Coherence)",
+       found.parts[1].place});
   int n_hinges = 0;
   for (const int vertex : found.hinges)
     if (++n_hinges <= most_of_a_kind)
@@ -280,10 +279,14 @@ std::vector<Finding> lint_thin_parts(const UnitCell &cell, const double metres_p
   const auto vertex = [&](const int t, const int k)
   { return torus[static_cast<std::size_t>(mesh.triangles(t, k % 3))]; };
 
+  const std::vector<int> group_of_phase = cell.group_of_phase();
+  const auto group                      = [&](const int t)
+  { return group_of_phase[static_cast<std::size_t>(mesh.material(t))]; };
+
   struct Edge
   {
     int first = -1, second = -1; ///< triangles
-    bool is_inside = false;      ///< of one phase
+    bool is_inside = false;      ///< of one group
   };
   std::unordered_map<long, Edge> edges;
   const auto key = [&](const int t, const int k)
@@ -300,7 +303,7 @@ std::vector<Finding> lint_thin_parts(const UnitCell &cell, const double metres_p
   std::vector<char> on_boundary(static_cast<std::size_t>(mesh.n_vertices()), 0);
   for (auto &[its_key, edge] : edges)
   {
-    edge.is_inside = edge.second >= 0 && mesh.material(edge.first) == mesh.material(edge.second);
+    edge.is_inside = edge.second >= 0 && group(edge.first) == group(edge.second);
     if (!edge.is_inside)
       for (const long end : {its_key / mesh.n_vertices(), its_key % mesh.n_vertices()})
         on_boundary[static_cast<std::size_t>(end)] = 1;
@@ -312,7 +315,8 @@ std::vector<Finding> lint_thin_parts(const UnitCell &cell, const double metres_p
     int n = 0, triangle = -1;
     double least = std::numeric_limits<double>::infinity();
   };
-  std::vector<Thin> thin(cell.phases.size());
+  const std::vector<int> phase_of_group = cell.phase_of_group();
+  std::vector<Thin> thin(phase_of_group.size());
   for (const auto &[its_key, edge] : edges)
   {
     if (!edge.is_inside || !on_boundary[static_cast<std::size_t>(its_key / mesh.n_vertices())] ||
@@ -330,7 +334,7 @@ std::vector<Finding> lint_thin_parts(const UnitCell &cell, const double metres_p
       }
     if (!is_strip)
       continue;
-    Thin &its = thin[static_cast<std::size_t>(mesh.material(edge.first))];
+    Thin &its = thin[static_cast<std::size_t>(group(edge.first))];
     ++its.n;
     const auto [low, high] = std::minmax(edge.first, edge.second);
     if (its.triangle < 0 || low < its.triangle)
@@ -348,7 +352,8 @@ std::vector<Finding> lint_thin_parts(const UnitCell &cell, const double metres_p
     {
       const Place place = place_of(mesh, thin[p].triangle);
       std::ostringstream what;
-      what << "phase `" << cell.phases[p].name << "` has a single element across in " << thin[p].n
+      what << "phase `" << cell.phases[static_cast<std::size_t>(phase_of_group[p])].name
+           << "` has a single element across in " << thin[p].n
            << (thin[p].n == 1 ? " place" : " places") << ", the first"
            << at(place.point, metres_per_unit);
       findings.push_back(

@@ -10,9 +10,13 @@
 
 namespace homespun::homogenization
 {
-/// Slivers, and vertices that coincide without being one: needs a mesh alone.
+/// Slivers: needs a mesh alone.
 /// @param metres_per_unit of the mesh file, for places in its own unit
-std::vector<Finding> lint_shape(const meshes::TriangleMesh &mesh, double metres_per_unit);
+std::vector<Finding> lint_slivers(const meshes::TriangleMesh &mesh, double metres_per_unit);
+
+/// Vertices that coincide without being one, for meshes whose lattice is not known; else the check of periodicity
+/// tells them.
+std::vector<Finding> lint_coincidence(const meshes::TriangleMesh &mesh, double metres_per_unit);
 
 /// Sides that only just match: needs a lattice that fits.
 std::vector<Finding> lint_sides(const meshes::TriangleMesh &mesh, const meshes::Lattice &lattice,
@@ -26,9 +30,12 @@ std::vector<Finding> lint_mechanisms(const meshes::TriangleMesh &mesh,
 /// @param side of the cell [m]
 std::vector<Finding> lint_size(double side, double metres_per_unit);
 
-/// Thickness, stiffness and mass that no fabric has, and contrast beyond double precision.
+/// Thickness, stiffness and mass that no fabric has.
 /// @param side of the cell [m]
 std::vector<Finding> lint_phases(const UnitCell &cell, double side);
+
+/// Contrast beyond double precision: an error where no digit is left.
+std::vector<Finding> lint_contrast(const UnitCell &cell);
 
 /// Phases with a single element across: needs a mesh with phases, and a lattice that fits.
 std::vector<Finding> lint_thin_parts(const UnitCell &cell, double metres_per_unit);

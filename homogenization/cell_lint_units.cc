@@ -74,8 +74,9 @@ std::vector<Finding> lint_phases(const UnitCell &cell, const double side)
     findings.push_back({Severity::warning, kind, "phase `" + cell.phases[p].name + "` " + what,
                         remedy, somewhere_in(cell, p)});
   };
-  for (std::size_t p = 0; p < cell.phases.size(); ++p)
+  for (const int first : cell.phase_of_group()) // the others differ in their angle alone
   {
+    const auto p       = static_cast<std::size_t>(first);
     const Phase &phase = cell.phases[p];
     std::ostringstream what;
     if (phase.thickness > 0.5 * side)
@@ -112,7 +113,12 @@ std::vector<Finding> lint_phases(const UnitCell &cell, const double side)
       warn(p, "mass", text.str(), remedy.str());
     }
   }
+  return findings;
+}
 
+std::vector<Finding> lint_contrast(const UnitCell &cell)
+{
+  std::vector<Finding> findings;
   double least = std::numeric_limits<double>::infinity(), most = 0.;
   std::size_t softest_phase = 0, stiffest_phase = 0;
   const std::vector<Eigen::Matrix3d> stiffness = cell.stiffness_of_phase();

@@ -5,11 +5,6 @@
 #include "homogenization/parameter_text.h"
 #include "meshes/errors.h"
 
-#include <deal.II/base/config.h>
-#include <deal.II/base/exceptions.h>
-#include <deal.II/grid/grid_in.h>
-#include <deal.II/grid/tria.h>
-
 #include <filesystem>
 #include <sstream>
 
@@ -20,60 +15,16 @@ namespace
 constexpr const char *known_formats =
   "Gmsh .msh 2 or 4, .vtk, .vtu, .inp, .ucd or .unv with triangles or quadrilaterals";
 
-/// Formats that are left to deal.II, which renumbers nothing but quadrilaterals.
-RawMesh read_by_dealii(const std::string &file)
-{
-  dealii::Triangulation<2> triangulation;
-  try
-  {
-    dealii::GridIn<2> reader(triangulation);
-    reader.read(file);
-  }
-  catch (const std::exception &exception)
-  {
-    throw meshes::BadInput(unreadable(file) + reason_of(exception) + "; expected a whole file, " +
-                           known_formats + ": write it again in one of these");
-  }
-  RawMesh raw;
-  for (const auto &point : triangulation.get_vertices())
-    raw.points.emplace_back(point[0], point[1], 0.);
-  for (const auto &cell : triangulation.active_cell_iterators())
-  {
-    const auto corner = [&](const unsigned int k)
-    { return static_cast<int>(cell->vertex_index(k)); };
-    const bool is_triangle = cell->n_vertices() == 3;
-    RawMesh::Cell its{
-      {corner(0), corner(1), corner(2), 0}, 3, static_cast<int>(cell->material_id())};
-    if (!is_triangle) // deal.II numbers a quadrilateral lexicographically
-      its.corners = {corner(0), corner(1), corner(3), corner(2)}, its.n_corners = 4;
-    raw.cells.push_back(its);
-  }
-  return raw;
-}
-
-RawMesh read_exodus(const std::string &file)
-{
-#ifdef DEAL_II_TRILINOS_WITH_SEACAS
-  return read_by_dealii(file);
-#else
-  throw meshes::BadInput(
-    unreadable(file) +
-    "it is an Exodus file, and the deal.II of this program is built without SEACAS, which reads "
-    "them; expected " +
-    known_formats + ": convert it, in ParaView by Save Data as .vtu");
-#endif
-}
-
 RawMesh read_any(const std::string &file)
 {
   const std::string ending = lower(std::filesystem::path(file).extension().string());
   if (ending == ".vtu")
     return read_vtu(file);
-  if (ending == ".e" || ending == ".ex2" || ending == ".exo" || ending == ".exodus")
-    return read_exodus(file);
   if (ending != ".msh" && ending != ".vtk" && ending != ".unv" && ending != ".ucd" &&
       ending != ".inp")
-    return read_by_dealii(file);
+    throw meshes::BadInput(
+      unreadable(file) + "its ending is `" + ending + "`; expected " + known_formats +
+      ": convert it, in ParaView by Save Data as .vtu, with Gmsh by -save -o cell.msh");
   MeshText text(file);
   if (ending == ".msh")
     return read_msh(text);
@@ -89,7 +40,9 @@ RawMesh read_any(const std::string &file)
 
 void require_flat(const std::string &file, const RawMesh &raw)
 {
-  Eigen::Vector3d low = raw.points[0], high = raw.points[0];
+  // Of points that elements use: construction points may lie anywhere.
+  Eigen::Vector3d low  = raw.points[static_cast<std::size_t>(raw.cells[0].corners[0])];
+  Eigen::Vector3d high = low;
   for (const RawMesh::Cell &cell : raw.cells)
     for (int k = 0; k < cell.n_corners; ++k)
     {
@@ -143,24 +96,6 @@ std::vector<std::array<int, 3>> triangles_of(const RawMesh &raw, const RawMesh::
 }
 } // namespace
 
-std::string reason_of(const std::exception &exception)
-{
-  std::istringstream text(exception.what());
-  std::string line, reason;
-  bool inside = false;
-  while (std::getline(text, line))
-  {
-    if (line.find("Additional information") != std::string::npos)
-      inside = true;
-    else if (inside &&
-             (line.empty() || line.find("Stacktrace") != std::string::npos || line[0] == '-'))
-      break;
-    else if (inside && !trimmed(line).empty())
-      reason += (reason.empty() ? "" : " ") + trimmed(line);
-  }
-  return reason.empty() ? "no reason given" : reason;
-}
-
 CellMeshFile read_cell_mesh(const std::string &file)
 {
   if (!std::filesystem::is_regular_file(file))
@@ -176,7 +111,6 @@ CellMeshFile read_cell_mesh(const std::string &file)
 
   CellMeshFile result;
   result.number_of_name      = raw.number_of_name;
-  result.n_elements          = static_cast<int>(raw.cells.size());
   meshes::TriangleMesh &mesh = result.mesh;
   std::vector<int> new_index(raw.points.size(), -1);
   for (const RawMesh::Cell &cell : raw.cells)
@@ -195,7 +129,6 @@ CellMeshFile read_cell_mesh(const std::string &file)
     n_triangles += cell.n_corners - 2;
   mesh.triangles.resize(n_triangles, 3);
   mesh.material.resize(n_triangles);
-  result.element.resize(n_triangles);
   result.angle.resize(raw.angles.empty() ? 0 : n_triangles);
   Eigen::Index t = 0;
   for (std::size_t e = 0; e < raw.cells.size(); ++e)
@@ -204,8 +137,7 @@ CellMeshFile read_cell_mesh(const std::string &file)
       for (int k = 0; k < 3; ++k)
         mesh.triangles(t, k) =
           new_index[static_cast<std::size_t>(corners[static_cast<std::size_t>(k)])];
-      mesh.material(t)  = raw.cells[e].group;
-      result.element(t) = static_cast<int>(e);
+      mesh.material(t) = raw.cells[e].group;
       if (!raw.angles.empty())
         result.angle(t) = raw.angles[e];
       ++t;

@@ -4,7 +4,6 @@
 
 #include "meshes/triangle_mesh.h"
 
-#include <exception>
 #include <map>
 #include <string>
 
@@ -15,17 +14,12 @@ struct CellMeshFile
 {
   meshes::TriangleMesh mesh;                 ///< mesh.material holds the file's numbers
   std::map<std::string, int> number_of_name; ///< names of groups, where the format has them
-  Eigen::VectorXi element; ///< (m) index of the file's element that a triangle is, or is half of
-  int n_elements = 0;      ///< triangles and quadrilaterals of the file
-  Eigen::VectorXd angle;   ///< (m) cell data `angle` of the file [deg], or empty
+  Eigen::VectorXd angle;                     ///< (m) cell data `angle` of the file [deg], or empty
 };
 
 /// Reads a mesh. Quadrilaterals are cut in two along their shorter diagonal (along the one that lies inside, where they
 /// are not convex); elements are turned counter-clockwise; points that no element uses are left out. Text .msh 1, 2 and 4,
-/// .vtk, .vtu, .ucd, .inp (AVS or Abaqus) and .unv are read here, all else by deal.II's GridIn.
+/// .vtk, .vtu, .ucd, .inp (AVS or Abaqus) and .unv are known.
 /// @throws BadInput naming the file, the line, what was found and what was expected
 CellMeshFile read_cell_mesh(const std::string &file);
-
-/// The sentence of a deal.II exception, without its frame of dashes and source lines.
-std::string reason_of(const std::exception &exception);
 } // namespace homespun::homogenization

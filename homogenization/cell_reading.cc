@@ -27,10 +27,14 @@ void add(std::vector<Finding> &findings, const std::string &kind,
     findings.push_back(finding_of(kind, fault.message, fault.place));
 }
 
-void append(std::vector<Finding> &findings, std::vector<Finding> more)
+/// Adds what was found in a file.
+void append(std::vector<Finding> &findings, const std::string &file, std::vector<Finding> more)
 {
   for (Finding &finding : more)
+  {
+    finding.what = file + ": " + finding.what;
     findings.push_back(std::move(finding));
+  }
 }
 
 /// A part can only move where the mesh has a boundary other than its outline.
@@ -143,13 +147,6 @@ CellReading read_cell(const std::string &prm_file)
   }
   mesh_file.mesh.vertices *= reading.metres_per_unit;
   reading.has_mesh = true;
-  if (mesh_file.angle.size() > 0)
-    add(
-      findings, "angle",
-      {mesh_path +
-       ": has cell data `angle`, a direction for each triangle, which is not supported; expected one angle per group "
-       "in key `Orthotropic`: make a group per direction, and leave the data out"});
-
   add(findings, "mesh", meshes::placed_faults_of(mesh_file.mesh, mesh_path));
   const bool mesh_is_sound = !has_errors(findings);
   Faults of_phases;
@@ -172,17 +169,15 @@ CellReading read_cell(const std::string &prm_file)
     add(findings, "lattice", of_lattice);
     if (lattice)
     {
-      cell.lattice      = *lattice;
-      const auto faults = meshes::placed_periodicity_faults(cell.mesh, cell.lattice, mesh_path);
+      reading.has_lattice = true;
+      cell.lattice        = *lattice;
+      const auto faults   = meshes::placed_periodicity_faults(cell.mesh, cell.lattice, mesh_path);
       add(findings, "periodicity", faults);
       fits = faults.empty();
     }
     if (fits && mesh_is_sound && may_move(cell.mesh))
-      for (Finding &finding : lint_mechanisms(cell.mesh, cell.lattice, reading.metres_per_unit))
-      {
-        finding.what = mesh_path + ": " + finding.what;
-        findings.push_back(std::move(finding));
-      }
+      append(findings, mesh_path,
+             lint_mechanisms(cell.mesh, cell.lattice, reading.metres_per_unit));
   }
   catch (const meshes::BadInput &bad)
   {
@@ -191,6 +186,8 @@ CellReading read_cell(const std::string &prm_file)
   }
   reading.has_phases = of_phases.empty();
   reading.is_whole   = mesh_is_sound && fits && reading.has_phases;
+  if (reading.is_whole)
+    append(findings, prm_file, lint_contrast(cell));
   return reading;
 }
 
@@ -200,20 +197,20 @@ CellReading inspect_cell(const std::string &prm_file)
   const UnitCell &cell = reading.cell;
   if (!reading.has_mesh || !cell.mesh.vertices.allFinite())
     return reading;
-  std::vector<Finding> more = lint_shape(cell.mesh, reading.metres_per_unit);
+  std::vector<Finding> &findings = reading.findings;
+  append(findings, prm_file, lint_slivers(cell.mesh, reading.metres_per_unit));
+  if (!reading.has_lattice)
+    append(findings, prm_file, lint_coincidence(cell.mesh, reading.metres_per_unit));
   const Eigen::RowVector2d box =
     cell.mesh.vertices.colwise().maxCoeff() - cell.mesh.vertices.colwise().minCoeff();
   const double side = reading.is_whole ? std::sqrt(cell.lattice.area()) : std::sqrt(box.prod());
-  append(more, lint_size(side, reading.metres_per_unit));
+  append(findings, prm_file, lint_size(side, reading.metres_per_unit));
   if (reading.is_whole)
   {
-    append(more, lint_sides(cell.mesh, cell.lattice, reading.metres_per_unit));
-    append(more, lint_phases(cell, side));
-    append(more, lint_thin_parts(cell, reading.metres_per_unit));
+    append(findings, prm_file, lint_sides(cell.mesh, cell.lattice, reading.metres_per_unit));
+    append(findings, prm_file, lint_phases(cell, side));
+    append(findings, prm_file, lint_thin_parts(cell, reading.metres_per_unit));
   }
-  for (Finding &finding : more)
-    finding.what = prm_file + ": " + finding.what;
-  append(reading.findings, std::move(more));
   return reading;
 }
 } // namespace homespun::homogenization

@@ -19,7 +19,7 @@ using namespace dealii;
 
 namespace
 {
-std::unique_ptr<Triangulation<2>> serial_triangulation(const meshes::TriangleMesh &mesh)
+void make_serial(const meshes::TriangleMesh &mesh, Triangulation<2> &triangulation)
 {
   std::vector<Point<2>> points(static_cast<std::size_t>(mesh.n_vertices()));
   for (std::size_t v = 0; v < points.size(); ++v)
@@ -30,22 +30,29 @@ std::unique_ptr<Triangulation<2>> serial_triangulation(const meshes::TriangleMes
     for (int k = 0; k < 3; ++k)
       cells[t].vertices[static_cast<std::size_t>(k)] =
         static_cast<unsigned int>(mesh.triangles(static_cast<Eigen::Index>(t), k));
-  auto triangulation = std::make_unique<Triangulation<2>>();
-  triangulation->create_triangulation(points, cells, SubCellData());
-  return triangulation;
+  triangulation.create_triangulation(points, cells, SubCellData());
 }
+
+/// Ranks to which one of them hands out the parts of the mesh: of so many one holds the whole, and goes through it once for
+/// each of the others.
+constexpr int ranks_per_group = 8;
 
 std::unique_ptr<Triangulation<2>> make_triangulation(const meshes::TriangleMesh &mesh,
                                                      const MPI_Comm communicator)
 {
-  std::unique_ptr<Triangulation<2>> serial = serial_triangulation(mesh);
-  const unsigned int n_ranks               = Utilities::MPI::n_mpi_processes(communicator);
-  if (n_ranks == 1)
+  if (Utilities::MPI::n_mpi_processes(communicator) == 1)
+  {
+    auto serial = std::make_unique<Triangulation<2>>();
+    make_serial(mesh, *serial);
     return serial;
-  GridTools::partition_triangulation(n_ranks, *serial);
+  }
+  // One rank of each group makes the whole triangulation, cuts it, hands out the parts and forgets it.
   const auto description =
-    TriangulationDescription::Utilities::create_description_from_triangulation(*serial,
-                                                                               communicator);
+    TriangulationDescription::Utilities::create_description_from_triangulation_in_groups<2, 2>(
+      [&mesh](Triangulation<2> &serial) { make_serial(mesh, serial); },
+      [](Triangulation<2> &serial, const MPI_Comm &ranks, const unsigned int)
+      { GridTools::partition_triangulation(Utilities::MPI::n_mpi_processes(ranks), serial); },
+      communicator, ranks_per_group);
   auto distributed = std::make_unique<parallel::fullydistributed::Triangulation<2>>(communicator);
   distributed->create_triangulation(description);
   return distributed;

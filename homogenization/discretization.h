@@ -39,7 +39,7 @@ using DofTable =
   Eigen::Matrix<dealii::types::global_dof_index, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
 /// P1 or P2 displacements on a mesh. With one rank the triangulation is serial; with more it is
-/// fully distributed, in the parts that METIS makes.
+/// fully distributed, in the parts that METIS makes; while it is made one rank of eight holds the whole.
 class Discretization
 {
 public:

@@ -34,8 +34,7 @@ TorusVertices torus_vertices(const TriangleMesh &mesh, const Lattice &lattice)
   torus.representative.resize(static_cast<std::size_t>(mesh.n_vertices()));
   std::iota(torus.representative.begin(), torus.representative.end(), 0);
   torus.offset.assign(static_cast<std::size_t>(mesh.n_vertices()), Shift(0, 0));
-  // Only vertices of a boundary have images. Where two of them coincide, as on both banks of a slit, they are not joined:
-  // only the first takes part.
+  // Only vertices of a boundary have images.
   std::set<int> boundary;
   for (const std::array<int, 2> &edge : meshes::boundary_edges(mesh))
     boundary.insert(edge.begin(), edge.end());
@@ -44,13 +43,10 @@ TorusVertices torus_vertices(const TriangleMesh &mesh, const Lattice &lattice)
   for (std::size_t k = 0; k < vertices.size(); ++k)
     points.row(static_cast<Eigen::Index>(k)) = mesh.vertices.row(vertices[k]);
   const meshes::ImageClasses classes = meshes::match_images(points, lattice);
-  std::set<std::array<int, 3>> taken;
   for (std::size_t k = 0; k < vertices.size(); ++k)
   {
-    const auto row   = static_cast<Eigen::Index>(k);
-    const int lowest = vertices[static_cast<std::size_t>(classes.representative[k])];
-    if (!taken.insert({lowest, classes.offset(row, 0), classes.offset(row, 1)}).second)
-      continue;
+    const auto row          = static_cast<Eigen::Index>(k);
+    const int lowest        = vertices[static_cast<std::size_t>(classes.representative[k])];
     const auto v            = static_cast<std::size_t>(vertices[k]);
     torus.representative[v] = lowest;
     torus.offset[v]         = classes.offset.row(row);
@@ -354,8 +350,11 @@ Mechanisms find_mechanisms(const TriangleMesh &mesh, const Lattice &lattice)
   if (found.parts.size() <= static_cast<std::size_t>(most_parts))
     find_motions(mesh, lattice, structure, found);
   else
+  {
+    found.is_determined = false;
     for (std::size_t p = 1; p < found.parts.size(); ++p)
       found.parts[p].is_free = found.parts[p].n_joints == 0;
+  }
   return found;
 }
 } // namespace homespun::homogenization

@@ -35,11 +35,13 @@ struct Mechanisms
   std::vector<int> hinges;     ///< vertices, lowest image, where triangles meet only in that vertex
   /// Macro strains that cost no energy, one per column, (3,k) in Voigt order.
   Eigen::Matrix3Xd free_strains;
+  /// Whether free motions were looked for; else parts that nothing touches are known to be free, and no more.
+  bool is_determined = true;
 };
 
-/// Parts up to which their motions are determined; of more only those that nothing touches are found free.
+/// Parts up to which their motions are determined: the kernel is that of a dense matrix of three columns per part.
 constexpr int most_parts = 300;
 
-/// @param mesh sound by meshes::faults_of()
+/// @param mesh sound by meshes::faults_of(), and periodic: no two of its vertices coincide
 Mechanisms find_mechanisms(const meshes::TriangleMesh &mesh, const meshes::Lattice &lattice);
 } // namespace homespun::homogenization

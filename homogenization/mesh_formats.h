@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // The mesh formats that cells come in, each read into the same plain list of triangles and quadrilaterals. They are
 // read here, and not by deal.II's GridIn, because that knows no triangles in .inp, .ucd and .unv, takes .vtu only of
-// its own making, drops the order of the elements that a field of angles refers to, and stops at meshes that are
-// broken, of which the linter shows where.
+// its own making and .vtk without the groups that Gmsh writes, knows no names of groups and no angles, and throws
+// away meshes that are broken, of which the linter shows where.
 #pragma once
 
 #include "homogenization/mesh_text.h"

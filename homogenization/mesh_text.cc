@@ -134,22 +134,24 @@ std::string_view MeshText::word()
   return std::string_view(content).substr(first, position - first);
 }
 
-double MeshText::number(const char *what)
+template <typename Value>
+Value MeshText::parsed(bool (*parse)(std::string_view, Value &), const char *what)
 {
   const std::string_view found = word();
-  double value                 = 0.;
-  if (!to_number(found, value))
+  Value value{};
+  if (!parse(found, value))
     fail("found " + quoted(found) + "; expected " + what);
   return value;
 }
 
+double MeshText::number(const char *what)
+{
+  return parsed(to_number, what);
+}
+
 long MeshText::integer(const char *what)
 {
-  const std::string_view found = word();
-  long value                   = 0;
-  if (!to_integer(found, value))
-    fail("found " + quoted(found) + "; expected " + what);
-  return value;
+  return parsed(to_integer, what);
 }
 
 long MeshText::count(const char *what)

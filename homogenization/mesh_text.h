@@ -53,6 +53,9 @@ public:
 private:
   void skip_blanks();
 
+  template <typename Value>
+  Value parsed(bool (*parse)(std::string_view, Value &), const char *what);
+
   std::size_t position    = 0;
   std::size_t line_number = 1;
 };

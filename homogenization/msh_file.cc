@@ -164,21 +164,43 @@ private:
     close(version < 2. ? "$ENDNOD" : "$EndNodes");
   }
 
+  struct Block
+  {
+    long entity, dimension, property, n;
+  };
+
+  /// The number of blocks of points or elements of a file of version 4.
+  /// @param range what is passed over
+  long blocks(const char *items, const char *range)
+  {
+    const long n = text.count("blocks");
+    text.count(items);
+    if (version > 4.05)
+      text.skip(2, range);
+    return n;
+  }
+
+  /// The first line of a block; 4.0 and 4.1 have entity and dimension in another order.
+  Block block(const char *property, const char *items)
+  {
+    Block its{};
+    its.entity    = text.integer("the entity of a block");
+    its.dimension = text.integer("the entity of a block");
+    if (version > 4.05)
+      std::swap(its.entity, its.dimension);
+    its.property = text.integer(property);
+    its.n        = text.count(items);
+    return its;
+  }
+
   void node_blocks()
   {
     const bool is_new = version > 4.05;
-    const long blocks = text.count("blocks of points");
-    text.count("points");
-    if (is_new)
-      text.skip(2, "the range of the numbers of points");
-    for (long b = 0; b < blocks; ++b)
+    for (long rest = blocks("points", "the range of the numbers of points"); rest > 0; --rest)
     {
-      const long first      = text.integer("the entity of a block");
-      const long second     = text.integer("the entity of a block");
-      const long dimension  = is_new ? first : second;
-      const long parametric = text.integer("whether points are parametric");
-      const long n          = text.count("points");
-      const long extra      = parametric != 0 ? std::clamp(dimension, 0L, 3L) : 0;
+      const auto [entity, dimension, parametric, n] =
+        block("whether points are parametric", "points");
+      const long extra = parametric != 0 ? std::clamp(dimension, 0L, 3L) : 0;
       std::vector<long> tags;
       if (is_new)
         for (long k = 0; k < n; ++k)
@@ -248,20 +270,10 @@ private:
 
   void element_blocks()
   {
-    const bool is_new = version > 4.05;
-    const long blocks = text.count("blocks of elements");
-    text.count("elements");
-    if (is_new)
-      text.skip(2, "the range of the numbers of elements");
-    for (long b = 0; b < blocks; ++b)
+    for (long rest = blocks("elements", "the range of the numbers of elements"); rest > 0; --rest)
     {
-      const long first     = text.integer("the entity of a block");
-      const long second    = text.integer("the entity of a block");
-      const long tag       = is_new ? second : first;
-      const long dimension = is_new ? first : second;
-      const long type      = text.integer("the type of elements");
-      const long n         = text.count("elements");
-      const auto group     = group_of_surface.find(tag);
+      const auto [entity, dimension, type, n] = block("the type of elements", "elements");
+      const auto group                        = group_of_surface.find(entity);
       for (long k = 0; k < n; ++k)
       {
         text.integer("the number of an element");

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "homogenization/parameter_text.h"
 
-#include "homogenization/cell_mesh_file.h"
-
 #include <fstream>
 #include <set>
 #include <sstream>
@@ -90,6 +88,25 @@ void find_unknown_keys(const std::string &file, const dealii::ParameterHandler &
     else if (known.count(key) == 0)
       faults.push_back(place + "unknown key `" + key + "`; expected one of " + expected);
   }
+}
+
+/// The sentence of a deal.II exception, without its frame of dashes and source lines.
+std::string reason_of(const std::exception &exception)
+{
+  std::istringstream text(exception.what());
+  std::string line, reason;
+  bool inside = false;
+  while (std::getline(text, line))
+  {
+    if (line.find("Additional information") != std::string::npos)
+      inside = true;
+    else if (inside &&
+             (line.empty() || line.find("Stacktrace") != std::string::npos || line[0] == '-'))
+      break;
+    else if (inside && !trimmed(line).empty())
+      reason += (reason.empty() ? "" : " ") + trimmed(line);
+  }
+  return reason.empty() ? "no reason given" : reason;
 }
 } // namespace
 

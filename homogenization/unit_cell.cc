@@ -5,6 +5,7 @@
 #include "homogenization/cell_reading.h"
 #include "meshes/errors.h"
 
+#include <map>
 #include <sstream>
 
 namespace homespun::homogenization
@@ -15,6 +16,26 @@ std::vector<Eigen::Matrix3d> UnitCell::stiffness_of_phase() const
   for (const Phase &phase : phases)
     stiffness.push_back(plane_stress_stiffness(phase));
   return stiffness;
+}
+
+std::vector<int> UnitCell::group_of_phase() const
+{
+  std::map<std::string, int> group_of_name;
+  std::vector<int> group;
+  for (const Phase &phase : phases)
+    group.push_back(
+      group_of_name.emplace(phase.name, static_cast<int>(group_of_name.size())).first->second);
+  return group;
+}
+
+std::vector<int> UnitCell::phase_of_group() const
+{
+  const std::vector<int> group = group_of_phase();
+  std::vector<int> first;
+  for (std::size_t p = 0; p < group.size(); ++p)
+    if (group[p] == static_cast<int>(first.size()))
+      first.push_back(static_cast<int>(p));
+  return first;
 }
 
 double UnitCell::areal_density() const

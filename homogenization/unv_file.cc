@@ -33,6 +33,8 @@ public:
       else
         pass_over();
     }
+    for (const Member &member : members)
+      assign(member);
     // Properties count only where a file has no groups of elements.
     if (!group_of.empty())
       for (std::size_t cell = 0; cell < mesh.cells.size(); ++cell)
@@ -127,34 +129,47 @@ private:
       std::string_view line;
       text.line(line);
       const std::string name = trimmed(std::string(line));
-      bool has_elements      = false;
       for (long k = 0; k < n; ++k)
       {
         const long kind   = text.integer("the kind of a member"),
                    number = text.integer("the number of a member");
         text.skip(2, "the rest of a member");
-        const auto cell = kind == 8 ? index_of.find(number) : index_of.end();
-        if (cell == index_of.end())
-          continue;
-        has_elements                   = true;
-        mesh.cells[cell->second].group = group_number(text, static_cast<double>(group));
-        const auto [place, is_new]     = group_of.emplace(cell->second, name);
-        if (!is_new && place->second != name)
-          text.fail(
-            "element " + std::to_string(number) + " is in the groups `" + place->second +
-            "` and `" + name +
-            "`; expected one group per element, that of its material: remove the other one");
+        if (kind == 8)
+          members.push_back({number, group_number(text, static_cast<double>(group)), name});
       }
-      finish_line();
-      if (has_elements && !name.empty())
-        mesh.number_of_name[name] = static_cast<int>(group);
+      if (n > 0)
+        finish_line();
     }
+  }
+
+  struct Member
+  {
+    long element;
+    int group;
+    std::string name;
+  };
+
+  /// Only at the end: groups may stand before the elements.
+  void assign(const Member &member)
+  {
+    const auto cell = index_of.find(member.element);
+    if (cell == index_of.end())
+      return;
+    mesh.cells[cell->second].group = member.group;
+    const auto [place, is_new]     = group_of.emplace(cell->second, member.name);
+    if (!is_new && place->second != member.name)
+      text.fail("element " + std::to_string(member.element) + " is in the groups `" +
+                place->second + "` and `" + member.name +
+                "`; expected one group per element, that of its material: remove the other one");
+    if (!member.name.empty())
+      mesh.number_of_name[member.name] = member.group;
   }
 
   MeshText &text;
   RawMesh mesh;
   PointNumbers numbers;
   std::unordered_map<long, std::size_t> index_of;
+  std::vector<Member> members;
   std::unordered_map<std::size_t, std::string> group_of;
 };
 } // namespace

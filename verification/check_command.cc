@@ -15,6 +15,7 @@
 #include <CLI/Formatter.hpp>
 #include <CLI/Option.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <iostream>
@@ -56,19 +57,26 @@ void describe(const UnitCell &cell, const int n_warnings)
             << " vertices, cell of " << side * 100. << " cm (|Y| = " << cell.lattice.area()
             << " m^2), lattice (" << cell.lattice.vectors.row(0) << ") and ("
             << cell.lattice.vectors.row(1) << ") m, " << cell.areal_density() << " kg/m^2\n";
-  const Eigen::VectorXd areas = meshes::signed_areas(cell.mesh);
-  for (std::size_t p = 0; p < cell.phases.size(); ++p)
+  const Eigen::VectorXd areas           = meshes::signed_areas(cell.mesh);
+  const std::vector<int> group_of_phase = cell.group_of_phase(),
+                         phase_of_group = cell.phase_of_group();
+  std::vector<double> area(phase_of_group.size(), 0.);
+  for (int t = 0; t < cell.mesh.n_triangles(); ++t)
+    area[static_cast<std::size_t>(
+      group_of_phase[static_cast<std::size_t>(cell.mesh.material(t))])] += areas(t);
+  for (std::size_t g = 0; g < phase_of_group.size(); ++g)
   {
-    double area = 0.;
-    for (int t = 0; t < cell.mesh.n_triangles(); ++t)
-      if (cell.mesh.material(t) == static_cast<int>(p))
-        area += areas(t);
-    const homogenization::Phase &phase = cell.phases[p];
-    std::cout << "  " << phase.name << ": " << 100. * area / cell.lattice.area()
+    const homogenization::Phase &phase = cell.phases[static_cast<std::size_t>(phase_of_group[g])];
+    std::cout << "  " << phase.name << ": " << 100. * area[g] / cell.lattice.area()
               << " % of the area, E " << phase.E1;
     if (phase.E2 != phase.E1)
       std::cout << " and " << phase.E2;
-    std::cout << " Pa, nu " << phase.nu12 << ", thickness " << phase.thickness << " m\n";
+    std::cout << " Pa, nu " << phase.nu12 << ", thickness " << phase.thickness << " m";
+    const auto n_angles =
+      std::count(group_of_phase.begin(), group_of_phase.end(), static_cast<int>(g));
+    if (n_angles > 1)
+      std::cout << ", in " << n_angles << " directions";
+    std::cout << "\n";
   }
   const double covered = areas.sum() / cell.lattice.area();
   if (covered < 1. - 1e-9)
@@ -104,7 +112,14 @@ void write_mesh(const CellReading &reading, const std::string &path)
              m = static_cast<unsigned long long>(mesh.n_triangles());
   writer.write("vertices", {n, 2}, vertices.data(), "mesh units");
   writer.write("triangles", {m, 3}, mesh.triangles.data());
-  writer.write("material", {m}, mesh.material.data());
+  Eigen::VectorXi material = mesh.material;
+  if (reading.has_phases)
+  {
+    const std::vector<int> group_of_phase = reading.cell.group_of_phase();
+    for (int &its : material)
+      its = group_of_phase[static_cast<std::size_t>(its)];
+  }
+  writer.write("material", {m}, material.data());
   writer.finish();
 }
 
@@ -135,8 +150,8 @@ void write_results(const std::vector<CellReading> &readings, const std::string &
       write_mesh(reading, output + "/" + name + "-mesh.h5");
     }
     if (reading.has_phases)
-      for (const homogenization::Phase &phase : reading.cell.phases)
-        cell["phases"].push_back(phase.name);
+      for (const int phase : reading.cell.phase_of_group())
+        cell["phases"].push_back(reading.cell.phases[static_cast<std::size_t>(phase)].name);
     cells.push_back(cell);
   }
   const std::string text =

@@ -125,8 +125,8 @@ private:
                                      {"fine_vertices", draped.n_fine()}};
     const Eigen::Matrix3d C       = draped.homogenized.stiffness;
     nlohmann::ordered_json phases = nlohmann::ordered_json::array();
-    for (const homogenization::Phase &phase : draped.cell.phases)
-      phases.push_back(phase.name);
+    for (const int phase : draped.cell.phase_of_group())
+      phases.push_back(draped.cell.phases[static_cast<std::size_t>(phase)].name);
     return {
       {"cell", draped.cell.name},
       {"cell_side_m", draped.side},

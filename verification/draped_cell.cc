@@ -160,13 +160,15 @@ DrapedCell::DrapedCell(const Scene &given, const homogenization::UnitCell &cell,
   centre_vertex      = nearest_to_middle(coarse.positions);
   fine_centre_vertex = nearest_to_middle(at_fine_vertices(fine.positions));
 
-  // A vertex belongs to the phase of most of its triangles.
+  // A vertex belongs to the group of most of its triangles.
+  const std::vector<int> group_of_phase = cell.group_of_phase();
   Eigen::MatrixXf share =
-    Eigen::MatrixXf::Zero(n_fine(), static_cast<Eigen::Index>(cell.phases.size()));
+    Eigen::MatrixXf::Zero(n_fine(), static_cast<Eigen::Index>(cell.phase_of_group().size()));
   const meshes::TriangleMesh &rest = sheet ? sheet->mesh : garment->rest;
   for (int t = 0; t < rest.n_triangles(); ++t)
     for (int k = 0; k < 3; ++k)
-      share(rest.triangles(t, k), rest.material(t)) += 1.f;
+      share(rest.triangles(t, k), group_of_phase[static_cast<std::size_t>(rest.material(t))]) +=
+        1.f;
   meshes::VertexData material{"material", {}};
   material.values.resize(n_fine(), 1);
   for (int v = 0; v < n_fine(); ++v)

@@ -105,7 +105,7 @@ TEST(exact_cell_mesh_file, vtk_formats_hold_the_same_groups_in_every_encoding)
     const CellMeshFile file = read_cell_mesh(data + name);
     ASSERT_EQ(file.angle.size(), 16) << name;
     for (int t = 0; t < 16; ++t)
-      EXPECT_EQ(file.angle(t), 10. * file.element(t)) << name;
+      EXPECT_EQ(file.angle(t), 10. * t) << name;
   }
 }
 
@@ -140,6 +140,57 @@ TEST(exact_cell_mesh_file, quadrilaterals_are_cut_along_the_shorter_diagonal_and
     "4 1 0 0 0\n1 0 0 0\n2 -1 0.4 0\n3 3 0 0\n4 -1 -0.4 0\n1 0 quad 1 2 3 4\n";
   EXPECT_GT(meshes::signed_areas(read_cell_mesh(folder.file("arrow.ucd", arrow)).mesh).minCoeff(),
             0.);
+}
+
+TEST(exact_cell_mesh_file, abaqus_sets_may_stand_anywhere_and_hold_others)
+{
+  const Folder folder;
+  const std::string whole = content_of(data + "halves-abaqus.inp");
+  const std::string head  = whole.substr(0, whole.find("*ELSET,ELSET=hard"));
+  const auto expect_same  = [&](const std::string &name, const std::string &content)
+  {
+    const CellMeshFile file = read_cell_mesh(folder.file(name, content));
+    EXPECT_EQ(file.number_of_name.size(), 2u) << name;
+    EXPECT_NEAR(area_of(file, file.number_of_name.at("soft")), 0.375, 1e-9) << name;
+    EXPECT_NEAR(area_of(file, file.number_of_name.at("hard")), 0.625, 1e-9) << name;
+  };
+  expect_same("before.inp", whole.substr(whole.find("*ELSET,ELSET=hard")) + "\n" + head);
+  expect_same(
+    "nested.inp",
+    head + "*ELSET, ELSET=soft\nleft, right\n*ELSET, ELSET=left, GENERATE\n1, 7, 2\n"
+           "*ELSET, ELSET=right\n2, 4, 6, 8\n*ELSET, ELSET=hard, GENERATE\n9, 2000000000, 1\n");
+  expect_same("of-elements.inp",
+              head + "*ELSET, ELSET=hard\nSurface2\n*ELSET, ELSET=soft\nSurface1\n");
+  expect_same("continued.inp",
+              head + "*ELSET,\nELSET=hard, GENERATE\n9, 16\n*ELSET, ELSET=soft, GENERATE\n1, 8\n");
+}
+
+TEST(exact_cell_mesh_file, unv_groups_may_be_empty_and_stand_before_the_elements)
+{
+  const Folder folder;
+  const std::string whole  = content_of(data + "halves.unv");
+  const std::size_t groups = whole.find("    -1\n  2477");
+  ASSERT_NE(groups, std::string::npos);
+  const std::string empty =
+    "         5         0         0         0         0         0         0         0\nnone\n";
+  std::string behind = whole, in_front = whole;
+  behind.insert(whole.rfind("    -1"), empty);
+  in_front.insert(whole.find("\n", groups + 8) + 1, empty);
+  for (const std::string &content :
+       {behind, in_front, whole.substr(groups) + whole.substr(0, groups)})
+  {
+    const CellMeshFile file = read_cell_mesh(folder.file("cell.unv", content));
+    EXPECT_EQ(file.number_of_name.count("none"), 0u);
+    EXPECT_NEAR(area_of(file, file.number_of_name.at("soft")), 0.375, 1e-9);
+    EXPECT_NEAR(area_of(file, file.number_of_name.at("hard")), 0.625, 1e-9);
+  }
+}
+
+TEST(exact_cell_mesh_file, a_point_that_no_element_uses_may_lie_anywhere)
+{
+  const Folder folder;
+  const std::string cell = "4 1 0 0 0\n1 3 4 5\n2 0 0 0\n3 1 0 0\n4 0 1 0\n1 0 tri 2 3 4\n";
+  EXPECT_EQ(read_cell_mesh(folder.file("cell.ucd", cell)).mesh.n_vertices(), 3);
 }
 
 TEST(exact_cell_mesh_file, a_file_without_groups_is_group_zero)
@@ -184,7 +235,7 @@ TEST(tripwire_cell_mesh_file, what_cannot_be_a_cell_is_refused_with_what_to_do)
       tests::refusal([&]() { read_cell_mesh(folder.file(name, content)); });
     EXPECT_NE(message.find(part), std::string::npos) << name << ": " << message;
   };
-  says("a.exo", "CDF", "without SEACAS");
+  says("a.exo", "CDF", "its ending is `.exo`; expected Gmsh .msh");
   says("a.ucd", "1 1 0 0 0\n1 0 0 0\n1 0 tet 1 1 1 1\n", "mesh the surface alone");
   says("b.ucd", "3 1 0 0 0\n1 0 0 0\n2 1 0 0\n3 0 1 0\n1 0 tri 1 2 4\n", "names point 4");
   says("c.ucd", "3 1 0 0 0\n1 0 0 0\n2 1 0 1\n3 0 1 0\n1 0 tri 1 2 3\n",
@@ -198,5 +249,14 @@ TEST(tripwire_cell_mesh_file, what_cannot_be_a_cell_is_refused_with_what_to_do)
     "-order 1");
   says("a.vtk", "# vtk DataFile Version 3.0\nx\nBINARY\n", "expected ASCII");
   says("a.inp", "*NODE\n1, 0, 0\n*ELEMENT, TYPE=C3D8\n", "Abaqus' type `C3D8`");
+  says("b.inp", "*NODE, SYSTEM=C\n1, 1, 90\n", "cylindrical or spherical coordinates");
+  says("c.inp", "*SYSTEM\n0, 0, 0, 1, 1, 0\n", "found *system, which makes or moves points");
+  says("d.inp", "*INSTANCE, NAME=a, PART=b\n0.5, 0, 0\n", "where it was drawn");
+  says("e.inp", "*NODE, INPUT=points.txt\n", "found data in another file");
+  says("f.inp", "*ELSET, ELSET=a, GENERATE\n9223372036854775800, 9223372036854775807, 1\n",
+       "expected `first, last, step`");
+  says("g.inp", "*ELSET, ELSET=a, GENERATE\n-9223372036854775800, 5, 1\n",
+       "expected `first, last, step`");
+  says("h.inp", "*ELSET, ELSET=a\nb\n", "neither a number nor a set");
   says("a.vtu", "<VTKFile type=\"PolyData\">", "expected UnstructuredGrid");
 }

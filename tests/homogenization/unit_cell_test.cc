@@ -237,6 +237,49 @@ TEST(tripwire_unit_cell, a_lattice_that_does_not_fit_is_refused)
               "expected `auto` or two vectors");
 }
 
+TEST(exact_unit_cell, an_angle_per_triangle_turns_the_orthotropic_groups)
+{
+  const Folder folder;
+  const std::string data = DATA;
+  std::ofstream(folder.path / "cell.vtu")
+    << content_of(data + "text.vtu"); // triangle t at 10 t degrees
+  std::string prm     = replaced(keys, "cell.msh", "cell.vtu");
+  prm                 = replaced(prm, "soft: 1e6, hard: 1e7", "7: 1e6");
+  prm                 = replaced(prm, "soft: 0.3, hard: 0.3", "7: 0.3");
+  prm                 = replaced(replaced(prm, "soft: 5e-4, hard: 5e-4", "7: 5e-4, 3: 5e-4"),
+                                 "soft: 400, hard: 400", "7: 400, 3: 400");
+  const UnitCell cell = folder.read(prm + "set Orthotropic = 3: 1e7 1e6 0.3 4e5 15\n", "");
+  const std::vector<Eigen::Matrix3d> stiffness = cell.stiffness_of_phase();
+  const std::vector<int> group                 = cell.group_of_phase();
+  const Phase soft                             = isotropic("7", 1e6, 0.3, 5e-4, 400.);
+  int n_turned                                 = 0;
+  for (int t = 0; t < 16; ++t)
+  {
+    const auto phase = static_cast<std::size_t>(cell.mesh.material(t));
+    Phase expected   = soft;
+    if (cell.phases[phase].name == "3")
+    {
+      expected = {"3", 1e7, 1e6, 0.3, 4e5, 15. + 10. * t, 5e-4, 400.};
+      ++n_turned;
+    }
+    EXPECT_LT((stiffness[phase] - plane_stress_stiffness(expected)).norm(), 1e-12 * 1e7) << t;
+    EXPECT_EQ(group[phase], group[static_cast<std::size_t>(
+                              cell.phase_of_group()[static_cast<std::size_t>(group[phase])])]);
+  }
+  EXPECT_EQ(n_turned, 8);
+  EXPECT_EQ(cell.phases.size(), 9u);
+  EXPECT_EQ(cell.phase_of_group().size(), 2u);
+  EXPECT_SAYS(
+    folder.refusal(replaced(replaced(prm, "7: 1e6", "7: 1e6, 3: 1e6"), "7: 0.3", "7: 0.3, 3: 0.3"),
+                   ""),
+    "has cell data `angle`, and no group is in key `Orthotropic`");
+  std::ofstream(folder.path / "cell.vtu")
+    << replaced(content_of(data + "text.vtu"), "60 70 80 90 100 110", "nan nan nan nan nan nan");
+  EXPECT_SAYS(
+    folder.refusal(prm + "set Orthotropic = 3: 1e7 1e6 0.3 4e5 15, 7: 1e6 1e6 0.3 4e5 0\n", ""),
+    "angle");
+}
+
 TEST(tripwire_unit_cell, inverted_and_overlapping_triangles_are_refused)
 {
   const Folder folder;

@@ -173,8 +173,8 @@ TABLE = {
     floating_island: (ERROR, "a part of 2 triangles", "floats: nothing holds it", True),
     hanging_square: (ERROR, "a part of 2 triangles", "hangs on a single vertex and turns freely", True),
     not_across_a_period: (ERROR, "the mesh falls into 2 pieces", "mesh what connects them", True),
-    unglued_parts: (WARNING, "9 pairs of vertices coincide", "BooleanFragments", True),
-    slit: (WARNING, "3 pairs of vertices coincide", "unless a slit is meant", True),
+    unglued_parts: (ERROR, "9 pairs of vertices coincide", "BooleanFragments", True),
+    slit: (ERROR, "count as one", "move them apart", True),
     sliver: (WARNING, "slivers: triangle", "remesh", True),
     millimetres: (WARNING, "the cell is 10 m wide", "0.001 (millimetres)", False),
     thick: (WARNING, "phase `soft` is 0.5 m thick", "0.5 mm is 5e-4", True),
@@ -226,6 +226,7 @@ class BrokenCells(InFolder):
                 self.assertIn(finding["what"], said)
                 self.assertEqual(finding["point"] is not None, has_place, finding)
                 any_error = any(f["severity"] == ERROR for f in findings)
+                self.assertEqual(any_error, severity == ERROR, said)
                 self.assertEqual(result.returncode, 2 if any_error else 0, said)
 
     def test_the_lattice_of_a_hexagon_is_found_from_its_outline(self):
@@ -256,11 +257,17 @@ class BrokenCells(InFolder):
         self.assertIn(b"PNG", (self.folder / "out" / "cell.png").read_bytes()[:8])
 
     def test_what_cannot_be_solved_is_refused_by_the_commands_that_solve(self):
-        cell = Cell()
-        floating_island(cell)
-        result = run("homogenize", cell.write(self.folder), "--output", self.folder / "out")
-        self.assertEqual(result.returncode, 2, result.stdout + result.stderr)
-        self.assertIn("floats", result.stderr)
+        for breaks, (severity, words, _, _) in TABLE.items():
+            if severity == WARNING:
+                continue
+            with self.subTest(breaks.__name__):
+                cell = Cell()
+                breaks(cell)
+                result = run("homogenize", cell.write(self.folder), "--output", self.folder / "out")
+                self.assertEqual(result.returncode, 2, result.stdout + result.stderr)
+                if breaks is not unglued_parts:  # told there by what has no image
+                    self.assertIn(words, result.stderr)
+                self.assertFalse((self.folder / "out").exists())
 
 
 if __name__ == "__main__":

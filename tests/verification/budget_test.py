@@ -1,19 +1,13 @@
 # SPDX-License-Identifier: MIT
 """What a strain study writes beside its errors: error budget, run times, range of validity."""
-import csv
 import json
 import math
 import unittest
 
-from cli import CELLS, InFolder, run
+from cli import CELLS, InFolder, rows_of, run
 
 STUDY = ["strain", CELLS / "layered.prm", "--cells", "2", "--strains", "0.01,0.1", "--loads", "periodic-12,shear-frame",
          "--references", "biot", "--methods", "localized", "--no-report"]
-
-
-def rows_of(path):
-    with open(path, newline="", encoding="utf-8") as file:
-        return list(csv.DictReader(file))
 
 
 class Budget(InFolder):

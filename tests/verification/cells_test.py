@@ -15,6 +15,16 @@ def n_triangles(cell):
     return int(re.search(r"(\d+) triangles", run("check", cell).stdout).group(1))
 
 
+def shape_of(cell):
+    """Words and numbers of what `homespun check` says of size, lattice and phases."""
+    first, *more = run("check", cell).stdout.splitlines()
+    said = " ".join([first[first.index("cell of"):], *(line for line in more if re.match("  (?!warning)", line))])
+    parts = said.replace("(", " ").replace(")", " ").replace(",", " ").split()
+    is_number = [re.fullmatch(r"-?[\d.]+(e[-+]\d+)?", part) is not None for part in parts]
+    return ([part for part, number in zip(parts, is_number) if not number],
+            [float(part) for part, number in zip(parts, is_number) if number])
+
+
 class List(unittest.TestCase):
     def test_every_cell_is_sound_and_listed_with_a_line_of_story_and_its_parameters(self):
         lines = run("cells").stdout.splitlines()
@@ -80,8 +90,13 @@ class Making(InFolder):
         for name in NAMES:
             result = run("cells", "make", name, "--output", self.folder)
             self.assertEqual(result.returncode, 0, result.stderr)
-            made, shipped = n_triangles(self.folder / f"{name}.prm"), n_triangles(CELLS / f"{name}.prm")
-            self.assertLess(abs(made - shipped), 0.05 * shipped, name)  # versions of Gmsh differ a little
+            made, shipped = self.folder / f"{name}.prm", CELLS / f"{name}.prm"
+            n_made, n_shipped = n_triangles(made), n_triangles(shipped)
+            self.assertLess(abs(n_made - n_shipped), 0.05 * n_shipped, name)  # versions of Gmsh differ a little
+            words, numbers = shape_of(made)
+            self.assertEqual(words, shape_of(shipped)[0], name)
+            for one, two in zip(numbers, shape_of(shipped)[1]):
+                self.assertAlmostEqual(one, two, delta=2e-3 * abs(two) + 1e-9, msg=name)
 
     def test_the_seed_decides(self):
         for name, seed in (("one", 3), ("again", 3), ("other", 4)):

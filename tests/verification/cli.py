@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """What the tests of the program share: running it, and folders that go away."""
+import csv
 import os
 import pathlib
 import shutil
@@ -20,6 +21,12 @@ def run(*arguments, ranks=1, **options):
     return subprocess.run(command, capture_output=True, text=True, timeout=240, check=False, **options)
 
 
+def rows_of(path):
+    """The rows of a table."""
+    with open(path, newline="", encoding="utf-8") as file:
+        return list(csv.DictReader(file))
+
+
 class InFolder(unittest.TestCase):
     """A test with an empty folder of its own."""
 
@@ -35,3 +42,17 @@ class InFolder(unittest.TestCase):
         path = self.folder / f"{name}.prm"
         path.write_text(text.replace(before, after), encoding="utf-8")
         return path
+
+    def assert_same_rows(self, found, expected):
+        """Texts are equal, and numbers but times to what a solver leaves open."""
+        self.assertEqual(len(found), len(expected))
+        for one, two in zip(found, expected):
+            for key, value in two.items():
+                if key.startswith("seconds"):
+                    continue
+                try:
+                    number = float(value)
+                except ValueError:
+                    self.assertEqual(one[key], value, two)
+                else:
+                    self.assertAlmostEqual(float(one[key]), number, delta=2e-5 * abs(number) + 1e-13, msg=f"{key} of {two}")
