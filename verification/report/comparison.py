@@ -132,7 +132,7 @@ def claims_side_by_side(results, subjects):
             general.setdefault(verdict["claim"], {})[study.place] = verdict
             continue
         owners = [s for s in subjects if s.cell == cell]
-        subject = next((s for s in owners if s.place == study.place), owners[0] if len(owners) == 1 else None)
+        subject = next((s for s in owners if study.place in s.places), owners[0] if len(owners) == 1 else None)
         if subject:
             table.setdefault(key_of(verdict["claim"], cell), {})[subject.name] = verdict
     blocks = [block(table, [s.name for s in subjects], [s.name for s in subjects])]

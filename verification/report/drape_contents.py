@@ -4,7 +4,7 @@ import os
 
 import tables
 from drape_tables import cost_rows, error_rows, exactly, facts, run_rows, sentences, term_rows
-from figures_cloth import animation, cloth_figure, film_of
+from figures_cloth import animation, cloth_figure, film_of, moving_jobs
 from figures_drape import (energy_figure, error_time_curves, height_figure, ordered_references, ordered_variants,
                            step_bars)
 from stored import BadResults
@@ -56,6 +56,7 @@ def draw_cloth(contents, drape, cell, gallery, limit, pool, scenes):
         bodies = read_vtu(drape.obstacles()) if drape.obstacles() else None
         figure, camera, phases, numbers = cloth_figure(film, drape.up(), cell.info.get("cell_side_m"), pool,
                                                        cell.info.get("phases"), bodies)
+        jobs = moving_jobs(film, camera, phases, pool, bodies)  # rendered while this process saves the figure
         words = ""
         if numbers["largest"] > 0.:
             words = " Error: distance of each up-sampled vertex from its place in the reference"
@@ -67,7 +68,7 @@ def draw_cloth(contents, drape, cell, gallery, limit, pool, scenes):
             figure, f"{file}-cloth", f"{title}, {film.variant} cloth. One camera for all; parallel projection, "
             f"true scale, not exaggerated.{words}", as_image="shaded",
             view=film_view(film, camera, drape.up(), len(drape.cells) * scenes))
-        if moving := animation(film, camera, phases, limit, pool, bodies):
+        if moving := animation(film, camera, jobs, limit):
             data, width, loop, (first, last) = moving
             at_speed = abs(loop - (last - first)) <= 0.05 * loop
             words = "at true speed" if at_speed else f"shown in {three(float(loop))} s"

@@ -8,6 +8,7 @@ from matplotlib.patches import Patch
 
 import style
 from budget_results import BESIDE_THE_SUM, PARTS, effectivity, levels, pareto_front
+from plot_data import BAND_ALPHA, BAND_COLOUR, band, name_unseen
 
 PART_COLOURS = dict(zip(PARTS, (style.BLUE, style.VERMILLION, style.GREEN, style.YELLOW, style.SKY, "#B0B0B0",
                                 style.BLACK, "#8A3A00", style.ORANGE, "#7F7F7F")))
@@ -38,6 +39,7 @@ def budget_figure(rows, strains, side):
         axes.axhline(0., color="#222222", lw=0.6)
         axes.set_title(f"{style.percent(strain)} strain", loc="left")
         axes.set_xticks(range(len(loads)), [load.replace("-", "-\n", 1) for load in loads])
+        name_unseen(axes.xaxis, "load")
         axes.set_xlim(-0.6, len(loads) - 0.4)
         axes.grid(axis="x", visible=False)
     grid[0][0].set_ylabel("share of the measured error")
@@ -74,6 +76,7 @@ FAMILIES = {"fine": ("resolved sheet", "s", "#666666"), "affine": ("coarse motio
             "localized": ("localized", "o", style.BLUE), "voigt": ("Voigt stiffness, localized", "^", style.PURPLE),
             "reuss": ("Reuss stiffness, localized", "v", style.PURPLE),
             "nodal": ("the paper's nodal warping, localized", "D", style.GREEN)}
+BAR_LABEL = "error bar of the best reference"
 
 
 def family(way):
@@ -84,6 +87,15 @@ def label_of(way):
     """What stands beside a point: the quads per side of coarse cloths, the name of the resolved ways."""
     kind, _, detail = way.partition("-")
     return {"fine": detail, "affine": detail, "localized": detail}.get(kind, "")
+
+
+def front_line(front, end):
+    """Times and errors of the Pareto front with its corners as points: the least error until the next way is done.
+
+    @param end time at which the line ends [s]
+    """
+    times, errors = [w["seconds"] for w in front], [w["error_mean_per_cell"] for w in front]
+    return [time for pair in zip(times, times[1:] + [end]) for time in pair], [error for error in errors for _ in range(2)]
 
 
 def way_figure(ways, side):
@@ -98,12 +110,11 @@ def way_figure(ways, side):
     bar = next((w["reference_uncertainty_m"] / side for w in known if side and w["reference_uncertainty_m"] > 0), None)
     low = min(w["error_mean_per_cell"] for w in known) / 2.5
     high = max(w["error_mean_per_cell"] for w in known) * 2.
+    left, right = min(w["seconds"] for w in known) / 2., max(w["seconds"] for w in known) * 3.
     if bar:
-        axes.axhspan(low, bar, color="#BDBDBD", alpha=0.45, lw=0)
+        band(axes, [left, right], [bar, bar], low, BAR_LABEL)
     front = pareto_front(known)
-    times = [w["seconds"] for w in front] + [max(w["seconds"] for w in known) * 3.]
-    errors = [w["error_mean_per_cell"] for w in front]
-    axes.step(times, errors + errors[-1:], where="post", color="#222222", lw=1., zorder=1)
+    axes.plot(*front_line(front, right), color="#222222", lw=1., zorder=1)
     for way in known:
         name, marker, colour = FAMILIES[family(way["way"])]
         on_front = way in front
@@ -115,7 +126,7 @@ def way_figure(ways, side):
                       xytext=(0, 6 if above else -6), textcoords="offset points", ha="center",
                       va="bottom" if above else "top", fontsize=7.5, color=colour)
     style.log_axes(axes)
-    axes.set_xlim(min(w["seconds"] for w in known) / 2., max(w["seconds"] for w in known) * 3.)
+    axes.set_xlim(left, right)
     axes.set_ylim(low, high)
     axes.set(xlabel="median time to the positions [s]", ylabel="mean error [cell sides]")
     shown = list(dict.fromkeys(family(w["way"]) for w in known))
@@ -123,6 +134,6 @@ def way_figure(ways, side):
                for f in FAMILIES if f in shown]
     handles.append(Line2D([], [], color="#222222", lw=1., label="Pareto front (filled)"))
     if bar:
-        handles.append(Patch(color="#BDBDBD", alpha=0.45, label="error bar of the best reference"))
+        handles.append(Patch(color=BAND_COLOUR, alpha=BAND_ALPHA, label=BAR_LABEL))
     figure.legend(handles=handles, loc="center left", bbox_to_anchor=(1., 0.5))
     return figure

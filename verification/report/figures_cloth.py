@@ -15,7 +15,7 @@ from PIL import Image, ImageDraw, ImageFont
 
 import style
 from figures_sheet import unit_of
-from rendering import best_axes, bounds, camera_around, close_up, render
+from rendering import best_axes, bounds, camera_around, close_up, coloured, visible
 from vtu import read_vtu
 
 KINDS = ("coarse", "fine", "reference")
@@ -99,17 +99,20 @@ def fine_colours(surface, phases):
     return numpy.array([phases[int(n)][0] if int(n) in phases else FINE_COLOUR for n in numbers])[place]
 
 
-def panel(surface, kind, camera, pixels, phases, error=None, largest=1., bodies=None):
-    """One rendered panel as bytes (height, width, 4)."""
+def panels(surface, kind, camera, pixels, phases, error=None, largest=1., bodies=None):
+    """The rendered panels of one surface, as bytes (height, width, 4): itself, and coloured by its error where that is known.
+
+    @return {kind: picture}
+    """
+    seen = visible(surface, camera, pixels, bodies)
     if kind == "coarse":
-        image = render(surface, camera, pixels, numpy.tile(COARSE_COLOUR, (len(surface.triangles), 1)), edge=0.9,
-                       bodies=bodies)
-    elif kind == "error":
-        image = render(surface, camera, pixels, colormaps[ERROR_MAP](error / (largest or 1.))[:, :3], per_vertex=True,
-                       contrast=ERROR_CONTRAST, bodies=bodies)
+        images = {kind: coloured(seen, numpy.tile(COARSE_COLOUR, (len(surface.triangles), 1)), edge=0.9)}
     else:
-        image = render(surface, camera, pixels, fine_colours(surface, phases), bodies=bodies)
-    return numpy.round(255. * image).astype(numpy.uint8)
+        images = {kind: coloured(seen, fine_colours(surface, phases))}
+    if error is not None:
+        colours = colormaps[ERROR_MAP](error / (largest or 1.))[:, :3]
+        images["error"] = coloured(seen, colours, per_vertex=True, contrast=ERROR_CONTRAST)
+    return {name: numpy.round(255. * image).astype(numpy.uint8) for name, image in images.items()}
 
 
 def bounds_of(path, axes):
@@ -155,10 +158,10 @@ def cloth_figure(film, up, side, pool, names=None, bodies=None):
         rows.append(("framed part", surfaces[-1], errors[-1], near))
     jobs = {}
     for row, (_, kinds, error, view) in enumerate(rows):
-        for kind, _ in columns:
-            source = kinds.get("fine" if kind == "error" else kind)
-            if source is not None and (kind != "error" or error is not None):
-                jobs[row, kind] = pool.submit(panel, source, kind, view, PIXELS, phases, error, largest, bodies)
+        for kind in kinds:
+            jobs[row, kind] = pool.submit(panels, kinds[kind], kind, view, PIXELS, phases,
+                                          error if kind == "fine" else None, largest, bodies)
+    images = {(row, name): image for (row, _), job in jobs.items() for name, image in job.result().items()}
     ratio = camera.extent[1] / camera.extent[0]
     width = 10.2 / 4.
     figure, grid = pyplot.subplots(len(rows), len(columns), squeeze=False, layout="constrained",
@@ -172,8 +175,8 @@ def cloth_figure(film, up, side, pool, names=None, bodies=None):
             axes.grid(False)
             for spine in axes.spines.values():
                 spine.set(visible=True, color="#D0D0D0", linewidth=0.6)
-            if (row, kind) in jobs:
-                axes.imshow(jobs[row, kind].result(), extent=(-half[0], half[0], -half[1], half[1]),
+            if (row, kind) in images:
+                axes.imshow(images[row, kind], extent=(-half[0], half[0], -half[1], half[1]),
                             interpolation="antialiased")
             else:
                 axes.text(0., 0., "no frame", ha="center", va="center", color="#666666")
@@ -212,25 +215,35 @@ def scale_bar(axes, half):
 
 def moving_panels(shot, kinds, camera, phases, bodies):
     """The panels of one frame of the animation, read and drawn where they are needed."""
-    return [panel(read_vtu(shot[kind]), kind, camera, MOVING_PIXELS, phases, bodies=bodies) if shot[kind] else None
+    return [panels(read_vtu(shot[kind]), kind, camera, MOVING_PIXELS, phases, bodies=bodies)[kind] if shot[kind] else None
             for kind in kinds]
 
 
-def animation(film, camera, phases, limit, pool, bodies=None):
+def moving_kinds(film):
+    """What the animation shows side by side."""
+    return [kind for kind in ("fine", "reference") if any(shot[kind] for shot in film.shots)] or ["coarse"]
+
+
+def moving_jobs(film, camera, phases, pool, bodies=None):
+    """Begins to render the frames of the animation; none with fewer than two of them."""
+    shots = moving_shots(film)
+    return [pool.submit(moving_panels, shot, moving_kinds(film), camera, phases, bodies) for shot in shots if len(shots) > 1]
+
+
+def animation(film, camera, jobs, limit):
     """A looping WebP: up-sampled cloth and the reference beside it.
 
+    @param jobs of `moving_jobs`
     @param limit bytes that it may take
     @return (bytes, width in pixels, seconds of one loop, times shown), or None with fewer than two frames
     @throws BadFrame
     """
-    kinds = [kind for kind in ("fine", "reference") if any(shot[kind] for shot in film.shots)] or ["coarse"]
+    kinds, shots = moving_kinds(film), moving_shots(film)
     titles = {"coarse": "coarse cloth", "fine": "up-sampled", "reference": f"reference ({film.reference})"}
-    shots = moving_shots(film)
-    if len(shots) < 2:
+    if not jobs:
         return None
     font = os.path.join(matplotlib.get_data_path(), "fonts", "ttf", "DejaVuSans.ttf")
     font = ImageFont.truetype(font, 15)
-    jobs = [pool.submit(moving_panels, shot, kinds, camera, phases, bodies) for shot in shots]
     pictures, strip = [], 26
     height = round(MOVING_PIXELS * camera.extent[1] / camera.extent[0])
     for shot, job in zip(shots, jobs):

@@ -9,7 +9,7 @@ from matplotlib.patches import Patch
 
 import style
 from figures_sheet import unit_of
-from plot_data import band
+from plot_data import band, name_unseen
 
 BLOWN = 1e3  # times the largest value of the first cloth
 VARIANTS = ("corotational", "triangle-warping", "nodal-warping")
@@ -249,6 +249,7 @@ def step_bars(cell):
     axes.set(xscale="log", xlabel="time per step [s]", ylim=(len(entries) - 0.4, -0.6))
     axes.set_xlim(lower, 6. * max(entry[1] for entry in entries))
     axes.set_yticks(range(len(entries)), [entry[0].replace("\n", ", ") for entry in entries])
+    name_unseen(axes.yaxis, "part of a step")
     axes.grid(axis="y", visible=False)
     return figure
 

@@ -4,6 +4,7 @@ import numpy
 from matplotlib import pyplot
 
 import style
+from plot_data import name_unseen
 
 
 def directional_modulus(stiffness, angles):
@@ -49,6 +50,8 @@ def polar_figure(cell):
     axes.spines["polar"].set_color("#BDBDBD")
     axes.get_xticklabels()[0].set_horizontalalignment("left")
     axes.get_xticklabels()[4].set_horizontalalignment("right")
+    name_unseen(axes.xaxis, "direction $\\theta$ [rad]")
+    name_unseen(axes.yaxis, "modulus $E(\\theta)$ [N/m]")
     axes.text(0.5, -0.12, "modulus $E(\\theta)$ [N/m]", transform=axes.transAxes, ha="center")
     figure.legend(loc="upper left", bbox_to_anchor=(1., 0.95))
     return figure

@@ -37,9 +37,17 @@ def margin(row):
     return figure / limit
 
 
+def margin_table(rows):
+    """(header, rows) of the CSV file: every case in the order of its file, empty where a figure or limit is no number."""
+    header = ["group", "case", "verdict", "figure", "limit", "figure_over_limit"]
+    return header, [[row["group"], row["case"], row["verdict"], row["figure"], row["limit"],
+                     margin(row) if margin(row) == margin(row) else ""] for row in rows]
+
+
 def margin_figure(rows):
     """One line per group, a mark per case at its figure over its limit; right of 1 a case fails.
 
+    Places of marks are drawing, not data (cases of a line stand apart, zero at the edge): the numbers are `margin_table`'s.
     Of the cases of a group that fail the worst is named. Refusals have no figure: they are counted beside the line, and so is a failure without a number.
     @return figure, or None where no case has a figure and a limit
     """
@@ -62,9 +70,8 @@ def margin_figure(rows):
             low = numpy.array([margin(row) < LOWEST for _, row in shown], dtype=bool)
             if len(x):
                 axes.plot(x[~low], y[~low], mark, color=colour, ms=3.5 if verdict == "PASS" else 6.5, alpha=0.75, mew=0,
-                          zorder=3 if verdict == "PASS" else 5, label=f"{group}, {verdict}")
-                axes.plot(x[low], y[low], "<", color=colour, ms=3.5, alpha=0.75, mew=0, zorder=3,
-                          label=f"{group}, {verdict}", gid="at the edge")
+                          zorder=3 if verdict == "PASS" else 5)
+                axes.plot(x[low], y[low], "<", color=colour, ms=3.5, alpha=0.75, mew=0, zorder=3)
             if verdict == "FAIL" and shown:
                 worst = max(range(len(shown)), key=lambda k: x[k])
                 more = f" (and {len(shown) - 1} more)" if len(shown) > 1 else ""

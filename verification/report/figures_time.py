@@ -10,7 +10,7 @@ from matplotlib.patches import Patch
 
 import style
 from figures_strain import series
-from plot_data import ROUND_OFF_NOTE
+from plot_data import ROUND_OFF_NOTE, name_unseen
 
 METHOD = "localized"
 
@@ -86,6 +86,7 @@ def step_figure(steps):
     axes.set(xscale="log", xlabel="median time per load step [s]", ylim=(len(loads) - 0.4, -0.6))
     axes.set_xlim(left=lower)
     axes.set_yticks(range(len(loads)), loads)
+    name_unseen(axes.yaxis, "load")
     axes.grid(axis="y", visible=False)
     figure.legend(handles=[Patch(color=colour, label=label) for _, _, label, colour in bars],
                   loc="lower center", bbox_to_anchor=(0.5, 1.), ncol=len(bars))

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """What must hold of every page: found in its text, without a browser."""
+import csv
 import json
 import os
 import re
@@ -52,6 +53,18 @@ def figures_without_downloads(page, folder):
         if not wanted <= set(links) or not all(os.path.getsize(os.path.join(folder, href)) > 0 for href in links.values()):
             bad.append(name)
     return bad
+
+
+def nameless_numbers(path):
+    """Columns of a CSV file that are blank in all rows, and quantities that are blank in any; not what plots may lack.
+
+    All plots share one header: a figure of one panel may have no title, and few curves have notes.
+    """
+    with open(path, encoding="utf-8", newline="") as file:
+        header, *rows = csv.reader(file)
+    columns = dict(zip(header, zip(*rows)))
+    bad = [name for name, values in columns.items() if name not in ("panel", "note") and not any(values)]
+    return bad + [name for name in ("x_quantity", "y_quantity") if name not in bad and not all(columns.get(name, ["words"]))]
 
 
 def data_of(page, kind):

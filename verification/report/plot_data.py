@@ -15,6 +15,7 @@ from matplotlib.colors import to_hex
 from matplotlib.ticker import FixedLocator
 
 ROUND_OFF_NOTE = "zero to round-off"
+BAND_COLOUR, BAND_ALPHA = "#BDBDBD", 0.55
 DASHES = {"-": [], "--": [6, 3], "-.": [7, 3, 1.5, 3], ":": [1.5, 2.5], "None": None, "": None, " ": None}
 HEADER = ("panel", "series", "note", "x_quantity", "x", "y_quantity", "y")
 
@@ -33,9 +34,15 @@ def number(value):
 
 def band(axes, x, y, bottom, label):
     """A grey area from `bottom` up to y(x), that is read back as a curve: the uncertainty of a reference."""
-    area = axes.fill_between(x, y, bottom, color="#BDBDBD", alpha=0.55, lw=0, zorder=0, label=label)
+    area = axes.fill_between(x, y, bottom, color=BAND_COLOUR, alpha=BAND_ALPHA, lw=0, zorder=0, label=label)
     area.upper_edge = numpy.column_stack([x, y])
     return area
+
+
+def name_unseen(axis, quantity):
+    """Names the quantity of an axis for the CSV file alone: beside words, or around a circle, it would be in the way."""
+    axis.set_label_text(quantity)
+    axis.label.set_visible(False)
 
 
 def is_data(artist):
@@ -43,7 +50,13 @@ def is_data(artist):
 
 
 def curve_of(line, axes):
-    """A curve as the page draws it; None where it stands in no data coordinates."""
+    """A curve as the page draws it; None where it stands in no data coordinates.
+
+    @throws ValueError of a line that matplotlib draws as steps: its points alone would make straight segments of it
+    """
+    if line.get_drawstyle() != "default":
+        raise ValueError(f"curve `{line.get_label()}` is drawn with `{line.get_drawstyle()}`, expected `default`: only the "
+                         "points of a curve are read back. Plot the corners of the steps as points.")
     transform = line.get_transform()
     if transform == axes.get_xaxis_transform():  # a line across the panel, or marks at its edge
         x = numpy.asarray(line.get_xdata(orig=False), dtype=float)
@@ -78,7 +91,7 @@ def panel_of(axes):
     for area in axes.collections:
         if getattr(area, "upper_edge", None) is not None:
             curves.append({"label": area.get_label(), "points": [[number(a), number(b)] for a, b in area.upper_edge],
-                           "colour": "#bdbdbd", "dash": [], "width": 0, "marker": "", "hollow": False, "fill": True})
+                           "colour": BAND_COLOUR.lower(), "dash": [], "width": 0, "marker": "", "hollow": False, "fill": True})
     low_high = {"x": sorted(axes.get_xlim()), "y": sorted(axes.get_ylim())}
     return {"title": plain(axes.get_title(loc="left") or axes.get_title()),
             **{key: {"label": plain(getattr(axes, f"get_{key}label")()), "log": getattr(axes, f"get_{key}scale")() == "log",
@@ -130,7 +143,7 @@ def category(axis, place):
     return "" if nearest is None else plain(axis.get_major_formatter()(ticks[nearest], nearest)).replace("- ", "-")
 
 
-def bar_rows(axes, title):
+def bar_rows(axes, panel):
     """Rows of the bars: a bar that lies begins at the edge of its logarithmic axis, one that stands upon others."""
     rows = []
     for bars in axes.containers:
@@ -141,7 +154,7 @@ def bar_rows(axes, title):
                 x, y = bar.get_x() + bar.get_width(), category(axes.yaxis, bar.get_y() + 0.5 * bar.get_height())
             else:
                 x, y = category(axes.xaxis, bar.get_x() + 0.5 * bar.get_width()), bar.get_height()
-            rows.append([title, plain(bars.get_label()), "", plain(axes.get_xlabel()), x, plain(axes.get_ylabel()), y])
+            rows.append([panel["title"], plain(bars.get_label()), "", panel["x"]["label"], x, panel["y"]["label"], y])
     return rows
 
 
@@ -158,7 +171,7 @@ def rows_of(figure):
                 if x is not None and y is not None:
                     rows.append([panel["title"], curve["label"], curve.get("note", ""), panel["x"]["label"], x,
                                  panel["y"]["label"], 0 if str(curve.get("note", "")).startswith(ROUND_OFF_NOTE) else y])
-        rows += bar_rows(axes, panel["title"])
+        rows += bar_rows(axes, panel)
     return rows
 
 

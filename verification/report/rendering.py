@@ -128,30 +128,44 @@ def covered(corners, width, height):
 
 
 def render(surface, camera, pixels, colours, per_vertex=False, edge=0., contrast=1., bodies=None):
-    """A picture of one surface on transparent ground.
+    """A picture of one surface on transparent ground: `coloured` of what is `visible`."""
+    return coloured(visible(surface, camera, pixels, bodies), colours, per_vertex, edge, contrast)
+
+
+@dataclass
+class Visible:
+    """What a camera sees of a surface and its bodies, whatever their colours: k of all samples show a triangle."""
+    shape: tuple             # rows and columns of samples
+    corners: numpy.ndarray   # (t,3,2) of the triangles, bodies last [samples]
+    triangles: numpy.ndarray  # (t,3)
+    n_body_points: int       # vertices of the bodies
+    n_cloth: int             # triangles before those of the bodies
+    shown: numpy.ndarray     # (k) the samples
+    owner: numpy.ndarray     # (k) their triangle
+    weights: numpy.ndarray   # (k,3) of its corners
+    normal: numpy.ndarray    # (k,3) along the axes of the camera
+
+
+def visible(surface, camera, pixels, bodies=None):
+    """Finds what each sample of a picture shows: nearly all its cost, so that two colourings share it.
 
     @param pixels width of the picture; its height follows from the camera
-    @param colours RGB from 0 to 1: (m,3) per triangle, or (n,3) per vertex
-    @param edge width of the drawn edges of triangles [pixels]; 0 draws none
-    @param contrast 1 shades fully, less keeps colours closer to their bar
-    @param bodies a surface that hides and is hidden, grey and without edges, or None
-    @return (height, width, 4) from 0 to 1
+    @param bodies a surface that hides and is hidden, or None
+    @return Visible
     """
     width = SAMPLES * int(pixels)
     scale = width / camera.extent[0]
     height = SAMPLES * max(1, round(camera.extent[1] * scale / SAMPLES))
-    points, triangles, n_cloth = surface.points, surface.triangles, len(surface.triangles)
+    points, triangles = surface.points, surface.triangles
     if bodies is not None:
         triangles = numpy.concatenate([triangles, bodies.triangles + len(points)])
         points = numpy.concatenate([points, bodies.points])
-        grey = numpy.tile(BODY_COLOUR, (len(bodies.points if per_vertex else bodies.triangles), 1))
-        colours = numpy.concatenate([colours, grey])
     projected = camera.project(points)
     flat = (projected[:, :2] - camera.centre) * [scale, -scale] + [0.5 * width, 0.5 * height]
     corners, depth = flat[triangles], projected[:, 2][triangles]
     found = [(sample, owner, weights, numpy.einsum("ki,ki->k", weights, depth[owner]))
              for sample, owner, weights in covered(corners, width, height)]
-    image = numpy.zeros((height * width, 4))
+    shown, owner, weights, normal = numpy.zeros(0, int), numpy.zeros(0, int), numpy.zeros((0, 3)), numpy.zeros((0, 3))
     if found:
         sample, owner, weights, toward = (numpy.concatenate(part) for part in zip(*found))
         order = numpy.argsort(toward, kind="stable")
@@ -160,14 +174,30 @@ def render(surface, camera, pixels, colours, per_vertex=False, edge=0., contrast
         shown = numpy.flatnonzero(front >= 0)
         nearest = front[shown]
         owner, weights = owner[nearest], weights[nearest]
-        corner = triangles[owner]
-        normal = numpy.einsum("ki,kic->kc", weights, vertex_normals(points, triangles)[corner])
-        colour = numpy.einsum("ki,kic->kc", weights, colours[corner]) if per_vertex else colours[owner]
-        colour = colour * shade(normal @ camera.axes.T, contrast)[:, None]
-        if edge > 0.:
-            drawn = on_edge(corners, owner, weights, 0.5 * edge * SAMPLES) & (owner < n_cloth)
-            colour[drawn] *= 0.35
-        image[shown, :3], image[shown, 3] = numpy.clip(colour, 0., 1.), 1.
+        normal = numpy.einsum("ki,kic->kc", weights, vertex_normals(points, triangles)[triangles[owner]]) @ camera.axes.T
+    return Visible((height, width), corners, triangles, len(points) - len(surface.points), len(surface.triangles),
+                   shown, owner, weights, normal)
+
+
+def coloured(seen, colours, per_vertex=False, edge=0., contrast=1.):
+    """A picture of what is seen, on transparent ground; bodies are grey and without edges.
+
+    @param colours RGB from 0 to 1: (m,3) per triangle of the cloth, or (n,3) per vertex
+    @param edge width of the drawn edges of triangles [pixels]; 0 draws none
+    @param contrast 1 shades fully, less keeps colours closer to their bar
+    @return (height, width, 4) from 0 to 1
+    """
+    n_bodies = seen.n_body_points if per_vertex else len(seen.triangles) - seen.n_cloth
+    colours = numpy.concatenate([colours, numpy.tile(BODY_COLOUR, (n_bodies, 1))])
+    colour = (numpy.einsum("ki,kic->kc", seen.weights, colours[seen.triangles[seen.owner]]) if per_vertex
+              else colours[seen.owner])
+    colour = colour * shade(seen.normal, contrast)[:, None]
+    if edge > 0.:
+        drawn = on_edge(seen.corners, seen.owner, seen.weights, 0.5 * edge * SAMPLES) & (seen.owner < seen.n_cloth)
+        colour[drawn] *= 0.35
+    height, width = seen.shape
+    image = numpy.zeros((height * width, 4))
+    image[seen.shown, :3], image[seen.shown, 3] = numpy.clip(colour, 0., 1.), 1.
     return smaller(image.reshape(height, width, 4))
 
 

@@ -16,7 +16,7 @@ from converge_results import read_convergence
 from drape_results import read_drape
 from stored import BadResults, check_verdicts, latest, read_csv, read_json
 from stress_results import read_stress
-from versions import merged, place_of, with_parts
+from versions import is_inside, lists_all, merged, place_of, with_parts
 
 STRAIN_HEADER = ("cell,load,strain,reference,method,cells,coarse_triangles,fine_triangles,error_mean_m,"
                  "error_rms_m,error_max_m,error_mean_per_cell,error_mean_per_fluctuation,"
@@ -88,8 +88,11 @@ def check_study(value, path, faults):
     return value
 
 
-def read_folder(folder, results, faults):
-    """Adds what one result folder holds to the results."""
+def read_folder(folder, results, faults, is_listed=False):
+    """Adds what one result folder holds to the results.
+
+    @param is_listed whether a folder of `verify` around it lists its claims, so that it needs no list of its own
+    """
     if not os.path.isdir(folder):
         faults.append(f"{folder}: no such folder. Give the --output folder of `homespun strain`.")
         return
@@ -138,9 +141,6 @@ def read_folder(folder, results, faults):
         if path := path_of("study.json", "command, sizes and provenance of the study"):
             if value := read_json(path, faults):
                 study.info = {**study.info, **check_study(value, path, faults)}
-    # A cell of `verify` has its claims in the list of all parts.
-    is_listed = any(other.lists_all and os.path.realpath(folder).startswith(os.path.realpath(other.folder) + os.sep)
-                    for other in results.studies)
     if (holds("verdicts.json") or not is_listed) and (path := path_of("verdicts.json", "verdicts")):
         if value := read_json(path, faults):
             study.verdicts = check_verdicts(value, path, faults)
@@ -176,9 +176,10 @@ def read_results(folders):
     """
     faults, parts = [], []
     folders = with_parts(folders)
+    listing = [folder for folder in folders if lists_all(folder)]
     for folder in folders:
         part = Results()
-        read_folder(folder, part, faults)
+        read_folder(folder, part, faults, any(is_inside(folder, other) for other in listing))
         parts.append((folder, part))
     if faults:
         raise BadResults(faults)

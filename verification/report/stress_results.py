@@ -5,7 +5,7 @@ import os
 from collections import Counter
 from dataclasses import dataclass, field
 
-from figures_stress import margin_figure, solver_figure
+from figures_stress import margin_figure, margin_table, solver_figure
 from stored import VERDICTS, latest, read_csv
 from style import seconds, three
 
@@ -85,14 +85,14 @@ def draw(stress, gallery):
     wanted = [
         (margin_figure(stress.rows), "stress-margins", f"{name}how far each case is from its limit: its figure over its "
          "limit, a line for each group, cases from top to bottom in their order. Right of 1 a case fails. At the right: "
-         "cases that hold of all, and refusals, which have no figure.")]
+         "cases that hold of all, and refusals, which have no figure.", margin_table(stress.rows))]
     if stress.solver:
         wanted += [
             (solver_figure(stress.solver, "iterations"), "stress-solver-iterations", f"{name}iterations of the conjugate "
-             "gradients of the cell problem, the most of its three loads, against what makes it hard."),
+             "gradients of the cell problem, the most of its three loads, against what makes it hard.", None),
             (solver_figure(stress.solver, "seconds"), "stress-solver-seconds",
-             f"{name}time of preconditioner and solve of the same.")]
-    return [gallery.add(figure, file, caption) for figure, file, caption in wanted if figure]
+             f"{name}time of preconditioner and solve of the same.", None)]
+    return [gallery.add(figure, file, caption, table=table) for figure, file, caption, table in wanted if figure]
 
 
 def stress_contents(stress, gallery):

@@ -4,8 +4,13 @@ import math
 import os
 import unittest
 
+from matplotlib import pyplot
+
 import budget_contents
 import budget_results
+import figures_budget
+import page_checks
+import plot_data
 from made_up_study import write_results
 from page_case import PageTest
 
@@ -58,6 +63,16 @@ class Budget(unittest.TestCase):
         self.assertIn("within 0.5 % of the cell side fine-p1", sentence)
         self.assertIn("within 0.05 % of the cell side fine-p2", sentence)
 
+    def test_the_interactive_plot_of_the_ways_has_the_corners_of_the_front_and_the_error_bar(self):
+        figure = figures_budget.way_figure([way(*w, bar=3e-7) for w in WAYS[:5]], 0.01)
+        self.addCleanup(pyplot.close, figure)
+        (panel,) = plot_data.panels_of(figure)
+        (front,) = [curve for curve in panel["curves"] if len(curve["points"]) > 2]
+        self.assertEqual(front["points"], [[1e-4, 0.2], [2e-4, 0.2], [2e-4, 0.03], [2., 0.03], [2., 1e-4], [10., 1e-4], [10., 1e-5], [30., 1e-5]])
+        (grey,) = [curve for curve in panel["curves"] if curve.get("fill")]
+        self.assertEqual((grey["label"], grey["points"]), ("error bar of the best reference", [[5e-5, 3e-5], [30., 3e-5]]))
+        self.assertIn("error bar of the best reference", [row[1] for row in plot_data.rows_of(figure)])
+
     def test_of_several_reference_laws_one_counts(self):
         def row(reference, mean):
             return {"load": "strip-1", "strain": 0.1, "region": "all", "part": "total", "reference": reference, "mean_m": mean}
@@ -93,6 +108,7 @@ class BudgetReport(PageTest):
         page = self.page()
         for name in ("budget", "ways"):
             self.assertIn(f'id="stripes-{name}"', page)
+            self.assertEqual(page_checks.nameless_numbers(os.path.join(self.output, "figures", f"stripes-{name}.csv")), [])
         for text in ("Fastest way to a given mean error, error bar of the best solution included, under shear-frame", "1 scale separation", "3.1 % (3 to 3.2)",
                      "already 3 % of the fluctuation"):
             self.assertIn(text, page)

@@ -51,12 +51,41 @@ class ComparisonTest(PageTest):
         self.assertEqual(self.run_report(self.write("alone")), (0, ""))
         self.assertNotIn("comparison", self.page().split("</style>")[1].split("<script>")[0])
 
+    def strained_only(self, *parts, changes=()):
+        """A folder of strain whose cell was homogenized elsewhere."""
+        folder = self.write(*parts, changes=changes)
+        for name in ("cell.h5", "homogenize.json"):
+            os.remove(os.path.join(folder, "stripes", name))
+        return folder
+
     def test_homogenized_and_strained_cell_are_one(self):
-        strained, homogenized = self.write("strain"), os.path.join(self.write("other"), "stripes")
-        os.remove(os.path.join(strained, "stripes", "cell.h5"))
-        found = read_results([strained, homogenized])
-        self.assertEqual(list(found.cells), ["stripes"])
-        self.assertIsNotNone(found.cells["stripes"].vertices)
+        strained, homogenized = self.strained_only("strain"), os.path.join(self.write("other"), "stripes")
+        for folders in ([strained, homogenized], [homogenized, strained]):
+            found = read_results(folders)
+            self.assertEqual(list(found.cells), ["stripes"])
+            self.assertIsNotNone(found.cells["stripes"].vertices)
+            self.assertEqual([s.place for s in found.subjects], [strained])
+
+    def test_effective_stiffness_of_one_study_does_not_stand_beside_the_errors_of_another(self):
+        strained = self.write("strain", changes=[("stripes/homogenize.json", "2839.91", "2900.0")])
+        homogenized = os.path.join(self.write("homog"), "stripes")
+        for folders in ([homogenized, strained], [strained, homogenized]):
+            found = read_results(folders)
+            alone, studied = found.cells["stripes (stripes)"], found.cells["stripes (strain)"]
+            self.assertEqual((alone.stiffness()[0, 0], studied.stiffness()[0, 0]), (2839.91, 2900.))
+            self.assertEqual({row["cell"] for row in found.strain}, {"stripes (strain)"})
+
+    def test_claims_of_a_strained_cell_that_a_homogenized_one_completes_are_compared(self):
+        claim = [("verdicts.json", "slope 2", "stripes: slope 2")]
+        homogenized = os.path.join(self.write("homog"), "stripes")
+        one = self.strained_only("strainV1", changes=claim)
+        two = self.write("strainV2", changes=claim + [("verdicts.json", "PASS", "FAIL")])
+        for folders in ([homogenized, one, two], [one, homogenized, two]):
+            found = read_results(folders)
+            self.assertEqual([s.name for s in found.subjects], ["stripes (strainV1)", "stripes (strainV2)"])
+            block = claims_side_by_side(found, found.subjects)[0]
+            self.assertEqual([(row["claim"], [entry["verdict"] for entry in row["entries"]]) for row in block["rows"]],
+                             [("…: slope 2", ["PASS", "FAIL"])])
 
     def test_folder_of_verify_stands_for_its_parts(self):
         strain = self.write("verify", "strain")
@@ -66,8 +95,23 @@ class ComparisonTest(PageTest):
         self.assertEqual(versions.with_parts([top]), [top, strain])
         self.assertEqual(versions.with_parts([top, strain]), [top, strain])
         self.assertEqual(len(read_results([top]).strain), len(read_results([strain]).strain))
+        self.assertFalse([m for m in read_results([top]).missing if m["what"].startswith("verdicts")])
         another = self.write("again", "strain")
         self.assertEqual([s.name for s in read_results([top, another]).subjects], ["stripes (verify)", "stripes (strain)"])
+
+    def test_parts_of_a_verify_need_no_claims_of_their_own(self):
+        cell = os.path.join(os.path.dirname(self.write("verify", "strain")), "cells", "layered")
+        os.makedirs(os.path.dirname(cell))
+        os.rename(os.path.join(self.write("other"), "stripes"), cell)
+        top = os.path.join(self.place, "verify")
+        with open(os.path.join(top, "verdicts.json"), "w", encoding="utf-8") as file:
+            json.dump({"verdicts": []}, file)
+
+        def lost(*folders):
+            return [m["why"] for m in read_results(list(folders)).missing if m["what"].startswith("verdicts")]
+        self.assertEqual(lost(top), [])
+        self.assertEqual(lost(cell, top), [])
+        self.assertEqual(lost(cell), [f"{os.path.join(cell, 'verdicts.json')} does not exist"])
 
     def test_claims_are_matched_without_the_name_of_their_cell(self):
         self.assertEqual(key_of("layered, strip-1: slope", "layered"), "CELL, strip-1: slope")

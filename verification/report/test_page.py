@@ -93,6 +93,7 @@ class WholePageTest(PageTest):
                 self.assertEqual(len(row), len(header), path)
                 self.assertNotIn("nan", row, path)
                 self.assertNotIn("inf", row, path)
+            self.assertEqual(page_checks.nameless_numbers(path), [], path)
 
     def test_error_that_is_round_off_is_zero_in_the_csv_file(self):
         with open(os.path.join(self.made_in, "figures", "stripes-error-strain.csv"), encoding="utf-8", newline="") as file:
@@ -198,6 +199,13 @@ class PlotDataTest(unittest.TestCase):
         rows = plot_data.rows_of(figure)
         self.assertEqual([row[1] for row in rows], ["a", "grey", "grey", "time"])
         self.assertEqual(rows[-1][4], 10.)  # where the bar ends, not how long it is
+
+    def test_a_line_that_is_drawn_as_steps_is_refused(self):
+        figure, axes = pyplot.subplots()
+        self.addCleanup(pyplot.close, figure)
+        axes.step([1., 2.], [2., 1.], where="post", label="front")
+        with self.assertRaisesRegex(ValueError, "curve `front` is drawn with `steps-post`, expected `default`"):
+            plot_data.panels_of(figure)
 
     def test_a_figure_with_words_at_its_axis_stays_a_picture(self):
         figure, axes = pyplot.subplots()

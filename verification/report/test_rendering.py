@@ -7,7 +7,7 @@ import numpy
 
 import vtu
 from made_up_study import square_mesh
-from rendering import Camera, axes_of, best_axes, bounds, camera_around, render
+from rendering import Camera, axes_of, best_axes, bounds, camera_around, coloured, render, visible
 
 
 class RenderingTest(unittest.TestCase):
@@ -42,6 +42,18 @@ class RenderingTest(unittest.TestCase):
         whole = self.picture(points, triangles, colours)
         with mock.patch("rendering.CANDIDATES", 700):
             numpy.testing.assert_array_equal(self.picture(points, triangles, colours), whole)
+
+    def test_two_colourings_of_what_is_seen_are_those_of_two_pictures(self):
+        flat, triangles, _ = square_mesh(5, 1.)
+        cloth = vtu.Surface(numpy.column_stack([flat, flat[:, 0] ** 2]), triangles)
+        body = vtu.Surface(numpy.array(self.triangle(0.2)), numpy.array([[0, 1, 2]]))
+        seen = visible(cloth, self.camera, 100, body)
+        random = numpy.random.default_rng(1)
+        for colours, options in ((random.random((len(triangles), 3)), {"edge": 0.9}),
+                                 (random.random((len(flat), 3)), {"per_vertex": True, "contrast": 0.3})):
+            image = coloured(seen, colours, **options)
+            numpy.testing.assert_array_equal(image, render(cloth, self.camera, 100, colours, bodies=body, **options))
+            self.assertLess(numpy.ptp(image[90:, :10], axis=(0, 1)).max(), 1e-12)  # the grey body in front
 
     def test_the_nearer_of_two_triangles_is_seen_whatever_their_order(self):
         points = self.triangle(0.) + self.triangle(0.2, 0.5)

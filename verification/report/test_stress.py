@@ -1,12 +1,14 @@
 # SPDX-License-Identifier: MIT
 """Tests of the page of `homespun stress`."""
+import csv
 import math
 import os
 import unittest
 
 from matplotlib import pyplot
 
-from figures_stress import margin, margin_figure
+import page_checks
+from figures_stress import margin, margin_figure, margin_table
 from made_up_study import write_stress
 from page_case import PageTest
 
@@ -34,6 +36,9 @@ class StressPageTest(PageTest):
         for name in ("stress-margins", "stress-solver-iterations", "stress-solver-seconds"):
             self.assertIn(f'id="{name}"', page)
             self.assertTrue(os.path.isfile(os.path.join(self.output, "figures", name + ".pdf")))
+            self.assertEqual(page_checks.nameless_numbers(os.path.join(self.output, "figures", name + ".csv")), [])
+        with open(os.path.join(self.output, "figures", "stress-margins.csv"), encoding="utf-8", newline="") as file:
+            self.assertEqual([row["case"] for row in csv.DictReader(file)][:2], ["contrast 1e12", "sliver, 1e-6"])
         self.assertIn("conjugate gradients did not reach 1e-11", page)
         self.assertIn("−0.990", page)
 
@@ -73,6 +78,14 @@ class MarginTest(unittest.TestCase):
         self.assertEqual(counts, ["3/4, 1 refused"])
         crosses = [line for line in figure.axes[0].lines if line.get_marker() == "X"]
         self.assertEqual([list(line.get_xdata()) for line in crosses if len(line.get_xdata())], [[2.]])
+
+    def test_the_file_of_margins_names_each_case_and_holds_its_own_numbers(self):
+        rows = [self.row("0", "1e-10 [-]", case="zero"), self.row("", "names `x`", case="refused"), self.row("2e-10", "1e-10 [-]", "FAIL")]
+        header, table = margin_table(rows)
+        self.assertEqual([dict(zip(header, row)) for row in table], [
+            {"group": "cell contrast", "case": "zero", "verdict": "PASS", "figure": "0", "limit": "1e-10 [-]", "figure_over_limit": 0.},
+            {"group": "cell contrast", "case": "refused", "verdict": "PASS", "figure": "", "limit": "names `x`", "figure_over_limit": ""},
+            {"group": "cell contrast", "case": "a case", "verdict": "FAIL", "figure": "2e-10", "limit": "1e-10 [-]", "figure_over_limit": 2.}])
 
     def test_nothing_but_refusals_makes_no_picture(self):
         self.assertIsNone(margin_figure([self.row("", "names `x`")]))

@@ -2,7 +2,8 @@
 """Several result folders as one: parts of one `homespun verify` belong together, a cell studied twice is two versions.
 
 A folder of `verify` stands for its parts. Of a cell that was only homogenized in one folder and strained in another the
-two are one; where both folders hold the same kind of result they are versions, each named after its folder.
+two are one, named after the strained one; where both folders hold the same kind of result they are versions, each named
+after its folder: the C^H of one study must not stand beside the errors of another.
 """
 import dataclasses
 import os
@@ -16,17 +17,43 @@ class Subject:
     """One column of a comparison: a cell in one version."""
     name: str   # as the page calls it
     cell: str   # as its results call it
-    place: str  # folder of the version
+    place: str  # folder of the version, after which it is named
     strained: bool = False
+    homogenized: bool = False
+    places: set = dataclasses.field(default_factory=set)  # of all that joined
+
+    def __post_init__(self):
+        self.places.add(self.place)
+
+    def join(self, place, strained, homogenized):
+        """Takes in what a folder knows of this cell; errors are what a version is about, so that theirs names it."""
+        if strained and not self.strained:
+            self.place = place
+        self.strained |= strained
+        self.homogenized |= homogenized
+        self.places.add(place)
+
+    def completes(self, strained, homogenized):
+        """Whether one was strained, the other was not, and no more than one of them has a C^H."""
+        return self.strained != strained and not (self.homogenized and homogenized)
 
 
 def holds_results(folder):
     return any(os.path.isfile(os.path.join(folder, name)) for name in RESULTS)
 
 
+def lists_all(folder):
+    """Whether a folder is that of a `verify`: the claims of every part, and no result of its own."""
+    return os.path.isfile(os.path.join(folder, "verdicts.json")) and not holds_results(folder)
+
+
+def is_inside(folder, other):
+    return os.path.realpath(folder).startswith(os.path.realpath(other) + os.sep)
+
+
 def parts_of(folder):
     """Folders with results inside that of a `verify`, two levels deep (cells/NAME lies there), in their order."""
-    if not os.path.isfile(os.path.join(folder, "verdicts.json")) or holds_results(folder):
+    if not lists_all(folder):
         return []
     found = []
     for name in sorted(os.listdir(folder)):
@@ -55,9 +82,8 @@ def with_parts(folders):
 
 def place_of(folder, folders):
     """The folder of `verify` that holds a folder, or the folder itself."""
-    path = os.path.realpath(folder)
-    holding = [other for other in folders if path.startswith(os.path.realpath(other) + os.sep)]
-    return os.path.realpath(min(holding, key=len)) if holding else path
+    holding = [other for other in folders if is_inside(folder, other)]
+    return os.path.realpath(min(holding, key=len) if holding else folder)
 
 
 def tags(places):
@@ -95,12 +121,14 @@ def merged(parts, folders, make_results, make_cell):
         strained = {row["cell"] for row in part.strain}
         place = place_of(folder, folders)
         for name in dict.fromkeys(list(part.cells) + [row["cell"] for row in part.strain]):
-            subject = next((s for s in subjects if s.cell == name and (s.place == place or (
-                s.strained != (name in strained) and not within(s.place, place, roots)))), None)
+            known = name in strained, name in part.cells and part.cells[name].homogenize is not None
+            same = [s for s in subjects if s.cell == name]
+            subject = next((s for s in same if place in s.places), None) or next(
+                (s for s in same if s.completes(*known) and not within(s.place, place, roots)), None)
             if subject is None:
-                subject = Subject(name, name, place, name in strained)
+                subject = Subject(name, name, place)
                 subjects.append(subject)
-            subject.strained |= name in strained
+            subject.join(place, *known)
             owner[folder, name] = subject
     for name in {s.cell for s in subjects}:
         same = [s for s in subjects if s.cell == name]
