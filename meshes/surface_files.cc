@@ -25,29 +25,40 @@ void append_bytes(std::string &bytes, const Number *const numbers, const std::si
   bytes.append(reinterpret_cast<const char *>(numbers), n * sizeof(Number));
 }
 
-void check(const std::string &file, const FloatPoints &positions, const Triangles &triangles,
-           const std::vector<VertexData> &data)
+[[noreturn]] void refuse(const std::string &file, const std::string &why)
 {
-  const auto refuse = [&](const std::string &why)
-  { throw BadInput(file + ": not written: " + why); };
-  const Eigen::Index n = positions.rows();
-  for (Eigen::Index v = 0; v < n; ++v)
-    if (!positions.row(v).allFinite())
-      refuse("vertex " + std::to_string(v) + " has a position that is not finite");
-  if (triangles.size() > 0 && (triangles.minCoeff() < 0 || triangles.maxCoeff() >= n))
-    refuse("a triangle names vertex " +
-           std::to_string(triangles.minCoeff() < 0 ? triangles.minCoeff() : triangles.maxCoeff()) +
-           "; expected 0 to " + std::to_string(n - 1));
+  throw BadInput(file + ": not written: " + why);
+}
+
+/// @param item what each of the n rows belongs to
+void check_values(const std::string &file, const std::vector<VertexData> &data,
+                  const Eigen::Index n, const std::string &item)
+{
   for (const VertexData &array : data)
   {
     if (array.values.rows() != n || (array.values.cols() != 1 && array.values.cols() != 3))
-      refuse("`" + array.name + "` has shape (" + std::to_string(array.values.rows()) + ", " +
-             std::to_string(array.values.cols()) + "); expected (" + std::to_string(n) +
-             ", 1) or (" + std::to_string(n) + ", 3)");
-    for (Eigen::Index v = 0; v < n; ++v)
-      if (!array.values.row(v).allFinite())
-        refuse("`" + array.name + "` is not finite at vertex " + std::to_string(v));
+      refuse(file, "`" + array.name + "` has shape (" + std::to_string(array.values.rows()) + ", " +
+                     std::to_string(array.values.cols()) + "); expected (" + std::to_string(n) +
+                     ", 1) or (" + std::to_string(n) + ", 3)");
+    for (Eigen::Index k = 0; k < n; ++k)
+      if (!array.values.row(k).allFinite())
+        refuse(file, "`" + array.name + "` is not finite at " + item + " " + std::to_string(k));
   }
+}
+
+void check(const std::string &file, const FloatPoints &positions, const Triangles &triangles,
+           const std::vector<VertexData> &data)
+{
+  const Eigen::Index n = positions.rows();
+  for (Eigen::Index v = 0; v < n; ++v)
+    if (!positions.row(v).allFinite())
+      refuse(file, "vertex " + std::to_string(v) + " has a position that is not finite");
+  if (triangles.size() > 0 && (triangles.minCoeff() < 0 || triangles.maxCoeff() >= n))
+    refuse(file, "a triangle names vertex " +
+                   std::to_string(triangles.minCoeff() < 0 ? triangles.minCoeff()
+                                                           : triangles.maxCoeff()) +
+                   "; expected 0 to " + std::to_string(n - 1));
+  check_values(file, data, n, "vertex");
 }
 
 std::string escaped(const std::string &text)
@@ -99,9 +110,10 @@ void write_ply(const std::string &file, const FloatPoints &positions, const Tria
 }
 
 void write_vtu(const std::string &file, const FloatPoints &positions, const Triangles &triangles,
-               const std::vector<VertexData> &data)
+               const std::vector<VertexData> &data, const std::vector<VertexData> &cell_data)
 {
   check(file, positions, triangles, data);
+  check_values(file, cell_data, triangles.rows(), "triangle");
   const auto n = static_cast<std::size_t>(positions.rows()),
              m = static_cast<std::size_t>(triangles.rows());
   // Appended raw: each array begins with its number of bytes, and stands at its offset after the `_`.
@@ -124,7 +136,11 @@ void write_vtu(const std::string &file, const FloatPoints &positions, const Tria
   for (const VertexData &array : data)
     put("Float32", array.name, array.values.cols(), array.values.data(),
         static_cast<std::size_t>(array.values.size()));
-  head += "</PointData>\n<Points>\n";
+  head += "</PointData>\n<CellData>\n";
+  for (const VertexData &array : cell_data)
+    put("Float32", array.name, array.values.cols(), array.values.data(),
+        static_cast<std::size_t>(array.values.size()));
+  head += "</CellData>\n<Points>\n";
   put("Float32", "positions [m]", 3, positions.data(), 3 * n);
   head += "</Points>\n<Cells>\n";
   put("Int32", "connectivity", 1, triangles.data(), 3 * m);

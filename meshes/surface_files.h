@@ -17,7 +17,7 @@ namespace homespun::meshes
 /// Points in space in single precision, one per row, shape (n,3) [m]: what up-sampling returns.
 using FloatPoints = Eigen::Matrix<float, Eigen::Dynamic, 3, Eigen::RowMajor>;
 
-/// Numbers on the vertices.
+/// Numbers on the vertices, or on the triangles.
 struct VertexData
 {
   std::string name; ///< with its unit, e.g. "strain_11 [-]"
@@ -32,9 +32,11 @@ void write_ply(const std::string &file, const FloatPoints &positions, const Tria
                const std::vector<VertexData> &scalars = {});
 
 /// Writes a VTK XML unstructured grid of triangles, appended raw binary, float.
+/// @param cell_data (m,1) or (m,3) on the triangles
 /// @throws BadInput as write_ply()
 void write_vtu(const std::string &file, const FloatPoints &positions, const Triangles &triangles,
-               const std::vector<VertexData> &data = {});
+               const std::vector<VertexData> &data      = {},
+               const std::vector<VertexData> &cell_data = {});
 
 /// A .pvd file: which .vtu shows which time. It is written whole after each frame, so that a run that
 /// was killed leaves a collection of all frames before.

@@ -131,6 +131,9 @@ void add_homogenize_command(CLI::App &app, Action &action)
       "stops before")
     ->check(CLI::Range(100u, 20000000u))
     ->capture_default_str();
+  command->add_flag(
+    "!--no-bars", arguments->study.bars,
+    "Neither bracket nor the finer solve of the error bar: the cell problems alone, for large meshes");
   command->add_option("--output", arguments->study.output,
                       "Folder of the results (default out/NAME)");
   command->add_flag("--quiet", arguments->study.quiet, "Print nothing but faults");

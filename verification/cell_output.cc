@@ -1,17 +1,16 @@
 // SPDX-License-Identifier: MIT
 #include "verification/cell_output.h"
 
-#include "homogenization/discretization.h"
 #include "meshes/cell_file.h"
+#include "meshes/surface_files.h"
 #include "verification/energy_order.h"
 #include "verification/printed_digits.h"
 #include "verification/provenance.h"
 #include "verification/result_files.h"
 
-#include <deal.II/numerics/data_out.h>
-
 #include <Eigen/LU>
 
+#include <array>
 #include <cstdio>
 #include <sstream>
 
@@ -195,31 +194,18 @@ ordered_json history_json(const std::vector<BracketStep> &history)
 /// chi as three vector fields, for ParaView.
 void write_vtu(const UnitCell &cell, const Homogenization &result, const std::string &path)
 {
-  const homogenization::Discretization linear(cell.mesh, 1, MPI_COMM_SELF);
-  const auto dofs = linear.vertex_dofs();
-  std::array<dealii::Vector<double>, 3> chi;
-  dealii::DataOut<2> output;
-  output.attach_dof_handler(linear.dof_handler);
-  const std::array<const char *, 3> names = {"chi_11", "chi_22", "chi_12"};
-  for (int a = 0; a < 3; ++a)
+  const auto in_space = [](const auto &columns)
   {
-    chi[a].reinit(linear.dof_handler.n_dofs());
-    for (int v = 0; v < cell.mesh.n_vertices(); ++v)
-      for (int c = 0; c < 2; ++c)
-        chi[a](dofs(v, c)) = result.chi(v, 2 * a + c);
-    output.add_data_vector(chi[a], std::vector<std::string>(2, names[a]),
-                           dealii::DataOut<2>::type_dof_data,
-                           {2, dealii::DataComponentInterpretation::component_is_part_of_vector});
-  }
-  dealii::Vector<float> material(static_cast<unsigned int>(cell.mesh.n_triangles()));
-  for (const auto &dealii_cell : linear.dof_handler.active_cell_iterators())
-    material(dealii_cell->active_cell_index()) = static_cast<float>(
-      cell.mesh.material(homogenization::Discretization::triangle_of(dealii_cell)));
-  output.add_data_vector(material, "material");
-  output.build_patches(linear.element.reference_cell().template get_default_linear_mapping<2>());
-  std::ostringstream text;
-  output.write_vtu(text);
-  write_whole(path, text.str());
+    meshes::FloatPoints points = meshes::FloatPoints::Zero(columns.rows(), 3);
+    points.leftCols<2>()       = columns.template cast<float>();
+    return points;
+  };
+  std::vector<meshes::VertexData> data;
+  const std::array<const char *, 3> names = {"chi_11 [m]", "chi_22 [m]", "chi_12 [m]"};
+  for (int a = 0; a < 3; ++a)
+    data.push_back({names[static_cast<std::size_t>(a)], in_space(result.chi.middleCols<2>(2 * a))});
+  meshes::write_vtu(path, in_space(cell.mesh.vertices), cell.mesh.triangles, data,
+                    {{"material", cell.mesh.material.cast<float>()}});
 }
 
 ordered_json cell_json(const UnitCell &cell)
@@ -283,6 +269,7 @@ ordered_json homogenize_json(const UnitCell &cell, const AssessedCell &assessed,
       {"preconditioner", result.seconds.preconditioner},
       {"solve", result.seconds.solve},
       {"evaluation", result.seconds.evaluation}}},
+    {"peak_memory_of_rank", assessed.peak_memory_of_rank}, // bytes
     {"checks", checks},
     // Compared with coordinates at run time; a gap beyond the tolerance would have ended the run.
     {"constraint_audit",
@@ -360,7 +347,7 @@ std::string summary(const UnitCell &cell, const AssessedCell &assessed)
   text << "C^H [N/m], Voigt 11, 22, 12 with engineering shear";
   text << (is_bracketed           ? ", +- guaranteed by the bracket:\n"
            : assessed.uncertainty ? ", +- distance to P2 on the refined mesh:\n"
-                                  : " (no error bar: the finer mesh would be too large):\n");
+                                  : " (no error bar: left out, or its mesh too large):\n");
   const auto bars = bars_of_stiffness(assessed);
   // No more digits than round-off leaves.
   constexpr double digits_of_solvers = 1e-9;

@@ -26,6 +26,8 @@ struct AssessedCell
   /// Nothing where nobody asked for it. After adaptivity `result` holds the C^H, chi, DoFs and iterations of the
   /// last mesh.
   std::optional<CellBracket> bracket;
+  /// Largest resident memory of each rank since the program began [bytes]; on the first rank alone.
+  std::vector<double> peak_memory_of_rank;
 };
 
 /// Homogenizes a cell and judges the result: Hill-Mandel gap, Voigt and Reuss as matrix

@@ -4,6 +4,8 @@
 #include "verification/on_root.h"
 #include "verification/progress.h"
 
+#include <deal.II/base/utilities.h>
+
 #include <filesystem>
 
 namespace homespun::verification
@@ -20,10 +22,15 @@ AssessedCell run_cell_study(const homogenization::UnitCell &cell, const CellStud
   on_root(communicator, [&]() { std::filesystem::create_directories(options.output); });
   AssessedCell assessed = [&]()
   {
-    Progress progress(is_root(communicator) && !options.quiet, 2);
-    progress.begin(cell.name + ": three cell problems, and once more refined for the error bar");
-    AssessedCell its = assess(cell, options.solve, largest_error_bar, communicator);
+    Progress progress(is_root(communicator) && !options.quiet, options.bars ? 2 : 1);
+    progress.begin(cell.name + (options.bars
+                                  ? ": three cell problems, and once more refined for the error bar"
+                                  : ": three cell problems"));
+    AssessedCell its =
+      assess(cell, options.solve, options.bars ? largest_error_bar : 0, communicator);
     progress.done();
+    if (!options.bars)
+      return its;
     progress.begin(cell.name + ": bracket on C^H");
     BracketOptions bracket = options.bracket;
     bracket.order          = options.solve.order;
@@ -40,6 +47,10 @@ AssessedCell run_cell_study(const homogenization::UnitCell &cell, const CellStud
     return its;
   }();
   share_failure(assessed.checks, communicator);
+  dealii::Utilities::System::MemoryStats memory;
+  dealii::Utilities::System::get_memory_stats(memory);
+  assessed.peak_memory_of_rank =
+    dealii::Utilities::MPI::gather(communicator, 1024. * static_cast<double>(memory.VmHWM));
   on_root(communicator,
           [&]()
           {

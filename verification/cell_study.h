@@ -15,6 +15,7 @@ struct CellStudyOptions
 {
   homogenization::HomogenizationOptions solve;
   BracketOptions bracket; ///< its order and refinement are those of `solve`
+  bool bars = true; ///< false: the cell problems alone, with neither bracket nor a finer solve
   std::string output;
   bool quiet = false;
 };

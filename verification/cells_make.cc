@@ -5,6 +5,7 @@
 #include "homogenization/unit_cell.h"
 #include "meshes/errors.h"
 #include "meshes/write_whole.h"
+#include "verification/child_process.h"
 #include "verification/commands.h"
 
 #include <cmath>
@@ -16,9 +17,6 @@
 #include <set>
 #include <sstream>
 
-#include <fcntl.h>
-#include <spawn.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
 namespace homespun::verification
@@ -174,38 +172,12 @@ public:
 void run_gmsh(const std::string &folder, const std::string &name)
 {
   const std::string geo = folder + "/" + name + ".geo", msh = folder + "/" + name + ".msh",
-                    log          = folder + "/gmsh.log";
-  std::vector<std::string> words = {"gmsh", "-2", "-format", "msh41", geo, "-o", msh};
-  std::vector<char *> arguments;
-  for (std::string &word : words)
-    arguments.push_back(word.data());
-  arguments.push_back(nullptr);
-
-  // MPI leaves its variables behind, and a Gmsh with MPI would take itself for one of our ranks.
-  std::vector<char *> environment;
-  for (char **variable = environ; *variable; ++variable)
-  {
-    const std::string text = *variable;
-    if (text.rfind("OMPI_", 0) != 0 && text.rfind("PMIX_", 0) != 0 && text.rfind("PRTE_", 0) != 0)
-      environment.push_back(*variable);
-  }
-  environment.push_back(nullptr);
-
-  posix_spawn_file_actions_t actions;
-  posix_spawn_file_actions_init(&actions);
-  posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
-  posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, log.c_str(),
-                                   O_WRONLY | O_CREAT | O_TRUNC, 0644);
-  posix_spawn_file_actions_adddup2(&actions, STDOUT_FILENO, STDERR_FILENO);
-  pid_t child = 0;
-  const int spawned =
-    posix_spawnp(&child, "gmsh", &actions, nullptr, arguments.data(), environment.data());
-  posix_spawn_file_actions_destroy(&actions);
-  if (spawned != 0)
+                    log = folder + "/gmsh.log";
+  const int status      = run_child({"gmsh", "-2", "-format", "msh41", geo, "-o", msh}, log);
+  if (status == -1 || status == 127)
     throw meshes::BadInput("gmsh: cannot be run; expected Gmsh, which makes the mesh: install the "
                            "package gmsh (apt install gmsh)");
-  int status = 0;
-  if (waitpid(child, &status, 0) != child || !WIFEXITED(status) || WEXITSTATUS(status) != 0)
+  if (status != 0)
   {
     std::string said;
     std::ifstream input(log);

@@ -178,6 +178,7 @@ int check(const CheckArguments &arguments, Afterwards &afterwards)
       if (run_report_script("check_pictures.py", {folder}) != 0)
         throw meshes::BadInput("the pictures could not be drawn, see above; the findings are in " +
                                folder + "/check.json");
+      return 0;
     };
     std::cout << "Written to " << arguments.output << ": check.json, a picture of each cell\n";
   }

@@ -10,6 +10,7 @@
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
 
+#include <algorithm>
 #include <filesystem>
 #include <iostream>
 
@@ -80,6 +81,7 @@ int run(int argc, char **argv, homespun::verification::Afterwards &afterwards)
   add_verify_command(app, action, afterwards, command_line);
   add_report_command(app, action, afterwards);
   add_cells_command(app, action);
+  add_scaling_command(app, action, afterwards, command_line);
   try
   {
     app.parse(argc, argv);
@@ -99,13 +101,5 @@ int main(int argc, char **argv)
 {
   homespun::verification::Afterwards afterwards;
   const int status = run(argc, argv, afterwards);
-  if (!afterwards)
-    return status;
-  return guarded(
-    [&]()
-    {
-      afterwards();
-      return status;
-    },
-    true);
+  return afterwards ? guarded([&]() { return std::max(status, afterwards()); }, true) : status;
 }

@@ -2,6 +2,7 @@
 // homespun report: the pages of stored results, made by Debian's Python.
 #include "meshes/errors.h"
 #include "verification/build_info.h"
+#include "verification/child_process.h"
 #include "verification/commands.h"
 #include "verification/data_folder.h"
 #include "verification/on_root.h"
@@ -12,14 +13,8 @@
 #include <CLI/Option.hpp>
 
 #include <cstdio>
-#include <cstring>
 #include <filesystem>
 #include <memory>
-
-#include <sched.h>
-#include <spawn.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 namespace homespun::verification
 {
@@ -29,25 +24,13 @@ int run_report_script(const std::string &name, const std::vector<std::string> &a
   // -B: no __pycache__ in a folder that a package manager keeps.
   std::vector<std::string> words = {HOMESPUN_PYTHON, "-B", script};
   words.insert(words.end(), arguments.begin(), arguments.end());
-  std::vector<char *> pointers;
-  for (std::string &word : words)
-    pointers.push_back(word.data());
-  pointers.push_back(nullptr);
-
-  // mpirun binds a rank to one core, and a child inherits that.
-  cpu_set_t all_cores;
-  std::memset(&all_cores, 0xff, sizeof(all_cores));
-  sched_setaffinity(0, sizeof(all_cores), &all_cores);
-
-  pid_t child = 0;
-  int status  = 0;
-  if (posix_spawn(&child, HOMESPUN_PYTHON, nullptr, nullptr, pointers.data(), environ) != 0 ||
-      waitpid(child, &status, 0) != child || !WIFEXITED(status))
+  const int status = run_child(words);
+  if (status < 0)
     throw meshes::BadInput(
       std::string(HOMESPUN_PYTHON) + " " + script +
       ": cannot be run; expected Debian's Python with numpy, h5py, matplotlib and "
       "jinja2: ./bootstrap installs them");
-  return WEXITSTATUS(status);
+  return status;
 }
 
 void make_report(const std::vector<std::string> &folders, const std::string &output,
@@ -91,6 +74,7 @@ void add_report_command(CLI::App &app, Action &action, Afterwards &afterwards)
             make_report(arguments->folders,
                         arguments->output.empty() ? arguments->folders[0] : arguments->output,
                         arguments->quiet);
+            return 0;
           };
         return 0;
       };

@@ -43,7 +43,11 @@ int StudyEnd::conclude(const std::vector<Verdict> &verdicts, const std::string &
     if (!quiet)
       print(verdicts);
     if (!no_report)
-      afterwards = [output, quiet]() { make_report({output}, output, quiet); };
+      afterwards = [output, quiet]()
+      {
+        make_report({output}, output, quiet);
+        return 0;
+      };
   }
   return any_failed(verdicts) ? 1 : 0;
 }

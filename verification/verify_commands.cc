@@ -56,7 +56,10 @@ int run_verify(VerifyArguments arguments, Afterwards &afterwards)
       std::vector<std::string> folders = {options.output};
       folders.insert(folders.end(), result.folders.begin(), result.folders.end());
       afterwards = [folders, output = options.output, quiet = options.quiet]()
-      { make_report(folders, output, quiet); };
+      {
+        make_report(folders, output, quiet);
+        return 0;
+      };
     }
   }
   return any_failed(result.verdicts) ? 1 : 0;

@@ -9,6 +9,7 @@ import tempfile
 import unittest
 
 PROGRAM = os.environ["HOMESPUN"]
+PATIENCE = int(os.environ.get("PATIENCE", "1"))  # more where all assertions are on
 MPIEXEC = os.environ.get("MPIEXEC", "mpiexec")
 CELLS = pathlib.Path(__file__).resolve().parents[2] / "meshes" / "cells"
 
@@ -18,7 +19,7 @@ def run(*arguments, ranks=1, **options):
     command = [PROGRAM, *map(str, arguments)]
     if ranks > 1:
         command = [MPIEXEC, "--oversubscribe", "-n", str(ranks), *command]
-    return subprocess.run(command, capture_output=True, text=True, timeout=240, check=False, **options)
+    return subprocess.run(command, capture_output=True, text=True, timeout=240 * PATIENCE, check=False, **options)
 
 
 def rows_of(path):

@@ -75,7 +75,7 @@ class Homogenize(InFolder):
         self.assertAlmostEqual(found["C"][2][2], 500 * 0.699300699, delta=1e-6)
         self.assertEqual({check["verdict"] for check in found["checks"]}, {"PASS"})
         self.assertTrue((self.folder / "cell.h5").exists())
-        self.assertIn("chi_12", (self.folder / "characteristic-displacements.vtu").read_text())
+        self.assertIn(b"chi_12", (self.folder / "characteristic-displacements.vtu").read_bytes())
 
     def test_the_bracket_of_a_laminate_closes_and_holds_its_exact_stiffness(self):
         result = run("homogenize", CELLS / "layered.prm", "--order", "1", "--output", self.folder)

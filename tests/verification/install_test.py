@@ -5,7 +5,7 @@ import os
 import re
 import subprocess
 
-from cli import InFolder
+from cli import PATIENCE, InFolder
 
 
 class Install(InFolder):
@@ -17,7 +17,7 @@ class Install(InFolder):
 
     def run_installed(self, *arguments):
         return subprocess.run([self.prefix / "bin" / "homespun", *map(str, arguments)], cwd=self.folder,
-                              capture_output=True, text=True, timeout=240, check=False)
+                              capture_output=True, text=True, timeout=240 * PATIENCE, check=False)
 
     def test_everything_is_there(self):
         share = self.prefix / "share"

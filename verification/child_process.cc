@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: MIT
+#include "verification/child_process.h"
+
+#include <algorithm>
+#include <cstdlib>
+#include <cstring>
+#include <fstream>
+
+#include <fcntl.h>
+#include <sched.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+namespace homespun::verification
+{
+namespace
+{
+/// The variables that this program was begun with. MPI adds its own to those of a running program.
+std::vector<std::string> initial_environment()
+{
+  std::ifstream input("/proc/self/environ");
+  std::vector<std::string> variables;
+  for (std::string variable; std::getline(input, variable, '\0');)
+    variables.push_back(variable);
+  return variables;
+}
+
+/// What mpirun gives a rank; what a user gives to allow root stays.
+bool is_of_mpi(const std::string &variable)
+{
+  const auto begins_with = [&](const char *start) { return variable.rfind(start, 0) == 0; };
+  return (begins_with("OMPI_") && !begins_with("OMPI_ALLOW_")) || begins_with("PMIX_") ||
+         begins_with("PRTE_");
+}
+
+std::vector<char *> pointers_to(std::vector<std::string> &texts)
+{
+  std::vector<char *> pointers;
+  for (std::string &text : texts)
+    pointers.push_back(text.data());
+  pointers.push_back(nullptr);
+  return pointers;
+}
+} // namespace
+
+int run_child(const std::vector<std::string> &words, const std::string &log)
+{
+  std::vector<std::string> arguments = words, environment = initial_environment();
+  const bool is_rank = std::getenv("OMPI_COMM_WORLD_SIZE") != nullptr;
+  if (is_rank)
+    environment.erase(std::remove_if(environment.begin(), environment.end(), is_of_mpi),
+                      environment.end());
+
+  cpu_set_t all_cores;
+  std::memset(&all_cores, 0xff, sizeof(all_cores));
+  sched_setaffinity(0, sizeof(all_cores), &all_cores);
+
+  posix_spawn_file_actions_t actions;
+  posix_spawn_file_actions_init(&actions);
+  if (!log.empty())
+  {
+    posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
+    posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, log.c_str(),
+                                     O_WRONLY | O_CREAT | O_TRUNC, 0644);
+    posix_spawn_file_actions_adddup2(&actions, STDOUT_FILENO, STDERR_FILENO);
+  }
+  pid_t child       = 0;
+  int status        = 0;
+  const int spawned = posix_spawnp(&child, arguments[0].c_str(), &actions, nullptr,
+                                   pointers_to(arguments).data(), pointers_to(environment).data());
+  posix_spawn_file_actions_destroy(&actions);
+  return spawned == 0 && waitpid(child, &status, 0) == child && WIFEXITED(status)
+           ? WEXITSTATUS(status)
+           : -1;
+}
+} // namespace homespun::verification

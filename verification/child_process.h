@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: MIT
+// Other programs that homespun runs: Python for the report, Gmsh for cells, mpirun for its own ranks.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace homespun::verification
+{
+/// Runs a program, found by its name as a shell would, without a shell, on all cores (mpirun binds a rank to one, and a child
+/// inherits that), and without the variables that MPI gives a rank, by which a program with MPI would take itself for one of
+/// ours.
+/// @param log receives what it prints; empty: it prints where homespun prints
+/// @return its exit status; -1 where it could not be run or was killed
+int run_child(const std::vector<std::string> &words, const std::string &log = "");
+} // namespace homespun::verification

@@ -1,0 +1,339 @@
+// SPDX-License-Identifier: MIT
+#include "verification/scaling_study.h"
+
+#include "homogenization/unit_cell.h"
+#include "meshes/errors.h"
+#include "verification/child_process.h"
+#include "verification/progress.h"
+#include "verification/provenance.h"
+#include "verification/result_files.h"
+#include "verification/study_inputs.h"
+
+#include <Eigen/QR>
+
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <limits>
+#include <map>
+#include <sstream>
+#include <thread>
+
+namespace homespun::verification
+{
+namespace
+{
+const std::vector<std::string> columns = {"refine",
+                                          "ranks",
+                                          "repeat",
+                                          "dofs",
+                                          "iterations",
+                                          "seconds_setup",
+                                          "seconds_assembly",
+                                          "seconds_preconditioner",
+                                          "seconds_solve",
+                                          "bytes_largest_rank",
+                                          "bytes_all_ranks",
+                                          "C_11",
+                                          "C_12",
+                                          "C_13",
+                                          "C_22",
+                                          "C_23",
+                                          "C_33"};
+
+/// With all digits: ranks must agree to 1e-10.
+std::string exactly(const double value)
+{
+  char text[40];
+  std::snprintf(text, sizeof(text), "%.17g", value);
+  return text;
+}
+
+std::vector<std::string> row_of(const ScalingRun &run)
+{
+  std::vector<std::string> row = {std::to_string(run.refine), std::to_string(run.ranks),
+                                  std::to_string(run.repeat)};
+  for (const double value : {run.dofs, run.iterations, run.setup, run.assembly, run.preconditioner,
+                             run.solve, run.largest_rank, run.all_ranks})
+    row.push_back(exactly(value));
+  for (const double value : run.stiffness)
+    row.push_back(exactly(value));
+  return row;
+}
+
+ScalingRun run_of(const std::vector<std::string> &row)
+{
+  std::vector<double> value;
+  for (const std::string &field : row)
+    value.push_back(std::strtod(field.c_str(), nullptr));
+  ScalingRun run;
+  run.refine         = static_cast<int>(value[0]);
+  run.ranks          = static_cast<int>(value[1]);
+  run.repeat         = static_cast<int>(value[2]);
+  run.dofs           = value[3];
+  run.iterations     = value[4];
+  run.setup          = value[5];
+  run.assembly       = value[6];
+  run.preconditioner = value[7];
+  run.solve          = value[8];
+  run.largest_rank   = value[9];
+  run.all_ranks      = value[10];
+  run.stiffness.assign(value.begin() + 11, value.end());
+  return run;
+}
+
+/// What `homespun homogenize` wrote of itself.
+ScalingRun run_from(const std::string &file)
+{
+  std::ifstream input(file);
+  const nlohmann::json json = nlohmann::json::parse(input);
+  ScalingRun run;
+  run.dofs = json.at("dofs");
+  for (const double iterations : json.at("iterations"))
+    run.iterations += iterations / 3.;
+  const nlohmann::json &seconds = json.at("seconds");
+  run.setup                     = seconds.at("setup");
+  run.assembly                  = seconds.at("assembly");
+  run.preconditioner            = seconds.at("preconditioner");
+  run.solve                     = seconds.at("solve");
+  for (const double bytes : json.at("peak_memory_of_rank"))
+  {
+    run.largest_rank = std::max(run.largest_rank, bytes);
+    run.all_ranks += bytes;
+  }
+  for (std::size_t i = 0; i < 3; ++i)
+    for (std::size_t j = i; j < 3; ++j)
+      run.stiffness.push_back(json.at("C").at(i).at(j));
+  return run;
+}
+
+ScalingRun measure(const ScalingOptions &options, const int refine, const int ranks)
+{
+  const std::string folder = options.output + "/run", log = options.output + "/run.log";
+  std::filesystem::remove_all(folder);
+  std::vector<std::string> words;
+  std::istringstream launcher(options.launcher);
+  for (std::string word; launcher >> word;)
+  {
+    const std::size_t place = word.find("{ranks}");
+    words.push_back(place == std::string::npos ? word
+                                               : word.replace(place, 7, std::to_string(ranks)));
+  }
+  for (const std::string &word :
+       {std::filesystem::read_symlink("/proc/self/exe").string(), std::string("homogenize"),
+        options.cell_file, std::string("--order"), std::to_string(options.order),
+        std::string("--refine"), std::to_string(refine), std::string("--no-bars"),
+        std::string("--quiet"), std::string("--output"), folder})
+    words.push_back(word);
+  const int status = run_child(words, log);
+  if (status != 0 || !std::filesystem::exists(folder + "/homogenize.json"))
+  {
+    std::ifstream input(log);
+    std::ostringstream said;
+    said << input.rdbuf();
+    const std::string what = "refine " + std::to_string(refine) + " on " + std::to_string(ranks) +
+                             " ranks ended with status " + std::to_string(status) + ": " +
+                             said.str().substr(0, 2000);
+    if (status == 3)
+      throw meshes::NotConverged(what, {});
+    throw meshes::BadInput(what + "; expected a launcher that runs: mend --launcher, which is `" +
+                           options.launcher + "`");
+  }
+  const ScalingRun run = run_from(folder + "/homogenize.json");
+  std::filesystem::remove_all(folder);
+  std::filesystem::remove(log);
+  return run;
+}
+
+using Repeats = std::map<std::pair<int, int>, std::vector<ScalingRun>>; ///< by refine and ranks
+
+Repeats repeats_of(const std::vector<ScalingRun> &runs)
+{
+  Repeats repeats;
+  for (const ScalingRun &run : runs)
+    repeats[{run.refine, run.ranks}].push_back(run);
+  return repeats;
+}
+
+/// Of the run whose time is the median.
+ScalingRun median(std::vector<ScalingRun> runs)
+{
+  std::sort(runs.begin(), runs.end(),
+            [](const ScalingRun &one, const ScalingRun &two)
+            { return one.seconds() < two.seconds(); });
+  return runs[runs.size() / 2];
+}
+
+/// Nonnegative x, y with x a + y b = 1 in the least squares of all rows; the largest misfit.
+double fit(const Eigen::MatrixX2d &rows, double &x, double &y)
+{
+  Eigen::Vector2d solution = rows.colPivHouseholderQr().solve(Eigen::VectorXd::Ones(rows.rows()));
+  for (const int k : {0, 1})
+    if (!(solution(k) >= 0.))
+    {
+      solution(k)     = 0.;
+      solution(1 - k) = rows.col(1 - k).sum() / rows.col(1 - k).squaredNorm();
+    }
+  x = solution(0);
+  y = solution(1);
+  return (rows * solution - Eigen::VectorXd::Ones(rows.rows())).cwiseAbs().maxCoeff();
+}
+} // namespace
+
+ScalingModel model_of(const std::vector<ScalingRun> &runs, const int cores)
+{
+  const Repeats repeats = repeats_of(runs);
+  Eigen::MatrixX2d memory(0, 2), time(0, 2);
+  const auto append = [](Eigen::MatrixX2d &rows, const double first, const double second)
+  {
+    rows.conservativeResize(rows.rows() + 1, 2);
+    rows.bottomRows<1>() << first, second;
+  };
+  for (const auto &[key, its] : repeats)
+  {
+    const ScalingRun run = median(its);
+    const double of_rank = run.dofs / run.ranks;
+    append(memory, 1. / run.largest_rank, of_rank / run.largest_rank);
+    if (run.ranks <= cores)
+      append(time, run.dofs / run.seconds(), of_rank / run.seconds());
+  }
+  ScalingModel model;
+  model.memory_misfit = fit(memory, model.bytes_per_rank, model.bytes_per_dof);
+  // On one core alone nothing tells what is serial.
+  if (time.rows() > 1)
+    model.time_misfit = fit(time, model.serial_seconds_per_dof, model.seconds_per_dof);
+  return model;
+}
+
+std::vector<Verdict> verdicts_of(const std::vector<ScalingRun> &runs)
+{
+  std::vector<Verdict> verdicts;
+  const auto judge = [&](const std::string &claim, const double value, const double limit)
+  {
+    verdicts.push_back(
+      {claim, value <= limit ? Outcome::pass : Outcome::fail, value, "<= " + csv_number(limit)});
+  };
+  std::map<int, const ScalingRun *> first_of_mesh;
+  double difference = 0., least = std::numeric_limits<double>::infinity(), most = 0.;
+  for (const ScalingRun &run : runs)
+  {
+    const ScalingRun &first = *first_of_mesh.emplace(run.refine, &run).first->second;
+    double size             = 0.;
+    for (const double value : first.stiffness)
+      size = larger(size, std::abs(value));
+    for (std::size_t k = 0; k < first.stiffness.size(); ++k)
+      difference = larger(difference, std::abs(run.stiffness[k] - first.stiffness[k]) / size);
+    least = std::min(least, run.iterations);
+    most  = larger(most, run.iterations);
+  }
+  judge(
+    "C^H of a mesh is the same on all numbers of ranks (largest difference in parts of the largest entry)",
+    difference, 1e-10);
+  judge("Iterations stay the same on all meshes and ranks (most over fewest)", most / least, 2.);
+  // On the finest mesh, from each number of ranks to the next.
+  const Repeats repeats = repeats_of(runs);
+  double rise = 0., before = 0.;
+  for (auto entry = repeats.lower_bound({repeats.rbegin()->first.first, 0}); entry != repeats.end();
+       ++entry)
+  {
+    const double bytes = median(entry->second).largest_rank;
+    rise               = before > 0. ? larger(rise, bytes / before) : 0.;
+    before             = bytes;
+  }
+  if (rise > 0.)
+    judge(
+      "On the finest mesh the largest rank needs less memory on more ranks (ratio from one number to the next)",
+      rise, 1.);
+  return verdicts;
+}
+
+std::string table_of(const std::vector<ScalingRun> &runs)
+{
+  std::ostringstream text;
+  char line[200];
+  std::snprintf(line, sizeof(line), "%10s %6s %5s %9s %19s %9s %8s %12s %10s\n", "DoFs", "ranks",
+                "iter", "seconds", "(least to most)", "us/DoF", "speed-up", "MiB of a rank",
+                "bytes/DoF");
+  text << line;
+  const Repeats repeats = repeats_of(runs);
+  for (const auto &[key, its] : repeats)
+  {
+    const ScalingRun run = median(its);
+    double least = run.seconds(), most = run.seconds();
+    for (const ScalingRun &one : its)
+    {
+      least = std::min(least, one.seconds());
+      most  = std::max(most, one.seconds());
+    }
+    // Against the fewest ranks of the same mesh.
+    const ScalingRun first = median(repeats.lower_bound({key.first, 0})->second);
+    std::snprintf(line, sizeof(line),
+                  "%10.0f %6d %5.1f %9.3g (%7.3g to %7.3g) %9.3g %8.2f %12.0f %10.0f\n", run.dofs,
+                  run.ranks, run.iterations, run.seconds(), least, most,
+                  1e6 * run.seconds() / run.dofs, first.seconds() / run.seconds(),
+                  run.largest_rank / 1048576., run.all_ranks / run.dofs);
+    text << line;
+  }
+  return text.str();
+}
+
+ScalingResult run_scaling_study(const ScalingOptions &options)
+{
+  const homogenization::UnitCell cell = homogenization::read_unit_cell(options.cell_file);
+  std::filesystem::create_directories(options.output);
+  const nlohmann::ordered_json inputs = {
+    {"cell", fingerprint(cell)}, {"order", options.order}, {"launcher", options.launcher}};
+  check_inputs_file(options.output, inputs, options.resume, "scaling.csv",
+                    "cell, order or launcher");
+  ResultTable table(options.output + "/scaling.csv", columns, 3, options.resume);
+  const int n_runs =
+    static_cast<int>(options.refinements.size() * options.ranks.size()) * options.repeats;
+  {
+    Progress progress(!options.quiet, n_runs);
+    for (int repeat = 0; repeat < options.repeats; ++repeat)
+      for (const int refine : options.refinements)
+        for (const int ranks : options.ranks)
+        {
+          progress.begin(cell.name + ", refined " + std::to_string(refine) + " times, on " +
+                         std::to_string(ranks) + (ranks == 1 ? " rank" : " ranks"));
+          if (!table.contains(
+                {std::to_string(refine), std::to_string(ranks), std::to_string(repeat)}))
+          {
+            ScalingRun run = measure(options, refine, ranks);
+            run.refine     = refine;
+            run.ranks      = ranks;
+            run.repeat     = repeat;
+            table.append(row_of(run));
+          }
+          progress.done();
+        }
+  }
+  std::vector<ScalingRun> runs;
+  for (const std::vector<std::string> &row : table.rows())
+    runs.push_back(run_of(row));
+  const std::vector<Verdict> verdicts = verdicts_of(runs);
+  nlohmann::ordered_json json         = {{"cell", cell.name},
+                                         {"triangles_of_given_mesh", cell.mesh.n_triangles()},
+                                         {"order", options.order},
+                                         {"launcher", options.launcher},
+                                         {"model", nullptr}};
+  if (options.refinements.size() > 1 && options.ranks.size() > 1)
+  {
+    const int cores =
+      options.cores > 0 ? options.cores : static_cast<int>(std::thread::hardware_concurrency());
+    const ScalingModel model = model_of(runs, cores);
+    json["model"]            = {{"cores", cores},
+                                {"bytes_per_rank", model.bytes_per_rank},
+                                {"bytes_per_dof", model.bytes_per_dof},
+                                {"memory_misfit", model.memory_misfit},
+                                {"serial_seconds_per_dof", model.serial_seconds_per_dof},
+                                {"seconds_per_dof", model.seconds_per_dof},
+                                {"time_misfit", model.time_misfit}};
+  }
+  json["provenance"] = provenance(1);
+  write_whole(options.output + "/scaling.json", json_text(json));
+  write_whole(options.output + "/verdicts.json", json_text(to_json(verdicts, options.command)));
+  return {runs, verdicts};
+}
+} // namespace homespun::verification
