@@ -54,6 +54,9 @@ def datasets(path, shapes, faults):
                 if name not in file:
                     faults.append(f"{path}: dataset `/{name}` is missing. {AGAIN}")
                     return None
+                if not isinstance(file.get(name, getlink=True), h5py.HardLink):
+                    faults.append(f"{path}: `/{name}` is a link, perhaps into another file; expected the dataset itself. {AGAIN}")
+                    return None
                 values[name] = numpy.asarray(file[name][()])
             values["attributes"] = {key: value.decode() if isinstance(value, bytes) else value
                                     for key, value in file.attrs.items()}

@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 
 import numpy
 
-from stored import is_stiffness, latest, read_csv, read_json
+from stored import is_stiffness, latest, lies_within, read_csv, read_json
 from vtu import BadFrame, read_pvd
 
 AGAIN = "Run `homespun drape` again."
@@ -183,6 +183,10 @@ def read_frame_lists(drape, cell, faults, missing):
     wanted += [(reference["reference"], reference["folder"], "fine") for reference in cell.references]
     for name, folder, kind in wanted:
         path = os.path.join(drape.folder, folder, kind + ".pvd")
+        if not lies_within(path, drape.folder):
+            faults.append(f"{drape.scene}, {cell.name}: folder `{folder}` of {name} lies outside of {drape.folder}; expected one "
+                          f"in it. {AGAIN}")
+            continue
         if not os.path.isfile(path):
             missing.append({"what": f"{drape.scene}, {cell.name}: {kind} frames of {name}",
                             "why": f"{path} does not exist"})

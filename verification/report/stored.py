@@ -3,6 +3,7 @@
 import csv
 import json
 import math
+import os
 
 import numpy
 
@@ -27,6 +28,12 @@ class BadResults(Exception):
 
     def __reduce__(self):  # so that the faults survive the way between processes
         return BadResults, (self.faults,)
+
+
+def lies_within(path, folder):
+    """Whether a file that results name lies in their folder, links followed: results from elsewhere open nothing else."""
+    base = os.path.realpath(folder)
+    return os.path.commonpath([os.path.realpath(path), base]) == base
 
 
 def read_json(path, faults):

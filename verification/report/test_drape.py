@@ -117,6 +117,17 @@ class DrapePageTest(PageTest):
         write_vtu(path, points, frame.triangles)
         self.assert_refused("0003.vtu: vertex 5 is at", "expected finite numbers")
 
+    def test_files_outside_of_the_folder_are_not_opened(self):
+        for path, old, new, message in (
+                ("layered-corotational/fine.pvd", 'file="fine/0003.vtu"', 'file="../../secret.vtu"', "names `../../secret.vtu`"),
+                ("drape.json", '"folder": "layered-corotational"', '"folder": "/etc"', "folder `/etc`"),
+                ("drape.json", '"folder": "layered-corotational"', '"folder": "../elsewhere"', "folder `../elsewhere`")):
+            with self.subTest(new):
+                shutil.rmtree(self.folder, ignore_errors=True)
+                write_drape(self.folder, variants=VARIANTS[:1], references=())
+                self.edit(path, lambda text: text.replace(old, new, 1))
+                self.assert_refused(message)
+
     def test_all_faults_of_a_scene_are_named_at_once(self):
         write_drape(self.folder, variants=VARIANTS[:1], references=REFERENCES[:1])
         self.edit("drape.csv", lambda text: text.replace("localized,0,", "localized,", 1))

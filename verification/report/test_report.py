@@ -110,6 +110,16 @@ class ReportTest(PageTest):
             file["upsampled"] = numpy.zeros((3, 2))
         self.assert_refused("fields-shear-frame.h5: `/upsampled` has shape (3, 2), expected (25, 2)")
 
+    def test_link_into_another_file_is_not_followed(self):
+        path = os.path.join(self.folder, "stripes", "fields-shear-frame.h5")
+        other = os.path.join(self.output + "-other.h5")
+        shutil.copy(path, other)
+        self.addCleanup(os.remove, other)
+        with h5py.File(path, "a") as file:
+            del file["upsampled"]
+            file["upsampled"] = h5py.ExternalLink(other, "/upsampled")
+        self.assert_refused("`/upsampled` is a link")
+
     def test_folder_without_results_is_refused(self):
         shutil.rmtree(self.folder)
         self.assert_refused("no such folder")

@@ -12,6 +12,8 @@ from xml.etree import ElementTree
 
 import numpy
 
+from stored import lies_within
+
 AGAIN = "Run `homespun drape` again."
 TYPES = {"Float32": "f4", "Float64": "f8", "Int8": "i1", "UInt8": "u1", "Int16": "i2", "UInt16": "u2",
          "Int32": "i4", "UInt32": "u4", "Int64": "i8", "UInt64": "u8"}
@@ -59,7 +61,11 @@ def read_pvd(path):
         if not math.isfinite(time) or not entry.get("file"):
             raise BadFrame(f"{path}: DataSet {len(frames)} has timestep `{entry.get('timestep')}` and file "
                            f"`{entry.get('file')}`, expected a number and a name. {AGAIN}")
-        frames.append((time, os.path.join(os.path.dirname(path), entry.get("file"))))
+        frame = os.path.join(os.path.dirname(path), entry.get("file"))
+        if not lies_within(frame, os.path.dirname(path) or "."):
+            raise BadFrame(f"{path}: DataSet {len(frames)} names `{entry.get('file')}`, which lies outside of the folder "
+                           f"of the list; expected a file in it or below. {AGAIN}")
+        frames.append((time, frame))
     if not frames:
         raise BadFrame(f"{path}: lists no frame, expected DataSet entries. {AGAIN}")
     frames.sort(key=lambda frame: frame[0])
