@@ -56,7 +56,8 @@ std::string story_of(const std::string &file)
   return story.substr(0, story.find(". "));
 }
 
-int list_cells()
+/// @param pictures folder; empty: none
+int list_cells(const std::string &pictures, Afterwards &afterwards)
 {
   if (!is_root(MPI_COMM_WORLD))
     return 0;
@@ -75,6 +76,13 @@ int list_cells()
       separator = ", ";
     }
     std::cout << "\n";
+  }
+  if (!pictures.empty())
+  {
+    std::vector<homogenization::CellReading> readings;
+    for (const std::filesystem::path &file : files)
+      readings.push_back(homogenization::inspect_cell(file.string()));
+    write_pictures(readings, pictures, afterwards);
   }
   return 0;
 }
@@ -144,18 +152,21 @@ void add_homogenize_command(CLI::App &app, Action &action)
                     { action = [arguments]() { return homogenize(*arguments); }; });
 }
 
-void add_cells_command(CLI::App &app, Action &action)
+void add_cells_command(CLI::App &app, Action &action, Afterwards &afterwards)
 {
   CLI::App *command =
     app.add_subcommand("cells", "List the shipped cells with their parameters; make variants");
   command->require_subcommand(0, 1);
+  const auto pictures = std::make_shared<std::string>();
+  command->add_option("--pictures", *pictures, "Folder for a picture of each cell, .svg and .png");
   command->callback(
-    [&action, command]()
+    [&action, &afterwards, command, pictures]()
     {
       if (command->get_subcommands().empty())
-        action = list_cells;
+        action = [&afterwards, pictures]() { return list_cells(*pictures, afterwards); };
     });
-  command->footer("Example:\n  homespun cells\n  homespun cells make twill --set yarn_width=0.4");
+  command->footer(
+    "Example:\n  homespun cells\n  homespun cells --pictures out/cells\n  homespun cells make twill --set yarn_width=0.4");
 
   CLI::App *make_command = command->add_subcommand(
     "make", "Copy a shipped cell, change parameters of its Gmsh source, mesh and check it");

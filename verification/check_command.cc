@@ -171,20 +171,24 @@ int check(const CheckArguments &arguments, Afterwards &afterwards)
     any_error = any_error || homogenization::has_errors(readings.back().findings);
   }
   if (!arguments.output.empty())
-  {
-    write_results(readings, arguments.output);
-    afterwards = [folder = arguments.output]()
-    {
-      if (run_report_script("check_pictures.py", {folder}) != 0)
-        throw meshes::BadInput("the pictures could not be drawn, see above; the findings are in " +
-                               folder + "/check.json");
-      return 0;
-    };
-    std::cout << "Written to " << arguments.output << ": check.json, a picture of each cell\n";
-  }
+    write_pictures(readings, arguments.output, afterwards);
   return any_error ? 2 : 0;
 }
 } // namespace
+
+void write_pictures(const std::vector<CellReading> &readings, const std::string &folder,
+                    Afterwards &afterwards)
+{
+  write_results(readings, folder);
+  afterwards = [folder]()
+  {
+    if (run_report_script("check_pictures.py", {folder}) != 0)
+      throw meshes::BadInput("the pictures could not be drawn, see above; the findings are in " +
+                             folder + "/check.json");
+    return 0;
+  };
+  std::cout << "Written to " << folder << ": check.json, a picture of each cell\n";
+}
 
 CellReading tell_findings(const std::string &file)
 {

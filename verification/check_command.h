@@ -3,11 +3,17 @@
 #pragma once
 
 #include "homogenization/cell_reading.h"
+#include "verification/commands.h"
 
 #include <string>
+#include <vector>
 
 namespace homespun::verification
 {
 /// Reads a cell and prints what it is, its warnings, and on the error stream its errors. First rank.
 homogenization::CellReading tell_findings(const std::string &file);
+
+/// Writes check.json into a folder and leaves a picture of each cell, as .svg and .png, to be drawn there. First rank.
+void write_pictures(const std::vector<homogenization::CellReading> &readings,
+                    const std::string &folder, Afterwards &afterwards);
 } // namespace homespun::verification

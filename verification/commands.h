@@ -29,7 +29,7 @@ void add_converge_command(CLI::App &app, Action &action, Afterwards &afterwards,
 void add_verify_command(CLI::App &app, Action &action, Afterwards &afterwards,
                         const std::string &command_line);
 void add_report_command(CLI::App &app, Action &action, Afterwards &afterwards);
-void add_cells_command(CLI::App &app, Action &action);
+void add_cells_command(CLI::App &app, Action &action, Afterwards &afterwards);
 void add_scaling_command(CLI::App &app, Action &action, Afterwards &afterwards,
                          const std::string &command_line);
 

@@ -80,7 +80,7 @@ int run(int argc, char **argv, homespun::verification::Afterwards &afterwards)
   add_converge_command(app, action, afterwards, command_line);
   add_verify_command(app, action, afterwards, command_line);
   add_report_command(app, action, afterwards);
-  add_cells_command(app, action);
+  add_cells_command(app, action, afterwards);
   add_scaling_command(app, action, afterwards, command_line);
   try
   {

@@ -37,6 +37,15 @@ class List(unittest.TestCase):
         self.assertEqual(run("check", *CELLS.glob("*.prm")).returncode, 0)
 
 
+class Pictures(InFolder):
+    def test_every_cell_is_drawn(self):
+        result = run("cells", "--pictures", self.folder / "out")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        for name in NAMES:
+            self.assertIn(b"PNG", (self.folder / "out" / f"{name}.png").read_bytes()[:8])
+            self.assertGreater((self.folder / "out" / f"{name}.svg").stat().st_size, 10000)
+
+
 class Refusals(InFolder):
     def refused(self, *arguments, says, **options):
         result = run("cells", "make", *arguments, "--output", self.folder, **options)
