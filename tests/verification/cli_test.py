@@ -113,12 +113,21 @@ KNOWN_FAILURES = {
     ("motion", "pulled at 5 m/s; 50 ms; anisotropic 1e4"): ONE_NEWTON_STEP,
 }
 
+# Far from equilibrium the way of a cloth depends on rounding: holds in optimised builds, and in those with all assertions
+# the guard takes 4.5e-5. More than this share of the energy is a failure anew.
+BY_ROUNDING = {("start", "flattened to a line across the grain; hung by two corners; 1 ms; anisotropic 1e4"): GUARD}
+MOST_TAKEN = 1e-3
+
+
+def is_known(case, row):
+    return case in KNOWN_FAILURES or (case in BY_ROUNDING and float(row["figure"]) <= MOST_TAKEN)
+
 
 def differences_from_known(rows):
     """What the failing cases among the rows of stress.csv and the known failures do not share, one line each."""
     failing = {(row["group"], row["case"]): row for row in rows if row["verdict"] != "PASS"}
     anew = [f"{group}: {case}: fails, and is not known to: {row['outcome']}, {row['figure']}, limit {row['limit']}"
-            for (group, case), row in failing.items() if (group, case) not in KNOWN_FAILURES]
+            for (group, case), row in failing.items() if not is_known((group, case), row)]
     gone = [f"{group}: {case}: holds or does not exist, but is known to fail ({reason}): take it off the list"
             for (group, case), reason in KNOWN_FAILURES.items() if (group, case) not in failing]
     return anew + gone
@@ -133,6 +142,10 @@ class KnownFailures(unittest.TestCase):
         rows = [self.row(case, "FAIL") for case in KNOWN_FAILURES]
         self.assertEqual(differences_from_known(rows + [self.row(("mesh", "a hole"), "PASS")]), [])
         self.assertIn("mesh: a hole: fails", *differences_from_known(rows + [self.row(("mesh", "a hole"), "FAIL")]))
+        by_rounding = self.row(next(iter(BY_ROUNDING)), "FAIL")
+        self.assertIn("fails", *differences_from_known(rows + [by_rounding]))
+        by_rounding["figure"] = "4.5e-05"
+        self.assertEqual(differences_from_known(rows + [by_rounding]), [])
         rows[0]["verdict"] = "PASS"
         self.assertIn("take it off the list", *differences_from_known(rows))
         self.assertIn("take it off the list", *differences_from_known(rows[1:]))
