@@ -94,6 +94,7 @@ std::string file_beside(const std::string &prm_file, const std::string &name)
       "copy the mesh there");
   return path.string();
 }
+
 /// The keys, with the length unit [m]; faults become findings.
 CellKeys read_keys(const std::string &prm_file, CellReading &reading)
 {

@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdlib>
 #include <limits>
 
 namespace homespun::verification
@@ -99,19 +98,13 @@ namespace
 {
 using Rows = std::vector<std::vector<std::string>>;
 
-double number(const std::string &text)
-{
-  return text.empty() ? std::numeric_limits<double>::quiet_NaN()
-                      : std::strtod(text.c_str(), nullptr);
-}
-
 /// Mean of a part over the whole sheet, per cell side; NaN where the row is not there.
 double mean_of(const Rows &rows, const std::array<std::string, 4> &level, const std::string &part)
 {
   double mean = std::numeric_limits<double>::quiet_NaN();
   for (const std::vector<std::string> &row : rows)
     if (std::equal(level.begin(), level.end(), row.begin()) && row[4] == part && row[5] == "all")
-      mean = number(row[9]);
+      mean = csv_value(row[9]);
   return mean;
 }
 
@@ -120,7 +113,7 @@ constexpr double round_off = 1e-10; ///< in strain x cell side
 void judge_level(const Rows &rows, const std::array<std::string, 4> &level,
                  std::vector<Verdict> &verdicts)
 {
-  const double strain    = number(level[2]);
+  const double strain    = csv_value(level[2]);
   const std::string what = level[0] + ", " + level[1] + " at " + csv_number(100. * strain) + " %: ";
   const double total = mean_of(rows, level, "total"), sum = mean_of(rows, level, "sum");
   if (total < round_off * strain)
@@ -205,7 +198,7 @@ std::vector<Verdict> budget_verdicts(const Rows &strain_rows, const Rows &budget
     std::vector<double> strains;
     for (const std::vector<std::string> &row : strain_rows)
       if (row[0] == cell && row[1] == load && row[3] == law)
-        strains.push_back(number(row[2]));
+        strains.push_back(csv_value(row[2]));
     std::sort(strains.begin(), strains.end());
     strains.erase(std::unique(strains.begin(), strains.end()), strains.end());
     for (const double wanted : {0.01, 0.1})

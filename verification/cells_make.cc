@@ -7,17 +7,15 @@
 #include "meshes/write_whole.h"
 #include "verification/child_process.h"
 #include "verification/commands.h"
+#include "verification/passing_folder.h"
 
 #include <cmath>
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <iomanip>
 #include <regex>
 #include <set>
 #include <sstream>
-
-#include <unistd.h>
 
 namespace homespun::verification
 {
@@ -146,35 +144,13 @@ std::string with_mesh(const std::string &prm, const std::string &name, const Cel
   return text;
 }
 
-/// A new folder that goes away with all that is in it.
-class PassingFolder
-{
-public:
-  explicit PassingFolder(const std::string &beside)
-      : path(beside + "/.homespun-XXXXXX")
-  {
-    if (!mkdtemp(path.data()))
-      throw meshes::BadInput(
-        beside + ": cannot be written; expected a folder that can: choose another --output");
-  }
-  PassingFolder(const PassingFolder &)            = delete;
-  PassingFolder &operator=(const PassingFolder &) = delete;
-  ~PassingFolder()
-  {
-    std::error_code ignored;
-    fs::remove_all(path, ignored);
-  }
-
-  std::string path;
-};
-
 /// Runs Gmsh on NAME.geo of a folder, without a shell; its messages go to a file.
 void run_gmsh(const std::string &folder, const std::string &name)
 {
   const std::string geo = folder + "/" + name + ".geo", msh = folder + "/" + name + ".msh",
                     log = folder + "/gmsh.log";
   const int status      = run_child({"gmsh", "-2", "-format", "msh41", geo, "-o", msh}, log);
-  if (status == -1 || status == 127)
+  if (status == 127)
     throw meshes::BadInput("gmsh: cannot be run; expected Gmsh, which makes the mesh: install the "
                            "package gmsh (apt install gmsh)");
   if (status != 0)
@@ -184,6 +160,8 @@ void run_gmsh(const std::string &folder, const std::string &name)
     for (std::string line; said.empty() && std::getline(input, line);)
       if (line.rfind("Error", 0) == 0 && line.find(':') != std::string::npos)
         said = ": " + trimmed(line.substr(line.find(':') + 1));
+    if (said.empty())
+      said = " (it ended with status " + std::to_string(status) + ")";
     throw meshes::BadInput("gmsh could not make the mesh" + said +
                            "; expected values that fit together: change --set");
   }

@@ -185,9 +185,9 @@ void write_pictures(const std::vector<CellReading> &readings, const std::string 
     if (run_report_script("check_pictures.py", {folder}) != 0)
       throw meshes::BadInput("the pictures could not be drawn, see above; the findings are in " +
                              folder + "/check.json");
+    std::cout << "Written to " << folder << ": check.json, a picture of each cell\n";
     return 0;
   };
-  std::cout << "Written to " << folder << ": check.json, a picture of each cell\n";
 }
 
 CellReading tell_findings(const std::string &file)

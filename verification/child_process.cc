@@ -2,7 +2,6 @@
 #include "verification/child_process.h"
 
 #include <algorithm>
-#include <cstdlib>
 #include <cstring>
 #include <fstream>
 
@@ -47,8 +46,10 @@ std::vector<char *> pointers_to(std::vector<std::string> &texts)
 int run_child(const std::vector<std::string> &words, const std::string &log)
 {
   std::vector<std::string> arguments = words, environment = initial_environment();
-  const bool is_rank = std::getenv("OMPI_COMM_WORLD_SIZE") != nullptr;
-  if (is_rank)
+  const auto is_of_rank = [](const std::string &variable) {
+    return variable.rfind("OMPI_COMM_WORLD_SIZE=", 0) == 0 || variable.rfind("PMIX_RANK=", 0) == 0;
+  };
+  if (std::any_of(environment.begin(), environment.end(), is_of_rank))
     environment.erase(std::remove_if(environment.begin(), environment.end(), is_of_mpi),
                       environment.end());
 
@@ -66,12 +67,12 @@ int run_child(const std::vector<std::string> &words, const std::string &log)
     posix_spawn_file_actions_adddup2(&actions, STDOUT_FILENO, STDERR_FILENO);
   }
   pid_t child       = 0;
-  int status        = 0;
   const int spawned = posix_spawnp(&child, arguments[0].c_str(), &actions, nullptr,
                                    pointers_to(arguments).data(), pointers_to(environment).data());
   posix_spawn_file_actions_destroy(&actions);
-  return spawned == 0 && waitpid(child, &status, 0) == child && WIFEXITED(status)
-           ? WEXITSTATUS(status)
-           : -1;
+  int status = 0;
+  if (spawned != 0 || waitpid(child, &status, 0) != child)
+    return 127;
+  return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
 }
 } // namespace homespun::verification

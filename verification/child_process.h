@@ -11,6 +11,6 @@ namespace homespun::verification
 /// inherits that), and without the variables that MPI gives a rank, by which a program with MPI would take itself for one of
 /// ours.
 /// @param log receives what it prints; empty: it prints where homespun prints
-/// @return its exit status; -1 where it could not be run or was killed
+/// @return its exit status, as a shell tells it: 127 where it could not be run, 128 and the signal where it was killed by one
 int run_child(const std::vector<std::string> &words, const std::string &log = "");
 } // namespace homespun::verification

@@ -166,7 +166,7 @@ std::vector<Verdict> ConvergenceRecord::verdicts() const
     verdict.outcome = row[4] == "PASS"   ? Outcome::pass
                       : row[4] == "FAIL" ? Outcome::fail
                                          : Outcome::inconclusive;
-    verdict.value   = row[5].empty() ? none : std::strtod(row[5].c_str(), nullptr);
+    verdict.value   = csv_value(row[5]);
     verdict.limit   = row[6];
     result.push_back(verdict);
   }

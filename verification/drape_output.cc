@@ -166,7 +166,7 @@ std::vector<std::string> DrapeOutput::worst_errors() const
     if (row[2] == "corotational" && row[4] == "localized" && !row[10].empty())
     {
       double &largest = worst[row[1] + " against " + row[3]];
-      largest         = std::max(largest, std::stod(row[10]));
+      largest         = std::max(largest, csv_value(row[10]));
     }
   std::vector<std::string> lines;
   for (const auto &[what, error] : worst)

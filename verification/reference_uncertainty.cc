@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <limits>
 
 namespace homespun::verification
@@ -86,8 +85,7 @@ ReferenceUncertainty::ReferenceUncertainty(const homogenization::UnitCell &cell,
         {
           stored[0] = 1.;
           for (std::size_t k = 0; k < 3; ++k)
-            stored[k + 1] = row[5 + k].empty() ? std::numeric_limits<double>::quiet_NaN()
-                                               : std::strtod(row[5 + k].c_str(), nullptr);
+            stored[k + 1] = csv_value(row[5 + k]);
         }
     MPI_Bcast(stored, 4, MPI_DOUBLE, 0, communicator);
     const double unit = strain * side;

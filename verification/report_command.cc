@@ -25,7 +25,7 @@ int run_report_script(const std::string &name, const std::vector<std::string> &a
   std::vector<std::string> words = {HOMESPUN_PYTHON, "-B", script};
   words.insert(words.end(), arguments.begin(), arguments.end());
   const int status = run_child(words);
-  if (status < 0)
+  if (status == 127)
     throw meshes::BadInput(
       std::string(HOMESPUN_PYTHON) + " " + script +
       ": cannot be run; expected Debian's Python with numpy, h5py, matplotlib and "

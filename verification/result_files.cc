@@ -5,8 +5,10 @@
 
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <limits>
 #include <sstream>
 
 #include <unistd.h>
@@ -56,6 +58,13 @@ std::string csv_number(const double value)
   char text[32];
   std::snprintf(text, sizeof(text), "%.6g", value);
   return text;
+}
+
+double csv_value(const std::string &field)
+{
+  char *end          = nullptr;
+  const double value = std::strtod(field.c_str(), &end);
+  return field.empty() || *end != '\0' ? std::numeric_limits<double>::quiet_NaN() : value;
 }
 
 ResultTable::ResultTable(const std::string &path, const std::vector<std::string> &columns,

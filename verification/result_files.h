@@ -17,6 +17,9 @@ using meshes::write_whole;
 /// A number as results print it: six digits, "nan" never; an empty field where it is not finite.
 std::string csv_number(double value);
 
+/// What csv_number() wrote; not a number, so that no claim on it holds, where the field is empty or damaged.
+double csv_value(const std::string &field);
+
 /// A CSV file that grows by rows. Every row is on the disk when append() returns.
 class ResultTable
 {

@@ -16,7 +16,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <cstdlib>
 #include <limits>
 
 namespace homespun::verification
@@ -328,12 +327,6 @@ private:
   Points best;
   double bar = 0.;
 };
-
-double number(const std::string &text)
-{
-  return text.empty() ? std::numeric_limits<double>::quiet_NaN()
-                      : std::strtod(text.c_str(), nullptr);
-}
 } // namespace
 
 double bar_of_p2(const std::vector<std::vector<std::string>> &rows, const std::string &cell,
@@ -348,15 +341,15 @@ double bar_of_p2(const std::vector<std::vector<std::string>> &rows, const std::s
     {
       n_small = row[4];
       if (row[2] == name_of(Law::biot) || !std::isfinite(of_p2))
-        of_p2 = number(row[7]) / number(row[3]);
+        of_p2 = csv_value(row[7]) / csv_value(row[3]);
     }
   for (const std::vector<std::string> &row : rows)
     if (row[0] == cell && row[1] == load && row[2] == name_of(Law::linear))
     {
       if (row[4] == n_small)
-        small = number(row[5]) / number(row[3]);
+        small = csv_value(row[5]) / csv_value(row[3]);
       if (row[4] == std::to_string(n_cells))
-        full = number(row[5]) / number(row[3]);
+        full = csv_value(row[5]) / csv_value(row[3]);
     }
   return of_p2 * (full / small) * strain;
 }

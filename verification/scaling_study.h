@@ -4,6 +4,7 @@
 
 #include "verification/verdict.h"
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -41,20 +42,22 @@ struct ScalingRun
   }
 };
 
-/// The memory of the largest rank as a + b n/p, and the time as n (s + w/p), n DoFs on p ranks: least squares of the
-/// relative misfit. What the first model leaves out is said beside it.
-struct ScalingModel
+/// What does not fall with the number of ranks, what falls as one over it, and the largest relative misfit of the least squares.
+struct TwoTerms
 {
-  double bytes_per_rank = 0., bytes_per_dof = 0., memory_misfit = 0.;
-  double serial_seconds_per_dof = 0., seconds_per_dof = 0., time_misfit = 0.;
+  double fixed = 0., shared = 0., misfit = 0.;
 };
 
-/// @param runs of two meshes and two numbers of ranks at the least
-/// @param cores runs on more ranks than these do not count in the time
-ScalingModel model_of(const std::vector<ScalingRun> &runs, int cores);
+/// The memory of the largest rank as a + b n/p [bytes], n DoFs on p ranks. Nothing below three pairs of mesh and ranks, or
+/// where all have the same n/p: two terms need a third row to show their misfit.
+std::optional<TwoTerms> memory_model_of(const std::vector<ScalingRun> &runs);
+
+/// The time as n (s + w/p) [s], from the runs on at most `cores` ranks. Nothing below three pairs of mesh and ranks, or with one
+/// number of ranks alone, which does not tell what is serial.
+std::optional<TwoTerms> time_model_of(const std::vector<ScalingRun> &runs, int cores);
 
 /// C^H does not depend on the ranks, iterations not on the mesh, and the memory of a rank on the finest mesh falls with
-/// their number.
+/// their number; each where there is more than one to compare.
 std::vector<Verdict> verdicts_of(const std::vector<ScalingRun> &runs);
 
 /// A table for the terminal: medians of the repeats, with the least and the largest.

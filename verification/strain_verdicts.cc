@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "verification/strain_verdicts.h"
 
+#include "verification/result_files.h"
+
 #include <algorithm>
-#include <cstdlib>
 #include <limits>
 
 namespace homespun::verification
@@ -19,15 +20,10 @@ struct Row
 std::vector<Row> parsed(const std::vector<std::vector<std::string>> &rows)
 {
   std::vector<Row> result;
-  const auto number = [](const std::string &text)
-  {
-    return text.empty() ? std::numeric_limits<double>::quiet_NaN()
-                        : std::strtod(text.c_str(), nullptr);
-  };
   for (const std::vector<std::string> &row : rows)
     if (row[4] != "unreached")
-      result.push_back({row[0], row[1], row[3], row[4], number(row[2]), number(row[8]),
-                        number(row[11]), number(row[13])});
+      result.push_back({row[0], row[1], row[3], row[4], csv_value(row[2]), csv_value(row[8]),
+                        csv_value(row[11]), csv_value(row[13])});
   return result;
 }
 

@@ -7,7 +7,6 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
-#include <cstdlib>
 #include <limits>
 
 namespace homespun::verification
@@ -46,12 +45,6 @@ Crossing crossing(const std::vector<double> &strains, const std::vector<double> 
 
 namespace
 {
-double number(const std::string &text)
-{
-  return text.empty() ? std::numeric_limits<double>::quiet_NaN()
-                      : std::strtod(text.c_str(), nullptr);
-}
-
 std::string percent(const double value)
 {
   char text[32];
@@ -117,12 +110,12 @@ validity_rows(const std::vector<std::vector<std::string>> &strain_rows)
       if (row[0] == keys[0] && row[1] == keys[1] && row[3] == keys[2])
       {
         if (row[4] == "unreached")
-          first_unreached = std::min(first_unreached, number(row[2]));
-        else if (row[4] == "localized" && std::isfinite(number(row[8])))
+          first_unreached = std::min(first_unreached, csv_value(row[2]));
+        else if (row[4] == "localized" && std::isfinite(csv_value(row[8])))
           of_case.push_back(row);
       }
     std::sort(of_case.begin(), of_case.end(),
-              [](const auto &a, const auto &b) { return number(a[2]) < number(b[2]); });
+              [](const auto &a, const auto &b) { return csv_value(a[2]) < csv_value(b[2]); });
     // error_mean_m 8, per cell 11, per fluctuation 12, reference_uncertainty_m 13
     for (const auto &[measure, column, limits] :
          {std::make_tuple(std::string("fluctuation"), 12, std::vector<double>{0.01, 0.05, 0.1}),
@@ -130,13 +123,13 @@ validity_rows(const std::vector<std::vector<std::string>> &strain_rows)
     {
       std::vector<Level> levels;
       for (const std::vector<std::string> &row : of_case)
-        if (const double error = number(row[static_cast<std::size_t>(column)]);
-            std::isfinite(error) && number(row[2]) < first_unreached)
+        if (const double error = csv_value(row[static_cast<std::size_t>(column)]);
+            std::isfinite(error) && csv_value(row[2]) < first_unreached)
         {
           // The bar in m has the unit of the measure by the row's own ratio.
-          const double in_metres = number(row[8]);
-          levels.push_back(
-            {number(row[2]), error, in_metres > 0. ? number(row[13]) * error / in_metres : 0.});
+          const double in_metres = csv_value(row[8]);
+          levels.push_back({csv_value(row[2]), error,
+                            in_metres > 0. ? csv_value(row[13]) * error / in_metres : 0.});
         }
       if (levels.empty())
         continue; // a sheet whose reference does not fluctuate has no such measure

@@ -32,6 +32,14 @@ std::string content_of(const std::string &file)
 }
 } // namespace
 
+TEST(exact_result_table, a_number_comes_back_and_a_damaged_one_is_none)
+{
+  for (const double value : {0., -1.25, 3e-7, 1e12})
+    EXPECT_EQ(csv_value(csv_number(value)), value);
+  for (const char *damaged : {"", "x", "1.5x", "1.5 "})
+    EXPECT_TRUE(std::isnan(csv_value(damaged))) << damaged;
+}
+
 TEST(exact_result_table, rows_are_on_the_disk_as_they_come)
 {
   const std::string file = temporary("rows.csv");

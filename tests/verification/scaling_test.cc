@@ -37,25 +37,53 @@ std::vector<ScalingRun> runs()
 
 TEST(exact_scaling, the_model_of_runs_that_follow_it_is_found_with_its_misfit)
 {
-  const ScalingModel model = model_of(runs(), 4);
-  EXPECT_NEAR(model.bytes_per_rank, 2e8, 1e-3 * 2e8);
-  EXPECT_NEAR(model.bytes_per_dof, 1000., 1e-6 * 1000.);
-  EXPECT_NEAR(model.serial_seconds_per_dof, 1e-6, 1e-10);
-  EXPECT_NEAR(model.seconds_per_dof, 3e-5, 1e-9);
-  EXPECT_LT(model.memory_misfit, 1e-9);
-  EXPECT_LT(model.time_misfit, 1e-9);
+  const TwoTerms memory = memory_model_of(runs()).value(), time = time_model_of(runs(), 4).value();
+  EXPECT_NEAR(memory.fixed, 2e8, 1e-3 * 2e8);
+  EXPECT_NEAR(memory.shared, 1000., 1e-6 * 1000.);
+  EXPECT_NEAR(time.fixed, 1e-6, 1e-10);
+  EXPECT_NEAR(time.shared, 3e-5, 1e-9);
+  EXPECT_LT(memory.misfit, 1e-9);
+  EXPECT_LT(time.misfit, 1e-9);
   // One point off by a tenth shows in the misfit, and one slow repeat of three in nothing.
   std::vector<ScalingRun> off = runs();
   for (int repeat = 0; repeat < 3; ++repeat)
     off[static_cast<std::size_t>(repeat)].largest_rank *= 1.1;
   off[3].solve *= 10.;
-  EXPECT_GT(model_of(off, 4).memory_misfit, 0.02);
-  EXPECT_LT(model_of(off, 4).time_misfit, 1e-9);
+  EXPECT_GT(memory_model_of(off)->misfit, 0.02);
+  EXPECT_LT(time_model_of(off, 4)->misfit, 1e-9);
   // Four ranks on two cores take as long as two.
   for (ScalingRun &run : off)
     run.solve = run.dofs * (1e-6 + 3e-5 / std::min(run.ranks, 2));
-  EXPECT_LT(model_of(off, 2).time_misfit, 1e-9);
-  EXPECT_GT(model_of(off, 4).time_misfit, 0.1);
+  EXPECT_LT(time_model_of(off, 2)->misfit, 1e-9);
+  EXPECT_GT(time_model_of(off, 4)->misfit, 0.1);
+}
+
+TEST(exact_scaling, what_the_runs_do_not_determine_is_not_told)
+{
+  const auto those = [](const auto &is_kept)
+  {
+    std::vector<ScalingRun> all = runs();
+    all.erase(
+      std::remove_if(all.begin(), all.end(), [&](const ScalingRun &run) { return !is_kept(run); }),
+      all.end());
+    return all;
+  };
+  const auto one_rank = those([](const ScalingRun &run) { return run.ranks == 1; });
+  EXPECT_TRUE(memory_model_of(one_rank));
+  EXPECT_FALSE(time_model_of(one_rank, 4)) << "what is serial and what is not look alike";
+  EXPECT_FALSE(time_model_of(runs(), 1));
+  const auto two = those([](const ScalingRun &run) { return run.refine == 3 && run.ranks < 4; });
+  EXPECT_FALSE(memory_model_of(two)) << "no misfit to see";
+  EXPECT_FALSE(time_model_of(two, 4));
+  // Claims on what is not there to compare cannot fail, and are not made.
+  EXPECT_EQ(verdicts_of(one_rank).size(), 1u) << "iterations";
+  EXPECT_TRUE(
+    verdicts_of(those([](const ScalingRun &run) { return run.refine == 3 && run.ranks == 1; }))
+      .empty());
+  std::vector<ScalingRun> homogeneous = runs();
+  for (ScalingRun &run : homogeneous)
+    run.iterations = 0.;
+  EXPECT_EQ(verdicts_of(homogeneous).size(), 2u);
 }
 
 TEST(tripwire_scaling, each_claim_fails_where_it_does_not_hold)
@@ -80,6 +108,9 @@ TEST(tripwire_scaling, each_claim_fails_where_it_does_not_hold)
   EXPECT_FALSE(fails(other, 0));
   for (ScalingRun &run : other)
     run.largest_rank *= 1. + 0.01 * run.ranks;
+  EXPECT_TRUE(fails(other, 2));
+  for (ScalingRun &run : other)
+    run.largest_rank = std::nan("");
   EXPECT_TRUE(fails(other, 2));
 }
 
