@@ -2,6 +2,8 @@
 #include "homogenization/homogenize.h"
 
 #include "homogenization/elastic_solver.h"
+#include "homogenization/load_checkpoint.h"
+#include "homogenization/solution_pieces.h"
 #include "meshes/refine.h"
 
 #include <deal.II/base/mpi.h>
@@ -60,6 +62,8 @@ public:
     lap(result.seconds.solve);
     options.order == 1 ? evaluate<3>() : evaluate<6>();
     sample_at_vertices();
+    if (!options.pieces.empty())
+      write_pieces(options.pieces, discretization, solutions);
     lap(result.seconds.evaluation);
     return result;
   }
@@ -139,11 +143,16 @@ private:
   /// is left of them is round-off, and chi is exactly zero.
   void solve()
   {
+    const LoadCheckpoint checkpoint(options.checkpoint, discretization.communicator);
     IndexSet ghosted = constraints.get_local_lines();
     for (int a = 0; a < 3; ++a)
     {
-      Vector owned         = solver->owned_vector();
-      result.iterations[a] = solver->solve(owned, loads[a], options.tolerance * load_sizes[a]);
+      Vector owned              = solver->owned_vector();
+      const unsigned int so_far = checkpoint.read(a, owned);
+      const unsigned int since  = solver->solve(owned, loads[a], options.tolerance * load_sizes[a]);
+      result.iterations[a]      = so_far + since;
+      if (so_far == 0 || since > 0)
+        checkpoint.write(a, owned, result.iterations[a]);
       constraints.distribute(owned);
       solutions[a].reinit(discretization.locally_owned, ghosted, discretization.communicator);
       solutions[a] = owned;

@@ -10,6 +10,7 @@
 #include <mpi.h>
 
 #include <array>
+#include <string>
 
 namespace homespun::homogenization
 {
@@ -18,6 +19,8 @@ struct HomogenizationOptions
   unsigned int order  = 2;     ///< 1 or 2, of the displacement elements
   unsigned int refine = 0;     ///< uniform refinements of the given mesh before the solve
   double tolerance    = 1e-11; ///< of |residual|, relative to the summed size of the element loads
+  std::string checkpoint;      ///< folder of the loads that are done (LoadCheckpoint); empty: none
+  std::string pieces; ///< path without ending of .pvtu and its pieces (write_pieces()); empty: none
 };
 
 /// Seconds of each stage on the slowest rank.
@@ -35,7 +38,8 @@ struct Homogenization
   Eigen::Matrix3d voigt;                   ///< mean of c [N/m]
   Eigen::Matrix3d reuss;                   ///< inverse of the mean of c^-1 [N/m]
   unsigned long n_dofs;
-  std::array<unsigned int, 3> iterations; ///< of the conjugate gradients, per load
+  std::array<unsigned int, 3>
+    iterations; ///< of the conjugate gradients, per load, those before a kill included
   ConstraintAudit audit;
   HomogenizationSeconds seconds;
 };

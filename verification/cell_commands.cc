@@ -125,29 +125,39 @@ void add_homogenize_command(CLI::App &app, Action &action)
                  "Uniform refinements of the mesh; each makes four triangles of one")
     ->check(CLI::Range(0, 8))
     ->capture_default_str();
+  CLI::Option *tolerance =
+    command
+      ->add_option(
+        "--tolerance", arguments->study.bracket.tolerance,
+        "Refine adaptively until the bracket C_lower <= C^H <= C_upper has this relative "
+        "width, the largest v.(C_upper - C_lower).v / v.C_upper.v; without it the bracket is "
+        "that of the given mesh")
+      ->check(CLI::Range(1e-12, 1.));
+  CLI::Option *max_dofs =
+    command
+      ->add_option(
+        "--max-dofs", arguments->study.bracket.max_dofs,
+        "DoFs up to which a bracket is made, of the larger of its two problems; adaptivity "
+        "stops before")
+      ->check(CLI::Range(100u, 20000000u))
+      ->capture_default_str();
   command
-    ->add_option(
-      "--tolerance", arguments->study.bracket.tolerance,
-      "Refine adaptively until the bracket C_lower <= C^H <= C_upper has this relative "
-      "width, the largest v.(C_upper - C_lower).v / v.C_upper.v; without it the bracket is "
-      "that of the given mesh")
-    ->check(CLI::Range(1e-12, 1.));
-  command
-    ->add_option(
-      "--max-dofs", arguments->study.bracket.max_dofs,
-      "DoFs up to which a bracket is made, of the larger of its two problems; adaptivity "
-      "stops before")
-    ->check(CLI::Range(100u, 20000000u))
-    ->capture_default_str();
+    ->add_flag(
+      "!--no-bars", arguments->study.bars,
+      "Neither bracket nor the finer solve of the error bar: the cell problems alone, for large meshes")
+    ->excludes(tolerance)
+    ->excludes(max_dofs);
   command->add_flag(
-    "!--no-bars", arguments->study.bars,
-    "Neither bracket nor the finer solve of the error bar: the cell problems alone, for large meshes");
+    "--pieces", arguments->study.pieces,
+    "Also characteristic-displacements-refined.pvtu: on the mesh of the solve, a piece from each rank");
+  command->add_flag("--resume", arguments->study.resume,
+                    "Take up the loads that a run which was killed had solved");
   command->add_option("--output", arguments->study.output,
                       "Folder of the results (default out/NAME)");
   command->add_flag("--quiet", arguments->study.quiet, "Print nothing but faults");
   command->footer("Example:\n  homespun homogenize meshes/cells/layered.prm\n"
                   "  homespun homogenize meshes/cells/three-stiffness.prm --tolerance 1e-3\n"
-                  "  mpirun -n 2 homespun homogenize mycell.prm --refine 2");
+                  "  mpirun -n 2 homespun homogenize mycell.prm --refine 2 --pieces");
   command->callback([&action, arguments]()
                     { action = [arguments]() { return homogenize(*arguments); }; });
 }

@@ -287,6 +287,8 @@ AssessedCell assess(const UnitCell &cell, const homogenization::HomogenizationOp
   assessed.options = options;
   homogenization::HomogenizationOptions finer = options;
   finer.order                                 = 2;
+  finer.checkpoint.clear();
+  finer.pieces.clear();
   ++finer.refine;
   const unsigned long growth = options.order == 1 ? 16 : 4;
   if (growth * assessed.result.n_dofs <= max_dofs_of_estimate)

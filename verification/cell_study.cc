@@ -19,15 +19,24 @@ constexpr unsigned long largest_error_bar = 4000000;
 AssessedCell run_cell_study(const homogenization::UnitCell &cell, const CellStudyOptions &options,
                             const MPI_Comm communicator)
 {
-  on_root(communicator, [&]() { std::filesystem::create_directories(options.output); });
+  homogenization::HomogenizationOptions solve = options.solve;
+  solve.checkpoint                            = options.output + "/checkpoint";
+  if (options.pieces)
+    solve.pieces = options.output + "/characteristic-displacements-refined";
+  on_root(communicator,
+          [&]()
+          {
+            if (!options.resume)
+              std::filesystem::remove_all(solve.checkpoint);
+            std::filesystem::create_directories(solve.checkpoint);
+          });
   AssessedCell assessed = [&]()
   {
     Progress progress(is_root(communicator) && !options.quiet, options.bars ? 2 : 1);
     progress.begin(cell.name + (options.bars
                                   ? ": three cell problems, and once more refined for the error bar"
                                   : ": three cell problems"));
-    AssessedCell its =
-      assess(cell, options.solve, options.bars ? largest_error_bar : 0, communicator);
+    AssessedCell its = assess(cell, solve, options.bars ? largest_error_bar : 0, communicator);
     progress.done();
     if (!options.bars)
       return its;
@@ -57,6 +66,7 @@ AssessedCell run_cell_study(const homogenization::UnitCell &cell, const CellStud
             write_cell_results(cell, assessed,
                                dealii::Utilities::MPI::n_mpi_processes(communicator),
                                options.output);
+            std::filesystem::remove_all(solve.checkpoint);
           });
   return assessed;
 }

@@ -13,11 +13,13 @@ namespace homespun::verification
 {
 struct CellStudyOptions
 {
-  homogenization::HomogenizationOptions solve;
+  homogenization::HomogenizationOptions solve; ///< its checkpoint and pieces are in `output`
   BracketOptions bracket; ///< its order and refinement are those of `solve`
   bool bars = true; ///< false: the cell problems alone, with neither bracket nor a finer solve
+  bool pieces = false; ///< characteristic-displacements-refined.pvtu, a piece from each rank
   std::string output;
-  bool quiet = false;
+  bool resume = false; ///< take up the loads that a run which was killed had solved
+  bool quiet  = false;
 };
 
 /// Homogenizes a cell on all ranks, brackets C^H on the first one (direct solvers: the answer knows nothing of

@@ -98,6 +98,9 @@ class Homogenize(InFolder):
         self.assertGreater(len(history), 1)
         self.assertLess(history[-1]["width"], 6e-4)
         self.assertLess(history[0]["dofs"], history[-1]["dofs"])
+        result = run("homogenize", cell, "--tolerance", "6e-4", "--no-bars", "--output", self.folder)
+        self.assertEqual(result.returncode, 2)
+        self.assertIn("--no-bars excludes --tolerance", result.stderr)
 
 
 # Cases of `homespun stress` that do not hold, each with the reason. A case that fails anew breaks the test, and

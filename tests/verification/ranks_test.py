@@ -2,9 +2,19 @@
 """The answer does not depend on the number of ranks."""
 import csv
 import json
+import signal
+import subprocess
+import sys
+import time
 import unittest
+from xml.etree import ElementTree
 
-from cli import CELLS, InFolder, rows_of, run
+import numpy
+
+from cli import CELLS, PATIENCE, PROGRAM, InFolder, rows_of, run
+
+sys.path.append(str(CELLS.parents[1] / "verification" / "report"))
+from vtu import read_vtu  # noqa: E402
 
 
 class Ranks(InFolder):
@@ -55,10 +65,80 @@ class Ranks(InFolder):
             self.assertEqual([row["strain"] for row in csv.DictReader(file)], ["0.01", "0.1"])
 
 
+def chi_of(surface):
+    return numpy.hstack([surface.point_data[f"chi_{ij} [m]"] for ij in (11, 22, 12)])
+
+
+def materials_of(surface):
+    """Centre and material of each triangle, sorted."""
+    centres = surface.points[surface.triangles].mean(axis=1).tolist()
+    return sorted((*centre, material) for centre, material in zip(centres, surface.cell_data["material"]))
+
+
+class Homogenize(InFolder):
+    CELL = CELLS / "three-stiffness.prm"
+
+    def stiffness(self, output):
+        return numpy.array(json.loads((output / "homogenize.json").read_text())["C"])
+
+    def pieces(self, output, ranks):
+        result = run("homogenize", self.CELL, "--refine", 2, "--no-bars", "--quiet", "--pieces", "--output", output,
+                     ranks=ranks)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        collection = ElementTree.parse(output / "characteristic-displacements-refined.pvtu").getroot()
+        names = [piece.get("Source") for piece in collection.iter("Piece")]
+        self.assertEqual(len(names), ranks)
+        self.assertEqual(len(list(output.glob("characteristic-displacements-refined-*.vtu"))), ranks)
+        surfaces = [read_vtu(output / name) for name in names]
+        arrays = {array.get("Name") for array in collection.iter("PDataArray")}
+        for surface in surfaces:
+            self.assertEqual(arrays, {"positions [m]", *surface.point_data, *surface.cell_data})
+        return surfaces
+
+    def test_pieces_make_up_the_refined_mesh_and_its_displacements(self):
+        output = self.folder / "out"
+        two, one = self.pieces(output, 2), self.pieces(output, 1)[0]
+        given = read_vtu(output / "characteristic-displacements.vtu")
+        self.assertEqual(sum(len(surface.triangles) for surface in two), 16 * len(given.triangles))
+        for number, surface in enumerate(two):
+            self.assertTrue((surface.cell_data["rank"] == number).all())
+            self.assertGreater(len(surface.triangles), 4 * len(given.triangles))
+        chi_at = dict(zip(map(tuple, one.points.round(9)), chi_of(one)))
+        for surface in two:
+            chi = chi_of(surface)
+            expected = numpy.array([chi_at[tuple(point)] for point in surface.points.round(9)])
+            self.assertGreater(numpy.abs(expected).max(), 1e-4)
+            numpy.testing.assert_allclose(chi, expected, rtol=0, atol=1e-6 * numpy.abs(expected).max())
+        # Every triangle is in one piece, with its material.
+        numpy.testing.assert_allclose(sorted(materials_of(two[0]) + materials_of(two[1])), materials_of(one),
+                                   rtol=0, atol=1e-12)
+
+    def test_a_run_that_was_killed_goes_on_from_the_loads_that_are_done(self):
+        study = [PROGRAM, "homogenize", self.CELL, "--refine", "5", "--order", "1", "--no-bars", "--quiet", "--output"]
+        whole, cut = self.folder / "whole", self.folder / "cut"
+        subprocess.run([*map(str, study), str(whole)], check=True, timeout=240 * PATIENCE)
+        self.assertFalse((whole / "checkpoint").exists())
+        with subprocess.Popen([*map(str, study), str(cut)]) as process:
+            first = cut / "checkpoint" / "load-0-rank-0-of-1"
+            deadline = time.monotonic() + 240 * PATIENCE
+            while not first.exists() and process.poll() is None and time.monotonic() < deadline:
+                time.sleep(0.01)
+            process.send_signal(signal.SIGKILL)
+        self.assertTrue(first.exists(), "it was killed before the first load was solved, or ended before")
+        self.assertFalse((cut / "homogenize.json").exists())
+        resumed = subprocess.run([*map(str, study), str(cut), "--resume"], capture_output=True, text=True, check=False,
+                                 timeout=240 * PATIENCE)
+        self.assertEqual(resumed.returncode, 0, resumed.stderr)
+        expected = self.stiffness(whole)
+        numpy.testing.assert_allclose(self.stiffness(cut), expected, rtol=0, atol=1e-10 * numpy.abs(expected).max())
+        self.assertFalse((cut / "checkpoint").exists())
+
+
 class Scaling(InFolder):
     STUDY = ["scaling", CELLS / "layered.prm", "--refine", "1,2", "--ranks", "1,2", "--repeats", "1", "--quiet"]
 
     def test_rows_of_every_mesh_and_number_of_ranks_are_written_and_kept(self):
+        (self.folder / "run").mkdir()  # of the user: not the study's to remove
         result = run(*self.STUDY, "--output", self.folder)
         # Meshes as small as these are no claim on memory.
         self.assertIn(result.returncode, (0, 1), result.stderr)
@@ -68,10 +148,15 @@ class Scaling(InFolder):
         verdicts = json.loads((self.folder / "verdicts.json").read_text())["verdicts"]
         self.assertEqual(verdicts[0]["verdict"], "PASS", verdicts[0])
         self.assertEqual(sorted(path.name for path in self.folder.iterdir()),
-                         ["inputs.json", "scaling.csv", "scaling.json", "verdicts.json"])
+                         ["inputs.json", "run", "scaling.csv", "scaling.json", "verdicts.json"])
         again = run(*self.STUDY, "--output", self.folder, "--resume")
         self.assertEqual(again.returncode, result.returncode, again.stderr)
         self.assertEqual(rows_of(self.folder / "scaling.csv"), rows)
+        table = self.folder / "scaling.csv"
+        table.write_text(table.read_text().replace(rows[1]["dofs"], "12x", 1))
+        damaged = run(*self.STUDY, "--output", self.folder, "--resume")
+        self.assertEqual(damaged.returncode, 2)
+        self.assertIn("found dofs `12x` at refine 1, ranks 1", damaged.stderr)
 
     def test_faults_are_told_at_once_and_a_launcher_that_does_not_run_by_what_it_said(self):
         result = run(*self.STUDY, "--ranks", "0", "--launcher", "mpirun -n 2", "--output", self.folder)

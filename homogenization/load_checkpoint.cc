@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: MIT
+#include "homogenization/load_checkpoint.h"
+
+#include "meshes/errors.h"
+#include "meshes/write_whole.h"
+
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <fstream>
+#include <iterator>
+#include <utility>
+#include <vector>
+
+namespace homespun::homogenization
+{
+using dealii::Utilities::MPI::max;
+using dealii::Utilities::MPI::min;
+
+LoadCheckpoint::LoadCheckpoint(std::string folder, const MPI_Comm communicator)
+    : folder(std::move(folder))
+    , communicator(communicator)
+{
+}
+
+std::string LoadCheckpoint::file_of(const int load) const
+{
+  return folder + "/load-" + std::to_string(load) + "-rank-" +
+         std::to_string(dealii::Utilities::MPI::this_mpi_process(communicator)) + "-of-" +
+         std::to_string(dealii::Utilities::MPI::n_mpi_processes(communicator));
+}
+
+unsigned int LoadCheckpoint::read(const int load, ElasticSolver::Vector &owned) const
+{
+  if (folder.empty())
+    return 0;
+  std::ifstream input(file_of(load), std::ios::binary);
+  const std::string bytes{std::istreambuf_iterator<char>(input), std::istreambuf_iterator<char>()};
+  std::vector<double> numbers(1 + static_cast<std::size_t>(owned.end() - owned.begin()));
+  bool is_good = bytes.size() == numbers.size() * sizeof(double);
+  if (is_good)
+    std::memcpy(numbers.data(), bytes.data(), bytes.size());
+  is_good = is_good && std::all_of(numbers.begin(), numbers.end(),
+                                   [](const double x) { return std::isfinite(x); });
+  if (min(is_good ? 1 : 0, communicator) == 0)
+    return 0;
+  std::copy(numbers.begin() + 1, numbers.end(), owned.begin());
+  return static_cast<unsigned int>(std::clamp(numbers[0], 0., 1e9));
+}
+
+void LoadCheckpoint::write(const int load, const ElasticSolver::Vector &owned,
+                           const unsigned int iterations) const
+{
+  if (folder.empty())
+    return;
+  std::vector<double> numbers = {static_cast<double>(iterations)};
+  numbers.insert(numbers.end(), owned.begin(), owned.end());
+  std::string bytes(numbers.size() * sizeof(double), '\0');
+  std::memcpy(bytes.data(), numbers.data(), bytes.size());
+  std::string fault;
+  try
+  {
+    meshes::write_whole(file_of(load), bytes);
+  }
+  catch (const meshes::BadInput &bad)
+  {
+    fault = bad.what();
+  }
+  if (max(fault.empty() ? 0 : 1, communicator) == 1)
+    throw meshes::BadInput(fault.empty() ? "another rank could not write its checkpoint" : fault);
+}
+} // namespace homespun::homogenization

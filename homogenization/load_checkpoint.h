@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+// Solutions of the cell problems that are done, so that a run that was killed does not solve them again.
+#pragma once
+
+#include "homogenization/elastic_solver.h"
+
+#include <string>
+
+namespace homespun::homogenization
+{
+/// A file for each load and rank. What is read is a start for the solver, which goes on until the residual of the
+/// problem at hand is small enough: a solution of another cell, mesh or number of ranks costs iterations, never digits.
+class LoadCheckpoint
+{
+public:
+  /// @param folder exists; empty: nothing is kept
+  LoadCheckpoint(std::string folder, MPI_Comm communicator);
+
+  /// Takes up the solution of a load where every rank has its part, else leaves `owned` as it is. All ranks must call this.
+  /// @return the iterations that it took
+  unsigned int read(int load, ElasticSolver::Vector &owned) const;
+
+  /// All ranks must call this.
+  /// @throws BadInput, on all ranks, where one of them cannot write
+  void write(int load, const ElasticSolver::Vector &owned, unsigned int iterations) const;
+
+private:
+  std::string file_of(int load) const;
+
+  const std::string folder;
+  const MPI_Comm communicator;
+};
+} // namespace homespun::homogenization
