@@ -300,9 +300,9 @@ Mechanisms find_mechanisms(const TriangleMesh &mesh, const Lattice &lattice)
   {
     std::vector<Shift> &its =
       structure.periods[static_cast<std::size_t>(found.part[static_cast<std::size_t>(t)])];
-    const auto cross = [&](const Shift &other)
-    { return other(0) * period(1) - other(1) * period(0); };
-    if (its.empty() || (its.size() == 1 && cross(its[0]) != 0))
+    const auto cross = [](const Shift &one, const Shift &other)
+    { return one(0) * other(1) - one(1) * other(0); };
+    if (its.empty() || (its.size() == 1 && cross(its[0], period) != 0))
       its.push_back(period);
   }
   for (std::size_t p = 0; p < found.parts.size(); ++p)
