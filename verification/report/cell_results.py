@@ -18,7 +18,8 @@ class Cell:
     name: str
     folder: str = ""
     homogenize: dict = None  # homogenize.json
-    phases: list = None      # of cell.json, in the order of the material numbers
+    phases: list = None      # of cell.json, in the order of the material numbers; of a group in many directions one, with `angles`
+    group_of: numpy.ndarray = None   # of each phase in the files, its place in `phases`
     file: str = ""           # the .prm it came from
     vertices: numpy.ndarray = None   # (n,2) [m]
     triangles: numpy.ndarray = None  # (m,3)
@@ -104,6 +105,25 @@ def check_homogenize(value, path, faults):
     return value
 
 
+def share_groups(cell):
+    """Makes one phase of those of one name: a group whose angle differs from triangle to triangle."""
+    names = [str(phase.get("name", number)) for number, phase in enumerate(cell.phases or [])]
+    places = {name: place for place, name in enumerate(dict.fromkeys(names))}
+    cell.group_of = numpy.array([places[name] for name in names], dtype=int)
+    if len(places) < len(names):
+        groups = [[phase for phase, its in zip(cell.phases, names) if its == name] for name in places]
+        cell.phases = [{**group[0], "angles": [phase.get("angle") for phase in group]} if len(group) > 1 else group[0]
+                       for group in groups]
+    if cell.material is not None:
+        cell.material = grouped(cell, cell.material)
+
+
+def grouped(cell, material):
+    """Material numbers of a file as places in the phases of the cell; as they are where the cell does not know them."""
+    known = material.size and 0 <= material.min() and material.max() < len(cell.group_of)
+    return cell.group_of[material] if known else material
+
+
 def read_cell(name, folder, read_json, faults, missing):
     """Reads the folder of one cell; what is absent is noted in `missing`."""
     cell = Cell(name, folder)
@@ -133,6 +153,7 @@ def read_cell(name, folder, read_json, faults, missing):
         if values and triangles_in_range(path, "triangles", values["triangles"], values["vertices"], faults):
             for key in ("vertices", "triangles", "material", "lattice", "chi"):
                 setattr(cell, key, values[key])
+    share_groups(cell)
     cell.field_files = sorted(glob.glob(os.path.join(glob.escape(folder), "fields-*.h5")))
     if not cell.field_files:
         missing.append({"what": f"{name}: pictures of the sheet",

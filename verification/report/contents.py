@@ -7,7 +7,7 @@ from concurrent.futures import ProcessPoolExecutor
 import style
 import tables
 from budget_contents import budget_contents
-from cell_results import read_fields
+from cell_results import grouped, read_fields
 from comparison import comparison_contents
 from converge_contents import convergence_contents
 from drape_contents import drape_contents
@@ -316,6 +316,7 @@ def sheet_picture(cell, path, side, gallery, sheets):
     sheet = read_fields(path, faults)
     if sheet is None:
         raise BadResults(faults)
+    sheet["material"] = grouped(cell, sheet["material"])
     size = side or math.sqrt(float(abs(sheet["rest"].ptp(axis=0).prod())))
     figure, numbers = sheet_figure(cell, sheet, size)
     caption = (f"{cell.name}, {sheet['load']} at {percent(sheet['strain'])} strain, {len(sheet['triangles']):,} "

@@ -115,6 +115,12 @@ def shown(value):
     return three(value) if isinstance(value, (int, float)) or value is None else str(value)
 
 
+def directions(angles):
+    """The angles of a group that differ from triangle to triangle, as text."""
+    known = [angle for angle in angles if isinstance(angle, (int, float))]
+    return f"{three(float(min(known)))} to {three(float(max(known)))}, {len(angles)} directions" if known else "–"
+
+
 def phase_rows(cell):
     """Material parameters of each phase, as text."""
     rows = []
@@ -125,7 +131,7 @@ def phase_rows(cell):
             except (KeyError, TypeError, ValueError):
                 return "–"
         rows.append([str(phase.get("name", "?")), number("E1", 1e-6), number("E2", 1e-6), number("nu12"),
-                     number("G12", 1e-6), number("angle"), number("thickness", 1e3), number("density")])
+                     number("G12", 1e-6), directions(phase["angles"]) if "angles" in phase else number("angle"), number("thickness", 1e3), number("density")])
     return rows
 
 

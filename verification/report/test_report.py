@@ -11,12 +11,13 @@ import numpy
 
 import results
 import style
-from cell_results import Cell
+from cell_results import Cell, grouped, share_groups
 from contents import HEADINGS
 from figures_sheet import coarse_positions
 from figures_stiffness import bracket_history, directional_modulus, observed_slope
 from made_up_study import LAMINATE, square_mesh, strain_rows, write_results
 from page_case import PageTest
+from tables import phase_rows
 
 
 class ReportTest(PageTest):
@@ -147,6 +148,17 @@ class NumbersTest(unittest.TestCase):
         turned = strain.T @ LAMINATE @ strain
         numpy.testing.assert_allclose(directional_modulus(turned, theta),
                                       directional_modulus(LAMINATE, theta - beta), rtol=1e-12)
+
+    def test_a_group_in_many_directions_is_one_phase(self):
+        phases = [{"name": name, "angle": angle} for name, angle in (("yarn", 15.), ("ground", 0.), ("yarn", -30.), ("yarn", 80.))]
+        cell = Cell("made-up", phases=phases, material=numpy.array([0, 1, 2, 3, 1]))
+        share_groups(cell)
+        self.assertEqual(cell.material.tolist(), [0, 1, 0, 0, 1])
+        self.assertEqual([phase["name"] for phase in cell.phases], ["yarn", "ground"])
+        self.assertEqual([row[5] for row in phase_rows(cell)], ["−30.0 to 80.0, 3 directions", "0"])
+        self.assertEqual(grouped(cell, numpy.array([3, 1])).tolist(), [0, 1])
+        self.assertEqual(grouped(cell, numpy.array([4, 1])).tolist(), [4, 1])  # a file of another cell: left alone
+        self.assertEqual(grouped(Cell("without"), numpy.array([], dtype=int)).tolist(), [])
 
     def test_slope_of_a_bracket_is_that_of_its_finer_half(self):
         dofs = numpy.array([10., 20., 100., 200., 400., 800.])
