@@ -12,6 +12,7 @@
 #include <Teuchos_ParameterList.hpp>
 
 #include <cmath>
+#include <sstream>
 
 namespace homespun::homogenization
 {
@@ -139,8 +140,9 @@ unsigned int ElasticSolver::solve(Vector &solution, const Vector &right_hand_sid
     if (history.back() <= tolerance)
       return iteration;
   }
-  throw meshes::NotConverged("conjugate gradients did not reach " + std::to_string(tolerance) +
-                               " in " + std::to_string(max_iterations) + " iterations",
-                             history);
+  std::ostringstream text;
+  text << "conjugate gradients did not reach a residual of " << tolerance << " in "
+       << max_iterations << " iterations; the last is " << history.back();
+  throw meshes::NotConverged(text.str(), history);
 }
 } // namespace homespun::homogenization

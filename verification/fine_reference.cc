@@ -4,6 +4,7 @@
 #include "homogenization/periodic_constraints.h"
 #include "meshes/errors.h"
 #include "meshes/refine.h"
+#include "verification/result_files.h"
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/timer.h>
@@ -20,6 +21,12 @@ using namespace dealii;
 using homogenization::AffineTriangle;
 using homogenization::Discretization;
 using homogenization::ReferenceElement;
+
+namespace
+{
+/// Sheets of weaves, a thousand times as stiff along the yarns as in shear, take some hundreds.
+constexpr unsigned int most_linear_iterations = 3000;
+} // namespace
 
 FineReference::FineReference(const meshes::Sheet &sheet,
                              std::vector<Eigen::Matrix3d> stiffness_of_phase,
@@ -143,7 +150,8 @@ FineReference::State FineReference::assemble(const Vector &displacement,
     cell->get_dof_indices(dofs);
     ghosted.extract_subvector_to(dofs, values);
 
-    bool is_inverted              = false;
+    const double rounded = std::numeric_limits<double>::epsilon() * C.cwiseAbs().maxCoeff();
+    bool is_inverted     = false;
     Eigen::Matrix<double, n, n> K = Eigen::Matrix<double, n, n>::Zero();
     Eigen::Matrix<double, n, 1> f = Eigen::Matrix<double, n, 1>::Zero();
     for (std::size_t q = 0; q < reference.weights.size(); ++q)
@@ -151,6 +159,7 @@ FineReference::State FineReference::assemble(const Vector &displacement,
       // D maps the displacements of the nodes to the entries F11, F12, F21, F22 of grad u.
       Eigen::Matrix<double, 4, n> D = Eigen::Matrix<double, 4, n>::Zero();
       Eigen::Matrix2d F             = mean_gradient;
+      double size_of_terms = F.norm(), slopes = 0.; // of the sum that F is, and |grad v|^2
       for (int i = 0; i < n_shapes; ++i)
       {
         const Eigen::Vector2d g =
@@ -159,6 +168,10 @@ FineReference::State FineReference::assemble(const Vector &displacement,
         D.template block<2, 1>(2, 2 * i + 1) = g;
         F.row(0) += values[static_cast<std::size_t>(2 * i)] * g.transpose();
         F.row(1) += values[static_cast<std::size_t>(2 * i + 1)] * g.transpose();
+        size_of_terms += std::hypot(values[static_cast<std::size_t>(2 * i)],
+                                    values[static_cast<std::size_t>(2 * i + 1)]) *
+                         g.norm();
+        slopes += g.squaredNorm();
       }
       const double weight = reference.weights[q] * triangle.determinant;
       if (!(F.determinant() > 0.))
@@ -167,6 +180,7 @@ FineReference::State FineReference::assemble(const Vector &displacement,
         if (law == Law::green)
           state.energy = std::numeric_limits<double>::infinity();
       }
+      state.round_off += slopes * std::pow(weight * rounded * size_of_terms, 2);
       const Response local = response(law, C, F);
       state.energy += weight * local.energy;
       f.noalias() += weight * D.transpose() * local.stress;
@@ -198,6 +212,7 @@ FineReference::State FineReference::assemble(const Vector &displacement,
   }
   state.n_inverted = Utilities::MPI::sum(state.n_inverted, discretization.communicator);
   state.force_size = std::sqrt(Utilities::MPI::sum(state.force_size, discretization.communicator));
+  state.round_off  = std::sqrt(Utilities::MPI::sum(state.round_off, discretization.communicator));
   state.residual   = residual.l2_norm();
   return state;
 }
@@ -221,7 +236,7 @@ unsigned int FineReference::solve_linearized(Vector &increment, const Vector &fo
   // Should this solve fail, the next one has a hierarchy of its own.
   preconditioner_is_old   = true;
   increment               = 0.;
-  const unsigned int used = solver->solve(increment, forces, target, 300);
+  const unsigned int used = solver->solve(increment, forces, target, most_linear_iterations);
   // A hierarchy serves until it costs half as much again, per digit gained.
   const double digits    = std::log10(std::max(10., forces.l2_norm() / target));
   const double per_digit = (used + 1) / digits;
@@ -257,7 +272,7 @@ void FineReference::solve(Vector &displacement, const double strain, const doubl
     if (!std::isfinite(state.residual) || !std::isfinite(state.energy))
       throw meshes::NotConverged("the sheet collapsed under the load step", history);
     // A sheet without load has no forces at all.
-    if (state.residual <= tolerance * state.force_size)
+    if (state.residual <= state.least_residual(tolerance))
     {
       step.n_inverted = law == Law::linear ? 0 : state.n_inverted;
       return;
@@ -266,7 +281,7 @@ void FineReference::solve(Vector &displacement, const double strain, const doubl
       break;
 
     // As exact as the next step of Newton's method can use; a linear law needs one step.
-    const double needed = 0.1 * tolerance * state.force_size;
+    const double needed = 0.1 * state.least_residual(tolerance);
     const double target = law == Law::linear ? needed : std::max(needed, 1e-3 * state.residual);
     residual *= -1.;
     const Vector forces = residual;
@@ -342,7 +357,7 @@ ReferenceStep FineReference::advance(const double strain)
     step.positions = positions_of(levels.back().displacement, strain);
   }
   else
-    step.why = "stopped at strain " + std::to_string(reached) + ": " + step.why;
+    step.why = "stopped at strain " + csv_number(reached) + ": " + step.why;
   timer.stop();
   step.seconds = Utilities::MPI::max(timer.wall_time(), discretization.communicator);
   // Later levels of a linear law are multiples of the first; what a solve costs is the first.

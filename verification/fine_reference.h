@@ -12,6 +12,7 @@
 
 #include <mpi.h>
 
+#include <algorithm>
 #include <functional>
 #include <memory>
 #include <vector>
@@ -34,9 +35,10 @@ struct ReferenceStep
 
 struct ReferenceOptions
 {
-  unsigned int order  = 1;    ///< P1 or P2
-  unsigned int refine = 0;    ///< uniform refinements of the sheet's mesh
-  double tolerance    = 1e-9; ///< of |residual| relative to the size of the element forces
+  unsigned int order  = 1; ///< P1 or P2
+  unsigned int refine = 0; ///< uniform refinements of the sheet's mesh
+  double tolerance =
+    1e-9; ///< of |residual| relative to the size of the element forces; no smaller than round-off
 };
 
 /// A resolved sheet under one load and one law, brought from strain to strain.
@@ -82,6 +84,13 @@ private:
     unsigned int n_inverted = 0;  ///< triangles with det F <= 0
     double residual         = 0.; ///< norm over free DoFs [N]
     double force_size       = 0.; ///< norm of the element forces before they cancel [N]
+    double round_off        = 0.; ///< norm of what rounded gradients do to the element forces [N]
+
+    /// The residual that counts as none.
+    double least_residual(const double tolerance) const
+    {
+      return std::max(tolerance * force_size, round_off);
+    }
   };
 
   void constrain(const Load &load);

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace homespun::verification
 {
@@ -61,22 +62,28 @@ NonlinearCell::Assembled NonlinearCell::assemble(const Eigen::Matrix2d &U, const
   Assembled sum;
   sum.residual.setZero(n_unknowns);
   std::vector<Eigen::Triplet<double>> entries;
-  double squared_size = 0.;
+  double squared_size = 0., squared_round_off = 0.;
   for (int t = 0; t < cell.mesh.n_triangles(); ++t)
   {
     const auto &g = hats[static_cast<std::size_t>(t)];
     // B maps the fluctuations of the corners to the entries F11, F12, F21, F22.
     Eigen::Matrix<double, 4, 6> B = Eigen::Matrix<double, 4, 6>::Zero();
     Eigen::Matrix2d F             = U;
+    double size_of_terms          = U.norm(); // of the sum that F is
     for (int k = 0; k < 3; ++k)
     {
       F += w.row(cell.mesh.triangles(t, k)).transpose() * g.row(k);
+      size_of_terms += w.row(cell.mesh.triangles(t, k)).norm() * g.row(k).norm();
       B.block<2, 1>(0, 2 * k)     = g.row(k).transpose();
       B.block<2, 1>(2, 2 * k + 1) = g.row(k).transpose();
     }
-    const Response local =
-      response(law, stiffness_of_phase[static_cast<std::size_t>(cell.mesh.material(t))], F);
-    const double part = areas(t) / cell.lattice.area();
+    const Eigen::Matrix3d &c = stiffness_of_phase[static_cast<std::size_t>(cell.mesh.material(t))];
+    const Response local     = response(law, c, F);
+    const double part        = areas(t) / cell.lattice.area();
+    squared_round_off += std::pow(part * std::numeric_limits<double>::epsilon() *
+                                    c.cwiseAbs().maxCoeff() * size_of_terms,
+                                  2) *
+                         g.squaredNorm();
     sum.energy += part * local.energy;
     sum.stress += part * Eigen::Vector3d(local.stress(0), local.stress(3),
                                          0.5 * (local.stress(1) + local.stress(2)));
@@ -101,6 +108,7 @@ NonlinearCell::Assembled NonlinearCell::assemble(const Eigen::Matrix2d &U, const
     }
   }
   sum.force_size = std::sqrt(squared_size);
+  sum.round_off  = std::sqrt(squared_round_off);
   if (with_matrix)
   {
     sum.matrix.resize(n_unknowns, n_unknowns);
@@ -128,8 +136,8 @@ CellState NonlinearCell::solve(const Eigen::Vector3d &strain) const
     const double size = now.residual.norm();
     history.push_back(now.force_size > 0. ? size / now.force_size : 0.);
     // Down to round-off: the excess over the linear theory is a small difference.
-    const bool is_stuck =
-      newton > 2 && history.back() < 1e-10 && history.back() > 0.5 * history[history.size() - 2];
+    const bool is_stuck = newton > 2 && size < std::max(1e-10 * now.force_size, now.round_off) &&
+                          history.back() > 0.5 * history[history.size() - 2];
     if (history.back() <= 1e-14 || is_stuck || n_unknowns == 0)
       break;
     if (newton == 40 || !std::isfinite(now.energy))
@@ -157,7 +165,7 @@ CellState NonlinearCell::solve(const Eigen::Vector3d &strain) const
       const meshes::Points trial = state.fluctuation + length * spread(step);
       const Assembled next       = assemble(U, trial, false, false);
       // Close to the answer the energy changes by less than its rounding, and the step is Newton's own.
-      if (history.back() < 1e-7 ||
+      if (size < std::max(1e-7 * now.force_size, 10. * now.round_off) ||
           next.energy <= now.energy + 1e-4 * length * slope + rounding * std::abs(now.energy))
       {
         state.fluctuation = trial;

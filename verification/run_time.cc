@@ -225,7 +225,8 @@ private:
       for (const char *method : {"affine", "localized"})
         coarse_cloth(method + ("-" + std::to_string(quads)), method, quads, homogenized.stiffness);
     coarse_cloth("voigt", "localized", sheet.n1, bounds.voigt);
-    coarse_cloth("reuss", "localized", sheet.n1, bounds.reuss);
+    if (!bounds.reuss.isZero()) // of a cell with holes it is
+      coarse_cloth("reuss", "localized", sheet.n1, bounds.reuss);
 
     const HomogenizedSheet coarse(homogenized.stiffness, sheet, load, sheet.n1, sheet.n2);
     const shell::Positions<2> start = coarse.prescribed(options.strain);

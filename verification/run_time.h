@@ -5,7 +5,7 @@
 //   fine-p1, fine-p2       deal.II, every triangle of the sheet, law biot; all ranks
 //   fine-corotational      the cloth's own element at full resolution, direct solver; one rank, as all that follow
 //   affine-Q, localized-Q  coarse cloth of Q x Q quads, Q = 5, 10, 20, 40, coarse motion alone or localized
-//   voigt, reuss           one quad per cell, localized, with the Voigt or Reuss stiffness in place of C^H
+//   voigt, reuss           one quad per cell, localized, with the Voigt or Reuss stiffness in place of C^H; Reuss not with holes
 //   nodal-warping          one quad per cell, localized, with the paper's warped stiffness (shell/warping.h)
 //
 // Every run begins with the affine motion that agrees with what is prescribed; there is no warm start from a smaller

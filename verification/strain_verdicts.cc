@@ -4,7 +4,10 @@
 #include "verification/result_files.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
+#include <optional>
+#include <utility>
 
 namespace homespun::verification
 {
@@ -29,32 +32,66 @@ std::vector<Row> parsed(const std::vector<std::vector<std::string>> &rows)
 
 constexpr double round_off = 1e-10; ///< in strain x cell side
 
+/// The order of the error as the strain goes to zero, from the three smallest levels; nothing where the slopes between them
+/// still differ by more than the limit of the claim.
+std::optional<double> settled_slope(const std::vector<double> &strains,
+                                    const std::vector<double> &errors)
+{
+  const auto between = [&](const std::size_t k)
+  { return std::log(errors[k + 1] / errors[k]) / std::log(strains[k + 1] / strains[k]); };
+  if (strains.size() < 3 || !(std::abs(between(0) - between(1)) <= 0.1))
+    return {};
+  return log_slope({strains.begin(), strains.begin() + 3}, {errors.begin(), errors.begin() + 3});
+}
+
 Verdict periodic_verdict(const std::string &cell, const std::string &load,
                          const std::vector<Row> &rows)
 {
-  std::vector<double> strains, errors;
+  std::vector<std::pair<double, double>> levels; // strain and error
   for (const Row &row : rows)
     if (row.cell == cell && row.load == load && row.reference == "biot" &&
-        row.method == "localized" && row.strain >= 0.99e-4 && row.strain <= 0.101)
+        row.method == "localized" && row.strain <= 0.101)
+      levels.emplace_back(row.strain, row.error_per_cell);
+  std::sort(levels.begin(), levels.end());
+  std::vector<double> strains, errors; // in the window of the claim
+  double largest = 0.;                 // per strain
+  for (const auto &[strain, error] : levels)
+    if (strain >= 0.99e-4)
     {
-      strains.push_back(row.strain);
-      errors.push_back(row.error_per_cell);
+      strains.push_back(strain);
+      errors.push_back(error);
+      largest = larger(largest, error / strain);
     }
-  const std::string what = cell + ", " + load + ": localized error against biot ";
+  const std::string what  = cell + ", " + load + ": localized error against biot ",
+                    claim = what + "falls as strain squared (slope)";
   if (strains.size() < 3)
-    return {what + "falls as strain squared (slope)", Outcome::inconclusive,
-            std::numeric_limits<double>::quiet_NaN(),
+    return {claim, Outcome::inconclusive, std::numeric_limits<double>::quiet_NaN(),
             "2 +- 0.1 over at least three levels from 1e-4 to 0.1"};
-  double largest = 0.; // per strain
-  for (std::size_t k = 0; k < strains.size(); ++k)
-    largest = std::max(largest, errors[k] / strains[k]);
   if (largest < round_off)
     return {what + "is zero to round-off at every level, as where the law is linear in this load "
                    "(largest, per strain and cell side)",
             Outcome::pass, largest, "< 1e-10"};
   const double slope = log_slope(strains, errors);
-  return {what + "falls as strain squared (slope)",
-          std::abs(slope - 2.) <= 0.1 ? Outcome::pass : Outcome::fail, slope, "2 +- 0.1"};
+  if (std::abs(slope - 2.) <= 0.1)
+    return {claim, Outcome::pass, slope, "2 +- 0.1"};
+
+  // Theory speaks of strains that are small against what the cell bears, which a weave, soft in shear, does not at 1 %; where its
+  // symmetry leaves no quadratic term, the error falls faster.
+  strains.clear();
+  errors.clear();
+  for (const auto &[strain, error] : levels)
+    if (error > 10. * round_off * strain)
+    {
+      strains.push_back(strain);
+      errors.push_back(error);
+    }
+  const std::optional<double> settled = settled_slope(strains, errors);
+  if (!settled)
+    return {
+      claim, Outcome::inconclusive, slope,
+      "2 +- 0.1, or at least 1.9 at the three smallest levels, whose slopes still differ: give smaller --strains"};
+  return {what + "falls as strain squared or faster (slope at the three smallest levels)",
+          *settled >= 1.9 ? Outcome::pass : Outcome::fail, *settled, ">= 1.9"};
 }
 
 Verdict sheet_verdict(const std::string &cell, const std::string &load,

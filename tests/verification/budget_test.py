@@ -42,6 +42,15 @@ class Budget(InFolder):
         self.assertEqual(len(claims), 4)
         self.assertEqual({v["verdict"] for v in claims}, {"PASS"})
 
+    def test_of_a_cell_with_holes_the_way_of_reuss_is_left_out(self):
+        result = run("strain", CELLS / "honeycomb.prm", "--cells", "2", "--strains", "0.01", "--loads", "shear-frame",
+                     "--references", "biot", "--methods", "localized", "--no-budget", "--no-report", "--quiet", "--output",
+                     self.folder)
+        self.assertIn(result.returncode, (0, 1), result.stderr)
+        ways = {row["way"]: row for row in rows_of(self.folder / "runtime.csv")}
+        self.assertGreater(float(ways["voigt"]["error_mean_m"]), 0.)
+        self.assertNotIn("reuss", ways)
+
     def test_a_budget_cut_at_any_row_is_completed(self):
         study = [*STUDY, "--no-runtime", "--quiet", "--output", self.folder]
         self.assertEqual(run(*study).returncode, 0)

@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <utility>
 
 using namespace homespun;
 using namespace homespun::verification;
@@ -138,6 +139,35 @@ TEST(invariant_fine_reference, a_level_does_not_depend_on_the_levels_before_it)
     reference.start(Load("strip-2"), law);
     const meshes::Points at_once = reference.advance(0.1).positions;
     EXPECT_LT((walked - at_once).cwiseAbs().maxCoeff(), 1e-8 * 0.01) << name_of(law);
+  }
+}
+
+TEST(exact_fine_reference,
+     a_weave_has_its_equilibrium_at_small_strain_though_round_off_hides_the_tolerance)
+{
+  // Yarns 1e4 times as stiff as their shear: at a strain of 1e-6 the forces of shear are 1e-10 of those that rounded
+  // gradients make in the yarns.
+  const std::vector<homogenization::Phase> yarns = {{"warp", 1e9, 1e6, 0.3, 1e5, 0., 5e-4, 400.},
+                                                    {"weft", 1e9, 1e6, 0.3, 1e5, 90., 5e-4, 400.}};
+  const UnitCell cell =
+    tests::cell_of(tests::square_lattice(0.01), 8, 8, yarns,
+                   [](const double x, const double y) { return (x < 0.5) == (y < 0.5) ? 0 : 1; });
+  ReferenceOptions options;
+  options.tolerance = 1e-11;
+  for (const auto &[name, n] : {std::pair{"periodic-12", 1}, std::pair{"shear-frame", 4}})
+  {
+    const meshes::Sheet sheet = meshes::tile(cell.mesh, cell.lattice, n, n);
+    FineReference reference(sheet, cell.stiffness_of_phase(), options, MPI_COMM_SELF);
+    const Load load(name);
+    reference.start(load, Law::linear);
+    const ReferenceStep linear = reference.advance(1e-6);
+    reference.start(load, Law::biot);
+    const ReferenceStep biot = reference.advance(1e-6);
+    ASSERT_TRUE(linear.reached) << name << ": " << linear.why;
+    ASSERT_TRUE(biot.reached) << name << ": " << biot.why;
+    // Both laws agree in the limit: to the strain against what the shear bears, 1e-6 x 1e4, of the motion.
+    const double distance = (biot.positions - linear.positions).rowwise().norm().maxCoeff();
+    EXPECT_LT(distance, 1e-2 * 1e-6 * 0.01 * n) << name;
   }
 }
 

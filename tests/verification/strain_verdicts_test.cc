@@ -56,11 +56,33 @@ TEST(exact_verdicts, the_slope_of_a_power_law_is_its_exponent)
     EXPECT_NEAR(strain_verdicts(periodic(order))[0].value, order, 1e-5);
 }
 
-TEST(tripwire_verdicts, only_the_second_order_passes)
+TEST(tripwire_verdicts, the_second_order_passes_and_the_first_fails)
 {
   EXPECT_EQ(strain_verdicts(periodic(2.))[0].outcome, Outcome::pass);
   EXPECT_EQ(strain_verdicts(periodic(1.))[0].outcome, Outcome::fail); // a lost or turned chi
-  EXPECT_EQ(strain_verdicts(periodic(3.))[0].outcome, Outcome::fail);
+  EXPECT_EQ(strain_verdicts(periodic(1.8))[0].outcome, Outcome::fail);
+  // The shear of a cell with mirrors has no quadratic term.
+  EXPECT_EQ(strain_verdicts(periodic(3.))[0].outcome, Outcome::pass);
+}
+
+TEST(tripwire_verdicts,
+     strains_that_are_not_small_for_the_cell_decide_nothing_until_smaller_ones_do)
+{
+  // Quadratic at first, then less than that: a yarn that has turned into the load.
+  const auto error = [](const double strain, const double first_order)
+  { return 1e-2 * (first_order * strain + strain * strain / (1. + strain / 2e-4)); };
+  const auto rows_of = [&](const std::vector<double> &strains, const double first_order)
+  {
+    Rows rows;
+    for (const double strain : strains)
+      rows.push_back(row("periodic-11", strain, "localized", error(strain, first_order)));
+    return rows;
+  };
+  EXPECT_EQ(strain_verdicts(rows_of({1e-4, 1e-3, 1e-2, 0.1}, 0.))[0].outcome,
+            Outcome::inconclusive);
+  const std::vector<double> smaller = {1e-7, 1e-6, 1e-5, 1e-4, 1e-3, 1e-2, 0.1};
+  EXPECT_EQ(strain_verdicts(rows_of(smaller, 0.))[0].outcome, Outcome::pass);
+  EXPECT_EQ(strain_verdicts(rows_of(smaller, 1e-3))[0].outcome, Outcome::fail);
 }
 
 TEST(tripwire_verdicts, two_levels_decide_nothing)
