@@ -140,8 +140,9 @@ std::vector<Corner> corners_of(const meshes::TriangleMesh &mesh, const meshes::L
          mesh.material(t)});
     }
   std::vector<Corner> corners;
-  for (const auto &[vertex, its] : around)
+  for (const auto &corners_at_vertex : around)
   {
+    const std::vector<TriangleCorner> &its = corners_at_vertex.second;
     std::map<TriangleCorner::Edge, std::size_t> by_begin;
     std::map<TriangleCorner::Edge, bool> is_end;
     for (std::size_t i = 0; i < its.size(); ++i)

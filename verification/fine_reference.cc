@@ -183,6 +183,8 @@ FineReference::State FineReference::assemble(const Vector &displacement,
       state.round_off += slopes * std::pow(weight * rounded * size_of_terms, 2);
       const Response local = response(law, C, F);
       state.energy += weight * local.energy;
+      state.energy_round_off +=
+        weight * local.stress.norm() * std::numeric_limits<double>::epsilon() * size_of_terms;
       f.noalias() += weight * D.transpose() * local.stress;
       if (with_matrix)
         K.noalias() +=
@@ -204,7 +206,8 @@ FineReference::State FineReference::assemble(const Vector &displacement,
   residual.compress(VectorOperation::add);
   if (with_matrix)
     solver->matrix.compress(VectorOperation::add);
-  state.energy = Utilities::MPI::sum(state.energy, discretization.communicator);
+  state.energy           = Utilities::MPI::sum(state.energy, discretization.communicator);
+  state.energy_round_off = Utilities::MPI::sum(state.energy_round_off, discretization.communicator);
   if (body_force)
   {
     residual.add(-1., body_load);
@@ -309,7 +312,8 @@ void FineReference::solve(Vector &displacement, const double strain, const doubl
       trial = displacement;
       trial.add(length, increment);
       next                 = evaluate(trial, mean_gradient, residual, false, false);
-      const double allowed = state.energy + 1e-4 * length * slope + 1e-13 * std::abs(state.energy);
+      const double allowed = state.energy + 1e-4 * length * slope + 1e-13 * std::abs(state.energy) +
+                             state.energy_round_off;
       if (next.energy <= allowed || (law == Law::linear && std::isfinite(next.energy)))
         break;
       length *= 0.5;

@@ -85,6 +85,7 @@ private:
     double residual         = 0.; ///< norm over free DoFs [N]
     double force_size       = 0.; ///< norm of the element forces before they cancel [N]
     double round_off        = 0.; ///< norm of what rounded gradients do to the element forces [N]
+    double energy_round_off = 0.; ///< what they do to the energy at most [J]
 
     /// The residual that counts as none.
     double least_residual(const double tolerance) const

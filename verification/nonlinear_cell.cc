@@ -85,6 +85,8 @@ NonlinearCell::Assembled NonlinearCell::assemble(const Eigen::Matrix2d &U, const
                                   2) *
                          g.squaredNorm();
     sum.energy += part * local.energy;
+    sum.energy_round_off +=
+      part * local.stress.norm() * std::numeric_limits<double>::epsilon() * size_of_terms;
     sum.stress += part * Eigen::Vector3d(local.stress(0), local.stress(3),
                                          0.5 * (local.stress(1) + local.stress(2)));
     const Eigen::Matrix<double, 6, 1> force = part * B.transpose() * local.stress;
@@ -166,7 +168,8 @@ CellState NonlinearCell::solve(const Eigen::Vector3d &strain) const
       const Assembled next       = assemble(U, trial, false, false);
       // Close to the answer the energy changes by less than its rounding, and the step is Newton's own.
       if (size < std::max(1e-7 * now.force_size, 10. * now.round_off) ||
-          next.energy <= now.energy + 1e-4 * length * slope + rounding * std::abs(now.energy))
+          next.energy <= now.energy + 1e-4 * length * slope + rounding * std::abs(now.energy) +
+                           now.energy_round_off)
       {
         state.fluctuation = trial;
         now               = next;

@@ -45,6 +45,7 @@ private:
   struct Assembled
   {
     double energy = 0., force_size = 0.;
+    double energy_round_off = 0.; ///< what rounded gradients do to the energy at most
     double round_off = 0.; ///< norm of what rounded gradients do to the forces of the triangles
     Eigen::VectorXd residual;
     Eigen::Vector3d stress = Eigen::Vector3d::Zero();
