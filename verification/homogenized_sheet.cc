@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace homespun::verification
 {
@@ -160,9 +161,12 @@ shell::Positions<2> HomogenizedSheet::solve(const NonlinearLocalization &excess,
     const shell::Positions<2> move = matrix.solve(gradient);
     positions -= move;
     history.push_back(move.norm());
-    // Relative to what the excess moves at all; where it moves nothing, to what the load does.
-    if (history.back() <=
-        std::max(1e-6 * (positions - start).norm(), 1e-12 * (start - mesh.vertices).norm()))
+    // Relative to what the excess moves at all; where it moves nothing, to what the load does; and no finer than rounded
+    // gradients allow, which are differences of positions over 1/n of the sheet.
+    const double round_off =
+      4. * std::numeric_limits<double>::epsilon() * std::max(n1, n2) * mesh.vertices.norm();
+    if (history.back() <= std::max({1e-6 * (positions - start).norm(),
+                                    1e-12 * (start - mesh.vertices).norm(), round_off}))
       return positions;
   }
   throw meshes::NotConverged(

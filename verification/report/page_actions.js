@@ -1,12 +1,9 @@
 // SPDX-License-Identifier: MIT
-// What a reader does with a page, for the tests: it runs beside a frame that holds the page, and writes what came of it.
-"use strict";
-onload = () => setTimeout(() => {
-  const frame = document.querySelector("iframe"), page = frame.contentDocument, their = frame.contentWindow;
+// What a reader does with a page, for the tests: it runs beside a frame that holds the page, and sends what came of it.
+when((page) => page.querySelector(".view[data-ready]") && page.querySelector("#stripes-error-strain .plot"), (page, their) => {
   const found = { faults: [] };
   their.onerror = (message) => { found.faults.push(message); };
   const event = (target, kind, more = {}) => target.dispatchEvent(Object.assign(new their.Event(kind, { bubbles: true }), more));
-  const finish = () => { document.querySelector("pre").textContent = JSON.stringify(found); };
   try {
     const view = page.querySelector(".view");
     for (const select of view.querySelectorAll("select"))
@@ -30,15 +27,16 @@ onload = () => setTimeout(() => {
     const box = canvas.getBoundingClientRect(), index = chart().data.datasets.findIndex((one) => one.label.startsWith("localized"));
     const point = chart().getDatasetMeta(index).data[1];
     canvas.dispatchEvent(new their.MouseEvent("mousemove", { bubbles: true, clientX: box.left + point.x, clientY: box.top + point.y }));
-    setTimeout(() => {
+    const has_tooltip = () => chart().tooltip.body?.length > 0;
+    when(has_tooltip, () => {
       found.beside_the_pointer = chart().tooltip.body.flatMap((part) => part.lines);
       const link = page.querySelector('#stripes-error-strain .downloads a[href$=".csv"]');
       link.addEventListener("click", (click) => click.preventDefault());
       link.click();
-      their.fetch(link.href).then((answer) => answer.text()).then((text) => { found.csv = text; finish(); });
-    }, 1000);
+      their.fetch(link.href).then((answer) => answer.text()).then((text) => { found.csv = text; send(found); });
+    });
   } catch (error) {
     found.faults.push(error.stack);
-    finish();
+    send(found);
   }
-}, 4000);
+});

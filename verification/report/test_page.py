@@ -2,13 +2,10 @@
 """Tests of what every page must be: whole, small, alone, with its numbers; and of what stands in its plots and views."""
 import csv
 import glob
-import html
 import json
 import math
 import os
 import re
-import shutil
-import subprocess
 import unittest
 import urllib.parse
 from unittest import mock
@@ -16,6 +13,7 @@ from unittest import mock
 import numpy
 from matplotlib import pyplot
 
+import browser
 import figures_cloth
 import gallery
 import page_checks
@@ -28,7 +26,6 @@ from made_up_drape import write_drape
 from made_up_study import square_mesh, write_results
 from page_case import PageTest
 
-CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser")
 HAS_CHART = os.path.isfile(scripts.CHART)
 
 
@@ -109,37 +106,28 @@ class WholePageTest(PageTest):
         self.assertLess(sheet["triangles"].max(), 25)
         self.assertGreater(len(next(view for view in views if view["times"])["times"]), 1)
 
-    @unittest.skipUnless(CHROMIUM and HAS_CHART, "needs chromium and libjs-chart.js")
+    @unittest.skipUnless(browser.CHROMIUM and HAS_CHART, "needs chromium and libjs-chart.js")
     def test_a_browser_draws_plots_and_a_view_without_a_fault(self):
-        done = self.browse(os.path.join(self.made_in, "report.html") + "?theme=dark&view=1")
-        self.assertFalse(re.findall(r"CONSOLE.*(?:Error|error).*", done.stderr))
-        self.assertTrue('<html lang="en" data-theme="dark">' in done.stdout, "the theme is dark on request")
-        self.assertEqual(done.stdout.count('class="plot"'), len(page_checks.data_of(self.text, "plot-data")))
-        self.assertEqual(re.findall(r'class="view" data-ready="(\d+)"', done.stdout), [str(3 * 72)])  # corners of all triangles
+        script = """when((page) => page.querySelector(".view[data-ready]"), (page) => send({
+          theme: page.documentElement.dataset.theme, plots: page.querySelectorAll(".plot").length,
+          corners: [...page.querySelectorAll(".view")].map((view) => view.dataset.ready) }));"""
+        found, messages = browser.ask(self.made_in, "report.html?theme=dark&view=1", script)
+        self.assertFalse(re.findall(r"CONSOLE.*(?:Error|error).*", messages))
+        self.assertEqual(found["theme"], "dark")
+        self.assertEqual(found["plots"], len(page_checks.data_of(self.text, "plot-data")))
+        self.assertEqual([corners for corners in found["corners"] if corners], [str(3 * 72)])  # corners of all triangles
 
-    @unittest.skipUnless(CHROMIUM, "needs chromium")
+    @unittest.skipUnless(browser.CHROMIUM and HAS_CHART, "needs chromium and libjs-chart.js")
     def test_page_does_not_scroll_sideways_on_a_phone(self):
-        frame = os.path.join(self.made_in, "frame.html")
-        with open(frame, "w", encoding="utf-8") as file:
-            file.write('<iframe width="390" height="4000" src="report.html"></iframe><p></p><script>onload = () => setTimeout(() => {'
-                       'const page = document.querySelector("iframe").contentDocument.documentElement;'
-                       'document.querySelector("p").textContent = `${page.scrollWidth} of ${page.clientWidth}`; }, 3000)</script>')
-        needed, shown = map(int, re.search(r"<p>(\d+) of (\d+)</p>", self.browse(frame).stdout).groups())
+        script = """when((page) => page.querySelector(".plot canvas"), ({ documentElement: its }) => setTimeout(() => send(
+          [its.scrollWidth, its.clientWidth]), 1000));"""
+        (needed, shown), _ = browser.ask(self.made_in, "report.html", script, width=390)
         self.assertGreater(shown, 300)
         self.assertEqual(needed, shown)
 
-    @unittest.skipUnless(CHROMIUM and HAS_CHART, "needs chromium and libjs-chart.js")
+    @unittest.skipUnless(browser.CHROMIUM and HAS_CHART, "needs chromium and libjs-chart.js")
     def test_a_reader_hovers_switches_curves_and_axes_and_saves_what_the_file_holds(self):
-        frame = os.path.join(self.made_in, "actions.html")
-        with open(frame, "w", encoding="utf-8") as file:
-            file.write('<iframe width="1300" height="7900" src="report.html?view=1"></iframe><pre></pre><script>'
-                       + scripts.own("page_actions.js") + "</script>")
-        for budget in (30, 120, 480):  # a busy machine loads the page after the browser's clock has run out
-            answer = re.search(r"<pre>(.*?)</pre>", self.browse(frame, budget).stdout, flags=re.S).group(1)
-            if answer:
-                break
-        self.assertTrue(answer, "the page did not answer")
-        found = json.loads(html.unescape(answer))
+        found, _ = browser.ask(self.made_in, "report.html?view=1", scripts.own("page_actions.js"))
         self.assertEqual(found["faults"], [])
         self.assertIn("up-sampled − reference × 10 (exaggerated)", found["sliders"])
         self.assertEqual((found["hidden"], found["axis"]), (["affine against biot"], "linear"))
@@ -149,17 +137,6 @@ class WholePageTest(PageTest):
         saved = list(csv.reader(found["csv"].splitlines()))
         self.assertEqual([row[:4] for row in saved], [row[:4] for row in stored])
         self.assertEqual([float(row[6]) for row in saved[1:]], [float(row[6]) for row in stored[1:]])
-
-    def browse(self, address, seconds=30):
-        """What the browser makes of a page: its elements on stdout, messages of scripts on stderr."""
-        command = [CHROMIUM, "--headless", "--no-sandbox", "--use-gl=angle", "--use-angle=swiftshader",
-                   "--enable-unsafe-swiftshader", "--enable-logging=stderr", f"--virtual-time-budget={1000 * seconds}",
-                   "--allow-file-access-from-files", "--window-size=600,8000", f"--user-data-dir={self.made_in}/browser",
-                   "--dump-dom", f"file://{address}"]
-        try:
-            return subprocess.run(command, capture_output=True, text=True, timeout=240, check=False)
-        except subprocess.TimeoutExpired:
-            self.skipTest("the browser did not answer within its time")
 
 
 class PageSizeTest(unittest.TestCase):
