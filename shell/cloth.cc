@@ -165,49 +165,83 @@ void Cloth::try_step(const double h, const bool may_fail, StepReport &report)
 {
   for (const auto &term : terms())
     term->begin_step({x, v, now, h});
-  const Vectors inertial = x + h * v;
-  const bool closed      = is_closed();
-  const double energy    = closed ? kinetic_energy() + stored_energy() : 0.;
-  const auto has_grown   = [](const double before, const double after, const double size)
+  const Vectors inertial = x + h * v, old_x = x, old_v = v;
+  const bool closed             = is_closed();
+  const double energy           = closed ? kinetic_energy() + stored_energy() : 0.;
+  const Eigen::RowVector3d spin = held.empty() ? angular_momentum() : Eigen::RowVector3d::Zero();
+  const auto has_grown          = [](const double before, const double after, const double size)
   { return !(after <= before + energy_slack * (std::abs(before) + std::abs(size))); };
-  Vectors next;
+  const bool is_alone =
+    held.empty() && std::all_of(terms().begin(), terms().end(),
+                                [](const auto &term) { return term->is_internal(); });
+  const Eigen::RowVector3d velocity =
+    is_alone ? (momentum() / m.sum()).eval() : Eigen::RowVector3d::Zero();
+  double spin_restored = 0.;
+  const auto move_to   = [&](const Vectors &next)
+  {
+    x = next;
+    v = (x - old_x) / h;
+    if (is_alone)
+    {
+      // No force from outside: what momentum changed by is round-off of the solver.
+      const Eigen::RowVector3d lost = velocity - momentum() / m.sum();
+      v.rowwise() += lost;
+      x.rowwise() += h * lost;
+    }
+    stored.reset();
+    if (held.empty())
+      spin_restored = restore_angular_momentum(spin, h);
+  };
   bool is_good = false;
   if (options.integrator == Integrator::linearly_implicit)
   {
-    next = linear_step(h, report);
+    const Vectors next = linear_step(h, report);
     if (closed)
     {
-      stored             = potential.stored_energy(next);
-      const double after = 0.5 / (h * h) * m.dot((next - x).rowwise().squaredNorm()) + *stored;
-      is_good            = !has_grown(energy, after, *stored);
+      // With the spin that is put right: a step that turns motion into stretch loses as much of it as it stores.
+      move_to(next);
+      is_good = !has_grown(energy, kinetic_energy() + stored_energy(), stored_energy());
     }
-    else if (potential.has_energy())
+    else
     {
       Vectors start = x;
       set_held(start);
-      const double before = potential.value(start, inertial, 1. / (h * h)),
-                   after  = potential.value(next, inertial, 1. / (h * h));
-      is_good             = !has_grown(before, after, after);
+      const auto potential_at = [&](const Vectors &positions)
+      { return potential.value(positions, inertial, 1. / (h * h)); };
+      const double after = potential.has_energy() ? potential_at(next) : 0.;
+      is_good            = !potential.has_energy() || !has_grown(potential_at(start), after, after);
+      if (is_good)
+        move_to(next);
     }
-    else
-      is_good = true;
     if (!is_good)
+    {
       ++report.guarded;
+      x = old_x;
+      v = old_v;
+    }
   }
   if (!is_good)
+    move_to(minimum(inertial, h, report));
+  if (closed && is_alone)
   {
-    stored.reset();
-    next = minimum(inertial, h, report);
+    // Where this shape with the momenta of the cloth has more energy than there was: a shape nearer to the one before, which
+    // turns as a rigid body; at last that one as it lay, with which there is enough.
+    const Vectors found = x, turned = moved_rigidly(m, old_x, old_v, h);
+    for (const double part : {0.5, 0.25, 0.125, 0., -1.})
+      if (has_grown(energy, least_energy(), stored_energy()))
+        move_to(part >= 0. ? (turned + part * (found - turned)).eval()
+                           : (old_x.rowwise() + h * velocity).eval());
   }
-  const Eigen::RowVector3d before = held.empty() ? angular_momentum() : Eigen::RowVector3d::Zero();
-  v                               = (next - x) / h;
-  x                               = next;
-  if (!closed)
-    stored.reset();
-  if (held.empty())
-    report.spin_restored += restore_angular_momentum(before, h);
+  report.spin_restored += spin_restored;
   if (closed)
     report.energy_removed += limit_energy(energy, may_fail);
+}
+
+/// What is stored in the shape, and the kinetic energy of a rigid body of this shape with the momenta of the cloth [J].
+double Cloth::least_energy() const
+{
+  const Eigen::RowVector3d L = angular_momentum();
+  return stored_energy() + 0.5 * momentum().squaredNorm() / m.sum() + 0.5 * spin_of(m, x, L).dot(L);
 }
 
 /// Takes from the motion what energy a step brought into a closed cloth: velocities are drawn towards

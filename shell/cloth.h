@@ -16,7 +16,8 @@
 // Where no vertex is held, a rigid rotation is added to the velocities that restores the balance
 //   L_{n+1} = L_n + h · torque of the external terms at x_{n+1},
 // exactly (as in Dinev et al. 2018): a spinning sheet keeps spinning. Where still the energy of a closed
-// cloth grew, the motion beside the rigid one is slowed until it did not, so that both momenta stay.
+// cloth grew, the motion beside the rigid one is slowed until it did not, so that both momenta stay; and where the shape
+// alone has too much, because it was stretched by a turn, it is drawn towards the shape before.
 #pragma once
 
 #include "shell/incremental_potential.h"
@@ -136,6 +137,7 @@ private:
   void try_step(double h, bool may_fail, StepReport &report);
   Vectors linear_step(double h, StepReport &report);
   Vectors minimum(const Vectors &inertial, double h, StepReport &report);
+  double least_energy() const;
   double limit_energy(double before, bool may_fail);
   double restore_angular_momentum(const Eigen::RowVector3d &before, double h);
   void check_finite(const Vectors &positions, double h) const;

@@ -50,4 +50,25 @@ void add_spin(const Eigen::VectorXd &masses, const Vectors &positions,
   for (Eigen::Index i = 0; i < positions.rows(); ++i)
     velocities.row(i) += spin.cross(positions.row(i) - centre);
 }
+
+Vectors moved_rigidly(const Eigen::VectorXd &masses, const Vectors &positions,
+                      const Vectors &velocities, const double h)
+{
+  const Eigen::RowVector3d centre = centre_of_mass(masses, positions),
+                           L      = angular_momentum(masses, positions, velocities),
+                           moved  = centre + h * (masses.transpose() * velocities) / masses.sum();
+  const auto turned               = [&](const Eigen::RowVector3d &rotation) -> Vectors
+  {
+    const double angle = rotation.norm();
+    if (angle == 0.)
+      return positions;
+    const Eigen::AngleAxisd turn(angle, rotation.transpose() / angle);
+    return ((positions.rowwise() - centre) * turn.toRotationMatrix().transpose()).rowwise() +
+           centre;
+  };
+  Eigen::RowVector3d spin = spin_of(masses, positions, L);
+  for (int k = 0; k < 3; ++k)
+    spin = spin_of(masses, turned(0.5 * h * spin), L);
+  return turned(h * spin).rowwise() + (moved - centre);
+}
 } // namespace homespun::shell

@@ -23,4 +23,9 @@ Eigen::RowVector3d spin_of(const Eigen::VectorXd &masses, const Vectors &positio
 /// Adds spin × (x − centre) to the velocities [m/s].
 void add_spin(const Eigen::VectorXd &masses, const Vectors &positions,
               const Eigen::RowVector3d &spin, Vectors &velocities);
+
+/// Where the cloth is after the time h if it moves on as a rigid body with its momenta: turned by h ω about the centre of
+/// mass, with the angular velocity ω of half way, so that the energy of the body changes by O(h³) alone.
+Vectors moved_rigidly(const Eigen::VectorXd &masses, const Vectors &positions,
+                      const Vectors &velocities, double h);
 } // namespace homespun::shell
