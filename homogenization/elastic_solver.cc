@@ -103,7 +103,8 @@ void ElasticSolver::build_preconditioner()
 }
 
 unsigned int ElasticSolver::solve(Vector &solution, const Vector &right_hand_side,
-                                  const double tolerance, const unsigned int max_iterations)
+                                  const double tolerance, const unsigned int max_iterations,
+                                  const double energy_tolerance)
 {
   // Written out, because deal.II's SolverCG neither notices a direction of negative curvature nor
   // hands out its residual history.
@@ -114,6 +115,7 @@ unsigned int ElasticSolver::solve(Vector &solution, const Vector &right_hand_sid
   if (history.back() <= tolerance)
     return 0;
 
+  const bool is_by_residual = std::isinf(energy_tolerance);
   Vector preconditioned(residual), direction(residual);
   double product = 0.;
   for (unsigned int iteration = 1; iteration <= max_iterations; ++iteration)
@@ -121,6 +123,8 @@ unsigned int ElasticSolver::solve(Vector &solution, const Vector &right_hand_sid
     preconditioner->vmult(preconditioned, residual);
     const double old_product = product;
     product                  = residual * preconditioned;
+    if (history.back() <= tolerance && std::abs(product) <= energy_tolerance)
+      return iteration - 1;
     if (!(product > 0.) || !std::isfinite(product))
       throw meshes::NotConverged("conjugate gradients: the preconditioner is not positive definite",
                                  history);
@@ -137,7 +141,7 @@ unsigned int ElasticSolver::solve(Vector &solution, const Vector &right_hand_sid
     solution.add(step, direction);
     residual.add(-step, image);
     history.push_back(residual.l2_norm());
-    if (history.back() <= tolerance)
+    if (history.back() == 0. || (is_by_residual && history.back() <= tolerance))
       return iteration;
   }
   std::ostringstream text;

@@ -11,6 +11,8 @@
 #include <deal.II/lac/trilinos_sparse_matrix.h>
 #include <deal.II/lac/trilinos_vector.h>
 
+#include <limits>
+
 namespace homespun::homogenization
 {
 /// Elasticity with the preconditioner kept between solves, because nearby matrices (the steps of
@@ -35,13 +37,18 @@ public:
     return preconditioner != nullptr;
   }
 
-  /// Conjugate gradients from the given start until |b − A x| <= tolerance.
+  /// Conjugate gradients from the given start until the residual r = b − A x has |r| <= tolerance and, with the
+  /// preconditioner M, r . M^-1 r <= energy_tolerance. The latter is about twice the energy of the error: where stiff
+  /// parts lie in soft ones the former is that of the stiff parts, and says nothing of the soft ones.
+  /// A start that meets the first is left as it is: what it misses is round-off.
   /// @param tolerance absolute, in the unit of the right-hand side
+  /// @param energy_tolerance absolute [J]
   /// @return number of iterations
   /// @throws NotConverged with the residual history after `max_iterations`, or where the matrix or
   ///   the preconditioner turns out not to be positive definite
   unsigned int solve(Vector &solution, const Vector &right_hand_side, double tolerance,
-                     unsigned int max_iterations = 2000);
+                     unsigned int max_iterations = 2000,
+                     double energy_tolerance     = std::numeric_limits<double>::infinity());
 
   dealii::TrilinosWrappers::SparseMatrix matrix;
 

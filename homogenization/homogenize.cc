@@ -11,6 +11,9 @@
 
 #include <Eigen/LU>
 
+#include <cmath>
+#include <cstdint>
+
 namespace homespun::homogenization
 {
 using namespace dealii;
@@ -34,6 +37,8 @@ strain_displacement(const AffineTriangle &triangle,
   }
   return B;
 }
+
+constexpr unsigned int most_iterations = 2000; ///< of conjugate gradients
 
 /// The cell problems on one mesh.
 class CellProblems
@@ -139,20 +144,56 @@ private:
     }
   }
 
+  /// Of what the solutions depend on: FNV-1a over the bytes of mesh, stiffnesses and elements.
+  std::uint64_t fingerprint() const
+  {
+    std::uint64_t hash = 14695981039346656037u;
+    const auto add     = [&](const auto *values, const std::size_t n)
+    {
+      for (std::size_t k = 0; k < n * sizeof(*values); ++k)
+        hash = (hash ^ reinterpret_cast<const unsigned char *>(values)[k]) * 1099511628211u;
+    };
+    const meshes::TriangleMesh &mesh = cell.mesh;
+    add(mesh.vertices.data(), static_cast<std::size_t>(mesh.vertices.size()));
+    add(mesh.triangles.data(), static_cast<std::size_t>(mesh.triangles.size()));
+    add(mesh.material.data(), static_cast<std::size_t>(mesh.material.size()));
+    add(cell.lattice.vectors.data(), 4);
+    for (const Eigen::Matrix3d &c : stiffness_of_phase)
+      add(c.data(), 9);
+    const unsigned int elements[] = {options.order, options.refine};
+    add(elements, 2);
+    return hash;
+  }
+
+  /// Twice the energies of the unit strains if all triangles had the same stress [J].
+  Eigen::Vector3d energies_at_equal_stress() const
+  {
+    const Eigen::VectorXd areas = meshes::signed_areas(cell.mesh);
+    Eigen::Matrix3d compliance  = Eigen::Matrix3d::Zero();
+    for (int t = 0; t < cell.mesh.n_triangles(); ++t)
+      compliance +=
+        areas(t) * stiffness_of_phase[static_cast<std::size_t>(cell.mesh.material(t))].inverse();
+    return std::pow(areas.sum(), 2) * compliance.inverse().diagonal();
+  }
+
   /// The tolerance is relative to the element loads before they cancel: in a homogeneous cell what
-  /// is left of them is round-off, and chi is exactly zero.
+  /// is left of them is round-off, and chi is exactly zero. These loads are those of the stiff phases; what is left of the
+  /// energy of the error is held against the soft ones, with the mean of their compliance.
   void solve()
   {
-    const LoadCheckpoint checkpoint(options.checkpoint, discretization.communicator);
+    const Eigen::Vector3d softest = energies_at_equal_stress();
+    const LoadCheckpoint checkpoint(options.checkpoint, fingerprint(), discretization.communicator);
     IndexSet ghosted = constraints.get_local_lines();
     for (int a = 0; a < 3; ++a)
     {
-      Vector owned              = solver->owned_vector();
-      const unsigned int so_far = checkpoint.read(a, owned);
-      const unsigned int since  = solver->solve(owned, loads[a], options.tolerance * load_sizes[a]);
-      result.iterations[a]      = so_far + since;
-      if (so_far == 0 || since > 0)
-        checkpoint.write(a, owned, result.iterations[a]);
+      Vector owned           = solver->owned_vector();
+      const bool is_taken_up = checkpoint.read(a, owned);
+      result.loads_taken_up += is_taken_up ? 1 : 0;
+      result.iterations[a] =
+        solver->solve(owned, loads[a], options.tolerance * load_sizes[a], most_iterations,
+                      std::pow(1e3 * options.tolerance, 2) * softest(a));
+      if (!is_taken_up)
+        checkpoint.write(a, owned);
       constraints.distribute(owned);
       solutions[a].reinit(discretization.locally_owned, ghosted, discretization.communicator);
       solutions[a] = owned;

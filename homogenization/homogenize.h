@@ -39,7 +39,8 @@ struct Homogenization
   Eigen::Matrix3d reuss;                   ///< inverse of the mean of c^-1 [N/m]
   unsigned long n_dofs;
   std::array<unsigned int, 3>
-    iterations; ///< of the conjugate gradients, per load, those before a kill included
+    iterations; ///< of the conjugate gradients, per load, since the start of this run
+  unsigned int loads_taken_up = 0; ///< of a run before, see LoadCheckpoint
   ConstraintAudit audit;
   HomogenizationSeconds seconds;
 };

@@ -9,8 +9,12 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <exception>
+#include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <regex>
+#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -19,8 +23,10 @@ namespace homespun::homogenization
 using dealii::Utilities::MPI::max;
 using dealii::Utilities::MPI::min;
 
-LoadCheckpoint::LoadCheckpoint(std::string folder, const MPI_Comm communicator)
+LoadCheckpoint::LoadCheckpoint(std::string folder, const std::uint64_t fingerprint,
+                               const MPI_Comm communicator)
     : folder(std::move(folder))
+    , fingerprint(fingerprint)
     , communicator(communicator)
 {
 }
@@ -32,41 +38,60 @@ std::string LoadCheckpoint::file_of(const int load) const
          std::to_string(dealii::Utilities::MPI::n_mpi_processes(communicator));
 }
 
-unsigned int LoadCheckpoint::read(const int load, ElasticSolver::Vector &owned) const
+void LoadCheckpoint::clear(const std::string &folder)
 {
-  if (folder.empty())
-    return 0;
-  std::ifstream input(file_of(load), std::ios::binary);
-  const std::string bytes{std::istreambuf_iterator<char>(input), std::istreambuf_iterator<char>()};
-  std::vector<double> numbers(1 + static_cast<std::size_t>(owned.end() - owned.begin()));
-  bool is_good = bytes.size() == numbers.size() * sizeof(double);
-  if (is_good)
-    std::memcpy(numbers.data(), bytes.data(), bytes.size());
-  is_good = is_good && std::all_of(numbers.begin(), numbers.end(),
-                                   [](const double x) { return std::isfinite(x); });
-  if (min(is_good ? 1 : 0, communicator) == 0)
-    return 0;
-  std::copy(numbers.begin() + 1, numbers.end(), owned.begin());
-  return static_cast<unsigned int>(std::clamp(numbers[0], 0., 1e9));
+  static const std::regex ours("load-[0-2]-rank-[0-9]+-of-[0-9]+");
+  std::error_code ignored;
+  std::vector<std::filesystem::path> files;
+  for (std::filesystem::directory_iterator entry(folder, ignored), end; !ignored && entry != end;
+       entry.increment(ignored))
+    if (std::regex_match(entry->path().filename().string(), ours))
+      files.push_back(entry->path());
+  for (const std::filesystem::path &file : files)
+    std::filesystem::remove(file, ignored);
+  std::filesystem::remove(folder, ignored); // fails where the user has something there
 }
 
-void LoadCheckpoint::write(const int load, const ElasticSolver::Vector &owned,
-                           const unsigned int iterations) const
+bool LoadCheckpoint::read(const int load, ElasticSolver::Vector &owned) const
+{
+  if (folder.empty())
+    return false;
+  std::ifstream input(file_of(load), std::ios::binary);
+  const std::string bytes{std::istreambuf_iterator<char>(input), std::istreambuf_iterator<char>()};
+  std::vector<double> numbers(static_cast<std::size_t>(owned.end() - owned.begin()));
+  std::uint64_t of_file = 0;
+  bool is_good          = bytes.size() == sizeof(of_file) + numbers.size() * sizeof(double);
+  if (is_good)
+  {
+    std::memcpy(&of_file, bytes.data(), sizeof(of_file));
+    std::memcpy(numbers.data(), bytes.data() + sizeof(of_file), bytes.size() - sizeof(of_file));
+  }
+  is_good =
+    is_good && of_file == fingerprint &&
+    std::all_of(numbers.begin(), numbers.end(), [](const double x) { return std::isfinite(x); });
+  if (min(is_good ? 1 : 0, communicator) == 0)
+    return false;
+  std::copy(numbers.begin(), numbers.end(), owned.begin());
+  return true;
+}
+
+void LoadCheckpoint::write(const int load, const ElasticSolver::Vector &owned) const
 {
   if (folder.empty())
     return;
-  std::vector<double> numbers = {static_cast<double>(iterations)};
-  numbers.insert(numbers.end(), owned.begin(), owned.end());
-  std::string bytes(numbers.size() * sizeof(double), '\0');
-  std::memcpy(bytes.data(), numbers.data(), bytes.size());
+  const std::vector<double> numbers(owned.begin(), owned.end());
+  std::string bytes(sizeof(fingerprint) + numbers.size() * sizeof(double), '\0');
+  std::memcpy(bytes.data(), &fingerprint, sizeof(fingerprint));
+  std::memcpy(bytes.data() + sizeof(fingerprint), numbers.data(),
+              bytes.size() - sizeof(fingerprint));
   std::string fault;
   try
   {
     meshes::write_whole(file_of(load), bytes);
   }
-  catch (const meshes::BadInput &bad)
+  catch (const std::exception &failure)
   {
-    fault = bad.what();
+    fault = failure.what();
   }
   if (max(fault.empty() ? 0 : 1, communicator) == 1)
     throw meshes::BadInput(fault.empty() ? "another rank could not write its checkpoint" : fault);

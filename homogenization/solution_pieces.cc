@@ -6,7 +6,9 @@
 
 #include <deal.II/base/mpi.h>
 
+#include <exception>
 #include <filesystem>
+#include <system_error>
 #include <unordered_map>
 #include <vector>
 
@@ -14,6 +16,11 @@ namespace homespun::homogenization
 {
 namespace
 {
+std::string file_of_piece(const std::string &name, const unsigned int rank)
+{
+  return name + "-" + std::to_string(rank) + ".vtu";
+}
+
 constexpr std::array<const char *, 3> names = {"chi_11 [m]", "chi_22 [m]", "chi_12 [m]"};
 
 /// The triangles of this rank, with vertices of their own.
@@ -77,34 +84,36 @@ struct Piece
 };
 } // namespace
 
+void remove_pieces(const std::string &name)
+{
+  std::error_code ignored;
+  std::filesystem::remove(name + ".pvtu", ignored);
+  for (unsigned int r = 0; std::filesystem::remove(file_of_piece(name, r), ignored); ++r)
+    ;
+}
+
 void write_pieces(const std::string &name, const Discretization &discretization,
                   const std::array<ElasticSolver::Vector, 3> &solutions)
 {
   using namespace dealii::Utilities::MPI;
   const unsigned int rank = this_mpi_process(discretization.communicator);
-  const auto file_of      = [&](const unsigned int r)
-  { return name + "-" + std::to_string(r) + ".vtu"; };
   std::string fault;
   try
   {
     const Piece piece(discretization, solutions);
-    meshes::write_vtu(file_of(rank), piece.positions, piece.triangles, piece.chi,
+    meshes::write_vtu(file_of_piece(name, rank), piece.positions, piece.triangles, piece.chi,
                       piece.of_triangles);
     if (rank == 0)
     {
       std::vector<std::string> files;
       for (unsigned int r = 0; r < n_mpi_processes(discretization.communicator); ++r)
-        files.push_back(std::filesystem::path(file_of(r)).filename().string());
-      // Of an earlier run on more ranks.
-      for (unsigned int r = n_mpi_processes(discretization.communicator);
-           std::filesystem::remove(file_of(r)); ++r)
-        ;
+        files.push_back(std::filesystem::path(file_of_piece(name, r)).filename().string());
       meshes::write_pvtu(name + ".pvtu", files, piece.chi, piece.of_triangles);
     }
   }
-  catch (const meshes::BadInput &bad)
+  catch (const std::exception &failure) // any: the other ranks wait below
   {
-    fault = bad.what();
+    fault = failure.what();
   }
   if (max(fault.empty() ? 0 : 1, discretization.communicator) == 1)
     throw meshes::BadInput(fault.empty() ? "another rank could not write its piece" : fault);

@@ -16,4 +16,7 @@ namespace homespun::homogenization
 /// @throws BadInput, on all ranks, where a file cannot be written
 void write_pieces(const std::string &name, const Discretization &discretization,
                   const std::array<ElasticSolver::Vector, 3> &solutions);
+
+/// Removes what write_pieces() left under a name, on any number of ranks. One rank calls this.
+void remove_pieces(const std::string &name);
 } // namespace homespun::homogenization

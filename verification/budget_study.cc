@@ -108,6 +108,9 @@ std::string BudgetStudy::measure(const Law law, const double strain,
               fault = "the reference does not converge to 1e-11; " + tight.why;
             else
               fault = measure_on_root(law, strain, positions, tight.positions, solved);
+            if (fault.empty() && !note_of_round_off(tight).empty())
+              fault =
+                "the part `solver` lacks what the reference's solver leaves, which is at round-off";
           });
   return fault;
 }

@@ -5,6 +5,7 @@
 #include "meshes/refine.h"
 #include "verification/energy_order.h"
 
+#include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <limits>
@@ -98,7 +99,7 @@ CellBracket bracket_of(const homogenization::UnitCell &cell, const BracketOption
 }
 
 std::vector<Verdict> checks_of(const CellBracket &bracket, const BracketOptions &options,
-                               const Eigen::Matrix3d &stiffness)
+                               const Eigen::Matrix3d &stiffness, const double round_off)
 {
   std::vector<Verdict> checks;
   const auto at_most = [&](const std::string &claim, const double value, const double limit)
@@ -124,7 +125,7 @@ std::vector<Verdict> checks_of(const CellBracket &bracket, const BracketOptions 
   // above C_lower follows from both.
   at_most(
     "Direct and multigrid solvers agree on C^H of the given mesh (largest relative difference of an energy)",
-    energy_difference(*bracket.on_given_mesh, stiffness), 1e-6);
+    energy_difference(*bracket.on_given_mesh, stiffness), std::max(1e-6, round_off));
   if (options.tolerance)
     at_most("Bracket of C^H as narrow as --tolerance (relative width)", found.width,
             *options.tolerance);

@@ -45,8 +45,9 @@ CellBracket bracket_of(const homogenization::UnitCell &cell, const BracketOption
 
 /// C_lower <= C_upper, C inside, agreement of both solvers on the given mesh, and the width that was asked for.
 /// @param stiffness C^H of the cell problems on the given mesh [N/m]
+/// @param round_off algebraic_limit() of the cell: what the solvers may differ by, where that is more than 1e-6
 std::vector<Verdict> checks_of(const CellBracket &bracket, const BracketOptions &options,
-                               const Eigen::Matrix3d &stiffness);
+                               const Eigen::Matrix3d &stiffness, double round_off);
 
 /// How far an entry C_ij of either side can be from that of C^H: with D = upper − lower, which is not
 /// negative, |C_ij − C^H_ij| <= sqrt(D_ii D_jj) [N/m].

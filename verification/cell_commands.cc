@@ -42,7 +42,8 @@ int homogenize(HomogenizeArguments arguments)
   const AssessedCell assessed = run_cell_study(cell, study, MPI_COMM_WORLD);
   if (is_root(MPI_COMM_WORLD) && !study.quiet)
     std::cout << summary(cell, assessed) << "Written to " << study.output
-              << ": homogenize.json, cell.h5, cell.json, characteristic-displacements.vtu\n";
+              << ": homogenize.json, cell.h5, cell.json, characteristic-displacements.vtu"
+              << (study.pieces ? ", characteristic-displacements-refined.pvtu\n" : "\n");
   return any_failed(assessed.checks) ? 1 : 0;
 }
 
@@ -147,11 +148,14 @@ void add_homogenize_command(CLI::App &app, Action &action)
       "Neither bracket nor the finer solve of the error bar: the cell problems alone, for large meshes")
     ->excludes(tolerance)
     ->excludes(max_dofs);
+  command
+    ->add_flag(
+      "--pieces", arguments->study.pieces,
+      "Also characteristic-displacements-refined.pvtu: on the mesh of the solve, a piece from each rank")
+    ->excludes(tolerance);
   command->add_flag(
-    "--pieces", arguments->study.pieces,
-    "Also characteristic-displacements-refined.pvtu: on the mesh of the solve, a piece from each rank");
-  command->add_flag("--resume", arguments->study.resume,
-                    "Take up the loads that a run which was killed had solved");
+    "--resume", arguments->study.resume,
+    "Take up the loads that a run of the same cell which was killed had solved; error bar and bracket begin anew");
   command->add_option("--output", arguments->study.output,
                       "Folder of the results (default out/NAME)");
   command->add_flag("--quiet", arguments->study.quiet, "Print nothing but faults");

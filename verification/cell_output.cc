@@ -3,6 +3,7 @@
 
 #include "meshes/cell_file.h"
 #include "meshes/surface_files.h"
+#include "verification/algebraic_limit.h"
 #include "verification/energy_order.h"
 #include "verification/printed_digits.h"
 #include "verification/provenance.h"
@@ -38,8 +39,12 @@ std::vector<Verdict> checks_of(const Homogenization &result)
     size = larger(size, std::abs(result.stiffness(k)));
     gap  = larger(gap, std::abs(result.stiffness(k) - result.stiffness_by_flux(k)));
   }
+  // The solver leaves 1e-8 of the displacements in the energy norm of the soft phases. In the mean stress it counts with the
+  // stiffness of the stiff ones: by Cauchy and Schwarz with the root of Voigt's energy.
+  const double leverage =
+    std::sqrt(result.voigt.diagonal().maxCoeff() / result.stiffness.diagonal().maxCoeff());
   return {at_most("Hill-Mandel: energy form and mean stress of C^H agree (relative gap)",
-                  gap / size, 1e-8),
+                  gap / size, 1e-8 * std::max(1., leverage)),
           at_most("C^H <= Voigt bound (relative violation)",
                   order_violation(result.stiffness, result.voigt), 1e-9),
           at_most("C^H >= Reuss bound (relative violation)",
@@ -263,6 +268,7 @@ ordered_json homogenize_json(const UnitCell &cell, const AssessedCell &assessed,
     {"refine", assessed.options.refine},
     {"dofs", result.n_dofs},
     {"iterations", result.iterations},
+    {"loads_taken_up", result.loads_taken_up},
     {"seconds",
      {{"setup", result.seconds.setup},
       {"assembly", result.seconds.assembly},
@@ -305,7 +311,8 @@ void add_bracket(const UnitCell &cell, const BracketOptions &options,
   assessed.bracket = bracket_of(cell, options, report);
   // Against C^H of the given mesh, before it is replaced.
   const std::vector<Verdict> of_bracket =
-    checks_of(*assessed.bracket, options, assessed.result.stiffness);
+    checks_of(*assessed.bracket, options, assessed.result.stiffness,
+              algebraic_limit(cell, std::sqrt(0.5 * cell.mesh.n_triangles())));
   assessed.checks.insert(assessed.checks.end(), of_bracket.begin(), of_bracket.end());
   if (!options.tolerance || !assessed.bracket->bracket)
     return;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "verification/cell_study.h"
 
+#include "homogenization/load_checkpoint.h"
+#include "homogenization/solution_pieces.h"
 #include "verification/on_root.h"
 #include "verification/progress.h"
 
@@ -14,6 +16,8 @@ namespace
 {
 /// DoFs up to which the finer problem of the error bar is solved.
 constexpr unsigned long largest_error_bar = 4000000;
+
+constexpr const char *name_of_pieces = "characteristic-displacements-refined";
 } // namespace
 
 AssessedCell run_cell_study(const homogenization::UnitCell &cell, const CellStudyOptions &options,
@@ -22,12 +26,13 @@ AssessedCell run_cell_study(const homogenization::UnitCell &cell, const CellStud
   homogenization::HomogenizationOptions solve = options.solve;
   solve.checkpoint                            = options.output + "/checkpoint";
   if (options.pieces)
-    solve.pieces = options.output + "/characteristic-displacements-refined";
+    solve.pieces = options.output + "/" + name_of_pieces;
   on_root(communicator,
           [&]()
           {
             if (!options.resume)
-              std::filesystem::remove_all(solve.checkpoint);
+              homogenization::LoadCheckpoint::clear(solve.checkpoint);
+            homogenization::remove_pieces(options.output + "/" + name_of_pieces);
             std::filesystem::create_directories(solve.checkpoint);
           });
   AssessedCell assessed = [&]()
@@ -66,7 +71,7 @@ AssessedCell run_cell_study(const homogenization::UnitCell &cell, const CellStud
             write_cell_results(cell, assessed,
                                dealii::Utilities::MPI::n_mpi_processes(communicator),
                                options.output);
-            std::filesystem::remove_all(solve.checkpoint);
+            homogenization::LoadCheckpoint::clear(solve.checkpoint);
           });
   return assessed;
 }

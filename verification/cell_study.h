@@ -14,8 +14,8 @@ namespace homespun::verification
 struct CellStudyOptions
 {
   homogenization::HomogenizationOptions solve; ///< its checkpoint and pieces are in `output`
-  BracketOptions bracket; ///< its order and refinement are those of `solve`
-  bool bars = true; ///< false: the cell problems alone, with neither bracket nor a finer solve
+  BracketOptions bracket;                      ///< its order and refinement are those of `solve`
+  bool bars   = true;  ///< false: the cell problems alone, with neither bracket nor a finer solve
   bool pieces = false; ///< characteristic-displacements-refined.pvtu, a piece from each rank
   std::string output;
   bool resume = false; ///< take up the loads that a run which was killed had solved

@@ -153,6 +153,8 @@ void run_gmsh(const std::string &folder, const std::string &name)
   if (status == 127)
     throw meshes::BadInput("gmsh: cannot be run; expected Gmsh, which makes the mesh: install the "
                            "package gmsh (apt install gmsh)");
+  if (const std::string killed = text_of_signal(status); !killed.empty())
+    throw meshes::BadInput("gmsh could not make the mesh: " + killed);
   if (status != 0)
   {
     std::string said;

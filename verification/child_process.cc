@@ -2,6 +2,8 @@
 #include "verification/child_process.h"
 
 #include <algorithm>
+#include <cerrno>
+#include <csignal>
 #include <cstring>
 #include <fstream>
 
@@ -70,9 +72,23 @@ int run_child(const std::vector<std::string> &words, const std::string &log)
   const int spawned = posix_spawnp(&child, arguments[0].c_str(), &actions, nullptr,
                                    pointers_to(arguments).data(), pointers_to(environment).data());
   posix_spawn_file_actions_destroy(&actions);
-  int status = 0;
-  if (spawned != 0 || waitpid(child, &status, 0) != child)
+  if (spawned != 0)
+    return 127;
+  int status   = 0;
+  pid_t waited = -1;
+  do
+    waited = waitpid(child, &status, 0);
+  while (waited < 0 && errno == EINTR);
+  if (waited != child)
     return 127;
   return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+}
+
+std::string text_of_signal(const int status)
+{
+  if (status <= 128 || status > 128 + 64)
+    return {};
+  return "it was killed by signal " + std::to_string(status - 128) +
+         (status == 128 + SIGKILL ? ": is there enough memory?" : "");
 }
 } // namespace homespun::verification

@@ -13,4 +13,7 @@ namespace homespun::verification
 /// @param log receives what it prints; empty: it prints where homespun prints
 /// @return its exit status, as a shell tells it: 127 where it could not be run, 128 and the signal where it was killed by one
 int run_child(const std::vector<std::string> &words, const std::string &log = "");
+
+/// What to tell of a status of run_child() that means a signal; empty of any other.
+std::string text_of_signal(int status);
 } // namespace homespun::verification

@@ -94,7 +94,15 @@ LoadBudget::LoadBudget(const BudgetCells &cells, const meshes::Sheet &sheet, con
   const Points error = localized(state, cells.best, sheet) - linear_best;
   constant           = best_constant(state, error);
   scale              = (error - from_constant(state, constant)) / linear_strain;
-  reference          = (linear_best - linear) / linear_strain;
+
+  const auto method = [&](const meshes::HomogenizedCell &cell, const HomogenizedSheet &homogenized)
+  {
+    return upsampled(cell, coarse.mesh, sheet, Law::linear,
+                     homogenized.solve(Law::linear, homogenized.prescribed(linear_strain)));
+  };
+  cell_and_reference =
+    (linear_best - linear + method(cells.given, coarse) - method(cells.best, coarse_best)) /
+    linear_strain;
 }
 
 ErrorBudget LoadBudget::measure(const Law law, const SolvedLevel &level)
@@ -117,7 +125,6 @@ ErrorBudget LoadBudget::measure(const Law law, const SolvedLevel &level)
 
   budget.parts["scale"]      = strain * scale;
   budget.parts["convention"] = from_constant(exact, constant);
-  budget.parts["reference"]  = strain * reference;
   budget.parts["nonlinearity"] =
     law == Law::linear ? zero : nonlinearity(law, u, with_exact, budget);
   budget.parts["coarse-mesh"] =
@@ -128,6 +135,7 @@ ErrorBudget LoadBudget::measure(const Law law, const SolvedLevel &level)
   const shell::Positions<2> u_best =
     coarse_best.solve(law, coarse_best.with_held(level.coarse, strain));
   budget.parts["cell"] = level.upsampled - upsampled(cells.best, coarse.mesh, sheet, law, u_best);
+  budget.parts["reference"] = strain * cell_and_reference - budget.parts["cell"];
 
   shell::EquilibriumOptions tight;
   tight.relative_tolerance          = 1e-13;

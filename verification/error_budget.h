@@ -23,7 +23,8 @@
 //                  layer that looks like a constant counts as 9. The rotation lift needs no part: for a frame
 //                  indifferent law it is exact in an infinite cloth
 // and, because T shares the mesh of the cell,
-//    reference     T* − T, linear theory: the reference's own discretization. What parts 4 and it have in common cancels.
+//    reference     T* − T: the reference's own discretization. By linear theory, and taken to change with strain as part 4
+//                  does, so that what both have in common, most of them, cancels at any strain
 //
 // With these  M − T = 1 + 2 + 3 + 4 + 5 + 7 + 9 + reference + products of parts.  Part 8 stands beside the sum: M is
 // computed in double.
@@ -103,7 +104,9 @@ private:
   const meshes::Sheet &sheet;
   const Load load;
   HomogenizedSheet coarse, coarse_best, coarse_tight, resolved, half_resolved;
-  meshes::Points scale, reference;      ///< per unit strain [m]
+  meshes::Points scale; ///< per unit strain [m]
+  meshes::Points
+    cell_and_reference; ///< what part 4 and `reference` leave of each other in linear theory, the same
   Eigen::Matrix<double, 3, 2> constant; ///< of w, per unit strain [m]
   shell::Positions<2> last_displacement,
     last_half_displacement; ///< of the resolved sheets, per strain

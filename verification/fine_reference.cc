@@ -28,6 +28,14 @@ namespace
 constexpr unsigned int most_linear_iterations = 3000;
 } // namespace
 
+std::string note_of_round_off(const ReferenceStep &step)
+{
+  if (!step.is_at_round_off || !(step.relative_residual > 1e-6))
+    return {};
+  return "the reference is accepted at round-off: " + csv_number(step.relative_residual) +
+         " of its forces are left, those of the stiff phases; expected 1e-6 at most: a smaller contrast, or a larger strain";
+}
+
 FineReference::FineReference(const meshes::Sheet &sheet,
                              std::vector<Eigen::Matrix3d> stiffness_of_phase,
                              const ReferenceOptions &options, const MPI_Comm communicator)
@@ -277,7 +285,8 @@ void FineReference::solve(Vector &displacement, const double strain, const doubl
     // A sheet without load has no forces at all.
     if (state.residual <= state.least_residual(tolerance))
     {
-      step.n_inverted = law == Law::linear ? 0 : state.n_inverted;
+      step.n_inverted      = law == Law::linear ? 0 : state.n_inverted;
+      step.is_at_round_off = state.residual > tolerance * state.force_size;
       return;
     }
     if (newton == most_steps || (newton >= 15 && history[newton] > 0.5 * history[newton - 10]))

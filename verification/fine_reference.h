@@ -15,6 +15,7 @@
 #include <algorithm>
 #include <functional>
 #include <memory>
+#include <string>
 #include <vector>
 
 namespace homespun::verification
@@ -29,9 +30,14 @@ struct ReferenceStep
   unsigned int n_newton    = 0;  ///< Newton steps
   unsigned int n_linear    = 0;  ///< iterations of conjugate gradients, all Newton steps
   double relative_residual = 0.; ///< |forces on free nodes| / size of the element forces
-  unsigned int n_inverted  = 0;  ///< triangles with det F <= 0, under biot and green
-  double seconds           = 0.; ///< wall time of this level, slowest rank
+  bool is_at_round_off =
+    false; ///< that is more than the tolerance, but rounding alone makes as much
+  unsigned int n_inverted = 0;  ///< triangles with det F <= 0, under biot and green
+  double seconds          = 0.; ///< wall time of this level, slowest rank
 };
+
+/// What a reader has to know of a level that ended at round-off: empty unless it left more than a millionth of the forces.
+std::string note_of_round_off(const ReferenceStep &step);
 
 struct ReferenceOptions
 {

@@ -93,6 +93,15 @@ ScalingRun run_of(const std::vector<std::string> &row, const std::string &file)
   return run;
 }
 
+/// @throws BadInput where a number of a row is damaged
+std::vector<ScalingRun> runs_of(const ResultTable &table, const std::string &file)
+{
+  std::vector<ScalingRun> runs;
+  for (const std::vector<std::string> &row : table.rows())
+    runs.push_back(run_of(row, file));
+  return runs;
+}
+
 /// What `homespun homogenize` wrote of itself.
 ScalingRun run_from(const std::string &file)
 {
@@ -305,6 +314,8 @@ ScalingResult run_scaling_study(const ScalingOptions &options)
   check_inputs_file(options.output, inputs, options.resume, "scaling.csv",
                     "cell, order or launcher");
   ResultTable table(options.output + "/scaling.csv", columns, 3, options.resume);
+  runs_of(table,
+          options.output + "/scaling.csv"); // a damaged row is told before hours of measuring
   const int n_runs =
     static_cast<int>(options.refinements.size() * options.ranks.size()) * options.repeats;
   {
@@ -327,9 +338,7 @@ ScalingResult run_scaling_study(const ScalingOptions &options)
           progress.done();
         }
   }
-  std::vector<ScalingRun> runs;
-  for (const std::vector<std::string> &row : table.rows())
-    runs.push_back(run_of(row, options.output + "/scaling.csv"));
+  const std::vector<ScalingRun> runs  = runs_of(table, options.output + "/scaling.csv");
   const std::vector<Verdict> verdicts = verdicts_of(runs);
   nlohmann::ordered_json json         = {
             {"cell", cell.name},       {"triangles_of_given_mesh", cell.mesh.n_triangles()},

@@ -281,6 +281,12 @@ private:
                 write_note(level, std::to_string(fine.n_inverted) +
                                     " triangles of the fine reference are inverted (det F <= 0)");
               });
+    on_root(communicator,
+            [&]()
+            {
+              if (const std::string note = note_of_round_off(fine); !note.empty())
+                write_note(level, note);
+            });
     largest_residual = std::max(largest_residual, fine.relative_residual);
     UpsampledLevel solved;
     int is_solved = 0;

@@ -67,7 +67,7 @@ Eigen::Matrix2d turn(const double angle)
 
 double limit_of(const UnitCell &cell)
 {
-  return algebraic_limit(cell, rows_of_built_in);
+  return algebraic_limit(cell, std::sqrt(0.5 * cell.mesh.n_triangles()));
 }
 
 void CellGroup::refused(const std::string &what, const std::string &names, const UnitCell &cell)

@@ -30,7 +30,7 @@ Phase stiff_phase(double contrast, double nu = 0.3);
 /// @param angle of its axis [deg]
 Phase yarn_phase(double angle);
 
-/// algebraic_limit() of a cell with as many rows as the built-in ones.
+/// algebraic_limit() of a cell with as many rows as a square of as many equal triangles.
 double limit_of(const UnitCell &cell);
 
 /// C^H of the iterative solver against that of a factorized one, and against Voigt and Reuss.

@@ -143,6 +143,40 @@ UnitCell capped_stripes(const int n, const Phase &lower, const Phase &upper, con
   return cell;
 }
 
+namespace
+{
+/// The lattice vectors by which a triangle is moved so that its middle lies in the parallelogram that begins at a point.
+Eigen::RowVector2i move_into(const UnitCell &cell, const int t, const Eigen::RowVector2d &origin)
+{
+  Eigen::RowVector2d middle = Eigen::RowVector2d::Zero();
+  for (int k = 0; k < 3; ++k)
+    middle += cell.mesh.vertices.row(cell.mesh.triangles(t, k)) / 3.;
+  const Eigen::RowVector2d f = cell.lattice.fractional(middle) - origin;
+  return {-static_cast<int>(std::floor(f(0))), -static_cast<int>(std::floor(f(1)))};
+}
+} // namespace
+
+bool cuts_a_hole(const UnitCell &cell, const Eigen::RowVector2d &origin)
+{
+  std::vector<int> hole_of(static_cast<std::size_t>(cell.mesh.n_vertices()), -1);
+  const std::vector<std::vector<int>> loops = meshes::boundary_loops(cell.mesh);
+  const std::vector<int> outline            = meshes::outline(cell.mesh);
+  for (std::size_t k = 0; k < loops.size(); ++k)
+    if (std::find(loops[k].begin(), loops[k].end(), outline.front()) == loops[k].end())
+      for (const int v : loops[k])
+        hole_of[index(v)] = static_cast<int>(k);
+  std::map<int, Eigen::RowVector2i> move_of; // of a hole
+  for (int t = 0; t < cell.mesh.n_triangles(); ++t)
+    for (int k = 0; k < 3; ++k)
+      if (const int hole = hole_of[index(cell.mesh.triangles(t, k))]; hole >= 0)
+      {
+        const Eigen::RowVector2i move = move_into(cell, t, origin);
+        if (move_of.emplace(hole, move).first->second != move)
+          return true;
+      }
+  return false;
+}
+
 UnitCell shifted(const UnitCell &cell, const Eigen::RowVector2d &origin)
 {
   const meshes::ImageClasses classes = meshes::match_images(cell.mesh.vertices, cell.lattice);
@@ -151,12 +185,7 @@ UnitCell shifted(const UnitCell &cell, const Eigen::RowVector2d &origin)
   std::map<std::array<int, 3>, int> vertex_of; // by class and the lattice point it is moved by
   for (int t = 0; t < cell.mesh.n_triangles(); ++t)
   {
-    Eigen::RowVector2d middle = Eigen::RowVector2d::Zero();
-    for (int k = 0; k < 3; ++k)
-      middle += cell.mesh.vertices.row(cell.mesh.triangles(t, k)) / 3.;
-    const Eigen::RowVector2d f = cell.lattice.fractional(middle) - origin;
-    const Eigen::RowVector2i move(-static_cast<int>(std::floor(f(0))),
-                                  -static_cast<int>(std::floor(f(1))));
+    const Eigen::RowVector2i move = move_into(cell, t, origin);
     for (int k = 0; k < 3; ++k)
     {
       const int v = cell.mesh.triangles(t, k), r = classes.representative[index(v)];

@@ -47,6 +47,10 @@ UnitCell without_phase(const UnitCell &cell, int phase);
 /// many parts of its length.
 UnitCell capped_stripes(int n, const Phase &lower, const Phase &upper, double height);
 
+/// Whether shifted() would cut a hole: the triangles that touch it move apart. Such a cell is refused.
+/// @param origin in lattice vectors
+bool cuts_a_hole(const UnitCell &cell, const Eigen::RowVector2d &origin);
+
 /// Another cut of the same cloth: each triangle is replaced by that image whose middle lies in the
 /// parallelogram of the lattice at `origin` (parts of the lattice vectors). The outline follows the edges of
 /// triangles and need not be straight.

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The library of cells: shapes that finite elements like, and stiffnesses with the symmetry of the drawing.
+#include "homogenization/bracket.h"
 #include "tests/homogenization/cells.h"
 
 #include <Eigen/Geometry>
@@ -109,4 +110,21 @@ TEST(exact_shipped_cells, a_checkerboard_of_one_bulk_modulus_obeys_duality)
   // The mesh as shipped has a bracket of 1.5e-3.
   EXPECT_NEAR(E_axes * E_diagonal / (1e6 * 1.8e6), 1., 2e-3);
   EXPECT_GT(std::abs(E_axes / E_diagonal - 1.), 0.02); // or the product would say little
+}
+
+// Two solvers that share nothing: conjugate gradients, whose residual is that of the stiff dots, and factorization.
+TEST(exact_shipped_cells, stiff_dots_in_a_soft_ground_are_solved_for_the_ground)
+{
+  UnitCell cell = shipped("random-dots");
+  for (Phase &phase : cell.phases)
+    if (phase.name == "dot")
+      for (double *const modulus : {&phase.E1, &phase.E2, &phase.G12})
+        *modulus *= 2e8; // 1e10 times the ground
+  HomogenizationOptions options;
+  options.order                      = 1;
+  const Eigen::Matrix3d by_gradients = homogenize(cell, options, MPI_COMM_SELF).stiffness,
+                        by_factors =
+                          bracket(glued(cell.mesh, cell.lattice), cell.stiffness_of_phase(), 1)
+                            .stiffness;
+  EXPECT_LT(tests::relative_difference(by_gradients, by_factors), 1e-6);
 }

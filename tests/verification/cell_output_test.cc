@@ -73,7 +73,7 @@ TEST(tripwire_bracket_checks, what_is_not_a_number_fails_and_no_bracket_is_incon
 
   CellBracket cell_bracket;
   cell_bracket.remark = "none: too many DoFs";
-  const auto missing  = checks_of(cell_bracket, {}, I);
+  const auto missing  = checks_of(cell_bracket, {}, I, 0.);
   EXPECT_EQ(outcome_of(missing, "has a bracket"), Outcome::inconclusive);
   EXPECT_EQ(missing[0].limit, "none: too many DoFs");
 
@@ -81,10 +81,10 @@ TEST(tripwire_bracket_checks, what_is_not_a_number_fails_and_no_bracket_is_incon
   bracket.lower = 0.9 * I, bracket.upper = I;
   cell_bracket.bracket       = bracket;
   cell_bracket.on_given_mesh = I;
-  EXPECT_EQ(outcome_of(checks_of(cell_bracket, {}, I), "C_lower <= C_upper"), Outcome::pass);
-  EXPECT_EQ(outcome_of(checks_of(cell_bracket, {}, none), "multigrid"), Outcome::fail);
+  EXPECT_EQ(outcome_of(checks_of(cell_bracket, {}, I, 0.), "C_lower <= C_upper"), Outcome::pass);
+  EXPECT_EQ(outcome_of(checks_of(cell_bracket, {}, none, 0.), "multigrid"), Outcome::fail);
   cell_bracket.bracket->lower = none;
-  EXPECT_EQ(outcome_of(checks_of(cell_bracket, {}, I), "C_lower <= C_upper"), Outcome::fail);
+  EXPECT_EQ(outcome_of(checks_of(cell_bracket, {}, I, 0.), "C_lower <= C_upper"), Outcome::fail);
 }
 
 TEST(tripwire_bracket_checks, a_soft_direction_counts_as_much_as_a_stiff_one)
@@ -97,7 +97,7 @@ TEST(tripwire_bracket_checks, a_soft_direction_counts_as_much_as_a_stiff_one)
   cell_bracket.on_given_mesh = bracket.upper;
   Eigen::Matrix3d off        = bracket.upper;
   off(1, 1) *= 1. + 1e-4; // 1e-10 of the largest entry
-  EXPECT_EQ(outcome_of(checks_of(cell_bracket, {}, off), "multigrid"), Outcome::fail);
+  EXPECT_EQ(outcome_of(checks_of(cell_bracket, {}, off, 0.), "multigrid"), Outcome::fail);
 }
 
 TEST(bound_bracket_output, an_adaptive_bracket_replaces_checks_and_chi_together)

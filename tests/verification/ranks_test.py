@@ -131,7 +131,18 @@ class Homogenize(InFolder):
         self.assertEqual(resumed.returncode, 0, resumed.stderr)
         expected = self.stiffness(whole)
         numpy.testing.assert_allclose(self.stiffness(cut), expected, rtol=0, atol=1e-10 * numpy.abs(expected).max())
+        self.assertEqual(json.loads((cut / "homogenize.json").read_text())["loads_taken_up"], 1)
         self.assertFalse((cut / "checkpoint").exists())
+
+    def test_what_another_cell_left_is_passed_over_and_what_is_the_users_stays(self):
+        study = [PROGRAM, "homogenize", CELLS / "layered.prm", "--no-bars", "--quiet", "--resume", "--output", self.folder]
+        (self.folder / "checkpoint").mkdir()
+        (self.folder / "checkpoint" / "model.pt").write_text("the user's")
+        # As many degrees of freedom as layered has, and the fingerprint of nothing.
+        (self.folder / "checkpoint" / "load-0-rank-0-of-1").write_bytes(bytes(8 + 8 * 3034))
+        subprocess.run([str(word) for word in study], check=True, timeout=60 * PATIENCE)
+        self.assertEqual(json.loads((self.folder / "homogenize.json").read_text())["loads_taken_up"], 0)
+        self.assertEqual([path.name for path in (self.folder / "checkpoint").iterdir()], ["model.pt"])
 
 
 class Scaling(InFolder):

@@ -85,6 +85,29 @@ TEST(tripwire_verdicts,
   EXPECT_EQ(strain_verdicts(rows_of(smaller, 1e-3))[0].outcome, Outcome::fail);
 }
 
+TEST(tripwire_verdicts, a_term_of_first_order_fails_at_any_size_that_shows)
+{
+  // At the default strains; a chi that is off by so much that the order falls towards zero strain.
+  for (const double first_order : {3e-3, 1e-2, 2e-2, 0.1})
+  {
+    Rows rows;
+    for (const double strain : {1e-3, 2e-3, 5e-3, 0.01, 0.02, 0.05, 0.1})
+      rows.push_back(
+        row("periodic-12", strain, "localized", 1e-4 * (first_order * strain + strain * strain)));
+    EXPECT_EQ(strain_verdicts(rows)[0].outcome, Outcome::fail) << first_order;
+  }
+}
+
+TEST(tripwire_verdicts, an_error_that_is_not_a_number_fails)
+{
+  for (const std::string &text : {std::string(), std::string("1.5x")})
+  {
+    Rows rows   = periodic(2.);
+    rows[2][11] = text;
+    EXPECT_EQ(strain_verdicts(rows)[0].outcome, Outcome::fail) << text;
+  }
+}
+
 TEST(tripwire_verdicts, two_levels_decide_nothing)
 {
   Rows rows = periodic(2.);
