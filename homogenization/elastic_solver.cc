@@ -141,12 +141,16 @@ unsigned int ElasticSolver::solve(Vector &solution, const Vector &right_hand_sid
     solution.add(step, direction);
     residual.add(-step, image);
     history.push_back(residual.l2_norm());
-    if (history.back() == 0. || (is_by_residual && history.back() <= tolerance))
+    if (is_by_residual && history.back() <= tolerance)
       return iteration;
   }
   std::ostringstream text;
-  text << "conjugate gradients did not reach a residual of " << tolerance << " in "
-       << max_iterations << " iterations; the last is " << history.back();
+  text << "conjugate gradients did not reach a residual of " << tolerance;
+  if (!is_by_residual)
+    text << " and an energy of the error of " << 0.5 * energy_tolerance << " J";
+  text << " in " << max_iterations << " iterations; the last are " << history.back();
+  if (!is_by_residual)
+    text << " and " << 0.5 * product << " J";
   throw meshes::NotConverged(text.str(), history);
 }
 } // namespace homespun::homogenization

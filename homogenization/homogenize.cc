@@ -12,7 +12,6 @@
 #include <Eigen/Cholesky>
 
 #include <cmath>
-#include <cstdint>
 
 namespace homespun::homogenization
 {
@@ -150,27 +149,6 @@ private:
     }
   }
 
-  /// Of what the solutions depend on: FNV-1a over the bytes of mesh, stiffnesses and elements.
-  std::uint64_t fingerprint() const
-  {
-    std::uint64_t hash = 14695981039346656037u;
-    const auto add     = [&](const auto *values, const std::size_t n)
-    {
-      for (std::size_t k = 0; k < n * sizeof(*values); ++k)
-        hash = (hash ^ reinterpret_cast<const unsigned char *>(values)[k]) * 1099511628211u;
-    };
-    const meshes::TriangleMesh &mesh = cell.mesh;
-    add(mesh.vertices.data(), static_cast<std::size_t>(mesh.vertices.size()));
-    add(mesh.triangles.data(), static_cast<std::size_t>(mesh.triangles.size()));
-    add(mesh.material.data(), static_cast<std::size_t>(mesh.material.size()));
-    add(cell.lattice.vectors.data(), 4);
-    for (const Eigen::Matrix3d &c : stiffness_of_phase)
-      add(c.data(), 9);
-    const unsigned int elements[] = {options.order, options.refine};
-    add(elements, 2);
-    return hash;
-  }
-
   /// Twice the energies of the unit strains if all triangles had the same stress [J].
   Eigen::Vector3d energies_at_equal_stress() const
   {
@@ -188,7 +166,7 @@ private:
   void solve()
   {
     const Eigen::Vector3d softest = energies_at_equal_stress();
-    const LoadCheckpoint checkpoint(options.checkpoint, fingerprint(), discretization.communicator);
+    const LoadCheckpoint checkpoint(options.checkpoint, discretization.communicator);
     IndexSet ghosted = constraints.get_local_lines();
     for (int a = 0; a < 3; ++a)
     {

@@ -19,7 +19,8 @@ struct HomogenizationOptions
   unsigned int order  = 2;     ///< 1 or 2, of the displacement elements
   unsigned int refine = 0;     ///< uniform refinements of the given mesh before the solve
   double tolerance    = 1e-11; ///< of |residual|, relative to the summed size of the element loads
-  std::string checkpoint;      ///< folder of the loads that are done (LoadCheckpoint); empty: none
+  std::string
+    checkpoint; ///< folder of the loads that are done (LoadCheckpoint), of this problem alone; empty: none
   std::string pieces; ///< path without ending of .pvtu and its pieces (write_pieces()); empty: none
 };
 

@@ -4,19 +4,16 @@
 
 #include "homogenization/elastic_solver.h"
 
-#include <cstdint>
 #include <string>
 
 namespace homespun::homogenization
 {
-/// A file for each load and rank, which begins with the fingerprint of the problem: what another one left is passed over. What
-/// is read is a start for the solver, which goes on until the residual is small enough.
+/// A file for each load and rank. What is read is a start for the solver, which goes on until the residual is small enough.
 class LoadCheckpoint
 {
 public:
-  /// @param folder exists; empty: nothing is kept
-  /// @param fingerprint of cell, mesh and elements
-  LoadCheckpoint(std::string folder, std::uint64_t fingerprint, MPI_Comm communicator);
+  /// @param folder exists, and holds nothing of another problem; empty: nothing is kept
+  LoadCheckpoint(std::string folder, MPI_Comm communicator);
 
   /// Takes up the solution of a load where every rank has its part, else leaves `owned` as it is. All ranks must call this.
   /// @return whether it did
@@ -26,14 +23,10 @@ public:
   /// @throws BadInput, on all ranks, where one of them cannot write
   void write(int load, const ElasticSolver::Vector &owned) const;
 
-  /// Removes what any number of ranks left in a folder, and the folder if nothing else is in it. One rank calls this.
-  static void clear(const std::string &folder);
-
 private:
   std::string file_of(int load) const;
 
   const std::string folder;
-  const std::uint64_t fingerprint;
   const MPI_Comm communicator;
 };
 } // namespace homespun::homogenization

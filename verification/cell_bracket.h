@@ -45,7 +45,7 @@ CellBracket bracket_of(const homogenization::UnitCell &cell, const BracketOption
 
 /// C_lower <= C_upper, C inside, agreement of both solvers on the given mesh, and the width that was asked for.
 /// @param stiffness C^H of the cell problems on the given mesh [N/m]
-/// @param round_off algebraic_limit() of the cell: what the solvers may differ by, where that is more than 1e-6
+/// @param round_off algebraic_limit() of the cell: solvers that differ by more than 1e-6 and less than this are INCONCLUSIVE
 std::vector<Verdict> checks_of(const CellBracket &bracket, const BracketOptions &options,
                                const Eigen::Matrix3d &stiffness, double round_off);
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "verification/cell_study.h"
 
-#include "homogenization/load_checkpoint.h"
 #include "homogenization/solution_pieces.h"
 #include "verification/on_root.h"
 #include "verification/progress.h"
+#include "verification/study_inputs.h"
 
 #include <deal.II/base/utilities.h>
 
@@ -24,16 +24,21 @@ AssessedCell run_cell_study(const homogenization::UnitCell &cell, const CellStud
                             const MPI_Comm communicator)
 {
   homogenization::HomogenizationOptions solve = options.solve;
-  solve.checkpoint                            = options.output + "/checkpoint";
+  solve.checkpoint                            = options.output + "/.homespun-loads";
   if (options.pieces)
     solve.pieces = options.output + "/" + name_of_pieces;
   on_root(communicator,
           [&]()
           {
             if (!options.resume)
-              homogenization::LoadCheckpoint::clear(solve.checkpoint);
+              std::filesystem::remove_all(solve.checkpoint);
             homogenization::remove_pieces(options.output + "/" + name_of_pieces);
             std::filesystem::create_directories(solve.checkpoint);
+            check_inputs_file(solve.checkpoint,
+                              {{"cell", fingerprint(cell)},
+                               {"order", options.solve.order},
+                               {"refine", options.solve.refine}},
+                              options.resume, "inputs.json", "cell, order or refinement");
           });
   AssessedCell assessed = [&]()
   {
@@ -71,7 +76,7 @@ AssessedCell run_cell_study(const homogenization::UnitCell &cell, const CellStud
             write_cell_results(cell, assessed,
                                dealii::Utilities::MPI::n_mpi_processes(communicator),
                                options.output);
-            homogenization::LoadCheckpoint::clear(solve.checkpoint);
+            std::filesystem::remove_all(solve.checkpoint);
           });
   return assessed;
 }

@@ -29,6 +29,8 @@
 // With these  M − T = 1 + 2 + 3 + 4 + 5 + 7 + 9 + reference + products of parts.  Part 8 stands beside the sum: M is
 // computed in double.
 //
+// Part 4 drops out of the sum but for what it leaves of `reference` in linear theory: that it is right is tested there, where
+// `reference` comes out as the measured T* − T.
 // What the sum tests: the parts of linear theory are links of one chain from M to T, so at small strain they add up for
 // any u, and the sum tests only that the method (Upsampler, LightweightCloth) does what the parts say of it. At 10 % it
 // tests part 2, whose cell problem shares nothing with the reference. That a link is called by its right name is tested by

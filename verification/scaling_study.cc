@@ -154,6 +154,8 @@ ScalingRun measure(const ScalingOptions &options, const int refine, const int ra
     const std::string what = "refine " + std::to_string(refine) + " on " + std::to_string(ranks) +
                              " ranks ended with status " + std::to_string(status) + ": " +
                              said.str().substr(0, 2000);
+    if (const std::string killed = text_of_signal(status); !killed.empty())
+      throw meshes::BadInput(what + killed);
     if (status == 3)
       throw meshes::NotConverged(what, {});
     throw meshes::BadInput(what + "; expected a launcher that runs: mend --launcher, which is `" +

@@ -96,7 +96,7 @@ void check_inputs_file(const std::string &folder, const nlohmann::ordered_json &
                             std::istreambuf_iterator<char>());
     if (found != text)
       throw meshes::BadInput(
-        path + ": the rows there belong to other " + what +
+        path + ": what is there belongs to other " + what +
         " than this study; expected the same to resume: leave out --resume to begin "
         "anew, or choose another --output");
   }

@@ -83,6 +83,10 @@ TEST(tripwire_bracket_checks, what_is_not_a_number_fails_and_no_bracket_is_incon
   cell_bracket.on_given_mesh = I;
   EXPECT_EQ(outcome_of(checks_of(cell_bracket, {}, I, 0.), "C_lower <= C_upper"), Outcome::pass);
   EXPECT_EQ(outcome_of(checks_of(cell_bracket, {}, none, 0.), "multigrid"), Outcome::fail);
+  EXPECT_EQ(outcome_of(checks_of(cell_bracket, {}, none, 1.), "multigrid"), Outcome::fail);
+  EXPECT_EQ(outcome_of(checks_of(cell_bracket, {}, 1.001 * I, 0.), "multigrid"), Outcome::fail);
+  EXPECT_EQ(outcome_of(checks_of(cell_bracket, {}, 1.001 * I, 0.01), "multigrid"),
+            Outcome::inconclusive);
   cell_bracket.bracket->lower = none;
   EXPECT_EQ(outcome_of(checks_of(cell_bracket, {}, I, 0.), "C_lower <= C_upper"), Outcome::fail);
 }

@@ -31,31 +31,35 @@ BudgetCells budget_cells(const UnitCell &cell)
           cell.stiffness_of_phase()};
 }
 
-/// The budget of a sheet of n x n cells under biot.
+/// The resolved sheet in linear theory at 1 %.
+meshes::Points linear_reference(const UnitCell &cell, const meshes::Sheet &sheet, const Load &load,
+                                const unsigned int order)
+{
+  ReferenceOptions options;
+  options.order = order;
+  FineReference reference(sheet, cell.stiffness_of_phase(), options, MPI_COMM_WORLD);
+  reference.start(load, Law::linear);
+  return reference.advance(0.01).positions;
+}
+
+/// The budget of a sheet of n x n cells.
 /// @param used what the method up-samples with; the budget has the right cell
 ErrorBudget measured(const UnitCell &cell, const BudgetCells &cells, const Load &load, const int n,
                      const double strain, const meshes::HomogenizedCell &used,
-                     const int refinement = 8)
+                     const int refinement = 8, const Law law = Law::biot)
 {
   const meshes::Sheet sheet = meshes::tile(cell.mesh, cell.lattice, n, n);
-  const auto linear         = [&](const unsigned int order)
-  {
-    ReferenceOptions options;
-    options.order = order;
-    FineReference reference(sheet, cell.stiffness_of_phase(), options, MPI_COMM_WORLD);
-    reference.start(load, Law::linear);
-    return reference.advance(0.01).positions;
-  };
   FineReference reference(sheet, cell.stiffness_of_phase(), {}, MPI_COMM_WORLD);
-  reference.start(load, Law::biot);
+  reference.start(load, law);
   const meshes::Points fine  = reference.advance(strain).positions;
   const meshes::Points tight = reference.tighten(1e-11).positions;
   LightweightCloth cloth(used, sheet, load);
-  const CoarseStep coarse = cloth.solve(Law::biot, strain);
+  const CoarseStep coarse = cloth.solve(law, strain);
   const meshes::Points upsampled =
-    cloth.upsample(Method("localized"), Law::biot, coarse.positions).positions;
-  LoadBudget budget(cells, sheet, load, linear(1), linear(2), 0.01, refinement);
-  return budget.measure(Law::biot, {strain, coarse.positions, upsampled, fine, tight});
+    cloth.upsample(Method("localized"), law, coarse.positions).positions;
+  LoadBudget budget(cells, sheet, load, linear_reference(cell, sheet, load, 1),
+                    linear_reference(cell, sheet, load, 2), 0.01, refinement);
+  return budget.measure(law, {strain, coarse.positions, upsampled, fine, tight});
 }
 
 double mean(const meshes::Points &field)
@@ -147,6 +151,26 @@ TEST(exact_error_budget, the_parts_of_a_sheet_add_up)
     EXPECT_NEAR(mean(budget.sum()) / mean(budget.total), 1., 0.03) << load;
     EXPECT_LT(mean(budget.sum() - budget.total), 0.05 * mean(budget.total)) << load;
   }
+}
+
+// The part `cell` is measured at each strain, and `reference` follows it: they cancel in the sum, which would not notice.
+TEST(exact_error_budget,
+     the_part_of_the_reference_is_measured_where_the_law_is_linear_or_the_strain_small)
+{
+  const UnitCell cell     = homogenization::read_unit_cell(CELLS "three-stiffness.prm");
+  const BudgetCells cells = budget_cells(cell);
+  const Load load("shear-frame");
+  const meshes::Sheet sheet = meshes::tile(cell.mesh, cell.lattice, 3, 3);
+  const meshes::Points expected =
+    linear_reference(cell, sheet, load, 2) - linear_reference(cell, sheet, load, 1);
+  const meshes::Points linear =
+    measured(cell, cells, load, 3, 0.03, cells.given, 8, Law::linear).parts.at("reference");
+  EXPECT_LT(mean(linear - 3. * expected), 1e-6 * mean(linear));
+  const meshes::Points small =
+    measured(cell, cells, load, 3, 1e-4, cells.given).parts.at("reference");
+  EXPECT_LT(mean(small - 0.01 * expected), 1e-3 * mean(small));
+  EXPECT_GT(mean(small),
+            1e-4 * 1e-3 * 0.01); // it is not nothing: a thousandth of strain times cell side
 }
 
 TEST(tripwire_error_budget, a_method_with_a_bug_is_not_explained_by_parts_that_are_right)

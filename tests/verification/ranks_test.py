@@ -117,9 +117,9 @@ class Homogenize(InFolder):
         study = [PROGRAM, "homogenize", self.CELL, "--refine", "5", "--order", "1", "--no-bars", "--quiet", "--output"]
         whole, cut = self.folder / "whole", self.folder / "cut"
         subprocess.run([*map(str, study), str(whole)], check=True, timeout=240 * PATIENCE)
-        self.assertFalse((whole / "checkpoint").exists())
+        self.assertFalse((whole / ".homespun-loads").exists())
         with subprocess.Popen([*map(str, study), str(cut)]) as process:
-            first = cut / "checkpoint" / "load-0-rank-0-of-1"
+            first = cut / ".homespun-loads" / "load-0-rank-0-of-1"
             deadline = time.monotonic() + 240 * PATIENCE
             while not first.exists() and process.poll() is None and time.monotonic() < deadline:
                 time.sleep(0.01)
@@ -132,17 +132,20 @@ class Homogenize(InFolder):
         expected = self.stiffness(whole)
         numpy.testing.assert_allclose(self.stiffness(cut), expected, rtol=0, atol=1e-10 * numpy.abs(expected).max())
         self.assertEqual(json.loads((cut / "homogenize.json").read_text())["loads_taken_up"], 1)
-        self.assertFalse((cut / "checkpoint").exists())
+        self.assertFalse((cut / ".homespun-loads").exists())
 
-    def test_what_another_cell_left_is_passed_over_and_what_is_the_users_stays(self):
-        study = [PROGRAM, "homogenize", CELLS / "layered.prm", "--no-bars", "--quiet", "--resume", "--output", self.folder]
-        (self.folder / "checkpoint").mkdir()
-        (self.folder / "checkpoint" / "model.pt").write_text("the user's")
-        # As many degrees of freedom as layered has, and the fingerprint of nothing.
-        (self.folder / "checkpoint" / "load-0-rank-0-of-1").write_bytes(bytes(8 + 8 * 3034))
-        subprocess.run([str(word) for word in study], check=True, timeout=60 * PATIENCE)
+    def test_what_another_cell_left_is_refused_and_goes_when_it_begins_anew(self):
+        study = ["homogenize", CELLS / "layered.prm", "--no-bars", "--quiet", "--output", self.folder]
+        left = self.folder / ".homespun-loads"
+        left.mkdir()
+        (left / "inputs.json").write_text('{"cell": "another"}')
+        (left / "load-0-rank-0-of-1").write_bytes(bytes(8 * 3034))  # as many degrees of freedom as layered has
+        refused = run(*study, "--resume")
+        self.assertEqual(refused.returncode, 2)
+        self.assertIn("belongs to other cell, order or refinement", refused.stderr)
+        self.assertEqual(run(*study).returncode, 0)
         self.assertEqual(json.loads((self.folder / "homogenize.json").read_text())["loads_taken_up"], 0)
-        self.assertEqual([path.name for path in (self.folder / "checkpoint").iterdir()], ["model.pt"])
+        self.assertFalse(left.exists())
 
 
 class Scaling(InFolder):

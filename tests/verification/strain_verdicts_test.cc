@@ -98,6 +98,22 @@ TEST(tripwire_verdicts, a_term_of_first_order_fails_at_any_size_that_shows)
   }
 }
 
+TEST(tripwire_verdicts, an_order_that_overshoots_two_is_open_until_smaller_strains_settle_it)
+{
+  // satin pulled along its yarns, measured: quadratic below 1e-4, straightening at 1e-3, another equilibrium at 1 %.
+  const std::vector<std::pair<double, double>> measured = {
+    {1e-6, 9.24e-13}, {1e-5, 9.22e-11}, {1e-4, 8.91e-9}, {1e-3, 6.73e-7}, {1e-2, 1.31e-3}};
+  const auto outcome = [&](const std::size_t first)
+  {
+    Rows rows;
+    for (std::size_t k = first; k < measured.size(); ++k)
+      rows.push_back(row("periodic-11", measured[k].first, "localized", 0.01 * measured[k].second));
+    return strain_verdicts(rows)[0].outcome;
+  };
+  EXPECT_EQ(outcome(2), Outcome::inconclusive);
+  EXPECT_EQ(outcome(0), Outcome::pass);
+}
+
 TEST(tripwire_verdicts, an_error_that_is_not_a_number_fails)
 {
   for (const std::string &text : {std::string(), std::string("1.5x")})
