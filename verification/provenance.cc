@@ -2,6 +2,7 @@
 #include "verification/provenance.h"
 
 #include "verification/build_info.h"
+#include "verification/record/checksum.h"
 
 #include <deal.II/base/config.h>
 
@@ -49,10 +50,22 @@ std::string host()
 }
 } // namespace
 
+std::string revision()
+{
+  static const std::string text = []() -> std::string
+  {
+    const std::string described = HOMESPUN_GIT_REVISION;
+    const bool is_known         = described.find("dirty") == std::string::npos &&
+                          described.find("no revision") == std::string::npos;
+    return is_known ? described : described + "-" + checksum_of_file("/proc/self/exe");
+  }();
+  return text;
+}
+
 nlohmann::ordered_json provenance(const unsigned int n_ranks)
 {
   return {{"homespun", HOMESPUN_VERSION},
-          {"git", HOMESPUN_GIT_REVISION},
+          {"git", revision()},
           {"dealii", DEAL_II_PACKAGE_VERSION},
           {"trilinos", dotted(DEAL_II_TRILINOS_VERSION_MAJOR, DEAL_II_TRILINOS_VERSION_MINOR,
                               DEAL_II_TRILINOS_VERSION_SUBMINOR)},

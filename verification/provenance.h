@@ -8,6 +8,9 @@
 
 namespace homespun::verification
 {
+/// The revision of the sources; of sources that were changed since, with a checksum of the program itself.
+std::string revision();
+
 /// Versions of homespun and of every library, compiler, flags, host, processor, date (UTC), ranks.
 nlohmann::ordered_json provenance(unsigned int n_ranks);
 

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: MIT
+#include "verification/record/json_files.h"
+
+#include <cmath>
+
+namespace homespun::verification
+{
+nlohmann::ordered_json json_number(const double value)
+{
+  return std::isfinite(value) ? nlohmann::ordered_json(value) : nlohmann::ordered_json();
+}
+
+std::string json_text(const nlohmann::ordered_json &json)
+{
+  return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+}
+
+nlohmann::ordered_json to_json(const std::vector<Verdict> &verdicts, const std::string &command)
+{
+  nlohmann::ordered_json list = nlohmann::ordered_json::array();
+  for (const Verdict &verdict : verdicts)
+    list.push_back({{"claim", verdict.claim},
+                    {"kind", name_of(verdict.kind)},
+                    {"verdict", name_of(verdict.outcome)},
+                    {"value", json_number(verdict.value)},
+                    {"limit", verdict.limit},
+                    {"derivation", verdict.derivation},
+                    {"command", command}});
+  return {{"verdicts", list}};
+}
+} // namespace homespun::verification

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: MIT
+// Results as JSON files.
+#pragma once
+
+#include "verification/record/verdict.h"
+
+#include <nlohmann/json.hpp>
+
+#include <string>
+#include <vector>
+
+namespace homespun::verification
+{
+/// A number as JSON; null where it is not finite.
+nlohmann::ordered_json json_number(double value);
+
+/// Text of a JSON file; names that are not UTF-8 are written with replacement characters.
+std::string json_text(const nlohmann::ordered_json &json);
+
+/// {"verdicts": [{claim, kind, verdict, value, limit, derivation, command}]}
+nlohmann::ordered_json to_json(const std::vector<Verdict> &verdicts, const std::string &command);
+} // namespace homespun::verification

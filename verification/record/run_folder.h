@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: MIT
+// A folder of results is one run: all that lies in it was made from the same inputs with the same
+// options by the same revision, and run.json says by which. A run that is begun again takes up what
+// it left; another one replaces it, or is refused where work would be lost.
+#pragma once
+
+#include <nlohmann/json.hpp>
+
+#include <string>
+#include <vector>
+
+namespace homespun::verification
+{
+/// What to do about an earlier run of other inputs, options or revision in the same folder.
+enum class Earlier
+{
+  keep_work, ///< refuse where more than ten seconds of work would be lost
+  resume,    ///< refuse: what is there must be of the same run
+  overwrite  ///< remove it
+};
+
+/// What a run is, in the words of its command.
+struct RunDescription
+{
+  std::string command;           ///< "strain"
+  nlohmann::ordered_json inputs; ///< all that the results depend on, but for the revision
+};
+
+/// The folder of a run, locked as long as this lives; the lock goes with the process, however that ends.
+/// On the first rank alone.
+class RunFolder
+{
+public:
+  /// Makes the folder, or takes up the run in it, or removes that and begins anew.
+  /// @throws BadInput, with nothing touched, where the folder belongs to a process that runs, holds what
+  ///   no run wrote, or holds another run and `earlier` says to keep it
+  RunFolder(std::string path, const RunDescription &description, Earlier earlier);
+  RunFolder(const RunFolder &)            = delete;
+  RunFolder &operator=(const RunFolder &) = delete;
+  ~RunFolder();
+
+  /// Whether the folder held this run already.
+  bool is_taken_up() const
+  {
+    return taken_up;
+  }
+
+  /// One line for the terminal where an earlier run was replaced, else empty.
+  const std::string &notice() const
+  {
+    return line;
+  }
+
+  /// Lists every file with its size and checksum in run.json, and says that the run came to its end:
+  /// pages take only what is listed, unchanged.
+  void finish();
+
+  const std::string path;
+
+private:
+  void write(bool is_finished) const;
+
+  nlohmann::ordered_json json;
+  double began  = 0.; ///< of this process [s since 1970]
+  int lock      = -1;
+  bool taken_up = false;
+  std::string line;
+};
+
+/// Lists the files of a finished run anew, after its report was made. Does nothing where the folder
+/// holds no run.
+void list_files_again(const std::string &path);
+
+/// The name of a place of the command's own: out/NAMES/COMMAND, with -quick where the sizes are small.
+/// @param names of the cells or of the scene, joined by + up to three
+std::string default_folder(const std::string &command, const std::vector<std::string> &names,
+                           bool is_quick);
+} // namespace homespun::verification
