@@ -3,6 +3,7 @@
 #include "meshes/errors.h"
 #include "verification/commands.h"
 #include "verification/provenance.h"
+#include "verification/record/verdict.h"
 
 #include <deal.II/base/mpi.h>
 
@@ -10,7 +11,6 @@
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
 
-#include <algorithm>
 #include <filesystem>
 #include <iostream>
 
@@ -28,7 +28,7 @@ int guarded(const homespun::verification::Action &action, const bool tells)
     if (tells)
       for (const std::string &fault : bad.faults())
         std::cerr << "homespun: " << fault << "\n";
-    return 2;
+    return homespun::verification::exit_status::bad_input;
   }
   catch (const std::filesystem::filesystem_error &error)
   {
@@ -36,13 +36,13 @@ int guarded(const homespun::verification::Action &action, const bool tells)
       std::cerr << "homespun: " << error.what()
                 << "; expected a folder that can be written: choose "
                 << "another --output\n";
-    return 2;
+    return homespun::verification::exit_status::bad_input;
   }
   catch (const homespun::meshes::NotConverged &failure)
   {
     if (tells)
       std::cerr << "homespun: " << failure.what() << "\n";
-    return 3;
+    return homespun::verification::exit_status::not_converged;
   }
 }
 /// All that happens while MPI runs.
@@ -68,8 +68,9 @@ int run(int argc, char **argv, homespun::verification::Afterwards &afterwards)
   app.set_version_flag("--version", version_text());
   app.require_subcommand(1);
   app.footer(
-    "Exit status: 0 all verdicts pass; 1 a verdict failed; 2 bad input; 3 a solver did not "
-    "converge.\n`homespun COMMAND --help` teaches a command; `mpirun -n N homespun ...` works for "
+    "Exit status, the worst in this order: 2 bad input; 3 a solver did not converge where it had to; "
+    "1 a claim failed;\n4 a claim is open; 0 all claims hold. Claims are of the program, of the input, "
+    "or of the method.\n`homespun COMMAND --help` teaches a command; `mpirun -n N homespun ...` works for "
     "every command that solves.");
   Action action;
   add_check_command(app, action, afterwards);
@@ -101,5 +102,7 @@ int main(int argc, char **argv)
 {
   homespun::verification::Afterwards afterwards;
   const int status = run(argc, argv, afterwards);
-  return afterwards ? guarded([&]() { return std::max(status, afterwards()); }, true) : status;
+  return afterwards
+           ? guarded([&]() { return homespun::verification::worse(status, afterwards()); }, true)
+           : status;
 }

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "meshes/errors.h"
-#include "verification/verdict.h"
+#include "verification/record/verdict.h"
 
 #include <deal.II/base/mpi.h>
 
@@ -54,13 +54,15 @@ void on_root(const MPI_Comm communicator, Work &&work)
     throw meshes::BadInput("the first rank failed");
 }
 
-/// Verdicts of work on the first rank: a failure there becomes one of every rank, so that all end with the same
-/// status. All ranks must call this.
+/// Verdicts of work on the first rank: the worst outcome there becomes one of every rank, so that all end
+/// with the same status. All ranks must call this.
 inline void share_failure(std::vector<Verdict> &verdicts, const MPI_Comm communicator)
 {
-  int failed = any_failed(verdicts);
-  MPI_Bcast(&failed, 1, MPI_INT, 0, communicator);
-  if (failed && !any_failed(verdicts))
-    verdicts.push_back({"the first rank saw a failure", Outcome::fail, 1., "0"});
+  int status = status_of(verdicts);
+  MPI_Bcast(&status, 1, MPI_INT, 0, communicator);
+  if (status != exit_status::good && status_of(verdicts) != status)
+    verdicts.push_back({"the first rank saw a failure",
+                        status == exit_status::claim_failed ? Outcome::fail : Outcome::inconclusive,
+                        1., "0", "all ranks end with the status of the first", Kind::program});
 }
 } // namespace homespun::verification

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <filesystem>
 
 namespace homespun::verification
 {
@@ -23,11 +24,20 @@ void ArgumentFaults::check_names(const std::string &option, const std::vector<st
               });
 }
 
+std::vector<std::string> stems(const std::vector<std::string> &files)
+{
+  std::vector<std::string> names;
+  for (const std::string &file : files)
+    names.push_back(std::filesystem::path(file).stem().string());
+  return names;
+}
+
 void print(const std::vector<Verdict> &verdicts)
 {
   for (const Verdict &verdict : verdicts)
-    std::printf("%-12s %s: %.4g (%s)\n", name_of(verdict.outcome).c_str(), verdict.claim.c_str(),
-                verdict.value, verdict.limit.c_str());
+    std::printf("%-12s %-7s %s: %.4g (%s)\n", name_of(verdict.outcome).c_str(),
+                name_of(verdict.kind).c_str(), verdict.claim.c_str(), verdict.value,
+                verdict.limit.c_str());
 }
 
 void StudyEnd::add_options(CLI::App &command)
@@ -46,9 +56,10 @@ int StudyEnd::conclude(const std::vector<Verdict> &verdicts, const std::string &
       afterwards = [output, quiet]()
       {
         make_report({output}, output, quiet);
+        list_files_again(output);
         return 0;
       };
   }
-  return any_failed(verdicts) ? 1 : 0;
+  return status_of(verdicts);
 }
 } // namespace homespun::verification

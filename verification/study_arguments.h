@@ -5,8 +5,10 @@
 
 #include "meshes/errors.h"
 #include "verification/commands.h"
-#include "verification/verdict.h"
+#include "verification/record/run_folder.h"
+#include "verification/record/verdict.h"
 
+#include <CLI/App.hpp>
 #include <CLI/Option.hpp>
 
 #include <string>
@@ -65,6 +67,28 @@ private:
   std::vector<std::string> faults;
 };
 
+/// Adds --output, --resume, --overwrite and --quiet.
+/// @param study has `output`, `earlier` and `quiet`
+/// @param place what the folder is by default, in words: "out/NAME/strain"
+template <typename Study>
+void add_folder_options(CLI::App &command, Study &study, const std::string &place)
+{
+  command.add_option("--output", study.output,
+                     "Folder of the results, which is one run (default " + place + ")");
+  CLI::Option *resume = command.add_flag_callback(
+    "--resume", [&study]() { study.earlier = Earlier::resume; },
+    "Go on with the run in the folder, as without it, and refuse any other run there");
+  command
+    .add_flag_callback(
+      "--overwrite", [&study]() { study.earlier = Earlier::overwrite; },
+      "Begin anew, whatever run the folder holds, however long that took")
+    ->excludes(resume);
+  command.add_flag("--quiet", study.quiet, "Print nothing but faults");
+}
+
+/// The names of files without folders and endings.
+std::vector<std::string> stems(const std::vector<std::string> &files);
+
 /// The verdicts on the terminal, a line each.
 void print(const std::vector<Verdict> &verdicts);
 
@@ -77,7 +101,7 @@ struct StudyEnd
   void add_options(CLI::App &command);
 
   /// Prints the verdicts and leaves the report of the output folder to be made, both on the first rank.
-  /// @return the exit status: 1 where a verdict failed, else 0
+  /// @return the exit status: status_of() the verdicts
   int conclude(const std::vector<Verdict> &verdicts, const std::string &output, bool quiet,
                Afterwards &afterwards) const;
 };

@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <cstdio>
 #include <ctime>
 #include <filesystem>
 #include <fstream>
@@ -279,6 +280,16 @@ void RunFolder::write(const bool is_finished) const
     written["files"]   = list_of_files(path);
   }
   meshes::write_whole(path + "/run.json", json_text(written));
+}
+
+std::unique_ptr<RunFolder> open_run_folder(const std::string &path,
+                                           const RunDescription &description, const Earlier earlier,
+                                           const bool quiet)
+{
+  auto folder = std::make_unique<RunFolder>(path, description, earlier);
+  if (!quiet && !folder->notice().empty())
+    std::fprintf(stderr, "homespun: %s\n", folder->notice().c_str());
+  return folder;
 }
 
 void list_files_again(const std::string &path)

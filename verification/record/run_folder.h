@@ -6,6 +6,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -66,6 +67,11 @@ private:
   bool taken_up = false;
   std::string line;
 };
+
+/// A RunFolder, whose notice goes to the terminal.
+std::unique_ptr<RunFolder> open_run_folder(const std::string &path,
+                                           const RunDescription &description, Earlier earlier,
+                                           bool quiet);
 
 /// Lists the files of a finished run anew, after its report was made. Does nothing where the folder
 /// holds no run.
