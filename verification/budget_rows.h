@@ -11,16 +11,14 @@
 
 #include "meshes/sheet.h"
 #include "verification/error_budget.h"
-#include "verification/verdict.h"
+#include "verification/record/verdict.h"
+#include "verification/strain_tables.h"
 
 #include <string>
 #include <vector>
 
 namespace homespun::verification
 {
-/// The columns of budget.csv; the first six name a row.
-const std::vector<std::string> &budget_columns();
-
 /// all, interior, boundary, corner.
 const std::vector<std::string> &budget_regions();
 
@@ -40,21 +38,23 @@ PartNorms norms_of(const meshes::Points &part, const meshes::Points &total,
 
 /// Rows of budget.csv: every part, then `sum`, `total` and `misfit` = sum − total, in every region that has vertices.
 /// @param side sqrt(|Y|) [m]
-std::vector<std::vector<std::string>> budget_rows(const std::string &cell, const std::string &load,
-                                                  double strain, const std::string &reference,
-                                                  const ErrorBudget &budget,
-                                                  const std::vector<int> &regions, double side);
+/// @param level names the rows: cell, load, strain, reference
+std::vector<BudgetRow> budget_rows(const BudgetRow &level, const ErrorBudget &budget,
+                                   const std::vector<int> &regions, double side);
 
 /// Judges, for every cell and load among the rows of strain.csv and at the levels nearest to 1 % and 10 %:
 /// - effectivity within [0.8, 1.25]; INCONCLUSIVE where the reference was not reached or a part not found; where the total is
-///   zero to round-off (below 1e-10 strain x cell side), whether the sum is as well
-/// - misfit at most 0.1 of the total up to 2 % strain, where the parts are links of a chain, and 0.25 beyond, as far as the
-///   effectivity may be from 1: the mean length alone would not see a sum that points elsewhere
+///   zero to what the solvers leave, whether the sum is as well
 /// - part 7 at most 1 % of the total
-/// - `resolution` at most 0.1 of the total: the homogenized sheet that counts as resolved is, and what it lacks takes at most
-///   half of what the effectivity may be off
-/// and over the levels up to 2 %: the mean of part 2 grows as strain squared, slope 2 +- 0.1, or is zero to round-off at
-/// each; INCONCLUSIVE with fewer than three levels.
-std::vector<Verdict> budget_verdicts(const std::vector<std::vector<std::string>> &strain_rows,
-                                     const std::vector<std::vector<std::string>> &budget_rows);
+/// and over the levels up to 2 %, where the study has three of them: the mean of part 2 grows as strain squared, slope
+/// 2 +- 0.1, or is zero to what the solvers leave at each.
+/// @param strains that the study was asked for: what they cannot decide is no claim
+std::vector<Verdict> budget_verdicts(const std::vector<StrainRow> &strain_rows,
+                                     const std::vector<BudgetRow> &budget_rows,
+                                     const std::vector<double> &strains);
+
+/// What the sum of the parts misses at the same levels, vertex by vertex, and how far the homogenized sheet that counts as
+/// resolved is so: figures without a limit. Ready sentences.
+std::vector<std::string> budget_notes(const std::vector<StrainRow> &strain_rows,
+                                      const std::vector<BudgetRow> &budget_rows);
 } // namespace homespun::verification

@@ -10,7 +10,7 @@
 
 namespace homespun::verification
 {
-BudgetStudy::BudgetStudy(const std::vector<std::string> &references, ResultTable *const table,
+BudgetStudy::BudgetStudy(const std::vector<std::string> &references, Table<BudgetRow> *const table,
                          const MPI_Comm communicator)
     : law_of_budget(std::find(references.begin(), references.end(), "biot") != references.end()
                       ? Law::biot
@@ -24,7 +24,7 @@ bool BudgetStudy::row_is_missing(const std::string &cell_name, const std::string
                                  const Law law, const double strain) const
 {
   return table != nullptr && law == law_of_budget &&
-         !table->contains({cell_name, load, csv_number(strain), name_of(law), "total", "all"});
+         !table->contains({cell_name, load, strain, name_of(law), "total", "all"});
 }
 
 bool BudgetStudy::is_missing(const std::string &cell_name, const std::string &load, const Law law,
@@ -123,15 +123,13 @@ std::string BudgetStudy::measure_on_root(const Law law, const double strain,
   {
     const ErrorBudget budget =
       of_load->measure(law, {strain, solved.coarse, solved.upsampled, positions, tight});
-    for (const std::vector<std::string> &row :
-         budget_rows(cell->name, load_name, strain, name_of(law), budget, regions,
-                     std::sqrt(cell->lattice.area())))
-      if (!table->contains({row.begin(), row.begin() + 6}))
-        table->append(row);
+    for (const BudgetRow &row : budget_rows({cell->name, load_name, strain, name_of(law)}, budget,
+                                            regions, std::sqrt(cell->lattice.area())))
+      table->append_if_missing(row);
     return budget.misfit_of_localization <= 0.02
              ? std::string()
              : "the table of cell problems at finite strain misses checked ones by " +
-                 csv_number(100. * budget.misfit_of_localization) + " % of what it adds";
+                 short_text(100. * budget.misfit_of_localization) + " % of what it adds";
   }
   catch (const meshes::NotConverged &failure)
   {

@@ -6,7 +6,6 @@
 #include "verification/budget_rows.h"
 #include "verification/error_budget.h"
 #include "verification/fine_reference.h"
-#include "verification/result_files.h"
 
 #include <mpi.h>
 
@@ -30,7 +29,7 @@ class BudgetStudy
 public:
   /// @param references of the study
   /// @param table budget.csv on the first rank, elsewhere null
-  BudgetStudy(const std::vector<std::string> &references, ResultTable *table,
+  BudgetStudy(const std::vector<std::string> &references, Table<BudgetRow> *table,
               MPI_Comm communicator);
 
   /// Whether the budget of a level is asked for and not yet in the table, as the first rank sees it.
@@ -65,7 +64,7 @@ private:
   std::string measure_on_root(Law law, double strain, const meshes::Points &positions,
                               const meshes::Points &tight, const UpsampledLevel &solved);
 
-  ResultTable *const table;
+  Table<BudgetRow> *const table;
   const MPI_Comm communicator;
   const homogenization::UnitCell *cell = nullptr;
   BudgetCells cells;

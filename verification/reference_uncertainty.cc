@@ -9,20 +9,6 @@
 
 namespace homespun::verification
 {
-const std::vector<std::string> &uncertainty_columns()
-{
-  static const std::vector<std::string> columns = {"cell",
-                                                   "load",
-                                                   "reference",
-                                                   "strain",
-                                                   "cells",
-                                                   "p1_minus_p2_m",
-                                                   "p1_minus_refined_p2_m",
-                                                   "p2_minus_refined_p2_m",
-                                                   "uncertainty_per_strain_and_side"};
-  return columns;
-}
-
 namespace
 {
 double mean_distance(const meshes::Points &a, const meshes::Points &b)
@@ -60,7 +46,7 @@ DiscretizationDistance ReferenceUncertainty::measure(const int n, const Law law,
 
 ReferenceUncertainty::ReferenceUncertainty(const homogenization::UnitCell &cell, const Load &load,
                                            const std::vector<Law> &laws, const int n_cells,
-                                           const int n_small, ResultTable *table,
+                                           const int n_small, Table<UncertaintyRow> *table,
                                            const MPI_Comm communicator,
                                            const std::function<void(const std::string &)> &tell)
     : cell(cell)
@@ -74,18 +60,18 @@ ReferenceUncertainty::ReferenceUncertainty(const homogenization::UnitCell &cell,
   const auto distance =
     [&](const int n, const Law law, const double strain, const bool with_refined)
   {
-    const std::vector<std::string> keys = {cell.name, load.name, name_of(law), csv_number(strain),
-                                           std::to_string(n)};
-    double stored[4]                    = {0., 0., 0., 0.};
-    if (table)
-      for (const std::vector<std::string> &row : table->rows())
+    UncertaintyRow row = {cell.name, load.name, name_of(law), strain, n};
+    double stored[4]   = {0., 0., 0., 0.};
+    if (table && table->contains(row))
+      for (const UncertaintyRow &known : table->rows())
         // A row without refined P2 does not answer a request with it, unless P1 was not reached.
-        if (std::equal(keys.begin(), keys.end(), row.begin()) &&
-            (!with_refined || !row[6].empty() || row[5].empty()))
+        if (keys_of_row(known) == keys_of_row(row) &&
+            (!with_refined || std::isfinite(known.p1_to_refined) || !std::isfinite(known.p1_to_p2)))
         {
           stored[0] = 1.;
-          for (std::size_t k = 0; k < 3; ++k)
-            stored[k + 1] = csv_value(row[5 + k]);
+          stored[1] = known.p1_to_p2;
+          stored[2] = known.p1_to_refined;
+          stored[3] = known.p2_to_refined;
         }
     MPI_Bcast(stored, 4, MPI_DOUBLE, 0, communicator);
     const double unit = strain * side;
@@ -101,14 +87,18 @@ ReferenceUncertainty::ReferenceUncertainty(const homogenization::UnitCell &cell,
     tell("error bar of " + name_of(law) + ", " + std::to_string(n) + " x " + std::to_string(n) +
          " cells: P1, P2" + (with_refined ? ", refined P2" : ""));
     const DiscretizationDistance measured = measure(n, law, strain, with_refined);
-    const double missing                  = std::numeric_limits<double>::quiet_NaN();
+    if (measured.reached)
+    {
+      row.p1_to_p2 = measured.p1_to_p2 * unit;
+      if (with_refined)
+      {
+        row.p1_to_refined = measured.p1_to_refined * unit;
+        row.p2_to_refined = measured.p2_to_refined * unit;
+        row.bar           = measured.uncertainty();
+      }
+    }
     if (table)
-      table->append(
-        {keys[0], keys[1], keys[2], keys[3], keys[4],
-         csv_number(measured.reached ? measured.p1_to_p2 * unit : missing),
-         csv_number(measured.reached && with_refined ? measured.p1_to_refined * unit : missing),
-         csv_number(measured.reached && with_refined ? measured.p2_to_refined * unit : missing),
-         csv_number(measured.reached && with_refined ? measured.uncertainty() : missing)});
+      table->append(row);
     return measured;
   };
 

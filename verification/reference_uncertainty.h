@@ -6,7 +6,7 @@
 #include "homogenization/unit_cell.h"
 #include "verification/laws.h"
 #include "verification/loads.h"
-#include "verification/result_files.h"
+#include "verification/strain_tables.h"
 
 #include <mpi.h>
 
@@ -16,9 +16,6 @@
 
 namespace homespun::verification
 {
-/// The columns of uncertainty.csv; lengths in m are means over the vertices.
-const std::vector<std::string> &uncertainty_columns();
-
 /// Measured distances between discretizations of one sheet, per (strain x cell side).
 struct DiscretizationDistance
 {
@@ -52,8 +49,9 @@ public:
   /// @param table receives what was measured, and gives back what it holds already; on the first rank,
   ///   elsewhere null
   ReferenceUncertainty(const homogenization::UnitCell &cell, const Load &load,
-                       const std::vector<Law> &laws, int n_cells, int n_small, ResultTable *table,
-                       MPI_Comm communicator, const std::function<void(const std::string &)> &tell);
+                       const std::vector<Law> &laws, int n_cells, int n_small,
+                       Table<UncertaintyRow> *table, MPI_Comm communicator,
+                       const std::function<void(const std::string &)> &tell);
 
   /// Mean over the vertices of the sheet [m].
   double at(Law law, double strain) const;

@@ -20,25 +20,6 @@
 
 namespace homespun::verification
 {
-const std::vector<std::string> &run_time_columns()
-{
-  static const std::vector<std::string> columns = {"cell",
-                                                   "load",
-                                                   "strain",
-                                                   "reference",
-                                                   "way",
-                                                   "triangles",
-                                                   "error_mean_m",
-                                                   "error_mean_per_cell",
-                                                   "reference_uncertainty_m",
-                                                   "seconds",
-                                                   "runs",
-                                                   "ranks",
-                                                   "threads",
-                                                   "note"};
-  return columns;
-}
-
 namespace
 {
 using meshes::Points;
@@ -92,9 +73,9 @@ class RunTimeStudy
 public:
   RunTimeStudy(const homogenization::UnitCell &cell, const meshes::HomogenizedCell &homogenized,
                const StiffnessBounds &bounds, const meshes::Sheet &sheet, const Load &load,
-               const RunTimeOptions &options,
-               const std::vector<std::vector<std::string>> &uncertainty, ResultTable *table,
-               const MPI_Comm communicator, const std::function<void(const std::string &)> &tell)
+               const RunTimeOptions &options, const std::vector<UncertaintyRow> &uncertainty,
+               Table<RunTimeRow> *table, const MPI_Comm communicator,
+               const std::function<void(const std::string &)> &tell)
       : cell(cell)
       , homogenized(homogenized)
       , bounds(bounds)
@@ -143,10 +124,14 @@ private:
     return static_cast<unsigned int>(n);
   }
 
+  RunTimeRow row_of(const std::string &way) const
+  {
+    return {cell.name, load.name, options.strain, name_of(Law::biot), way};
+  }
+
   bool has(const std::string &way) const
   {
-    return table->contains(
-      {cell.name, load.name, csv_number(options.strain), name_of(Law::biot), way});
+    return table->contains(row_of(way));
   }
 
   /// Repeats a run up to the number asked for, or until it has taken long enough.
@@ -169,7 +154,7 @@ private:
   {
     if (const auto n = static_cast<int>(outcome.seconds.size()); n < options.n_runs)
       outcome.note = std::to_string(n) + " of " + std::to_string(options.n_runs) +
-                     " runs: together they took more than " + csv_number(options.seconds_of_a_way) +
+                     " runs: together they took more than " + short_text(options.seconds_of_a_way) +
                      " s";
   }
 
@@ -306,19 +291,20 @@ private:
     if (has(way))
       return;
     const bool is_known = outcome.positions.size() > 0;
-    const double error  = std::isfinite(known_error) ? known_error
-                          : is_known && way != "fine-p2"
-                            ? (outcome.positions - best).rowwise().norm().mean()
-                            : std::numeric_limits<double>::quiet_NaN();
-    std::string note    = outcome.note;
-    for (char &c : note)
-      c = c == ',' ? ';' : c == '\n' ? ' ' : c;
-    table->append(
-      {cell.name, load.name, csv_number(options.strain), name_of(Law::biot), way,
-       std::to_string(outcome.n_triangles), csv_number(error),
-       csv_number(error / std::sqrt(cell.lattice.area())), csv_number(bar),
-       csv_number(is_known ? median(outcome.seconds) : std::numeric_limits<double>::quiet_NaN()),
-       std::to_string(outcome.seconds.size()), std::to_string(ranks), "1", note});
+    RunTimeRow row      = row_of(way);
+    row.triangles       = outcome.n_triangles;
+    if (std::isfinite(known_error))
+      row.mean = known_error;
+    else if (is_known && way != "fine-p2")
+      row.mean = (outcome.positions - best).rowwise().norm().mean();
+    row.per_cell    = row.mean / std::sqrt(cell.lattice.area());
+    row.uncertainty = bar;
+    if (is_known)
+      row.seconds = median(outcome.seconds);
+    row.runs  = static_cast<int>(outcome.seconds.size());
+    row.ranks = ranks;
+    row.note  = outcome.note;
+    table->append(row);
   }
 
   const homogenization::UnitCell &cell;
@@ -327,8 +313,8 @@ private:
   const meshes::Sheet &sheet;
   const Load &load;
   const RunTimeOptions &options;
-  const std::vector<std::vector<std::string>> &uncertainty;
-  ResultTable *const table;
+  const std::vector<UncertaintyRow> &uncertainty;
+  Table<RunTimeRow> *const table;
   const MPI_Comm communicator;
   const std::function<void(const std::string &)> &tell;
   Points best;
@@ -336,27 +322,26 @@ private:
 };
 } // namespace
 
-double bar_of_p2(const std::vector<std::vector<std::string>> &rows, const std::string &cell,
+double bar_of_p2(const std::vector<UncertaintyRow> &rows, const std::string &cell,
                  const std::string &load, const int n_cells, const double strain)
 {
-  // Columns: cell, load, reference, strain, cells, |P1 − P2|, |P1 − refined P2|, |P2 − refined P2|.
   const double unknown = std::numeric_limits<double>::quiet_NaN();
   double small = unknown, full = unknown, of_p2 = unknown;
-  std::string n_small;
-  for (const std::vector<std::string> &row : rows)
-    if (row[0] == cell && row[1] == load && !row[7].empty())
+  int n_small = 0;
+  for (const UncertaintyRow &row : rows)
+    if (row.cell == cell && row.load == load && std::isfinite(row.p2_to_refined))
     {
-      n_small = row[4];
-      if (row[2] == name_of(Law::biot) || !std::isfinite(of_p2))
-        of_p2 = csv_value(row[7]) / csv_value(row[3]);
+      n_small = row.cells;
+      if (row.reference == name_of(Law::biot) || !std::isfinite(of_p2))
+        of_p2 = row.p2_to_refined / row.strain;
     }
-  for (const std::vector<std::string> &row : rows)
-    if (row[0] == cell && row[1] == load && row[2] == name_of(Law::linear))
+  for (const UncertaintyRow &row : rows)
+    if (row.cell == cell && row.load == load && row.reference == name_of(Law::linear))
     {
-      if (row[4] == n_small)
-        small = csv_value(row[5]) / csv_value(row[3]);
-      if (row[4] == std::to_string(n_cells))
-        full = csv_value(row[5]) / csv_value(row[3]);
+      if (row.cells == n_small)
+        small = row.p1_to_p2 / row.strain;
+      if (row.cells == n_cells)
+        full = row.p1_to_p2 / row.strain;
     }
   return of_p2 * (full / small) * strain;
 }
@@ -365,8 +350,8 @@ std::string run_time_study(const homogenization::UnitCell &cell,
                            const meshes::HomogenizedCell &homogenized,
                            const StiffnessBounds &bounds, const meshes::Sheet &sheet,
                            const Load &load, const RunTimeOptions &options,
-                           const std::vector<std::vector<std::string>> &uncertainty,
-                           ResultTable *table, const MPI_Comm communicator,
+                           const std::vector<UncertaintyRow> &uncertainty, Table<RunTimeRow> *table,
+                           const MPI_Comm communicator,
                            const std::function<void(const std::string &)> &tell)
 {
   return RunTimeStudy(cell, homogenized, bounds, sheet, load, options, uncertainty, table,

@@ -17,7 +17,7 @@
 #include "meshes/homogenized_cell.h"
 #include "meshes/sheet.h"
 #include "verification/loads.h"
-#include "verification/result_files.h"
+#include "verification/strain_tables.h"
 
 #include <mpi.h>
 
@@ -27,9 +27,6 @@
 
 namespace homespun::verification
 {
-/// The columns of runtime.csv; the first five name a row.
-const std::vector<std::string> &run_time_columns();
-
 struct RunTimeOptions
 {
   double strain           = 0.1;
@@ -51,13 +48,13 @@ std::string run_time_study(const homogenization::UnitCell &cell,
                            const meshes::HomogenizedCell &homogenized,
                            const StiffnessBounds &bounds, const meshes::Sheet &sheet,
                            const Load &load, const RunTimeOptions &options,
-                           const std::vector<std::vector<std::string>> &uncertainty,
-                           ResultTable *table, MPI_Comm communicator,
+                           const std::vector<UncertaintyRow> &uncertainty, Table<RunTimeRow> *table,
+                           MPI_Comm communicator,
                            const std::function<void(const std::string &)> &tell);
 
 /// The error bar of P2 on the given mesh, law biot [m]: |P2 − refined P2| measured on the small sheet, carried over by
 /// the ratio of |P1 − P2| at full size and there (linear law), per strain. NaN where a row is missing.
 /// @param rows of uncertainty.csv
-double bar_of_p2(const std::vector<std::vector<std::string>> &rows, const std::string &cell,
+double bar_of_p2(const std::vector<UncertaintyRow> &rows, const std::string &cell,
                  const std::string &load, int n_cells, double strain);
 } // namespace homespun::verification

@@ -8,7 +8,6 @@
 #include <CLI/Formatter.hpp>
 
 #include <algorithm>
-#include <filesystem>
 #include <memory>
 
 namespace homespun::verification
@@ -50,9 +49,7 @@ int run_strain(StrainArguments arguments, Afterwards &afterwards)
   StrainStudyOptions &study = arguments.study;
   check_arguments(study);
   if (study.output.empty())
-    study.output = "out/" + (study.cell_files.size() == 1
-                               ? std::filesystem::path(study.cell_files[0]).stem().string()
-                               : std::string("strain"));
+    study.output = default_folder("strain", stems(study.cell_files), study.is_quick);
   return arguments.end.conclude(run_strain_study(study, MPI_COMM_WORLD), study.output, study.quiet,
                                 afterwards);
 }
@@ -78,16 +75,13 @@ void add_strain_command(CLI::App &app, Action &action, Afterwards &afterwards,
   add_list(*command, "--loads", study.loads, "Loads, comma-separated");
   add_list(*command, "--references", study.references, "Laws of the fine reference");
   add_list(*command, "--methods", study.methods, "Ways to the fine positions");
-  command->add_option("--output", study.output,
-                      "Folder of the results (default out/NAME, out/strain for several cells)");
+  add_folder_options(*command, study, "out/NAME/strain, with --quick out/NAME/strain-quick");
   command->add_flag("--quick", arguments->quick,
                     "4 x 4 cells at 0.1, 1 and 10 % unless given otherwise: seconds");
-  command->add_flag("--resume", study.resume, "Keep the rows that are there, compute the rest");
   command->add_flag("!--no-budget", study.budget,
                     "Leave out the error budget: budget.csv, the error split into its parts");
   command->add_flag("!--no-runtime", study.run_time,
                     "Leave out error against run time: runtime.csv, every way to the positions");
-  command->add_flag("--quiet", study.quiet, "Print nothing but faults");
   arguments->end.add_options(*command);
   command->footer(
     "Loads: periodic-11, periodic-22, periodic-12 (infinite cloth; 12 is simple shear), strip-1,\n"

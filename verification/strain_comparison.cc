@@ -2,6 +2,7 @@
 #include "verification/strain_comparison.h"
 
 #include "meshes/errors.h"
+#include "verification/anchor_choice.h"
 #include "verification/sheet_fields.h"
 
 #include <algorithm>
@@ -22,8 +23,33 @@ double pictured_strain(const StrainStudyOptions &options)
                            { return std::abs(std::log(a / 0.1)) < std::abs(std::log(b / 0.1)); });
 }
 
+double compared_strain(const StrainStudyOptions &options)
+{
+  return *std::min_element(options.strains.begin(), options.strains.end(),
+                           [](double a, double b)
+                           { return std::abs(std::log(a / 0.01)) < std::abs(std::log(b / 0.01)); });
+}
+
 namespace
 {
+/// The fluctuation, or a note why there is none.
+Fluctuation fluctuation_of(const StrainLevel &level, const meshes::Points &reference,
+                           FluctuationMeasure &measure, StrainOutput &output)
+{
+  try
+  {
+    return measure.at(level.law, level.strain, reference);
+  }
+  catch (const meshes::NotConverged &failure)
+  {
+    output.write_note(level,
+                      std::string("the homogenized sheet, resolved, finds no equilibrium, and the "
+                                  "fluctuation is not known; ") +
+                        failure.what());
+    return {0., 0., 0.};
+  }
+}
+
 /// One picture per sheet load, against biot if it is there.
 bool is_pictured(const StrainStudyOptions &options, const Load &load, const StrainLevel &level)
 {
@@ -34,10 +60,11 @@ bool is_pictured(const StrainStudyOptions &options, const Load &load, const Stra
 } // namespace
 
 UpsampledLevel compare_methods(const StrainStudyOptions &options, const StrainLevel &level,
-                               const ResolvedLevel &resolved, LightweightCloth &cloth,
+                               const ResolvedLevel &resolved, MethodOnSheet &method,
                                const Load &load, StrainOutput &output)
 {
   const ReferenceStep &fine = resolved.fine;
+  LightweightCloth &cloth   = method.cloth;
   const CoarseStep coarse   = cloth.solve(level.law, level.strain);
   const auto upsampled_with = [&](const std::string &name)
   {
@@ -51,10 +78,11 @@ UpsampledLevel compare_methods(const StrainStudyOptions &options, const StrainLe
   { return (positions - fine.positions).rowwise().norm(); };
   const UpsampledSheet affine = upsampled_with("affine"), localized = upsampled_with("localized");
   StrainErrors errors;
-  errors.fluctuation       = distance_of(affine.positions).mean();
-  errors.side              = std::sqrt(resolved.sheet.lattice.area());
-  errors.uncertainty       = resolved.uncertainty;
-  errors.seconds_reference = fine.seconds;
+  const Fluctuation fluctuation = fluctuation_of(level, fine.positions, method.fluctuation, output);
+  errors.fluctuation            = fluctuation.mean;
+  errors.side                   = std::sqrt(resolved.sheet.lattice.area());
+  errors.uncertainty            = resolved.uncertainty;
+  errors.seconds_reference      = fine.seconds;
   // All methods before the first row: a level has the errors of all, or is unreached.
   std::vector<std::pair<std::string, UpsampledSheet>> missing;
   for (const std::string &name : options.methods)
@@ -74,11 +102,30 @@ UpsampledLevel compare_methods(const StrainStudyOptions &options, const StrainLe
                            resolved.sheet, cloth.coarse,
                            {load.name, level.strain, name_of(level.law), name, fine.positions,
                             upsampled.positions, coarse.positions});
-      output.write_step(level, {coarse.seconds, upsampled.seconds, fine.seconds, coarse.iterations,
-                                fine.n_newton, resolved.n_dofs, resolved.n_ranks});
+      StepRow step;
+      step.seconds_coarse      = coarse.seconds;
+      step.seconds_upsample    = upsampled.seconds;
+      step.seconds_fine        = fine.seconds;
+      step.coarse_iterations   = coarse.iterations;
+      step.fine_iterations     = fine.n_newton;
+      step.fine_dofs           = resolved.n_dofs;
+      step.ranks               = resolved.n_ranks;
+      step.fluctuation         = fluctuation.mean;
+      step.fluctuation_bar     = fluctuation.bar;
+      step.homogenized_law     = name_of(FluctuationMeasure::law_beside(level.law));
+      step.seconds_homogenized = fluctuation.seconds;
+      output.write_step(level, step);
     }
     output.write_errors(level, name, resolved.sheet, cloth.coarse.n_triangles(), errors);
   }
+  if (!load.is_periodic() && level.law == Law::biot && level.strain == compared_strain(options))
+    if (const std::string note =
+          note_of_anchor(errors_of_other_anchors(method.cell, cloth.coarse, resolved.sheet,
+                                                 level.law, coarse.positions, fine.positions),
+                         distance_of(localized.positions).mean(),
+                         distance_of(affine.positions).mean(), resolved.uncertainty);
+        !note.empty())
+      output.write_note(level, note);
   return {coarse.positions, localized.positions};
 }
 } // namespace homespun::verification

@@ -5,6 +5,7 @@
 #include "meshes/sheet.h"
 #include "verification/budget_study.h"
 #include "verification/fine_reference.h"
+#include "verification/fluctuation.h"
 #include "verification/lightweight_cloth.h"
 #include "verification/strain_output.h"
 
@@ -20,6 +21,17 @@ struct ResolvedLevel
   double uncertainty; ///< of its positions, mean over the vertices [m]
 };
 
+/// The method, and what its error is measured by.
+struct MethodOnSheet
+{
+  const meshes::HomogenizedCell &cell;
+  LightweightCloth cloth;
+  FluctuationMeasure fluctuation;
+};
+
+/// The level nearest to 1 %, at which methods are compared.
+double compared_strain(const StrainStudyOptions &options);
+
 /// Whether biot is among the references.
 bool has_biot(const StrainStudyOptions &options);
 
@@ -27,10 +39,10 @@ bool has_biot(const StrainStudyOptions &options);
 double pictured_strain(const StrainStudyOptions &options);
 
 /// Moves the coarse cloth to a level, up-samples it by every method, and writes the errors whose row is not there,
-/// the times, and the picture if this is the level for one. First rank.
+/// the times, the picture if this is the level for one, and a note on the anchor at the compared strain. First rank.
 /// @return the coarse cloth, and the fine positions of `localized`
 /// @throws NotConverged where the coarse cloth finds no equilibrium, or positions are not finite
 UpsampledLevel compare_methods(const StrainStudyOptions &options, const StrainLevel &level,
-                               const ResolvedLevel &resolved, LightweightCloth &cloth,
+                               const ResolvedLevel &resolved, MethodOnSheet &method,
                                const Load &load, StrainOutput &output);
 } // namespace homespun::verification

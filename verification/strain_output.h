@@ -5,8 +5,8 @@
 
 #include "meshes/sheet.h"
 #include "verification/laws.h"
-#include "verification/result_files.h"
 #include "verification/strain_study.h"
+#include "verification/strain_tables.h"
 
 #include <Eigen/Core>
 #include <nlohmann/json.hpp>
@@ -25,33 +25,23 @@ struct StrainLevel
   double strain;
 };
 
-/// A row of strain.csv.
+/// What is written of a method at a level.
 struct StrainErrors
 {
   Eigen::VectorXd distance;      ///< from the reference, per fine vertex [m]
-  double fluctuation       = 0.; ///< mean over the vertices [m]
+  double fluctuation       = 0.; ///< of the reference, mean over the vertices [m]
   double side              = 0.; ///< of the cell [m]
   double uncertainty       = 0.; ///< of the reference [m]
   double seconds           = 0.; ///< of the method
   double seconds_reference = 0.;
 };
 
-/// A row of steps.csv.
-struct StrainStep
-{
-  double seconds_coarse = 0., seconds_upsample = 0., seconds_fine = 0.;
-  int coarse_iterations        = 0;
-  unsigned int fine_iterations = 0;
-  unsigned long fine_dofs      = 0;
-  unsigned int ranks           = 1;
-};
-
 /// Tables in a folder. Rows that are there already are not written again.
 class StrainOutput
 {
 public:
-  /// Opens the tables that the options ask for, or takes them up.
-  /// @throws BadInput where a table has another header
+  /// Takes up the tables that the options ask for, or begins them.
+  /// @throws BadInput where a table is damaged
   explicit StrainOutput(const StrainStudyOptions &options);
 
   /// Whether a level has a row of every method that has a meaning for its law, or is known to have no equilibrium.
@@ -64,7 +54,8 @@ public:
   void write_errors(const StrainLevel &level, const std::string &method, const meshes::Sheet &sheet,
                     int n_coarse_triangles, const StrainErrors &errors);
 
-  void write_step(const StrainLevel &level, const StrainStep &step);
+  /// @param step its keys are those of the level
+  void write_step(const StrainLevel &level, StepRow step);
 
   /// A level without equilibrium.
   void write_unreached(const StrainLevel &level, const meshes::Sheet &sheet);
@@ -79,20 +70,25 @@ public:
   /// Every note of the study, those of earlier runs too. Ready sentences.
   std::vector<std::string> notes() const;
 
-  /// Levels without equilibrium, among all rows.
-  int n_unreached() const;
-
-  const std::vector<std::vector<std::string>> &strain_rows() const
+  const std::vector<StrainRow> &strain_rows() const
   {
-    return strain->rows();
+    return strain.rows();
   }
 
-  /// uncertainty.csv; and budget.csv and runtime.csv, null where they are left out.
-  const std::unique_ptr<ResultTable> uncertainty, budget, run_time;
+  const std::vector<StepRow> &step_rows() const
+  {
+    return steps.rows();
+  }
+
+  Table<UncertaintyRow> uncertainty;
+  std::unique_ptr<Table<BudgetRow>> budget;    ///< none where it is left out
+  std::unique_ptr<Table<RunTimeRow>> run_time; ///< none where it is left out
 
 private:
   const std::string folder;
   const std::vector<std::string> methods;
-  const std::unique_ptr<ResultTable> strain, steps, note_table;
+  Table<StrainRow> strain;
+  Table<StepRow> steps;
+  Table<NoteRow> note_table;
 };
 } // namespace homespun::verification

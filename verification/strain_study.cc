@@ -22,6 +22,7 @@
 #include <chrono>
 #include <cmath>
 #include <filesystem>
+#include <memory>
 
 #include <sys/resource.h>
 
@@ -31,6 +32,24 @@ using homogenization::UnitCell;
 
 namespace
 {
+/// All that the numbers of a study depend on.
+nlohmann::ordered_json inputs_of(const StrainStudyOptions &options,
+                                 const std::vector<UnitCell> &cells)
+{
+  nlohmann::ordered_json inputs = {
+    {"cells per side", options.n_cells},
+    {"cells per side of the error bar", options.n_cells_of_error_bar},
+    {"strains", options.strains},
+    {"loads", options.loads},
+    {"references", options.references},
+    {"methods", options.methods},
+    {"budget", options.budget},
+    {"run time", options.run_time}};
+  for (const UnitCell &cell : cells)
+    inputs["cell " + cell.name] = fingerprint(cell);
+  return inputs;
+}
+
 class StrainStudy
 {
 public:
@@ -56,8 +75,8 @@ public:
                    1); // refuses cells that make no sheet, before any file
     on_root(communicator, [&]() { open_tables(); });
     if (options.budget)
-      budget = std::make_unique<BudgetStudy>(options.references, table(&StrainOutput::budget),
-                                             communicator);
+      budget = std::make_unique<BudgetStudy>(options.references,
+                                             output ? output->budget.get() : nullptr, communicator);
     for (const UnitCell &cell : cells)
       study_cell(cell);
     return conclude();
@@ -67,16 +86,9 @@ private:
   /// Tables live on the first rank alone.
   void open_tables()
   {
-    std::filesystem::create_directories(options.output);
-    check_inputs(cells, options.n_cells, options.n_cells_of_error_bar, options.output,
-                 options.resume);
+    folder = open_run_folder(options.output, {"strain", inputs_of(options, cells)}, options.earlier,
+                             options.quiet);
     output = std::make_unique<StrainOutput>(options);
-  }
-
-  /// A table of the output, null on other ranks.
-  ResultTable *table(const std::unique_ptr<ResultTable> StrainOutput::*which) const
-  {
-    return output ? ((*output).*which).get() : nullptr;
   }
 
   void study_cell(const UnitCell &cell)
@@ -123,12 +135,13 @@ private:
         const Load load(name);
         RunTimeOptions of_run;
         of_run.strain = pictured_strain(options);
-        const std::vector<std::vector<std::string>> none;
-        const std::string fault = run_time_study(
-          cell, homogenized, bounds, sheet, load, of_run,
-          output ? output->uncertainty->rows() : none, table(&StrainOutput::run_time), communicator,
-          [&](const std::string &what)
-          { progress.begin(cell.name + ", " + load.name + ", run times: " + what); });
+        const std::string fault =
+          run_time_study(cell, homogenized, bounds, sheet, load, of_run,
+                         output ? output->uncertainty.rows() : std::vector<UncertaintyRow>(),
+                         output ? output->run_time.get() : nullptr, communicator,
+                         [&](const std::string &what) {
+                           progress.begin(cell.name + ", " + load.name + ", run times: " + what);
+                         });
         on_root(
           communicator,
           [&]()
@@ -162,14 +175,15 @@ private:
     progress.begin(cell.name + ", " + load.name + ": error bar of the reference", true);
     const ReferenceUncertainty uncertainty(
       cell, load, laws, options.n_cells, options.n_cells_of_error_bar,
-      table(&StrainOutput::uncertainty), communicator,
+      output ? &output->uncertainty : nullptr, communicator,
       [&](const std::string &what) { progress.begin(cell.name + ", " + load.name + ": " + what); });
     progress.done();
 
     if (!reference)
       reference = std::make_unique<FineReference>(sheet, cell.stiffness_of_phase(),
                                                   ReferenceOptions(), communicator);
-    LightweightCloth cloth(homogenized, sheet, load);
+    MethodOnSheet method  = {homogenized, LightweightCloth(homogenized, sheet, load),
+                             FluctuationMeasure(homogenized.stiffness, sheet, load)};
     const bool has_budget = begin_budget(cell, homogenized, sheet, load, *reference);
     for (std::size_t k = 0; k < laws.size(); ++k)
     {
@@ -184,10 +198,10 @@ private:
       for (const double strain : missing)
       {
         progress.begin(cell.name + ", " + load.name + ": " + name_of(laws[k]) +
-                         " reference, strain " + csv_number(strain),
+                         " reference, strain " + short_text(strain),
                        true);
         if (is_reached)
-          is_reached = study_strain(cell, sheet, load, laws[k], strain, *reference, cloth,
+          is_reached = study_strain(cell, sheet, load, laws[k], strain, *reference, method,
                                     uncertainty.at(laws[k], strain), has_budget);
         else
           on_root(communicator,
@@ -260,7 +274,7 @@ private:
   /// @return whether reference and coarse cloth found an equilibrium, so that the next level may start from it
   bool study_strain(const UnitCell &cell, const meshes::Sheet &sheet, const Load &load,
                     const Law law, const double strain, FineReference &reference,
-                    LightweightCloth &cloth, const double uncertainty, const bool has_budget)
+                    MethodOnSheet &method, const double uncertainty, const bool has_budget)
   {
     const StrainLevel level  = {cell.name, load.name, law, strain};
     const ReferenceStep fine = reference.advance(strain);
@@ -297,7 +311,7 @@ private:
               {
                 solved    = compare_methods(options, level,
                                             {sheet, fine, reference.n_dofs(), n_ranks, uncertainty},
-                                            cloth, load, *output);
+                                            method, load, *output);
                 is_solved = 1;
               }
               catch (const meshes::NotConverged &failure)
@@ -338,23 +352,26 @@ private:
     on_root(communicator,
             [&]()
             {
-              for (const Verdict &verdict : strain_verdicts(output->strain_rows()))
-                verdicts.push_back(verdict);
+              const auto add = [&](const std::vector<Verdict> &some)
+              { verdicts.insert(verdicts.end(), some.begin(), some.end()); };
+              add(strain_verdicts(output->strain_rows(), options.strains));
               output->write_validity();
+              std::vector<std::string> notes = output->notes();
               if (options.budget)
-                for (const Verdict &verdict :
-                     budget_verdicts(output->strain_rows(), output->budget->rows()))
-                  verdicts.push_back(verdict);
-              const int n_unreached = output->n_unreached();
-              verdicts.push_back(
-                {"every level of every reference has an equilibrium (levels without)",
-                 n_unreached == 0 ? Outcome::pass : Outcome::inconclusive,
-                 static_cast<double>(n_unreached), "0"});
+              {
+                const std::vector<BudgetRow> &rows = output->budget->rows();
+                add(budget_verdicts(output->strain_rows(), rows, options.strains));
+                for (const std::string &note : budget_notes(output->strain_rows(), rows))
+                  notes.push_back(note);
+              }
               write_whole(options.output + "/verdicts.json",
                           json_text(to_json(verdicts, options.command)));
-              write_whole(options.output + "/study.json",
-                          json_text(describe(options, output->notes(),
-                                             {seconds, peak_memory, largest_residual, n_ranks})));
+              write_whole(
+                options.output + "/study.json",
+                json_text(describe(
+                  options, {output->strain_rows(), output->step_rows(), notes},
+                  {seconds, peak_memory, largest_residual, n_ranks, folder->is_taken_up()})));
+              folder->finish();
             });
     share_failure(verdicts, communicator);
     return verdicts;
@@ -367,6 +384,7 @@ private:
   const std::chrono::steady_clock::time_point begin;
   Progress progress;
   std::vector<UnitCell> cells;
+  std::unique_ptr<RunFolder> folder;    ///< first rank
   std::unique_ptr<StrainOutput> output; ///< first rank
   std::unique_ptr<BudgetStudy> budget;  ///< none where it is left out
   std::vector<Verdict> verdicts;
@@ -386,6 +404,7 @@ StrainStudyOptions default_strain_study()
 
 void make_quick(StrainStudyOptions &options)
 {
+  options.is_quick             = true;
   options.n_cells              = 4;
   options.strains              = {0.001, 0.01, 0.1};
   options.n_cells_of_error_bar = 2;

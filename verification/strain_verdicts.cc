@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "verification/strain_verdicts.h"
 
-#include "verification/result_files.h"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -10,104 +8,157 @@
 
 namespace homespun::verification
 {
+const char *const derivation_of_solved_to =
+  "the references stop where 1e-9 of their forces is left; less than that says nothing";
+
+const char *const derivation_of_slope_two =
+  "theory: modes of linear theory leave an error of second order in strain; 0.1 tells two from the "
+  "orders one and three that a fault or a missing term would show";
+
 namespace
 {
-/// The columns of strain.csv that are judged.
-struct Row
+/// What rows of one case have in common.
+bool is_of_case(const StrainRow &row, const StrainRow &of_case)
 {
-  std::string cell, load, reference, method;
-  double strain, error_m, error_per_cell, uncertainty_m;
-};
-
-std::vector<Row> parsed(const std::vector<std::vector<std::string>> &rows)
-{
-  std::vector<Row> result;
-  for (const std::vector<std::string> &row : rows)
-    if (row[4] != "unreached")
-      result.push_back({row[0], row[1], row[3], row[4], csv_value(row[2]), csv_value(row[8]),
-                        csv_value(row[11]), csv_value(row[13])});
-  return result;
+  return row.cell == of_case.cell && row.load == of_case.load && row.reference == of_case.reference;
 }
 
-constexpr double round_off = 1e-10; ///< in strain x cell side
-
-Verdict periodic_verdict(const std::string &cell, const std::string &load,
-                         const std::vector<Row> &rows)
+/// Cells, loads and references in the order of the rows.
+std::vector<StrainRow> cases_of(const std::vector<StrainRow> &rows)
 {
+  std::vector<StrainRow> cases;
+  for (const StrainRow &row : rows)
+    if (std::none_of(cases.begin(), cases.end(),
+                     [&](const StrainRow &known) { return is_of_case(row, known); }))
+      cases.push_back(row);
+  return cases;
+}
+
+Verdict verdict_of_reach(const std::vector<StrainRow> &rows, const StrainRow &of_case,
+                         const std::size_t n_levels)
+{
+  std::vector<double> missing;
+  for (const StrainRow &row : rows)
+    if (is_of_case(row, of_case) && !row.is_reached())
+      missing.push_back(row.strain);
+  const std::string from =
+    missing.empty() ? ""
+                    : "; none from strain " +
+                        short_text(*std::min_element(missing.begin(), missing.end())) + " on";
+  return {of_case.cell + ", " + of_case.load + ", " + of_case.reference +
+            ": reference and coarse cloth find an equilibrium at each of " +
+            std::to_string(n_levels) + " levels (levels without" + from + ")",
+          missing.empty()              ? Outcome::pass
+          : missing.size() == n_levels ? Outcome::fail
+                                       : Outcome::inconclusive,
+          static_cast<double>(missing.size()),
+          "0",
+          "what was asked for; a level without equilibrium is open until it is shown to be a limit "
+          "point or the end of the law's ellipticity, and a load without a single level was not "
+          "studied",
+          Kind::program};
+}
+
+bool is_in_window(const double strain)
+{
+  return strain >= 0.99e-4 && strain <= 0.101;
+}
+
+std::vector<Verdict> periodic_verdict(const std::vector<StrainRow> &rows, const StrainRow &of_case,
+                                      const std::vector<double> &asked)
+{
+  if (std::count_if(asked.begin(), asked.end(), is_in_window) < 3)
+    return {};
   std::vector<std::pair<double, double>> levels; // strain and error
-  for (const Row &row : rows)
-    if (row.cell == cell && row.load == load && row.reference == "biot" &&
-        row.method == "localized" && row.strain <= 0.101)
-      levels.emplace_back(row.strain, row.error_per_cell);
+  for (const StrainRow &row : rows)
+    if (is_of_case(row, of_case) && row.method == "localized" && row.strain <= 0.101)
+      levels.emplace_back(row.strain, row.per_cell);
   std::sort(levels.begin(), levels.end());
   std::vector<double> strains, errors; // in the window of the claim
   double largest = 0.;                 // per strain
   for (const auto &[strain, error] : levels)
-    if (strain >= 0.99e-4)
+    if (is_in_window(strain))
     {
       strains.push_back(strain);
       errors.push_back(error);
       largest = larger(largest, error / strain);
     }
-  const std::string what  = cell + ", " + load + ": localized error against biot ",
+  const std::string what  = of_case.cell + ", " + of_case.load + ": localized error against biot ",
                     claim = what + "falls as strain squared (slope)";
-  if (strains.size() < 3)
-    return {claim, Outcome::inconclusive, std::numeric_limits<double>::quiet_NaN(),
-            "2 +- 0.1 over at least three levels from 1e-4 to 0.1"};
+  const double none       = std::numeric_limits<double>::quiet_NaN();
+  const auto verdict = [&](const std::string &its_claim, const Outcome outcome, const double value,
+                           const std::string &limit) -> std::vector<Verdict> {
+    return {{its_claim, outcome, value, limit, derivation_of_slope_two, Kind::program}};
+  };
   if (!std::all_of(levels.begin(), levels.end(),
                    [](const auto &level) { return std::isfinite(level.second); }))
-    return {claim, Outcome::fail, std::numeric_limits<double>::quiet_NaN(),
-            "2 +- 0.1; an error is not a number"};
-  if (largest < round_off)
-    return {what + "is zero to round-off at every level, as where the law is linear in this load "
-                   "(largest, per strain and cell side)",
-            Outcome::pass, largest, "< 1e-10"};
+    return verdict(claim, Outcome::fail, none, "2 +- 0.1; an error is not a number");
+  if (strains.size() < 3)
+    return verdict(claim, Outcome::inconclusive, none,
+                   "2 +- 0.1 over at least three levels from 1e-4 to 0.1");
+  if (largest < solved_to)
+    return {{what + "is zero at every level, as where the law is linear in this load (largest, per "
+                    "strain and cell side)",
+             Outcome::pass, largest, "< " + short_text(solved_to), derivation_of_solved_to,
+             Kind::program}};
   const double slope = log_slope(strains, errors);
   if (std::abs(slope - 2.) <= 0.1)
-    return {claim, Outcome::pass, slope, "2 +- 0.1"};
+    return verdict(claim, Outcome::pass, slope, "2 +- 0.1");
 
   // Theory speaks of strains that are small against what the cell bears, which a weave, soft in shear, does not at 1 %; where its
   // symmetry leaves no quadratic term, the error falls faster.
   strains.clear();
   errors.clear();
   for (const auto &[strain, error] : levels)
-    if (error > 10. * round_off * strain)
+    if (error > solved_to * strain)
     {
       strains.push_back(strain);
       errors.push_back(error);
     }
   if (strains.size() < 3)
-    return {claim, Outcome::inconclusive, slope,
-            "2 +- 0.1; fewer than three levels above round-off: give larger --strains"};
-  return verdict_of_smallest(
+    return verdict(claim, Outcome::inconclusive, slope,
+                   "2 +- 0.1; fewer than three levels above what the solvers leave: give larger "
+                   "--strains");
+  return {verdict_of_smallest(
     what + "falls as strain squared or faster (slope at the three smallest levels)", strains,
-    errors);
+    errors)};
 }
 
-Verdict sheet_verdict(const std::string &cell, const std::string &load,
-                      const std::vector<Row> &rows)
+std::vector<Verdict> sheet_verdict(const std::vector<StrainRow> &rows, const StrainRow &of_case,
+                                   const std::vector<double> &asked)
 {
-  const Row *affine = nullptr, *localized = nullptr;
-  for (const Row &row : rows)
-    if (row.cell == cell && row.load == load && row.reference == "biot")
-      for (const auto &[method, best] :
-           {std::make_pair("affine", &affine), std::make_pair("localized", &localized)})
-        if (row.method == method &&
-            (*best == nullptr ||
-             std::abs(std::log(row.strain / 0.01)) < std::abs(std::log((*best)->strain / 0.01))))
-          *best = &row;
-  const std::string claim =
-    cell + ", " + load +
-    ": localized is closer to biot than affine near 1 % strain (ratio of errors)";
-  const std::string limit = "< 1 by more than the reference's error bar";
-  if (affine == nullptr || localized == nullptr || affine->strain != localized->strain)
-    return {claim, Outcome::inconclusive, 0., limit};
-  const double gain     = affine->error_m - localized->error_m;
-  const double ratio    = localized->error_m / affine->error_m;
-  const Outcome outcome = gain > localized->uncertainty_m    ? Outcome::pass
-                          : gain < -localized->uncertainty_m ? Outcome::fail
-                                                             : Outcome::inconclusive;
-  return {claim, outcome, ratio, limit};
+  const auto distance = [](const double strain) { return std::abs(std::log(strain / 0.01)); };
+  const auto nearest =
+    std::min_element(asked.begin(), asked.end(),
+                     [&](const double a, const double b) { return distance(a) < distance(b); });
+  if (nearest == asked.end() || distance(*nearest) > std::log(1.5))
+    return {};
+  const StrainRow *affine = nullptr, *localized = nullptr;
+  bool is_asked = false;
+  for (const StrainRow &row : rows)
+    if (is_of_case(row, of_case))
+    {
+      is_asked = is_asked || row.method == "localized" || !row.is_reached();
+      if (row.strain == *nearest && row.method == "affine")
+        affine = &row;
+      if (row.strain == *nearest && row.method == "localized")
+        localized = &row;
+    }
+  const std::string claim = of_case.cell + ", " + of_case.load +
+                            ": localized is closer to biot than affine at strain " +
+                            short_text(*nearest) + " (ratio of errors)";
+  const char *const limit      = "< 1 by more than the reference's error bar";
+  const char *const derivation = "the error bar of the reference at this level, of the same run";
+  if (affine == nullptr || localized == nullptr)
+    return is_asked ? std::vector<Verdict>{{claim, Outcome::inconclusive,
+                                            std::numeric_limits<double>::quiet_NaN(), limit,
+                                            derivation, Kind::method}}
+                    : std::vector<Verdict>();
+  const double gain     = affine->mean - localized->mean;
+  const Outcome outcome = gain > localized->uncertainty    ? Outcome::pass
+                          : gain < -localized->uncertainty ? Outcome::fail
+                                                           : Outcome::inconclusive;
+  return {{claim, outcome, localized->mean / affine->mean, limit, derivation, Kind::method}};
 }
 } // namespace
 
@@ -122,13 +173,22 @@ Verdict verdict_of_smallest(const std::string &claim, const std::vector<double> 
   {
     const double slope =
       log_slope({strains.begin(), strains.begin() + 3}, {errors.begin(), errors.begin() + 3});
-    return {claim, slope >= 1.9 ? Outcome::pass : Outcome::fail, slope, limit};
+    return {claim,
+            slope >= 1.9 ? Outcome::pass : Outcome::fail,
+            slope,
+            limit,
+            derivation_of_slope_two,
+            Kind::program};
   }
   // a e + b e² has slopes that rise from one to two; beyond, other powers are in play, unless the first is near one.
   if (first < 1.9 && first < second && (second <= 2.1 || first < 1.5))
-    return {claim, Outcome::fail, first, limit};
-  return {claim, Outcome::inconclusive, first,
-          limit + "; the slopes at the three smallest levels still differ: give smaller --strains"};
+    return {claim, Outcome::fail, first, limit, derivation_of_slope_two, Kind::program};
+  return {claim,
+          Outcome::inconclusive,
+          first,
+          limit + "; the slopes at the three smallest levels still differ: give smaller --strains",
+          derivation_of_slope_two,
+          Kind::program};
 }
 
 double log_slope(const std::vector<double> &x, const std::vector<double> &y)
@@ -148,18 +208,19 @@ double log_slope(const std::vector<double> &x, const std::vector<double> &y)
   return covariance / variance;
 }
 
-std::vector<Verdict> strain_verdicts(const std::vector<std::vector<std::string>> &rows)
+std::vector<Verdict> strain_verdicts(const std::vector<StrainRow> &rows,
+                                     const std::vector<double> &strains)
 {
-  const std::vector<Row> all = parsed(rows);
-  std::vector<std::pair<std::string, std::string>> cases; // in the order of the rows
-  for (const Row &row : all)
-    if (row.reference == "biot" && row.method == "localized" &&
-        std::find(cases.begin(), cases.end(), std::make_pair(row.cell, row.load)) == cases.end())
-      cases.emplace_back(row.cell, row.load);
   std::vector<Verdict> verdicts;
-  for (const auto &[cell, load] : cases)
-    verdicts.push_back(load.rfind("periodic", 0) == 0 ? periodic_verdict(cell, load, all)
-                                                      : sheet_verdict(cell, load, all));
+  const auto add = [&](const std::vector<Verdict> &some)
+  { verdicts.insert(verdicts.end(), some.begin(), some.end()); };
+  const std::vector<StrainRow> cases = cases_of(rows);
+  for (const StrainRow &of_case : cases)
+    if (of_case.reference == "biot")
+      add(of_case.load.rfind("periodic", 0) == 0 ? periodic_verdict(rows, of_case, strains)
+                                                 : sheet_verdict(rows, of_case, strains));
+  for (const StrainRow &of_case : cases)
+    verdicts.push_back(verdict_of_reach(rows, of_case, strains.size()));
   return verdicts;
 }
 } // namespace homespun::verification

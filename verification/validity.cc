@@ -1,31 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "verification/validity.h"
 
-#include "verification/result_files.h"
-
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdio>
 #include <limits>
 
 namespace homespun::verification
 {
-const std::vector<std::string> &validity_columns()
-{
-  static const std::vector<std::string> columns = {"cell",
-                                                   "load",
-                                                   "reference",
-                                                   "measure",
-                                                   "limit",
-                                                   "relation",
-                                                   "largest_strain",
-                                                   "largest_strain_lower",
-                                                   "largest_strain_upper",
-                                                   "note"};
-  return columns;
-}
-
 Crossing crossing(const std::vector<double> &strains, const std::vector<double> &errors,
                   const double limit)
 {
@@ -57,8 +39,8 @@ struct Level
   double strain, error, bar; ///< in the unit of the measure
 };
 
-std::vector<std::string> row_of(const std::array<std::string, 3> &keys, const std::string &measure,
-                                const double limit, const std::vector<Level> &levels)
+ValidityRow row_of(const StrainRow &one, const std::string &measure, const double limit,
+                   const std::vector<Level> &levels)
 {
   std::vector<double> strains, errors, with_bar, without_bar;
   for (const Level &level : levels)
@@ -75,7 +57,7 @@ std::vector<std::string> row_of(const std::array<std::string, 3> &keys, const st
                  high = crossing(strains, without_bar, limit);
   std::string note;
   if (best.relation == '-')
-    note = "at strain " + csv_number(strains.front()) + " the error is already " +
+    note = "at strain " + short_text(strains.front()) + " the error is already " +
            percent(errors.front()) + " of the " + measure;
   else if (low.relation == '-')
     note =
@@ -85,61 +67,65 @@ std::vector<std::string> row_of(const std::array<std::string, 3> &keys, const st
   if (std::any_of(levels.begin(), levels.end(),
                   [](const Level &level) { return !std::isfinite(level.bar); }))
     note += std::string(note.empty() ? "" : "; ") + "error bar of the reference not known";
-  const auto shown = [](const Crossing &one)
-  { return one.relation == '-' ? std::string() : csv_number(one.strain); };
-  return {
-    keys[0],     keys[1],    keys[2],     measure, csv_number(limit), std::string(1, best.relation),
-    shown(best), shown(low), shown(high), note};
+  const auto shown = [](const Crossing &crossed)
+  { return crossed.relation == '-' ? ValidityRow::none : crossed.strain; };
+  return {one.cell,    one.load,   one.reference, measure, limit, std::string(1, best.relation),
+          shown(best), shown(low), shown(high),   note};
 }
 } // namespace
 
-std::vector<std::vector<std::string>>
-validity_rows(const std::vector<std::vector<std::string>> &strain_rows)
+std::vector<ValidityRow> validity_rows(const std::vector<StrainRow> &all)
 {
-  std::vector<std::array<std::string, 3>> cases;
-  for (const std::vector<std::string> &row : strain_rows)
-    if (const std::array<std::string, 3> one = {row[0], row[1], row[3]};
-        row[4] == "localized" && std::find(cases.begin(), cases.end(), one) == cases.end())
-      cases.push_back(one);
-  std::vector<std::vector<std::string>> rows;
-  for (const std::array<std::string, 3> &keys : cases)
+  const auto same_case = [](const StrainRow &a, const StrainRow &b)
+  { return a.cell == b.cell && a.load == b.load && a.reference == b.reference; };
+  std::vector<StrainRow> cases;
+  for (const StrainRow &row : all)
+    if (row.method == "localized" &&
+        std::none_of(cases.begin(), cases.end(),
+                     [&](const StrainRow &known) { return same_case(known, row); }))
+      cases.push_back(row);
+  struct Measure
   {
-    std::vector<std::vector<std::string>> of_case;
+    const char *name;
+    double StrainRow::*error;
+    std::vector<double> limits;
+  };
+  const std::vector<Measure> measures = {
+    {"fluctuation", &StrainRow::per_fluctuation, {0.01, 0.05, 0.1}},
+    {"cell side", &StrainRow::per_cell, {0.01, 0.05}}};
+  std::vector<ValidityRow> rows;
+  for (const StrainRow &one : cases)
+  {
+    std::vector<StrainRow> of_case;
     double first_unreached = std::numeric_limits<double>::infinity();
-    for (const std::vector<std::string> &row : strain_rows)
-      if (row[0] == keys[0] && row[1] == keys[1] && row[3] == keys[2])
+    for (const StrainRow &row : all)
+      if (same_case(row, one))
       {
-        if (row[4] == "unreached")
-          first_unreached = std::min(first_unreached, csv_value(row[2]));
-        else if (row[4] == "localized" && std::isfinite(csv_value(row[8])))
+        if (!row.is_reached())
+          first_unreached = std::min(first_unreached, row.strain);
+        else if (row.method == "localized" && std::isfinite(row.mean))
           of_case.push_back(row);
       }
     std::sort(of_case.begin(), of_case.end(),
-              [](const auto &a, const auto &b) { return csv_value(a[2]) < csv_value(b[2]); });
-    // error_mean_m 8, per cell 11, per fluctuation 12, reference_uncertainty_m 13
-    for (const auto &[measure, column, limits] :
-         {std::make_tuple(std::string("fluctuation"), 12, std::vector<double>{0.01, 0.05, 0.1}),
-          std::make_tuple(std::string("cell side"), 11, std::vector<double>{0.01, 0.05})})
+              [](const StrainRow &a, const StrainRow &b) { return a.strain < b.strain; });
+    for (const Measure &measure : measures)
     {
       std::vector<Level> levels;
-      for (const std::vector<std::string> &row : of_case)
-        if (const double error = csv_value(row[static_cast<std::size_t>(column)]);
-            std::isfinite(error) && csv_value(row[2]) < first_unreached)
-        {
+      for (const StrainRow &row : of_case)
+        if (const double error = row.*(measure.error);
+            std::isfinite(error) && row.strain < first_unreached)
           // The bar in m has the unit of the measure by the row's own ratio.
-          const double in_metres = csv_value(row[8]);
-          levels.push_back({csv_value(row[2]), error,
-                            in_metres > 0. ? csv_value(row[13]) * error / in_metres : 0.});
-        }
+          levels.push_back(
+            {row.strain, error, row.mean > 0. ? row.uncertainty * error / row.mean : 0.});
       if (levels.empty())
         continue; // a sheet whose reference does not fluctuate has no such measure
-      for (const double limit : limits)
+      for (const double limit : measure.limits)
       {
-        std::vector<std::string> row = row_of(keys, measure, limit, levels);
-        if (row[5] == ">" && std::isfinite(first_unreached))
-          row[9] += std::string(row[9].empty() ? "" : "; ") +
-                    "no equilibrium of reference or coarse cloth was found at strain " +
-                    csv_number(first_unreached);
+        ValidityRow row = row_of(one, measure.name, limit, levels);
+        if (row.relation == ">" && std::isfinite(first_unreached))
+          row.note += std::string(row.note.empty() ? "" : "; ") +
+                      "no equilibrium of reference or coarse cloth was found at strain " +
+                      short_text(first_unreached);
         rows.push_back(row);
       }
     }

@@ -4,18 +4,12 @@
 // limit counts as kept up to the first crossing.
 #pragma once
 
-#include <string>
+#include "verification/strain_tables.h"
+
 #include <vector>
 
 namespace homespun::verification
 {
-/// The columns of validity.csv; the first five name a row. `largest_strain` is where the error meets the limit; `_lower` and
-/// `_upper` are where the error with the reference's error bar added, and taken off, does. `relation`:
-///   =  the crossing was found
-///   >  the limit is kept at every level; largest_strain is the largest level
-///   -  it is exceeded at the smallest level, largest_strain is empty and `note` says by how much
-const std::vector<std::string> &validity_columns();
-
 /// Where a curve meets a limit.
 struct Crossing
 {
@@ -31,6 +25,5 @@ Crossing crossing(const std::vector<double> &strains, const std::vector<double> 
 
 /// Rows of validity.csv from those of strain.csv: method `localized`, every reference, limits of 1, 5 and 10 % of the mean
 /// fluctuation of the reference and 1 and 5 % of the cell side. Levels that were not reached end the ladder.
-std::vector<std::vector<std::string>>
-validity_rows(const std::vector<std::vector<std::string>> &strain_rows);
+std::vector<ValidityRow> validity_rows(const std::vector<StrainRow> &rows);
 } // namespace homespun::verification

@@ -8,7 +8,6 @@
 #include <CLI/Formatter.hpp>
 
 #include <cstdio>
-#include <filesystem>
 #include <memory>
 
 namespace homespun::verification
@@ -28,10 +27,7 @@ int run_verify(VerifyArguments arguments, Afterwards &afterwards)
   faults.check_names("--parts", options.parts, verify_parts());
   faults.throw_if_any();
   if (options.output.empty())
-    options.output =
-      "out/" + (options.cell_files.size() == 1
-                  ? "verify-" + std::filesystem::path(options.cell_files[0]).stem().string()
-                  : std::string("verify"));
+    options.output = default_folder("verify", stems(options.cell_files), options.quick);
   const bool tells = is_root(MPI_COMM_WORLD);
   Verification result;
   try
@@ -58,11 +54,12 @@ int run_verify(VerifyArguments arguments, Afterwards &afterwards)
       afterwards = [folders, output = options.output, quiet = options.quiet]()
       {
         make_report(folders, output, quiet);
+        list_files_again(output);
         return 0;
       };
     }
   }
-  return any_failed(result.verdicts) ? 1 : 0;
+  return result.status;
 }
 } // namespace
 
@@ -77,18 +74,14 @@ void add_verify_command(CLI::App &app, Action &action, Afterwards &afterwards,
   options.command        = command_line;
   command->add_option("CELL.prm", options.cell_files, "Cell files")->required();
   add_list(*command, "--parts", options.parts, "What to run, comma-separated");
-  command->add_option(
-    "--output", options.output,
-    "Folder of the results (default out/verify-NAME, out/verify for several cells)");
+  add_folder_options(*command, options, "out/NAME/verify, with --quick out/NAME/verify-quick");
   command->add_flag("--quick", options.quick, "Small sizes everywhere: minutes");
-  command->add_flag("--resume", options.resume, "Keep what is there, compute the rest");
-  command->add_flag("--quiet", options.quiet, "Print the outcome and nothing else but faults");
   command->add_flag("--no-report", arguments->no_report, "Leave out report.html");
   command->footer(
     "Parts: homogenize (brackets of C^H), strain (error against strain, budget, run time, range of validity),\n"
     "converge (observed orders), stress (stability), drape (hang and pull in motion against biot).\n"
     "The first line says PASS, or FAIL with the first claim that failed; each part has a folder of its own.\n"
-    "Taken up again with --resume, cells are homogenized again; all else keeps what is there.\n"
+    "Taken up again, cells are homogenized again; all else keeps what is there.\n"
     "Example:\n  homespun verify mycell.prm --quick\n  mpirun -n 2 homespun verify mycell.prm");
   command->callback(
     [&action, &afterwards, arguments]()

@@ -19,6 +19,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
+#include <memory>
 
 namespace homespun::verification
 {
@@ -36,7 +37,12 @@ public:
   Verification run()
   {
     read_cells();
-    on_root(communicator, [&]() { std::filesystem::create_directories(options.output); });
+    on_root(communicator,
+            [&]()
+            {
+              folder = open_run_folder(options.output, {"verify", inputs()}, options.earlier,
+                                       options.quiet);
+            });
     for (const std::string &part : verify_parts())
       if (std::find(options.parts.begin(), options.parts.end(), part) != options.parts.end())
         run_part(part);
@@ -45,11 +51,21 @@ public:
             {
               write_whole(options.output + "/verdicts.json",
                           json_text(to_json(result.verdicts, options.command)));
+              folder->finish();
             });
+    result.status = worse(result.status, status_of(result.verdicts));
     return result;
   }
 
 private:
+  nlohmann::ordered_json inputs() const
+  {
+    nlohmann::ordered_json all = {{"parts", options.parts}, {"quick", options.quick}};
+    for (const homogenization::UnitCell &cell : cells)
+      all["cell " + cell.name] = fingerprint(cell);
+    return all;
+  }
+
   /// All that a study refuses of a cell is asked before anything runs: hours of work must not end at the last one's
   /// fault.
   void read_cells()
@@ -107,7 +123,10 @@ private:
     catch (const meshes::NotConverged &failure)
     {
       result.verdicts.push_back({title + ": runs to its end; " + failure.what(), Outcome::fail, 0.,
-                                 "every solver converges"});
+                                 "every solver converges",
+                                 "what was asked for: a part that does not end has no results",
+                                 Kind::program});
+      result.status = exit_status::not_converged;
     }
   }
 
@@ -174,13 +193,14 @@ private:
   {
     study.output  = folder;
     study.command = options.command;
-    study.resume  = options.resume;
+    study.earlier = Earlier::keep_work; // the whole has been taken up, or begun anew
     study.quiet   = options.quiet;
   }
 
   const VerifyOptions options;
   const MPI_Comm communicator;
   std::vector<homogenization::UnitCell> cells;
+  std::unique_ptr<RunFolder> folder; ///< first rank
   Verification result;
 };
 } // namespace
@@ -208,15 +228,15 @@ std::string outcome_line(const std::vector<Verdict> &verdicts)
              n_held      = count(Outcome::pass);
   const std::string open = n_open == 0 ? "" : ", " + std::to_string(n_open) + " cannot be judged";
   if (n_failed == 0)
-    return (n_held > 0 ? "PASS: " : "INCONCLUSIVE: ") + std::to_string(n_held) + " of " +
+    return (n_open == 0 ? "PASS: " : "INCONCLUSIVE: ") + std::to_string(n_held) + " of " +
            std::to_string(verdicts.size()) + " claims hold" + open;
   const auto first =
     std::find_if(verdicts.begin(), verdicts.end(),
                  [](const Verdict &verdict) { return verdict.outcome == Outcome::fail; });
   char value[32];
   std::snprintf(value, sizeof(value), "%.3g", first->value);
-  return "FAIL: " + first->claim + ": " + value + " (" + first->limit + "); " +
-         std::to_string(n_failed) + " of " + std::to_string(verdicts.size()) + " claims failed" +
-         open;
+  return "FAIL (" + name_of(first->kind) + "): " + first->claim + ": " + value + " (" +
+         first->limit + "); " + std::to_string(n_failed) + " of " +
+         std::to_string(verdicts.size()) + " claims failed" + open;
 }
 } // namespace homespun::verification

@@ -2,7 +2,8 @@
 // homespun verify: every study of some cells, and one page with all their claims.
 #pragma once
 
-#include "verification/verdict.h"
+#include "verification/record/run_folder.h"
+#include "verification/record/verdict.h"
 
 #include <mpi.h>
 
@@ -18,26 +19,27 @@ struct VerifyOptions
   bool quick = false;             ///< small sizes, minutes
   std::string output;
   std::string command; ///< that reproduces the whole
-  bool resume = false;
-  bool quiet  = false;
+  Earlier earlier = Earlier::keep_work;
+  bool quiet      = false;
 };
 
 struct Verification
 {
   std::vector<Verdict> verdicts;    ///< of all parts, each claim begins with its part
   std::vector<std::string> folders; ///< of the parts that ran to their end, for one report
+  int status = 0; ///< exit status: the worst of the claims and of parts that did not end
 };
 
 /// The parts: homogenize, strain, converge, stress, drape.
 const std::vector<std::string> &verify_parts();
 
 /// Runs the parts one after the other, each into a folder of its own below the output, and writes
-/// verdicts.json with all claims. A part whose solver does not converge is a claim that failed, and the others
-/// still run.
+/// verdicts.json with all claims. A part whose solver does not converge is a claim that failed, the others
+/// still run, and the exit status says so.
 /// @throws BadInput where a cell cannot be read or makes no sheet, or two share a name, before anything runs
 Verification verify(const VerifyOptions &options, MPI_Comm communicator);
 
-/// The outcome in one line: FAIL with the first claim that failed, else PASS with how many claims hold and how
-/// many cannot be judged; INCONCLUSIVE where none holds.
+/// The outcome in one line: FAIL with the first claim that failed, INCONCLUSIVE where
+/// one is open, else PASS; with how many claims hold and how many are open.
 std::string outcome_line(const std::vector<Verdict> &verdicts);
 } // namespace homespun::verification

@@ -59,6 +59,11 @@ std::string to_field(const int value)
   return text_of_number(value);
 }
 
+std::string to_field(const long value)
+{
+  return text_of_number(value);
+}
+
 std::string to_field(const unsigned int value)
 {
   return text_of_number(value);
@@ -98,6 +103,11 @@ bool read_field(const std::string &field, double &value)
 }
 
 bool read_field(const std::string &field, int &value)
+{
+  return read_number(field, value);
+}
+
+bool read_field(const std::string &field, long &value)
 {
   return read_number(field, value);
 }

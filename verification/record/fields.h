@@ -29,6 +29,7 @@ std::string name_of(Domain domain);
 /// The shortest text that reads back as the same number; empty where the value is not finite.
 std::string to_field(double value);
 std::string to_field(int value);
+std::string to_field(long value);
 std::string to_field(unsigned int value);
 std::string to_field(unsigned long value);
 std::string to_field(bool value);
@@ -48,6 +49,7 @@ std::string to_field(const std::optional<Value> &value)
 /// @return whether it could be read; an empty field is a double that is not a number
 bool read_field(const std::string &field, double &value);
 bool read_field(const std::string &field, int &value);
+bool read_field(const std::string &field, long &value);
 bool read_field(const std::string &field, unsigned int &value);
 bool read_field(const std::string &field, unsigned long &value);
 bool read_field(const std::string &field, bool &value);

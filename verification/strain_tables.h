@@ -1,0 +1,258 @@
+// SPDX-License-Identifier: MIT
+// The tables of a strain study: what stands in a row, once for all who write and read them.
+#pragma once
+
+#include "verification/record/table.h"
+
+#include <limits>
+#include <string>
+
+namespace homespun::verification
+{
+/// In place of a method's name: a level of which no equilibrium was found.
+constexpr const char *unreached = "unreached";
+
+/// strain.csv: the distance of one method from one reference at one level.
+struct StrainRow
+{
+  static constexpr const char *file   = "strain.csv";
+  static constexpr std::size_t n_keys = 5;
+  static constexpr double none        = std::numeric_limits<double>::quiet_NaN();
+
+  std::string cell, load;
+  double strain = 0.;
+  std::string reference, method;
+  int cells              = 0; ///< per side of the sheet
+  int coarse_triangles   = 0;
+  int fine_triangles     = 0;
+  double mean            = none; ///< over the fine vertices [m]
+  double rms             = none; ///< [m]
+  double max             = none; ///< [m]
+  double per_cell        = none; ///< mean over the cell side
+  double per_fluctuation = none; ///< mean over the mean of |reference − resolved homogenized sheet|
+  double uncertainty     = none; ///< of the reference, mean over the vertices [m]
+  double seconds         = none; ///< of the method
+  double seconds_reference = none;
+
+  bool is_reached() const
+  {
+    return method != unreached;
+  }
+
+  template <typename Column>
+  static void columns(Column &&column)
+  {
+    column("cell", &StrainRow::cell, Domain::name);
+    column("load", &StrainRow::load, Domain::name);
+    column("strain", &StrainRow::strain, Domain::positive);
+    column("reference", &StrainRow::reference, Domain::name);
+    column("method", &StrainRow::method, Domain::name);
+    column("cells", &StrainRow::cells, Domain::positive);
+    column("coarse_triangles", &StrainRow::coarse_triangles, Domain::positive);
+    column("fine_triangles", &StrainRow::fine_triangles, Domain::positive);
+    column("error_mean_m", &StrainRow::mean, Domain::not_negative);
+    column("error_rms_m", &StrainRow::rms, Domain::not_negative);
+    column("error_max_m", &StrainRow::max, Domain::not_negative);
+    column("error_mean_per_cell", &StrainRow::per_cell, Domain::not_negative);
+    column("error_mean_per_fluctuation", &StrainRow::per_fluctuation, Domain::not_negative);
+    column("reference_uncertainty_m", &StrainRow::uncertainty, Domain::not_negative);
+    column("seconds_method", &StrainRow::seconds, Domain::not_negative);
+    column("seconds_reference", &StrainRow::seconds_reference, Domain::not_negative);
+  }
+};
+
+/// steps.csv: what one level cost, and how much the reference fluctuates there.
+struct StepRow
+{
+  static constexpr const char *file   = "steps.csv";
+  static constexpr std::size_t n_keys = 4;
+
+  std::string cell, load, reference;
+  double strain = 0., seconds_coarse = 0., seconds_upsample = 0., seconds_fine = 0.;
+  int coarse_iterations        = 0;
+  unsigned int fine_iterations = 0;
+  unsigned long fine_dofs      = 0;
+  unsigned int ranks           = 1;
+  double fluctuation           = 0.; ///< mean |reference − resolved homogenized sheet| [m]
+  double fluctuation_bar       = 0.; ///< its change from a homogenized sheet half as fine [m]
+  std::string homogenized_law;       ///< of that sheet
+  double seconds_homogenized = 0.;
+
+  template <typename Column>
+  static void columns(Column &&column)
+  {
+    column("cell", &StepRow::cell, Domain::name);
+    column("load", &StepRow::load, Domain::name);
+    column("reference", &StepRow::reference, Domain::name);
+    column("strain", &StepRow::strain, Domain::positive);
+    column("seconds_coarse_solve", &StepRow::seconds_coarse, Domain::not_negative);
+    column("seconds_upsample", &StepRow::seconds_upsample, Domain::not_negative);
+    column("seconds_fine_step", &StepRow::seconds_fine, Domain::not_negative);
+    column("coarse_iterations", &StepRow::coarse_iterations, Domain::not_negative);
+    column("fine_iterations", &StepRow::fine_iterations, Domain::not_negative);
+    column("fine_dofs", &StepRow::fine_dofs, Domain::not_negative);
+    column("ranks", &StepRow::ranks, Domain::positive);
+    column("fluctuation_m", &StepRow::fluctuation, Domain::not_negative);
+    column("fluctuation_bar_m", &StepRow::fluctuation_bar, Domain::not_negative);
+    column("homogenized_law", &StepRow::homogenized_law, Domain::text);
+    column("seconds_homogenized_sheet", &StepRow::seconds_homogenized, Domain::not_negative);
+  }
+};
+
+/// notes.csv: a remark on a level.
+struct NoteRow
+{
+  static constexpr const char *file   = "notes.csv";
+  static constexpr std::size_t n_keys = 5;
+
+  std::string cell, load, reference;
+  double strain = 0.;
+  std::string note;
+
+  template <typename Column>
+  static void columns(Column &&column)
+  {
+    column("cell", &NoteRow::cell, Domain::name);
+    column("load", &NoteRow::load, Domain::name);
+    column("reference", &NoteRow::reference, Domain::name);
+    column("strain", &NoteRow::strain, Domain::positive);
+    column("note", &NoteRow::note, Domain::text);
+  }
+};
+
+/// uncertainty.csv: distances between discretizations of one reference, means over the vertices. Not a
+/// number where one of them was not reached or not asked for.
+struct UncertaintyRow
+{
+  static constexpr const char *file   = "uncertainty.csv";
+  static constexpr std::size_t n_keys = 5;
+  static constexpr double none        = std::numeric_limits<double>::quiet_NaN();
+
+  std::string cell, load, reference;
+  double strain        = 0.;
+  int cells            = 0;    ///< per side of the sheet that was measured
+  double p1_to_p2      = none; ///< |P1 − P2| [m]
+  double p1_to_refined = none; ///< |P1 − refined P2| [m]
+  double p2_to_refined = none; ///< |P2 − refined P2| [m]
+  double bar           = none; ///< per strain and cell side
+
+  template <typename Column>
+  static void columns(Column &&column)
+  {
+    column("cell", &UncertaintyRow::cell, Domain::name);
+    column("load", &UncertaintyRow::load, Domain::name);
+    column("reference", &UncertaintyRow::reference, Domain::name);
+    column("strain", &UncertaintyRow::strain, Domain::positive);
+    column("cells", &UncertaintyRow::cells, Domain::positive);
+    column("p1_minus_p2_m", &UncertaintyRow::p1_to_p2, Domain::not_negative);
+    column("p1_minus_refined_p2_m", &UncertaintyRow::p1_to_refined, Domain::not_negative);
+    column("p2_minus_refined_p2_m", &UncertaintyRow::p2_to_refined, Domain::not_negative);
+    column("uncertainty_per_strain_and_side", &UncertaintyRow::bar, Domain::not_negative);
+  }
+};
+
+/// budget.csv: norms of one part of the error over one region.
+struct BudgetRow
+{
+  static constexpr const char *file   = "budget.csv";
+  static constexpr std::size_t n_keys = 6;
+  static constexpr double none        = std::numeric_limits<double>::quiet_NaN();
+
+  std::string cell, load;
+  double strain = 0.;
+  std::string reference, part, region;
+  double mean = none, rms = none, max = none; ///< [m]
+  double per_cell = none;                     ///< mean over the cell side
+  double share    = none;                     ///< of the total
+
+  template <typename Column>
+  static void columns(Column &&column)
+  {
+    column("cell", &BudgetRow::cell, Domain::name);
+    column("load", &BudgetRow::load, Domain::name);
+    column("strain", &BudgetRow::strain, Domain::positive);
+    column("reference", &BudgetRow::reference, Domain::name);
+    column("part", &BudgetRow::part, Domain::name);
+    column("region", &BudgetRow::region, Domain::name);
+    column("mean_m", &BudgetRow::mean, Domain::not_negative);
+    column("rms_m", &BudgetRow::rms, Domain::not_negative);
+    column("max_m", &BudgetRow::max, Domain::not_negative);
+    column("mean_per_cell", &BudgetRow::per_cell, Domain::not_negative);
+    column("share", &BudgetRow::share, Domain::real);
+  }
+};
+
+/// runtime.csv: one way to the positions of a sheet.
+struct RunTimeRow
+{
+  static constexpr const char *file   = "runtime.csv";
+  static constexpr std::size_t n_keys = 5;
+  static constexpr double none        = std::numeric_limits<double>::quiet_NaN();
+
+  std::string cell, load;
+  double strain = 0.;
+  std::string reference, way;
+  long triangles     = 0;
+  double mean        = none; ///< distance from the best solution [m]
+  double per_cell    = none;
+  double uncertainty = none; ///< of the best solution [m]
+  double seconds     = none; ///< median of the runs
+  int runs           = 0;
+  unsigned int ranks = 1;
+  int threads        = 1;
+  std::string note;
+
+  template <typename Column>
+  static void columns(Column &&column)
+  {
+    column("cell", &RunTimeRow::cell, Domain::name);
+    column("load", &RunTimeRow::load, Domain::name);
+    column("strain", &RunTimeRow::strain, Domain::positive);
+    column("reference", &RunTimeRow::reference, Domain::name);
+    column("way", &RunTimeRow::way, Domain::name);
+    column("triangles", &RunTimeRow::triangles, Domain::not_negative);
+    column("error_mean_m", &RunTimeRow::mean, Domain::not_negative);
+    column("error_mean_per_cell", &RunTimeRow::per_cell, Domain::not_negative);
+    column("reference_uncertainty_m", &RunTimeRow::uncertainty, Domain::not_negative);
+    column("seconds", &RunTimeRow::seconds, Domain::not_negative);
+    column("runs", &RunTimeRow::runs, Domain::not_negative);
+    column("ranks", &RunTimeRow::ranks, Domain::positive);
+    column("threads", &RunTimeRow::threads, Domain::positive);
+    column("note", &RunTimeRow::note, Domain::text);
+  }
+};
+
+/// validity.csv: the largest strain within a limit. `relation`:
+///   =  the crossing was found
+///   >  the limit is kept at every level; `largest` is the largest level
+///   -  it is exceeded at the smallest level, `largest` is empty and `note` says by how much
+/// `lower` and `upper` are where the error with the reference's error bar added, and taken off, meets
+/// the limit.
+struct ValidityRow
+{
+  static constexpr const char *file   = "validity.csv";
+  static constexpr std::size_t n_keys = 5;
+  static constexpr double none        = std::numeric_limits<double>::quiet_NaN();
+
+  std::string cell, load, reference, measure;
+  double limit = 0.;
+  std::string relation;
+  double largest = none, lower = none, upper = none;
+  std::string note;
+
+  template <typename Column>
+  static void columns(Column &&column)
+  {
+    column("cell", &ValidityRow::cell, Domain::name);
+    column("load", &ValidityRow::load, Domain::name);
+    column("reference", &ValidityRow::reference, Domain::name);
+    column("measure", &ValidityRow::measure, Domain::name);
+    column("limit", &ValidityRow::limit, Domain::positive);
+    column("relation", &ValidityRow::relation, Domain::name);
+    column("largest_strain", &ValidityRow::largest, Domain::not_negative);
+    column("largest_strain_lower", &ValidityRow::lower, Domain::not_negative);
+    column("largest_strain_upper", &ValidityRow::upper, Domain::not_negative);
+    column("note", &ValidityRow::note, Domain::text);
+  }
+};
+} // namespace homespun::verification
