@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace homespun::verification
 {
@@ -23,12 +24,14 @@ std::unique_ptr<Table<Row>> table_if(const bool is_wanted, const std::string &fo
 }
 } // namespace
 
-StrainOutput::StrainOutput(const StrainStudyOptions &options)
+StrainOutput::StrainOutput(const StrainStudyOptions &options,
+                           std::function<void(const std::string &)> tell)
     : uncertainty(options.output)
     , budget(table_if<BudgetRow>(options.budget, options.output))
     , run_time(table_if<RunTimeRow>(options.run_time, options.output))
     , folder(options.output)
     , methods(options.methods)
+    , tell(std::move(tell))
     , strain(options.output)
     , steps(options.output)
     , note_table(options.output)
@@ -93,13 +96,13 @@ void StrainOutput::write_unreached(const StrainLevel &level, const meshes::Sheet
   strain.append(row);
 }
 
-std::string StrainOutput::write_note(const StrainLevel &level, std::string text)
+void StrainOutput::write_note(const StrainLevel &level, std::string text)
 {
   text              = text.substr(0, text.find("; residual norms"));
   const NoteRow row = {level.cell, level.load, name_of(level.law), level.strain, text};
   note_table.append_if_missing(row);
-  return row.cell + ", " + row.load + ", " + row.reference + " reference at strain " +
-         short_text(row.strain) + ": " + text;
+  tell(row.cell + ", " + row.load + ", " + row.reference + " reference at strain " +
+       short_text(row.strain) + ": " + text);
 }
 
 void StrainOutput::write_validity() const

@@ -11,6 +11,7 @@
 #include <Eigen/Core>
 #include <nlohmann/json.hpp>
 
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -42,7 +43,8 @@ class StrainOutput
 public:
   /// Takes up the tables that the options ask for, or begins them.
   /// @throws BadInput where a table is damaged
-  explicit StrainOutput(const StrainStudyOptions &options);
+  /// @param tell receives each note as it is written
+  StrainOutput(const StrainStudyOptions &options, std::function<void(const std::string &)> tell);
 
   /// Whether a level has a row of every method that has a meaning for its law, or is known to have no equilibrium.
   bool is_complete(const StrainLevel &level) const;
@@ -60,9 +62,8 @@ public:
   /// A level without equilibrium.
   void write_unreached(const StrainLevel &level, const meshes::Sheet &sheet);
 
-  /// A remark on a level, for the report.
-  /// @return the line for the terminal
-  std::string write_note(const StrainLevel &level, std::string text);
+  /// A remark on a level, for the report and the terminal.
+  void write_note(const StrainLevel &level, std::string text);
 
   /// validity.csv, from all rows of strain.csv.
   void write_validity() const;
@@ -87,6 +88,7 @@ public:
 private:
   const std::string folder;
   const std::vector<std::string> methods;
+  const std::function<void(const std::string &)> tell;
   Table<StrainRow> strain;
   Table<StepRow> steps;
   Table<NoteRow> note_table;

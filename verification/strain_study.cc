@@ -88,7 +88,8 @@ private:
   {
     folder = open_run_folder(options.output, {"strain", inputs_of(options, cells)}, options.earlier,
                              options.quiet);
-    output = std::make_unique<StrainOutput>(options);
+    output = std::make_unique<StrainOutput>(options, [this](const std::string &line)
+                                            { progress.note(line); });
   }
 
   void study_cell(const UnitCell &cell)
@@ -338,7 +339,7 @@ private:
   /// A remark on a level, for the terminal and the report.
   void write_note(const StrainLevel &level, const std::string &text)
   {
-    progress.note(output->write_note(level, text));
+    output->write_note(level, text);
   }
 
   std::vector<Verdict> conclude()

@@ -160,7 +160,7 @@ struct BudgetRow
 
   std::string cell, load;
   double strain = 0.;
-  std::string reference, part, region;
+  std::string reference, part = {}, region = {};
   double mean = none, rms = none, max = none; ///< [m]
   double per_cell = none;                     ///< mean over the cell side
   double share    = none;                     ///< of the total
@@ -200,7 +200,7 @@ struct RunTimeRow
   int runs           = 0;
   unsigned int ranks = 1;
   int threads        = 1;
-  std::string note;
+  std::string note   = {};
 
   template <typename Column>
   static void columns(Column &&column)

@@ -185,10 +185,8 @@ TEST(tripwire_error_budget, a_method_with_a_bug_is_not_explained_by_parts_that_a
   EXPECT_GT(mean(total), 2. * mean(budget.total));
   budget.total = total;
   const std::vector<int> everywhere(static_cast<std::size_t>(total.rows()), 1);
-  std::vector<std::vector<std::string>> strain_row(1, {"layered", "strip-2", "0.01", "biot",
-                                                       "localized", "", "", "", "", "", "", "", "",
-                                                       "", "", ""});
   const std::vector<Verdict> verdicts = budget_verdicts(
-    strain_row, budget_rows("layered", "strip-2", 0.01, "biot", budget, everywhere, 0.01));
+    {{"layered", "strip-2", 0.01, "biot", "localized"}},
+    budget_rows({"layered", "strip-2", 0.01, "biot"}, budget, everywhere, 0.01), {0.01});
   EXPECT_EQ(verdicts.at(0).outcome, Outcome::fail) << verdicts.at(0).claim << verdicts.at(0).value;
 }

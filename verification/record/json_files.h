@@ -2,6 +2,7 @@
 // Results as JSON files.
 #pragma once
 
+#include "meshes/write_whole.h"
 #include "verification/record/verdict.h"
 
 #include <nlohmann/json.hpp>
@@ -11,6 +12,8 @@
 
 namespace homespun::verification
 {
+using meshes::write_whole;
+
 /// A number as JSON; null where it is not finite.
 nlohmann::ordered_json json_number(double value);
 
