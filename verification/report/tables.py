@@ -162,6 +162,23 @@ def step_rows(rows):
     return result
 
 
+def fluctuation_sentence(rows):
+    """Which law the homogenized sheets have, what they cost, and how far their own mesh moves the fluctuation."""
+    known = [row for row in rows if row["fluctuation_m"] > 0.]
+    if not known:
+        return ""
+    laws = ", ".join(sorted({row["homogenized_law"] for row in known if row["homogenized_law"]}))
+    times = [row["seconds_homogenized_sheet"] for row in known if row["seconds_homogenized_sheet"] > 0.]
+    moved = [row["fluctuation_bar_m"] / row["fluctuation_m"] for row in known if not math.isnan(row["fluctuation_bar_m"])]
+    words = [f"law of these sheets: {laws}"] * bool(laws)
+    if times:
+        words.append(f"one takes {seconds(median(times))} (median)")
+    if moved:
+        words.append(f"from a sheet half as fine the fluctuation differs by at most {three(100. * max(moved))} %")
+    text = "; ".join(words)
+    return text[:1].upper() + text[1:] + "." if text else ""
+
+
 def integer(value):
     return "–" if math.isnan(value) else three(int(value))
 
