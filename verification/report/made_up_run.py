@@ -69,7 +69,7 @@ def write_run(folder, command="strain", revision="abc1234", finished=True, **oth
     @param others keys that replace those of run.json
     """
     run = {"format": 1, "command": command, "revision": revision, "inputs": {"strains": [0.01, 0.1]},
-           "fingerprint": f"{zlib.crc32((command + revision + os.path.basename(folder)).encode()):016x}", "seconds": 3.5, "began": 1.8e9,
+           "fingerprint": f"{zlib.crc32(f'{command} {revision} {os.path.basename(folder)}'.encode()):016x}", "seconds": 3.5, "began": 1.8e9,
            "finished": finished}
     if finished:
         run["files"] = {name: {"bytes": os.path.getsize(os.path.join(folder, name)), "crc32": checksum(os.path.join(folder, name))}

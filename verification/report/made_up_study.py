@@ -61,9 +61,9 @@ def write_results(folder):
     write_verdicts(folder, [verdict("slope 2", "PASS", 2.01, "2 ± 0.1", "method"),
                             verdict("bar", "INCONCLUSIVE", derivation="the bar of the same run", command="")])
     write("stripes/homogenize.json", json.dumps({
-        "C": LAMINATE.tolist(), "C_lower": (0.98 * LAMINATE).tolist(), "C_upper": LAMINATE.tolist(),
+        "cell": "stripes", "C": LAMINATE.tolist(), "C_lower": (0.98 * LAMINATE).tolist(), "C_upper": LAMINATE.tolist(),
         "bracket": {"width": 0.02, "remark": "made up"}, "order": 2,
-        "history": [{"dofs": n, "width": 320. / n ** 2} for n in (30, 60, 90, 126)], "voigt": (2. * LAMINATE).tolist(),
+        "history": [{"dofs": n, "width": 320. / n ** 2, "seconds": 0.1} for n in (30, 60, 90, 126)], "voigt": (2. * LAMINATE).tolist(),
         "reuss": (0.5 * LAMINATE).tolist(), "area": SIDE ** 2, "areal_density": 0.2,
         "engineering": {"E1": 2750., "E2": 967.}, "dofs": 18, "iterations": [3, 3, 3], "seconds": 0.1,
         "checks": [{"name": "two forms agree", "value": 1e-12, "limit": "1e-9", "verdict": "PASS"}],

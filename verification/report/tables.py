@@ -81,6 +81,14 @@ def matrix_rows(matrix):
     return [[three(float(v)) if abs(v) > 1e-9 * scale else "0" for v in row] for row in matrix]
 
 
+def relative_width(lower, upper):
+    """The largest v.(upper − lower).v / v.upper.v of two 3 x 3 matrices; nan where the upper one is not positive definite."""
+    if numpy.linalg.eigvalsh(upper).min() <= 0.:
+        return math.nan
+    root = numpy.linalg.inv(numpy.linalg.cholesky(upper))
+    return float(numpy.linalg.eigvalsh(root @ (upper - lower) @ root.T).max())
+
+
 def stiffness_table(cell):
     """C^H, its bracket, Voigt, Reuss and the engineering moduli of a cell."""
     value = cell.homogenize or {}
@@ -88,11 +96,8 @@ def stiffness_table(cell):
     units = {"E1": "N/m", "E2": "N/m", "G12": "N/m"}
     lower, upper = cell.stiffness("C_lower"), cell.stiffness("C_upper")
     bracket = None
-    if lower is not None and upper is not None:
-        # The largest v.(upper − lower).v / v.upper.v.
-        if numpy.linalg.eigvalsh(upper).min() > 0.:
-            root = numpy.linalg.inv(numpy.linalg.cholesky(upper))
-            bracket = three(float(numpy.linalg.eigvalsh(root @ (upper - lower) @ root.T).max()))
+    if lower is not None and upper is not None and not math.isnan(width := relative_width(lower, upper)):
+        bracket = three(width)
     facts = [(key, f"{shown(v)} {units.get(key, '')}".strip()) for key, v in engineering.items()]
     for key, name, unit in (("areal_density", "areal density", "kg/m²"), ("area", "area of the cell", "m²"),
                             ("dofs", "degrees of freedom", ""), ("iterations", "iterations", ""),
