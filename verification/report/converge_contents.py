@@ -8,7 +8,7 @@ from markupsafe import Markup
 from converge_results import STUDIES
 from figures_converge import FIGURES
 from style import three
-from verdicts import MARKS, WORDS, words_of
+from verdicts import MARKS, WORDS
 
 TITLES = {
     "mesh": "Mesh of the cell",
@@ -77,5 +77,7 @@ def convergence_contents(convergence, gallery):
         studies.append({"title": TITLES[study], "picture": picture, "rows": [row_of(s) for s in judged],
                         "cells": any(s.cell != "none" for s in judged)})
     judged = [s for s in convergence.series if s.judgement]
-    sentence = words_of(Counter(s.judgement for s in judged), "observed order") + "."
+    count = Counter(s.judgement for s in judged)
+    sentence = (f"{count['PASS']} of {len(judged)} observed orders lie within their limits, {count['FAIL']} outside, "
+                f"{count['INCONCLUSIVE']} {'is' if count['INCONCLUSIVE'] == 1 else 'are'} open.")
     return {"name": convergence.name, "sentence": sentence, "studies": studies}

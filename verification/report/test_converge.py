@@ -55,7 +55,7 @@ class ConvergencePage(PageTest):
         for study in converge_results.STUDIES:
             self.assertIn(f'id="converge-{study}"', page)
             self.assertTrue(os.path.isfile(os.path.join(self.output, "figures", f"converge-{study}.pdf")))
-        self.assertIn("5 of 7 observed orders hold, 1 fails, 1 is open.", page)
+        self.assertIn("5 of 7 observed orders lie within their limits, 1 outside, 1 is open.", page)
         self.assertIn("3.00 ± 0.10", page)     # a two-sided limit
         self.assertIn("0.850 to 2.15", page)  # a band
         self.assertIn("homespun: convergence", page)

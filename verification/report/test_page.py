@@ -2,7 +2,6 @@
 """Tests of what every page must be: whole, small, alone, with its numbers; and of what stands in its plots and views."""
 import csv
 import glob
-import json
 import math
 import os
 import re

@@ -82,7 +82,7 @@ class ReportTest(PageTest):
                                                   "Up-sampling is good enough for this cell, load and strain (method)", "c fails",
                                                   "twice the bar &lt;of&gt; the reference", "b is open", "a holds")]
         self.assertEqual(places, sorted(places))
-        self.assertIn("2 of 4 claims hold, 1 fails, 1 is open: program: 1 of 1 claim hold; method: 1 of 3 claims hold, 1 fails, 1 is open.", page)
+        self.assertIn("2 of 4 claims hold, 1 fails, 1 is open: program: 1 of 1 claim holds; method: 1 of 3 claims holds, 1 fails, 1 is open.", page)
         self.assertIn("? open</span>", page)
         self.assertNotIn("? INCONCLUSIVE", page)
 

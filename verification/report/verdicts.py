@@ -13,7 +13,7 @@ def words_of(count, what):
     @param count how many there are of each outcome
     """
     total = sum(count.values())
-    words = [f"{count['PASS']} of {total} {what}{'' if total == 1 else 's'} hold"]
+    words = [f"{count['PASS']} of {total} {what}{'' if total == 1 else 's'} hold{'s' if count['PASS'] == 1 else ''}"]
     if count["FAIL"]:
         words.append(f"{count['FAIL']} fail{'s' if count['FAIL'] == 1 else ''}")
     if count["INCONCLUSIVE"]:
