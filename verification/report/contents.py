@@ -282,7 +282,7 @@ def draw_strain(contents, rows, methods, reference, side, gallery):
     figure, at_floor = error_figure(rows, main, references, side, "error_mean_per_fluctuation")
     contents["error_share"] = gallery.add(
         figure, f"{name}-error-strain-fluctuation", f"{name}: the same in percent of the measured fluctuation, the mean over "
-        "the fine vertices of |reference − homogenized sheet resolved on a fine mesh|, same law." + (floor if at_floor else ""))
+        "the fine vertices of |reference − homogenized sheet resolved on a fine mesh|." + (floor if at_floor else ""))
     variants = [method for method in methods if method not in MAIN_METHODS]
     if variants:
         shown = [method for method in methods if method != "affine"]

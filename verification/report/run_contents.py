@@ -21,9 +21,9 @@ def run_sentences(results):
         if len({run.revision for run in heads}) > 1:
             sentences.append("They were made by different revisions of homespun, so that a difference between them may come from the program.")
     elif len(runs) > 1:
-        parts = [run for run in runs if run.whole]
-        sentences.append(f"One run of `homespun verify` (revision {runs[0].revision}, run {runs[0].fingerprint}) with its "
-                         f"parts {', '.join(run.name for run in parts)}.")
+        whole = next(run.whole for run in runs if run.whole)
+        sentences.append(f"One run of `homespun verify` (revision {whole.revision}, run {whole.fingerprint}) with its "
+                         f"parts {', '.join(run.name for run in runs if run.whole)}.")
     sentences += [f"The run in {run.folder} did not come to its end: the tables it wrote so far are shown. Begun again, it goes on."
                   for run in runs if not run.finished]
     return sentences

@@ -172,12 +172,16 @@ def fluctuation_sentence(rows):
     known = [row for row in rows if row["fluctuation_m"] > 0.]
     if not known:
         return ""
-    laws = ", ".join(sorted({row["homogenized_law"] for row in known if row["homogenized_law"]}))
+    beside = {}
+    for row in known:
+        if row["homogenized_law"]:
+            beside.setdefault(row["homogenized_law"], set()).add(row["reference"])
+    laws = "; ".join(f"{law} beside {' and '.join(style.ordered_references(references))}" for law, references in sorted(beside.items()))
     times = [row["seconds_homogenized_sheet"] for row in known if row["seconds_homogenized_sheet"] > 0.]
     moved = [row["fluctuation_bar_m"] / row["fluctuation_m"] for row in known if not math.isnan(row["fluctuation_bar_m"])]
-    words = [f"law of these sheets: {laws}"] * bool(laws)
+    words = [f"law of that sheet: {laws}"] * bool(laws)
     if times:
-        words.append(f"one takes {seconds(median(times))} (median)")
+        words.append(f"it takes {seconds(median(times))} a level (median)")
     if moved:
         words.append(f"from a sheet half as fine the fluctuation differs by at most {three(100. * max(moved))} %")
     text = "; ".join(words)

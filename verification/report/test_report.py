@@ -41,6 +41,8 @@ class ReportTest(PageTest):
         self.assertIn("a note &lt;of&gt; the study", page)
         self.assertIn("stripes, shear-frame, reference green at 20 %", page)
         self.assertIn("periodic-22: the error of localized is zero to round-off", page)
+        self.assertIn("Law of that sheet: biot beside biot; it takes 400 ms a level (median); from a sheet half as fine the fluctuation differs by "
+                      "at most 0.500 %.", page)
         self.assertEqual(sorted(os.listdir(self.output)), ["figures", "report.html"])
 
     def test_missing_pieces_are_named_and_the_report_is_written(self):
