@@ -136,14 +136,20 @@ class PublishTest(unittest.TestCase):
         self.assertAlmostEqual(row["width"], 0.02, places=12)
 
     def test_claims_are_counted_by_kind_and_amount_to_an_exit_status(self):
-        folder = self.folder("stress", write_stress)
+        folder = self.folder("dots/stress-quick", write_stress)
         for verdicts, status in (([verdict("a", "PASS")], 0), ([verdict("a", "INCONCLUSIVE")], 4),
                                  ([verdict("a", "INCONCLUSIVE"), verdict("b", "FAIL", kind="method")], 1)):
             write_verdicts(folder, verdicts)
             write_run(folder, "stress")
             (row,) = published.rows_of([folder])["claims.csv"]
             self.assertEqual((row["exit_status"], row["claims"]), (status, len(verdicts)))
+            self.assertEqual((row["command"], row["of"]), ("stress --quick", "dots"))
         self.assertEqual((row["method_fail"], row["program_open"], row["program_fail"]), (1, 1, 0))
+
+    def test_two_runs_of_one_cell_are_refused(self):
+        folders = [self.folder(name, write_results) for name in ("one", "two")]
+        with self.assertRaisesRegex(BadResults, "errors.csv: two runs have a row stripes/shear-frame"):
+            published.rows_of(folders)
 
     def test_orders_stand_with_their_limits(self):
         folder = os.path.join(self.place, "converge")

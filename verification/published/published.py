@@ -171,6 +171,14 @@ def orders(results):
                "highest": last["order_highest"], "levels": len(rows), "judgement": last["judgement"]}
 
 
+def named(run):
+    """("strain --quick", "dots") of out/dots/strain-quick; of a folder of another name that name."""
+    quick = f"{run.command}-quick"
+    if run.name not in (run.command, quick):
+        return run.command, run.name
+    return run.command + " --quick" * (run.name == quick), os.path.basename(os.path.dirname(os.path.abspath(run.folder)))
+
+
 def claims(results):
     """How many claims of each kind hold, fail and are open, and the exit status they amount to: 1 one failed, 4 one is open, 0."""
     if not results.run.holds("verdicts.json"):
@@ -181,9 +189,9 @@ def claims(results):
 
     def of(outcome):
         return sum(number for (_, one), number in count.items() if one == outcome)
-    row = {"command": results.run.command, "of": results.run.name if results.run.name != results.run.command else
-           os.path.basename(os.path.dirname(os.path.abspath(results.run.folder))), "claims": len(verdicts), "hold": of("PASS"),
-           "fail": of("FAIL"), "open": of("INCONCLUSIVE"), "exit_status": 1 if of("FAIL") else 4 if of("INCONCLUSIVE") else 0}
+    command, of_what = named(results.run)
+    row = {"command": command, "of": of_what, "claims": len(verdicts), "hold": of("PASS"), "fail": of("FAIL"), "open": of("INCONCLUSIVE"),
+           "exit_status": 1 if of("FAIL") else 4 if of("INCONCLUSIVE") else 0}
     words = {"PASS": "hold", "FAIL": "fail", "INCONCLUSIVE": "open"}
     yield {**row, **{f"{kind}_{words[outcome]}": number for (kind, outcome), number in count.items()}}
 
@@ -217,6 +225,10 @@ def rows_of(folders):
                 tables.setdefault(name, []).extend({**row, "run": run.fingerprint, "revision": run.revision} for row in make(Results(run)))
             except BadResults as error:
                 faults += error.faults
+    for name, rows in tables.items():
+        keys = [tuple(field(row[key]) for key in KEYS[name]) for row in rows]
+        faults += [f"{name}: two runs have a row {'/'.join(key)}; expected one of each. Give the folder of one of them alone."
+                   for key in dict.fromkeys(keys) if keys.count(key) > 1]
     if faults:
         raise BadResults(faults)
     return {name: rows for name, rows in tables.items() if rows}
