@@ -80,7 +80,8 @@ def page_contents(results, gallery, output):
         reasons["short"] = [{"what": "the summary of errors", "why": "it needs rows of `affine` and "
                              "`localized` in strain.csv"}]
     commands = list(dict.fromkeys(c for c in map(command_of, results.studies) if c))
-    verdicts = [verdict_contents(v, commands, study.name if several and not study.lists_all else "")
+    of_one_verify = len({study.place for study in results.studies}) == 1
+    verdicts = [verdict_contents(v, commands, study.name if several and not (study.lists_all and of_one_verify) else "")
                 for study, v in results.claims()]
     unreached = tables.unreached_notes(results.unreached())
     return {

@@ -18,7 +18,7 @@ from runs import COMMANDS, LIST, with_parts
 from schema import NoSchema
 from stored import BadResults, check_verdicts, read_csv, read_json
 from stress_results import read_stress
-from versions import merged
+from versions import merged, tags
 
 UNREACHED = "unreached"
 
@@ -88,12 +88,23 @@ def check_study(value, path, faults):
     return value
 
 
-def read_folder(run, results, faults, is_listed=False):
+def name_of_cell(run, inner):
+    """What a cell is called in its run, whose folder may be that of the cell (inner is empty)."""
+    for file, key in (("homogenize.json", "cell"), ("cell.json", "name")):
+        path, _ = run.take(file) if not inner else (None, "")
+        value = read_json(path, []) if path else None
+        if value and isinstance(value.get(key), str) and value[key]:
+            return value[key]
+    return inner or run.name
+
+
+def read_folder(run, name, results, faults, is_listed=False):
     """Adds what one run wrote to the results.
 
+    @param name what the page calls it
     @param is_listed whether the run of `verify` around it lists its claims, so that it needs no list of its own
     """
-    study = Study(run.folder, run.name, run, place=run.place)
+    study = Study(run.folder, name, run, place=run.place)
 
     def path_of(name, consequence):
         path, why = run.take(name)
@@ -102,7 +113,7 @@ def read_folder(run, results, faults, is_listed=False):
         return path
 
     cells = {os.path.dirname(name) for name in run.names("*homogenize.json") + run.names("*cell.h5")}
-    cell_folders = {name or study.name: name for name in sorted(cells) if os.sep not in name}
+    cell_folders = {name_of_cell(run, inner): inner for inner in sorted(cells) if os.sep not in inner}
     has_drape, has_stress = run.holds("drape.json", "drape.csv", "motion.csv"), run.holds("stress.csv")
     has_convergence = run.holds("converge.csv")
     # A draped or stressed cell has a folder of its own too; its page is about motion, not about strain.
@@ -157,9 +168,13 @@ def read_results(folders):
     """
     faults, missing, parts = [], [], []
     try:
-        for run in with_parts(folders, faults, missing):
-            part = Results()
-            read_folder(run, part, faults, run.whole is not None)
+        runs = with_parts(folders, faults, missing)
+        names = tags(list(dict.fromkeys(run.place for run in runs)))
+        for run in runs:
+            part, name = Results(), run.name
+            if len(names) > 1:  # runs of one command have folders of one name
+                name = f"{names[run.place]}/{run.name}" if run.whole else names[run.place]
+            read_folder(run, name, part, faults, run.whole is not None)
             parts.append((run, part))
     except NoSchema as error:
         raise BadResults([str(error)]) from error

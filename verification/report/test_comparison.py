@@ -85,6 +85,9 @@ class ComparisonTest(PageTest):
         self.assertIsNone(found.cells["stripes (strain)"].stiffness())
         self.assertTrue(any("homogenize.json was changed after the run ended" in item["why"] for item in found.missing))
 
+    def test_a_homogenized_cell_is_called_by_its_name_whatever_its_folder_is(self):
+        self.assertEqual(list(read_results([self.homogenized("dots", "homogenize")]).cells), ["stripes"])
+
     def test_folder_of_verify_stands_for_its_parts(self):
         strain = self.write("verify", "strain")
         top = self.verified("verify")
@@ -117,6 +120,8 @@ class ComparisonTest(PageTest):
         one, two = self.write("old", "strain"), self.write("new", "strain", revision="def5678")
         self.assertEqual(self.run_report(one, two), (0, ""))
         page = self.page()
+        for claim in ("old: slope 2", "new: slope 2", "old: a note"):
+            self.assertIn(claim, page)
         for words in ("This page sets 2 runs side by side: old (strain, revision abc1234", "new (strain, revision def5678",
                       "They were made by different revisions of homespun"):
             self.assertIn(words, page)

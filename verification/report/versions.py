@@ -20,6 +20,8 @@ class Subject:
 
 def tags(places):
     """place -> the shortest name that tells it from the others: common ends and beginnings are left out."""
+    if not places:
+        return {}
     split = {place: place.strip(os.sep).split(os.sep) for place in places}
     while len(split) > 1 and len({parts[-1] for parts in split.values()}) == 1 and min(map(len, split.values())) > 1:
         split = {place: parts[:-1] for place, parts in split.items()}
