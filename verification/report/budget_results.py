@@ -2,14 +2,9 @@
 """Reads budget.csv, runtime.csv and validity.csv of a strain study, and what follows from their rows alone."""
 import math
 
-from stored import latest, read_csv
+from stored import read_csv
 
-BUDGET_HEADER = "cell,load,strain,reference,part,region,mean_m,rms_m,max_m,mean_per_cell,share".split(",")
-RUN_TIME_HEADER = ("cell,load,strain,reference,way,triangles,error_mean_m,error_mean_per_cell,reference_uncertainty_m,"
-                   "seconds,runs,ranks,threads,note").split(",")
-VALIDITY_HEADER = ("cell,load,reference,measure,limit,relation,largest_strain,largest_strain_lower,"
-                   "largest_strain_upper,note").split(",")
-# In the order of METHOD 5, and what each is called in a figure.
+# In their order, and what each is called in a figure.
 PARTS = {
     "scale": "1 scale separation, boundary layer",
     "nonlinearity": "2 geometric nonlinearity",
@@ -29,17 +24,11 @@ REGIONS = ("interior", "boundary", "corner")
 
 def read_budget(path_of, results, faults):
     """Adds the three tables to the results; one that was left out is noted as such."""
-    def rows(name, header, keys, consequence):
-        path = path_of(name, consequence)
-        if not path:
-            return []
-        return latest(read_csv(path, header, faults, results.missing), keys, path, results.missing)
-    results.budget += rows("budget.csv", BUDGET_HEADER, ("cell", "load", "strain", "reference", "part", "region"),
-                           "the error budget")
-    results.run_time += rows("runtime.csv", RUN_TIME_HEADER, ("cell", "load", "strain", "reference", "way"),
-                             "error against run time of every way")
-    results.validity += rows("validity.csv", VALIDITY_HEADER, ("cell", "load", "reference", "measure", "limit"),
-                             "the range of validity")
+    for name, rows, consequence in (("budget.csv", results.budget, "the error budget"),
+                                    ("runtime.csv", results.run_time, "error against run time of every way"),
+                                    ("validity.csv", results.validity, "the range of validity")):
+        if path := path_of(name, consequence):
+            rows += read_csv(path, faults, results.missing)
 
 
 def levels(rows):

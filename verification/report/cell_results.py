@@ -1,13 +1,12 @@
 # SPDX-License-Identifier: MIT
 """Reads the results of one cell: homogenize.json, cell.json, cell.h5 and the stored sheets."""
-import glob
 import os
 from dataclasses import dataclass, field
 
 import h5py
 import numpy
 
-from stored import is_stiffness
+from stored import is_stiffness, read_json
 
 AGAIN = "Run `homespun homogenize` or `homespun strain` again."
 
@@ -124,16 +123,18 @@ def grouped(cell, material):
     return cell.group_of[material] if known else material
 
 
-def read_cell(name, folder, read_json, faults, missing):
-    """Reads the folder of one cell; what is absent is noted in `missing`."""
-    cell = Cell(name, folder)
+def read_cell(name, run, inner, faults, missing):
+    """Reads what a run wrote of one cell; what is absent is noted in `missing`.
+
+    @param inner folder of the cell in that of the run, empty where they are one
+    """
+    cell = Cell(name, os.path.join(run.folder, inner))
 
     def path_of(file, consequence):
-        path = os.path.join(folder, file)
-        if os.path.isfile(path):
-            return path
-        missing.append({"what": f"{name}: {consequence}", "why": f"{path} does not exist"})
-        return None
+        path, why = run.take(os.path.join(inner, file))
+        if path is None:
+            missing.append({"what": f"{name}: {consequence}", "why": why})
+        return path
 
     if path := path_of("homogenize.json", "effective stiffness"):
         if value := read_json(path, faults):
@@ -154,10 +155,9 @@ def read_cell(name, folder, read_json, faults, missing):
             for key in ("vertices", "triangles", "material", "lattice", "chi"):
                 setattr(cell, key, values[key])
     share_groups(cell)
-    cell.field_files = sorted(glob.glob(os.path.join(glob.escape(folder), "fields-*.h5")))
-    if not cell.field_files:
-        missing.append({"what": f"{name}: pictures of the sheet",
-                        "why": f"{os.path.join(folder, 'fields-LOAD.h5')} does not exist"})
+    for file in run.names(os.path.join(inner, "fields-*.h5")):
+        if path := path_of(os.path.relpath(file, inner or "."), "picture of the sheet"):
+            cell.field_files.append(path)
     return cell
 
 

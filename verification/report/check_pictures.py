@@ -108,4 +108,9 @@ def main(folder):
 
 
 if __name__ == "__main__":
-    main(sys.argv[1])
+    try:
+        main(sys.argv[1])
+    except OSError as error:
+        print(f"error: {error.filename or sys.argv[1]}: {error.strerror or error}; expected a folder of `homespun check` that can be read and "
+              "written: make room, or give another --output", file=sys.stderr)
+        sys.exit(2)

@@ -10,6 +10,7 @@ from budget_contents import validity_text
 from figures_comparison import comparison_figure
 from figures_time import METHOD
 from style import percent, seconds, three
+from verdicts import WORDS
 from versions import tags
 
 ENTRIES = (("C11", 0, 0), ("C22", 1, 1), ("C12", 0, 1), ("C33 (shear)", 2, 2))
@@ -51,7 +52,7 @@ def stiffness_rows(results, subjects):
     for name, i, j in ENTRIES:
         rows.append((name, [entry(cell.stiffness(), i, j) for cell in cells]))
     brackets = [tables.stiffness_table(cell)["bracket"] for cell in cells]
-    rows.append(("width of the guaranteed bracket, relative", [bracket or "–" for bracket in brackets]))
+    rows.append(("width of the guaranteed bracket of the meshed cell, relative", [bracket or "–" for bracket in brackets]))
     densities = [(cell.homogenize or {}).get("areal_density") for cell in cells]
     rows.append(("areal density [kg/m²]", [three(float(value)) if value else "–" for value in densities]))
     return rows
@@ -131,8 +132,7 @@ def claims_side_by_side(results, subjects):
         if cell is None:
             general.setdefault(verdict["claim"], {})[study.place] = verdict
             continue
-        owners = [s for s in subjects if s.cell == cell]
-        subject = next((s for s in owners if study.place in s.places), owners[0] if len(owners) == 1 else None)
+        subject = next((s for s in subjects if s.cell == cell and s.place == study.place), None)
         if subject:
             table.setdefault(key_of(verdict["claim"], cell), {})[subject.name] = verdict
     blocks = [block(table, [s.name for s in subjects], [s.name for s in subjects])]
@@ -151,7 +151,7 @@ def block(table, columns, names):
             continue
         verdicts = {verdict["verdict"] for verdict in some.values()}
         rows.append({"claim": claim.replace("CELL", "…"), "differs": len(verdicts) > 1,
-                     "entries": [{"verdict": some[c]["verdict"], "value": tables.shown(some[c].get("value"))} if c in some else None
+                     "entries": [{"verdict": some[c]["verdict"], "word": WORDS[some[c]["verdict"]], "value": tables.shown(some[c].get("value"))} if c in some else None
                                  for c in columns],
                      "limit": tables.shown(next(iter(some.values())).get("limit", ""))})
     rows.sort(key=lambda row: not row["differs"])

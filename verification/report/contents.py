@@ -19,8 +19,10 @@ from figures_strain import error_figure
 from figures_time import error_time_figure, run_time_figure, step_figure
 from gallery import file_name
 from results import BadResults, cell_side
-from stress_results import MARKS, stress_contents
+from run_contents import run_rows, run_sentences, verdict_contents, verdict_groups, verdict_sentence
+from stress_results import stress_contents
 from style import percent, seconds, three
+from verdicts import MARKS, WORDS
 from vertex_tables import cell_table, chi_table
 from view_data import sheet_table, sheet_view
 
@@ -38,11 +40,12 @@ HEADINGS = {
     "time": "Error against run time",
     "errors": "Errors at chosen strains",
     "uncertainty": "Uncertainty of the references",
+    "notes": "Notes of the run",
     "left-out": "What was left out, and why",
     "checks": "Checks of the homogenization",
     "provenance": "Provenance",
 }
-COMMON = ("verdicts", "left-out", "provenance")  # headings of every page; the others are those of `homespun strain`
+COMMON = ("verdicts", "notes", "left-out", "provenance")  # headings of every page; the others are those of `homespun strain`
 MAIN_METHODS = ("affine", "localized")
 
 
@@ -63,7 +66,9 @@ def page_contents(results, gallery, output):
     lists_all = any(study.lists_all for study in results.studies)
     strain_shown = bool(results.cells) or not (drapes or stress or convergence or lists_all)
     comparison = comparison_contents(results, gallery)
-    headings = headings_of(drapes, stress, convergence, strain_shown, comparison)
+    several = len(results.studies) > 1
+    notes = [f"{study.name}: {note}" if several else str(note) for study in results.studies for note in study.info.get("notes") or []]
+    headings = headings_of(drapes, stress, convergence, strain_shown, comparison, notes)
     cells = contents_of_cells(results, gallery)
     reasons = {key: [] for key in ("verdicts", "short", "strain", "uncertainty")}
     words = {"verdicts": "verdicts", "strain": "error against strain", "uncertainty": "error bar"}
@@ -75,11 +80,9 @@ def page_contents(results, gallery, output):
         reasons["short"] = [{"what": "the summary of errors", "why": "it needs rows of `affine` and "
                              "`localized` in strain.csv"}]
     commands = list(dict.fromkeys(c for c in map(command_of, results.studies) if c))
-    several = len(results.studies) > 1
-    verdicts = [verdict_contents(v, commands, study.name if several and not study.lists_all else "")
+    of_one_verify = len({study.place for study in results.studies}) == 1
+    verdicts = [verdict_contents(v, commands, study.name if several and not (study.lists_all and of_one_verify) else "")
                 for study, v in results.claims()]
-    # What failed stands on top, then what cannot be judged.
-    verdicts.sort(key=lambda v: ("FAIL", "INCONCLUSIVE", "PASS").index(v["verdict"]))
     unreached = tables.unreached_notes(results.unreached())
     return {
         "title": "homespun: " + ", ".join([d["scene"] for d in drapes] + ["stress"] * bool(stress)
@@ -95,12 +98,15 @@ def page_contents(results, gallery, output):
         "headings": HEADINGS,
         "shown_headings": headings,
         "contents": list(headings.items()),
-        "verdicts": verdicts,
+        "runs": run_sentences(results),
+        "run_rows": run_rows(results),
+        "verdict_groups": verdict_groups(verdicts),
         "verdict_sentence": verdict_sentence(verdicts),
         "in_short": short,
         "cells": cells,
-        "notes": [str(note) for study in results.studies for note in study.info.get("notes") or []],
+        "notes": notes,
         "steps": tables.step_rows(results.steps),
+        "fluctuation": tables.fluctuation_sentence(results.steps),
         "uncertainty": tables.uncertainty_rows(results.uncertainty),
         "all_left_out": [item for s in results.studies for item in s.info.get("left_out") or []]
         + unreached + results.missing,
@@ -119,7 +125,7 @@ def contents_of_drapes(results, gallery, output):
                 for i, drape in enumerate(results.drapes, 1)]
 
 
-def headings_of(drapes, stress, convergence, strain_shown, comparison=None):
+def headings_of(drapes, stress, convergence, strain_shown, comparison, notes):
     """id -> heading of the sections that this page has, in their order."""
     headings = {key: HEADINGS[key] for key in ("verdicts", "comparison") if key == "verdicts" or comparison}
     if drapes:
@@ -127,7 +133,8 @@ def headings_of(drapes, stress, convergence, strain_shown, comparison=None):
     headings.update((d["id"], f"Drape: {d['name']}") for d in drapes)
     headings.update((s["id"], "Stress cases" + (f": {s['name']}" if len(stress) > 1 else "")) for s in stress)
     headings.update((c["id"], "Convergence" + (f": {c['name']}" if len(convergence) > 1 else "")) for c in convergence)
-    headings.update((key, text) for key, text in HEADINGS.items() if (strain_shown or key in COMMON) and (comparison or key != "comparison"))
+    hidden = {key for key, shown in (("comparison", comparison), ("notes", notes)) if not shown}
+    headings.update((key, text) for key, text in HEADINGS.items() if (strain_shown or key in COMMON) and key not in hidden)
     return headings
 
 
@@ -180,32 +187,11 @@ def command_of(study):
     return study.info.get("command") or (named.pop() if len(named) == 1 else None)
 
 
-def verdict_contents(verdict, commands, study):
-    """One row; its command only where it is not among those at the head of the page.
-
-    @param study name of its folder, where there are several
-    """
-    value = verdict.get("value")
-    return {"claim": f"{study}: {verdict['claim']}" if study else verdict["claim"],
-            "verdict": verdict["verdict"], "mark": MARKS[verdict["verdict"]],
-            "value": "–" if value is None else tables.shown(value), "limit": tables.shown(verdict.get("limit", "")),
-            "command": "" if verdict.get("command") in commands else verdict.get("command", "")}
-
-
-def verdict_sentence(verdicts):
-    count = {key: sum(v["verdict"] == key for v in verdicts) for key in MARKS}
-    words = [f"{count['PASS']} of {len(verdicts)} claims hold"]
-    if count["FAIL"]:
-        words.append(f"{count['FAIL']} fail{'s' if count['FAIL'] == 1 else ''}")
-    if count["INCONCLUSIVE"]:
-        words.append(f"{count['INCONCLUSIVE']} cannot be judged")
-    return ", ".join(words) + "."
-
-
 def check_contents(check):
     verdict = check.get("verdict") if check.get("verdict") in MARKS else "INCONCLUSIVE"
     return {"name": check.get("name", "?"), "value": tables.shown(check.get("value")),
-            "limit": tables.shown(check.get("limit", "")), "verdict": verdict, "mark": MARKS[verdict]}
+            "limit": tables.shown(check.get("limit", "")), "derivation": str(check.get("derivation") or ""),
+            "verdict": verdict, "mark": MARKS[verdict], "word": WORDS[verdict]}
 
 
 def provenance(results):
@@ -255,8 +241,8 @@ def cell_contents(results, name, gallery):
             "each direction, between the bounds of Voigt and Reuss.")
     if figure := bracket_figure(cell):
         contents["bracket"] = gallery.add(
-            figure, f"{name}-bracket", f"{name}: the guaranteed bracket on the effective stiffness narrows with "
-            "adaptive refinement.")
+            figure, f"{name}-bracket", f"{name}: the guaranteed bracket on the effective stiffness of the meshed cell against "
+            "degrees of freedom.")
     if cell.vertices is not None:
         contents["phases_picture"] = gallery.add(
             phase_figure(cell), f"{name}-cell", f"{name}: the unit cell, {len(cell.triangles):,} triangles, "
@@ -296,8 +282,8 @@ def draw_strain(contents, rows, methods, reference, side, gallery):
         "shown)." + (floor if at_floor else ""))
     figure, at_floor = error_figure(rows, main, references, side, "error_mean_per_fluctuation")
     contents["error_share"] = gallery.add(
-        figure, f"{name}-error-strain-fluctuation", f"{name}: the same in percent of the mean fluctuation "
-        "of the reference." + (floor if at_floor else ""))
+        figure, f"{name}-error-strain-fluctuation", f"{name}: the same in percent of the measured fluctuation, the mean over "
+        "the fine vertices of |reference − homogenized sheet resolved on a fine mesh|." + (floor if at_floor else ""))
     variants = [method for method in methods if method not in MAIN_METHODS]
     if variants:
         shown = [method for method in methods if method != "affine"]
@@ -321,8 +307,8 @@ def sheet_picture(cell, path, side, gallery, sheets):
     figure, numbers = sheet_figure(cell, sheet, size)
     caption = (f"{cell.name}, {sheet['load']} at {percent(sheet['strain'])} strain, {len(sheet['triangles']):,} "
                f"triangles: {sheet['method']} against {sheet['reference_law']}. Mean error "
-               f"{tables.length(numbers['error_mean'])}, largest {tables.length(numbers['error_max'])}; mean "
-               f"fluctuation {tables.length(numbers['fluctuation_mean'])}. Colour bars end at the 99.5th "
+               f"{tables.length(numbers['error_mean'])}, largest {tables.length(numbers['error_max'])}; the "
+               f"coarse mesh alone: {tables.length(numbers['affine_mean'])}. Colour bars end at the 99.5th "
                "percentile. True scale, not exaggerated. Below: the framed cells. The CSV file holds the vertices of the view in space.")
     colours = {number: colour for number, colour, _ in phase_legend(cell, sheet["material"])}
     view, few = sheet_view(sheet, colours, sheets)

@@ -1,13 +1,14 @@
 # SPDX-License-Identifier: MIT
 """What the report shows of `homespun converge`: per study a figure and the table of its orders."""
 import math
+from collections import Counter
 
 from markupsafe import Markup
 
 from converge_results import STUDIES
 from figures_converge import FIGURES
-from stress_results import MARKS
 from style import three
+from verdicts import MARKS, WORDS
 
 TITLES = {
     "mesh": "Mesh of the cell",
@@ -25,20 +26,20 @@ CAPTIONS = {
             "the strongest corner and that of the smallest exponent above 1, with P1 at most 2. A laminate has its "
             "closed form on every level, and no curve.",
     "adaptive": "Relative width of the bracket on C<sup>H</sup> against DoFs of the displacements: meshes refined where it "
-                "is wide (full lines) and everywhere (dashed). Adaptive meshes reach the order of smooth solutions, width "
-                "~ DoFs<sup>−1</sup> with P1 and DoFs<sup>−2</sup> with P2, where uniform ones stay at the exponent of the "
+                "is wide (full lines) and everywhere (dashed). Expected of adaptive meshes is the order of smooth solutions, width "
+                "~ DoFs<sup>−1</sup> with P1 and DoFs<sup>−2</sup> with P2; of uniform ones the exponent of the "
                 "corners. The bracket of a laminate closes to round-off on the given mesh, and has no curve.",
     "scale": "Sheets of more and more cells against the linear reference: mean error over all fine vertices. What the "
-             "affine motion lacks is a fluctuation of the size of a cell, order 1 in sheet sides.",
+             "affine motion lacks has the size of a cell: expected order 1 in sheet sides.",
     "coarse": "Coarse meshes of half a parallelogram per cell side and finer on one sheet. Where a clamped edge meets a "
               "free one the solution is singular with an exponent above ½: orders between 1 and 2.",
     "strain": "Infinite cloth under periodic loads against biot: the characteristic displacements are linear in strain, "
-              "so that the error of the localized positions falls as strain squared, that of the affine ones as strain. "
+              "so that the error of the localized positions is expected to fall as strain squared, that of the affine ones as strain. "
               "Loads under which it is zero to round-off are not drawn.",
     "time": "The coarse cloth swings down from one held edge for 40 ms: mean error of the positions at the end, against "
             "the extrapolation of two much finer runs.",
     "manufactured": "Every solver against a smooth motion of some ten per cent of strain that a body force makes exact. "
-                    "L2 order p + 1, H1 order p, time steps order 1.",
+                    "Expected: L2 order p + 1, H1 order p, time steps order 1.",
 }
 
 def limit_of(series):
@@ -60,7 +61,7 @@ def row_of(series):
             "error": three(errors[-1]) if errors else "–",
             "order": "–" if math.isnan(series.order) else f"{three(series.order)} ± {three(series.spread)}",
             "limit": limit_of(series), "richardson": richardson, "verdict": series.judgement,
-            "mark": MARKS[series.judgement]}
+            "mark": MARKS[series.judgement], "word": WORDS[series.judgement]}
 
 
 def convergence_contents(convergence, gallery):
@@ -76,7 +77,7 @@ def convergence_contents(convergence, gallery):
         studies.append({"title": TITLES[study], "picture": picture, "rows": [row_of(s) for s in judged],
                         "cells": any(s.cell != "none" for s in judged)})
     judged = [s for s in convergence.series if s.judgement]
-    count = {mark: sum(s.judgement == mark for s in judged) for mark in MARKS}
+    count = Counter(s.judgement for s in judged)
     sentence = (f"{count['PASS']} of {len(judged)} observed orders lie within their limits, {count['FAIL']} outside, "
-                f"{count['INCONCLUSIVE']} have not settled.")
+                f"{count['INCONCLUSIVE']} {'is' if count['INCONCLUSIVE'] == 1 else 'are'} open.")
     return {"name": convergence.name, "sentence": sentence, "studies": studies}

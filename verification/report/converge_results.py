@@ -3,11 +3,10 @@
 import math
 from dataclasses import dataclass, field
 
-from stored import VERDICTS, latest, read_csv
+import schema
+from stored import read_csv
 
 AGAIN = "Run `homespun converge` again."
-HEADER = ("cell,study,case,quantity,order_p,level,h,h_unit,dofs,value,error,observed_order,order,spread,"
-          "order_lowest,order_highest,richardson_limit,gci,judgement,seconds").split(",")
 KEYS = ("cell", "study", "case", "quantity", "order_p", "level")
 # Studies whose limits are bands, and the tolerance at both ends.
 BAND_TOLERANCES = {"mesh": 0.1, "scale": 0.15, "coarse": 0.1}
@@ -37,7 +36,7 @@ class Series:
         return self.quantity.split(" [")[1].rstrip("]") if " [" in self.quantity else ""
 
     def __getattr__(self, key):  # what is the same on every level
-        if key in HEADER:
+        if key in schema.table("converge.csv").names:
             return self.rows[-1][key]
         raise AttributeError(key)
 
@@ -79,18 +78,14 @@ class Convergence:
 
 def read_convergence(folder, name, path, faults, missing):
     """@return Convergence, whose series are in the order of the file and whose levels run from coarse to fine"""
-    rows = latest(read_csv(path, HEADER, faults, missing, AGAIN), KEYS, path, missing)
+    rows = read_csv(path, faults, missing, AGAIN)
     result = {}
     for row in rows:
-        if row["judgement"] and row["judgement"] not in VERDICTS:
-            faults.append(f"{path}, line {row['line']}: `judgement` is `{row['judgement']}`, expected nothing or one of "
-                          f"{', '.join(VERDICTS)}. {AGAIN}")
         if row["study"] not in STUDIES:
             faults.append(f"{path}, line {row['line']}: `study` is `{row['study']}`, expected one of "
                           f"{', '.join(STUDIES)}. {AGAIN}")
         if any(math.isnan(row[key]) for key in ("order_p", "level")):
-            faults.append(f"{path}, line {row['line']}: `order_p` or `level` is empty, expected a number. {AGAIN}")
-            continue
+            continue  # a fault already
         key = tuple(row[k] for k in KEYS[:-1])
         result.setdefault(key, Series(*key[:4], int(key[4]))).rows.append(row)
     for series in result.values():

@@ -53,7 +53,7 @@ def draw_cloth(contents, drape, cell, gallery, limit, pool, scenes):
         return
     file, title = f"{drape.scene}-{cell.name}", f"{drape.scene}, {cell.name}"
     try:
-        bodies = read_vtu(drape.obstacles()) if drape.obstacles() else None
+        bodies = read_vtu(drape.obstacles) if drape.obstacles else None
         figure, camera, phases, numbers = cloth_figure(film, drape.up(), cell.info.get("cell_side_m"), pool,
                                                        cell.info.get("phases"), bodies)
         jobs = moving_jobs(film, camera, phases, pool, bodies)  # rendered while this process saves the figure

@@ -6,19 +6,12 @@ from dataclasses import dataclass, field
 
 import numpy
 
-from stored import is_stiffness, latest, lies_within, read_csv, read_json
+from stored import is_stiffness, lies_within, read_csv, read_json
 from vtu import BadFrame, read_pvd
 
 AGAIN = "Run `homespun drape` again."
-ERROR_HEADER = ("scene,cell,variant,reference,method,frame,time_s,error_mean_m,error_rms_m,error_max_m,"
-                "error_mean_per_cell,error_mean_per_fluctuation,reference_uncertainty_m").split(",")
-MOTION_HEADER = ("scene,cell,variant,frame,time_s,centre_x_m,centre_y_m,centre_z_m,kinetic_J,elastic_J,gravity_J,"
-                 "max_stretch,seconds_coarse_step,seconds_upsampling").split(",")
-TERMS_HEADER = ("scene,cell,term,present,seconds_per_step,seconds_per_step_forced,bytes,bytes_forced,seconds_spread,"
-                "seconds_spread_forced").split(",")
 NUMBERS = {"frames", "steps", "cut_steps", "seconds_per_coarse_step", "seconds_per_upsampling", "threads", "ranks",
            "dofs", "seconds_per_step", "cell_side_m", "areal_density"}  # of cells, runs and references in drape.json
-PRESENT = {"true": True, "1": True, "yes": True, "false": False, "0": False, "no": False}
 
 
 @dataclass
@@ -41,15 +34,11 @@ class Drape:
     folder: str
     info: dict
     cells: list = field(default_factory=list)
+    obstacles: str = None  # path of the bodies that the cloth meets
 
     @property
     def scene(self):
         return self.info["scene"]
-
-    def obstacles(self):
-        """Path of the bodies that the cloth meets, or None."""
-        path = os.path.join(self.folder, "obstacles.vtu")
-        return path if os.path.isfile(path) else None
 
     def parameters(self):
         """[(key, value)], keys of inner objects joined by a slash."""
@@ -140,59 +129,52 @@ def check_scene(value, path, faults):
     return value if len(faults) == before else None
 
 
-def read_drape(folder, path_of, faults, missing):
-    """Reads the output folder of `homespun drape`.
+def read_drape(run, path_of, faults, missing):
+    """Reads what a run of `homespun drape` wrote.
 
     @param path_of function (name, consequence) -> path, which notes what is absent
-    @return Drape, or None with a fault
+    @return Drape, or None where its description is left out or wrong
     """
-    path = os.path.join(folder, "drape.json")
-    if not os.path.isfile(path):
-        faults.append(f"{path}: does not exist, but its tables do. {AGAIN}")
+    if not (path := path_of("drape.json", f"the scene of {run.name}")):
         return None
     value = read_json(path, faults)
     info = check_scene(value, path, faults) if value else None
     if info is None:
         return None
-    drape = Drape(folder, info)
+    drape = Drape(run.folder, info)
+    if run.holds("obstacles.vtu"):
+        drape.obstacles = path_of("obstacles.vtu", f"{drape.scene}: bodies")
     cells = {}
     for item in info.get("cells") or []:
         cells[item["cell"]] = DrapedCell(item["cell"], item, item.get("runs") or [], item.get("references") or [])
-    for name, header, target, keys, consequence in (
-            ("drape.csv", ERROR_HEADER, "errors", ("cell", "variant", "reference", "method", "time_s"),
-             f"{drape.scene}: error against time"),
-            ("motion.csv", MOTION_HEADER, "motion", ("cell", "variant", "time_s"),
-             f"{drape.scene}: height and energies"),
-            ("terms.csv", TERMS_HEADER, "terms", ("cell", "term"),
-             f"{drape.scene}: what absent terms would have cost")):
-        if file := path_of(name, consequence):
-            for row in latest(read_csv(file, header, faults, missing, AGAIN), keys, file, missing):
-                if target == "terms" and row["present"].lower() not in PRESENT:
-                    faults.append(f"{file}, line {row['line']}: `present` is `{row['present']}`, expected true or "
-                                  f"false. {AGAIN}")
+    for name, target, consequence in (("drape.csv", "errors", "error against time"), ("motion.csv", "motion", "height and energies"),
+                                      ("terms.csv", "terms", "what absent terms would have cost")):
+        if file := path_of(name, f"{drape.scene}: {consequence}"):
+            for row in read_csv(file, faults, missing, AGAIN):
                 getattr(cells.setdefault(row["cell"], DrapedCell(row["cell"])), target).append(row)
     drape.cells = list(cells.values())
     for cell in drape.cells:
-        read_frame_lists(drape, cell, faults, missing)
+        read_frame_lists(run, drape, cell, path_of, faults)
     return drape
 
 
-def read_frame_lists(drape, cell, faults, missing):
-    """Finds the frames of all runs and references of a cell."""
-    wanted = [(run["variant"], run["folder"], kind) for run in cell.runs for kind in ("coarse", "fine")]
+def read_frame_lists(run, drape, cell, path_of, faults):
+    """Finds the frames of all runs and references of a cell, those that were not changed since."""
+    wanted = [(one["variant"], one["folder"], kind) for one in cell.runs for kind in ("coarse", "fine")]
     wanted += [(reference["reference"], reference["folder"], "fine") for reference in cell.references]
     for name, folder, kind in wanted:
+        what = f"{drape.scene}, {cell.name}: {kind} frames of {name}"
         path = os.path.join(drape.folder, folder, kind + ".pvd")
         if not lies_within(path, drape.folder):
             faults.append(f"{drape.scene}, {cell.name}: folder `{folder}` of {name} lies outside of {drape.folder}; expected one "
                           f"in it. {AGAIN}")
             continue
-        if not os.path.isfile(path):
-            missing.append({"what": f"{drape.scene}, {cell.name}: {kind} frames of {name}",
-                            "why": f"{path} does not exist"})
+        if not (path := path_of(os.path.join(folder, kind + ".pvd"), what)):
             continue
         try:
-            cell.frames[name, kind] = read_pvd(path)
-            cell.lists.append(path)
+            frames = [(time, path_of(os.path.relpath(frame, run.folder), what)) for time, frame in read_pvd(path)]
+            if frames := [(time, frame) for time, frame in frames if frame]:
+                cell.frames[name, kind] = frames
+                cell.lists.append(path)
         except BadFrame as error:
             faults.append(str(error))

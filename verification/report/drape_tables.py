@@ -7,7 +7,6 @@ from markupsafe import escape
 
 import style
 import tables
-from drape_results import PRESENT
 from figures_drape import light_seconds, main_run, number, ordered_references, ordered_variants, workers_of
 from style import seconds, three
 from tables import length
@@ -149,7 +148,7 @@ def cost_rows(cell):
     for row in cell.terms:
         time, forced = row["seconds_per_step"], row["seconds_per_step_forced"]
         memory, forced_memory = row["bytes"], row["bytes_forced"]
-        rows.append([cell.name, row["term"], "present" if PRESENT[row["present"].lower()] else "left out",
+        rows.append([cell.name, row["term"], "present" if row["present"] else "left out",
                      within(time, row["seconds_spread"]), within(forced, row["seconds_spread_forced"]), more(time, forced),
                      size_of(memory), size_of(forced_memory), more(memory, forced_memory)])
     return rows

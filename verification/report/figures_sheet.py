@@ -97,12 +97,12 @@ def bar(figure, axes, largest, factor, unit, cmap, label):
 def sheet_figure(cell, sheet, side):
     """Six panels: above reference, up-sampled and error over the whole sheet; below the close-up.
 
-    Colour above is the fluctuation: the distance of a vertex from where the coarse mesh alone puts it.
-    @return (figure, {"error_mean", "error_max", "fluctuation_mean"} [m])
+    Colour above is what the coarse mesh alone lacks: the distance of a vertex from where it puts it.
+    @return (figure, {"error_mean", "error_max", "affine_mean"} [m])
     """
     triangles = sheet["triangles"]
     coarse = coarse_positions(sheet)
-    fluctuation = {key: numpy.linalg.norm(sheet[key] - coarse, axis=1) for key in ("reference", "upsampled")}
+    beyond = {key: numpy.linalg.norm(sheet[key] - coarse, axis=1) for key in ("reference", "upsampled")}
     error = numpy.linalg.norm(sheet["upsampled"] - sheet["reference"], axis=1)
     everything = numpy.vstack([sheet["reference"], sheet["upsampled"]])
     low, high = everything.min(axis=0), everything.max(axis=0)
@@ -122,13 +122,13 @@ def sheet_figure(cell, sheet, side):
                                    height_ratios=(3.05 * ratio + 0.9, 3.05 * near_ratio + 0.6),
                                    layout="constrained")
     # A high percentile, not the maximum: one vertex in a clamped corner would darken all others.
-    largest = float(numpy.percentile(fluctuation["reference"], 99.5))
+    largest = float(numpy.percentile(beyond["reference"], 99.5))
     factor, unit = unit_of(largest)
     for axes, key, title in zip(grid[0], ("reference", "upsampled"),
                                 (f"fine reference ({sheet['reference_law']})", f"up-sampled ({sheet['method']})")):
-        image(axes, raster(sheet[key], triangles, fluctuation[key], largest, "viridis", extent), extent)
+        image(axes, raster(sheet[key], triangles, beyond[key], largest, "viridis", extent), extent)
         axes.set_title(title, loc="left", fontweight="bold")
-        bar(figure, axes, largest, factor, unit, "viridis", "fluctuation |x − coarse x|")
+        bar(figure, axes, largest, factor, unit, "viridis", "beyond the coarse mesh |x − coarse x|")
     largest_error = float(numpy.percentile(error, 99.5))
     error_factor, error_unit = unit_of(largest_error)
     image(grid[0][2], raster(sheet["upsampled"], triangles, error, largest_error, "magma_r", extent), extent)
@@ -144,7 +144,7 @@ def sheet_figure(cell, sheet, side):
             axes.set_xlabel("axis 1 [cm]")
         line[0].set_ylabel("axis 2 [cm]")
     return figure, {"error_mean": float(error.mean()), "error_max": float(error.max()),
-                    "fluctuation_mean": float(fluctuation["reference"].mean())}
+                    "affine_mean": float(beyond["reference"].mean())}
 
 
 def draw_close_up(figure, line, cell, sheet, close, extent):

@@ -148,7 +148,7 @@ def error_figure(rows, methods, references, side, key="error_mean_per_cell"):
             axes.set_ylim(lower, upper)
             axes.tick_params(labelleft=axes is line[0], labelbottom=True)
             axes.set_xlabel("strain [%]")
-        line[0].set_ylabel("mean error [% of mean fluctuation]" if factor == 100.
+        line[0].set_ylabel("mean error [% of the fluctuation]" if factor == 100.
                            else "mean error [cell sides]")
         for axes in line[len(group):]:
             axes.set_visible(False)

@@ -28,10 +28,7 @@ def limit_of(row):
 
 def margin(row):
     """Figure over limit; nan where a refusal was expected or the case gave no number."""
-    try:
-        figure, limit = float(row["figure"]), limit_of(row)
-    except ValueError:
-        return math.nan
+    figure, limit = row["figure"], limit_of(row)
     if not limit > 0. or not math.isfinite(figure):
         return math.nan
     return figure / limit
@@ -40,7 +37,7 @@ def margin(row):
 def margin_table(rows):
     """(header, rows) of the CSV file: every case in the order of its file, empty where a figure or limit is no number."""
     header = ["group", "case", "verdict", "figure", "limit", "figure_over_limit"]
-    return header, [[row["group"], row["case"], row["verdict"], row["figure"], row["limit"],
+    return header, [[row["group"], row["case"], row["verdict"], row["figure"] if row["figure"] == row["figure"] else "", row["limit"],
                      margin(row) if margin(row) == margin(row) else ""] for row in rows]
 
 
@@ -105,7 +102,7 @@ def margin_figure(rows):
                (("within its limit", MARKS["PASS"]), ("fails", MARKS["FAIL"]))]
     if any(row["verdict"] == "INCONCLUSIVE" for row in rows):
         mark, colour = MARKS["INCONCLUSIVE"]
-        handles.append(Line2D([], [], ls="", marker=mark, color=colour, mew=0, ms=5, label="cannot be judged"))
+        handles.append(Line2D([], [], ls="", marker=mark, color=colour, mew=0, ms=5, label="open"))
     handles.append(Line2D([], [], ls="", marker="<", color="#444444", mew=0, ms=5,
                           label=f"zero, or below 10{style.three(LOWEST).split('10')[-1]} of its limit"))
     figure.legend(handles=handles, loc="lower center", bbox_to_anchor=(0.5, 1.), ncol=4)

@@ -5,7 +5,7 @@ import os
 
 import numpy
 
-import drape_results
+from made_up_run import verdict, write_run, write_table, write_verdicts
 from made_up_study import SIDE, square_mesh
 
 GRAVITY = 9.81
@@ -108,19 +108,23 @@ def write_drape(folder, cells=2, per_cell=3, frames=4, names=("layered",), varia
                 for reference in references:
                     for k, method in enumerate(METHODS):
                         one = value * (1., 0.5, 0.7)[k] + (1e-3 * SIDE if k == 0 else 0.)
-                        errors.append(f"swing,{name},{variant},{reference},{method},{i},{time:.6g},{one:.6g},"
-                                      f"{1.2 * one:.6g},{4. * one:.6g},{one / SIDE:.6g},{one / SIDE * 10.:.6g},"
-                                      f"{1e-5 if reference == 'shell' else ''}")
+                        errors.append({"scene": "swing", "cell": name, "variant": variant, "reference": reference, "method": method,
+                                       "frame": i, "time_s": time, "error_mean_m": one, "error_rms_m": 1.2 * one, "error_max_m": 4. * one,
+                                       "error_mean_per_cell": one / SIDE, "error_mean_per_fluctuation": one / SIDE * 10.,
+                                       "reference_uncertainty_m": 1e-5 if reference == "shell" else None})
         for variant in (*variants, *references):
             for i, time in enumerate(numpy.linspace(0., 1., 8 * frames)):
                 falls = variant.startswith("printed")
                 centre = -0.5 * GRAVITY * time ** 2 if falls else swung(fine[0], size, time).mean(axis=0)[2]
-                known = "1.1e-3,9e-5" if variant in variants else ","
-                motion.append(f"swing,{name},{variant},{i},{time:.6g},{size / 2.},{-size / 2.},{centre:.6g},"
-                              f"{0.01 * numpy.sin(5. * time) ** 2:.6g},{'' if falls else f'{1e-4 * time:.6g}'},{0.02 * centre:.6g},"
-                              f"{1. + 0.01 * time:.6g},{known}")
-        terms.append(f"swing,{name},membrane,true,1e-3,,80000,,2e-5,")
-        terms.append(f"swing,{name},wind,false,1.1e-3,1.25e-3,100000,123456,2e-5,3e-5")
+                is_run = variant in variants
+                motion.append({"scene": "swing", "cell": name, "variant": variant, "frame": i, "time_s": time, "centre_x_m": size / 2.,
+                               "centre_y_m": -size / 2., "centre_z_m": float(centre), "kinetic_J": 0.01 * float(numpy.sin(5. * time)) ** 2,
+                               "elastic_J": None if falls else 1e-4 * time, "gravity_J": 0.02 * float(centre), "max_stretch": 1. + 0.01 * time,
+                               "seconds_coarse_step": 1.1e-3 if is_run else None, "seconds_upsampling": 9e-5 if is_run else None})
+        term = {"scene": "swing", "cell": name}
+        terms.append({**term, "term": "membrane", "present": True, "seconds_per_step": 1e-3, "bytes": 80000, "seconds_spread": 2e-5})
+        terms.append({**term, "term": "wind", "present": False, "seconds_per_step": 1.1e-3, "seconds_per_step_forced": 1.25e-3,
+                      "bytes": 100000, "bytes_forced": 123456, "seconds_spread": 2e-5, "seconds_spread_forced": 3e-5})
 
     def write(file_name, text):
         with open(os.path.join(folder, file_name), "w", encoding="utf-8") as file:
@@ -134,11 +138,10 @@ def write_drape(folder, cells=2, per_cell=3, frames=4, names=("layered",), varia
         "cells": info, "parameters": {"Gravity": "0, 0, -9.81", "Time step": "0.001 s", "solver": {"tolerance": 1e-8}},
         "provenance": {"homespun": "0.2.0", "git": "abc1234"}}))
     if references:
-        write("drape.csv", "\n".join([",".join(drape_results.ERROR_HEADER)] + errors) + "\n")
-    write("motion.csv", "\n".join([",".join(drape_results.MOTION_HEADER)] + motion) + "\n")
-    write("terms.csv", "\n".join([",".join(drape_results.TERMS_HEADER)] + terms) + "\n")
-    write("verdicts.json", json.dumps({"verdicts": [
-        {"claim": "the corotational cloth follows the shell", "verdict": "PASS", "value": 1e-4, "limit": "2e-4 m",
-         "command": "homespun drape swing.prm"},
-        {"claim": "the printed Eq. 8 holds the sheet up", "verdict": "FAIL", "value": 4.9, "limit": "0.1 m",
-         "command": "homespun drape swing.prm"}]}))
+        write_table(folder, "drape.csv", errors)
+    write_table(folder, "motion.csv", motion)
+    write_table(folder, "terms.csv", terms)
+    write_verdicts(folder, [
+        verdict("the corotational cloth follows the shell", "PASS", 1e-4, "2e-4 m", "method", command="homespun drape swing.prm"),
+        verdict("the printed Eq. 8 holds the sheet up", "FAIL", 4.9, "0.1 m", command="homespun drape swing.prm")])
+    write_run(folder, "drape")

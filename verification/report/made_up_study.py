@@ -6,8 +6,7 @@ import os
 import h5py
 import numpy
 
-import results
-import stress_results
+from made_up_run import verdict, write_run, write_table, write_verdicts
 
 SIDE = 0.01
 LAMINATE = numpy.array([[2839.91, 299.7, 0.], [299.7, 999.001, 0.], [0., 0., 349.65]])
@@ -26,41 +25,45 @@ def square_mesh(n, size):
 def strain_rows():
     """Rows of strain.csv for one cell: a load with slope 2, one that vanishes, one not reached."""
     rows = []
+    sheet = {"cell": "stripes", "cells": 2, "coarse_triangles": 8, "fine_triangles": 32}
     for load in ("periodic-22", "shear-frame"):
         for strain in (0.001, 0.01, 0.1):
             for method in ("affine", "localized", "localized-piecewise"):
                 error = 0.2 * strain
                 if method != "affine":
                     error *= 0. if load == "periodic-22" else 4. * strain
-                rows.append(f"stripes,{load},{strain},biot,{method},2,8,32,{error * SIDE},{error * SIDE},"
-                            f"{error * SIDE},{error},{error / 0.2 / strain},{1e-4 * strain * SIDE},0.001,1.5")
-    rows.append("stripes,shear-frame,0.2,green,unreached,2,8,32,,,nan,,,,,")
+                rows.append({**sheet, "load": load, "strain": strain, "reference": "biot", "method": method,
+                             "error_mean_m": error * SIDE, "error_rms_m": error * SIDE, "error_max_m": error * SIDE,
+                             "error_mean_per_cell": error, "error_mean_per_fluctuation": error / 0.2 / strain,
+                             "reference_uncertainty_m": 1e-4 * strain * SIDE, "seconds_method": 0.001, "seconds_reference": 1.5})
+    rows.append({**sheet, "load": "shear-frame", "strain": 0.2, "reference": "green", "method": "unreached"})
     return rows
 
 
 def write_results(folder):
-    """A complete result folder of one cell and a sheet of 2 x 2 cells."""
+    """A complete run of `homespun strain` of one cell and a sheet of 2 x 2 cells."""
     os.makedirs(os.path.join(folder, "stripes"))
 
     def write(name, text):
         with open(os.path.join(folder, name), "w", encoding="utf-8") as file:
             file.write(text)
-    write("strain.csv", "\n".join([",".join(results.STRAIN_HEADER)] + strain_rows()) + "\n")
-    write("uncertainty.csv", ",".join(results.UNCERTAINTY_HEADER)
-          + "\nstripes,shear-frame,biot,0.01,2,1e-6,1.2e-6,2e-7,0.012\n")
-    write("steps.csv", ",".join(results.STEPS_HEADER)
-          + "\nstripes,shear-frame,biot,0.01,0.002,0.0001,6.5,3,25,578,2\n")
+    level = {"cell": "stripes", "load": "shear-frame", "reference": "biot", "strain": 0.01}
+    write_table(folder, "strain.csv", strain_rows())
+    write_table(folder, "uncertainty.csv", [{**level, "cells": 2, "p1_minus_p2_m": 1e-6, "p1_minus_refined_p2_m": 1.2e-6,
+                                             "p2_minus_refined_p2_m": 2e-7, "uncertainty_per_strain_and_side": 0.012}])
+    write_table(folder, "steps.csv", [{**level, "seconds_coarse_solve": 0.002, "seconds_upsample": 0.0001, "seconds_fine_step": 6.5,
+                                       "coarse_iterations": 3, "fine_iterations": 25, "fine_dofs": 578, "ranks": 2, "fluctuation_m": 2e-5,
+                                       "fluctuation_bar_m": 1e-7, "homogenized_law": "biot", "seconds_homogenized_sheet": 0.4}])
     write("study.json", json.dumps({
         "command": "homespun strain stripes.prm", "cells_per_side": 2, "ranks": 2, "seconds_total": 3.5,
         "peak_memory_bytes": 1e9, "left_out": [{"what": "bending", "why": "the load is in-plane"}],
         "notes": ["a note <of> the study"], "provenance": {"homespun": "0.1.0", "git": "abc1234"}}))
-    write("verdicts.json", json.dumps({"verdicts": [
-        {"claim": "slope 2", "verdict": "PASS", "value": 2.01, "limit": "2 ± 0.1", "command": "homespun strain"},
-        {"claim": "bar", "verdict": "INCONCLUSIVE", "value": None, "limit": "", "command": ""}]}))
+    write_verdicts(folder, [verdict("slope 2", "PASS", 2.01, "2 ± 0.1", "method"),
+                            verdict("bar", "INCONCLUSIVE", derivation="the bar of the same run", command="")])
     write("stripes/homogenize.json", json.dumps({
-        "C": LAMINATE.tolist(), "C_lower": (0.98 * LAMINATE).tolist(), "C_upper": LAMINATE.tolist(),
+        "cell": "stripes", "C": LAMINATE.tolist(), "C_lower": (0.98 * LAMINATE).tolist(), "C_upper": LAMINATE.tolist(),
         "bracket": {"width": 0.02, "remark": "made up"}, "order": 2,
-        "history": [{"dofs": n, "width": 320. / n ** 2} for n in (30, 60, 90, 126)], "voigt": (2. * LAMINATE).tolist(),
+        "history": [{"dofs": n, "width": 320. / n ** 2, "seconds": 0.1} for n in (30, 60, 90, 126)], "voigt": (2. * LAMINATE).tolist(),
         "reuss": (0.5 * LAMINATE).tolist(), "area": SIDE ** 2, "areal_density": 0.2,
         "engineering": {"E1": 2750., "E2": 967.}, "dofs": 18, "iterations": [3, 3, 3], "seconds": 0.1,
         "checks": [{"name": "two forms agree", "value": 1e-12, "limit": "1e-9", "verdict": "PASS"}],
@@ -82,21 +85,23 @@ def write_results(folder):
                            "coarse_triangles": coarse_triangles, "coarse": coarse @ motion.T}.items():
             file[key] = value
         file.attrs.update(load="shear-frame", strain=0.1, reference="biot", method="localized")
+    write_run(folder)
 
 
 def write_stress(folder):
+    """A run of `homespun stress`, and its solver."""
     os.makedirs(folder, exist_ok=True)
-    rows = ["cell,contrast 1e12,finite C^H,finite C^H,1.5e-13,1e-9,PASS,10,0.2",
-            "cell,\"sliver, 1e-6\",finite C^H,nan,,1e-9,FAIL,10,0.1",
-            "start,flattened to a point,finite or refusal,refusal: triangle 3 is singular,,,PASS,10,0.01",
-            "time step,1 s,energy does not grow,not run,,1e-12,INCONCLUSIVE,0,"]
-    with open(os.path.join(folder, "stress.csv"), "w", encoding="utf-8") as file:
-        file.write("\n".join([",".join(stress_results.HEADER)] + rows) + "\n")
-    rows = [f"contrast,{value},stripes,{order},1200,{iterations},0.01,0.02,3,converged"
+    rows = [("cell", "contrast 1e12", "finite C^H", "finite C^H", 1.5e-13, "1e-9", "PASS", 10, 0.2),
+            ("cell", "sliver, 1e-6", "finite C^H", "nan", None, "1e-9", "FAIL", 10, 0.1),
+            ("start", "flattened to a point", "finite or refusal", "refusal: triangle 3 is singular", None, "names `triangle`", "PASS", 10, 0.01),
+            ("time step", "1 s", "energy does not grow", "not run", None, "1e-12", "INCONCLUSIVE", 0, 0.)]
+    names = ("group", "case", "expected", "outcome", "figure", "limit", "verdict", "repeats", "seconds")
+    write_table(folder, "stress.csv", [{**dict(zip(names, row)), "derivation": "round-off of the solve"} for row in rows])
+    names = ("parameter", "value", "cell", "order", "dofs", "iterations", "seconds", "seconds_total", "repeats", "outcome")
+    rows = [("contrast", value, "stripes", order, 1200, iterations, 0.01, 0.02, 3, "converged")
             for value, iterations in ((1., 9), (1e6, 14)) for order in (1, 2)]
-    rows += ["contrast,1e12,stripes,1,,,,,3,conjugate gradients did not reach 1e-11", "poisson,-0.99,inclusion,2,1200,21,0.01,0.02,3,converged"]
-    with open(os.path.join(folder, "solver.csv"), "w", encoding="utf-8") as file:
-        file.write("\n".join([",".join(stress_results.SOLVER_HEADER)] + rows) + "\n")
-    with open(os.path.join(folder, "verdicts.json"), "w", encoding="utf-8") as file:
-        json.dump({"verdicts": [{"claim": "every case ends finite or refused", "verdict": "FAIL", "value": 1,
-                                 "limit": "0 cases", "command": "homespun stress"}]}, file)
+    rows += [("contrast", 1e12, "stripes", 1, None, None, None, None, 3, "conjugate gradients did not reach 1e-11"),
+             ("poisson", -0.99, "inclusion", 2, 1200, 21, 0.01, 0.02, 3, "converged")]
+    write_table(folder, "solver.csv", [dict(zip(names, row)) for row in rows])
+    write_verdicts(folder, [verdict("every case ends finite or refused", "FAIL", 1, "0 cases", command="homespun stress")])
+    write_run(folder, "stress")

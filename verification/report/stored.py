@@ -2,21 +2,15 @@
 """Reads the JSON and CSV files of a result folder, number by number, with one message per fault."""
 import csv
 import json
-import math
 import os
 
 import numpy
 
-TEXT_COLUMNS = {"cell", "load", "reference", "method", "scene", "variant", "term", "present", "group", "case",
-                "expected", "outcome", "verdict", "study", "quantity", "h_unit", "part", "region", "way", "measure",
-                "relation", "parameter"}
-FREE_TEXT_COLUMNS = {"figure", "limit", "judgement", "note"}  # may be empty
-NEEDED_NUMBERS = {"strain", "h"}  # above zero; every other number may be empty or nan
-TIMES = {"time_s"}           # needed, zero or above
-SIGNED_NUMBERS = {"centre_x_m", "centre_y_m", "centre_z_m", "elastic_J", "gravity_J",
-                  "value", "observed_order", "order", "order_lowest", "richardson_limit", "share"}
-VERDICTS = ("PASS", "FAIL", "INCONCLUSIVE")
-RESUME = "Remove the line and run the study again with --resume."
+import schema
+from verdicts import KINDS
+
+VERDICTS = schema.OUTCOMES
+AGAIN = "Run the study again with --overwrite."
 
 
 class BadResults(Exception):
@@ -55,78 +49,45 @@ def read_json(path, faults):
     return value
 
 
-def read_csv(path, header, faults, missing, advice=RESUME):
-    """Rows of a CSV file as dictionaries, each with its line number under `line`.
+def read_csv(path, faults, missing, advice=AGAIN):
+    """Rows of a CSV file as dictionaries, each with its line number under `line`; columns, what they hold and which of them
+    name a row are those of the schema. Of rows with the same name the last one: a run that was killed may leave two.
 
     A last line without its newline is what an interrupted run leaves: it is left out and noted, never
     read, since a number cut short still looks like a number.
 
     @param advice what to do about a line that makes no sense
     """
+    table = schema.table(os.path.basename(path))
     try:
         with open(path, encoding="utf-8", newline="") as file:
             text = file.read()
     except (OSError, UnicodeDecodeError) as error:
         faults.append(f"{path}: cannot be read ({error}). Check the file and its permissions.")
         return []
-    lines = text.splitlines()
-    if not lines or lines[0].strip().split(",") != header:
-        found = lines[0][:80] if lines else "an empty file"
-        faults.append(f"{path}, line 1: found `{found}`, expected the header `{','.join(header)}`. "
-                      "Move the file away and run the study again.")
+    lines = text.split("\n")
+    cut = lines.pop()  # what follows the last end of line: nothing in a table that is whole
+    if not lines or lines[0].strip().split(",") != table.names:
+        found = (lines or [cut])[0][:80] or "an empty file"
+        faults.append(f"{path}, line 1: found `{found}`, expected the header `{','.join(table.names)}`. {advice}")
         return []
-    if not text.endswith("\n") and len(lines) > 1:
-        missing.append({"what": f"line {len(lines)} of {path}",
-                        "why": "it has no end of line: the run was interrupted while it was written. "
-                               "Run the study again with --resume"})
-        lines.pop()
+    if cut:
+        missing.append({"what": f"line {len(lines) + 1} of {path}",
+                        "why": "it has no end of line: the run was interrupted while it was written. Run the study again, it goes on"})
     rows = []
     for number, fields in enumerate(csv.reader(lines[1:]), start=2):
         if not fields:
             continue
-        if len(fields) != len(header):
-            faults.append(f"{path}, line {number}: found {len(fields)} fields, expected {len(header)}. {advice}")
+        if len(fields) != len(table.columns):
+            faults.append(f"{path}, line {number}: found {len(fields)} fields, expected {len(table.columns)}. {advice}")
             continue
         row = {"line": number}
-        for key, raw in zip(header, (value.strip() for value in fields)):
-            text = key in TEXT_COLUMNS or key in FREE_TEXT_COLUMNS
-            row[key] = raw if text else number_of(raw, key, path, number, faults, advice)
-        for key in TEXT_COLUMNS.intersection(header):
-            if not row[key]:
-                faults.append(f"{path}, line {number}: `{key}` is empty, expected a name. {advice}")
+        for column, field in zip(table.columns, fields):
+            row[column.name], expected = column.read(field)
+            if expected:
+                faults.append(f"{path}, line {number}: `{column.name}` is `{field}`, expected {expected}. {advice}")
         rows.append(row)
-    return rows
-
-
-def number_of(raw, key, path, line, faults, advice=RESUME):
-    """A number, nan where the field is empty; what is not a number is a fault."""
-    try:
-        value = float(raw) if raw else math.nan
-    except ValueError:
-        value = None
-    if key in NEEDED_NUMBERS:
-        wanted, sound = "a number above zero", value is not None and 0 < value
-    elif key in TIMES:
-        wanted, sound = "a number, zero or above", value is not None and 0 <= value
-    elif key in SIGNED_NUMBERS:
-        wanted, sound = "a number or nothing", value is not None
-    else:
-        wanted, sound = "a number, zero or above, or nothing", value is not None and not value < 0
-    if not sound or math.isinf(value):
-        faults.append(f"{path}, line {line}: `{key}` is `{raw}`, expected {wanted}. {advice}")
-        return math.nan
-    return value
-
-
-def latest(rows, keys, path, missing):
-    """Of rows with the same keys the last one: a resumed study may have repeated a row."""
-    unique = {}
-    for row in rows:
-        unique[tuple(row[key] for key in keys)] = row
-    if len(unique) < len(rows):
-        missing.append({"what": f"{len(rows) - len(unique)} repeated rows of {path}",
-                        "why": "of rows with the same " + ", ".join(keys) + " the last one is shown"})
-    return list(unique.values())
+    return list({tuple(row[key] for key in table.key_names): row for row in rows}.values())
 
 
 def is_stiffness(value):
@@ -139,15 +100,19 @@ def is_stiffness(value):
 
 
 def check_verdicts(value, path, faults):
-    """The list of verdicts, each with claim, verdict, value, limit and command."""
+    """The list of verdicts, each with claim, kind, verdict, value, limit, derivation and command."""
     verdicts = value.get("verdicts")
     if not isinstance(verdicts, list):
-        faults.append(f"{path}: key `verdicts` is missing or not a list. Run the study again.")
+        faults.append(f"{path}: key `verdicts` is missing or not a list. {AGAIN}")
         return []
     for i, verdict in enumerate(verdicts):
         if not isinstance(verdict, dict) or not isinstance(verdict.get("claim"), str) \
                 or verdict.get("verdict") not in VERDICTS:
-            faults.append(f"{path}: verdicts[{i}] needs a `claim` and a `verdict` out of "
-                          f"{', '.join(VERDICTS)}. Run the study again.")
+            faults.append(f"{path}: verdicts[{i}] needs a `claim` and a `verdict` out of {', '.join(VERDICTS)}. {AGAIN}")
+            return []
+        if verdict.get("kind") not in KINDS or not isinstance(verdict.get("derivation"), str):
+            faults.append(f"{path}: verdicts[{i}] has `kind` = `{verdict.get('kind')}` and "
+                          f"{'a' if 'derivation' in verdict else 'no'} `derivation`; expected a kind out of {', '.join(KINDS)} and a "
+                          f"sentence: another version of homespun wrote the file. {AGAIN}")
             return []
     return verdicts

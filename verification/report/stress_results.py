@@ -1,20 +1,15 @@
 # SPDX-License-Identifier: MIT
 """Reads stress.csv and solver.csv of `homespun stress`, and orders the cases: what failed comes first."""
 import math
-import os
 from collections import Counter
 from dataclasses import dataclass, field
 
 from figures_stress import margin_figure, margin_table, solver_figure
-from stored import VERDICTS, latest, read_csv
+from stored import read_csv
 from style import seconds, three
+from verdicts import MARKS, ORDER, WORDS, words_of
 
 AGAIN = "Run `homespun stress` again."
-HEADER = "group,case,expected,outcome,figure,limit,verdict,repeats,seconds".split(",")
-SOLVER_HEADER = "parameter,value,cell,order,dofs,iterations,seconds,seconds_total,repeats,outcome".split(",")
-MARKS = {"PASS": "✓", "FAIL": "✗", "INCONCLUSIVE": "?"}
-ORDER = {"FAIL": 0, "INCONCLUSIVE": 1, "PASS": 2}
-
 
 @dataclass
 class Stress:
@@ -25,51 +20,24 @@ class Stress:
     solver: list = field(default_factory=list)
 
 
-def read_stress(folder, name, path, faults, missing):
+def read_stress(folder, name, path, path_of, faults, missing):
     """@return Stress, whose rows are in the order of the file"""
-    rows = latest(read_csv(path, HEADER, faults, missing, AGAIN), ("group", "case"), path, missing)
-    for row in rows:
-        if row["verdict"] not in VERDICTS:
-            faults.append(f"{path}, line {row['line']}: `verdict` is `{row['verdict']}`, expected one of "
-                          f"{', '.join(VERDICTS)}. {AGAIN}")
+    rows = read_csv(path, faults, missing, AGAIN)
+    faults += [f"{path}, line {row['line']}: `verdict` is empty. {AGAIN}" for row in rows if not row["verdict"]]
     if not rows:
         missing.append({"what": f"stress cases of {name}", "why": f"{path} has no complete row"})
-    solver, solver_path = [], os.path.join(folder, "solver.csv")
-    if os.path.isfile(solver_path):
-        solver = latest(read_csv(solver_path, SOLVER_HEADER, faults, missing, AGAIN),
-                        ("parameter", "value", "cell", "order"), solver_path, missing)
-    else:
-        missing.append({"what": f"iterations of the solver of {name}", "why": f"{solver_path} does not exist"})
-    return Stress(folder, name, rows, solver)
-
-
-def number_or_text(value):
-    """A figure with three digits where it is one number; it may be words."""
-    try:
-        return three(float(value))
-    except ValueError:
-        return value
+    solver = path_of("solver.csv", f"iterations of the solver of {name}")
+    return Stress(folder, name, rows, read_csv(solver, faults, missing, AGAIN) if solver else [])
 
 
 def case_of(row):
     """One case as the template shows it."""
     repeats = row["repeats"]
     return {"group": row["group"], "case": row["case"], "expected": row["expected"], "outcome": row["outcome"],
-            "figure": number_or_text(row["figure"]) if row["figure"] else "–",
-            "limit": row["limit"] or "–", "verdict": row["verdict"],
-            "mark": MARKS[row["verdict"]], "repeats": "–" if repeats != repeats else three(int(repeats)),
+            "figure": three(row["figure"]), "limit": row["limit"] or "–", "derivation": row["derivation"],
+            "verdict": row["verdict"], "mark": MARKS[row["verdict"]],
+            "word": WORDS[row["verdict"]], "repeats": "–" if repeats != repeats else three(int(repeats)),
             "seconds": seconds(row["seconds"])}
-
-
-def words_of(count):
-    """12 of 13 cases hold, 1 fails."""
-    total = sum(count.values())
-    words = [f"{count['PASS']} of {total} cases hold"]
-    if count["FAIL"]:
-        words.append(f"{count['FAIL']} fail{'s' if count['FAIL'] == 1 else ''}")
-    if count["INCONCLUSIVE"]:
-        words.append(f"{count['INCONCLUSIVE']} cannot be judged")
-    return ", ".join(words)
 
 
 def solver_rows(rows):
@@ -109,6 +77,6 @@ def stress_contents(stress, gallery):
                        "worst": min(ORDER[row["verdict"]] for row in some)})
     groups.sort(key=lambda group: group["worst"])  # stable: the order of the file among equals
     not_held = sorted((row for row in rows if row["verdict"] != "PASS"), key=lambda row: ORDER[row["verdict"]])
-    return {"name": stress.name, "sentence": words_of(Counter(row["verdict"] for row in rows)) + ".",
+    return {"name": stress.name, "sentence": words_of(Counter(row["verdict"] for row in rows), "case") + ".",
             "pictures": draw(stress, gallery), "solver": solver_rows(stress.solver), "groups": groups, "cases": [case for group in groups for case in group["cases"]],
             "failures": [case_of(row) for row in not_held]}

@@ -81,6 +81,14 @@ def matrix_rows(matrix):
     return [[three(float(v)) if abs(v) > 1e-9 * scale else "0" for v in row] for row in matrix]
 
 
+def relative_width(lower, upper):
+    """The largest v.(upper − lower).v / v.upper.v of two 3 x 3 matrices; nan where the upper one is not positive definite."""
+    if numpy.linalg.eigvalsh(upper).min() <= 0.:
+        return math.nan
+    root = numpy.linalg.inv(numpy.linalg.cholesky(upper))
+    return float(numpy.linalg.eigvalsh(root @ (upper - lower) @ root.T).max())
+
+
 def stiffness_table(cell):
     """C^H, its bracket, Voigt, Reuss and the engineering moduli of a cell."""
     value = cell.homogenize or {}
@@ -88,11 +96,8 @@ def stiffness_table(cell):
     units = {"E1": "N/m", "E2": "N/m", "G12": "N/m"}
     lower, upper = cell.stiffness("C_lower"), cell.stiffness("C_upper")
     bracket = None
-    if lower is not None and upper is not None:
-        # The largest v.(upper − lower).v / v.upper.v.
-        if numpy.linalg.eigvalsh(upper).min() > 0.:
-            root = numpy.linalg.inv(numpy.linalg.cholesky(upper))
-            bracket = three(float(numpy.linalg.eigvalsh(root @ (upper - lower) @ root.T).max()))
+    if lower is not None and upper is not None and not math.isnan(width := relative_width(lower, upper)):
+        bracket = three(width)
     facts = [(key, f"{shown(v)} {units.get(key, '')}".strip()) for key, v in engineering.items()]
     for key, name, unit in (("areal_density", "areal density", "kg/m²"), ("area", "area of the cell", "m²"),
                             ("dofs", "degrees of freedom", ""), ("iterations", "iterations", ""),
@@ -160,6 +165,27 @@ def step_rows(rows):
                        integer(middle("coarse_iterations")), integer(middle("fine_iterations")),
                        integer(middle("fine_dofs")), integer(middle("ranks"))])
     return result
+
+
+def fluctuation_sentence(rows):
+    """Which law the homogenized sheets have, what they cost, and how far their own mesh moves the fluctuation."""
+    known = [row for row in rows if row["fluctuation_m"] > 0.]
+    if not known:
+        return ""
+    beside = {}
+    for row in known:
+        if row["homogenized_law"]:
+            beside.setdefault(row["homogenized_law"], set()).add(row["reference"])
+    laws = "; ".join(f"{law} beside {' and '.join(style.ordered_references(references))}" for law, references in sorted(beside.items()))
+    times = [row["seconds_homogenized_sheet"] for row in known if row["seconds_homogenized_sheet"] > 0.]
+    moved = [row["fluctuation_bar_m"] / row["fluctuation_m"] for row in known if not math.isnan(row["fluctuation_bar_m"])]
+    words = [f"law of that sheet: {laws}"] * bool(laws)
+    if times:
+        words.append(f"it takes {seconds(median(times))} a level (median)")
+    if moved:
+        words.append(f"from a sheet half as fine the fluctuation differs by at most {three(100. * max(moved))} %")
+    text = "; ".join(words)
+    return text[:1].upper() + text[1:] + "." if text else ""
 
 
 def integer(value):

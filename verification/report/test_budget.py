@@ -11,6 +11,7 @@ import budget_results
 import figures_budget
 import page_checks
 import plot_data
+from made_up_run import list_again, write_table
 from made_up_study import write_results
 from page_case import PageTest
 
@@ -24,19 +25,23 @@ def way(name, time, error, bar=1e-7):
 
 def write_budget(folder):
     """A budget whose two parts make up the total, run times, and a range of validity."""
-    def write(name, header, lines):
-        with open(os.path.join(folder, name), "w", encoding="utf-8") as file:
-            file.write("\n".join([",".join(header)] + lines) + "\n")
     shares = {"scale": 0.7, "nonlinearity": 0.4, "blending": -0.1, "sum": 1., "total": 1., "misfit": 0.}
-    lines = [f"stripes,shear-frame,{strain},biot,{part},{region},{abs(share) * 1e-4},{abs(share) * 2e-4},{abs(share) * 3e-4},"
-             f"{abs(share) * 1e-2},{share}" for strain in (0.01, 0.1) for region in ("all", "interior", "corner")
-             for part in (*budget_results.PARTS, "sum", "misfit", "total") for share in [shares.get(part, 0.)]]
-    write("budget.csv", budget_results.BUDGET_HEADER, lines)
-    write("runtime.csv", budget_results.RUN_TIME_HEADER,
-          [f"stripes,shear-frame,0.1,biot,{name},8,{error * 0.01},{error},1e-7,{time},5,1,1,a note" for name, time, error in WAYS])
-    write("validity.csv", budget_results.VALIDITY_HEADER,
-          ["stripes,shear-frame,biot,fluctuation,0.01,-,,,,at strain 0.001 the error is already 3 % of the fluctuation",
-           "stripes,shear-frame,biot,fluctuation,0.1,=,0.0312,0.0301,0.0324,", "stripes,shear-frame,biot,cell side,0.05,>,0.2,0.2,0.2,"])
+    level = {"cell": "stripes", "load": "shear-frame", "reference": "biot"}
+    write_table(folder, "budget.csv", [
+        {**level, "strain": strain, "part": part, "region": region, "mean_m": abs(share) * 1e-4, "rms_m": abs(share) * 2e-4,
+         "max_m": abs(share) * 3e-4, "mean_per_cell": abs(share) * 1e-2, "share": share}
+        for strain in (0.01, 0.1) for region in ("all", "interior", "corner")
+        for part in (*budget_results.PARTS, "sum", "misfit", "total") for share in [shares.get(part, 0.)]])
+    write_table(folder, "runtime.csv", [
+        {**level, "strain": 0.1, "way": name, "triangles": 8, "error_mean_m": error * 0.01, "error_mean_per_cell": error,
+         "reference_uncertainty_m": 1e-7, "seconds": time, "runs": 5, "ranks": 1, "threads": 1, "note": "a note, with a comma"}
+        for name, time, error in WAYS])
+    validity = [("fluctuation", 0.01, "-", None, None, None, "at strain 0.001 the error is already 3 % of the fluctuation"),
+                ("fluctuation", 0.1, "=", 0.0312, 0.0301, 0.0324, ""), ("cell side", 0.05, ">", 0.2, 0.2, 0.2, "")]
+    names = ("measure", "limit", "relation", "largest_strain", "largest_strain_lower", "largest_strain_upper", "note")
+    write_table(folder, "validity.csv", [{**level, **dict(zip(names, row))} for row in validity])
+    if os.path.isfile(os.path.join(folder, "run.json")):
+        list_again(folder)
 
 
 class Budget(unittest.TestCase):
@@ -110,18 +115,19 @@ class BudgetReport(PageTest):
             self.assertIn(f'id="stripes-{name}"', page)
             self.assertEqual(page_checks.nameless_numbers(os.path.join(self.output, "figures", f"stripes-{name}.csv")), [])
         for text in ("Fastest way to a given mean error, error bar of the best solution included, under shear-frame", "1 scale separation", "3.1 % (3 to 3.2)",
-                     "already 3 % of the fluctuation"):
+                     "already 3 % of the fluctuation", "a note, with a comma"):
             self.assertIn(text, page)
 
     def test_what_was_left_out_is_said(self):
-        for name in ("budget.csv", "runtime.csv", "validity.csv"):
-            os.remove(os.path.join(self.folder, name))
+        self.remove("budget.csv", "runtime.csv", "validity.csv")
         self.assertEqual(self.run_report(), (0, ""))
         for text in ("budget.csv does not exist", "Left out: error budget of stripes", "Left out: range of validity of stripes"):
             self.assertIn(text, self.page())
+        for text in ("Each part is a field at the fine vertices", "read off the strain ladder"):  # of what the run did not make
+            self.assertNotIn(text, self.page())
 
     def test_a_share_may_be_negative_an_error_not(self):
-        self.edit("budget.csv", lambda text: text.replace("0.0001,", "-0.0001,", 1))
+        self.edit_table("budget.csv", lambda rows: rows[0].update(mean_m="-0.0001"))
         self.assert_refused("budget.csv", "mean_m", "-0.0001")
 
 

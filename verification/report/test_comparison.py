@@ -1,20 +1,21 @@
 # SPDX-License-Identifier: MIT
 """Tests of the comparison of several cells and of several versions of one."""
-import json
 import os
 import unittest
 
 import results
+import runs
 import versions
 from comparison import claims_side_by_side, key_of
+from made_up_run import verdict, write_run, write_verdicts
 from made_up_study import write_results
 from page_case import PageTest
 from results import read_results
 
 
 class ComparisonTest(PageTest):
-    def write(self, *parts, changes=()):
-        """A result folder, with strings of its strain.csv replaced."""
+    def write(self, *parts, changes=(), revision="abc1234"):
+        """A result folder, with strings of its files replaced."""
         folder = os.path.join(self.place, *parts)
         write_results(folder)
         for name, old, new in changes:
@@ -24,6 +25,22 @@ class ComparisonTest(PageTest):
             with open(path, "w", encoding="utf-8") as file:
                 file.write(text.replace(old, new))
         os.remove(os.path.join(folder, "stripes", "fields-shear-frame.h5"))  # its picture takes seconds
+        write_run(folder, revision=revision)
+        return folder
+
+    def homogenized(self, *parts):
+        """A run of `homespun homogenize`, whose cell lies in the folder itself."""
+        folder = os.path.join(self.place, *parts)
+        os.makedirs(os.path.dirname(folder), exist_ok=True)
+        os.rename(os.path.join(self.write("made", *parts), "stripes"), folder)
+        write_run(folder, "homogenize")
+        return folder
+
+    def verified(self, *parts):
+        """The folder of a `verify`, whose parts are there."""
+        folder = os.path.join(self.place, *parts)
+        write_verdicts(folder, [])
+        write_run(folder, "verify")
         return folder
 
     def test_two_versions_of_a_cell_stand_side_by_side(self):
@@ -51,61 +68,41 @@ class ComparisonTest(PageTest):
         self.assertEqual(self.run_report(self.write("alone")), (0, ""))
         self.assertNotIn("comparison", self.page().split("</style>")[1].split("<script>")[0])
 
-    def strained_only(self, *parts, changes=()):
-        """A folder of strain whose cell was homogenized elsewhere."""
-        folder = self.write(*parts, changes=changes)
-        for name in ("cell.h5", "homogenize.json"):
-            os.remove(os.path.join(folder, "stripes", name))
-        return folder
-
-    def test_homogenized_and_strained_cell_are_one(self):
-        strained, homogenized = self.strained_only("strain"), os.path.join(self.write("other"), "stripes")
-        for folders in ([strained, homogenized], [homogenized, strained]):
-            found = read_results(folders)
-            self.assertEqual(list(found.cells), ["stripes"])
-            self.assertIsNotNone(found.cells["stripes"].vertices)
-            self.assertEqual([s.place for s in found.subjects], [strained])
-
     def test_effective_stiffness_of_one_study_does_not_stand_beside_the_errors_of_another(self):
         strained = self.write("strain", changes=[("stripes/homogenize.json", "2839.91", "2900.0")])
-        homogenized = os.path.join(self.write("homog"), "stripes")
+        homogenized = self.homogenized("homog", "stripes")
         for folders in ([homogenized, strained], [strained, homogenized]):
             found = read_results(folders)
             alone, studied = found.cells["stripes (stripes)"], found.cells["stripes (strain)"]
             self.assertEqual((alone.stiffness()[0, 0], studied.stiffness()[0, 0]), (2839.91, 2900.))
             self.assertEqual({row["cell"] for row in found.strain}, {"stripes (strain)"})
 
-    def test_claims_of_a_strained_cell_that_a_homogenized_one_completes_are_compared(self):
-        claim = [("verdicts.json", "slope 2", "stripes: slope 2")]
-        homogenized = os.path.join(self.write("homog"), "stripes")
-        one = self.strained_only("strainV1", changes=claim)
-        two = self.write("strainV2", changes=claim + [("verdicts.json", "PASS", "FAIL")])
-        for folders in ([homogenized, one, two], [one, homogenized, two]):
-            found = read_results(folders)
-            self.assertEqual([s.name for s in found.subjects], ["stripes (strainV1)", "stripes (strainV2)"])
-            block = claims_side_by_side(found, found.subjects)[0]
-            self.assertEqual([(row["claim"], [entry["verdict"] for entry in row["entries"]]) for row in block["rows"]],
-                             [("…: slope 2", ["PASS", "FAIL"])])
+    def test_a_cell_whose_stiffness_was_changed_does_not_take_that_of_another_run(self):
+        strained, homogenized = self.write("strain"), self.homogenized("homog", "stripes")
+        with open(os.path.join(strained, "stripes", "homogenize.json"), "a", encoding="utf-8") as file:
+            file.write(" ")
+        found = read_results([homogenized, strained])
+        self.assertIsNone(found.cells["stripes (strain)"].stiffness())
+        self.assertTrue(any("homogenize.json was changed after the run ended" in item["why"] for item in found.missing))
+
+    def test_a_homogenized_cell_is_called_by_its_name_whatever_its_folder_is(self):
+        self.assertEqual(list(read_results([self.homogenized("dots", "homogenize")]).cells), ["stripes"])
 
     def test_folder_of_verify_stands_for_its_parts(self):
         strain = self.write("verify", "strain")
-        top = os.path.dirname(strain)
-        with open(os.path.join(top, "verdicts.json"), "w", encoding="utf-8") as file:
-            json.dump({"verdicts": []}, file)
-        self.assertEqual(versions.with_parts([top]), [top, strain])
-        self.assertEqual(versions.with_parts([top, strain]), [top, strain])
+        top = self.verified("verify")
+        faults = []
+        self.assertEqual([run.folder for run in runs.with_parts([top], faults, [])], [top, strain])
+        self.assertEqual([run.folder for run in runs.with_parts([top, strain], faults, [])], [top, strain])
+        self.assertEqual(faults, [])
         self.assertEqual(len(read_results([top]).strain), len(read_results([strain]).strain))
         self.assertFalse([m for m in read_results([top]).missing if m["what"].startswith("verdicts")])
         another = self.write("again", "strain")
         self.assertEqual([s.name for s in read_results([top, another]).subjects], ["stripes (verify)", "stripes (strain)"])
 
     def test_parts_of_a_verify_need_no_claims_of_their_own(self):
-        cell = os.path.join(os.path.dirname(self.write("verify", "strain")), "cells", "layered")
-        os.makedirs(os.path.dirname(cell))
-        os.rename(os.path.join(self.write("other"), "stripes"), cell)
-        top = os.path.join(self.place, "verify")
-        with open(os.path.join(top, "verdicts.json"), "w", encoding="utf-8") as file:
-            json.dump({"verdicts": []}, file)
+        cell = self.homogenized("verify", "cells", "layered")
+        top = self.verified("verify")
 
         def lost(*folders):
             return [m["why"] for m in read_results(list(folders)).missing if m["what"].startswith("verdicts")]
@@ -113,13 +110,32 @@ class ComparisonTest(PageTest):
         self.assertEqual(lost(cell, top), [])
         self.assertEqual(lost(cell), [f"{os.path.join(cell, 'verdicts.json')} does not exist"])
 
+    def test_a_part_of_another_revision_is_no_part(self):
+        self.write("verify", "strain", revision="def5678")
+        found = read_results([self.verified("verify")])
+        self.assertEqual(found.strain, [])
+        self.assertTrue(any("it is a run of revision def5678, the verify of abc1234" in item["why"] for item in found.missing))
+
+    def test_a_page_of_several_runs_says_which_and_that_their_revisions_differ(self):
+        one, two = self.write("old", "strain"), self.write("new", "strain", revision="def5678")
+        self.assertEqual(self.run_report(one, two), (0, ""))
+        page = self.page()
+        for claim in ("old: slope 2", "new: slope 2", "old: a note"):
+            self.assertIn(claim, page)
+        for words in ("This page sets 2 runs side by side: old (strain, revision abc1234", "new (strain, revision def5678",
+                      "They were made by different revisions of homespun"):
+            self.assertIn(words, page)
+        self.assertLess(page.index("different revisions"), page.index('<h2 id="verdicts">'))
+        self.assertEqual(self.run_report(one), (0, ""))
+        self.assertNotIn("side by side", self.page().split("</style>")[1].split("<h2")[0])
+
     def test_claims_are_matched_without_the_name_of_their_cell(self):
         self.assertEqual(key_of("layered, strip-1: slope", "layered"), "CELL, strip-1: slope")
         self.assertEqual(key_of("homogenize cells/layered: gap", "layered"), "homogenize cells/CELL: gap")
         self.assertIsNone(key_of("three-layered: slope", "layered"))
         found = results.Results(studies=[results.Study("a", "a", place="a", verdicts=[
-            {"claim": f"{cell}: slope", "verdict": verdict, "value": 2., "limit": "2"} for cell, verdict in (("one", "PASS"), ("two", "FAIL"))]
-            + [{"claim": "one: alone", "verdict": "PASS"}])])
+            verdict(f"{cell}: slope", outcome, 2., "2") for cell, outcome in (("one", "PASS"), ("two", "FAIL"))]
+            + [verdict("one: alone", "PASS")])])
         subjects = [versions.Subject(name, name, "a") for name in ("one", "two")]
         (block,) = claims_side_by_side(found, subjects)
         self.assertEqual([(row["claim"], row["differs"]) for row in block["rows"]], [("…: slope", True)])

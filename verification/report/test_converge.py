@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: MIT
 """Tests of the page of `homespun converge`, on made-up series."""
-import json
 import math
 import os
 import unittest
@@ -8,6 +7,7 @@ import unittest
 import converge_results
 import figures_converge
 from figures_converge import Line
+from made_up_run import verdict, write_run, write_table, write_verdicts
 from page_case import PageTest
 from style import three
 
@@ -29,26 +29,21 @@ def rows_of(series):
     cell, study, case, quantity, p, unit, order, lowest, highest, judgement = series
     for level in range(4):
         h = 0.5 ** level
-        observed = f"{order}" if level else ""
-        yield (f"{cell},{study},{case},{quantity},{p},{level},{h},{unit},{10 * 4 ** level},,{0.3 * h ** order:.6g},"
-               f"{observed},{order},0.01,{lowest},{highest},,,{judgement},0.1")
+        yield {"cell": cell, "study": study, "case": case, "quantity": quantity, "order_p": p, "level": level, "h": h, "h_unit": unit,
+               "dofs": 10 * 4 ** level, "error": 0.3 * h ** order, "observed_order": order if level else None, "order": order,
+               "spread": 0.01, "order_lowest": lowest, "order_highest": highest, "judgement": judgement, "seconds": 0.1}
 
 
 class ConvergencePage(PageTest):
     def setUp(self):
         super().setUp()
         os.makedirs(self.folder)
-        lines = [",".join(converge_results.HEADER)] + [row for one in SERIES for row in rows_of(one)]
         # A series without an order is read and not judged.
-        lines.append("stripes,strain,periodic-22,localized: mean error [cell sides],1,0,0.1,strain,5,,1e-16,,,,,,,,,0.1")
-        self.write("converge.csv", "\n".join(lines) + "\n")
-        self.write("verdicts.json", json.dumps({"verdicts": [
-            {"claim": "stripes, mesh: order 2p", "verdict": "PASS", "value": 2., "limit": "2 +- 0.2",
-             "command": "homespun converge"}]}))
-
-    def write(self, name, text):
-        with open(os.path.join(self.folder, name), "w", encoding="utf-8") as file:
-            file.write(text)
+        alone = {"cell": "stripes", "study": "strain", "case": "periodic-22", "quantity": "localized: mean error [cell sides]", "order_p": 1,
+                 "level": 0, "h": 0.1, "h_unit": "strain", "dofs": 5, "error": 1e-16, "seconds": 0.1}
+        write_table(self.folder, "converge.csv", [row for one in SERIES for row in rows_of(one)] + [alone])
+        write_verdicts(self.folder, [verdict("stripes, mesh: order 2p", "PASS", 2., "2 +- 0.2", command="homespun converge")])
+        write_run(self.folder, "converge")
 
     def whole_page(self):
         status, errors = self.run_report()
@@ -60,7 +55,7 @@ class ConvergencePage(PageTest):
         for study in converge_results.STUDIES:
             self.assertIn(f'id="converge-{study}"', page)
             self.assertTrue(os.path.isfile(os.path.join(self.output, "figures", f"converge-{study}.pdf")))
-        self.assertIn("5 of 7 observed orders lie within their limits, 1 outside, 1 have not settled", page)
+        self.assertIn("5 of 7 observed orders lie within their limits, 1 outside, 1 is open.", page)
         self.assertIn("3.00 ± 0.10", page)     # a two-sided limit
         self.assertIn("0.850 to 2.15", page)  # a band
         self.assertIn("homespun: convergence", page)
@@ -84,17 +79,17 @@ class ConvergencePage(PageTest):
         self.assertAlmostEqual(math.log(y1 / y0) / math.log(x1 / x0), -2.)
 
     def test_a_limit_without_an_error_bar_is_not_printed(self):
-        self.edit("converge.csv", lambda text: text.replace(",1.8,2.2,,,PASS", ",1.8,2.2,1234.5,,PASS"))
+        self.edit_table("converge.csv", lambda rows: [row.update(richardson_limit="1234.5") for row in rows[:4]] and rows)
         self.assertNotIn(three(1234.5), self.whole_page())
-        self.edit("converge.csv", lambda text: text.replace(",1.8,2.2,1234.5,,PASS", ",1.8,2.2,1234.5,7.5,PASS"))
+        self.edit_table("converge.csv", lambda rows: [row.update(gci="7.5") for row in rows[:4]] and rows)
         self.assertIn(f"{three(1234.5)} ± 7.50", self.whole_page())
 
     def test_an_unknown_judgement_or_study_and_a_size_of_zero_are_refused(self):
-        for before, after, says in (("FAIL", "BAD", "`judgement` is `BAD`"), (",time,", ",tome,", "`study` is `tome`"),
-                                    (",0,1.0,strain", ",0,0,strain", "`h` is `0`")):
-            self.edit("converge.csv", lambda text, a=before, b=after: text.replace(a, b, 1))
-            self.assert_refused("converge.csv", says, "homespun converge")
-            self.edit("converge.csv", lambda text, a=before, b=after: text.replace(b, a, 1))
+        for key, value, says in (("judgement", "BAD", "`judgement` is `BAD`"), ("study", "tome", "`study` is `tome`"), ("h", "0", "`h` is `0`")):
+            kept = []
+            self.edit_table("converge.csv", lambda rows, key=key, value=value, kept=kept: kept.append(rows[5][key]) or rows[5].update({key: value}))
+            self.assert_refused("converge.csv, line 7", says, "homespun converge")
+            self.edit_table("converge.csv", lambda rows, key=key, kept=kept: rows[5].update({key: kept[0]}))
 
     def test_levels_may_stand_in_any_order(self):
         page = self.whole_page()

@@ -13,6 +13,7 @@ from PIL import Image
 import figures_cloth
 import vtu
 from made_up_drape import REFERENCES, VARIANTS, write_drape, write_vtu
+from made_up_run import list_again
 from made_up_study import write_results, write_stress
 from page_case import PageTest
 
@@ -53,7 +54,7 @@ class DrapePageTest(PageTest):
     def test_scene_without_references_frames_and_terms_is_reported_and_what_is_absent_is_named(self):
         write_drape(self.folder, variants=VARIANTS[:1], references=())
         shutil.rmtree(os.path.join(self.folder, "layered-corotational"))
-        os.remove(os.path.join(self.folder, "terms.csv"))
+        self.remove("terms.csv")
         self.assertEqual(self.run_report(), (0, ""))
         page = self.page()
         for text in ("No reference was asked for", "Left out: pictures of layered", "Left out: error of layered",
@@ -63,8 +64,7 @@ class DrapePageTest(PageTest):
 
     def test_scene_of_which_only_the_description_is_left_is_reported(self):
         write_drape(self.folder, variants=VARIANTS[:1], references=REFERENCES[:1])
-        for name in ("drape.csv", "motion.csv", "terms.csv", "verdicts.json"):
-            os.remove(os.path.join(self.folder, name))
+        self.remove("drape.csv", "motion.csv", "terms.csv", "verdicts.json")
         self.edit("drape.json", lambda text: json.dumps({"scene": "swing", "cells": [{"cell": "<layered>"}]}))
         self.assertEqual(self.run_report(), (0, ""))
         page = self.page()
@@ -78,6 +78,7 @@ class DrapePageTest(PageTest):
         for name in os.listdir(path):
             frame = vtu.read_vtu(os.path.join(path, name))
             write_vtu(os.path.join(path, name), frame.points, frame.triangles)
+        list_again(self.folder)
         self.assertEqual(self.run_report(), (0, ""))
         self.assertIn('id="swing-layered-cloth"', self.page())
 
@@ -106,6 +107,7 @@ class DrapePageTest(PageTest):
         write_drape(self.folder, variants=VARIANTS[:1], references=REFERENCES[:1])
         path = os.path.join(self.folder, "layered-shell", "fine", "0003.vtu")
         os.truncate(path, os.path.getsize(path) - 600)
+        list_again(self.folder)
         self.assert_refused("layered-shell/fine/0003.vtu", "is truncated")
 
     def test_frame_with_a_vertex_that_is_not_a_number_is_refused(self):
@@ -115,6 +117,7 @@ class DrapePageTest(PageTest):
         points = frame.points.copy()
         points[5, 1] = numpy.nan
         write_vtu(path, points, frame.triangles)
+        list_again(self.folder)
         self.assert_refused("0003.vtu: vertex 5 is at", "expected finite numbers")
 
     def test_files_outside_of_the_folder_are_not_opened(self):
@@ -131,8 +134,8 @@ class DrapePageTest(PageTest):
     def test_all_faults_of_a_scene_are_named_at_once(self):
         write_drape(self.folder, variants=VARIANTS[:1], references=REFERENCES[:1])
         self.edit("drape.csv", lambda text: text.replace("localized,0,", "localized,", 1))
-        self.edit("motion.csv", lambda text: text.replace("layered,shell,1,", "layered,shell,one,", 1))
-        self.edit("terms.csv", lambda text: text.replace("wind,false", "wind,perhaps"))
+        self.edit_table("motion.csv", lambda rows: rows[1].update(frame="one"))
+        self.edit_table("terms.csv", lambda rows: rows[1].update(present="perhaps"))
         self.edit("layered-shell/fine.pvd", lambda text: text[:100])
         self.assert_refused("drape.csv, line 3: found 12 fields, expected 13", "`frame` is `one`",
                             "`present` is `perhaps`", "fine.pvd: not a readable .pvd")
@@ -149,10 +152,19 @@ class DrapePageTest(PageTest):
                 self.edit("drape.json", lambda text, old=old, new=new: text.replace(old, new, 1))
                 self.assert_refused("drape.json", message, "homespun drape")
 
-    def test_tables_without_their_description_are_refused(self):
+    def test_tables_without_their_description_are_left_out(self):
         write_drape(self.folder, variants=VARIANTS[:1], references=())
-        os.remove(os.path.join(self.folder, "drape.json"))
-        self.assert_refused("drape.json: does not exist")
+        self.remove("drape.json")
+        self.assertEqual(self.run_report(), (0, ""))
+        self.assertIn("drape.json does not exist", self.page())
+
+    def test_a_frame_that_was_changed_is_left_out_and_named(self):
+        write_drape(self.folder, variants=VARIANTS[:1], references=())
+        path = os.path.join(self.folder, "layered-corotational", "fine", "0003.vtu")
+        os.truncate(path, os.path.getsize(path) - 600)
+        self.assertEqual(self.run_report(), (0, ""))
+        self.assertIn("fine/0003.vtu was changed after the run ended", self.page())
+        self.assertIn('id="swing-layered-cloth"', self.page())
 
 
 if __name__ == "__main__":

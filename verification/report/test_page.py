@@ -2,7 +2,6 @@
 """Tests of what every page must be: whole, small, alone, with its numbers; and of what stands in its plots and views."""
 import csv
 import glob
-import json
 import math
 import os
 import re
@@ -220,7 +219,7 @@ class DecimationTest(unittest.TestCase):
 class WithoutLibraryTest(PageTest):
     def test_page_without_the_plotting_library_says_so_once_and_keeps_its_pictures(self):
         write_results(self.folder)
-        os.remove(os.path.join(self.folder, "stripes", "fields-shear-frame.h5"))
+        self.remove("stripes/fields-shear-frame.h5")
         with mock.patch.object(scripts, "CHART", os.path.join(self.place, "nowhere.js")):
             self.assertEqual(self.run_report(), (0, ""))
         page = self.page()

@@ -15,6 +15,7 @@ from cell_results import Cell, grouped, share_groups
 from contents import HEADINGS
 from figures_sheet import coarse_positions
 from figures_stiffness import bracket_history, directional_modulus, observed_slope
+from made_up_run import list_again, verdict, write_run, write_verdicts
 from made_up_study import LAMINATE, square_mesh, strain_rows, write_results
 from page_case import PageTest
 from tables import phase_rows
@@ -40,13 +41,14 @@ class ReportTest(PageTest):
         self.assertIn("a note &lt;of&gt; the study", page)
         self.assertIn("stripes, shear-frame, reference green at 20 %", page)
         self.assertIn("periodic-22: the error of localized is zero to round-off", page)
+        self.assertIn("Law of that sheet: biot beside biot; it takes 400 ms a level (median); from a sheet half as fine the fluctuation differs by "
+                      "at most 0.500 %.", page)
         self.assertEqual(sorted(os.listdir(self.output)), ["figures", "report.html"])
 
     def test_missing_pieces_are_named_and_the_report_is_written(self):
-        for name in ("study.json", "verdicts.json", "uncertainty.csv", "steps.csv", "stripes/cell.h5",
-                     "stripes/homogenize.json", "stripes/cell.json", "stripes/fields-shear-frame.h5"):
-            os.remove(os.path.join(self.folder, name))
-        self.edit("strain.csv", lambda text: "\n".join(text.splitlines()[:2]) + "\n")  # a single row
+        self.remove("study.json", "verdicts.json", "uncertainty.csv", "steps.csv", "stripes/cell.h5",
+                    "stripes/homogenize.json", "stripes/fields-shear-frame.h5")
+        self.edit_table("strain.csv", lambda rows: rows[:1])
         self.assertEqual(self.run_report(), (0, ""))
         page = self.page()
         for name in ("study.json", "verdicts.json", "uncertainty.csv", "steps.csv"):
@@ -54,32 +56,59 @@ class ReportTest(PageTest):
         for what in ("Left out: verdicts", "Left out: picture of stripes", "Left out: sheets of stripes",
                      "Left out: effective stiffness of stripes", "Left out: provenance"):
             self.assertIn(what, page)
+        for words in ("It was solved with P1, with P2 and with refined P2", "Notes of the run"):  # of what the run did not make
+            self.assertNotIn(words, page)
 
     def test_the_claims_of_verify_stand_for_those_of_its_parts(self):
         all_parts = os.path.join(self.place, "verify")
         os.makedirs(all_parts)
-        claim = {"claim": "strain: runs to its end; no equilibrium", "verdict": "FAIL", "value": None, "limit": "every solver converges",
-                 "command": "homespun verify stripes.prm"}
-        with open(os.path.join(all_parts, "verdicts.json"), "w", encoding="utf-8") as file:
-            json.dump({"verdicts": [claim]}, file)
+        write_verdicts(all_parts, [verdict("strain: runs to its end; no equilibrium", "FAIL", None, "every solver converges",
+                                           command="homespun verify stripes.prm")])
+        write_run(all_parts, "verify")
         self.assertEqual(self.run_report(all_parts), (0, ""))
         self.assertIn("runs to its end; no equilibrium", self.page())  # without any part
         part = shutil.move(self.folder, os.path.join(all_parts, "strain"))
         self.assertEqual(self.run_report(all_parts, part), (0, ""))
         page = self.page()
-        self.assertIn("0 of 1 claims hold, 1 fails.", page)
+        self.assertIn("0 of 1 claim hold, 1 fails: program: 0 of 1 claim hold, 1 fails.", page)
         self.assertIn("runs to its end; no equilibrium", page)
+        self.assertIn("One run of `homespun verify` (revision abc1234", page)
+
+    def test_claims_stand_by_what_they_speak_of_with_where_their_limits_come_from(self):
+        claims = [verdict("a holds", "PASS", 1., "<= 2", "method"), verdict("b is open", "INCONCLUSIVE", 1., "<= 2", "method"),
+                  verdict("c fails", "FAIL", 3., "<= 2", "method", "twice the bar <of> the reference"), verdict("d holds", "PASS", 0., "<= 1")]
+        self.edit("verdicts.json", lambda _: json.dumps({"verdicts": claims}))
+        self.assertEqual(self.run_report(), (0, ""))
+        page = self.page()
+        places = [page.index(words) for words in ("The program computes what it says (program)", "d holds",
+                                                  "Up-sampling is good enough for this cell, load and strain (method)", "c fails",
+                                                  "twice the bar &lt;of&gt; the reference", "b is open", "a holds")]
+        self.assertEqual(places, sorted(places))
+        self.assertIn("2 of 4 claims hold, 1 fails, 1 is open: program: 1 of 1 claim holds; method: 1 of 3 claims holds, 1 fails, 1 is open.", page)
+        self.assertIn("? open</span>", page)
+        self.assertNotIn("? INCONCLUSIVE", page)
+
+    def test_claims_of_another_version_are_refused(self):
+        for key in ("kind", "derivation"):
+            claim = verdict("a", "PASS")
+            del claim[key]
+            self.edit("verdicts.json", lambda _, claim=claim: json.dumps({"verdicts": [claim]}))
+            self.assert_refused("verdicts.json: verdicts[0] has", "another version of homespun wrote the file")
 
     def test_interrupted_last_line_is_left_out_and_said(self):
         self.edit("strain.csv", lambda text: text + "stripes,shear-frame,0.2,biot,localized,2,8,32,0.00")
         found = results.read_results([self.folder])
         self.assertEqual(len(found.strain), len(strain_rows()))
-        self.assertTrue(any("--resume" in item["why"] for item in found.missing))
+        self.assertTrue(any("it has no end of line" in item["why"] for item in found.missing))
+
+    def test_of_rows_with_the_same_keys_the_last_one_counts(self):
+        self.edit_table("strain.csv", lambda rows: rows + [{**rows[0], "error_mean_m": "0.5"}])
+        found = results.read_results([self.folder]).strain
+        self.assertEqual((len(found), found[0]["error_mean_m"]), (len(strain_rows()), 0.5))
 
     def test_number_that_is_none_is_refused_with_its_line(self):
-        self.edit("strain.csv", lambda text: text.replace("shear-frame,0.01", "shear-frame,one", 1))
-        line = 2 + next(i for i, row in enumerate(strain_rows()) if "shear-frame,0.01" in row)
-        self.assert_refused(f"strain.csv, line {line}", "`strain` is `one`", "--resume")
+        self.edit_table("strain.csv", lambda rows: rows[4].update(strain="one"))
+        self.assert_refused("strain.csv, line 6", "`strain` is `one`, expected a number above zero", "--overwrite")
 
     def test_row_with_a_field_too_few_is_refused_with_its_line(self):
         self.edit("strain.csv", lambda text: text.replace(",localized,", ",", 1))
@@ -98,6 +127,7 @@ class ReportTest(PageTest):
     def test_truncated_cell_file_is_refused(self):
         path = os.path.join(self.folder, "stripes", "cell.h5")
         os.truncate(path, os.path.getsize(path) // 2)
+        list_again(self.folder)
         self.assert_refused("cell.h5: not a readable HDF5 file")
 
     def test_history_that_is_none_is_refused(self):
@@ -105,10 +135,11 @@ class ReportTest(PageTest):
         self.assert_refused("homogenize.json: key `history`")
 
     def test_sheet_with_wrong_shape_is_refused_and_nothing_is_written(self):
-        self.edit("strain.csv", lambda text: "\n".join(text.splitlines()[:2]) + "\n")
+        self.edit_table("strain.csv", lambda rows: rows[:1])
         with h5py.File(os.path.join(self.folder, "stripes", "fields-shear-frame.h5"), "a") as file:
             del file["upsampled"]
             file["upsampled"] = numpy.zeros((3, 2))
+        list_again(self.folder)
         self.assert_refused("fields-shear-frame.h5: `/upsampled` has shape (3, 2), expected (25, 2)")
 
     def test_link_into_another_file_is_not_followed(self):
@@ -119,13 +150,16 @@ class ReportTest(PageTest):
         with h5py.File(path, "a") as file:
             del file["upsampled"]
             file["upsampled"] = h5py.ExternalLink(other, "/upsampled")
+        list_again(self.folder)
         self.assert_refused("`/upsampled` is a link")
 
     def test_folder_without_results_is_refused(self):
         shutil.rmtree(self.folder)
         self.assert_refused("no such folder")
         os.makedirs(self.folder)
-        self.assert_refused("holds no results")
+        self.assert_refused("is not a folder of results of this version: it holds no run.json", "run the study again")
+        write_run(self.folder, "check")
+        self.assert_refused("holds no results that a page shows", "`homespun check`")
 
 
 class NumbersTest(unittest.TestCase):
