@@ -5,7 +5,7 @@
 #pragma once
 
 #include "meshes/errors.h"
-#include "verification/convergence.h"
+#include "verification/record/convergence.h"
 #include "verification/result_files.h"
 
 #include <functional>
