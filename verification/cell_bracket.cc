@@ -45,7 +45,8 @@ CellBracket bracket_of(const homogenization::UnitCell &cell, const BracketOption
   const int n_dofs = options.order == 2 ? 4 * mesh.n_triangles() : 3 * mesh.n_triangles();
   if (n_dofs > static_cast<int>(options.max_dofs))
   {
-    result.remark = "none: it would take " + std::to_string(n_dofs) +
+    result.is_left_out = true;
+    result.remark      = "none: it would take " + std::to_string(n_dofs) +
                     " DoFs on this mesh, more than " + std::to_string(options.max_dofs) +
                     ": raise --max-dofs, or refine less";
     return result;
@@ -101,30 +102,38 @@ std::vector<Verdict> checks_of(const CellBracket &bracket, const BracketOptions 
                                const Eigen::Matrix3d &stiffness, const double round_off)
 {
   std::vector<Verdict> checks;
-  const auto at_most = [&](const std::string &claim, const double value, const double limit)
+  const auto at_most = [&](const std::string &claim, const double value, const double limit,
+                           const std::string &derivation, const Kind kind)
   {
     std::ostringstream text;
     text << "<= " << limit;
-    checks.push_back({claim, value <= limit ? Outcome::pass : Outcome::fail, value, text.str()});
+    checks.push_back(
+      {claim, value <= limit ? Outcome::pass : Outcome::fail, value, text.str(), derivation, kind});
   };
+  const std::string asked_for = "--tolerance asks for it";
   if (!bracket.bracket)
   {
     const double none = std::numeric_limits<double>::quiet_NaN();
     if (options.tolerance)
       checks.push_back({"Bracket of C^H as narrow as --tolerance (relative width)", Outcome::fail,
-                        none, bracket.remark});
-    else
-      checks.push_back({"C^H has a bracket", Outcome::inconclusive, none, bracket.remark});
+                        none, bracket.remark, asked_for, Kind::input});
+    else if (!bracket.is_left_out)
+      checks.push_back({"C^H has a bracket", Outcome::inconclusive, none, bracket.remark,
+                        "a cell whose stresses have a single-valued stress function", Kind::input});
     return checks;
   }
   const Bracket &found = *bracket.bracket;
   at_most("C_lower <= C_upper (relative violation of the worst energy)",
-          order_violation(found.lower, found.upper), 0.);
+          order_violation(found.lower, found.upper), 0.,
+          "theory; both sides carry their round-off on the outside", Kind::program);
   // Images may lie 1e-7 of the cell apart, which the bracket's mesh mends and the other one does not. That C lies
   // above C_lower follows from both.
   at_most(
     "Direct and multigrid solvers agree on C^H of the given mesh (largest relative difference of an energy)",
-    energy_difference(*bracket.on_given_mesh, stiffness), 1e-6);
+    energy_difference(*bracket.on_given_mesh, stiffness), 1e-6,
+    "one discrete problem; images that lie 1e-7 of the cell apart are taken, and on four sides move its area by 4e-7, the "
+    "energies by up to twice that",
+    Kind::program);
   if (checks.back().outcome == Outcome::fail && checks.back().value <= round_off)
   {
     std::ostringstream text;
@@ -134,7 +143,7 @@ std::vector<Verdict> checks_of(const CellBracket &bracket, const BracketOptions 
   }
   if (options.tolerance)
     at_most("Bracket of C^H as narrow as --tolerance (relative width)", found.width,
-            *options.tolerance);
+            *options.tolerance, asked_for, Kind::input);
   return checks;
 }
 

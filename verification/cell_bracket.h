@@ -5,7 +5,7 @@
 
 #include "homogenization/bracket.h"
 #include "homogenization/homogenize.h"
-#include "verification/verdict.h"
+#include "verification/record/verdict.h"
 
 #include <functional>
 #include <optional>
@@ -35,6 +35,7 @@ struct CellBracket
   std::optional<homogenization::Bracket> bracket; ///< on the last mesh
   std::optional<Eigen::Matrix3d> on_given_mesh;   ///< its energies on the first one [N/m]
   std::string remark;                             ///< why there is none, or how adaptivity ended
+  bool is_left_out = false;                       ///< the settings allow none on this mesh
   std::vector<BracketStep> history;
 };
 
@@ -43,7 +44,8 @@ struct CellBracket
 CellBracket bracket_of(const homogenization::UnitCell &cell, const BracketOptions &options,
                        const std::function<void(const std::string &)> &report);
 
-/// C_lower <= C_upper, C inside, agreement of both solvers on the given mesh, and the width that was asked for.
+/// C_lower <= C_upper, C inside, agreement of both solvers on the given mesh, and the width that was asked for;
+/// none where a bracket was neither made nor asked for.
 /// @param stiffness C^H of the cell problems on the given mesh [N/m]
 /// @param round_off algebraic_limit() of the cell: solvers that differ by more than 1e-6 and less than this are INCONCLUSIVE
 std::vector<Verdict> checks_of(const CellBracket &bracket, const BracketOptions &options,

@@ -8,6 +8,7 @@
 #include "verification/data_folder.h"
 #include "verification/on_root.h"
 #include "verification/progress.h"
+#include "verification/study_arguments.h"
 
 #include <deal.II/base/mpi.h>
 
@@ -38,13 +39,13 @@ int homogenize(HomogenizeArguments arguments)
   const UnitCell cell     = homogenization::read_unit_cell(arguments.file);
   CellStudyOptions &study = arguments.study;
   if (study.output.empty())
-    study.output = "out/" + cell.name;
+    study.output = default_folder("homogenize", {cell.name}, false);
   const AssessedCell assessed = run_cell_study(cell, study, MPI_COMM_WORLD);
   if (is_root(MPI_COMM_WORLD) && !study.quiet)
     std::cout << summary(cell, assessed) << "Written to " << study.output
               << ": homogenize.json, cell.h5, cell.json, characteristic-displacements.vtu"
               << (study.pieces ? ", characteristic-displacements-refined.pvtu\n" : "\n");
-  return any_failed(assessed.checks) ? 1 : 0;
+  return status_of(assessed.checks);
 }
 
 /// The first sentence of the comment at the head of a cell file: its story in one line.
@@ -91,16 +92,17 @@ int list_cells(const std::string &pictures, Afterwards &afterwards)
 /// Makes a variant and says of it what `homespun check` says.
 int make(const CellVariant &variant)
 {
-  std::string file;
+  int status = exit_status::good;
   on_root(MPI_COMM_WORLD,
           [&]()
           {
-            file = make_cell(variant);
+            const std::string file = make_cell(variant);
             std::cout << "Made " << file << ", with its .geo and .msh\n";
             // One rank alone: the others do not know the file's name.
-            tell_findings(file);
+            if (homogenization::has_errors(tell_findings(file).findings))
+              status = exit_status::bad_input;
           });
-  return 0;
+  return status;
 }
 } // namespace
 
@@ -153,12 +155,7 @@ void add_homogenize_command(CLI::App &app, Action &action)
       "--pieces", arguments->study.pieces,
       "Also characteristic-displacements-refined.pvtu: on the mesh of the solve, a piece from each rank")
     ->excludes(tolerance);
-  command->add_flag(
-    "--resume", arguments->study.resume,
-    "Take up the loads that a run of the same cell which was killed had solved; error bar and bracket begin anew");
-  command->add_option("--output", arguments->study.output,
-                      "Folder of the results (default out/NAME)");
-  command->add_flag("--quiet", arguments->study.quiet, "Print nothing but faults");
+  add_folder_options(*command, arguments->study, "out/NAME/homogenize");
   command->footer("Example:\n  homespun homogenize meshes/cells/layered.prm\n"
                   "  homespun homogenize meshes/cells/three-stiffness.prm --tolerance 1e-3\n"
                   "  mpirun -n 2 homespun homogenize mycell.prm --refine 2 --pieces");

@@ -4,7 +4,7 @@
 
 #include "homogenization/homogenize.h"
 #include "verification/cell_bracket.h"
-#include "verification/verdict.h"
+#include "verification/record/verdict.h"
 
 #include <mpi.h>
 

@@ -102,7 +102,9 @@ Verdict nested(const std::vector<RefinementLadder> &ladders, const RoundOff &rou
     "C^H falls from level to level in the Loewner order: P1 and P2 (largest relative rise of an "
     "energy)",
     violation.limit > 0. ? outcome_of(violation) : Outcome::inconclusive, violation.value,
-    "<= " + number(violation.limit)};
+    "<= " + number(violation.limit),
+    "the least energy of a larger space is not larger; the limit is what round-off and solvers leave at this size and "
+    "contrast"};
 }
 
 Verdict is_laminate(const UnitCell &cell, const std::vector<RefinementLadder> &ladders,
@@ -118,7 +120,9 @@ Verdict is_laminate(const UnitCell &cell, const std::vector<RefinementLadder> &l
   return {
     "C^H is the closed form of the laminate on every level and for both orders; the cell has no "
     "corners (largest relative difference of an energy)",
-    outcome_of(distance), distance.value, "<= " + number(distance.limit)};
+    outcome_of(distance), distance.value, "<= " + number(distance.limit),
+    "P1 holds the fields of a laminate; the limit is round-off at this size and contrast, and the digits of the "
+    "coordinates"};
 }
 
 Verdict changes_with_the_mesh(const std::vector<RefinementLadder> &ladders,
@@ -142,7 +146,8 @@ Verdict changes_with_the_mesh(const std::vector<RefinementLadder> &ladders,
   return {
     "C^H changes with mesh and order as it must at corners (largest relative difference of an "
     "energy)",
-    outcome, change, "> " + number(noise)};
+    outcome, change, "> " + number(noise),
+    "no polynomial holds the fields at a corner; the limit is what round-off and solvers leave"};
 }
 
 /// Whether the limits of both orders are one value, by their error bars.
@@ -151,7 +156,8 @@ Verdict limits_agree(const Series &p1, const Series &p2)
   Verdict verdict = {
     "Richardson limits of P1 and P2 agree (their distance over the sum of both error bars)",
     Outcome::inconclusive, std::numeric_limits<double>::quiet_NaN(),
-    "<= 1 where both orders have settled"};
+    "<= 1 where both orders have settled",
+    "one C^H has one limit; both bars are the grid convergence indices of this run, safety factor 1.25"};
   if (p1.has_error_bar() && p2.has_error_bar())
   {
     verdict.value = std::abs(p1.richardson->limit - p2.richardson->limit) /
@@ -217,7 +223,11 @@ void judge_refinements(const UnitCell &cell, const std::vector<RefinementLadder>
     trace.judgement = judge_values(trace.sizes(), trace.values(), limit, floor);
     trace.extrapolate(floor, 2. * ladder.order, *trace.judgement);
     traces.push_back(trace);
-    result.add(trace, exponents + (ladder.order == 1 ? ", with P1 at most 2; P1" : "; P2"));
+    result.add(
+      trace,
+      {exponents + (ladder.order == 1 ? ", with P1 at most 2; P1" : "; P2"),
+       "exponents of the corners, from angles and stiffnesses; +- 0.1, the change from level to level that counts as "
+       "settled"});
     // Entries are no energies each: reported, and with a limit only where they follow a power of h as the trace does.
     for (const auto &[name, function] : entries)
     {

@@ -9,6 +9,7 @@
 #include <deal.II/base/utilities.h>
 
 #include <filesystem>
+#include <memory>
 
 namespace homespun::verification
 {
@@ -18,6 +19,21 @@ namespace
 constexpr unsigned long largest_error_bar = 4000000;
 
 constexpr const char *name_of_pieces = "characteristic-displacements-refined";
+
+nlohmann::ordered_json inputs_of(const homogenization::UnitCell &cell,
+                                 const CellStudyOptions &options)
+{
+  nlohmann::ordered_json inputs = {{"cell", cell.name},
+                                   {"contents", fingerprint(cell)},
+                                   {"order", options.solve.order},
+                                   {"refine", options.solve.refine},
+                                   {"bars", options.bars},
+                                   {"pieces", options.pieces},
+                                   {"max_dofs", options.bracket.max_dofs}};
+  if (options.bracket.tolerance)
+    inputs["tolerance"] = *options.bracket.tolerance;
+  return inputs;
+}
 } // namespace
 
 AssessedCell run_cell_study(const homogenization::UnitCell &cell, const CellStudyOptions &options,
@@ -27,18 +43,14 @@ AssessedCell run_cell_study(const homogenization::UnitCell &cell, const CellStud
   solve.checkpoint                            = options.output + "/.homespun-loads";
   if (options.pieces)
     solve.pieces = options.output + "/" + name_of_pieces;
+  std::unique_ptr<RunFolder> folder; // on the first rank
   on_root(communicator,
           [&]()
           {
-            if (!options.resume)
-              std::filesystem::remove_all(solve.checkpoint);
+            folder = open_run_folder(options.output, {"homogenize", inputs_of(cell, options)},
+                                     options.earlier, options.quiet);
             homogenization::remove_pieces(options.output + "/" + name_of_pieces);
             std::filesystem::create_directories(solve.checkpoint);
-            check_inputs_file(solve.checkpoint,
-                              {{"cell", fingerprint(cell)},
-                               {"order", options.solve.order},
-                               {"refine", options.solve.refine}},
-                              options.resume, "inputs.json", "cell, order or refinement");
           });
   AssessedCell assessed = [&]()
   {
@@ -77,6 +89,7 @@ AssessedCell run_cell_study(const homogenization::UnitCell &cell, const CellStud
                                dealii::Utilities::MPI::n_mpi_processes(communicator),
                                options.output);
             std::filesystem::remove_all(solve.checkpoint);
+            folder->finish();
           });
   return assessed;
 }

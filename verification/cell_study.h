@@ -3,6 +3,7 @@
 #pragma once
 
 #include "verification/cell_output.h"
+#include "verification/record/run_folder.h"
 
 #include <mpi.h>
 
@@ -18,12 +19,12 @@ struct CellStudyOptions
   bool bars   = true;  ///< false: the cell problems alone, with neither bracket nor a finer solve
   bool pieces = false; ///< characteristic-displacements-refined.pvtu, a piece from each rank
   std::string output;
-  bool resume = false; ///< take up the loads that a run which was killed had solved
-  bool quiet  = false;
+  Earlier earlier = Earlier::keep_work; ///< the loads that the same run had solved are taken up
+  bool quiet      = false;
 };
 
 /// Homogenizes a cell on all ranks, brackets C^H on the first one (direct solvers: the answer knows nothing of
-/// the number of ranks), and writes what write_cell_results() writes.
+/// the number of ranks), and writes what write_cell_results() writes. The folder is one run.
 /// @return checks on every rank; of other ranks than the first without those of the bracket, but with a failed
 ///   one where the first rank has one
 /// @throws BadInput, NotConverged

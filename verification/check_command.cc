@@ -172,7 +172,7 @@ int check(const CheckArguments &arguments, Afterwards &afterwards)
   }
   if (!arguments.output.empty())
     write_pictures(readings, arguments.output, afterwards);
-  return any_error ? 2 : 0;
+  return any_error ? exit_status::bad_input : exit_status::good;
 }
 } // namespace
 

@@ -7,7 +7,6 @@
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
 
-#include <filesystem>
 #include <memory>
 
 namespace homespun::verification
@@ -29,9 +28,7 @@ int run_converge(ConvergeArguments arguments, Afterwards &afterwards)
     faults.add("--studies: found nothing; expected at least one");
   faults.throw_if_any();
   if (study.output.empty())
-    study.output = "out/" + (study.cell_files.size() == 1
-                               ? std::filesystem::path(study.cell_files[0]).stem().string()
-                               : std::string("converge"));
+    study.output = default_folder("converge", stems(study.cell_files), study.quick);
   return arguments.end.conclude(run_convergence_study(study, MPI_COMM_WORLD), study.output,
                                 study.quiet, afterwards);
 }
@@ -49,17 +46,14 @@ void add_converge_command(CLI::App &app, Action &action, Afterwards &afterwards,
   study.command                  = command_line;
   command->add_option("CELL.prm", study.cell_files, "Cell files")->required();
   add_list(*command, "--studies", study.studies, "Studies, comma-separated");
-  command->add_option("--output", study.output,
-                      "Folder of the results (default out/NAME, out/converge for several cells)");
   command->add_flag("--quick", study.quick, "Fewer and smaller levels: a minute");
-  command->add_flag("--resume", study.resume, "Keep the cases that are complete, run the rest");
-  command->add_flag("--quiet", study.quiet, "Print nothing but faults");
+  add_folder_options(*command, study, "out/NAME/converge, with --quick out/NAME/converge-quick");
   arguments->end.add_options(*command);
   command->footer(
     "Studies: mesh (uniform refinement of the cell, P1 and P2), adaptive (width of the bracket on C^H), scale\n"
     "(cells per sheet), coarse (coarse triangles per cell), strain (periodic loads under biot), time (steps of the coarse cloth), manufactured\n"
     "(every solver against motions that it must reproduce; needs no cell, but is run once with the first).\n"
-    "An order that has not settled is INCONCLUSIVE, not a failure.\n"
+    "An order that has not settled is INCONCLUSIVE, not a failure: exit status 4.\n"
     "Example:\n  homespun converge mycell.prm --quick\n"
     "  mpirun -n 2 homespun converge mycell.prm --studies mesh,scale");
   command->callback(

@@ -1,22 +1,15 @@
 // SPDX-License-Identifier: MIT
 #include "verification/converge_record.h"
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace homespun::verification
 {
 namespace
 {
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
-
-std::string field(std::string text)
-{
-  std::replace(text.begin(), text.end(), ',', ';');
-  std::replace(text.begin(), text.end(), '\n', ' ');
-  return text;
-}
 
 std::vector<double> of_levels(const Series &series, double (*function)(const ConvergenceLevel &))
 {
@@ -60,47 +53,27 @@ std::vector<double> Series::errors() const
   return of_levels(*this, [](const ConvergenceLevel &level) { return level.error.value_or(none); });
 }
 
-void ConvergenceResult::add(Series one, const std::string &claim)
+void ConvergenceResult::add(Series one)
 {
-  if (!claim.empty() && one.judgement)
-    verdicts.push_back({claim + " (order)", one.judgement->outcome, one.judgement->order,
-                        one.judgement->limit + "; found: " + one.judgement->why});
   series.push_back(std::move(one));
 }
 
-const std::vector<std::string> &converge_columns()
+void ConvergenceResult::add(Series one, const OrderClaim &claim)
 {
-  static const std::vector<std::string> columns = {"cell",
-                                                   "study",
-                                                   "case",
-                                                   "quantity",
-                                                   "order_p",
-                                                   "level",
-                                                   "h",
-                                                   "h_unit",
-                                                   "dofs",
-                                                   "value",
-                                                   "error",
-                                                   "observed_order",
-                                                   "order",
-                                                   "spread",
-                                                   "order_lowest",
-                                                   "order_highest",
-                                                   "richardson_limit",
-                                                   "gci",
-                                                   "judgement",
-                                                   "seconds"};
-  return columns;
+  if (one.judgement)
+    verdicts.push_back({claim.text + " (order)", one.judgement->outcome, one.judgement->order,
+                        one.judgement->limit + "; found: " + one.judgement->why, claim.derivation,
+                        claim.kind});
+  add(std::move(one));
 }
 
-ConvergenceRecord::ConvergenceRecord(const std::string &folder, const bool resume)
-    : rows(folder + "/converge.csv", converge_columns(), 6, resume)
-    , claims(folder + "/claims.csv",
-             {"cell", "study", "case", "claim", "verdict", "value", "limit"}, 4, resume)
-    , cases(folder + "/cases.csv", {"cell", "study", "case", "seconds"}, 3, resume)
+ConvergenceRecord::ConvergenceRecord(const std::string &folder)
+    : rows(folder)
+    , claims(folder)
+    , cases(folder)
 {
-  const auto is_of_complete_case = [this](const std::vector<std::string> &row) {
-    return cases.contains({row[0], row[1], row[2]});
+  const auto is_of_complete_case = [this](const auto &row) {
+    return cases.contains({row.cell, row.study, row.name});
   };
   rows.keep(is_of_complete_case);
   claims.keep(is_of_complete_case);
@@ -108,68 +81,59 @@ ConvergenceRecord::ConvergenceRecord(const std::string &folder, const bool resum
 
 bool ConvergenceRecord::is_complete(const ConvergenceCase &one) const
 {
-  return cases.contains({one.cell, one.study, field(one.name)});
+  return cases.contains({one.cell, one.study, one.name});
 }
 
 void ConvergenceRecord::add(const ConvergenceCase &one, const ConvergenceResult &result,
                             const double seconds)
 {
-  const std::string name = field(one.name);
   for (const Series &series : result.series)
     for (std::size_t k = 0; k < series.levels.size(); ++k)
     {
-      const ConvergenceLevel &level       = series.levels[k];
-      const std::vector<std::string> keys = {
-        one.cell,         one.study, name, field(series.quantity), std::to_string(series.order),
-        std::to_string(k)};
-      if (rows.contains(keys))
-        continue;
-      const bool judged            = series.judgement.has_value();
-      std::vector<std::string> row = keys;
-      for (const std::string &text :
-           {csv_number(level.h), series.h_unit, std::to_string(level.n_dofs),
-            csv_number(level.value.value_or(none)), csv_number(level.error.value_or(none)),
-            csv_number(judged ? series.judgement->observed[k] : none),
-            csv_number(judged ? series.judgement->order : none),
-            csv_number(judged ? series.judgement->spread : none),
-            csv_number(judged ? series.judgement->limits.lowest : none),
-            csv_number(judged ? series.judgement->limits.highest : none),
-            csv_number(series.richardson ? series.richardson->limit : none),
-            csv_number(series.richardson ? series.richardson->gci : none),
-            judged ? name_of(series.judgement->outcome) : std::string(), csv_number(level.seconds)})
-        row.push_back(text);
-      rows.append(row);
+      const ConvergenceLevel &level = series.levels[k];
+      ConvergeRow row;
+      row.cell     = one.cell;
+      row.study    = one.study;
+      row.name     = one.name;
+      row.quantity = series.quantity;
+      row.order_p  = series.order;
+      row.level    = k;
+      row.h        = level.h;
+      row.h_unit   = series.h_unit;
+      row.dofs     = level.n_dofs;
+      row.value    = level.value.value_or(none);
+      row.error    = level.error.value_or(none);
+      row.seconds  = level.seconds;
+      if (series.judgement)
+      {
+        row.observed_order = series.judgement->observed[k];
+        row.order          = series.judgement->order;
+        row.spread         = series.judgement->spread;
+        row.order_lowest   = series.judgement->limits.lowest;
+        row.order_highest  = series.judgement->limits.highest;
+        row.judgement      = series.judgement->outcome;
+      }
+      if (series.richardson)
+      {
+        row.richardson_limit = series.richardson->limit;
+        row.gci              = series.richardson->gci;
+      }
+      rows.append_if_missing(row);
     }
   for (const Verdict &verdict : result.verdicts)
-  {
-    const std::vector<std::string> keys = {one.cell, one.study, name, field(verdict.claim)};
-    if (claims.contains(keys))
-      continue;
-    std::vector<std::string> row = keys;
-    for (const std::string &text :
-         {name_of(verdict.outcome), csv_number(verdict.value), field(verdict.limit)})
-      row.push_back(text);
-    claims.append(row);
-  }
+    claims.append_if_missing({one.cell, one.study, one.name, verdict.claim, verdict.outcome,
+                              verdict.value, verdict.limit, verdict.kind, verdict.derivation});
   // Last: where it is there, so is all that belongs to it.
   if (result.unfinished.empty())
-    cases.append({one.cell, one.study, name, csv_number(seconds)});
+    cases.append({one.cell, one.study, one.name, seconds});
 }
 
 std::vector<Verdict> ConvergenceRecord::verdicts() const
 {
   std::vector<Verdict> result;
-  for (const std::vector<std::string> &row : claims.rows())
-  {
-    Verdict verdict;
-    verdict.claim   = row[0] + ", " + row[1] + ", " + row[2] + ": " + row[3];
-    verdict.outcome = row[4] == "PASS"   ? Outcome::pass
-                      : row[4] == "FAIL" ? Outcome::fail
-                                         : Outcome::inconclusive;
-    verdict.value   = csv_value(row[5]);
-    verdict.limit   = row[6];
-    result.push_back(verdict);
-  }
+  for (const ClaimRow &row : claims.rows())
+    result.push_back({row.cell + ", " + row.study + ", " + row.name + ": " + row.claim, row.verdict,
+                      row.value, row.limit, row.derivation, row.kind});
   return result;
 }
 } // namespace homespun::verification

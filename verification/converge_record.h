@@ -5,8 +5,8 @@
 #pragma once
 
 #include "meshes/errors.h"
-#include "verification/convergence.h"
-#include "verification/result_files.h"
+#include "verification/converge_tables.h"
+#include "verification/record/convergence.h"
 
 #include <functional>
 #include <memory>
@@ -46,12 +46,21 @@ struct Series
   std::vector<double> errors() const;
 };
 
-/// What a case gives: no commas in its texts.
+/// What a series claims of its order, and where the limits come from.
+struct OrderClaim
+{
+  std::string text, derivation;
+  Kind kind = Kind::program;
+};
+
+/// What a case gives.
 struct ConvergenceResult
 {
   std::vector<Series> series;
   std::vector<Verdict> verdicts;
   std::string unfinished; ///< why the levels end early; empty where all are solved
+  /// What that is: a failure, unless theory knows of loads that have no equilibrium.
+  Outcome outcome_of_unfinished = Outcome::fail;
 
   /// Runs one level. Where its solver does not converge the levels before it are kept, and the ladder ends.
   /// @return whether it was solved
@@ -70,8 +79,11 @@ struct ConvergenceResult
     }
   }
 
+  /// Adds a series that is reported, not judged.
+  void add(Series one);
+
   /// Adds a series, and what its judgement claims: "CLAIM (order)".
-  void add(Series one, const std::string &claim = "");
+  void add(Series one, const OrderClaim &claim);
 };
 
 /// A case: one cell, one study, one load or solver.
@@ -81,16 +93,13 @@ struct ConvergenceCase
   std::function<ConvergenceResult()> run; ///< to be called on every rank. @throws NotConverged
 };
 
-/// The columns of converge.csv.
-const std::vector<std::string> &converge_columns();
-
 /// The tables of a study, on the first rank alone.
 class ConvergenceRecord
 {
 public:
-  /// With `resume` the rows and claims of complete cases are kept; what others left is dropped, because they run
-  /// again.
-  ConvergenceRecord(const std::string &folder, bool resume);
+  /// Takes up the tables of a folder: rows and claims of complete cases are kept; what others left is dropped,
+  /// because they run again.
+  explicit ConvergenceRecord(const std::string &folder);
 
   bool is_complete(const ConvergenceCase &one) const;
 
@@ -100,7 +109,15 @@ public:
   /// Claims of all cases, in the order of the tables.
   std::vector<Verdict> verdicts() const;
 
+  /// The levels of all series.
+  const std::vector<ConvergeRow> &levels() const
+  {
+    return rows.rows();
+  }
+
 private:
-  ResultTable rows, claims, cases;
+  Table<ConvergeRow> rows;
+  Table<ClaimRow> claims;
+  Table<CaseRow> cases;
 };
 } // namespace homespun::verification

@@ -4,16 +4,20 @@
 #include "homogenization/homogenize.h"
 #include "meshes/errors.h"
 #include "meshes/sheet.h"
+#include "meshes/write_whole.h"
 #include "verification/converge_cases.h"
 #include "verification/on_root.h"
 #include "verification/progress.h"
 #include "verification/provenance.h"
+#include "verification/record/json_files.h"
 #include "verification/study_inputs.h"
 
 #include <algorithm>
 #include <chrono>
-#include <filesystem>
 #include <limits>
+#include <map>
+#include <memory>
+#include <tuple>
 
 namespace homespun::verification
 {
@@ -47,37 +51,69 @@ const std::vector<std::string> &convergence_studies()
 
 namespace
 {
-nlohmann::ordered_json what_was_left_out(const ConvergenceStudyOptions &options)
+bool has(const ConvergenceStudyOptions &options, const std::string &study)
+{
+  return std::find(options.studies.begin(), options.studies.end(), study) != options.studies.end();
+}
+
+nlohmann::ordered_json what_was_left_out(const ConvergenceStudyOptions &options,
+                                         const std::vector<ConvergeRow> &levels)
 {
   nlohmann::ordered_json list = nlohmann::ordered_json::array();
   const auto left_out         = [&](const std::string &what, const std::string &why) {
     list.push_back({{"what", what}, {"why", why}});
   };
   for (const std::string &study : convergence_studies())
-    if (std::find(options.studies.begin(), options.studies.end(), study) == options.studies.end())
+    if (!has(options, study))
       left_out("study " + study, "--studies does not name it");
-  left_out("manufactured solutions with P2 and lumped mass",
-           "lumping takes one order from P2, as cloth_reference.h says");
+  if (has(options, "manufactured"))
+    left_out("manufactured solutions with P2 and lumped mass",
+             "lumping takes one order from P2, as cloth_reference.h says");
   if (options.quick)
     left_out("finer levels", "--quick");
+  // Series of meshes whose number the DoFs decide, by cell, order and kind of mesh.
+  std::map<std::tuple<std::string, unsigned int, bool>, std::size_t> n_meshes;
+  for (const ConvergeRow &row : levels)
+    if (row.study == "adaptive")
+      ++n_meshes[{row.cell, row.order_p, !row.judgement && row.quantity.rfind("adaptive", 0) == 0}];
+  for (const auto &[key, n] : n_meshes)
+    if (std::get<2>(key) && n < fewest_uneven_levels)
+      left_out(std::get<0>(key) + ", adaptive, P" + std::to_string(std::get<1>(key)) +
+                 ": order of the width",
+               std::to_string(n) + " meshes have no more than " +
+                 std::to_string(convergence_sizes(options.quick).adaptive_dofs) +
+                 " DoFs; a fit needs " + std::to_string(fewest_uneven_levels));
   return list;
 }
 
-nlohmann::ordered_json notes()
+/// What a reader has to know of the studies that ran.
+nlohmann::ordered_json notes(const ConvergenceStudyOptions &options)
 {
-  return {
-    "An order is judged on the three finest levels of at least four; PASS and FAIL need orders that have settled "
-    "(the last two differ by no more than 0.1). Everything else is INCONCLUSIVE.",
+  nlohmann::ordered_json list = {
+    "An order is judged on the three finest levels of at least four. PASS: it lies within the limits and has settled "
+    "(the last two differ by no more than 0.1). FAIL: the last one lies below the limits and does not rise, or it has "
+    "settled above. Everything else is INCONCLUSIVE.",
     "Where the exact value is not known, errors are distances from the Richardson limit of the last three levels, "
-    "and the error bar is the grid convergence index with the safety factor 1.25.",
-    "mesh: h is the square root of the mean area of a triangle over the cell side. Where phases meet in corners "
+    "and the error bar is the grid convergence index with the safety factor 1.25."};
+  const auto add = [&](const std::string &study, const std::string &note)
+  {
+    if (has(options, study))
+      list.push_back(study + ": " + note);
+  };
+  add(
+    "mesh",
+    "h is the square root of the mean area of a triangle over the cell side. Where phases meet in corners "
     "the order is at least twice the exponent of the strongest one and at most twice the smallest exponent above 1 (with "
     "P1 at most 2), all computed from angles and stiffnesses: finer meshes come nearer to the first. C^H falls from "
-    "level to level. An error bar is given only where the order has settled.",
-    "adaptive: h is one over the square root of the DoFs of the displacements. Adaptive meshes do not grow evenly: "
-    "the order is fitted to the last five levels and to the last three, and both must lie within the limit.",
-    "manufactured: smooth motions with strains of some ten per cent, body forces from energies written apart "
-    "from the solvers' laws; irregular meshes, refined uniformly."};
+    "level to level. An error bar is given only where the order has settled.");
+  add(
+    "adaptive",
+    "h is one over the square root of the DoFs of the displacements. Adaptive meshes do not grow evenly: "
+    "the order is fitted to the last five levels and to the last three, and both must lie within the limit.");
+  add("manufactured",
+      "smooth motions with strains of some ten per cent, body forces from energies written apart "
+      "from the solvers' laws; irregular meshes, refined uniformly.");
+  return list;
 }
 
 class ConvergenceStudy
@@ -108,9 +144,9 @@ public:
 private:
   void open_tables()
   {
-    std::filesystem::create_directories(options.output);
     nlohmann::ordered_json inputs;
-    const ConvergenceSizes sizes    = convergence_sizes(options.quick);
+    inputs["quick"]                 = options.quick;
+    inputs["studies"]               = options.studies;
     inputs["refinements_p1"]        = sizes.refinements_p1;
     inputs["refinements_p2"]        = sizes.refinements_p2;
     inputs["adaptive_dofs"]         = sizes.adaptive_dofs;
@@ -121,14 +157,8 @@ private:
     inputs["time_steps"]            = sizes.time_steps;
     for (const UnitCell &cell : cells)
       inputs["cells"][cell.name] = fingerprint(cell);
-    check_inputs_file(options.output, inputs, options.resume, "converge.csv");
-    record = std::make_unique<ConvergenceRecord>(options.output, options.resume);
-  }
-
-  bool has(const std::string &study) const
-  {
-    return std::find(options.studies.begin(), options.studies.end(), study) !=
-           options.studies.end();
+    folder = open_run_folder(options.output, {"converge", inputs}, options.earlier, options.quiet);
+    record = std::make_unique<ConvergenceRecord>(options.output);
   }
 
   /// Cases stand study by study, so that the finest levels of one cell do not delay the others.
@@ -143,7 +173,7 @@ private:
     }
     const auto add = [&](const std::string &study, const auto &cases_of)
     {
-      if (has(study))
+      if (has(options, study))
         for (std::size_t k = 0; k < cells.size(); ++k)
           for (ConvergenceCase &one : cases_of(cells[k], homogenized[k]))
             cases.push_back(std::move(one));
@@ -159,7 +189,7 @@ private:
     add("strain", [&](const UnitCell &cell, const auto &h)
         { return strain_cases(cell, h, sizes, communicator); });
     add("time", [&](const UnitCell &cell, const auto &h) { return time_cases(cell, h, sizes); });
-    if (has("manufactured"))
+    if (has(options, "manufactured"))
       for (ConvergenceCase &one : manufactured_study_cases(communicator))
         cases.push_back(std::move(one));
   }
@@ -189,8 +219,11 @@ private:
     result.solves([&]() { result = one.run(); });
     if (!result.unfinished.empty())
     {
-      result.verdicts.push_back({"all levels are solved", Outcome::fail,
-                                 std::numeric_limits<double>::quiet_NaN(), result.unfinished});
+      result.verdicts.push_back(
+        {"all levels are solved", result.outcome_of_unfinished,
+         std::numeric_limits<double>::quiet_NaN(), result.unfinished,
+         "every solver reaches its tolerance; a load may end at a limit point, "
+         "which leaves this open"});
       unfinished.push_back(one.cell + ", " + one.study + ", " + one.name + ": " +
                            result.unfinished);
       progress.note(unfinished.back());
@@ -207,24 +240,26 @@ private:
             [&]()
             {
               verdicts = record->verdicts();
-              write_whole(options.output + "/verdicts.json",
-                          json_text(to_json(verdicts, options.command)));
+              meshes::write_whole(options.output + "/verdicts.json",
+                                  json_text(to_json(verdicts, options.command)));
               const double seconds =
                 std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-              nlohmann::ordered_json all_notes = notes();
+              nlohmann::ordered_json all_notes = notes(options);
               for (const std::string &note : unfinished)
                 all_notes.push_back(note);
               const unsigned int n_ranks = dealii::Utilities::MPI::n_mpi_processes(communicator);
-              write_whole(options.output + "/study.json",
-                          json_text({{"command", options.command},
-                                     {"studies", options.studies},
-                                     {"quick", options.quick},
-                                     {"ranks", n_ranks},
-                                     {"seconds_total", seconds},
-                                     {"resumed", options.resume},
-                                     {"left_out", what_was_left_out(options)},
-                                     {"notes", all_notes},
-                                     {"provenance", provenance(n_ranks)}}));
+              meshes::write_whole(
+                options.output + "/study.json",
+                json_text({{"command", options.command},
+                           {"studies", options.studies},
+                           {"quick", options.quick},
+                           {"ranks", n_ranks},
+                           {"seconds_total", seconds},
+                           {"resumed", folder->is_taken_up()},
+                           {"left_out", what_was_left_out(options, record->levels())},
+                           {"notes", all_notes},
+                           {"provenance", provenance(n_ranks)}}));
+              folder->finish();
             });
     share_failure(verdicts, communicator);
     return verdicts;
@@ -239,6 +274,7 @@ private:
   std::vector<meshes::HomogenizedCell> homogenized;
   std::vector<ConvergenceCase> cases;
   std::vector<std::string> unfinished;       ///< cases whose ladder ended early, and why
+  std::unique_ptr<RunFolder> folder;         ///< on the first rank alone
   std::unique_ptr<ConvergenceRecord> record; ///< on the first rank alone
 };
 } // namespace

@@ -3,7 +3,8 @@
 // with its observed order held against the order that theory says.
 #pragma once
 
-#include "verification/verdict.h"
+#include "verification/record/run_folder.h"
+#include "verification/record/verdict.h"
 
 #include <mpi.h>
 
@@ -19,14 +20,14 @@ struct ConvergenceStudyOptions
   bool quick = false;               ///< small sizes, for seconds to minutes
   std::string output;
   std::string command; ///< that reproduces the study
-  bool resume = false;
-  bool quiet  = false;
+  Earlier earlier = Earlier::keep_work;
+  bool quiet      = false;
 };
 
 /// Runs the studies and writes, into the output folder, converge.csv (a row per level of every series),
-/// claims.csv, cases.csv, verdicts.json and study.json. What a case needs is on the disk when it is complete; with
-/// `resume` complete cases are not run again. A case whose solver does not converge FAILs with
-/// the reason, keeps the levels that were solved, and is run again with `resume`.
+/// claims.csv, cases.csv, verdicts.json and study.json. What a case needs is on the disk when it is complete, and
+/// complete cases of the same run are not run again. A case whose solver does not converge FAILs with the reason
+/// (INCONCLUSIVE where its load may have no equilibrium), keeps the levels that were solved, and is run again.
 /// @throws BadInput
 std::vector<Verdict> run_convergence_study(const ConvergenceStudyOptions &options,
                                            MPI_Comm communicator);

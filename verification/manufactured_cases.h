@@ -3,7 +3,7 @@
 // step: the references in the plane (periodic and clamped) and the reference in space (statics, steps).
 #pragma once
 
-#include "verification/convergence.h"
+#include "verification/record/convergence.h"
 #include "verification/field_integrals.h"
 
 #include <Eigen/Core>

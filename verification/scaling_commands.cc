@@ -8,7 +8,6 @@
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
 
-#include <filesystem>
 #include <iostream>
 #include <memory>
 
@@ -40,7 +39,7 @@ int prepare(ScalingOptions options, Afterwards &afterwards)
                "`; expected {ranks} where the number of ranks stands, like `srun -n {ranks}`");
   faults.throw_if_any();
   if (options.output.empty())
-    options.output = "out/scaling-" + std::filesystem::path(options.cell_file).stem().string();
+    options.output = default_folder("scaling", stems({options.cell_file}), false);
   afterwards = [options]()
   {
     const ScalingResult result = run_scaling_study(options);
@@ -48,10 +47,12 @@ int prepare(ScalingOptions options, Afterwards &afterwards)
     {
       std::cout << table_of(result.runs);
       print(result.verdicts);
+      for (const std::string &note : notes_of(result.runs))
+        std::cout << note << "\n";
       std::cout << "Written to " << options.output
                 << ": scaling.csv, scaling.json, verdicts.json\n";
     }
-    return any_failed(result.verdicts) ? 1 : 0;
+    return status_of(result.verdicts);
   };
   return 0;
 }
@@ -84,10 +85,7 @@ void add_scaling_command(CLI::App &app, Action &action, Afterwards &afterwards,
       "Cores that ranks can have to themselves (default: of this machine); with more ranks "
       "times are not modelled")
     ->check(CLI::Range(1, 100000000));
-  command->add_option("--output", options->output,
-                      "Folder of the results (default out/scaling-NAME)");
-  command->add_flag("--resume", options->resume, "Keep the runs that are done");
-  command->add_flag("--quiet", options->quiet, "Print nothing but faults");
+  add_folder_options(*command, *options, "out/NAME/scaling");
   command->footer(
     "Rows of one mesh are strong scaling; four times the ranks on a mesh refined once more is weak scaling. More ranks than\n"
     "cores share them, and their times say nothing. verification/SCALING.md tells what the figures mean.\n"

@@ -3,11 +3,12 @@
 
 #include "homogenization/unit_cell.h"
 #include "meshes/errors.h"
+#include "meshes/write_whole.h"
 #include "verification/child_process.h"
 #include "verification/passing_folder.h"
 #include "verification/progress.h"
 #include "verification/provenance.h"
-#include "verification/result_files.h"
+#include "verification/record/json_files.h"
 #include "verification/study_inputs.h"
 
 #include <Eigen/QR>
@@ -27,81 +28,6 @@ namespace homespun::verification
 {
 namespace
 {
-const std::vector<std::string> columns = {"refine",
-                                          "ranks",
-                                          "repeat",
-                                          "dofs",
-                                          "iterations",
-                                          "seconds_setup",
-                                          "seconds_assembly",
-                                          "seconds_preconditioner",
-                                          "seconds_solve",
-                                          "bytes_largest_rank",
-                                          "bytes_all_ranks",
-                                          "C_11",
-                                          "C_12",
-                                          "C_13",
-                                          "C_22",
-                                          "C_23",
-                                          "C_33"};
-
-/// With all digits: ranks must agree to 1e-10.
-std::string exactly(const double value)
-{
-  char text[40];
-  std::snprintf(text, sizeof(text), "%.17g", value);
-  return text;
-}
-
-std::vector<std::string> row_of(const ScalingRun &run)
-{
-  std::vector<std::string> row = {std::to_string(run.refine), std::to_string(run.ranks),
-                                  std::to_string(run.repeat)};
-  for (const double value : {run.dofs, run.iterations, run.setup, run.assembly, run.preconditioner,
-                             run.solve, run.largest_rank, run.all_ranks})
-    row.push_back(exactly(value));
-  for (const double value : run.stiffness)
-    row.push_back(exactly(value));
-  return row;
-}
-
-/// @throws BadInput where a number of the row is damaged
-ScalingRun run_of(const std::vector<std::string> &row, const std::string &file)
-{
-  std::vector<double> value;
-  for (std::size_t k = 0; k < columns.size(); ++k)
-  {
-    value.push_back(csv_value(row[k]));
-    if (!std::isfinite(value.back()))
-      throw meshes::BadInput(file + ": found " + columns[k] + " `" + row[k] + "` at refine " +
-                             row[0] + ", ranks " + row[1] + ", repeat " + row[2] +
-                             "; expected a number: delete that line, --resume measures it again");
-  }
-  ScalingRun run;
-  run.refine         = static_cast<int>(value[0]);
-  run.ranks          = static_cast<int>(value[1]);
-  run.repeat         = static_cast<int>(value[2]);
-  run.dofs           = value[3];
-  run.iterations     = value[4];
-  run.setup          = value[5];
-  run.assembly       = value[6];
-  run.preconditioner = value[7];
-  run.solve          = value[8];
-  run.largest_rank   = value[9];
-  run.all_ranks      = value[10];
-  run.stiffness.assign(value.begin() + 11, value.end());
-  return run;
-}
-
-/// @throws BadInput where a number of a row is damaged
-std::vector<ScalingRun> runs_of(const ResultTable &table, const std::string &file)
-{
-  std::vector<ScalingRun> runs;
-  for (const std::vector<std::string> &row : table.rows())
-    runs.push_back(run_of(row, file));
-  return runs;
-}
-
 /// What `homespun homogenize` wrote of itself.
 ScalingRun run_from(const std::string &file)
 {
@@ -121,9 +47,9 @@ ScalingRun run_from(const std::string &file)
     run.largest_rank = std::max(run.largest_rank, bytes);
     run.all_ranks += bytes;
   }
-  for (std::size_t i = 0; i < 3; ++i)
-    for (std::size_t j = i; j < 3; ++j)
-      run.stiffness.push_back(json.at("C").at(i).at(j));
+  const nlohmann::json &C = json.at("C");
+  run.C11 = C.at(0).at(0), run.C12 = C.at(0).at(1), run.C13 = C.at(0).at(2);
+  run.C22 = C.at(1).at(1), run.C23 = C.at(1).at(2), run.C33 = C.at(2).at(2);
   return run;
 }
 
@@ -162,6 +88,12 @@ ScalingRun measure(const ScalingOptions &options, const int refine, const int ra
                            options.launcher + "`");
   }
   return run_from(folder + "/homogenize.json");
+}
+
+/// Cores that ranks can have to themselves.
+int number_of_cores(const ScalingOptions &options)
+{
+  return options.cores > 0 ? options.cores : static_cast<int>(std::thread::hardware_concurrency());
 }
 
 using Repeats = std::map<std::pair<int, int>, std::vector<ScalingRun>>; ///< by refine and ranks
@@ -231,35 +163,34 @@ std::optional<TwoTerms> time_model_of(const std::vector<ScalingRun> &runs, const
 std::vector<Verdict> verdicts_of(const std::vector<ScalingRun> &runs)
 {
   std::vector<Verdict> verdicts;
-  const auto judge = [&](const std::string &claim, const double value, const double limit)
+  const auto judge = [&](const std::string &claim, const double value, const double limit,
+                         const std::string &derivation)
   {
-    verdicts.push_back(
-      {claim, value <= limit ? Outcome::pass : Outcome::fail, value, "<= " + csv_number(limit)});
+    verdicts.push_back({claim, value <= limit ? Outcome::pass : Outcome::fail, value,
+                        "<= " + short_text(limit), derivation});
   };
   const Repeats repeats = repeats_of(runs);
   std::map<int, const ScalingRun *> first_of_mesh;
   bool several_ranks = false;
-  double difference = 0., least = std::numeric_limits<double>::infinity(), most = 0.;
+  double difference  = 0.;
   for (const ScalingRun &run : runs)
   {
-    const ScalingRun &first = *first_of_mesh.emplace(run.refine, &run).first->second;
-    several_ranks           = several_ranks || run.ranks != first.ranks;
-    double size             = 0.;
-    for (const double value : first.stiffness)
+    const ScalingRun &first               = *first_of_mesh.emplace(run.refine, &run).first->second;
+    several_ranks                         = several_ranks || run.ranks != first.ranks;
+    const std::array<double, 6> reference = first.stiffness(), found = run.stiffness();
+    double size = 0.;
+    for (const double value : reference)
       size = larger(size, std::abs(value));
-    for (std::size_t k = 0; k < first.stiffness.size(); ++k)
-      difference = larger(difference, std::abs(run.stiffness[k] - first.stiffness[k]) / size);
-    least = std::min(least, run.iterations);
-    most  = larger(most, run.iterations);
+    for (std::size_t k = 0; k < reference.size(); ++k)
+      difference = larger(difference, std::abs(found[k] - reference[k]) / size);
   }
   // One run compared with itself says nothing.
   if (several_ranks)
     judge(
       "C^H of a mesh is the same on all numbers of ranks (largest difference in parts of the largest entry)",
-      difference, 1e-10);
-  // A homogeneous cell needs none.
-  if (repeats.size() > 1 && most != 0.)
-    judge("Iterations stay the same on all meshes and ranks (most over fewest)", most / least, 2.);
+      difference, 1e-10,
+      "the solver leaves 1e-9 of the displacements, which enter an energy squared; sums in another order differ by about "
+      "2e-16 times the root of the number of triangles: 1e-12 at 1e7; a hundred times that was asked for beforehand");
   // On the finest mesh, from each number of ranks to the next.
   auto entry  = repeats.lower_bound({repeats.rbegin()->first.first, 0});
   double rise = 0., before = median(entry->second).largest_rank;
@@ -273,8 +204,25 @@ std::vector<Verdict> verdicts_of(const std::vector<ScalingRun> &runs)
   if (has_next)
     judge(
       "On the finest mesh the largest rank needs less memory on more ranks (ratio from one number to the next)",
-      rise, 1.);
+      rise, 1., "what less means");
   return verdicts;
+}
+
+std::vector<std::string> notes_of(const std::vector<ScalingRun> &runs)
+{
+  double least = std::numeric_limits<double>::infinity(), most = 0.;
+  for (const ScalingRun &run : runs)
+  {
+    least = std::min(least, run.iterations);
+    most  = std::max(most, run.iterations);
+  }
+  // A homogeneous cell needs none.
+  if (repeats_of(runs).size() < 2 || most == 0.)
+    return {};
+  return {
+    "Iterations lie between " + short_text(least) + " and " + short_text(most) +
+    " on all meshes and ranks (mean of the three loads). Multigrid keeps them bounded when the "
+    "mesh is refined; theory gives the bound no number, and it is not judged."};
 }
 
 std::string table_of(const std::vector<ScalingRun> &runs)
@@ -310,14 +258,14 @@ std::string table_of(const std::vector<ScalingRun> &runs)
 ScalingResult run_scaling_study(const ScalingOptions &options)
 {
   const homogenization::UnitCell cell = homogenization::read_unit_cell(options.cell_file);
-  std::filesystem::create_directories(options.output);
   const nlohmann::ordered_json inputs = {
-    {"cell", fingerprint(cell)}, {"order", options.order}, {"launcher", options.launcher}};
-  check_inputs_file(options.output, inputs, options.resume, "scaling.csv",
-                    "cell, order or launcher");
-  ResultTable table(options.output + "/scaling.csv", columns, 3, options.resume);
-  runs_of(table,
-          options.output + "/scaling.csv"); // a damaged row is told before hours of measuring
+    {"cell", fingerprint(cell)},        {"refinements", options.refinements},
+    {"ranks", options.ranks},           {"repeats", options.repeats},
+    {"order", options.order},           {"launcher", options.launcher},
+    {"cores", number_of_cores(options)}};
+  const auto folder =
+    open_run_folder(options.output, {"scaling", inputs}, options.earlier, options.quiet);
+  Table<ScalingRun> table(options.output);
   const int n_runs =
     static_cast<int>(options.refinements.size() * options.ranks.size()) * options.repeats;
   {
@@ -328,26 +276,28 @@ ScalingResult run_scaling_study(const ScalingOptions &options)
         {
           progress.begin(cell.name + ", refined " + std::to_string(refine) + " times, on " +
                          std::to_string(ranks) + (ranks == 1 ? " rank" : " ranks"));
-          if (!table.contains(
-                {std::to_string(refine), std::to_string(ranks), std::to_string(repeat)}))
+          ScalingRun run;
+          run.refine = refine;
+          run.ranks  = ranks;
+          run.repeat = repeat;
+          if (!table.contains(run))
           {
-            ScalingRun run = measure(options, refine, ranks);
-            run.refine     = refine;
-            run.ranks      = ranks;
-            run.repeat     = repeat;
-            table.append(row_of(run));
+            run        = measure(options, refine, ranks);
+            run.refine = refine;
+            run.ranks  = ranks;
+            run.repeat = repeat;
+            table.append(run);
           }
           progress.done();
         }
   }
-  const std::vector<ScalingRun> runs  = runs_of(table, options.output + "/scaling.csv");
+  const std::vector<ScalingRun> &runs = table.rows();
   const std::vector<Verdict> verdicts = verdicts_of(runs);
   nlohmann::ordered_json json         = {
             {"cell", cell.name},       {"triangles_of_given_mesh", cell.mesh.n_triangles()},
             {"order", options.order},  {"launcher", options.launcher},
             {"memory_model", nullptr}, {"time_model", nullptr}};
-  const int cores =
-    options.cores > 0 ? options.cores : static_cast<int>(std::thread::hardware_concurrency());
+  const int cores = number_of_cores(options);
   if (const auto memory = memory_model_of(runs))
     json["memory_model"] = {{"bytes_per_rank", memory->fixed},
                             {"bytes_per_dof", memory->shared},
@@ -357,9 +307,12 @@ ScalingResult run_scaling_study(const ScalingOptions &options)
                           {"serial_seconds_per_dof", time->fixed},
                           {"seconds_per_dof", time->shared},
                           {"misfit", time->misfit}};
+  json["notes"]      = notes_of(runs);
   json["provenance"] = provenance(1);
-  write_whole(options.output + "/scaling.json", json_text(json));
-  write_whole(options.output + "/verdicts.json", json_text(to_json(verdicts, options.command)));
+  meshes::write_whole(options.output + "/scaling.json", json_text(json));
+  meshes::write_whole(options.output + "/verdicts.json",
+                      json_text(to_json(verdicts, options.command)));
+  folder->finish();
   return {runs, verdicts};
 }
 } // namespace homespun::verification

@@ -2,7 +2,9 @@
 // How time and memory of the cell problems grow with the mesh and fall with the ranks, on the machine at hand.
 #pragma once
 
-#include "verification/verdict.h"
+#include "verification/record/run_folder.h"
+#include "verification/record/verdict.h"
+#include "verification/scaling_tables.h"
 
 #include <optional>
 #include <string>
@@ -23,23 +25,8 @@ struct ScalingOptions
     0; ///< that ranks can have to themselves; with more ranks times are not modelled. 0: those of this machine
   std::string output;
   std::string command;
-  bool resume = false, quiet = false;
-};
-
-/// One run of `homespun homogenize --no-bars`.
-struct ScalingRun
-{
-  int refine = 0, ranks = 0, repeat = 0;
-  double dofs       = 0.;
-  double iterations = 0.;                                            ///< mean of the three loads
-  double setup = 0., assembly = 0., preconditioner = 0., solve = 0.; ///< [s], of the slowest rank
-  double largest_rank = 0., all_ranks = 0.;                          ///< peak memory [bytes]
-  std::vector<double> stiffness; ///< C11 C12 C13 C22 C23 C33 [N/m]
-
-  double seconds() const
-  {
-    return setup + assembly + preconditioner + solve;
-  }
+  Earlier earlier = Earlier::keep_work;
+  bool quiet      = false;
 };
 
 /// What does not fall with the number of ranks, what falls as one over it, and the largest relative misfit of the least squares.
@@ -56,9 +43,13 @@ std::optional<TwoTerms> memory_model_of(const std::vector<ScalingRun> &runs);
 /// number of ranks alone, which does not tell what is serial.
 std::optional<TwoTerms> time_model_of(const std::vector<ScalingRun> &runs, int cores);
 
-/// C^H does not depend on the ranks, iterations not on the mesh, and the memory of a rank on the finest mesh falls with
-/// their number; each where there is more than one to compare.
+/// C^H does not depend on the ranks, and the memory of a rank on the finest mesh falls with their number; each where
+/// there is more than one to compare.
 std::vector<Verdict> verdicts_of(const std::vector<ScalingRun> &runs);
+
+/// What is told of the runs and not judged: by how much the iterations differ between meshes and ranks, which
+/// theory bounds and does not number.
+std::vector<std::string> notes_of(const std::vector<ScalingRun> &runs);
 
 /// A table for the terminal: medians of the repeats, with the least and the largest.
 std::string table_of(const std::vector<ScalingRun> &runs);

@@ -133,8 +133,9 @@ private:
   std::vector<Verdict> homogenize(const homogenization::UnitCell &cell, const std::string &folder)
   {
     CellStudyOptions study;
-    study.output = folder;
-    study.quiet  = options.quiet;
+    study.output  = folder;
+    study.earlier = options.resume ? Earlier::resume : Earlier::keep_work;
+    study.quiet   = options.quiet;
     return run_cell_study(cell, study, communicator).checks;
   }
 
@@ -154,7 +155,10 @@ private:
     study.cell_files = options.cell_files;
     study.studies    = convergence_studies();
     study.quick      = options.quick;
-    take_common(study, folder);
+    study.output     = folder;
+    study.command    = options.command;
+    study.earlier    = options.resume ? Earlier::resume : Earlier::keep_work;
+    study.quiet      = options.quiet;
     return run_convergence_study(study, communicator);
   }
 

@@ -72,10 +72,16 @@ TEST(tripwire_bracket_checks, what_is_not_a_number_fails_and_no_bracket_is_incon
   EXPECT_TRUE(std::isnan(energy_difference(none, I)) && std::isnan(energy_difference(I, none)));
 
   CellBracket cell_bracket;
-  cell_bracket.remark = "none: too many DoFs";
+  cell_bracket.remark = "none: a hole that the outline cuts";
   const auto missing  = checks_of(cell_bracket, {}, I, 0.);
   EXPECT_EQ(outcome_of(missing, "has a bracket"), Outcome::inconclusive);
-  EXPECT_EQ(missing[0].limit, "none: too many DoFs");
+  EXPECT_EQ(missing[0].limit, cell_bracket.remark);
+  // What --max-dofs leaves out is no claim, unless --tolerance asks for it.
+  cell_bracket.is_left_out = true;
+  EXPECT_TRUE(checks_of(cell_bracket, {}, I, 0.).empty());
+  BracketOptions asked_for;
+  asked_for.tolerance = 0.1;
+  EXPECT_EQ(outcome_of(checks_of(cell_bracket, asked_for, I, 0.), "as narrow as"), Outcome::fail);
 
   homogenization::Bracket bracket;
   bracket.lower = 0.9 * I, bracket.upper = I;
@@ -102,6 +108,42 @@ TEST(tripwire_bracket_checks, a_soft_direction_counts_as_much_as_a_stiff_one)
   Eigen::Matrix3d off        = bracket.upper;
   off(1, 1) *= 1. + 1e-4; // 1e-10 of the largest entry
   EXPECT_EQ(outcome_of(checks_of(cell_bracket, {}, off, 0.), "multigrid"), Outcome::fail);
+}
+
+TEST(exact_cell_checks, every_check_says_where_its_limit_comes_from)
+{
+  const UnitCell cell   = inclusion();
+  AssessedCell assessed = assess(cell, {}, 0, MPI_COMM_SELF);
+  BracketOptions options;
+  options.tolerance = 1e-3;
+  add_bracket(
+    cell, options, [](const std::string &) {}, assessed);
+  EXPECT_EQ(assessed.checks.size(), 9u);
+  for (const Verdict &check : assessed.checks)
+  {
+    EXPECT_FALSE(check.derivation.empty()) << check.claim;
+    EXPECT_EQ(check.kind, check.claim.find("--tolerance") != std::string::npos ||
+                              check.claim.find("no displacements") != std::string::npos
+                            ? Kind::input
+                            : Kind::program)
+      << check.claim;
+  }
+}
+
+TEST(bound_cell_checks, stripes_attain_their_bounds_to_less_than_nine_digits)
+{
+  // Nine digits were the limit for any cell; that of round-off is tighter where the contrast is moderate.
+  const UnitCell cell = stripe_cell(4, homogenization::isotropic("soft", 1e6, 0.3, 1e-3, 100.),
+                                    homogenization::isotropic("hard", 1e8, 0.3, 1e-3, 100.));
+  const AssessedCell assessed = assess(cell, {}, 0, MPI_COMM_SELF);
+  for (const Verdict &check : assessed.checks)
+  {
+    EXPECT_EQ(check.outcome, Outcome::pass) << check.claim << " " << check.value;
+    if (check.claim.find("bound") != std::string::npos)
+    {
+      EXPECT_LT(std::stod(check.limit.substr(3)), 1e-9) << check.limit;
+    }
+  }
 }
 
 TEST(bound_bracket_output, an_adaptive_bracket_replaces_checks_and_chi_together)

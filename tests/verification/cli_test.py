@@ -93,7 +93,8 @@ class Homogenize(InFolder):
         result = run("homogenize", cell, "--tolerance", "1e-6", "--max-dofs", "5000", "--output", self.folder)
         self.assertEqual(result.returncode, 1, result.stderr)
         self.assertIn("raise --max-dofs", result.stdout)
-        self.assertEqual(run("homogenize", cell, "--tolerance", "6e-4", "--output", self.folder).returncode, 0)
+        again = run("homogenize", cell, "--tolerance", "6e-4", "--output", self.folder, "--overwrite")
+        self.assertEqual(again.returncode, 0, again.stdout + again.stderr)
         history = json.loads((self.folder / "homogenize.json").read_text())["history"]
         self.assertGreater(len(history), 1)
         self.assertLess(history[-1]["width"], 6e-4)
@@ -101,6 +102,19 @@ class Homogenize(InFolder):
         result = run("homogenize", cell, "--tolerance", "6e-4", "--no-bars", "--output", self.folder)
         self.assertEqual(result.returncode, 2)
         self.assertRegex(result.stderr, "--no-bars excludes --tolerance|--tolerance excludes --no-bars")
+
+    def test_every_check_says_of_whom_it_speaks_and_where_its_limit_comes_from(self):
+        result = run("homogenize", CELLS / "layered.prm", "--max-dofs", "100", "--output", self.folder)
+        # What --max-dofs leaves out is said and not claimed.
+        self.assertEqual(result.returncode, 0, result.stdout + result.stderr)
+        self.assertIn("raise --max-dofs", result.stdout)
+        found = json.loads((self.folder / "homogenize.json").read_text())
+        self.assertIn("raise --max-dofs", found["bracket"]["remark"])
+        self.assertEqual(len(found["checks"]), 3)
+        for check in found["checks"]:
+            self.assertEqual(sorted(check), ["derivation", "kind", "limit", "name", "value", "verdict"])
+            self.assertEqual(check["kind"], "program")
+            self.assertTrue(check["derivation"])
 
 
 # Cases of `homespun stress` that do not hold, each with the reason. A case that fails anew breaks the test, and

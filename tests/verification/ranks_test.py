@@ -11,7 +11,7 @@ from xml.etree import ElementTree
 
 import numpy
 
-from cli import CELLS, PATIENCE, PROGRAM, InFolder, rows_of, run
+from cli import CELLS, PATIENCE, PROGRAM, InFolder, cut, rows_of, run
 
 sys.path.append(str(CELLS.parents[1] / "verification" / "report"))
 from vtu import read_vtu  # noqa: E402
@@ -115,35 +115,37 @@ class Homogenize(InFolder):
 
     def test_a_run_that_was_killed_goes_on_from_the_loads_that_are_done(self):
         study = [PROGRAM, "homogenize", self.CELL, "--refine", "5", "--order", "1", "--no-bars", "--quiet", "--output"]
-        whole, cut = self.folder / "whole", self.folder / "cut"
+        whole, killed = self.folder / "whole", self.folder / "killed"
         subprocess.run([*map(str, study), str(whole)], check=True, timeout=240 * PATIENCE)
         self.assertFalse((whole / ".homespun-loads").exists())
-        with subprocess.Popen([*map(str, study), str(cut)]) as process:
-            first = cut / ".homespun-loads" / "load-0-rank-0-of-1"
+        with subprocess.Popen([*map(str, study), str(killed)]) as process:
+            first = killed / ".homespun-loads" / "load-0-rank-0-of-1"
             deadline = time.monotonic() + 240 * PATIENCE
             while not first.exists() and process.poll() is None and time.monotonic() < deadline:
                 time.sleep(0.01)
             process.send_signal(signal.SIGKILL)
         self.assertTrue(first.exists(), "it was killed before the first load was solved, or ended before")
-        self.assertFalse((cut / "homogenize.json").exists())
-        resumed = subprocess.run([*map(str, study), str(cut), "--resume"], capture_output=True, text=True, check=False,
+        self.assertFalse((killed / "homogenize.json").exists())
+        resumed = subprocess.run([*map(str, study), str(killed)], capture_output=True, text=True, check=False,
                                  timeout=240 * PATIENCE)
         self.assertEqual(resumed.returncode, 0, resumed.stderr)
         expected = self.stiffness(whole)
-        numpy.testing.assert_allclose(self.stiffness(cut), expected, rtol=0, atol=1e-10 * numpy.abs(expected).max())
-        self.assertEqual(json.loads((cut / "homogenize.json").read_text())["loads_taken_up"], 1)
-        self.assertFalse((cut / ".homespun-loads").exists())
+        numpy.testing.assert_allclose(self.stiffness(killed), expected, rtol=0, atol=1e-10 * numpy.abs(expected).max())
+        self.assertEqual(json.loads((killed / "homogenize.json").read_text())["loads_taken_up"], 1)
+        self.assertFalse((killed / ".homespun-loads").exists())
 
     def test_what_another_cell_left_is_refused_and_goes_when_it_begins_anew(self):
-        study = ["homogenize", CELLS / "layered.prm", "--no-bars", "--quiet", "--output", self.folder]
+        study = ["--no-bars", "--quiet", "--output", self.folder]
+        self.assertEqual(run("homogenize", CELLS / "three-stiffness.prm", *study).returncode, 0)
+        cut(self.folder)
         left = self.folder / ".homespun-loads"
         left.mkdir()
-        (left / "inputs.json").write_text('{"cell": "another"}')
         (left / "load-0-rank-0-of-1").write_bytes(bytes(8 * 3034))  # as many degrees of freedom as layered has
-        refused = run(*study, "--resume")
+        refused = run("homogenize", CELLS / "layered.prm", *study, "--resume")
         self.assertEqual(refused.returncode, 2)
-        self.assertIn("belongs to other cell, order or refinement", refused.stderr)
-        self.assertEqual(run(*study).returncode, 0)
+        self.assertIn("holds another run", refused.stderr)
+        self.assertTrue(left.exists())
+        self.assertEqual(run("homogenize", CELLS / "layered.prm", *study, "--overwrite").returncode, 0)
         self.assertEqual(json.loads((self.folder / "homogenize.json").read_text())["loads_taken_up"], 0)
         self.assertFalse(left.exists())
 
@@ -162,15 +164,17 @@ class Scaling(InFolder):
         verdicts = json.loads((self.folder / "verdicts.json").read_text())["verdicts"]
         self.assertEqual(verdicts[0]["verdict"], "PASS", verdicts[0])
         self.assertEqual(sorted(path.name for path in self.folder.iterdir()),
-                         ["inputs.json", "run", "scaling.csv", "scaling.json", "verdicts.json"])
+                         ["run", "run.json", "scaling.csv", "scaling.json", "verdicts.json"])
+        self.assertIn("Iterations lie between", *json.loads((self.folder / "scaling.json").read_text())["notes"])
         again = run(*self.STUDY, "--output", self.folder, "--resume")
         self.assertEqual(again.returncode, result.returncode, again.stderr)
         self.assertEqual(rows_of(self.folder / "scaling.csv"), rows)
         table = self.folder / "scaling.csv"
         table.write_text(table.read_text().replace(rows[1]["dofs"], "12x", 1))
+        cut(self.folder)
         damaged = run(*self.STUDY, "--output", self.folder, "--resume")
         self.assertEqual(damaged.returncode, 2)
-        self.assertIn("found dofs `12x` at refine 1, ranks 1", damaged.stderr)
+        self.assertIn("scaling.csv:2: column `dofs`: found `12x`", damaged.stderr)
 
     def test_faults_are_told_at_once_and_a_launcher_that_does_not_run_by_what_it_said(self):
         result = run(*self.STUDY, "--ranks", "0", "--launcher", "mpirun -n 2", "--output", self.folder)

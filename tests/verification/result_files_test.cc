@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 #include "meshes/errors.h"
-#include "verification/converge_record.h"
 #include "verification/result_files.h"
 
 #include <gtest/gtest.h>
@@ -119,43 +118,4 @@ TEST(invariant_result_files, rows_that_are_not_kept_leave_the_file_too)
   EXPECT_EQ(table.rows().size(), 2u);
   EXPECT_FALSE(table.contains({"cell", "b"}));
   EXPECT_EQ(ResultTable(file, columns, 2, true).rows(), table.rows());
-}
-
-TEST(tripwire_converge_record, a_case_that_did_not_converge_fails_and_runs_again)
-{
-  const std::string folder = temporary("converge");
-  std::filesystem::create_directories(folder);
-  const ConvergenceCase one = {"cell", "mesh", "uniform", {}};
-  Series series;
-  series.quantity = "C11";
-  series.h_unit   = "side";
-  ConvergenceResult result;
-  for (int level = 0; level < 4; ++level)
-    if (!result.solves(
-          [&]()
-          {
-            if (level == 2)
-              throw meshes::NotConverged("stalled on level 2", {});
-            series.levels.push_back({std::pow(0.5, level), 1, 1., std::nullopt, 0.});
-          }))
-      break;
-  EXPECT_EQ(series.levels.size(), 2u); // those that were solved are kept
-  EXPECT_EQ(result.unfinished, "stalled on level 2");
-  result.add(series);
-  result.verdicts.push_back({"all levels are solved", Outcome::fail, 0., result.unfinished});
-  {
-    ConvergenceRecord record(folder, false);
-    record.add(one, result, 1.);
-    EXPECT_FALSE(record.is_complete(one));
-    EXPECT_TRUE(any_failed(record.verdicts()));
-  }
-  ConvergenceRecord again(folder, true);
-  EXPECT_FALSE(again.is_complete(one));
-  EXPECT_TRUE(
-    again.verdicts().empty()); // else the claim of the first run would outlive its mending
-  result.unfinished.clear();
-  result.verdicts[0].outcome = Outcome::pass;
-  again.add(one, result, 1.);
-  EXPECT_TRUE(ConvergenceRecord(folder, true).is_complete(one));
-  EXPECT_FALSE(any_failed(ConvergenceRecord(folder, true).verdicts()));
 }

@@ -43,8 +43,7 @@ class Resume(InFolder):
     def test_rows_of_another_density_are_not_mixed_in(self):
         other = self.cell_with("soft: 400, hard: 400", "soft: 400, hard: 500")
         studies = {"strain": ["--loads", "periodic-12", "--strains", "0.01", "--references", "biot", "--cells", "2",
-                              "--no-budget", "--no-runtime"],
-                   "converge": ["--quick", "--studies", "mesh"]}
+                              "--no-budget", "--no-runtime"]}
         for name, options in studies.items():
             end = [*options, "--no-report", "--quiet", "--output", self.folder / name]
             self.assertEqual(run(name, CELLS / "layered.prm", *end).returncode, 0)

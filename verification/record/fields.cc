@@ -84,6 +84,11 @@ std::string to_field(const Outcome value)
   return name_of(value);
 }
 
+std::string to_field(const Kind value)
+{
+  return name_of(value);
+}
+
 std::string to_field(const std::string &value)
 {
   const bool needs_quotes = value.find_first_of(",\"") != std::string::npos;
@@ -131,6 +136,17 @@ bool read_field(const std::string &field, bool &value)
 bool read_field(const std::string &field, Outcome &value)
 {
   for (const Outcome one : {Outcome::pass, Outcome::fail, Outcome::inconclusive})
+    if (field == name_of(one))
+    {
+      value = one;
+      return true;
+    }
+  return false;
+}
+
+bool read_field(const std::string &field, Kind &value)
+{
+  for (const Kind one : {Kind::program, Kind::input, Kind::method})
     if (field == name_of(one))
     {
       value = one;

@@ -34,6 +34,7 @@ std::string to_field(unsigned int value);
 std::string to_field(unsigned long value);
 std::string to_field(bool value);
 std::string to_field(Outcome value);
+std::string to_field(Kind value);
 
 /// As CSV has it: in quotes where it holds a comma or a quote; line breaks become spaces, because a
 /// row that was cut by a kill is recognised by its missing line break.
@@ -54,6 +55,7 @@ bool read_field(const std::string &field, unsigned int &value);
 bool read_field(const std::string &field, unsigned long &value);
 bool read_field(const std::string &field, bool &value);
 bool read_field(const std::string &field, Outcome &value);
+bool read_field(const std::string &field, Kind &value);
 bool read_field(const std::string &field, std::string &value);
 
 template <typename Value>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "verification/convergence.h"
+#include "verification/record/convergence.h"
 
 #include <algorithm>
 #include <cstdio>
@@ -64,37 +64,73 @@ double slope_of(const std::vector<double> &h, const std::vector<double> &errors,
   return covariance / variance;
 }
 
-/// Judges orders that follow one another, of which `result.order` is the measured one.
-void conclude(const std::vector<double> &orders, const OrderLimit &limit, OrderJudgement &result)
+/// How far orders may still go in the direction of their last change: a change that falls by a common
+/// factor adds up to a geometric sum, else it may go on for as many levels as there are.
+double reach_of(const std::vector<double> &orders)
 {
   const std::size_t n = orders.size();
   const double drift  = orders[n - 1] - orders[n - 2];
-  if (!(std::abs(drift) <= settled))
+  const double ratio  = n >= 3 ? drift / (orders[n - 2] - orders[n - 3]) : none;
+  return ratio > 0. && ratio < 1. ? drift * ratio / (1. - ratio) : drift * static_cast<double>(n);
+}
+
+/// What orders say whose last one lies below the limit.
+Outcome below(const std::vector<double> &orders, const OrderLimit &limit, std::string &why)
+{
+  const std::size_t n = orders.size();
+  const double drift  = orders[n - 1] - orders[n - 2];
+  if (drift > settled || (drift > 0. && orders[n - 1] + reach_of(orders) >= limit.lowest))
   {
-    result.outcome = Outcome::inconclusive;
-    result.why = "not in the asymptotic range: the last two orders are " + number(orders[n - 2]) +
-                 " and " + number(orders[n - 1]);
-    return;
+    why = "not yet in the asymptotic range: the orders drift towards the limit";
+    return Outcome::inconclusive;
   }
-  if (limit.contains(result.order))
+  // One that rose above the limit before it fell below swings, and its next step is not known.
+  if (orders[n - 2] > limit.highest && (n < 3 || orders[n - 2] > orders[n - 3]))
+  {
+    why = "not in the asymptotic range: the orders swing across the limit";
+    return Outcome::inconclusive;
+  }
+  why = drift < -settled ? "the error stops falling above its bar: the orders fall below the limit"
+                         : "orders have settled outside of the limit";
+  return Outcome::fail;
+}
+
+/// The same of a last one above the limit. Orders that rise there have terms that cancel, which ends on
+/// finer levels; a plateau does not.
+Outcome above(const std::vector<double> &orders, const OrderLimit &limit, std::string &why)
+{
+  const std::size_t n = orders.size();
+  const double drift  = orders[n - 1] - orders[n - 2];
+  if (!(std::abs(drift) <= settled) ||
+      (drift < 0. && orders[n - 1] + reach_of(orders) <= limit.highest))
+  {
+    why = "not yet in the asymptotic range: the orders are above the limit and move";
+    return Outcome::inconclusive;
+  }
+  why = "orders have settled outside of the limit";
+  return Outcome::fail;
+}
+
+/// Judges two orders or more that follow one another, of which `result.order` is the measured one.
+void conclude(const std::vector<double> &orders, const OrderLimit &limit, OrderJudgement &result)
+{
+  const double before = orders[orders.size() - 2], last = orders.back();
+  std::string why;
+  if (last < limit.lowest)
+    result.outcome = below(orders, limit, why);
+  else if (last > limit.highest)
+    result.outcome = above(orders, limit, why);
+  else if (std::abs(last - before) <= settled && limit.contains(result.order))
   {
     result.outcome = Outcome::pass;
-    result.why     = "orders have settled";
-    return;
+    why            = "orders have settled";
   }
-  // Orders that fall into step geometrically may yet arrive.
-  if (n >= 3)
+  else
   {
-    const double ratio = drift / (orders[n - 2] - orders[n - 3]);
-    if (ratio > 0. && ratio < 1. && limit.contains(orders[n - 1] + drift * ratio / (1. - ratio)))
-    {
-      result.outcome = Outcome::inconclusive;
-      result.why     = "not yet in the asymptotic range: the orders still drift towards the limit";
-      return;
-    }
+    result.outcome = Outcome::inconclusive;
+    why = "not yet in the asymptotic range: the last order is within the limit and has not settled";
   }
-  result.outcome = Outcome::fail;
-  result.why     = "orders have settled outside of the limit";
+  result.why = why + ": the last two are " + number(before) + " and " + number(last);
 }
 } // namespace
 
@@ -169,7 +205,7 @@ OrderJudgement judge_errors(const std::vector<double> &h, const std::vector<doub
 OrderJudgement judge_uneven_errors(const std::vector<double> &h, const std::vector<double> &errors,
                                    const OrderLimit &limit)
 {
-  constexpr std::size_t n_fitted = 5, n_last = 3;
+  constexpr std::size_t n_fitted = fewest_uneven_levels, n_last = 3;
   OrderJudgement result = judgement(Outcome::inconclusive, "");
   result.limits         = limit;
   result.limit          = text_of(limit);
@@ -192,19 +228,16 @@ OrderJudgement judge_uneven_errors(const std::vector<double> &h, const std::vect
     result.why = std::to_string(n) + " levels; this order needs " + std::to_string(n_fitted);
     return result;
   }
-  result.order           = slope_of(h, errors, n - n_fitted, n);
-  const double last      = slope_of(h, errors, n - n_last, n);
-  result.spread          = std::abs(result.order - last);
-  const std::string both = "the slope of the last five levels is " + number(result.order) +
-                           " and of the last three " + number(last);
-  result.why = both;
+  result.order      = slope_of(h, errors, n - n_fitted, n);
+  const double last = slope_of(h, errors, n - n_last, n);
+  result.spread     = std::abs(result.order - last);
   if (limit.contains(result.order) && limit.contains(last))
     result.outcome = Outcome::pass;
-  else if (result.spread <= settled && ((result.order < limit.lowest && last < limit.lowest) ||
-                                        (result.order > limit.highest && last > limit.highest)))
-    result.outcome = Outcome::fail;
   else
-    result.why = "not in the asymptotic range: " + both;
+    conclude({result.order, last}, limit, result);
+  result.why = (result.why.empty() ? "" : result.why.substr(0, result.why.rfind(": ")) + ": ") +
+               "the slope of the last five levels is " + number(result.order) +
+               " and of the last three " + number(last);
   return result;
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "verification/convergence.h"
+#include "verification/record/convergence.h"
 
 #include <gtest/gtest.h>
 
@@ -97,6 +97,80 @@ TEST(exact_convergence, orders_that_slowly_drift_to_the_limit_are_not_called_a_f
   for (const double order : {1.5, 1.65, 1.745})
     errors.push_back(errors.back() * std::pow(0.5, order));
   EXPECT_EQ(judge_errors(h, errors, about(2.)).outcome, Outcome::inconclusive);
+}
+
+TEST(tripwire_convergence, an_error_that_ends_on_a_plateau_fails_however_much_of_it_still_falls)
+{
+  // e = a + C h^p; the plateau a is 48 to 99 % of what is left on the finest level.
+  for (const double p : {1., 2., 3., 4.})
+    for (const double share : {0.48, 0.6, 0.75, 0.9, 0.99})
+      for (const int n : {4, 5, 7})
+      {
+        const std::vector<double> h = sizes(n);
+        const double C              = (1. - share) / share * std::pow(h.back(), -p);
+        const auto errors          = at(h, [&](double s, auto) { return 1. + C * std::pow(s, p); });
+        const OrderJudgement found = judge_errors(h, errors, about(p));
+        EXPECT_EQ(found.outcome, Outcome::fail)
+          << "order " << p << ", " << n << " levels, plateau " << share << ": " << found.why;
+        // A bar well above the plateau takes those levels away that show it and no order.
+        const OrderJudgement known = judge_errors(h, errors, about(p), 20.);
+        EXPECT_NE(known.outcome, Outcome::fail) << known.why;
+      }
+}
+
+TEST(exact_convergence, every_order_is_in_its_band_or_fails)
+{
+  const std::vector<double> h = sizes();
+  for (int tenths = 3; tenths <= 60; ++tenths)
+    for (const OrderLimit band : {OrderLimit{0.9, 1.1}, OrderLimit{1.9, 2.1}, OrderLimit{0.9, 2.1}})
+    {
+      const double p          = 0.1 * tenths + 0.05; // never at the end of a band
+      const Outcome expected  = band.contains(p) ? Outcome::pass : Outcome::fail;
+      const auto power        = [&](double s, auto) { return 3. * std::pow(s, p); };
+      const auto raised_power = [&](double s, auto) { return 1. + 3. * std::pow(s, p); };
+      EXPECT_EQ(judge_errors(h, at(h, power), band).outcome, expected) << p;
+      EXPECT_EQ(judge_values(h, at(h, raised_power), band, 1e-14).outcome, expected) << p;
+      EXPECT_EQ(judge_uneven_errors(h, at(h, power), band).outcome, expected) << p;
+    }
+}
+
+TEST(exact_convergence, orders_that_come_nearer_to_the_band_are_open_from_either_side)
+{
+  const std::vector<double> h = {0.1, 0.05, 0.025, 0.0125, 0.00625};
+  const auto errors_of        = [&](const std::vector<double> &orders)
+  {
+    std::vector<double> errors = {1.};
+    for (const double order : orders)
+      errors.push_back(errors.back() * std::pow(0.5, order));
+    return errors;
+  };
+  const auto outcome = [&](const std::vector<double> &orders)
+  { return judge_errors(h, errors_of(orders), about(2.)).outcome; };
+  EXPECT_EQ(outcome({0.5, 0.9, 1.3, 1.6}), Outcome::inconclusive); // rises fast
+  EXPECT_EQ(outcome({1.5, 1.6, 1.69, 1.77}), Outcome::inconclusive);
+  EXPECT_EQ(outcome({1.2, 1.25, 1.27, 1.28}), Outcome::fail);     // rises, to 1.3
+  EXPECT_EQ(outcome({1.95, 1.95, 1.94, 1.8}), Outcome::fail);     // falls out of the band
+  EXPECT_EQ(outcome({1.95, 1.95, 1.92, 1.88}), Outcome::fail);    // slowly
+  EXPECT_EQ(outcome({1.95, 1.95, 1.94, 0.3}), Outcome::fail);     // at once
+  EXPECT_EQ(outcome({3., 2.7, 2.5, 2.3}), Outcome::inconclusive); // falls towards the band
+  EXPECT_EQ(outcome({2.5, 2.4, 2.31, 2.23}), Outcome::inconclusive);
+  EXPECT_EQ(outcome({2.5, 2.46, 2.45, 2.45}), Outcome::fail);
+  // Above and rising: terms cancel, which ends on finer levels.
+  EXPECT_EQ(outcome({2., 2.1, 2.4, 3.}), Outcome::inconclusive);
+}
+
+TEST(exact_convergence, orders_that_swing_are_open_where_they_swing_across_the_band)
+{
+  const std::vector<double> h = {0.1, 0.05, 0.025, 0.0125};
+  const auto outcome          = [&](const double a, const double b, const double c)
+  {
+    const std::vector<double> errors = {1., std::pow(0.5, a), std::pow(0.5, a + b),
+                                        std::pow(0.5, a + b + c)};
+    return judge_errors(h, errors, about(2.)).outcome;
+  };
+  EXPECT_EQ(outcome(1., 3.5, 0.8), Outcome::inconclusive);
+  EXPECT_EQ(outcome(0.2, 0.9, 0.1), Outcome::fail); // never near the band
+  EXPECT_EQ(outcome(2.6, 2.3, 1.2), Outcome::fail); // no swing: it falls, through the band
 }
 
 TEST(exact_convergence, oscillating_levels_are_inconclusive)
@@ -243,6 +317,9 @@ TEST(exact_convergence, uneven_levels_are_judged_by_two_fits_that_must_agree)
   EXPECT_NEAR(judged(2.).order, 2., 1e-12);
   EXPECT_EQ(judged(1.5).outcome, Outcome::fail);
   EXPECT_EQ(judged(2.5).outcome, Outcome::fail);
+  // A plateau of half of what is left.
+  const auto flat = at(h, [](double s, auto) { return 0.0144 + std::pow(s, 2.); });
+  EXPECT_EQ(judge_uneven_errors(h, flat, about(2., 0.1)).outcome, Outcome::fail);
   // On the way to order 2, and not there yet.
   const auto late = at(h, [](double s, auto) { return std::pow(s, 4.) / std::pow(s + 0.3, 3.); });
   EXPECT_EQ(judge_uneven_errors(h, late, about(2., 0.4)).outcome, Outcome::inconclusive);

@@ -10,12 +10,14 @@
 // with the grid convergence index 1.25 |f1 − f0| as error bar (Roache 1994; unequal ratios: Celik et al.,
 // J. Fluids Eng. 130, 2008).
 //
-// An order is judged against limits on both sides that were written down before. FAIL needs orders that
-// have settled outside of them: as long as they drift, or oscillate, the levels are outside of the
-// asymptotic range and nothing is concluded.
+// An order is judged against limits on both sides that were written down before. PASS: it has settled within them.
+// FAIL: the last order lies below them and does not rise, or it has settled above: an error that ends on
+// a plateau a has the order p C h^p / (a + C h^p), which falls, and no finer level mends that. INCONCLUSIVE: the orders
+// still move towards the limits, or swing across them. A plateau that round-off or a solver explains is no
+// finding: levels at such a floor are left out.
 #pragma once
 
-#include "verification/verdict.h"
+#include "verification/record/verdict.h"
 
 #include <limits>
 #include <string>
@@ -43,8 +45,9 @@ std::string text_of(const OrderLimit &limit);
 /// Two orders that follow one another have settled where they differ by no more than this.
 constexpr double settled = 0.1;
 
-/// Fewest levels on which an order is judged.
-constexpr std::size_t fewest_levels = 4;
+/// Fewest levels on which an order is judged, and on which one of levels that do not grow evenly is. A study whose
+/// settings make fewer claims no order.
+constexpr std::size_t fewest_levels = 4, fewest_uneven_levels = 5;
 
 /// A measured order and what follows from it.
 struct OrderJudgement
@@ -64,8 +67,9 @@ struct OrderJudgement
 /// Judges errors against a known value.
 ///
 /// FAIL: an error that is not a number, levels that do not become finer, two levels with the same error
-/// (a refinement that did nothing), errors that grow at every level, orders settled outside of the limit.
-/// INCONCLUSIVE: fewer than four levels above the floor, orders that have not settled.
+/// (a refinement that did nothing), errors that grow at every level, a last order below the limit that does not
+/// rise, orders settled outside of the limit. INCONCLUSIVE: fewer than four levels above the floor, orders that
+/// move towards the limit, swing across it, or rise above it.
 /// @param h (n) sizes, falling
 /// @param errors (n) not negative
 /// @param floor what round-off and solvers leave in an error; from the first error below it the levels
@@ -75,8 +79,8 @@ OrderJudgement judge_errors(const std::vector<double> &h, const std::vector<doub
 
 /// Judges errors on levels that do not grow evenly, as adaptive meshes do, by the least-squares slopes of the last
 /// five levels (which is the order) and of the last three.
-/// PASS: both lie within the limit. FAIL: as in judge_errors(), or both lie outside on the same side and differ by no
-/// more than `settled`. INCONCLUSIVE: fewer than five levels, else.
+/// PASS: both lie within the limit. Else the two are judged as orders that follow one another are in judge_errors();
+/// INCONCLUSIVE too: fewer than five levels.
 OrderJudgement judge_uneven_errors(const std::vector<double> &h, const std::vector<double> &errors,
                                    const OrderLimit &limit);
 
