@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 """What the tests of the program share: running it, and folders that go away."""
 import csv
+import json
 import os
 import pathlib
 import shutil
@@ -26,6 +27,21 @@ def rows_of(path):
     """The rows of a table."""
     with open(path, newline="", encoding="utf-8") as file:
         return list(csv.DictReader(file))
+
+
+def cut(folder):
+    """Makes of a run that ended one that was killed, as far as its run.json tells."""
+    path = folder / "run.json"
+    description = json.loads(path.read_text(encoding="utf-8"))
+    description["finished"] = False
+    del description["files"]
+    path.write_text(json.dumps(description), encoding="utf-8")
+
+
+def status_of(verdicts):
+    """The exit status that claims amount to."""
+    outcomes = {verdict["verdict"] for verdict in verdicts}
+    return 1 if "FAIL" in outcomes else 4 if "INCONCLUSIVE" in outcomes else 0
 
 
 class InFolder(unittest.TestCase):

@@ -86,10 +86,10 @@ def write_results(folder):
 
 def write_stress(folder):
     os.makedirs(folder, exist_ok=True)
-    rows = ["cell,contrast 1e12,finite C^H,finite C^H,1.5e-13,1e-9,PASS,10,0.2",
-            "cell,\"sliver, 1e-6\",finite C^H,nan,,1e-9,FAIL,10,0.1",
-            "start,flattened to a point,finite or refusal,refusal: triangle 3 is singular,,,PASS,10,0.01",
-            "time step,1 s,energy does not grow,not run,,1e-12,INCONCLUSIVE,0,"]
+    rows = ["cell,contrast 1e12,finite C^H,finite C^H,1.5e-13,1e-9,PASS,10,0.2,round-off",
+            "cell,\"sliver, 1e-6\",finite C^H,nan,,1e-9,FAIL,10,0.1,round-off",
+            "start,flattened to a point,finite or refusal,refusal: triangle 3 is singular,,,PASS,10,0.01,requirement",
+            "time step,1 s,energy does not grow,not run,,1e-12,INCONCLUSIVE,0,,theory"]
     with open(os.path.join(folder, "stress.csv"), "w", encoding="utf-8") as file:
         file.write("\n".join([",".join(stress_results.HEADER)] + rows) + "\n")
     rows = [f"contrast,{value},stripes,{order},1200,{iterations},0.01,0.02,3,converged"

@@ -10,7 +10,7 @@ import numpy
 TEXT_COLUMNS = {"cell", "load", "reference", "method", "scene", "variant", "term", "present", "group", "case",
                 "expected", "outcome", "verdict", "study", "quantity", "h_unit", "part", "region", "way", "measure",
                 "relation", "parameter"}
-FREE_TEXT_COLUMNS = {"figure", "limit", "judgement", "note"}  # may be empty
+FREE_TEXT_COLUMNS = {"figure", "limit", "judgement", "note", "derivation"}  # may be empty
 NEEDED_NUMBERS = {"strain", "h"}  # above zero; every other number may be empty or nan
 TIMES = {"time_s"}           # needed, zero or above
 SIGNED_NUMBERS = {"centre_x_m", "centre_y_m", "centre_z_m", "elastic_J", "gravity_J",

@@ -10,7 +10,7 @@ from stored import VERDICTS, latest, read_csv
 from style import seconds, three
 
 AGAIN = "Run `homespun stress` again."
-HEADER = "group,case,expected,outcome,figure,limit,verdict,repeats,seconds".split(",")
+HEADER = "group,case,expected,outcome,figure,limit,verdict,repeats,seconds,derivation".split(",")
 SOLVER_HEADER = "parameter,value,cell,order,dofs,iterations,seconds,seconds_total,repeats,outcome".split(",")
 MARKS = {"PASS": "✓", "FAIL": "✗", "INCONCLUSIVE": "?"}
 ORDER = {"FAIL": 0, "INCONCLUSIVE": 1, "PASS": 2}
