@@ -2,12 +2,10 @@
 #include "meshes/hdf5_writer.h"
 
 #include "meshes/errors.h"
+#include "meshes/write_whole.h"
 
 #include <hdf5.h>
 #include <hdf5_hl.h>
-
-#include <cstdio>
-#include <filesystem>
 
 namespace homespun::meshes
 {
@@ -27,19 +25,19 @@ void require(const bool condition, const std::string &message)
 
 Hdf5Writer::Hdf5Writer(const std::string &path)
     : path(path)
-    , temporary(path + ".part")
 {
   silence_hdf5();
-  file = H5Fcreate(temporary.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
-  require(file >= 0, path + ": cannot be written; expected a folder that exists and is writable");
+  constexpr std::size_t growth = 1 << 20; // bytes that the image in memory grows by
+  const hid_t in_memory        = H5Pcreate(H5P_FILE_ACCESS);
+  const bool is_set            = H5Pset_fapl_core(in_memory, growth, false) >= 0;
+  file = is_set ? H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, in_memory) : H5I_INVALID_HID;
+  H5Pclose(in_memory);
+  require(file >= 0, path + ": cannot be made in memory");
 }
 
 Hdf5Writer::~Hdf5Writer()
 {
-  if (file < 0)
-    return;
   H5Fclose(file);
-  std::remove(temporary.c_str());
 }
 
 void Hdf5Writer::write(const std::string &name, const Shape &shape, const double *values,
@@ -47,7 +45,7 @@ void Hdf5Writer::write(const std::string &name, const Shape &shape, const double
 {
   require(H5LTmake_dataset_double(file, name.c_str(), static_cast<int>(shape.size()), shape.data(),
                                   values) >= 0,
-          path + ": cannot write dataset " + name + ": is the disk full?");
+          path + ": dataset " + name + " finds no memory");
   attribute(name, "unit", unit);
 }
 
@@ -55,35 +53,35 @@ void Hdf5Writer::write(const std::string &name, const Shape &shape, const int *v
 {
   require(H5LTmake_dataset_int(file, name.c_str(), static_cast<int>(shape.size()), shape.data(),
                                values) >= 0,
-          path + ": cannot write dataset " + name + ": is the disk full?");
+          path + ": dataset " + name + " finds no memory");
 }
 
 void Hdf5Writer::attribute(const std::string &object, const std::string &name,
                            const std::string &value)
 {
   require(H5LTset_attribute_string(file, object.c_str(), name.c_str(), value.c_str()) >= 0,
-          path + ": cannot write attribute " + name + " of " + object);
+          path + ": attribute " + name + " of " + object + " finds no memory");
 }
 
 void Hdf5Writer::attribute(const std::string &object, const std::string &name, const int value)
 {
   require(H5LTset_attribute_int(file, object.c_str(), name.c_str(), &value, 1) >= 0,
-          path + ": cannot write attribute " + name + " of " + object);
+          path + ": attribute " + name + " of " + object + " finds no memory");
 }
 
 void Hdf5Writer::attribute(const std::string &object, const std::string &name, const double value)
 {
   require(H5LTset_attribute_double(file, object.c_str(), name.c_str(), &value, 1) >= 0,
-          path + ": cannot write attribute " + name + " of " + object);
+          path + ": attribute " + name + " of " + object + " finds no memory");
 }
 
 void Hdf5Writer::finish()
 {
-  const bool flushed = H5Fflush(file, H5F_SCOPE_GLOBAL) >= 0 && H5Fclose(file) >= 0;
-  file               = -1;
-  if (!flushed)
-    std::remove(temporary.c_str());
-  require(flushed, path + ": cannot be written: is the disk full?");
-  std::filesystem::rename(temporary, path);
+  const ssize_t size =
+    H5Fflush(file, H5F_SCOPE_GLOBAL) >= 0 ? H5Fget_file_image(file, nullptr, 0) : -1;
+  std::string bytes(size > 0 ? static_cast<std::size_t>(size) : 0, '\0');
+  require(size > 0 && H5Fget_file_image(file, bytes.data(), bytes.size()) == size,
+          path + ": its image finds no memory");
+  write_whole(path, bytes);
 }
 } // namespace homespun::meshes

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
-// An HDF5 file that appears whole or not at all: it is written beside its name and takes it last.
+// An HDF5 file that appears whole or not at all. It is made in memory and written as bytes: the library itself never
+// writes to a disk, because where that is full it leaves a file that it cannot close, and MPI_Finalize, which closes the
+// library, ends in a segmentation fault.
 #pragma once
 
 #include <cstdint>
@@ -8,11 +10,11 @@
 
 namespace homespun::meshes
 {
-/// Writes datasets and attributes; finish() gives the file its name, otherwise nothing is left.
+/// Collects datasets and attributes; finish() writes them, otherwise nothing is left.
 class Hdf5Writer
 {
 public:
-  /// @throws BadInput where the folder is absent or not writable
+  /// @throws BadInput where there is no memory
   explicit Hdf5Writer(const std::string &path);
   Hdf5Writer(const Hdf5Writer &)            = delete;
   Hdf5Writer &operator=(const Hdf5Writer &) = delete;
@@ -31,11 +33,12 @@ public:
   void attribute(const std::string &object, const std::string &name, int value);
   void attribute(const std::string &object, const std::string &name, double value);
 
-  /// Closes the file and renames it to its path.
+  /// Writes the file.
+  /// @throws BadInput where the folder is absent or not writable, or the disk is full
   void finish();
 
 private:
-  const std::string path, temporary;
+  const std::string path;
   std::int64_t file; ///< HDF5's hid_t
 };
 

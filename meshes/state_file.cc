@@ -32,7 +32,8 @@ std::optional<ClothState> read_state(const std::string &file, const int n_vertic
 {
   if (!std::filesystem::exists(file))
     return std::nullopt;
-  const std::string what = "what the same run wrote: leave out --resume, or remove the file";
+  const std::string what =
+    "what the same run wrote: begin anew with --overwrite, or remove the file";
   const Hdf5Reader reader(file, what);
   const auto n = static_cast<unsigned long long>(n_vertices);
   ClothState state;
@@ -52,7 +53,7 @@ std::optional<ClothState> read_state(const std::string &file, const int n_vertic
   if (state.run != run)
     throw BadInput(file + ": holds the state of a run with other inputs (" + state.run +
                    "); expected that of this one (" + run +
-                   "): leave out --resume to begin anew, or choose another --output");
+                   "): begin anew with --overwrite, or choose another --output");
   return state;
 }
 } // namespace homespun::meshes

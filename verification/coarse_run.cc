@@ -2,9 +2,10 @@
 #include "verification/coarse_run.h"
 
 #include "meshes/errors.h"
-#include "verification/verdict.h"
+#include "verification/record/json_files.h"
 
 #include <filesystem>
+#include <limits>
 #include <optional>
 
 namespace homespun::verification
@@ -20,9 +21,9 @@ void check_reach(const shell::Vectors &positions, const shell::Vectors &start, c
   Eigen::Index vertex    = 0;
   const double moved     = (positions - start).rowwise().norm().maxCoeff(&vertex);
   if (moved > reach * size)
-    throw meshes::NotConverged("the motion blows up: at " + csv_number(time) + " s vertex " +
-                                 std::to_string(vertex) + " is " + csv_number(moved) +
-                                 " m from where it began, the cloth being " + csv_number(size) +
+    throw meshes::NotConverged("the motion blows up: at " + short_text(time) + " s vertex " +
+                                 std::to_string(vertex) + " is " + short_text(moved) +
+                                 " m from where it began, the cloth being " + short_text(size) +
                                  " m large; try a smaller time step",
                                {});
 }
@@ -53,11 +54,15 @@ public:
     }
   }
 
-  StepTime time() const
+  /// Not a number where the cloth did not converge [s].
+  double median_of_steps() const
   {
-    if (failed)
-      return {};
-    return {median(seconds), half_of_interquartile_range(seconds)};
+    return failed ? std::numeric_limits<double>::quiet_NaN() : median(seconds);
+  }
+
+  double spread_of_steps() const
+  {
+    return failed ? std::numeric_limits<double>::quiet_NaN() : half_of_interquartile_range(seconds);
   }
 
   std::size_t bytes() const
@@ -117,12 +122,15 @@ CoarseRun run_coarse(const DrapedCell &draped, const std::string &variant,
       break;
     }
     run.frames.push_back(moving.cloth().positions());
-    output.write_motion(draped.cell.name, variant, frame,
-                        {run.frames.back().row(draped.centre_vertex),
-                         moving.cloth().kinetic_energy(), moving.elastic_energy(),
-                         gravity_energy(draped.scene, moving.cloth().masses(), run.frames.back()),
-                         largest_stretch(draped.coarse, run.frames.back()), median(step_seconds),
-                         median(upsampling_seconds)});
+    MotionRow row    = output.motion_row(draped.cell.name, variant, frame,
+                                         run.frames.back().row(draped.centre_vertex));
+    row.kinetic      = moving.cloth().kinetic_energy();
+    row.elastic      = moving.elastic_energy();
+    row.gravity      = gravity_energy(draped.scene, moving.cloth().masses(), run.frames.back());
+    row.stretch      = largest_stretch(draped.coarse, run.frames.back());
+    row.step_seconds = median(step_seconds);
+    row.upsampling_seconds = median(upsampling_seconds);
+    output.write(row);
     // Of the variants one picture is enough: the report shows their curves.
     if (run.is_method() || frame == schedule.n_frames)
     {
@@ -153,10 +161,10 @@ void measure_term_costs(const DrapedCell &draped, DrapeOutput &output, Progress 
   constexpr int n_steps = 60;
   for (const std::string &term : terms_with_a_cost(draped.scene))
   {
-    if (output.has_term(draped.cell.name, term))
+    TermRow row = output.term_row(draped.cell.name, term);
+    if (output.has(row))
       continue;
     progress.begin(draped.cell.name + ": what `" + term + "` costs");
-    TermRow row;
     row.is_present = draped.scene.has(term);
     // Turn about, so that what else the machine does falls on both alike.
     TimedCloth as_it_is(draped, {});
@@ -169,14 +177,16 @@ void measure_term_costs(const DrapedCell &draped, DrapeOutput &output, Progress 
       if (with_term)
         with_term->step();
     }
-    row.time  = as_it_is.time();
-    row.bytes = as_it_is.bytes();
+    row.seconds = as_it_is.median_of_steps();
+    row.spread  = as_it_is.spread_of_steps();
+    row.bytes   = as_it_is.bytes();
     if (with_term)
     {
-      row.forced_time  = with_term->time();
-      row.forced_bytes = with_term->bytes();
+      row.forced_seconds = with_term->median_of_steps();
+      row.forced_spread  = with_term->spread_of_steps();
+      row.forced_bytes   = with_term->bytes();
     }
-    output.write_term(draped.cell.name, term, row);
+    output.write(row);
   }
 }
 } // namespace homespun::verification

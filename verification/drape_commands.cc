@@ -9,7 +9,6 @@
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
 
-#include <filesystem>
 #include <memory>
 
 namespace homespun::verification
@@ -45,7 +44,7 @@ int run_drape(DrapeArguments arguments, Afterwards &afterwards)
     study.frames.clear();
   check_arguments(study);
   if (study.output.empty())
-    study.output = "out/" + std::filesystem::path(study.scene_file).stem().string();
+    study.output = default_folder("drape", stems({study.scene_file}), arguments.quick);
   return arguments.end.conclude(run_drape_study(study, MPI_COMM_WORLD), study.output, study.quiet,
                                 afterwards);
 }
@@ -83,11 +82,8 @@ void add_drape_command(CLI::App &app, Action &action, Afterwards &afterwards,
   command->add_flag("--no-frames", arguments->no_frames, "Write no frames");
   command->add_flag("--costs", study.costs,
                     "Measure what each term that the scene leaves out would have cost");
-  command->add_option("--output", study.output, "Folder of the results (default out/SCENE)");
   command->add_flag("--quick", arguments->quick, "A sheet of 4 x 4 cells, no error bar: seconds");
-  command->add_flag("--resume", study.resume,
-                    "Go on from the last frame of the references; coarse cloths are run again");
-  command->add_flag("--quiet", study.quiet, "Print nothing but faults");
+  add_folder_options(*command, study, "out/SCENE/drape, --quick drape-quick");
   arguments->end.add_options(*command);
   command->footer(
     "References: shell is this program's own cloth with a stiffness per triangle, the naive way at its\n"

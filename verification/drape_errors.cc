@@ -110,11 +110,14 @@ std::vector<meshes::VertexData> DrapeComparison::compare(const std::string &refe
         throw meshes::NotConverged(draped.cell.name + ", " + run.variant + ", " + method +
                                      ": positions that are not finite",
                                    {});
-      output.write_error(draped.cell.name, run.variant, reference, method, frame,
-                         {distance.mean(),
-                          std::sqrt(distance.squaredNorm() / static_cast<double>(distance.size())),
-                          distance.maxCoeff(), distance.mean() / draped.side,
-                          distance.mean() / fluctuation, bar.at(at, fluctuation)});
+      DrapeRow row      = output.error_row(draped.cell.name, run.variant, reference, method, frame);
+      row.mean          = distance.mean();
+      row.rms           = std::sqrt(distance.squaredNorm() / static_cast<double>(distance.size()));
+      row.max           = distance.maxCoeff();
+      row.mean_per_cell = row.mean / draped.side;
+      row.mean_per_fluctuation = row.mean / fluctuation;
+      row.uncertainty          = bar.at(at, fluctuation);
+      output.write(row);
       if (run.is_method() && method == "localized")
         error = {{"error", distance.cast<float>()}};
     }
@@ -126,12 +129,12 @@ bool DrapeComparison::has_rows(const std::string &reference, const int frame,
                                const DrapeOutput &output) const
 {
   const std::string &cell = draped.cell.name;
-  if (!output.has_motion(cell, reference, frame))
+  if (!output.has(output.motion_row(cell, reference, frame, Eigen::RowVector3d::Zero())))
     return false;
   for (const CoarseRun &run : runs)
     if (run.frames.size() > static_cast<std::size_t>(frame))
       for (const std::string &method : methods)
-        if (!output.has_error(cell, run.variant, reference, method, frame))
+        if (!output.has(output.error_row(cell, run.variant, reference, method, frame)))
           return false;
   return true;
 }

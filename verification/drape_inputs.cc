@@ -127,7 +127,9 @@ nlohmann::ordered_json drape_inputs(const DrapeOptions &options, const Scene &sc
                                    {"variants", options.variants},
                                    {"methods", options.methods},
                                    {"references", options.references},
-                                   {"cells_of_error_bar", options.n_cells_of_error_bar}};
+                                   {"cells_of_error_bar", options.n_cells_of_error_bar},
+                                   {"formats", options.frames},
+                                   {"costs", options.costs}};
   if (!scene.is_sheet())
     inputs["meshes"].push_back(fingerprint_of_file(scene.mesh_file));
   for (const SceneObstacle &obstacle : scene.obstacles)

@@ -8,58 +8,12 @@
 #include <cstdio>
 #include <filesystem>
 #include <map>
+#include <utility>
 
 namespace homespun::verification
 {
 namespace
 {
-const std::vector<std::string> error_columns  = {"scene",
-                                                 "cell",
-                                                 "variant",
-                                                 "reference",
-                                                 "method",
-                                                 "frame",
-                                                 "time_s",
-                                                 "error_mean_m",
-                                                 "error_rms_m",
-                                                 "error_max_m",
-                                                 "error_mean_per_cell",
-                                                 "error_mean_per_fluctuation",
-                                                 "reference_uncertainty_m"};
-const std::vector<std::string> motion_columns = {"scene",
-                                                 "cell",
-                                                 "variant",
-                                                 "frame",
-                                                 "time_s",
-                                                 "centre_x_m",
-                                                 "centre_y_m",
-                                                 "centre_z_m",
-                                                 "kinetic_J",
-                                                 "elastic_J",
-                                                 "gravity_J",
-                                                 "max_stretch",
-                                                 "seconds_coarse_step",
-                                                 "seconds_upsampling"};
-const std::vector<std::string> term_columns   = {"scene",
-                                                 "cell",
-                                                 "term",
-                                                 "present",
-                                                 "seconds_per_step",
-                                                 "seconds_per_step_forced",
-                                                 "bytes",
-                                                 "bytes_forced",
-                                                 "seconds_spread",
-                                                 "seconds_spread_forced"};
-
-void append(ResultTable &table, std::vector<std::string> keys, const std::vector<double> &values)
-{
-  if (table.contains(keys))
-    return;
-  for (const double value : values)
-    keys.push_back(csv_number(value));
-  table.append(keys);
-}
-
 std::string frame_name(const std::string &what, const int frame, const std::string &format)
 {
   char number[16];
@@ -69,62 +23,54 @@ std::string frame_name(const std::string &what, const int frame, const std::stri
 } // namespace
 
 DrapeOutput::DrapeOutput(std::string folder, std::string scene, const double interval,
-                         std::vector<std::string> formats, const bool with_terms, const bool resume)
+                         std::vector<std::string> formats, const bool with_terms)
     : folder(std::move(folder))
     , scene(std::move(scene))
     , interval(interval)
     , formats(std::move(formats))
+    , errors(this->folder)
+    , motion(this->folder)
+    , terms(with_terms ? std::make_unique<Table<TermRow>>(this->folder) : nullptr)
 {
-  const auto open =
-    [&](const char *name, const std::vector<std::string> &columns, const std::size_t n_keys)
-  { return std::make_unique<ResultTable>(this->folder + "/" + name, columns, n_keys, resume); };
-  errors = open("drape.csv", error_columns, 6);
-  motion = open("motion.csv", motion_columns, 4);
-  if (with_terms)
-    terms = open("terms.csv", term_columns, 3);
 }
 
-void DrapeOutput::write_error(const std::string &cell, const std::string &variant,
-                              const std::string &reference, const std::string &method,
-                              const int frame, const ErrorRow &row)
+DrapeRow DrapeOutput::error_row(const std::string &cell, const std::string &variant,
+                                const std::string &reference, const std::string &method,
+                                const int frame) const
 {
-  append(*errors, {scene, cell, variant, reference, method, std::to_string(frame)},
-         {frame * interval, row.mean, row.rms, row.max, row.per_cell, row.per_fluctuation,
-          row.uncertainty});
+  DrapeRow row;
+  row.scene     = scene;
+  row.cell      = cell;
+  row.variant   = variant;
+  row.reference = reference;
+  row.method    = method;
+  row.frame     = frame;
+  row.time      = frame * interval;
+  return row;
 }
 
-void DrapeOutput::write_motion(const std::string &cell, const std::string &variant, const int frame,
-                               const MotionRow &row)
+MotionRow DrapeOutput::motion_row(const std::string &cell, const std::string &variant,
+                                  const int frame, const Eigen::RowVector3d &centre) const
 {
-  append(*motion, {scene, cell, variant, std::to_string(frame)},
-         {frame * interval, row.centre(0), row.centre(1), row.centre(2), row.kinetic, row.elastic,
-          row.gravity, row.stretch, row.step_seconds, row.upsampling});
+  MotionRow row;
+  row.scene    = scene;
+  row.cell     = cell;
+  row.variant  = variant;
+  row.frame    = frame;
+  row.time     = frame * interval;
+  row.centre_x = centre(0);
+  row.centre_y = centre(1);
+  row.centre_z = centre(2);
+  return row;
 }
 
-bool DrapeOutput::has_error(const std::string &cell, const std::string &variant,
-                            const std::string &reference, const std::string &method,
-                            const int frame) const
+TermRow DrapeOutput::term_row(const std::string &cell, const std::string &term) const
 {
-  return errors->contains({scene, cell, variant, reference, method, std::to_string(frame)});
-}
-
-bool DrapeOutput::has_motion(const std::string &cell, const std::string &variant,
-                             const int frame) const
-{
-  return motion->contains({scene, cell, variant, std::to_string(frame)});
-}
-
-bool DrapeOutput::has_term(const std::string &cell, const std::string &term) const
-{
-  return terms->contains({scene, cell, term});
-}
-
-void DrapeOutput::write_term(const std::string &cell, const std::string &term, const TermRow &row)
-{
-  terms->append({scene, cell, term, row.is_present ? "true" : "false", csv_number(row.time.median),
-                 csv_number(row.forced_time.median), std::to_string(row.bytes),
-                 row.is_present ? "" : std::to_string(row.forced_bytes),
-                 csv_number(row.time.spread), csv_number(row.forced_time.spread)});
+  TermRow row;
+  row.scene = scene;
+  row.cell  = cell;
+  row.term  = term;
+  return row;
 }
 
 void DrapeOutput::write_frame(const std::string &run, const std::string &what, const int frame,
@@ -162,15 +108,16 @@ void DrapeOutput::list_earlier_frames(const std::string &run, const int n,
 std::vector<std::string> DrapeOutput::worst_errors() const
 {
   std::map<std::string, double> worst;
-  for (const std::vector<std::string> &row : errors->rows())
-    if (row[2] == "corotational" && row[4] == "localized" && !row[10].empty())
+  for (const DrapeRow &row : errors.rows())
+    if (row.variant == "corotational" && row.method == "localized" &&
+        std::isfinite(row.mean_per_cell))
     {
-      double &largest = worst[row[1] + " against " + row[3]];
-      largest         = std::max(largest, csv_value(row[10]));
+      double &largest = worst[row.cell + " against " + row.reference];
+      largest         = std::max(largest, row.mean_per_cell);
     }
   std::vector<std::string> lines;
   for (const auto &[what, error] : worst)
-    lines.push_back(what + ": largest mean error of `localized` over time " + csv_number(error) +
+    lines.push_back(what + ": largest mean error of `localized` over time " + short_text(error) +
                     " cell sides");
   return lines;
 }

@@ -2,7 +2,7 @@
 #include "verification/drape_schedule.h"
 
 #include "meshes/errors.h"
-#include "verification/result_files.h"
+#include "verification/record/fields.h"
 
 #include <algorithm>
 #include <cmath>
@@ -25,8 +25,8 @@ int checked_steps_per_frame(const Scene &scene)
   const int most = times_in(scene.duration, scene.time_step);
   if (most < 1)
     throw meshes::BadInput(scene.file + ": key `Duration` (option --duration): found " +
-                           csv_number(scene.duration) + " s, with a time step of " +
-                           csv_number(scene.time_step) + " s; expected at least one step");
+                           short_text(scene.duration) + " s, with a time step of " +
+                           short_text(scene.time_step) + " s; expected at least one step");
   const double wanted = std::round(scene.frame_interval / scene.time_step);
   return static_cast<int>(std::clamp(wanted, 1., static_cast<double>(most)));
 }

@@ -3,6 +3,7 @@
 
 #include "meshes/errors.h"
 #include "meshes/obj_file.h"
+#include "meshes/write_whole.h"
 #include "shell/membrane_term.h"
 #include "verification/cell_study.h"
 #include "verification/drape_errors.h"
@@ -11,6 +12,7 @@
 #include "verification/on_root.h"
 #include "verification/progress.h"
 #include "verification/provenance.h"
+#include "verification/record/json_files.h"
 #include "verification/study_inputs.h"
 
 #include <algorithm>
@@ -52,35 +54,29 @@ public:
     check_cloth(options, scene, cells);
     const nlohmann::ordered_json inputs = drape_inputs(options, scene, schedule, cells);
     name_of_run                         = fingerprint(json_text(inputs));
-    on_root(communicator,
-            [&]()
-            {
-              std::filesystem::create_directories(options.output);
-              if (!options.resume)
-                remove_states(cells);
-              check_inputs_file(options.output, inputs, options.resume, "inputs.json",
-                                "scenes, cells, materials, meshes, sizes, times, --variants, "
-                                "--methods or --references");
-              output = std::make_unique<DrapeOutput>(options.output, scene.name, schedule.interval,
-                                                     options.frames, options.costs, options.resume);
-            });
+    on_root(
+      communicator,
+      [&]()
+      {
+        folder = open_run_folder(options.output, {"drape", inputs}, options.earlier, options.quiet);
+        output = std::make_unique<DrapeOutput>(options.output, scene.name, schedule.interval,
+                                               options.frames, options.costs);
+      });
     if (schedule.duration() < scene.duration * (1. - 1e-6))
-      progress.note(scene.name + ": runs for " + csv_number(schedule.duration()) + " s of the " +
-                    csv_number(scene.duration) + " s asked for, whole frames of " +
-                    csv_number(schedule.interval) + " s");
+      note(scene.name + ": runs for " + short_text(schedule.duration()) + " s of the " +
+           short_text(scene.duration) + " s asked for, whole frames of " +
+           short_text(schedule.interval) + " s");
     for (const UnitCell &cell : cells)
       study_cell(cell);
     return conclude();
   }
 
 private:
-  /// A run that begins anew must not find the states of an earlier one when it is resumed: they go before its
-  /// inputs come.
-  void remove_states(const std::vector<UnitCell> &cells) const
+  /// For the terminal and for drape.json.
+  void note(const std::string &text)
   {
-    for (const UnitCell &cell : cells)
-      for (const std::string &reference : options.references)
-        std::filesystem::remove(state_file(cell.name + "-" + reference));
+    progress.note(text);
+    notes.push_back(text);
   }
 
   std::string state_file(const std::string &name) const
@@ -150,15 +146,33 @@ private:
                         bodies.triangles);
   }
 
+  /// Whether a cloth came to the end of the scene.
+  /// @param n_found frames, with that of the beginning
+  /// @param if_not where it did not
+  void judge(const std::string &claim, const int n_found, const Outcome if_not, const Kind kind)
+  {
+    const int n_wanted = schedule.n_frames + 1;
+    verdicts.push_back({claim + " (frames reached)", n_found == n_wanted ? Outcome::pass : if_not,
+                        static_cast<double>(n_found), std::to_string(n_wanted),
+                        "requirement: the frames of the duration that was asked for", kind});
+  }
+
   void judge(const DrapedCell &draped, const CoarseRun &run)
   {
-    const int expected = schedule.n_frames + 1, found = static_cast<int>(run.frames.size());
-    verdicts.push_back(
-      {draped.cell.name + ", " + run.variant + ": the scene runs to its end (frames reached)",
-       found == expected ? Outcome::pass
-       : run.is_method() ? Outcome::fail
-                         : Outcome::inconclusive,
-       static_cast<double>(found), std::to_string(expected)});
+    judge(draped.cell.name + ", " + run.variant + ": the scene runs to its end",
+          static_cast<int>(run.frames.size()),
+          run.is_method() ? Outcome::fail : Outcome::inconclusive,
+          run.is_method() ? Kind::program : Kind::method);
+    if (!run.failure.empty())
+      notes.push_back(draped.cell.name + ", " + run.variant + ": " + run.failure);
+  }
+
+  /// A reference without a single frame after the beginning says nothing at all; of one that stops later it is open
+  /// how far the method is from it then.
+  void judge_reference(const std::string &title, const int n_found)
+  {
+    judge(title + ": the reference runs to its end", n_found,
+          n_found <= 1 ? Outcome::fail : Outcome::inconclusive, Kind::program);
   }
 
   /// A full-resolution cloth over all frames, and the errors of every coarse run against it.
@@ -168,11 +182,11 @@ private:
                                        const std::vector<CoarseRun> &runs,
                                        const DrapeComparison *comparison)
   {
-    const std::string name   = draped.cell.name + "-" + reference;
-    const std::string folder = options.output + "/" + name;
-    const std::string title  = draped.cell.name + ", " + reference;
+    const std::string name  = draped.cell.name + "-" + reference;
+    const std::string place = options.output + "/" + name;
+    const std::string title = draped.cell.name + ", " + reference;
     progress.begin(title + ": setting up", true);
-    on_root(communicator, [&]() { std::filesystem::create_directories(folder); });
+    on_root(communicator, [&]() { std::filesystem::create_directories(place); });
     const std::unique_ptr<FineRun> fine = is_dealii(reference)
                                             ? dealii_run(draped, law_of(reference), 1, communicator)
                                             : shell_run(draped, communicator);
@@ -196,55 +210,55 @@ private:
     on_root(communicator,
             [&]()
             {
-              list = std::make_unique<meshes::FrameCollection>(folder + "/fine.pvd");
+              list = std::make_unique<meshes::FrameCollection>(place + "/fine.pvd");
               output->list_earlier_frames(name, first, *list);
             });
     const Eigen::VectorXd masses = shell::lumped_masses(draped.fine, draped.phases.areal_density);
+    int n_frames                 = first; ///< reached
     for (int frame = first; frame <= schedule.n_frames; ++frame)
     {
       progress.begin(title + " reference, frame " + std::to_string(frame), true);
       if (const std::string why = advance(*fine, frame, seconds); !why.empty())
       {
-        progress.note(name + ": stops at frame " + std::to_string(frame) + ": " + why);
-        verdicts.push_back({title + ": the reference runs to its end (frames reached)",
-                            Outcome::inconclusive, static_cast<double>(frame),
-                            std::to_string(schedule.n_frames + 1)});
+        note(title + ": the reference stops at frame " + std::to_string(frame) + ": " + why);
         break;
       }
       const SpacePoints positions  = draped.at_fine_vertices(fine->positions());
       const SpacePoints velocities = fine->velocities();
-      const MotionRow motion       = {positions.row(draped.fine_centre_vertex),
-                                      fine->kinetic_energy(),
-                                      fine->elastic_energy(),
-                                      gravity_energy(scene, masses, fine->positions()),
-                                      std::numeric_limits<double>::quiet_NaN(),
-                                      median(seconds),
-                                      std::numeric_limits<double>::quiet_NaN()};
+      const double kinetic = fine->kinetic_energy(), elastic = fine->elastic_energy();
       on_root(communicator,
               [&]()
               {
+                MotionRow motion    = output->motion_row(draped.cell.name, reference, frame,
+                                                         positions.row(draped.fine_centre_vertex));
+                motion.kinetic      = kinetic;
+                motion.elastic      = elastic;
+                motion.gravity      = gravity_energy(scene, masses, fine->positions());
+                motion.step_seconds = median(seconds);
                 // The error belongs to method and reference, and stands with the frame that comes once for both.
                 std::vector<meshes::VertexData> data = draped.fine_data();
                 for (meshes::VertexData &error :
                      comparison->compare(reference, frame, positions, bar, *output))
                   data.push_back(std::move(error));
-                output->write_motion(draped.cell.name, reference, frame, motion);
+                output->write(motion);
                 output->write_frame(name, "fine", frame, positions.cast<float>(),
                                     draped.fine_triangles(), data, list.get());
                 meshes::write_state(
                   {fine->positions(), velocities, fine->time(), frame, name_of_run, seconds},
                   state_file(name));
               });
+      n_frames = frame + 1;
       if (frame > 0)
         progress.done();
     }
+    judge_reference(title, n_frames);
     // A time depends on the machine: reported, never judged.
     double ratio = std::numeric_limits<double>::quiet_NaN();
     for (const CoarseRun &run : runs)
       if (run.is_method())
         ratio = median(seconds) / (run.seconds_per_step + run.seconds_per_upsampling);
     if (std::isfinite(ratio))
-      progress.note(title + ": one step takes as long as " + csv_number(ratio) +
+      progress.note(title + ": one step takes as long as " + short_text(ratio) +
                     " coarse steps with up-sampling (1 thread)");
     return {{"reference", reference},
             {"folder", name},
@@ -263,8 +277,6 @@ private:
                                                     const int n_vertices,
                                                     const DrapeComparison *comparison)
   {
-    if (!options.resume)
-      return std::nullopt;
     // Every rank reads the same file.
     std::optional<meshes::ClothState> state =
       meshes::read_state(state_file(name), n_vertices, name_of_run);
@@ -298,6 +310,29 @@ private:
     return "";
   }
 
+  /// What was not asked for, and what that leaves open.
+  nlohmann::ordered_json left_out() const
+  {
+    nlohmann::ordered_json all = nlohmann::ordered_json::array();
+    const auto add             = [&](const std::string &what, const std::string &why) {
+      all.push_back({{"what", what}, {"why", why}});
+    };
+    if (options.references.empty())
+      add(scene.name + ": full-resolution cloth",
+          "--references was not given: nothing is said of the error");
+    for (const std::string &reference : options.references)
+      if (!is_dealii(reference))
+        add(scene.name + ": error bar of the reference " + reference,
+            "it has none: its meshes have no quadratic elements");
+      else if (options.n_cells_of_error_bar == 0)
+        add(scene.name + ": error bar of the reference " + reference, "--quick leaves it out");
+    if (options.frames.empty())
+      add(scene.name + ": frames", "--no-frames was given");
+    if (!options.costs)
+      add(scene.name + ": what absent terms would cost", "--costs was not given");
+    return all;
+  }
+
   std::vector<Verdict> conclude()
   {
     on_root(communicator,
@@ -320,12 +355,15 @@ private:
                 {"duration_s", schedule.duration()},
                 {"integrator", scene.echo.count("Integrator") ? scene.echo.at("Integrator") : ""},
                 {"terms", terms},
+                {"left_out", left_out()},
+                {"notes", notes},
                 {"cells", cell_descriptions},
                 {"parameters", scene.echo}};
               study.update(sizes);
-              write_whole(options.output + "/verdicts.json",
-                          json_text(to_json(verdicts, options.command)));
-              write_whole(options.output + "/drape.json", json_text(study));
+              meshes::write_whole(options.output + "/verdicts.json",
+                                  json_text(to_json(verdicts, options.command)));
+              meshes::write_whole(options.output + "/drape.json", json_text(study));
+              folder->finish();
             });
     share_failure(verdicts, communicator);
     return verdicts;
@@ -339,7 +377,9 @@ private:
   const DrapeSchedule schedule;
   std::string name_of_run; ///< hash of what it is made of
   Progress progress;
+  std::unique_ptr<RunFolder> folder;   ///< on the first rank
   std::unique_ptr<DrapeOutput> output; ///< on the first rank
+  std::vector<std::string> notes;
   nlohmann::ordered_json cell_descriptions = nlohmann::ordered_json::array(), sizes;
   std::vector<Verdict> verdicts;
 };

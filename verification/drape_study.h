@@ -3,7 +3,8 @@
 // the full-resolution cloth, in the same code or by finite elements; the error of every vertex over time.
 #pragma once
 
-#include "verification/verdict.h"
+#include "verification/record/run_folder.h"
+#include "verification/record/verdict.h"
 
 #include <mpi.h>
 
@@ -23,10 +24,12 @@ struct DrapeOptions
   double time_step = 0., duration = 0.;      ///< [s]; 0: the scene's
   bool costs = false;                        ///< what absent terms would cost
   std::string output, command;
-  bool resume = false, quiet = false;
+  Earlier earlier = Earlier::keep_work;
+  bool quiet      = false;
 };
 
-/// Runs a scene and writes drape.csv, motion.csv, drape.json, terms.csv, verdicts.json and the frames.
+/// Runs a scene and writes drape.csv, motion.csv, drape.json, terms.csv, verdicts.json and the frames. References go
+/// on from the last frame that a run which was killed left; coarse cloths, which take seconds, are run again.
 /// @throws BadInput with one message per fault before anything is written
 std::vector<Verdict> run_drape_study(const DrapeOptions &options, MPI_Comm communicator);
 } // namespace homespun::verification

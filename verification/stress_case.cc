@@ -2,23 +2,22 @@
 #include "verification/stress_case.h"
 
 #include "meshes/errors.h"
-#include "verification/result_files.h"
 
 #include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <limits>
+#include <stdexcept>
+#include <utility>
 
 namespace homespun::verification
 {
 namespace
 {
-/// A field of a table: no separators, and no more than a reader takes in.
-std::string field(std::string text)
+/// No more than a reader takes in.
+std::string cut(std::string text)
 {
   constexpr std::size_t longest = 300;
-  std::replace(text.begin(), text.end(), ',', ';');
-  std::replace(text.begin(), text.end(), '\n', ' ');
   if (text.size() > longest)
     text = text.substr(0, longest) + " ...";
   return text;
@@ -73,6 +72,13 @@ Repetition repetition(const StressCase &stress_case, const unsigned int seed)
 }
 } // namespace
 
+void derive(std::vector<StressCase> &cases, const Derivations &derivations)
+{
+  for (StressCase &one : cases)
+    if (const auto found = derivations.find(one.figure_is); found != derivations.end())
+      one.derivation = found->second;
+}
+
 StressResult run_case(const StressCase &stress_case, const int most_repeats)
 {
   const int repeats = std::min(most_repeats, stress_case.most_repeats);
@@ -110,47 +116,58 @@ std::string limit_text(const StressCase &stress_case)
 {
   if (stress_case.ending == Ending::refused)
     return "names `" + stress_case.names + "`";
-  return csv_number(stress_case.limit) + " " + stress_case.figure_is;
+  return short_text(stress_case.limit) + " " + stress_case.figure_is;
 }
 
-const std::vector<std::string> &stress_columns()
+StressRow keys_of(const StressCase &stress_case)
 {
-  static const std::vector<std::string> columns = {
-    "group", "case", "expected", "outcome", "figure", "limit", "verdict", "repeats", "seconds"};
-  return columns;
+  StressRow row;
+  row.group = stress_case.group;
+  row.name  = stress_case.name;
+  return row;
 }
 
-std::vector<std::string> stress_keys(const StressCase &stress_case)
+StressRow stress_row(const StressCase &stress_case, const StressResult &result)
 {
-  return {field(stress_case.group), field(stress_case.name)};
+  const bool is_refused = stress_case.ending == Ending::refused;
+  if (!is_refused && stress_case.derivation.empty())
+    throw std::logic_error(stress_case.group + ": " + stress_case.name +
+                           ": the limit has no derivation");
+  StressRow row = keys_of(stress_case);
+  row.expected  = stress_case.expected;
+  row.outcome   = cut(result.outcome);
+  row.figure    = result.figure;
+  row.limit     = limit_text(stress_case);
+  row.verdict   = result.verdict;
+  row.repeats   = result.repeats;
+  row.seconds   = result.seconds;
+  row.derivation =
+    is_refused ? "requirement: what has no answer is refused by a message that names the fault"
+               : stress_case.derivation;
+  return row;
 }
 
-std::vector<std::string> stress_row(const StressCase &stress_case, const StressResult &result)
-{
-  return {field(stress_case.group), field(stress_case.name),        field(stress_case.expected),
-          field(result.outcome),    csv_number(result.figure),      field(limit_text(stress_case)),
-          name_of(result.verdict),  std::to_string(result.repeats), csv_number(result.seconds)};
-}
-
-std::vector<Verdict> stress_verdicts(const std::vector<std::vector<std::string>> &rows)
+std::vector<Verdict> stress_verdicts(const std::vector<StressRow> &rows)
 {
   std::vector<Verdict> verdicts;
   std::vector<std::string> groups;
-  for (const auto &row : rows)
-    if (std::find(groups.begin(), groups.end(), row.at(0)) == groups.end())
-      groups.push_back(row[0]);
+  for (const StressRow &row : rows)
+    if (std::find(groups.begin(), groups.end(), row.group) == groups.end())
+      groups.push_back(row.group);
   for (const std::string &group : groups)
   {
     int n = 0, n_failed = 0;
-    for (const auto &row : rows)
-      if (row[0] == group)
+    for (const StressRow &row : rows)
+      if (row.group == group)
       {
         ++n;
-        n_failed += row.at(6) != name_of(Outcome::pass);
+        n_failed += row.verdict != Outcome::pass;
       }
     verdicts.push_back(
       {group + ": each of " + std::to_string(n) + " cases ends as it should (cases that do not)",
-       n_failed == 0 ? Outcome::pass : Outcome::fail, static_cast<double>(n_failed), "0"});
+       n_failed == 0 ? Outcome::pass : Outcome::fail, static_cast<double>(n_failed), "0",
+       "no case may miss its own limit, whose derivation stands beside it in stress.csv",
+       Kind::program});
   }
   return verdicts;
 }

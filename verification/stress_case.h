@@ -3,12 +3,14 @@
 // what became of it. Running never throws: a failure is a row of the table, not the end of the program.
 #pragma once
 
-#include "verification/verdict.h"
+#include "verification/record/verdict.h"
+#include "verification/stress_tables.h"
 
 #include <Eigen/Core>
 
 #include <functional>
 #include <limits>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -41,7 +43,24 @@ struct StressCase
   std::function<StressAnswer(unsigned int seed)> run;
   int most_repeats =
     std::numeric_limits<int>::max(); ///< for cases that are long or need but a second look
+  std::string derivation =
+    {}; ///< where the limit comes from, known before the figure; finite cases
 };
+
+/// Where limits come from, by what the figure is.
+using Derivations = std::map<std::string, std::string>;
+
+/// Gives the cases that end in an answer the derivation of their figure; one that is not known stays empty.
+void derive(std::vector<StressCase> &cases, const Derivations &derivations);
+
+/// Growth of energy that round-off explains, over the largest energy: the cloth's own slack (shell/cloth.cc), 1e-12
+/// of the energy before and of what is stored, in up to five parts of a step that was cut.
+constexpr double energy_round_off = 1e-11;
+
+/// Where that comes from.
+inline const char *const of_energy =
+  "theory: nothing brings energy into the sheet, and damping takes some; round-off: 1e-12 of the energy before and of "
+  "what is stored, in up to five parts of a step that was cut";
 
 struct StressResult
 {
@@ -58,15 +77,13 @@ StressResult run_case(const StressCase &stress_case, int repeats);
 /// The limit as a table shows it: of the figure, or the words that a refusal must contain.
 std::string limit_text(const StressCase &stress_case);
 
-/// The columns of stress.csv.
-const std::vector<std::string> &stress_columns();
+/// What names a case in the table.
+StressRow keys_of(const StressCase &stress_case);
 
-/// What names a row: group and case.
-std::vector<std::string> stress_keys(const StressCase &stress_case);
-
-/// A row of stress.csv, texts without commas and line breaks.
-std::vector<std::string> stress_row(const StressCase &stress_case, const StressResult &result);
+/// The row of a case that was run.
+/// @throws std::logic_error where its limit has no derivation
+StressRow stress_row(const StressCase &stress_case, const StressResult &result);
 
 /// One verdict per group, in the order of the rows: how many of its cases do not hold.
-std::vector<Verdict> stress_verdicts(const std::vector<std::vector<std::string>> &rows);
+std::vector<Verdict> stress_verdicts(const std::vector<StressRow> &rows);
 } // namespace homespun::verification

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The stress cases of METHOD 6: the unit cell, the cloth in motion and the up-sampling. Limits come from theory:
+// The stress cases: the unit cell, the cloth in motion and the up-sampling. Limits come from theory:
 // a cell that is moved keeps its C^H, damped energy never grows, momenta of a free cloth are kept, a cloth at rest
 // stays, a uniform strain is up-sampled exactly; where theory is silent, that every number is finite.
 #pragma once
@@ -13,10 +13,6 @@
 
 namespace homespun::verification
 {
-/// Growth of energy that round-off explains, over the largest energy: the cloth's own slack of 1e-12
-/// (shell/cloth.cc), some times over because a step may be cut.
-constexpr double energy_round_off = 1e-11;
-
 /// Steps of 1e-5 to 1 s from rest and from a disturbed state; rest; one turn per step.
 std::vector<StressCase> time_step_cases(const std::vector<SheetStiffness> &stiffnesses);
 

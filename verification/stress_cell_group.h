@@ -30,8 +30,15 @@ Phase stiff_phase(double contrast, double nu = 0.3);
 /// @param angle of its axis [deg]
 Phase yarn_phase(double angle);
 
+/// A limit and where it comes from.
+struct Limit
+{
+  double value = 0.;
+  std::string derivation;
+};
+
 /// algebraic_limit() of a cell with as many rows as a square of as many equal triangles.
-double limit_of(const UnitCell &cell);
+Limit limit_of(const UnitCell &cell);
 
 /// C^H of the iterative solver against that of a factorized one, and against Voigt and Reuss.
 StressAnswer against_factorized(const UnitCell &cell);
@@ -57,11 +64,12 @@ public:
   }
 
   template <typename Run>
-  void finite(const std::string &what, const std::string &expected, const double limit,
+  void finite(const std::string &what, const std::string &expected, const Limit &limit,
               const std::string &figure_is, const Run &run, const int most_repeats = 2)
   {
-    cases.push_back({name, what, "finite; " + expected, Ending::finite, limit, figure_is, "", false,
-                     [run](unsigned int) -> StressAnswer { return run(); }, most_repeats});
+    cases.push_back({name, what, "finite; " + expected, Ending::finite, limit.value, figure_is, "",
+                     false, [run](unsigned int) -> StressAnswer { return run(); }, most_repeats,
+                     limit.derivation});
   }
 
   void refused(const std::string &what, const std::string &names, const UnitCell &cell);

@@ -27,6 +27,8 @@ int run_stress(StressArguments arguments, Afterwards &afterwards)
     study.repeats        = 2;
     study.most_triangles = 100000;
   }
+  if (study.output.empty())
+    study.output = default_folder("stress", stems(study.cell_files), arguments.quick);
   return arguments.end.conclude(run_stress_study(study, MPI_COMM_WORLD), study.output, study.quiet,
                                 afterwards);
 }
@@ -39,22 +41,18 @@ void add_stress_command(CLI::App &app, Action &action, Afterwards &afterwards,
     "stress",
     "What should break a cell or a cloth: each case must end in a finite answer or a named refusal");
   const auto arguments     = std::make_shared<StressArguments>();
-  arguments->study.output  = "out/stress";
   arguments->study.command = command_line;
   command->add_option("CELL.prm", arguments->study.cell_files,
                       "Cells whose stiffness and modes the cases take (default: built-in ones)");
-  command->add_option("--output", arguments->study.output, "Folder of the results")
-    ->capture_default_str();
   command->add_flag("--quick", arguments->quick,
                     "Each case twice instead of ten times, cells of at most 1e5 triangles");
-  command->add_flag("--resume", arguments->study.resume,
-                    "Keep the rows that are there, run the other cases");
-  command->add_flag("--quiet", arguments->study.quiet, "Print nothing but faults");
+  add_folder_options(*command, arguments->study, "out/CELLS/stress, --quick stress-quick");
   arguments->end.add_options(*command);
   command->footer(
-    "Cells of high contrast, slivers, moved cells, time steps, stiffness, starts, meshes, rotations, motions, scenes, up-sampling; stress.csv has a row\n"
-    "per case: what was expected, the outcome, one figure and its limit. A case that fails is a row, and\n"
-    "exit status 1.\n"
+    "Cells of high contrast, slivers, moved cells, time steps, stiffness, starts, meshes, rotations, motions,\n"
+    "scenes, up-sampling; stress.csv has a row per case: what was expected, the outcome, one figure, its limit\n"
+    "and where that comes from. A case that fails is a row, and exit status 1: some sheets whose stiffnesses\n"
+    "differ by 1e4 do, far from equilibrium.\n"
     "Example:\n  homespun stress --quick\n  homespun stress mycell.prm");
   command->callback(
     [&action, &afterwards, arguments]()

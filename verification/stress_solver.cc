@@ -3,7 +3,6 @@
 
 #include "homogenization/homogenize.h"
 #include "meshes/errors.h"
-#include "verification/result_files.h"
 #include "verification/stress_cells.h"
 #include "verification/timing.h"
 
@@ -23,40 +22,32 @@ constexpr int rows_of(const unsigned int order)
 }
 
 /// Homogenizes a cell some times over and tells iterations and medians of the times.
-std::vector<std::string> measured(const std::string &parameter, const double value,
-                                  const UnitCell &cell, const unsigned int order, const int repeats)
+SolverRow measured(SolverRow row, const UnitCell &cell, const int repeats)
 {
   std::vector<double> of_solver, in_all;
-  std::string dofs, iterations, outcome = "converged";
+  row.outcome = "converged";
+  row.repeats = repeats;
   try
   {
     for (int k = 0; k < repeats; ++k)
     {
       const auto begin       = std::chrono::steady_clock::now();
-      const SolvedCell found = solved(cell, order);
+      const SolvedCell found = solved(cell, row.order);
       in_all.push_back(
         std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
       of_solver.push_back(found.seconds);
-      dofs       = std::to_string(found.n_dofs);
-      iterations = std::to_string(found.iterations);
+      row.dofs       = found.n_dofs;
+      row.iterations = found.iterations;
     }
+    row.seconds       = median(of_solver);
+    row.seconds_total = median(in_all);
   }
   catch (const meshes::NotConverged &failure)
   {
     const std::string text = failure.what();
-    outcome                = text.substr(0, text.find("; residual norms"));
-    std::replace(outcome.begin(), outcome.end(), ',', ';');
+    row.outcome            = text.substr(0, text.find("; residual norms"));
   }
-  return {parameter,
-          csv_number(value),
-          cell.name,
-          std::to_string(order),
-          dofs,
-          iterations,
-          of_solver.empty() ? "" : csv_number(median(of_solver)),
-          in_all.empty() ? "" : csv_number(median(in_all)),
-          std::to_string(repeats),
-          outcome};
+  return row;
 }
 } // namespace
 
@@ -74,14 +65,6 @@ SolvedCell solved(const UnitCell &cell, const unsigned int order)
           found.seconds.preconditioner + found.seconds.solve};
 }
 
-const std::vector<std::string> &solver_columns()
-{
-  static const std::vector<std::string> columns = {
-    "parameter",  "value",   "cell",          "order",   "dofs",
-    "iterations", "seconds", "seconds_total", "repeats", "outcome"};
-  return columns;
-}
-
 std::vector<SolverMeasurement> solver_measurements()
 {
   std::vector<SolverMeasurement> all;
@@ -89,13 +72,15 @@ std::vector<SolverMeasurement> solver_measurements()
                        const std::function<UnitCell(int)> &make)
   {
     for (const unsigned int order : {1u, 2u})
-      all.push_back({parameter, value, name, order,
-                     [=](const int repeats)
-                     {
-                       UnitCell cell = make(rows_of(order));
-                       cell.name     = name;
-                       return measured(parameter, value, cell, order, repeats);
-                     }});
+    {
+      SolverRow keys;
+      keys.parameter = parameter;
+      keys.value     = value;
+      keys.cell      = name;
+      keys.order     = order;
+      all.push_back(
+        {keys, [=](const int repeats) { return measured(keys, make(rows_of(order)), repeats); }});
+    }
   };
   const Phase soft = isotropic("soft", 1e6, 0.3, 5e-4, 400.);
   const auto stiff = [](const double contrast, const double nu = 0.3)

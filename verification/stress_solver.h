@@ -4,6 +4,7 @@
 #pragma once
 
 #include "verification/stress_cells.h"
+#include "verification/stress_tables.h"
 
 #include <Eigen/Core>
 
@@ -26,18 +27,11 @@ struct SolvedCell
 /// @throws NotConverged, BadInput
 SolvedCell solved(const UnitCell &cell, unsigned int order = 1);
 
-/// The columns of solver.csv: parameter, value, cell, order, dofs, iterations (the most of the three loads),
-/// seconds (preconditioner and solve), seconds_total (medians), repeats, outcome (converged, or why not).
-const std::vector<std::string> &solver_columns();
-
 /// One row of solver.csv, to be measured.
 struct SolverMeasurement
 {
-  std::string parameter; ///< contrast, poisson, anisotropy, sliver, triangles
-  double value = 0.;
-  std::string cell;
-  unsigned int order = 1;
-  std::function<std::vector<std::string>(int repeats)> run; ///< gives the row
+  SolverRow keys; ///< parameter, value, cell and order
+  std::function<SolverRow(int repeats)> run;
 };
 
 /// All of them: P1 on cells of 48 x 48 x 2 triangles, P2 on 24 x 24 x 2; then the size.

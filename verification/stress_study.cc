@@ -3,11 +3,13 @@
 
 #include "meshes/errors.h"
 #include "meshes/sheet.h"
+#include "meshes/write_whole.h"
 #include "verification/cell_study.h"
 #include "verification/on_root.h"
 #include "verification/progress.h"
 #include "verification/provenance.h"
-#include "verification/result_files.h"
+#include "verification/record/json_files.h"
+#include "verification/record/table.h"
 #include "verification/stress_cases.h"
 #include "verification/stress_solver.h"
 #include "verification/study_inputs.h"
@@ -15,7 +17,6 @@
 #include <deal.II/base/mpi.h>
 
 #include <chrono>
-#include <filesystem>
 #include <memory>
 #include <set>
 
@@ -44,24 +45,24 @@ nlohmann::ordered_json what_was_left_out(const int most_triangles, const int n_r
   return all;
 }
 
-nlohmann::ordered_json notes()
+nlohmann::ordered_json notes(const bool has_cells)
 {
-  return {
+  nlohmann::ordered_json all = {
     "A case is repeated with different seeds where it has random numbers; else every repetition must give the same "
     "numbers to the last bit. Cells are homogenized twice, those of 100,000 triangles and more once.",
     "C^H of a cell is held against the closed form of a laminate, against a factorized solve, or against itself "
     "moved, by the relative energy of the worst macro strain.",
     "Energy that a step took from the motion lest it grow counts as growth; of a free sheet that spins, where it is the "
-    "price of the spin that is put right, it has a limit of its own, set after figures of up to 1e-3 at 20 ms were seen. "
-    "Momenta are those after a step has put the spin right, which is part of the method.",
+    "price of the spin that is put right, it has a limit of its own. Momenta are those after a step has put the spin "
+    "right, which is part of the method.",
     "The figure of a case is the largest of its repetitions; the time is that of all of them.",
-    "Limits come from theory; where it says that energy never grows, round-off of 1e-11 of the largest energy is "
-    "allowed. Seven were changed after a first run had shown numbers: free fall (1e-11 m became the round-off of a "
-    "linear solve of the sheet's condition number), the sphere in wind (the wind's acceleration was added to gravity's, half the "
-    "radius set as the most), rigid inclusions (1e-7 got the round-off that every case of contrast 1e12 has), forces before the "
-    "first step (made relative like the others), homogeneous cells of Poisson's ratio −0.99 and cells with yarns of 1e4 "
-    "to 1 (1e-12 and 1e-11 got the digits that the rounded entries of a stiffness cost its softest direction), and a velocity of 1e200 m/s, expected to be refused but finite, was "
-    "replaced by 1e100 m/s."};
+    "Each limit stands in stress.csv with where it comes from: theory, round-off, or a requirement. Iterations and times "
+    "of the solver have none: they are reported."};
+  if (!has_cells)
+    all.push_back(
+      "No cell was given: the cloths are sheets of three built-in stiffnesses, and up-sampling takes a cell "
+      "of smooth modes.");
+  return all;
 }
 
 class StressStudy
@@ -77,6 +78,8 @@ public:
 
   std::vector<Verdict> run()
   {
+    read_cells();
+    on_root(communicator, [&]() { open_folder(); });
     homogenize();
     homogenize_by_all_ranks();
     on_root(communicator,
@@ -92,14 +95,29 @@ public:
   }
 
 private:
-  /// C^H and modes of the given cells.
-  void homogenize()
+  void read_cells()
   {
     for (const std::string &file : options.cell_files)
       unit_cells.push_back(homogenization::read_unit_cell(file));
     check_names(unit_cells);
     for (const homogenization::UnitCell &cell : unit_cells)
       meshes::tile(cell.mesh, cell.lattice, 1, 1); // refuses cells that make no sheet
+  }
+
+  void open_folder()
+  {
+    nlohmann::ordered_json inputs = {{"repeats", options.repeats},
+                                     {"most_triangles", options.most_triangles},
+                                     {"ranks", n_ranks()}};
+    for (const homogenization::UnitCell &cell : unit_cells)
+      inputs["cells"][cell.name] = fingerprint(cell);
+    folder = open_run_folder(options.output, {"stress", inputs}, options.earlier, options.quiet);
+    table  = std::make_unique<Table<StressRow>>(options.output);
+  }
+
+  /// C^H and modes of the given cells.
+  void homogenize()
+  {
     Progress progress(is_root && !options.quiet, static_cast<int>(unit_cells.size()));
     for (const homogenization::UnitCell &cell : unit_cells)
     {
@@ -146,33 +164,18 @@ private:
       cases.insert(cases.end(), some.begin(), some.end());
     std::set<std::vector<std::string>> keys;
     for (const StressCase &one : cases)
-      if (!keys.insert(stress_keys(one)).second)
+      if (!keys.insert(keys_of_row(keys_of(one))).second)
         throw meshes::BadInput("two stress cases are called `" + one.group + ": " + one.name +
                                "`; a cell has the name of a built-in one: rename its file");
   }
 
-  /// What the rows depend on; those of other inputs are not taken up.
-  void check_stress_inputs() const
-  {
-    nlohmann::ordered_json inputs = {{"repeats", options.repeats},
-                                     {"most_triangles", options.most_triangles},
-                                     {"ranks", n_ranks()}};
-    for (const homogenization::UnitCell &cell : unit_cells)
-      inputs["cells"][cell.name] = fingerprint(cell);
-    check_inputs_file(options.output, inputs, options.resume, "stress.csv");
-  }
-
   void run_cases()
   {
-    std::filesystem::create_directories(options.output);
-    check_stress_inputs();
-    table = std::make_unique<ResultTable>(options.output + "/stress.csv", stress_columns(), 2,
-                                          options.resume);
     Progress progress(is_root && !options.quiet, static_cast<int>(cases.size()));
     std::string group;
     for (const StressCase &one : cases)
     {
-      if (table->contains(stress_keys(one)))
+      if (table->contains(keys_of(one)))
       {
         progress.done();
         continue;
@@ -183,7 +186,7 @@ private:
       table->append(stress_row(one, result));
       if (result.verdict != Outcome::pass)
         progress.note("FAIL " + one.group + ": " + one.name + ": " + result.outcome + ", " +
-                      csv_number(result.figure) + " (" + limit_text(one) + ")");
+                      short_text(result.figure) + " (" + limit_text(one) + ")");
       progress.done();
     }
   }
@@ -191,17 +194,16 @@ private:
   /// Iterations and times, which have no limit.
   void measure_solver()
   {
-    ResultTable rows(options.output + "/solver.csv", solver_columns(), 4, options.resume);
+    Table<SolverRow> rows(options.output);
     const std::vector<SolverMeasurement> all = solver_measurements();
     Progress progress(is_root && !options.quiet, static_cast<int>(all.size()));
     std::string parameter;
     for (const SolverMeasurement &one : all)
     {
-      progress.begin("solver: " + one.parameter + " " + csv_number(one.value),
-                     one.parameter != parameter);
-      parameter = one.parameter;
-      if (!rows.contains(
-            {one.parameter, csv_number(one.value), one.cell, std::to_string(one.order)}))
+      progress.begin("solver: " + one.keys.parameter + " " + short_text(one.keys.value),
+                     one.keys.parameter != parameter);
+      parameter = one.keys.parameter;
+      if (!rows.contains(one.keys))
         rows.append(one.run(options.repeats > 2 ? 3 : 1));
       progress.done();
     }
@@ -211,7 +213,8 @@ private:
   {
     for (const Verdict &verdict : stress_verdicts(table->rows()))
       verdicts.push_back(verdict);
-    write_whole(options.output + "/verdicts.json", json_text(to_json(verdicts, options.command)));
+    meshes::write_whole(options.output + "/verdicts.json",
+                        json_text(to_json(verdicts, options.command)));
     nlohmann::ordered_json sheets = nlohmann::ordered_json::array();
     for (const SheetStiffness &sheet : stiffnesses)
     {
@@ -230,11 +233,12 @@ private:
       {"repeats", options.repeats},
       {"sheets", sheets},
       {"seconds_total", seconds},
-      {"resumed", options.resume},
+      {"resumed", folder->is_taken_up()},
       {"left_out", what_was_left_out(options.most_triangles, n_ranks())},
-      {"notes", notes()},
+      {"notes", notes(!unit_cells.empty())},
       {"provenance", provenance(static_cast<unsigned int>(n_ranks()))}};
-    write_whole(options.output + "/study.json", json_text(study));
+    meshes::write_whole(options.output + "/study.json", json_text(study));
+    folder->finish();
   }
 
   const StressStudyOptions options;
@@ -247,7 +251,8 @@ private:
   std::vector<std::string> names; ///< of the cells
   std::vector<SheetStiffness> stiffnesses;
   std::vector<StressCase> cases;
-  std::unique_ptr<ResultTable> table; ///< on the first rank alone
+  std::unique_ptr<RunFolder> folder;       ///< on the first rank alone
+  std::unique_ptr<Table<StressRow>> table; ///< on the first rank alone
   std::vector<Verdict> verdicts;
 };
 } // namespace

@@ -2,7 +2,8 @@
 // All stress cases, each repeated, as a table with verdicts.
 #pragma once
 
-#include "verification/verdict.h"
+#include "verification/record/run_folder.h"
+#include "verification/record/verdict.h"
 
 #include <mpi.h>
 
@@ -18,13 +19,13 @@ struct StressStudyOptions
   int most_triangles = 1000000; ///< of the largest cell
   std::string output;
   std::string command; ///< that reproduces the study
-  bool resume = false;
-  bool quiet  = false;
+  Earlier earlier = Earlier::keep_work;
+  bool quiet      = false;
 };
 
 /// Runs all cases and writes, into the output folder, stress.csv and solver.csv row by row, verdicts.json
-/// and study.json. With `resume` cases and measurements that have a row are not run again.
+/// and study.json. Cases and measurements that have a row there are not run again.
 /// Cells are homogenized with P1 by all ranks; the cases run on the first rank, on one thread.
-/// @throws BadInput, NotConverged of the cells; what a case throws is its outcome
+/// @throws BadInput, NotConverged of the cells, BadInput of the folder; what a case throws is its outcome
 std::vector<Verdict> run_stress_study(const StressStudyOptions &options, MPI_Comm communicator);
 } // namespace homespun::verification

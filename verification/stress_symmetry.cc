@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Stress cases of a cell that is another description of the same cloth: cut elsewhere, moved, repeated, turned,
 // mirrored, in other units.
-#include "verification/result_files.h"
 #include "verification/stress_cell_group.h"
 
 #include <cmath>
@@ -32,10 +31,10 @@ std::vector<StressCase> symmetry_cases(const std::vector<UnitCell> &cells)
   for (const UnitCell &cell : cells)
   {
     const std::string of = "; " + cell.name;
-    const double limit   = limit_of(cell);
+    const Limit limit    = limit_of(cell);
     for (const auto &[f1, f2] : {std::pair{0.5, 0.}, {0.25, 0.5}, {0.3125, 0.6875}})
     {
-      cut_elsewhere(group, "cut elsewhere; by " + csv_number(f1) + " and " + csv_number(f2), cell,
+      cut_elsewhere(group, "cut elsewhere; by " + short_text(f1) + " and " + short_text(f2), cell,
                     {f1, f2}, cell, as_it_was);
     }
     for (const double far : {1e2, 1e4})
@@ -45,9 +44,12 @@ std::vector<StressCase> symmetry_cases(const std::vector<UnitCell> &cells)
         far * Eigen::RowVector2d(1., 0.7) * std::sqrt(cell.lattice.area());
       // Coordinates lose so many digits, edges as many more as they are shorter than the cell.
       const double lost = far * std::sqrt(cell.mesh.n_triangles()) * 1e-15;
-      group.finite("moved by " + csv_number(far) + " cells" + of, "the same cloth",
-                   limit + 10. * lost, to_original,
-                   [=]() { return against(away, cell, as_it_was); });
+      group.finite("moved by " + short_text(far) + " cells" + of, "the same cloth",
+                   {limit.value + 10. * lost,
+                    limit.derivation +
+                      "; and ten roundings of an energy for the digits that the coordinates of an "
+                      "edge lose so far away"},
+                   to_original, [=]() { return against(away, cell, as_it_was); });
     }
     for (const auto &[n1, n2] : {std::pair{1, 1}, {2, 1}, {2, 2}, {3, 3}, {4, 4}})
       group.finite("repeated " + std::to_string(n1) + " x " + std::to_string(n2) + of,
@@ -55,7 +57,7 @@ std::vector<StressCase> symmetry_cases(const std::vector<UnitCell> &cells)
                    [=, n1 = n1, n2 = n2]()
                    { return against(repeated(cell, n1, n2), cell, as_it_was); });
     for (const double angle : {15., 45., 90., 180.})
-      group.finite("turned by " + csv_number(angle) + " degrees" + of, "C^H turns with the cell",
+      group.finite("turned by " + short_text(angle) + " degrees" + of, "C^H turns with the cell",
                    limit, to_original,
                    [=]() { return against(turned(cell, angle), cell, turn(angle)); });
     const Eigen::Matrix2d mirror = Eigen::Vector2d(-1., 1.).asDiagonal();

@@ -171,7 +171,7 @@ private:
       study.repeats        = 2;
       study.most_triangles = 100000;
     }
-    take_common(study, folder);
+    take_run(study, folder);
     return run_stress_study(study, communicator);
   }
 
@@ -188,8 +188,17 @@ private:
     study.n_cells_of_error_bar = options.quick ? 0 : 4;
     if (options.quick)
       study.duration = 0.2;
-    take_common(study, folder);
+    take_run(study, folder);
     return run_drape_study(study, communicator);
+  }
+
+  template <typename Study>
+  void take_run(Study &study, const std::string &folder) const
+  {
+    study.output  = folder;
+    study.command = options.command;
+    study.earlier = options.resume ? Earlier::resume : Earlier::keep_work;
+    study.quiet   = options.quiet;
   }
 
   template <typename Study>

@@ -64,7 +64,7 @@ TEST_F(tripwire_state_file, the_state_of_another_run_or_cloth_is_refused)
 {
   write_state(some_state({1.}), path);
   const std::string other = refusal([&] { read_state(path, 5, "fedcba9876543210"); });
-  for (const char *part : {"0123456789abcdef", "fedcba9876543210", "leave out --resume"})
+  for (const char *part : {"0123456789abcdef", "fedcba9876543210", "--overwrite"})
     EXPECT_NE(other.find(part), std::string::npos) << other;
   EXPECT_NE(refusal([&] { read_state(path, 6, "0123456789abcdef"); })
               .find("has shape (5,3); expected (6,3)"),

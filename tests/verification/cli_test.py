@@ -1,10 +1,9 @@
 # SPDX-License-Identifier: MIT
 """The program as a user meets it: help, results, and what it says to broken input."""
-import csv
 import json
 import unittest
 
-from cli import CELLS, InFolder, run
+from cli import CELLS, InFolder, rows_of, run, status_of
 
 
 class Help(unittest.TestCase):
@@ -170,12 +169,13 @@ class KnownFailures(unittest.TestCase):
 
 class Stress(InFolder):
     def test_every_case_is_a_row_and_those_that_fail_are_known(self):
-        result = run("stress", "--quick", "--quiet", "--no-report", "--output", self.folder)
-        with open(self.folder / "stress.csv", encoding="utf-8") as file:
-            rows = list(csv.DictReader(file))
+        study = ["stress", "--quick", "--quiet", "--no-report", "--output", self.folder]
+        result = run(*study)
+        rows = rows_of(self.folder / "stress.csv")
         self.assertGreater(len(rows), 300)
         for row in rows:
             self.assertIn(row["verdict"], ("PASS", "FAIL"), row)
+            self.assertTrue(row["derivation"], row)
             self.assertNotIn("error:", row["outcome"], row)
             self.assertNotIn("not finite", row["outcome"].split("refused")[0], row)
         self.assertEqual(differences_from_known(rows), [])
@@ -183,9 +183,27 @@ class Stress(InFolder):
         failed = any(row["verdict"] == "FAIL" for row in rows)
         self.assertEqual(failed, any(verdict["verdict"] == "FAIL" for verdict in verdicts))
         self.assertEqual(result.returncode, int(failed), result.stderr)
-        study = json.loads((self.folder / "study.json").read_text())
-        self.assertEqual((study["cases"], study["repeats"]), (len(rows), 2))
-        self.assertTrue(study["left_out"])
+        self.assertEqual(result.returncode, status_of(verdicts))
+        for verdict in verdicts:
+            self.assertEqual(verdict["kind"], "program")
+            self.assertTrue(verdict["derivation"])
+        study_of = json.loads((self.folder / "study.json").read_text())
+        self.assertEqual((study_of["cases"], study_of["repeats"]), (len(rows), 2))
+        self.assertTrue(study_of["left_out"])
+        # The same once more: every row is there.
+        text = (self.folder / "stress.csv").read_text()
+        self.assertEqual(run(*study).returncode, result.returncode)
+        self.assertEqual((self.folder / "stress.csv").read_text(), text)
+        self.assertTrue(json.loads((self.folder / "study.json").read_text())["resumed"])
+        # Another run is refused, with what differs; so are rows that somebody edited.
+        other = run("stress", CELLS / "layered.prm", "--quick", "--no-report", "--output", self.folder)
+        self.assertEqual(other.returncode, 2)
+        self.assertRegex(other.stderr, r"holds another run \(cells\), .* of work; .*--overwrite removes it")
+        self.assertEqual(text, (self.folder / "stress.csv").read_text())
+        (self.folder / "stress.csv").write_text(text.replace("FAIL", "PASS"))
+        edited = run(*study)
+        self.assertEqual(edited.returncode, 2)
+        self.assertIn("stress.csv: was changed after the run ended", edited.stderr)
 
 
 class BadInput(InFolder):

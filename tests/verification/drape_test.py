@@ -10,7 +10,7 @@ import unittest
 import h5py
 import numpy
 
-from cli import CELLS, PROGRAM, InFolder, rows_of, run
+from cli import CELLS, PROGRAM, InFolder, cut, rows_of, run
 
 sys.path.append(str(CELLS.parents[1] / "verification" / "report"))
 from vtu import read_vtu  # noqa: E402
@@ -145,34 +145,37 @@ class Scenes(SceneCase):
         self.assertEqual(run(*study, whole, "--duration", 0.3).returncode, 0)
         self.assertEqual(run(*study, early, "--duration", 0.15).returncode, 0)
         # What a kill leaves: the state of frame 3, rows and frames of the next one too, of the second reference nothing.
-        cut = self.folder / "cut"
-        shutil.copytree(whole, cut)
-        shutil.rmtree(cut / "layered-shell")
+        killed = self.folder / "killed"
+        shutil.copytree(whole, killed)
+        cut(killed)
+        shutil.rmtree(killed / "layered-shell")
         for frame in (5, 6):
-            (cut / "layered-biot" / f"fine_{frame:04d}.vtu").unlink()
+            (killed / "layered-biot" / f"fine_{frame:04d}.vtu").unlink()
         for table in ("drape.csv", "motion.csv"):
-            keep_rows(cut / table, lambda row: row.get("variant") == "corotational" and "reference" not in row
+            keep_rows(killed / table, lambda row: row.get("variant") == "corotational" and "reference" not in row
                       or "biot" in row.values() and int(row["frame"]) <= 4)
-        shutil.copy(early / "layered-biot" / "checkpoint.h5", cut / "layered-biot")
+        shutil.copy(early / "layered-biot" / "checkpoint.h5", killed / "layered-biot")
         with h5py.File(whole / "layered-biot" / "checkpoint.h5") as of_whole, \
-                h5py.File(cut / "layered-biot" / "checkpoint.h5", "a") as of_cut:
+                h5py.File(killed / "layered-biot" / "checkpoint.h5", "a") as of_cut:
             of_cut.attrs["run"] = of_whole.attrs["run"]
             self.assertEqual(of_cut.attrs["frame"], 3)
         for name in ("drape.json", "verdicts.json"):
-            (cut / name).unlink()
-        self.assertEqual(run(*study, cut, "--duration", 0.3, "--resume").returncode, 0)
+            (killed / name).unlink()
+        self.assertEqual(run(*study, killed, "--duration", 0.3, "--resume").returncode, 0)
 
-        self.assertEqual(sorted(path.relative_to(cut) for path in cut.rglob("*")),
+        self.assertEqual(sorted(path.relative_to(killed) for path in killed.rglob("*")),
                          sorted(path.relative_to(whole) for path in whole.rglob("*")))
         for table, keys in (("drape.csv", ("reference", "method")), ("motion.csv", ("variant",))):
             expected, found = (sorted(rows_of(folder / table), key=lambda row: [*(row[k] for k in keys), int(row["frame"])])
-                               for folder in (whole, cut))
+                               for folder in (whole, killed))
             self.assert_same_rows(found, expected)
-        verdicts = [json.loads((folder / "verdicts.json").read_text())["verdicts"] for folder in (whole, cut)]
+        verdicts = [json.loads((folder / "verdicts.json").read_text())["verdicts"] for folder in (whole, killed)]
         self.assertEqual(*([{**verdict, "command": ""} for verdict in some] for some in verdicts))
         for path in whole.rglob("*"):
-            there = cut / path.relative_to(whole)
-            if path.name == "inputs.json" or path.suffix == ".pvd":
+            there = killed / path.relative_to(whole)
+            if path.name == "run.json":
+                self.assertEqual(*(json.loads(one.read_text())["fingerprint"] for one in (there, path)))
+            elif path.suffix == ".pvd":
                 self.assertEqual(there.read_text(), path.read_text(), path)
             elif path.suffix == ".vtu":
                 one, two = read_vtu(there), read_vtu(path)
@@ -180,15 +183,15 @@ class Scenes(SceneCase):
                 self.assertEqual(set(one.point_data), set(two.point_data), path)
                 for name, values in two.point_data.items():
                     numpy.testing.assert_allclose(one.point_data[name], values, atol=1e-8, err_msg=f"{path} {name}")
-        self.assertIn("error", read_vtu(cut / "layered-biot" / "fine_0001.vtu").point_data)
-        self.assertIn("error", read_vtu(cut / "layered-shell" / "fine_0006.vtu").point_data)
+        self.assertIn("error", read_vtu(killed / "layered-biot" / "fine_0001.vtu").point_data)
+        self.assertIn("error", read_vtu(killed / "layered-shell" / "fine_0006.vtu").point_data)
         # Times are those of all steps, before and after the cut.
-        with h5py.File(cut / "layered-biot" / "checkpoint.h5") as of_cut, \
+        with h5py.File(killed / "layered-biot" / "checkpoint.h5") as of_cut, \
                 h5py.File(early / "layered-biot" / "checkpoint.h5") as of_early:
             seconds = numpy.array(of_cut["step_seconds"])
             self.assertEqual(len(seconds), 30)
             numpy.testing.assert_array_equal(seconds[:15], of_early["step_seconds"])
-        reference = json.loads((cut / "drape.json").read_text())["cells"][0]["references"][0]
+        reference = json.loads((killed / "drape.json").read_text())["cells"][0]["references"][0]
         self.assertAlmostEqual(reference["seconds_per_step"], numpy.median(seconds), delta=1e-5)
 
     def test_a_finished_run_that_is_resumed_keeps_its_times(self):
@@ -211,19 +214,27 @@ class Scenes(SceneCase):
         checkpoint, kept = output / "layered-shell" / "checkpoint.h5", self.folder / "kept.h5"
         shutil.copy(checkpoint, kept)
         other = [*study, "--time-step", 0.005]
-        # A new run begins without the state of the old one, even where it is killed before its first frame.
-        with subprocess.Popen([PROGRAM, *map(str, other)], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL) as process:
+        before = {path: path.read_bytes() for path in output.rglob("*") if path.is_file()}
+        refused = run(*other, "--resume")
+        self.assertEqual(refused.returncode, 2, refused.stdout)
+        self.assertIn("time_step", refused.stderr)
+        self.assertEqual(before, {path: path.read_bytes() for path in output.rglob("*") if path.is_file()})
+        # A run that begins anew does so without the state of the old one, even where it is killed before its first frame.
+        with subprocess.Popen([PROGRAM, *map(str, other), "--overwrite"], stdout=subprocess.DEVNULL,
+                              stderr=subprocess.DEVNULL) as process:
             deadline = time.monotonic() + 60
             while time.monotonic() < deadline and process.poll() is None:
-                if json.loads((output / "inputs.json").read_text())["time_step"] == 0.005 and (output / "drape.csv").exists():
+                if self.time_step_of_run(output) == 0.005 and (output / "drape.csv").exists():
                     break
                 time.sleep(0.001)
             process.kill()
         if checkpoint.exists():
             with h5py.File(checkpoint) as found, h5py.File(kept) as old:
                 self.assertNotEqual(found.attrs["run"], old.attrs["run"])
-        # One that comes back is refused, with and without the table.
+        # A state that comes back is refused, with and without the table.
         for table in (True, False):
+            if json.loads((output / "run.json").read_text())["finished"]:
+                cut(output)
             checkpoint.parent.mkdir(exist_ok=True)
             shutil.copy(kept, checkpoint)
             if not table:
@@ -231,9 +242,37 @@ class Scenes(SceneCase):
             result = run(*other, "--resume")
             self.assertEqual(result.returncode, 2, result.stdout)
             self.assertIn("checkpoint.h5", result.stderr)
-            self.assertIn("leave out --resume", result.stderr)
+            self.assertIn("--overwrite", result.stderr)
 
-    def test_a_run_is_resumed_only_with_what_it_was_asked_for(self):
+    @staticmethod
+    def time_step_of_run(output):
+        """None while there is no run."""
+        try:
+            return json.loads((output / "run.json").read_text(encoding="utf-8"))["inputs"]["time_step"]
+        except (FileNotFoundError, json.JSONDecodeError):
+            return None
+
+    def test_a_run_that_was_killed_is_taken_up_where_it_was(self):
+        output = self.folder / "out"
+        study = ["drape", SCENES / "pull.prm", "--quick", "--references", "shell", "--unit-cells", CELLS / "layered.prm",
+                 "--no-frames", "--no-report", "--duration", 1, "--output", output]
+        checkpoint = output / "layered-shell" / "checkpoint.h5"
+        with subprocess.Popen([PROGRAM, *map(str, study)], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL) as process:
+            deadline = time.monotonic() + 120
+            while time.monotonic() < deadline and process.poll() is None and not checkpoint.exists():
+                time.sleep(0.001)
+            process.kill()
+        self.assertTrue(checkpoint.exists())
+        self.assertFalse(json.loads((output / "run.json").read_text())["finished"])
+        rows = rows_of(output / "drape.csv")
+        self.assertTrue(rows)
+        result = run(*study)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertNotIn("shell reference, frame 0", result.stderr)
+        self.assertEqual(rows_of(output / "drape.csv")[:len(rows)], rows)
+        self.assertTrue(json.loads((output / "run.json").read_text())["finished"])
+
+    def test_a_run_is_taken_up_only_with_what_it_was_asked_for(self):
         output = self.folder / "out"
         study = ["drape", SCENES / "pull.prm", "--quick", "--unit-cells", CELLS / "layered.prm", "--no-frames", "--no-report",
                  "--duration", 0.1, "--output", output]
@@ -243,11 +282,37 @@ class Scenes(SceneCase):
         for name, more in (("--variants", "corotational,triangle-warping"), ("--methods", "affine,localized"),
                            ("--references", "shell,biot")):
             words = [word for pair in {**asked, name: more}.items() for word in pair]
-            (output / "drape.csv").unlink(missing_ok=True)
             result = run(*study, *words, "--resume")
             self.assertEqual(result.returncode, 2, name)
-            self.assertIn("inputs.json", result.stderr)
-            self.assertIn("--methods", result.stderr)
+            self.assertIn(f"holds another run ({name[2:]})", result.stderr)
+
+    def test_each_claim_has_its_kind_and_says_where_its_limit_comes_from(self):
+        output = self.folder / "out"
+        self.assertEqual(run("drape", SCENES / "pull.prm", "--quick", "--duration", 0.1, "--references", "shell", "--variants",
+                             "corotational,nodal-warping", "--unit-cells", CELLS / "layered.prm", "--no-frames", "--no-report",
+                             "--output", output).returncode, 0)
+        claims = {verdict["claim"]: verdict for verdict in json.loads((output / "verdicts.json").read_text())["verdicts"]
+                  if "runs to its end" in verdict["claim"]}
+        self.assertEqual({claim: verdict["kind"] for claim, verdict in claims.items()}, {
+            "layered, corotational: the scene runs to its end (frames reached)": "program",
+            "layered, nodal-warping: the scene runs to its end (frames reached)": "method",
+            "layered, shell: the reference runs to its end (frames reached)": "program"})
+        for verdict in claims.values():
+            self.assertTrue(verdict["derivation"])
+            self.assertEqual((verdict["verdict"], verdict["value"], verdict["limit"]), ("PASS", 3, "3"))
+
+    def test_what_was_left_out_is_what_was_not_asked_for(self):
+        study = ["drape", SCENES / "pull.prm", "--quick", "--duration", 0.05, "--unit-cells", CELLS / "layered.prm",
+                 "--no-frames", "--no-report"]
+        for options, left_out in (
+                ([], ["full-resolution cloth", "frames", "what absent terms would cost"]),
+                (["--references", "biot,shell", "--costs"], ["error bar of the reference biot", "error bar of the reference shell",
+                                                             "frames"])):
+            output = self.folder / f"out{len(options)}"
+            self.assertEqual(run(*study, *options, "--output", output).returncode, 0)
+            found = json.loads((output / "drape.json").read_text())
+            self.assertEqual([item["what"] for item in found["left_out"]], ["pull: " + what for what in left_out])
+            self.assertEqual(found["notes"], [])
 
 
 class BadScenes(SceneCase):

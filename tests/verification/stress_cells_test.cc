@@ -146,6 +146,11 @@ TEST(bound_stress_cells, poissons_ratio_of_almost_one_half_and_minus_one_is_regu
   expect_all_pass("cell Poisson's ratio", "");
 }
 
+TEST(bound_stress_cells, what_vanishes_does_so_with_the_slope_that_larger_ones_have)
+{
+  expect_all_pass("cell contrast", "beside");
+}
+
 TEST(bound_stress_cells, slivers_do_not_change_a_laminate)
 {
   expect_all_pass("cell slivers", "one obtuse triangle");

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "meshes/errors.h"
 #include "shell/membrane_term.h"
+#include "verification/record/table.h"
 #include "verification/stress_cases.h"
 
 #include <gtest/gtest.h>
@@ -8,6 +9,7 @@
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <stdexcept>
 
 using namespace homespun;
 using namespace homespun::verification;
@@ -18,12 +20,13 @@ namespace
 StressCase planted(const double figure, const double number, const Ending ending = Ending::finite)
 {
   StressCase one;
-  one.group  = "planted";
-  one.name   = "a case";
-  one.ending = ending;
-  one.limit  = 1.;
-  one.names  = "triangle 3";
-  one.run    = [=](unsigned int) -> StressAnswer {
+  one.group      = "planted";
+  one.name       = "a case";
+  one.ending     = ending;
+  one.limit      = 1.;
+  one.names      = "triangle 3";
+  one.derivation = "a limit of this test";
+  one.run        = [=](unsigned int) -> StressAnswer {
     return {figure, Eigen::MatrixXd::Constant(1, 1, number)};
   };
   return one;
@@ -60,7 +63,7 @@ TEST(tripwire_stress, a_number_that_is_not_finite_fails_and_reaches_no_file)
     const StressResult result = run_case(one, 2);
     EXPECT_EQ(result.verdict, Outcome::fail);
     EXPECT_EQ(result.outcome, "not finite");
-    for (const std::string &field : stress_row(one, result))
+    for (const std::string &field : fields_of_row(stress_row(one, result)))
       EXPECT_EQ(field.find("nan"), std::string::npos) << field;
   }
 }
@@ -116,6 +119,36 @@ TEST(tripwire_stress, one_failing_case_fails_its_group_and_no_other)
   EXPECT_EQ(verdicts[0].outcome, Outcome::pass);
   EXPECT_EQ(verdicts[1].outcome, Outcome::fail);
   EXPECT_EQ(verdicts[1].value, 2.);
+  for (const Verdict &verdict : verdicts)
+  {
+    EXPECT_EQ(verdict.kind, Kind::program);
+    EXPECT_FALSE(verdict.derivation.empty());
+  }
+}
+
+TEST(tripwire_stress, a_limit_without_a_derivation_is_no_limit)
+{
+  StressCase one = planted(0., 0.);
+  one.derivation.clear();
+  EXPECT_THROW(stress_row(one, run_case(one, 1)), std::logic_error);
+}
+
+TEST(invariant_stress, every_limit_of_every_case_says_where_it_comes_from)
+{
+  const std::vector<SheetStiffness> sheets          = built_in_stiffnesses();
+  const std::vector<homogenization::UnitCell> moved = built_in_cells();
+  int n                                             = 0;
+  for (const std::vector<StressCase> &some :
+       {cell_cases(moved, {2, Eigen::Matrix3d::Identity()}, 2, 1000000), time_step_cases(sheets),
+        stiffness_cases(), start_cases(sheets), mesh_cases(sheets[0]), rotation_cases(sheets),
+        motion_cases(sheets), scene_cases(sheets[0]),
+        localization_cases({smooth_cell()}, {"smooth"})})
+    for (const StressCase &one : some)
+    {
+      ++n;
+      EXPECT_FALSE(stress_row(one, {"finite", 0., Outcome::pass, 1, 0.}).derivation.empty());
+    }
+  EXPECT_GT(n, 500);
 }
 
 TEST(tripwire_stress, energy_that_a_handle_brings_in_is_seen)

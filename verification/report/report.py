@@ -10,6 +10,7 @@ Exit status: 0 the report is written; 2 the results cannot be used, one message 
 FOLDER/report.html and FOLDER/figures/ appear when all of them are complete, or not at all.
 """
 import argparse
+import errno
 import os
 import shutil
 import sys
@@ -64,6 +65,15 @@ def write_report(folders, output):
     return os.path.join(output, "report.html")
 
 
+def comes_of_a_full_disk(error):
+    """Whether a write to a full disk is where an exception began; libraries that draw fail again while they clean up."""
+    while error is not None:
+        if isinstance(error, OSError) and error.errno in (errno.ENOSPC, errno.EDQUOT):
+            return True
+        error = error.__cause__ or error.__context__
+    return False
+
+
 def main(arguments=None):
     parser = argparse.ArgumentParser(prog="homespun report", description=__doc__.splitlines()[0])
     parser.add_argument("folders", nargs="+", metavar="DIR", help="output folder of `homespun strain`, `homogenize`, "
@@ -76,6 +86,11 @@ def main(arguments=None):
     except BadResults as error:
         for fault in error.faults:
             print(f"error: {fault}", file=sys.stderr)
+        return 2
+    except Exception as error:  # pylint: disable=broad-exception-caught
+        if not comes_of_a_full_disk(error):
+            raise
+        print(f"homespun report: {options.output}: cannot be written: is the disk full?", file=sys.stderr)
         return 2
     if not options.quiet:
         print(f"{path} ({os.path.getsize(path) / 1e6:.1f} MB)")
