@@ -12,5 +12,6 @@ file(CONFIGURE OUTPUT ${OUTPUT} CONTENT [=[// Written by the build.
 #define HOMESPUN_BUILD_FLAGS "@FLAGS@"
 #define HOMESPUN_PYTHON "@PYTHON@"
 #define HOMESPUN_SOURCE_DIR "@SOURCE_DIR@"
+#define HOMESPUN_BUILD_DIR "@BUILD_DIR@"
 #define HOMESPUN_DATA_DIR "@DATA_DIR@" // seen from the folder of the installed program
 ]=] @ONLY)

@@ -4,7 +4,7 @@
 #include "meshes/errors.h"
 #include "meshes/refine.h"
 #include "verification/cloth_reference_faults.h"
-#include "verification/result_files.h"
+#include "verification/record/fields.h"
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/timer.h>
@@ -271,7 +271,7 @@ ClothStep ClothReference::step(const double dt)
   }
   catch (const meshes::NotConverged &)
   {
-    step.why     = "stopped at " + csv_number(present_time) + " s: " + step.why;
+    step.why     = "stopped at " + short_text(present_time) + " s: " + step.why;
     position     = old_position;
     velocity     = old_velocity;
     present_time = old_time;

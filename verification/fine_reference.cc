@@ -4,7 +4,7 @@
 #include "homogenization/periodic_constraints.h"
 #include "meshes/errors.h"
 #include "meshes/refine.h"
-#include "verification/result_files.h"
+#include "verification/record/fields.h"
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/timer.h>
@@ -32,7 +32,7 @@ std::string note_of_round_off(const ReferenceStep &step)
 {
   if (!step.is_at_round_off || !(step.relative_residual > 1e-6))
     return {};
-  return "the reference is accepted at round-off: " + csv_number(step.relative_residual) +
+  return "the reference is accepted at round-off: " + short_text(step.relative_residual) +
          " of its forces are left, those of the stiff phases; expected 1e-6 at most: a smaller contrast, or a larger strain";
 }
 
@@ -370,7 +370,7 @@ ReferenceStep FineReference::advance(const double strain)
     step.positions = positions_of(levels.back().displacement, strain);
   }
   else
-    step.why = "stopped at strain " + csv_number(reached) + ": " + step.why;
+    step.why = "stopped at strain " + short_text(reached) + ": " + step.why;
   timer.stop();
   step.seconds = Utilities::MPI::max(timer.wall_time(), discretization.communicator);
   // Later levels of a linear law are multiples of the first; what a solve costs is the first.

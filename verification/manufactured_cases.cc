@@ -7,7 +7,7 @@
 #include "verification/cloth_reference.h"
 #include "verification/fine_reference.h"
 #include "verification/manufactured.h"
-#include "verification/result_files.h"
+#include "verification/record/fields.h"
 #include "verification/stress_sheet.h"
 
 #include <cmath>
@@ -241,7 +241,7 @@ void take_steps(ClothReference &cloth, const int n_steps, const double dt)
 {
   for (int k = 0; k < n_steps; ++k)
     if (const ClothStep step = cloth.step(dt); !step.reached || step.n_parts != 1)
-      throw meshes::NotConverged("a step of " + csv_number(dt) + " s was cut: " + step.why, {});
+      throw meshes::NotConverged("a step of " + short_text(dt) + " s was cut: " + step.why, {});
 }
 
 ManufacturedCase static_case(const Law law, const unsigned int order)

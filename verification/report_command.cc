@@ -6,6 +6,7 @@
 #include "verification/commands.h"
 #include "verification/data_folder.h"
 #include "verification/on_root.h"
+#include "verification/record/run_folder.h"
 #include "verification/report_script.h"
 
 #include <CLI/Config.hpp>
@@ -13,6 +14,7 @@
 #include <CLI/Option.hpp>
 
 #include <cstdio>
+#include <cstdlib>
 #include <filesystem>
 #include <memory>
 
@@ -20,7 +22,13 @@ namespace homespun::verification
 {
 int run_report_script(const std::string &name, const std::vector<std::string> &arguments)
 {
-  const std::string script = data_folder("report", "verification/report") + "/" + name;
+  const std::string folder = data_folder("report", "verification/report"),
+                    script = folder + "/" + name, installed = folder + "/schema.json";
+  // The sources have no schema: the build keeps it.
+  const std::string schema = std::filesystem::exists(installed)
+                               ? installed
+                               : std::string(HOMESPUN_BUILD_DIR) + "/schema.json";
+  setenv("HOMESPUN_SCHEMA", schema.c_str(), 1);
   // -B: no __pycache__ in a folder that a package manager keeps.
   std::vector<std::string> words = {HOMESPUN_PYTHON, "-B", script};
   words.insert(words.end(), arguments.begin(), arguments.end());
@@ -63,7 +71,7 @@ void add_report_command(CLI::App &app, Action &action, Afterwards &afterwards)
                  "Folders of results; several cells or versions are compared in one page")
     ->required();
   command->add_option("--output", arguments->output,
-                      "Folder of the report (default the first DIR)");
+                      "Folder of the report (default DIR; of several out/report)");
   command->add_flag("--quiet", arguments->quiet, "Print nothing but faults");
   command->callback(
     [&action, &afterwards, arguments]()
@@ -73,9 +81,12 @@ void add_report_command(CLI::App &app, Action &action, Afterwards &afterwards)
         if (is_root(MPI_COMM_WORLD))
           afterwards = [arguments]()
           {
-            make_report(arguments->folders,
-                        arguments->output.empty() ? arguments->folders[0] : arguments->output,
-                        arguments->quiet);
+            // A page of several runs belongs to none of them.
+            const std::string output = !arguments->output.empty()       ? arguments->output
+                                       : arguments->folders.size() == 1 ? arguments->folders[0]
+                                                                        : "out/report";
+            make_report(arguments->folders, output, arguments->quiet);
+            list_report(output);
             return 0;
           };
         return 0;

@@ -8,6 +8,7 @@
 #include "verification/on_root.h"
 #include "verification/progress.h"
 #include "verification/provenance.h"
+#include "verification/record/json_files.h"
 #include "verification/reference_uncertainty.h"
 #include "verification/run_time.h"
 #include "verification/strain_comparison.h"

@@ -56,7 +56,7 @@ int StudyEnd::conclude(const std::vector<Verdict> &verdicts, const std::string &
       afterwards = [output, quiet]()
       {
         make_report({output}, output, quiet);
-        list_files_again(output);
+        list_report(output);
         return 0;
       };
   }

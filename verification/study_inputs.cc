@@ -2,14 +2,9 @@
 #include "verification/study_inputs.h"
 
 #include "meshes/errors.h"
-#include "verification/result_files.h"
-#include "verification/verdict.h"
 
 #include <cstdint>
 #include <cstdio>
-#include <filesystem>
-#include <fstream>
-#include <iterator>
 
 namespace homespun::verification
 {
@@ -74,32 +69,4 @@ void check_names(const std::vector<UnitCell> &cells)
   }
 }
 
-void check_inputs(const std::vector<UnitCell> &cells, const int n_cells,
-                  const int n_cells_of_error_bar, const std::string &folder, const bool resume)
-{
-  nlohmann::ordered_json inputs;
-  inputs["cells_per_side"]              = n_cells;
-  inputs["cells_per_side_of_error_bar"] = n_cells_of_error_bar;
-  for (const UnitCell &cell : cells)
-    inputs["cells"][cell.name] = fingerprint(cell);
-  check_inputs_file(folder, inputs, resume, "strain.csv");
-}
-
-void check_inputs_file(const std::string &folder, const nlohmann::ordered_json &inputs,
-                       const bool resume, const std::string &table, const std::string &what)
-{
-  const std::string path = folder + "/inputs.json", text = json_text(inputs);
-  if (resume && std::filesystem::exists(folder + "/" + table))
-  {
-    std::ifstream input(path);
-    const std::string found((std::istreambuf_iterator<char>(input)),
-                            std::istreambuf_iterator<char>());
-    if (found != text)
-      throw meshes::BadInput(
-        path + ": what is there belongs to other " + what +
-        " than this study; expected the same to resume: leave out --resume to begin "
-        "anew, or choose another --output");
-  }
-  write_whole(path, text);
-}
 } // namespace homespun::verification

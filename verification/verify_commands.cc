@@ -54,7 +54,7 @@ int run_verify(VerifyArguments arguments, Afterwards &afterwards)
       afterwards = [folders, output = options.output, quiet = options.quiet]()
       {
         make_report(folders, output, quiet);
-        list_files_again(output);
+        list_report(output);
         return 0;
       };
     }

@@ -9,7 +9,7 @@
 #include "verification/converge_study.h"
 #include "verification/drape_study.h"
 #include "verification/on_root.h"
-#include "verification/result_files.h"
+#include "verification/record/json_files.h"
 #include "verification/strain_study.h"
 #include "verification/stress_study.h"
 #include "verification/study_inputs.h"
@@ -134,7 +134,7 @@ private:
   {
     CellStudyOptions study;
     study.output  = folder;
-    study.earlier = options.resume ? Earlier::resume : Earlier::keep_work;
+    study.earlier = Earlier::keep_work;
     study.quiet   = options.quiet;
     return run_cell_study(cell, study, communicator).checks;
   }
@@ -157,7 +157,7 @@ private:
     study.quick      = options.quick;
     study.output     = folder;
     study.command    = options.command;
-    study.earlier    = options.resume ? Earlier::resume : Earlier::keep_work;
+    study.earlier    = Earlier::keep_work;
     study.quiet      = options.quiet;
     return run_convergence_study(study, communicator);
   }
@@ -197,7 +197,7 @@ private:
   {
     study.output  = folder;
     study.command = options.command;
-    study.earlier = options.resume ? Earlier::resume : Earlier::keep_work;
+    study.earlier = Earlier::keep_work;
     study.quiet   = options.quiet;
   }
 

@@ -292,12 +292,23 @@ std::unique_ptr<RunFolder> open_run_folder(const std::string &path,
   return folder;
 }
 
-void list_files_again(const std::string &path)
+void list_report(const std::string &path)
 {
   std::optional<ordered_json> found = description_in(path);
   if (!found || !found->value("finished", false))
     return;
-  (*found)["files"] = list_of_files(path);
+  const auto is_of_report = [](const std::string &file)
+  { return file == "report.html" || file.rfind("figures/", 0) == 0; };
+  const ordered_json listed = found->value("files", ordered_json::object());
+  ordered_json files        = ordered_json::object();
+  for (const auto &[file, description] : listed.items())
+    if (!is_of_report(file))
+      files[file] = description;
+  const ordered_json present = list_of_files(path);
+  for (const auto &[file, description] : present.items())
+    if (is_of_report(file))
+      files[file] = description;
+  (*found)["files"] = files;
   meshes::write_whole(path + "/run.json", json_text(*found));
 }
 

@@ -73,9 +73,9 @@ std::unique_ptr<RunFolder> open_run_folder(const std::string &path,
                                            const RunDescription &description, Earlier earlier,
                                            bool quiet);
 
-/// Lists the files of a finished run anew, after its report was made. Does nothing where the folder
-/// holds no run.
-void list_files_again(const std::string &path);
+/// Lists the page and the figures of a finished run, after they were made; what it listed of its results stays.
+/// Does nothing where the folder holds no run.
+void list_report(const std::string &path);
 
 /// The name of a place of the command's own: out/NAMES/COMMAND, with -quick where the sizes are small.
 /// @param names of the cells or of the scene, joined by + up to three
