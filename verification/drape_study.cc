@@ -8,6 +8,7 @@
 #include "verification/cell_study.h"
 #include "verification/drape_errors.h"
 #include "verification/drape_inputs.h"
+#include "verification/drape_verdicts.h"
 #include "verification/obstacle_surface.h"
 #include "verification/on_root.h"
 #include "verification/progress.h"
@@ -146,33 +147,13 @@ private:
                         bodies.triangles);
   }
 
-  /// Whether a cloth came to the end of the scene.
-  /// @param n_found frames, with that of the beginning
-  /// @param if_not where it did not
-  void judge(const std::string &claim, const int n_found, const Outcome if_not, const Kind kind)
-  {
-    const int n_wanted = schedule.n_frames + 1;
-    verdicts.push_back({claim + " (frames reached)", n_found == n_wanted ? Outcome::pass : if_not,
-                        static_cast<double>(n_found), std::to_string(n_wanted),
-                        "requirement: the frames of the duration that was asked for", kind});
-  }
-
   void judge(const DrapedCell &draped, const CoarseRun &run)
   {
-    judge(draped.cell.name + ", " + run.variant + ": the scene runs to its end",
-          static_cast<int>(run.frames.size()),
-          run.is_method() ? Outcome::fail : Outcome::inconclusive,
-          run.is_method() ? Kind::program : Kind::method);
+    const std::string title = draped.cell.name + ", " + run.variant;
+    verdicts.push_back(verdict_of_cloth(title, run.is_method(), static_cast<int>(run.frames.size()),
+                                        schedule.n_frames + 1));
     if (!run.failure.empty())
-      notes.push_back(draped.cell.name + ", " + run.variant + ": " + run.failure);
-  }
-
-  /// A reference without a single frame after the beginning says nothing at all; of one that stops later it is open
-  /// how far the method is from it then.
-  void judge_reference(const std::string &title, const int n_found)
-  {
-    judge(title + ": the reference runs to its end", n_found,
-          n_found <= 1 ? Outcome::fail : Outcome::inconclusive, Kind::program);
+      notes.push_back(title + ": " + run.failure);
   }
 
   /// A full-resolution cloth over all frames, and the errors of every coarse run against it.
@@ -251,7 +232,7 @@ private:
       if (frame > 0)
         progress.done();
     }
-    judge_reference(title, n_frames);
+    verdicts.push_back(verdict_of_reference(title, n_frames, schedule.n_frames + 1));
     // A time depends on the machine: reported, never judged.
     double ratio = std::numeric_limits<double>::quiet_NaN();
     for (const CoarseRun &run : runs)
