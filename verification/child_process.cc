@@ -45,7 +45,8 @@ std::vector<char *> pointers_to(std::vector<std::string> &texts)
 }
 } // namespace
 
-int run_child(const std::vector<std::string> &words, const std::string &log)
+int run_child(const std::vector<std::string> &words, const std::string &log,
+              const std::vector<std::string> &variables)
 {
   std::vector<std::string> arguments = words, environment = initial_environment();
   const auto is_of_rank = [](const std::string &variable) {
@@ -54,6 +55,7 @@ int run_child(const std::vector<std::string> &words, const std::string &log)
   if (std::any_of(environment.begin(), environment.end(), is_of_rank))
     environment.erase(std::remove_if(environment.begin(), environment.end(), is_of_mpi),
                       environment.end());
+  environment.insert(environment.begin(), variables.begin(), variables.end());
 
   cpu_set_t all_cores;
   std::memset(&all_cores, 0xff, sizeof(all_cores));

@@ -11,8 +11,10 @@ namespace homespun::verification
 /// inherits that), and without the variables that MPI gives a rank, by which a program with MPI would take itself for one of
 /// ours.
 /// @param log receives what it prints; empty: it prints where homespun prints
+/// @param variables "NAME=value" that it gets beside ours
 /// @return its exit status, as a shell tells it: 127 where it could not be run, 128 and the signal where it was killed by one
-int run_child(const std::vector<std::string> &words, const std::string &log = "");
+int run_child(const std::vector<std::string> &words, const std::string &log = "",
+              const std::vector<std::string> &variables = {});
 
 /// What to tell of a status of run_child() that means a signal; empty of any other.
 std::string text_of_signal(int status);

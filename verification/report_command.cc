@@ -14,7 +14,6 @@
 #include <CLI/Option.hpp>
 
 #include <cstdio>
-#include <cstdlib>
 #include <filesystem>
 #include <memory>
 
@@ -28,11 +27,10 @@ int run_report_script(const std::string &name, const std::vector<std::string> &a
   const std::string schema = std::filesystem::exists(installed)
                                ? installed
                                : std::string(HOMESPUN_BUILD_DIR) + "/schema.json";
-  setenv("HOMESPUN_SCHEMA", schema.c_str(), 1);
   // -B: no __pycache__ in a folder that a package manager keeps.
   std::vector<std::string> words = {HOMESPUN_PYTHON, "-B", script};
   words.insert(words.end(), arguments.begin(), arguments.end());
-  const int status = run_child(words);
+  const int status = run_child(words, "", {"HOMESPUN_SCHEMA=" + schema});
   if (status == 127)
     throw meshes::BadInput(
       std::string(HOMESPUN_PYTHON) + " " + script +
