@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// An HDF5 file that appears whole or not at all. It is made in memory and written as bytes: the library itself never
-// writes to a disk, because where that is full it leaves a file that it cannot close, and MPI_Finalize, which closes the
-// library, ends in a segmentation fault.
+// An HDF5 file that appears whole or not at all. It is made in memory and written as bytes: the
+// library itself never writes to a disk, because where that is full it leaves a file that it cannot
+// close, and MPI_Finalize, which closes the library, ends in a segmentation fault.
 #pragma once
 
 #include <cstdint>

@@ -28,8 +28,9 @@ struct DrapeOptions
   bool quiet      = false;
 };
 
-/// Runs a scene and writes drape.csv, motion.csv, drape.json, terms.csv, verdicts.json and the frames. References go
-/// on from the last frame that a run which was killed left; coarse cloths, which take seconds, are run again.
+/// Runs a scene and writes drape.csv, motion.csv, drape.json, terms.csv, verdicts.json and the
+/// frames. References go on from the last frame that a run which was killed left; coarse cloths,
+/// which take seconds, are run again.
 /// @throws BadInput with one message per fault before anything is written
 std::vector<Verdict> run_drape_study(const DrapeOptions &options, MPI_Comm communicator);
 } // namespace homespun::verification

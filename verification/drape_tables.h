@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The tables of a scene run: errors against the references, motion and energies, and what terms cost.
+// The tables of a scene run: errors against the references, motion and energies, and what terms
+// cost.
 #pragma once
 
 #include "verification/record/fields.h"
@@ -82,7 +83,8 @@ struct MotionRow
   }
 };
 
-/// Time of a step and memory of a cloth, as its scene is, and with a term that the scene leaves out forced upon it.
+/// Time of a step and memory of a cloth, as its scene is, and with a term that the scene leaves out
+/// forced upon it.
 struct TermRow
 {
   static constexpr const char *file    = "terms.csv";

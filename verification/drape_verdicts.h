@@ -21,8 +21,8 @@ inline Verdict reaches_the_end(const std::string &claim, const int n_found, cons
           kind};
 }
 
-/// The claim of a coarse cloth. That of a variant that is not the method is open where it stops: it is there to be
-/// compared, and what it would have been is not known.
+/// The claim of a coarse cloth. That of a variant that is not the method is open where it stops: it
+/// is there to be compared, and what it would have been is not known.
 inline Verdict verdict_of_cloth(const std::string &title, const bool is_method, const int n_found,
                                 const int n_wanted)
 {
@@ -31,8 +31,8 @@ inline Verdict verdict_of_cloth(const std::string &title, const bool is_method, 
                          is_method ? Kind::program : Kind::method);
 }
 
-/// The claim of a reference. One without a single frame after the beginning says nothing at all; of one that stops
-/// later it is open how far the method is from it then.
+/// The claim of a reference. One without a single frame after the beginning says nothing at all; of
+/// one that stops later it is open how far the method is from it then.
 inline Verdict verdict_of_reference(const std::string &title, const int n_found, const int n_wanted)
 {
   return reaches_the_end(title + ": the reference runs to its end", n_found, n_wanted,

@@ -50,16 +50,19 @@ struct StressCase
 /// Where limits come from, by what the figure is.
 using Derivations = std::map<std::string, std::string>;
 
-/// Gives the cases that end in an answer the derivation of their figure; one that is not known stays empty.
+/// Gives the cases that end in an answer the derivation of their figure; one that is not known
+/// stays empty.
 void derive(std::vector<StressCase> &cases, const Derivations &derivations);
 
-/// Growth of energy that round-off explains, over the largest energy: the cloth's own slack (shell/cloth.cc), 1e-12
-/// of the energy before and of what is stored, in up to five parts of a step that was cut.
+/// Growth of energy that round-off explains, over the largest energy: the cloth's own slack
+/// (shell/cloth.cc), 1e-12 of the energy before and of what is stored, in up to five parts of a
+/// step that was cut.
 constexpr double energy_round_off = 1e-11;
 
 /// Where that comes from.
 inline const char *const of_energy =
-  "theory: nothing brings energy into the sheet, and damping takes some; round-off: 1e-12 of the energy before and of "
+  "theory: nothing brings energy into the sheet, and damping takes some; round-off: 1e-12 of the "
+  "energy before and of "
   "what is stored, in up to five parts of a step that was cut";
 
 struct StressResult

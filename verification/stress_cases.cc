@@ -26,10 +26,12 @@ constexpr double side         = 0.2; ///< of the sheet [m]
 const Derivations derivations = {
   {of_largest_energy, of_energy},
   {of_momenta,
-   "theory: a free sheet keeps both momenta; requirement: to ten digits, a hundred times what 50 sums over "
+   "theory: a free sheet keeps both momenta; requirement: to ten digits, a hundred times what 50 "
+   "sums over "
    "81 vertices may round, 50 x 81 x 2e-16"},
   {way_at_rest,
-   "theory: a sheet at rest stays; round-off: 2.2e-16 of its side of 0.2 m in each of 20000 steps"}};
+   "theory: a sheet at rest stays; round-off: 2.2e-16 of its side of 0.2 m in each of 20000 "
+   "steps"}};
 
 /// A sheet hung by its upper corners that must not gain energy.
 StressAnswer hang(const SheetStiffness &stiffness, const double h, const int n_steps,

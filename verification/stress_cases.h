@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
-// The stress cases: the unit cell, the cloth in motion and the up-sampling. Limits come from theory:
-// a cell that is moved keeps its C^H, damped energy never grows, momenta of a free cloth are kept, a cloth at rest
-// stays, a uniform strain is up-sampled exactly; where theory is silent, that every number is finite.
+// The stress cases: the unit cell, the cloth in motion and the up-sampling. Limits come from
+// theory: a cell that is moved keeps its C^H, damped energy never grows, momenta of a free cloth
+// are kept, a cloth at rest stays, a uniform strain is up-sampled exactly; where theory is silent,
+// that every number is finite.
 #pragma once
 
 #include "homogenization/unit_cell.h"

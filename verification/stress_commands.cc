@@ -49,10 +49,11 @@ void add_stress_command(CLI::App &app, Action &action, Afterwards &afterwards,
   add_folder_options(*command, arguments->study, "out/CELLS/stress, --quick stress-quick");
   arguments->end.add_options(*command);
   command->footer(
-    "Cells of high contrast, slivers, moved cells, time steps, stiffness, starts, meshes, rotations, motions,\n"
-    "scenes, up-sampling; stress.csv has a row per case: what was expected, the outcome, one figure, its limit\n"
-    "and where that comes from. A case that fails is a row, and exit status 1: some sheets whose stiffnesses\n"
-    "differ by 1e4 do, far from equilibrium.\n"
+    "Cells of high contrast, slivers, moved cells, time steps, stiffness, starts, meshes, "
+    "rotations,\n"
+    "motions, scenes, up-sampling; stress.csv has a row per case: what was expected, the outcome, "
+    "one figure,\n"
+    "its limit and where that comes from. A case that fails is a row, and exit status 1.\n"
     "Example:\n  homespun stress --quick\n  homespun stress mycell.prm");
   command->callback(
     [&action, &afterwards, arguments]()

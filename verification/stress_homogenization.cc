@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Stress cases of the unit cell: contrast, Poisson's ratio, anisotropy, slivers, size, ranks; stress_symmetry.cc has the rest.
-// What C^H must be is known: layers have a closed form, linear elements a factorized cell problem, and a cell
-// that is shifted, doubled, turned, mirrored or given in other units is the same cloth. All differences are those
-// of the energy of the worst macro strain, so that the soft directions of a cell count as much as its stiff ones.
+// Stress cases of the unit cell: contrast, Poisson's ratio, anisotropy, slivers, size, ranks;
+// stress_symmetry.cc has the rest. What C^H must be is known: layers have a closed form, linear
+// elements a factorized cell problem, and a cell that is shifted, doubled, turned, mirrored or
+// given in other units is the same cloth. All differences are those of the energy of the worst
+// macro strain, so that the soft directions of a cell count as much as its stiff ones.
 #include "verification/stress_cases.h"
 #include "verification/stress_cell_group.h"
 #include "verification/stress_solver.h"
@@ -16,7 +17,8 @@ namespace homespun::verification
 {
 namespace
 {
-/// The limit of what differs from a linear dependence that larger moduli or compliances of the same run show.
+/// The limit of what differs from a linear dependence that larger moduli or compliances of the same
+/// run show.
 Limit of_vanishing(Limit round_off)
 {
   round_off.derivation =
@@ -51,8 +53,9 @@ void contrast_cases(const std::vector<UnitCell> &cells, std::vector<StressCase> 
   const UnitCell void_like = inclusion_cell(rows_of_built_in, soft_phase(), stiff_phase(1e-9));
   group.finite("void of 1e-9; square", "is that of a factorized solve", limit_of(void_like),
                to_factorized, [=]() { return against_factorized(void_like); });
-  // Energies are linear in the modulus of a void as it vanishes, and in the compliance of an inclusion as that vanishes.
-  // What is left beside the slope that larger ones have is of second order, and round-off.
+  // Energies are linear in the modulus of a void as it vanishes, and in the compliance of an
+  // inclusion as that vanishes. What is left beside the slope that larger ones have is of second
+  // order, and round-off.
   const char *const beside_slope =
     "largest relative energy difference, less what the slope between 1e-5 and 1e-6 explains [-]";
   group.finite(
@@ -216,7 +219,8 @@ void size_cases(const int most_triangles, std::vector<StressCase> &cases)
   group.finite(
     "two triangles", "is the mean of both: nothing can move",
     {1e-14,
-     "round-off: twelve roundings of each entry, of which the softest direction keeps one part in 3.7: "
+     "round-off: twelve roundings of each entry, of which the softest direction keeps one part in "
+     "3.7: "
      "12 x 3.7 x 2.2e-16"},
     "largest relative energy difference to Voigt's mean [-]",
     []() -> StressAnswer
@@ -238,7 +242,8 @@ void size_cases(const int most_triangles, std::vector<StressCase> &cases)
         short_text(triangles) + " triangles; stripes of contrast 10",
         "is the laminate of the closed form",
         {1e-11 + triangles * std::numeric_limits<double>::epsilon(),
-         "round-off: 1e-11 as for up to 1e5 triangles, and one rounding of the mean for each triangle"},
+         "round-off: 1e-11 as for up to 1e5 triangles, and one rounding of the mean for each "
+         "triangle"},
         to_closed_form,
         [=]() { return against_laminate(stripe_cell(rows, soft_phase(), stiff_phase(10.)), 1); },
         triangles < 100000 ? 2 : 1);

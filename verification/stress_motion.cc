@@ -37,22 +37,29 @@ SheetPhysics undamped(const bool has_gravity)
 /// Where the limits come from, by what the figure is.
 const Derivations derivations = {
   {"largest distance from the exact positions [m]",
-   "theory: implicit Euler falls by g h^2 k (k + 1) / 2; round-off: 2.2e-16 x (1 + h^2 18 lambda_max(D) / (rho a^2)), the "
+   "theory: implicit Euler falls by g h^2 k (k + 1) / 2; round-off: 2.2e-16 x (1 + h^2 18 "
+   "lambda_max(D) / (rho a^2)), the "
    "condition of a step, x g h^2 N^3 / 6, its velocity errors carried on over N steps"},
   {"largest relative change of momenta or growth of energy in 200 steps [-]",
-   "theory: nothing acts on the sheet from outside; requirement: ten digits, ten times what 200 sums over 3 x 81 terms may "
+   "theory: nothing acts on the sheet from outside; requirement: ten digits, ten times what 200 "
+   "sums over 3 x 81 terms may "
    "round, 200 x 243 x 2.2e-16"},
   {"largest energy that a step took away over the largest energy [-]",
-   "theory: implicit Euler takes (omega h)^2 of the energy of a spin in a step, and putting the spin right gives no more "
+   "theory: implicit Euler takes (omega h)^2 of the energy of a spin in a step, and putting the "
+   "spin right gives no more "
    "than that back"},
   {"largest sag [m]",
    "requirement: it holds; half of the side of the sheet, where free fall would be 4.9 m"},
   {"largest growth in a step over the largest energy [-]", of_energy},
   {"of the energy at the start [-]",
-   "theory: in the frame of handle or air nothing brings energy in; round-off: that of a step, 1e-11, in 100 steps"},
-  {"deepest vertex inside the sphere beyond h times what other forces changed of its velocity in the step [m]",
-   "theory: contact is seen where a step begins, and in it gravity and wind carry a vertex by h^2 times what they "
-   "accelerate; requirement: beside that a tenth of the contact thickness, 1e-4 m, and never half of the radius"}};
+   "theory: in the frame of handle or air nothing brings energy in; round-off: that of a step, "
+   "1e-11, in 100 steps"},
+  {"deepest vertex inside the sphere beyond h times what other forces changed of its velocity in "
+   "the step [m]",
+   "theory: contact is seen where a step begins, and in it gravity and wind carry a vertex by h^2 "
+   "times what they "
+   "accelerate; requirement: beside that a tenth of the contact thickness, 1e-4 m, and never half "
+   "of the radius"}};
 
 constexpr double fall_step    = 0.01; ///< [s]
 constexpr int n_steps_of_fall = 100;

@@ -53,14 +53,17 @@ nlohmann::ordered_json notes(const bool has_cells)
     "C^H of a cell is held against the closed form of a laminate, against a factorized solve, or against itself "
     "moved, by the relative energy of the worst macro strain.",
     "Energy that a step took from the motion lest it grow counts as growth; of a free sheet that spins, where it is the "
-    "price of the spin that is put right, it has a limit of its own. Momenta are those after a step has put the spin "
+    "price of the spin that is put right, it has a limit of its own. Momenta are those after a "
+    "step has put the spin "
     "right, which is part of the method.",
     "The figure of a case is the largest of its repetitions; the time is that of all of them.",
-    "Each limit stands in stress.csv with where it comes from: theory, round-off, or a requirement. Iterations and times "
+    "Each limit stands in stress.csv with where it comes from: theory, round-off, or a "
+    "requirement. Iterations and times "
     "of the solver have none: they are reported."};
   if (!has_cells)
     all.push_back(
-      "No cell was given: the cloths are sheets of three built-in stiffnesses, and up-sampling takes a cell "
+      "No cell was given: the cloths are sheets of three built-in stiffnesses, and up-sampling "
+      "takes a cell "
       "of smooth modes.");
   return all;
 }

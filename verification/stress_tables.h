@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The tables of the stress study: what became of each case, and what the solver of the cell problem cost.
+// The tables of the stress study: what became of each case, and what the solver of the cell problem
+// cost.
 #pragma once
 
 #include "verification/record/fields.h"

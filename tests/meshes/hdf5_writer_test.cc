@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A disk that is full: the message, nothing left behind, and a program that ends with its own status.
+// A disk that is full: the message, nothing left behind, and a program that ends with its own
+// status.
 #include "meshes/hdf5_writer.h"
 
 #include "meshes/errors.h"
