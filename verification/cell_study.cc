@@ -24,7 +24,7 @@ nlohmann::ordered_json inputs_of(const homogenization::UnitCell &cell,
                                  const CellStudyOptions &options)
 {
   nlohmann::ordered_json inputs = {{"cell", cell.name},
-                                   {"contents", fingerprint(cell)},
+                                   {"cell " + cell.name, fingerprint(cell)},
                                    {"order", options.solve.order},
                                    {"refine", options.solve.refine},
                                    {"bars", options.bars},

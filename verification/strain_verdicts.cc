@@ -134,31 +134,26 @@ std::vector<Verdict> sheet_verdict(const std::vector<StrainRow> &rows, const Str
   if (nearest == asked.end() || distance(*nearest) > std::log(1.5))
     return {};
   const StrainRow *affine = nullptr, *localized = nullptr;
-  bool is_asked = false;
   for (const StrainRow &row : rows)
-    if (is_of_case(row, of_case))
+    if (is_of_case(row, of_case) && row.strain == *nearest)
     {
-      is_asked = is_asked || row.method == "localized" || !row.is_reached();
-      if (row.strain == *nearest && row.method == "affine")
+      if (row.method == "affine")
         affine = &row;
-      if (row.strain == *nearest && row.method == "localized")
+      if (row.method == "localized")
         localized = &row;
     }
-  const std::string claim = of_case.cell + ", " + of_case.load +
-                            ": localized is closer to biot than affine at strain " +
-                            short_text(*nearest) + " (ratio of errors)";
-  const char *const limit      = "< 1 by more than the reference's error bar";
-  const char *const derivation = "the error bar of the reference at this level, of the same run";
+  // A level that was not reached has a claim of its own.
   if (affine == nullptr || localized == nullptr)
-    return is_asked ? std::vector<Verdict>{{claim, Outcome::inconclusive,
-                                            std::numeric_limits<double>::quiet_NaN(), limit,
-                                            derivation, Kind::method}}
-                    : std::vector<Verdict>();
+    return {};
   const double gain     = affine->mean - localized->mean;
   const Outcome outcome = gain > localized->uncertainty    ? Outcome::pass
                           : gain < -localized->uncertainty ? Outcome::fail
                                                            : Outcome::inconclusive;
-  return {{claim, outcome, localized->mean / affine->mean, limit, derivation, Kind::method}};
+  return {{of_case.cell + ", " + of_case.load +
+             ": localized is closer to biot than affine at strain " + short_text(*nearest) +
+             " (ratio of errors)",
+           outcome, localized->mean / affine->mean, "< 1 by more than the reference's error bar",
+           "the error bar of the reference at this level, of the same run", Kind::method}};
 }
 } // namespace
 
