@@ -112,10 +112,8 @@ public:
   /// definite, else the projected one; after such a one the next does without the attempt, unless the
   /// step was a full one.
   /// @param positions start and result, whose held rows are prescribed
-  /// @param must_converge false: to stop after the last iteration is no failure
   /// @throws NotConverged with the residual history
-  void minimize(const Vectors &inertial, double h, int max_iterations, bool must_converge,
-                Vectors &positions, SolveCounts &counts);
+  void minimize(const Vectors &inertial, double h, Vectors &positions, SolveCounts &counts);
 
   /// Whether the matrix is solved by factorisation.
   bool is_direct() const
