@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <sstream>
 
 namespace homespun::shell
@@ -15,7 +14,6 @@ namespace
 {
 /// Round-off of energies that are large and cancel.
 constexpr double energy_slack = 1e-12;
-constexpr double infinity     = std::numeric_limits<double>::infinity();
 
 int first_not_finite(const Vectors &values)
 {
@@ -77,10 +75,11 @@ Cloth::Cloth(const Vectors &positions, const Eigen::VectorXd &masses,
 void Cloth::add(std::unique_ptr<Term> term)
 {
   if (options.integrator == Integrator::conserving && !term->has_discrete_gradient())
-    throw meshes::BadInput("the conserving integrator cannot take the term `" + term->name() +
-                           "`: what it does to energy and momenta over a step has no discrete gradient; "
-                           "expected membrane, viscosity, bending, gravity and damping alone: take the "
-                           "linearly implicit or the implicit one");
+    throw meshes::BadInput(
+      "the conserving integrator cannot take the term `" + term->name() +
+      "`: what it does to energy and momenta over a step has no discrete gradient; "
+      "expected membrane, viscosity, bending, gravity and damping alone: take the "
+      "linearly implicit or the implicit one");
   potential.add(std::move(term));
   conserving.reset();
   stored.reset();
@@ -131,14 +130,35 @@ void Cloth::set_held(Vectors &positions) const
     positions.row(vertex) = target.row(vertex);
 }
 
-/// Whether a step may not raise the energy: no handle moves, and no term does work.
-bool Cloth::is_closed() const
+/// The velocity of the frame in which a step may not raise the energy: no term does work, and no handle moves there. It moves
+/// with the handles where all go the same way and nothing but they acts from outside; else there may be none.
+std::optional<Eigen::RowVector3d> Cloth::closed_frame(const double h) const
 {
-  for (const int vertex : held)
-    if (target.row(vertex) != x.row(vertex))
-      return false;
-  return std::none_of(terms().begin(), terms().end(),
-                      [](const auto &term) { return term->does_work() || !term->has_energy(); });
+  const auto is_all = [&](const auto &property)
+  { return std::all_of(terms().begin(), terms().end(), property); };
+  if (!is_all([](const auto &term) { return term->has_energy() && !term->does_work(); }))
+    return std::nullopt;
+  if (held.empty() || is_moved_by(Eigen::RowVector3d::Zero()))
+    return Eigen::RowVector3d::Zero();
+  const Eigen::RowVector3d way = target.row(held[0]) - x.row(held[0]);
+  if (is_moved_by(way) && is_all([](const auto &term) { return term->is_internal(); }))
+    return way / h;
+  return std::nullopt;
+}
+
+/// Whether all handles go the same way, but for round-off.
+bool Cloth::is_moved_by(const Eigen::RowVector3d &way) const
+{
+  const double round_off = way.isZero(0.) ? 0. : energy_slack * x.cwiseAbs().maxCoeff();
+  return std::all_of(
+    held.begin(), held.end(),
+    [&](const int vertex)
+    { return (target.row(vertex) - x.row(vertex) - way).cwiseAbs().maxCoeff() <= round_off; });
+}
+
+double Cloth::kinetic_energy_in(const Eigen::RowVector3d &frame, const Vectors &velocities) const
+{
+  return 0.5 * m.dot((velocities.rowwise() - frame).rowwise().squaredNorm());
 }
 
 /// Whether nothing acts from outside, so that both momenta stay.
@@ -176,11 +196,11 @@ bool Cloth::is_overshot(const Vectors &next, const Vectors &inertial, const doub
 {
   const auto has_grown = [](const double before, const double after, const double size)
   { return !(after <= before + energy_slack * (std::abs(before) + std::abs(size))); };
-  if (is_closed())
+  if (const auto frame = closed_frame(h))
   {
-    const double stored_then = potential.stored_energy(next),
-                 kinetic     = 0.5 / (h * h) * m.dot((next - x).rowwise().squaredNorm());
-    return has_grown(kinetic_energy() + stored_energy(), kinetic + stored_then, stored_then);
+    const double stored_then = potential.stored_energy(next);
+    return has_grown(kinetic_energy_in(*frame, v) + stored_energy(),
+                     kinetic_energy_in(*frame, (next - x) / h) + stored_then, stored_then);
   }
   if (!potential.has_energy())
     return false;
@@ -190,11 +210,17 @@ bool Cloth::is_overshot(const Vectors &next, const Vectors &inertial, const doub
   return has_grown(potential.value(start, inertial, 1. / (h * h)), after, after);
 }
 
-/// The minimum of Φ.
+/// The minimum of Φ; of a linearly implicit step that is guarded at least a place that is not overshot.
 Vectors Cloth::minimum(const Vectors &inertial, const double h, StepReport &report)
 {
   Vectors next = start_of_solve(h);
-  potential.minimize(inertial, h, next, report);
+  potential.minimize(
+    inertial, h,
+    [&](const Vectors &found) {
+      return options.integrator == Integrator::linearly_implicit &&
+             !is_overshot(found, inertial, h);
+    },
+    next, report);
   check_finite(next, h);
   return next;
 }
@@ -203,8 +229,8 @@ Vectors Cloth::minimum(const Vectors &inertial, const double h, StepReport &repo
 Vectors Cloth::conserved(const double h, StepReport &report)
 {
   if (!conserving)
-    conserving =
-      std::make_unique<ConservingStep>(m, flags(held, m.size()), static_cast<SolverOptions>(options));
+    conserving = std::make_unique<ConservingStep>(m, flags(held, m.size()),
+                                                  static_cast<SolverOptions>(options));
   Vectors next = start_of_solve(h);
   conserving->solve(terms(), x, v, h, next, report);
   check_finite(next, h);
@@ -215,7 +241,8 @@ void Cloth::try_step(const double h, StepReport &report)
 {
   for (const auto &term : terms())
     term->begin_step({x, v, now, h});
-  const double energy           = is_closed() ? kinetic_energy() + stored_energy() : infinity;
+  const auto frame              = closed_frame(h);
+  const double energy           = frame ? kinetic_energy_in(*frame, v) + stored_energy() : 0.;
   const Eigen::RowVector3d spin = angular_momentum();
   const Vectors inertial        = x + h * v;
   Vectors next;
@@ -237,17 +264,13 @@ void Cloth::try_step(const double h, StepReport &report)
     break;
   }
   const Vectors seen = (next - x) / h;
-  // Of a handle the motion that is seen: its velocity before means nothing.
-  const Vectors old_v = v;
-  v                   = seen;
-  if (options.integrator == Integrator::conserving)
-    for (Eigen::Index i = 0; i < v.rows(); ++i)
-      if (!std::binary_search(held.begin(), held.end(), static_cast<int>(i)))
-        v.row(i) += seen.row(i) - old_v.row(i);
+  v                  = options.integrator == Integrator::conserving ? (2. * seen - v).eval() : seen;
+  for (const int vertex : held)
+    v.row(vertex) = seen.row(vertex);
   x = next;
   stored.reset();
-  if (energy < infinity)
-    report.energy_gained += std::max(0., kinetic_energy() + stored_energy() - energy);
+  if (frame)
+    report.energy_gained += std::max(0., kinetic_energy_in(*frame, v) + stored_energy() - energy);
   if (is_alone())
     report.spin_lost += (angular_momentum() - spin).norm();
 }
@@ -302,7 +325,7 @@ StepReport Cloth::step(const double h)
 
 double Cloth::kinetic_energy() const
 {
-  return 0.5 * m.dot(v.rowwise().squaredNorm());
+  return kinetic_energy_in(Eigen::RowVector3d::Zero(), v);
 }
 
 double Cloth::stored_energy() const

@@ -71,13 +71,11 @@ TriangleStep triangle_step(const RestTriangle &rest, const Eigen::Matrix3d &old_
                            const StrainWeights &weights)
 {
   const DeformationGradient<3> old_F = deformation_gradient<3>(rest, old_corners),
-                               F     = deformation_gradient<3>(rest, corners),
-                               mean  = 0.5 * (old_F + F);
+                               F = deformation_gradient<3>(rest, corners), mean = 0.5 * (old_F + F);
   const Eigen::Vector3d old_strain = biot_strain<3>(old_F), strain = biot_strain<3>(F);
-  const auto stretch_of = [](const Eigen::Vector3d &e) {
-    return Symmetric(e(0) + 1., e(1) + 1., 0.5 * e(2));
-  };
-  const Symmetric U          = stretch_of(strain), mean_U = 0.5 * (stretch_of(old_strain) + U);
+  const auto stretch_of = [](const Eigen::Vector3d &e)
+  { return Symmetric(e(0) + 1., e(1) + 1., 0.5 * e(2)); };
+  const Symmetric U = stretch_of(strain), mean_U = 0.5 * (stretch_of(old_strain) + U);
   const Eigen::Matrix3d to_S = inverse_anticommutator(mean_U);
   const Symmetric S = to_S * (2. * (D * (weights.old * old_strain + weights.now * strain)));
 

@@ -157,8 +157,9 @@ Vectors IncrementalPotential::linear_step(const Vectors &positions, const Vector
   return step;
 }
 
-void IncrementalPotential::minimize(const Vectors &inertial, const double h, Vectors &positions,
-                                    SolveCounts &counts)
+void IncrementalPotential::minimize(const Vectors &inertial, const double h,
+                                    const std::function<bool(const Vectors &)> &is_enough,
+                                    Vectors &positions, SolveCounts &counts)
 {
   const double inverse_square = 1. / (h * h);
   const bool descends         = has_energy();
@@ -167,6 +168,12 @@ void IncrementalPotential::minimize(const Vectors &inertial, const double h, Vec
   bool try_exact = is_direct();
   Vectors step, trial;
   std::vector<double> history;
+  const auto give_up = [&](const char *what)
+  {
+    if (!is_enough(positions))
+      throw meshes::NotConverged(what, history);
+    ++counts.unconverged;
+  };
   for (int iteration = 0;; ++iteration)
   {
     const Residual residual = assemble(positions, inertial, inverse_square,
@@ -177,7 +184,7 @@ void IncrementalPotential::minimize(const Vectors &inertial, const double h, Vec
     if (residual.is_below(options.newton_tolerance))
       return;
     if (iteration >= options.max_newton_iterations)
-      throw meshes::NotConverged("Newton's method of the step", history);
+      return give_up("Newton's method of the step");
     const Vectors forces = -assembled_gradient;
     step.setZero(m.size(), 3);
     bool solved = solve(forces, step, counts);
@@ -198,7 +205,7 @@ void IncrementalPotential::minimize(const Vectors &inertial, const double h, Vec
     for (double length = 1.;; length *= 0.5)
     {
       if (length < 1e-6)
-        throw meshes::NotConverged("the line search of the step found no lower potential", history);
+        return give_up("the line search of the step found no lower potential");
       trial             = positions + length * step;
       const double next = value(trial, inertial, inverse_square);
       if (descends && !(next <= potential + 1e-4 * length * slope + slack))

@@ -127,9 +127,9 @@ public:
     const double elastic = is_elastic ? 0.5 : 0.;
     for (int t = 0; t < n_triangles(); ++t)
     {
-      const TriangleStep step = triangle_step(
-        membrane.rest[index(t)], corners_of(old, t), corners_of(positions, t),
-        membrane.stiffness[phase_of(t)].D, {elastic - factor, elastic + factor});
+      const TriangleStep step =
+        triangle_step(membrane.rest[index(t)], corners_of(old, t), corners_of(positions, t),
+                      membrane.stiffness[phase_of(t)].D, {elastic - factor, elastic + factor});
       for (int a = 0; a < 3; ++a)
       {
         gradient.row(membrane.triangles(t, a)) += step.gradient.row(a);
