@@ -3,15 +3,15 @@
 // energy fall; of the angular momentum they lose a share in each step. The conserving one keeps all three.
 // Whether a sheet turns at all is judged by its motion, (x_{n+1} − x_n)/h: of a rigid body with the angular velocity ω implicit
 // Euler leaves the share 1/sqrt(1 + (h ω)²) of its angular momentum in it, the midpoint rule 1/(1 + (h ω/2)²).
-#include "meshes/errors.h"
 #include "shell/rigid_motion.h"
 #include "verification/result_files.h"
 #include "verification/stress_cases.h"
 
-#include <Eigen/Geometry>
+#include <Eigen/Eigenvalues>
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace homespun::verification
 {
@@ -60,6 +60,15 @@ Cloth spinning_cloth(const SheetStiffness &stiffness, const Spin &spin, const In
   velocities.rowwise() += Eigen::RowVector3d(0.3, 0.1, -0.2);
   cloth.set_state(mesh.positions, velocities, 0.);
   return cloth;
+}
+
+/// rho omega² r² over the softest stiffness, r half a diagonal of the sheet: below one a sheet turns nearly as a rigid body.
+double centrifugal_strain(const SheetStiffness &stiffness, const Spin &spin)
+{
+  constexpr double radius_squared = 0.5 * 0.2 * 0.2;
+  const double softest =
+    Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(stiffness.D).eigenvalues()(0);
+  return stiffness.areal_density * spin.angular_velocity.squaredNorm() * radius_squared / softest;
 }
 
 /// The largest change of what is kept.

@@ -165,13 +165,16 @@ TEST(bound_integrators, no_step_turns_by_less_than_half_of_what_theory_gives)
 
 TEST(exact_integrators, a_stiff_sheet_turns_as_theory_says_of_a_rigid_body)
 {
-  // Strains of 1e-4: what they change the turn by is of their order.
+  // Strains of 1e-4: what they change the turn by is of their order. One Newton step begins beside that with the stretch by which
+  // x + h v is too far out, (h ω)²/2.
   for (const auto &[integrator, name] : integrators)
     for (const double angle : {0.01, 0.1, 0.3})
     {
       const Turning result = turning(sheets()[0], integrator, angle, 20);
-      EXPECT_NEAR(result.least_turn, 1., 1e-3) << name << ", " << angle;
-      EXPECT_NEAR(result.most_turn, 1., 1e-3) << name << ", " << angle;
+      const double limit =
+        1e-3 + (integrator == Integrator::linearly_implicit ? 0.5 * angle * angle : 0.);
+      EXPECT_NEAR(result.least_turn, 1., limit) << name << ", " << angle;
+      EXPECT_NEAR(result.most_turn, 1., limit) << name << ", " << angle;
     }
   const double angle = 0.1;
   EXPECT_NEAR(turning(sheets()[0], Integrator::implicit, angle, 1).L,
