@@ -3,6 +3,7 @@
 
 #include "shell/hinges.h"
 #include "shell/index.h"
+#include "shell/vertex_matrix.h"
 
 #include <map>
 
@@ -94,6 +95,27 @@ public:
       add_scalar(places[p], weights[p], matrix);
     for (std::size_t v = 0; v < diagonal_places.size(); ++v)
       add_scalar(diagonal_places[v], diagonal(static_cast<Eigen::Index>(v)), matrix);
+  }
+
+  bool has_discrete_gradient() const override
+  {
+    return true;
+  }
+
+  // Of a quadratic energy it is the gradient half way.
+  void add_discrete_gradient(const Vectors &old, const Vectors &x, Vectors &gradient,
+                             VertexMatrix &jacobian) const override
+  {
+    add_gradient(0.5 * (old + x), gradient);
+    const auto add = [&](const int a, const int b, const double weight)
+    { jacobian.add(a, b, 0.5 * weight * Eigen::Matrix3d::Identity()); };
+    for (std::size_t p = 0; p < pairs.size(); ++p)
+    {
+      add(pairs[p][0], pairs[p][1], weights[p]);
+      add(pairs[p][1], pairs[p][0], weights[p]);
+    }
+    for (int v = 0; v < static_cast<int>(diagonal.size()); ++v)
+      add(v, v, diagonal(v));
   }
 
   std::size_t bytes() const override

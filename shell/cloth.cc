@@ -4,8 +4,6 @@
 #include "meshes/errors.h"
 #include "shell/rigid_motion.h"
 
-#include <Eigen/Geometry>
-
 #include <algorithm>
 #include <cmath>
 #include <sstream>
@@ -76,7 +74,14 @@ Cloth::Cloth(const Vectors &positions, const Eigen::VectorXd &masses,
 
 void Cloth::add(std::unique_ptr<Term> term)
 {
+  if (options.integrator == Integrator::conserving && !term->has_discrete_gradient())
+    throw meshes::BadInput(
+      "the conserving integrator cannot take the term `" + term->name() +
+      "`: what it does to energy and momenta over a step has no discrete gradient; "
+      "expected membrane, viscosity, bending, gravity and damping alone: take the "
+      "linearly implicit or the implicit one");
   potential.add(std::move(term));
+  conserving.reset();
   stored.reset();
 }
 
@@ -125,174 +130,149 @@ void Cloth::set_held(Vectors &positions) const
     positions.row(vertex) = target.row(vertex);
 }
 
-/// Whether a step may not raise the energy: no handle moves, and no term does work.
-bool Cloth::is_closed() const
+/// The velocity of the frame in which a step may not raise the energy: no term does work, and no handle moves there. It moves
+/// with the handles where all go the same way and nothing but they acts from outside; else there may be none.
+std::optional<Eigen::RowVector3d> Cloth::closed_frame(const double h) const
 {
-  for (const int vertex : held)
-    if (target.row(vertex) != x.row(vertex))
-      return false;
-  return std::none_of(terms().begin(), terms().end(),
-                      [](const auto &term) { return term->does_work() || !term->has_energy(); });
+  const auto is_all = [&](const auto &property)
+  { return std::all_of(terms().begin(), terms().end(), property); };
+  if (!is_all([](const auto &term) { return term->has_energy() && !term->does_work(); }))
+    return std::nullopt;
+  if (held.empty() || is_moved_by(Eigen::RowVector3d::Zero()))
+    return Eigen::RowVector3d::Zero();
+  const Eigen::RowVector3d way = target.row(held[0]) - x.row(held[0]);
+  if (is_moved_by(way) && is_all([](const auto &term) { return term->is_internal(); }))
+    return way / h;
+  return std::nullopt;
 }
 
-/// Where a linearly implicit step ends.
-Vectors Cloth::linear_step(const double h, StepReport &report)
+/// Whether all handles go the same way, but for round-off.
+bool Cloth::is_moved_by(const Eigen::RowVector3d &way) const
 {
-  Vectors next = x + potential.linear_step(x, v, target - x, h, report);
+  const double round_off = way.isZero(0.) ? 0. : energy_slack * x.cwiseAbs().maxCoeff();
+  return std::all_of(
+    held.begin(), held.end(),
+    [&](const int vertex)
+    { return (target.row(vertex) - x.row(vertex) - way).cwiseAbs().maxCoeff() <= round_off; });
+}
+
+double Cloth::kinetic_energy_in(const Eigen::RowVector3d &frame, const Vectors &velocities) const
+{
+  return 0.5 * m.dot((velocities.rowwise() - frame).rowwise().squaredNorm());
+}
+
+/// Whether nothing acts from outside, so that both momenta stay.
+bool Cloth::is_alone() const
+{
+  return held.empty() && std::all_of(terms().begin(), terms().end(),
+                                     [](const auto &term) { return term->is_internal(); });
+}
+
+/// Where Newton's method begins: a free cloth where its integrator would take a rigid body with its momenta, so that no part
+/// of them is lost in a line search.
+Vectors Cloth::start_of_solve(const double h) const
+{
+  if (held.empty())
+    return moved_rigidly(m, x, v, h,
+                         options.integrator == Integrator::conserving ? RigidStep::midpoint
+                                                                      : RigidStep::implicit_euler);
+  Vectors start = x;
+  set_held(start);
+  return start;
+}
+
+/// Where a linearly implicit step ends: one Newton step of Φ, of a cloth with handles from x_n.
+Vectors Cloth::linear_step(const Vectors &inertial, const double h, StepReport &report)
+{
+  const Vectors from = held.empty() ? start_of_solve(h) : x;
+  Vectors next = from + potential.linear_step(from, (inertial - from) / h, target - x, h, report);
   set_held(next);
   check_finite(next, h);
   return next;
 }
 
-/// The minimum of Φ, or of a linearly implicit step that is guarded what ten iterations find of it.
+/// Whether a linearly implicit step raises the energy of a cloth on which nothing does work, or otherwise Φ.
+bool Cloth::is_overshot(const Vectors &next, const Vectors &inertial, const double h) const
+{
+  const auto has_grown = [](const double before, const double after, const double size)
+  { return !(after <= before + energy_slack * (std::abs(before) + std::abs(size))); };
+  if (const auto frame = closed_frame(h))
+  {
+    const double stored_then = potential.stored_energy(next);
+    return has_grown(kinetic_energy_in(*frame, v) + stored_energy(),
+                     kinetic_energy_in(*frame, (next - x) / h) + stored_then, stored_then);
+  }
+  if (!potential.has_energy())
+    return false;
+  Vectors start = x;
+  set_held(start);
+  const double after = potential.value(next, inertial, 1. / (h * h));
+  return has_grown(potential.value(start, inertial, 1. / (h * h)), after, after);
+}
+
+/// The minimum of Φ; of a linearly implicit step that is guarded at least a place that is not overshot.
 Vectors Cloth::minimum(const Vectors &inertial, const double h, StepReport &report)
 {
-  Vectors next = x;
-  set_held(next);
-  // A free cloth begins where its momentum takes it: a line search that shortens the step would keep a
-  // part of the momentum only.
-  if (held.empty())
-    next.rowwise() += h * momentum() / m.sum();
-  const bool to_tolerance = options.integrator == Integrator::implicit;
-  potential.minimize(inertial, h, to_tolerance ? options.max_newton_iterations : 10, to_tolerance,
-                     next, report);
+  Vectors next = start_of_solve(h);
+  potential.minimize(
+    inertial, h,
+    [&](const Vectors &found) {
+      return options.integrator == Integrator::linearly_implicit &&
+             !is_overshot(found, inertial, h);
+    },
+    next, report);
   check_finite(next, h);
   return next;
 }
 
-/// @param may_fail false: the last of many cuts; an energy that grows is then kept
-void Cloth::try_step(const double h, const bool may_fail, StepReport &report)
+/// Where a conserving step ends.
+Vectors Cloth::conserved(const double h, StepReport &report)
+{
+  if (!conserving)
+    conserving = std::make_unique<ConservingStep>(m, flags(held, m.size()),
+                                                  static_cast<SolverOptions>(options));
+  Vectors next = start_of_solve(h);
+  conserving->solve(terms(), x, v, h, next, report);
+  check_finite(next, h);
+  return next;
+}
+
+void Cloth::try_step(const double h, StepReport &report)
 {
   for (const auto &term : terms())
     term->begin_step({x, v, now, h});
-  const Vectors inertial = x + h * v, old_x = x, old_v = v;
-  const bool closed             = is_closed();
-  const double energy           = closed ? kinetic_energy() + stored_energy() : 0.;
-  const Eigen::RowVector3d spin = held.empty() ? angular_momentum() : Eigen::RowVector3d::Zero();
-  const auto has_grown          = [](const double before, const double after, const double size)
-  { return !(after <= before + energy_slack * (std::abs(before) + std::abs(size))); };
-  const bool is_alone =
-    held.empty() && std::all_of(terms().begin(), terms().end(),
-                                [](const auto &term) { return term->is_internal(); });
-  const Eigen::RowVector3d velocity =
-    is_alone ? (momentum() / m.sum()).eval() : Eigen::RowVector3d::Zero();
-  double spin_restored = 0.;
-  const auto move_to   = [&](const Vectors &next)
+  const auto frame              = closed_frame(h);
+  const double energy           = frame ? kinetic_energy_in(*frame, v) + stored_energy() : 0.;
+  const Eigen::RowVector3d spin = angular_momentum();
+  const Vectors inertial        = x + h * v;
+  Vectors next;
+  switch (options.integrator)
   {
-    x = next;
-    v = (x - old_x) / h;
-    if (is_alone)
-    {
-      // No force from outside: what momentum changed by is round-off of the solver.
-      const Eigen::RowVector3d lost = velocity - momentum() / m.sum();
-      v.rowwise() += lost;
-      x.rowwise() += h * lost;
-    }
-    stored.reset();
-    if (held.empty())
-      spin_restored = restore_angular_momentum(spin, h);
-  };
-  bool is_good = false;
-  if (options.integrator == Integrator::linearly_implicit)
-  {
-    const Vectors next = linear_step(h, report);
-    if (closed)
-    {
-      // With the spin that is put right: a step that turns motion into stretch loses as much of it as it stores.
-      move_to(next);
-      is_good = !has_grown(energy, kinetic_energy() + stored_energy(), stored_energy());
-    }
-    else
-    {
-      Vectors start = x;
-      set_held(start);
-      const auto potential_at = [&](const Vectors &positions)
-      { return potential.value(positions, inertial, 1. / (h * h)); };
-      const double after = potential.has_energy() ? potential_at(next) : 0.;
-      is_good            = !potential.has_energy() || !has_grown(potential_at(start), after, after);
-      if (is_good)
-        move_to(next);
-    }
-    if (!is_good)
+  case Integrator::linearly_implicit:
+    next = linear_step(inertial, h, report);
+    if (is_overshot(next, inertial, h))
     {
       ++report.guarded;
-      x = old_x;
-      v = old_v;
+      next = minimum(inertial, h, report);
     }
+    break;
+  case Integrator::implicit:
+    next = minimum(inertial, h, report);
+    break;
+  case Integrator::conserving:
+    next = conserved(h, report);
+    break;
   }
-  if (!is_good)
-    move_to(minimum(inertial, h, report));
-  if (closed && is_alone)
-  {
-    // Where this shape with the momenta of the cloth has more energy than there was: a shape nearer to the one before, which
-    // turns as a rigid body; at last that one as it lay, with which there is enough.
-    const Vectors found = x, turned = moved_rigidly(m, old_x, old_v, h);
-    for (const double part : {0.5, 0.25, 0.125, 0., -1.})
-      if (has_grown(energy, least_energy(), stored_energy()))
-        move_to(part >= 0. ? (turned + part * (found - turned)).eval()
-                           : (old_x.rowwise() + h * velocity).eval());
-  }
-  report.spin_restored += spin_restored;
-  if (closed)
-    report.energy_removed += limit_energy(energy, may_fail);
-}
-
-/// What is stored in the shape, and the kinetic energy of a rigid body of this shape with the momenta of the cloth [J].
-double Cloth::least_energy() const
-{
-  const Eigen::RowVector3d L = angular_momentum();
-  return stored_energy() + 0.5 * momentum().squaredNorm() / m.sum() + 0.5 * spin_of(m, x, L).dot(L);
-}
-
-/// Takes from the motion what energy a step brought into a closed cloth: velocities are drawn towards
-/// those of a rigid body with the same momenta, of a held cloth towards rest.
-/// @return what was taken [J]
-double Cloth::limit_energy(const double before, const bool may_fail)
-{
-  const double of_terms = stored_energy(), kinetic = kinetic_energy();
-  if (kinetic + of_terms <= before + energy_slack * (std::abs(before) + std::abs(of_terms)))
-    return 0.;
-  Vectors rigid = Vectors::Zero(x.rows(), 3);
-  if (held.empty())
-  {
-    rigid.rowwise() += momentum() / m.sum();
-    add_spin(m, x, spin_of(m, x, angular_momentum()), rigid);
-  }
-  const double of_rigid = 0.5 * m.dot(rigid.rowwise().squaredNorm()), of_rest = kinetic - of_rigid;
-  const double room = before - of_terms - of_rigid;
-  // Of a free cloth the momenta come first: what a rigid body would have is left.
-  if (room < 0. && may_fail && !held.empty())
-    throw meshes::NotConverged("a step raised the energy", {before, kinetic + of_terms});
-  const double factor = room > 0. && of_rest > 0. ? std::sqrt(std::min(1., room / of_rest)) : 0.;
-  v                   = rigid + factor * (v - rigid);
-  return kinetic - kinetic_energy();
-}
-
-/// So that L_{n+1} = L_n + h · torque of the external terms at x_{n+1}. They were evaluated with the velocities
-/// before the spin was put right, of which damping by mass at the rate α takes its part: (1 + h α) I ω is what is missing.
-/// @return the size of what was added [kg m^2/s]
-double Cloth::restore_angular_momentum(const Eigen::RowVector3d &before, const double h)
-{
-  Eigen::RowVector3d torque = Eigen::RowVector3d::Zero();
-  if (std::any_of(terms().begin(), terms().end(),
-                  [](const auto &term) { return !term->is_internal(); }))
-  {
-    Vectors external                = Vectors::Zero(x.rows(), 3);
-    const Eigen::RowVector3d centre = centre_of_mass(m, x);
-    for (const auto &term : terms())
-      if (!term->is_internal())
-        term->add_gradient(x, external);
-    for (Eigen::Index i = 0; i < x.rows(); ++i)
-      torque -= (x.row(i) - centre).cross(external.row(i));
-  }
-  double damping = 0.;
-  for (const auto &term : terms())
-    damping += term->mass_damping();
-  const Eigen::RowVector3d missing =
-    (before + h * torque - angular_momentum()) / (1. + h * damping);
-  const Eigen::RowVector3d old = angular_momentum();
-  add_spin(m, x, spin_of(m, x, missing), v);
-  return (angular_momentum() - old).norm();
+  const Vectors seen = (next - x) / h;
+  v                  = options.integrator == Integrator::conserving ? (2. * seen - v).eval() : seen;
+  for (const int vertex : held)
+    v.row(vertex) = seen.row(vertex);
+  x = next;
+  stored.reset();
+  if (frame)
+    report.energy_gained += std::max(0., kinetic_energy_in(*frame, v) + stored_energy() - energy);
+  if (is_alone())
+    report.spin_lost += (angular_momentum() - spin).norm();
 }
 
 StepReport Cloth::step(const double h)
@@ -300,7 +280,8 @@ StepReport Cloth::step(const double h)
   if (!(h > 0.) || !std::isfinite(h))
     throw meshes::BadInput("time step: found " + std::to_string(h) +
                            " s; expected a positive number");
-  potential.prepare();
+  if (options.integrator != Integrator::conserving)
+    potential.prepare();
   StepReport report;
   const Vectors old_x = x, old_v = v, final_target = target;
   const double begin = now;
@@ -313,7 +294,7 @@ StepReport Cloth::step(const double h)
     const Vectors before_x = x, before_v = v;
     try
     {
-      try_step((until - done) * h, report.cuts < options.max_cuts, report);
+      try_step((until - done) * h, report);
       done = until;
       now  = begin + done * h;
     }
@@ -344,7 +325,7 @@ StepReport Cloth::step(const double h)
 
 double Cloth::kinetic_energy() const
 {
-  return 0.5 * m.dot(v.rowwise().squaredNorm());
+  return kinetic_energy_in(Eigen::RowVector3d::Zero(), v);
 }
 
 double Cloth::stored_energy() const
@@ -374,6 +355,7 @@ Vectors Cloth::gradient() const
 
 std::size_t Cloth::bytes() const
 {
-  return static_cast<std::size_t>(x.size()) * 4 * sizeof(double) + potential.bytes();
+  return static_cast<std::size_t>(x.size()) * 4 * sizeof(double) + potential.bytes() +
+         (conserving ? conserving->bytes() : 0);
 }
 } // namespace homespun::shell

@@ -2,24 +2,27 @@
 // A moving cloth: masses, held vertices, and the terms that a scene adds (term.h). What is absent is never
 // called.
 //
-// One step of h minimises the incremental potential Φ of implicit Euler (incremental_potential.h), with
-// v_{n+1} = (x_{n+1} − x_n)/h.
-// linearly implicit: one Newton step from x_n with the positive semi-definite Hessian; one assembly, one
-//   factorisation (Baraff & Witkin 1998). Should it raise the energy of a cloth on which nothing does work,
-//   or otherwise Φ, Newton's method goes on with a line search.
-// implicit: Newton's method with line search to a tolerance; the exact Hessian where it is positive
-//   definite, else the projected one.
+// Three integrators take a step of h:
+// linearly implicit (Baraff & Witkin 1998): one Newton step of the incremental potential Φ of implicit Euler
+//   (incremental_potential.h) with the positive semi-definite Hessian, one assembly and one factorisation, of a
+//   free cloth from where a rigid body with its momenta would be. Should it raise the energy of a cloth on which nothing does
+//   work, or otherwise Φ, Newton's method goes on with a line search.
+// implicit: the minimum of Φ to a tolerance, by Newton's method with line search; the exact Hessian where it is
+//   positive definite, else the projected one.
+// conserving: discrete gradients (conserving_step.h); it takes membrane, viscosity, bending, gravity and damping.
 // A step that fails is cut in two, up to a number of times, and repeated; a state that is not finite stops
-// the run.
+// the run. Nothing is put right after a solve: velocities are (x_{n+1} − x_n)/h, of the conserving integrator twice
+// that less the old ones.
 //
-// Implicit Euler keeps the linear momentum to round-off, the angular momentum only to O(h) over time.
-// Where no vertex is held, a rigid rotation is added to the velocities that restores the balance
-//   L_{n+1} = L_n + h · torque of the external terms at x_{n+1},
-// exactly (as in Dinev et al. 2018): a spinning sheet keeps spinning. Where still the energy of a closed
-// cloth grew, the motion beside the rigid one is slowed until it did not, so that both momenta stay; and where the shape
-// alone has too much, because it was stretched by a turn, it is drawn towards the shape before.
+// What theory gives. Both Euler methods are of first order. They keep the linear momentum; of the angular one implicit Euler
+// loses h Σ m v_n × v_{n+1} in a step, so that a rigid body turns by atan(h ω) instead of h ω and keeps the share
+// cos(atan(h ω)) of its angular momentum. Its energy changes by −½ Σ m |v_{n+1} − v_n|² plus what E(x_{n+1}) exceeds
+// its tangent at x_{n+1} by, taken back to x_n: it falls where the energy is convex along the step, and
+// stored energy and ½ Σ m |v_{n+1} − v_n|² never exceed what there was. The conserving integrator is of second order and
+// keeps both momenta and the energy, of which a dissipation takes its part, to the tolerance of its solve.
 #pragma once
 
+#include "shell/conserving_step.h"
 #include "shell/incremental_potential.h"
 
 #include <Eigen/Core>
@@ -33,7 +36,8 @@ namespace homespun::shell
 enum class Integrator
 {
   linearly_implicit,
-  implicit
+  implicit,
+  conserving
 };
 
 struct ClothOptions : SolverOptions
@@ -42,15 +46,16 @@ struct ClothOptions : SolverOptions
   int max_cuts          = 8; ///< halvings of a step that fails
 };
 
-/// What a step took.
+/// What a step took, and what theory says that it may change.
 struct StepReport : SolveCounts
 {
   int cuts    = 0; ///< halvings of the step
   int guarded = 0; ///< linearly implicit steps that went on with a line search
-  /// What was taken from the motion so that the energy of a closed cloth did not grow [J].
-  double energy_removed = 0.;
-  /// Sum over the parts of the step of |angular momentum| that was added to restore its balance [kg m^2/s].
-  double spin_restored = 0.;
+  /// By how much the energy of a closed cloth grew, summed over the parts of the step [J].
+  double energy_gained = 0.;
+  /// Sum over the parts of the step of |change of angular momentum| of a cloth on which nothing acts from outside: the
+  /// error of first order of both Euler methods, of the conserving one what its solve leaves [kg m²/s].
+  double spin_lost = 0.;
 };
 
 /// What an equilibrium took.
@@ -126,20 +131,23 @@ public:
   /// Whether the steps are solved by factorisation.
   bool is_direct() const
   {
-    return potential.is_direct();
+    return options.integrator == Integrator::conserving || potential.is_direct();
   }
   /// Bytes of terms, matrix and factors.
   std::size_t bytes() const;
 
 private:
   void set_held(Vectors &positions) const;
-  bool is_closed() const;
-  void try_step(double h, bool may_fail, StepReport &report);
-  Vectors linear_step(double h, StepReport &report);
+  std::optional<Eigen::RowVector3d> closed_frame(double h) const;
+  bool is_moved_by(const Eigen::RowVector3d &way) const;
+  double kinetic_energy_in(const Eigen::RowVector3d &frame, const Vectors &velocities) const;
+  bool is_alone() const;
+  void try_step(double h, StepReport &report);
+  Vectors linear_step(const Vectors &inertial, double h, StepReport &report);
+  bool is_overshot(const Vectors &next, const Vectors &inertial, double h) const;
+  Vectors start_of_solve(double h) const;
   Vectors minimum(const Vectors &inertial, double h, StepReport &report);
-  double least_energy() const;
-  double limit_energy(double before, bool may_fail);
-  double restore_angular_momentum(const Eigen::RowVector3d &before, double h);
+  Vectors conserved(double h, StepReport &report);
   void check_finite(const Vectors &positions, double h) const;
 
   Vectors x, v, target;
@@ -147,6 +155,7 @@ private:
   const std::vector<int> held;
   const ClothOptions options;
   IncrementalPotential potential;
+  std::unique_ptr<ConservingStep> conserving; ///< once asked for
   double now  = 0.;
   long n_step = 0;
   mutable std::optional<double> stored; ///< energy of x, where known

@@ -158,7 +158,7 @@ Vectors IncrementalPotential::linear_step(const Vectors &positions, const Vector
 }
 
 void IncrementalPotential::minimize(const Vectors &inertial, const double h,
-                                    const int max_iterations, const bool must_converge,
+                                    const std::function<bool(const Vectors &)> &is_enough,
                                     Vectors &positions, SolveCounts &counts)
 {
   const double inverse_square = 1. / (h * h);
@@ -168,6 +168,12 @@ void IncrementalPotential::minimize(const Vectors &inertial, const double h,
   bool try_exact = is_direct();
   Vectors step, trial;
   std::vector<double> history;
+  const auto give_up = [&](const char *what)
+  {
+    if (!is_enough(positions))
+      throw meshes::NotConverged(what, history);
+    ++counts.unconverged;
+  };
   for (int iteration = 0;; ++iteration)
   {
     const Residual residual = assemble(positions, inertial, inverse_square,
@@ -177,12 +183,8 @@ void IncrementalPotential::minimize(const Vectors &inertial, const double h,
       throw meshes::NotConverged("a force is not finite", history);
     if (residual.is_below(options.newton_tolerance))
       return;
-    if (iteration >= max_iterations)
-    {
-      if (must_converge)
-        throw meshes::NotConverged("Newton's method of the step", history);
-      return;
-    }
+    if (iteration >= options.max_newton_iterations)
+      return give_up("Newton's method of the step");
     const Vectors forces = -assembled_gradient;
     step.setZero(m.size(), 3);
     bool solved = solve(forces, step, counts);
@@ -195,28 +197,25 @@ void IncrementalPotential::minimize(const Vectors &inertial, const double h,
     if (!solved)
       throw meshes::NotConverged("the step's matrix is not positive definite", history);
     const double slope = -forces.cwiseProduct(step).sum();
-    double length      = 1.;
-    while (true)
+    // What the potential changes by when every position moves by one rounding, and round-off of its sum.
+    const double slack = std::numeric_limits<double>::epsilon() *
+                           std::sqrt(static_cast<double>(m.size())) *
+                           positions.cwiseAbs().maxCoeff() * residual.size +
+                         1e-13 * std::abs(potential);
+    for (double length = 1.;; length *= 0.5)
     {
+      if (length < 1e-6)
+        return give_up("the line search of the step found no lower potential");
       trial             = positions + length * step;
       const double next = value(trial, inertial, inverse_square);
-      if (!descends || next <= potential + 1e-4 * length * slope + 1e-13 * std::abs(potential))
-      {
-        potential = next;
-        break;
-      }
-      length *= 0.5;
-      if (length < 1e-6)
-      {
-        if (must_converge)
-          throw meshes::NotConverged("the line search of the step found no lower potential",
-                                     history);
-        return;
-      }
+      if (descends && !(next <= potential + 1e-4 * length * slope + slack))
+        continue;
+      potential = next;
+      positions = trial;
+      if (length == 1.)
+        try_exact = is_direct();
+      break;
     }
-    positions = trial;
-    if (length == 1.)
-      try_exact = is_direct();
   }
 }
 

@@ -10,6 +10,7 @@
 
 #include <Eigen/Core>
 
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -40,6 +41,8 @@ struct SolveCounts
 {
   int newton_iterations = 0; ///< factorisations or preconditioners
   int linear_iterations = 0; ///< of conjugate gradients
+  int unconverged =
+    0; ///< minimisations that ended before the tolerance, with no more energy than before
 };
 
 class IncrementalPotential
@@ -112,10 +115,12 @@ public:
   /// definite, else the projected one; after such a one the next does without the attempt, unless the
   /// step was a full one.
   /// @param positions start and result, whose held rows are prescribed
-  /// @param must_converge false: to stop after the last iteration is no failure
+  /// @param is_enough whether positions short of the minimum will do where the line search or the iterations end, at a kink of
+  ///   the energy or at round-off; it is counted
   /// @throws NotConverged with the residual history
-  void minimize(const Vectors &inertial, double h, int max_iterations, bool must_converge,
-                Vectors &positions, SolveCounts &counts);
+  void minimize(const Vectors &inertial, double h,
+                const std::function<bool(const Vectors &)> &is_enough, Vectors &positions,
+                SolveCounts &counts);
 
   /// Whether the matrix is solved by factorisation.
   bool is_direct() const

@@ -2,6 +2,7 @@
 #include "shell/inertial_terms.h"
 
 #include "meshes/errors.h"
+#include "shell/vertex_matrix.h"
 
 #include <cmath>
 
@@ -35,6 +36,15 @@ public:
   bool is_internal() const override
   {
     return false;
+  }
+  bool has_discrete_gradient() const override
+  {
+    return true;
+  }
+  void add_discrete_gradient(const Vectors &, const Vectors &, Vectors &gradient,
+                             VertexMatrix &) const override
+  {
+    gradient -= weights;
   }
   std::size_t bytes() const override
   {
@@ -96,9 +106,17 @@ public:
   {
     return false;
   }
-  double mass_damping() const override
+  bool has_discrete_gradient() const override
   {
-    return rate;
+    return true;
+  }
+  // α m times the mean velocity.
+  void add_discrete_gradient(const Vectors &, const Vectors &positions, Vectors &gradient,
+                             VertexMatrix &jacobian) const override
+  {
+    add_gradient(positions, gradient);
+    for (int v = 0; v < static_cast<int>(masses.size()); ++v)
+      jacobian.add(v, v, factor * masses(v) * Eigen::Matrix3d::Identity());
   }
   std::size_t bytes() const override
   {

@@ -2,8 +2,10 @@
 #include "shell/membrane_term.h"
 
 #include "meshes/errors.h"
+#include "shell/discrete_gradient.h"
 #include "shell/index.h"
 #include "shell/triangle_places.h"
+#include "shell/vertex_matrix.h"
 
 #include <cmath>
 #include <sstream>
@@ -109,6 +111,32 @@ public:
         gradient.row(membrane.triangles(t, k)) += local.gradient.row(k);
       for (std::size_t b = 0; b < 6; ++b)
         matrix.add(places[index(t)][b], local.blocks[b]);
+    }
+  }
+
+  bool has_discrete_gradient() const override
+  {
+    return true;
+  }
+
+  void add_discrete_gradient(const Vectors &old, const Vectors &positions, Vectors &gradient,
+                             VertexMatrix &jacobian) const override
+  {
+    if (!acts())
+      return;
+    const double elastic = is_elastic ? 0.5 : 0.;
+    for (int t = 0; t < n_triangles(); ++t)
+    {
+      const TriangleStep step =
+        triangle_step(membrane.rest[index(t)], corners_of(old, t), corners_of(positions, t),
+                      membrane.stiffness[phase_of(t)].D, {elastic - factor, elastic + factor});
+      for (int a = 0; a < 3; ++a)
+      {
+        gradient.row(membrane.triangles(t, a)) += step.gradient.row(a);
+        for (int b = 0; b < 3; ++b)
+          jacobian.add(membrane.triangles(t, a), membrane.triangles(t, b),
+                       step.jacobian.block<3, 3>(3 * a, 3 * b));
+      }
     }
   }
 

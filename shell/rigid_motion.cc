@@ -4,6 +4,7 @@
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 
+#include <cmath>
 #include <limits>
 
 namespace homespun::shell
@@ -43,32 +44,18 @@ Eigen::RowVector3d spin_of(const Eigen::VectorXd &masses, const Vectors &positio
   return (eigen.eigenvectors() * spin).transpose();
 }
 
-void add_spin(const Eigen::VectorXd &masses, const Vectors &positions,
-              const Eigen::RowVector3d &spin, Vectors &velocities)
-{
-  const Eigen::RowVector3d centre = centre_of_mass(masses, positions);
-  for (Eigen::Index i = 0; i < positions.rows(); ++i)
-    velocities.row(i) += spin.cross(positions.row(i) - centre);
-}
-
 Vectors moved_rigidly(const Eigen::VectorXd &masses, const Vectors &positions,
-                      const Vectors &velocities, const double h)
+                      const Vectors &velocities, const double h, const RigidStep kind)
 {
   const Eigen::RowVector3d centre = centre_of_mass(masses, positions),
-                           L      = angular_momentum(masses, positions, velocities),
+                           spin   = spin_of(masses, positions,
+                                            angular_momentum(masses, positions, velocities)),
                            moved  = centre + h * (masses.transpose() * velocities) / masses.sum();
-  const auto turned               = [&](const Eigen::RowVector3d &rotation) -> Vectors
-  {
-    const double angle = rotation.norm();
-    if (angle == 0.)
-      return positions;
-    const Eigen::AngleAxisd turn(angle, rotation.transpose() / angle);
-    return ((positions.rowwise() - centre) * turn.toRotationMatrix().transpose()).rowwise() +
-           centre;
-  };
-  Eigen::RowVector3d spin = spin_of(masses, positions, L);
-  for (int k = 0; k < 3; ++k)
-    spin = spin_of(masses, turned(0.5 * h * spin), L);
-  return turned(h * spin).rowwise() + (moved - centre);
+  if (spin.norm() == 0.)
+    return positions.rowwise() + (moved - centre);
+  const double angle = kind == RigidStep::midpoint ? 2. * std::atan(0.5 * h * spin.norm())
+                                                   : std::atan(h * spin.norm());
+  const Eigen::AngleAxisd turn(angle, spin.transpose().normalized());
+  return ((positions.rowwise() - centre) * turn.toRotationMatrix().transpose()).rowwise() + moved;
 }
 } // namespace homespun::shell

@@ -20,12 +20,15 @@ Eigen::RowVector3d angular_momentum(const Eigen::VectorXd &masses, const Vectors
 Eigen::RowVector3d spin_of(const Eigen::VectorXd &masses, const Vectors &positions,
                            const Eigen::RowVector3d &angular_momentum);
 
-/// Adds spin × (x − centre) to the velocities [m/s].
-void add_spin(const Eigen::VectorXd &masses, const Vectors &positions,
-              const Eigen::RowVector3d &spin, Vectors &velocities);
+/// How an integrator turns a rigid body about its axis in a step: implicit Euler by atan(h ω), the midpoint rule by
+/// 2 atan(h ω/2).
+enum class RigidStep
+{
+  implicit_euler,
+  midpoint
+};
 
-/// Where the cloth is after the time h if it moves on as a rigid body with its momenta: turned by h ω about the centre of
-/// mass, with the angular velocity ω of half way, so that the energy of the body changes by O(h³) alone.
+/// Where the cloth is after the time h if it moves on as a rigid body with its momenta.
 Vectors moved_rigidly(const Eigen::VectorXd &masses, const Vectors &positions,
-                      const Vectors &velocities, double h);
+                      const Vectors &velocities, double h, RigidStep kind);
 } // namespace homespun::shell

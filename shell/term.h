@@ -4,7 +4,7 @@
 // there; of one that is not, nothing is called, allocated or coupled.
 //
 // A time step minimises  Σ m/(2 h²) |x − x_n − h v_n|² + Σ_terms E(x)  (implicit Euler), or takes one
-// Newton step of it from x_n (linearly implicit Euler). What a term freezes over the step (the
+// Newton step of it from x_n (linearly implicit Euler), or asks for discrete gradients (conserving_step.h). What a term freezes over the step (the
 // direction of friction, the wind's relative speed) it freezes in begin_step(), so that E is a function
 // of x alone.
 #pragma once
@@ -20,6 +20,7 @@
 
 namespace homespun::shell
 {
+class VertexMatrix;
 
 /// State at the beginning of a step, and how long it is.
 struct StepStart
@@ -91,10 +92,19 @@ public:
     return true;
   }
 
-  /// Rate α [1/s] of a force −α m v on every vertex; zero of all other forces.
-  virtual double mass_damping() const
+  /// Whether a step that conserves can take the term: whether add_discrete_gradient() is there.
+  virtual bool has_discrete_gradient() const
   {
-    return 0.;
+    return false;
+  }
+
+  /// Adds a discrete gradient g of the step from x_n to x, and its derivative by x. The work g·(x − x_n) is the
+  /// change of the stored energy, of a dissipation it is not negative. Of an internal term g sums to zero and has no
+  /// torque about the mean positions (x_n + x)/2.
+  /// @param old x_n (n,3) [m]
+  virtual void add_discrete_gradient(const Vectors & /*old*/, const Vectors & /*positions*/,
+                                     Vectors & /*gradient*/, VertexMatrix & /*jacobian*/) const
+  {
   }
 
   /// Bytes that the term keeps, for the table of what leaving it out saves.

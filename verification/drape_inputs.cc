@@ -75,11 +75,20 @@ void check_references(const DrapeOptions &options, const Scene &scene)
           " has an error bar on a small sheet, the reference `shell` has none: " + fault.what());
       }
   }
-  if (scene.integration == TimeIntegration::equilibria)
+  if (scene.integration == TimeIntegration::equilibria ||
+      scene.integration == TimeIntegration::conserving)
     for (const char *term : {"wind", "obstacles"})
       if (scene.has(term))
-        faults.push_back(scene.file + ": key `Integrator` = static with the term `" + term +
+        faults.push_back(scene.file + ": key `Integrator` = " + scene.echo.at("Integrator") +
+                         " with the term `" + term +
                          "`; expected `implicit` or `linearly implicit`");
+  if (scene.integration == TimeIntegration::conserving)
+    for (const std::string &variant : options.variants)
+      if (variant != "corotational")
+        faults.push_back(
+          "--variants " + variant + ": scene `" + scene.name +
+          "` has the key `Integrator` = conserving, which asks for a membrane with an energy; expected "
+          "corotational alone, or another integrator");
   if (!faults.empty())
     throw meshes::BadInput(faults);
 }

@@ -183,10 +183,12 @@ private:
     const std::map<std::string, TimeIntegration> kinds = {
       {"linearly implicit", TimeIntegration::linearly_implicit},
       {"implicit", TimeIntegration::implicit},
+      {"conserving", TimeIntegration::conserving},
       {"static", TimeIntegration::equilibria}};
     const auto kind = kinds.find(trimmed(keys.integrator));
     if (kind == kinds.end())
-      fault("Integrator", keys.integrator, "`linearly implicit`, `implicit` or `static`");
+      fault("Integrator", keys.integrator,
+            "`linearly implicit`, `implicit`, `conserving` or `static`");
     else
       scene.integration = kind->second;
     scene.time_step      = positive("Time step", keys.time_step);

@@ -53,6 +53,7 @@ enum class TimeIntegration
 {
   linearly_implicit,
   implicit,
+  conserving,
   equilibria ///< a static equilibrium at each frame
 };
 

@@ -41,6 +41,19 @@ shell::Obstacle obstacle_of(const SceneObstacle &given, const double friction)
   }
   return obstacle;
 }
+
+shell::Integrator integrator_of(const TimeIntegration integration)
+{
+  switch (integration)
+  {
+  case TimeIntegration::implicit:
+    return shell::Integrator::implicit;
+  case TimeIntegration::conserving:
+    return shell::Integrator::conserving;
+  default:
+    return shell::Integrator::linearly_implicit;
+  }
+}
 } // namespace
 
 std::string name_of(const MembraneModel model)
@@ -62,7 +75,9 @@ MembraneModel membrane_model_of(const std::string &name)
 
 std::vector<std::string> terms_with_a_cost(const Scene &scene)
 {
-  std::vector<std::string> terms = {"bending", "gravity", "damping", "wind", "obstacles"};
+  std::vector<std::string> terms = {"bending", "gravity", "damping"};
+  if (scene.integration != TimeIntegration::conserving)
+    terms.insert(terms.end(), {"wind", "obstacles"});
   if (scene.has("obstacles"))
     terms.emplace_back("friction");
   return terms;
@@ -85,9 +100,7 @@ SceneCloth::SceneCloth(const Scene &scene, const meshes::ClothMesh &mesh,
 {
   const Eigen::VectorXd masses = shell::lumped_masses(mesh, material.areal_density);
   shell::ClothOptions options;
-  options.integrator = scene.integration == TimeIntegration::implicit
-                         ? shell::Integrator::implicit
-                         : shell::Integrator::linearly_implicit;
+  options.integrator = integrator_of(scene.integration);
   moving             = std::make_unique<shell::Cloth>(mesh.positions, masses, held, options);
   const auto forces  = [&](const char *term) { return forced.count(term) != 0; };
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// The stress cases: the unit cell, the cloth in motion and the up-sampling. Limits come from
-// theory: a cell that is moved keeps its C^H, damped energy never grows, momenta of a free cloth
-// are kept, a cloth at rest stays, a uniform strain is up-sampled exactly; where theory is silent,
-// that every number is finite.
+// The stress cases: the unit cell, the cloth in motion and the up-sampling. Limits come from theory: a
+// cell that is moved keeps its C^H, damped energy never grows, a free cloth keeps the momenta that its
+// integrator keeps, a cloth at rest stays, a uniform strain is up-sampled exactly; where theory is
+// silent, that every number is finite.
 #pragma once
 
 #include "homogenization/unit_cell.h"
@@ -14,7 +14,7 @@
 
 namespace homespun::verification
 {
-/// Steps of 1e-5 to 1 s from rest and from a disturbed state; rest; one turn per step.
+/// Steps of 1e-5 to 1 s from rest and from a disturbed state; rest.
 std::vector<StressCase> time_step_cases(const std::vector<SheetStiffness> &stiffnesses);
 
 /// 1e-2 to 1e8 N/m times 0.01 to 10 kg/m^2.
@@ -29,7 +29,10 @@ std::vector<StressCase> mesh_cases(const SheetStiffness &stiffness);
 /// One triangle turned, mirrored, collapsed, scaled; numbers that are not finite; twisted strips.
 std::vector<StressCase> rotation_cases(const std::vector<SheetStiffness> &stiffnesses);
 
-/// Free fall, spin, clamped, hung, pulled.
+/// Free sheets that spin, up to five turns per step: what each integrator keeps, and that they turn.
+std::vector<StressCase> spin_cases(const std::vector<SheetStiffness> &stiffnesses);
+
+/// Free fall, clamped, hung, pulled.
 std::vector<StressCase> motion_cases(const std::vector<SheetStiffness> &stiffnesses);
 
 /// Bending, wind and an obstacle at the steps of scenes, 0.1 to 50 ms.

@@ -8,7 +8,7 @@
 #include "shell/membrane_term.h"
 #include "shell/obstacles.h"
 #include "shell/wind.h"
-#include "verification/result_files.h"
+#include "verification/record/fields.h"
 #include "verification/stress_cases.h"
 
 #include <Eigen/Eigenvalues>
@@ -271,7 +271,7 @@ std::vector<StressCase> rotation_cases(const std::vector<SheetStiffness> &stiffn
              "minus the smallest over the largest eigenvalue [-]", true,
              [=](const unsigned int seed) { return of_rank(stiffness, rank, seed); });
     for (const double scale : {1e-30, 1e-20, 1e-10, 1e10, 1e20, 1e30})
-      finite("deformation gradient of size " + csv_number(scale) + of,
+      finite("deformation gradient of size " + short_text(scale) + of,
              "finite; turns with the triangle", 1e-12,
              "largest |P(QF) − Q P(F)| over the largest P [-]", true,
              [=](const unsigned int seed) { return scaled(stiffness, scale, seed); });

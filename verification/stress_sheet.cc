@@ -92,29 +92,20 @@ Eigen::MatrixXd state_of(const shell::Cloth &cloth)
   return state;
 }
 
-EnergyGrowth energy_growth(shell::Cloth &cloth, const double h, const int n_steps)
+double largest_energy_growth(shell::Cloth &cloth, const double h, const int n_steps)
 {
   double before  = cloth.kinetic_energy() + cloth.stored_energy();
   double largest = cloth.kinetic_energy() + std::abs(cloth.stored_energy());
-  EnergyGrowth growth;
+  double growth  = 0.;
   for (int k = 0; k < n_steps; ++k)
   {
-    const double removed = cloth.step(h).energy_removed;
-    const double after   = cloth.kinetic_energy() + cloth.stored_energy();
-    growth.left          = std::max(growth.left, after - before);
-    growth.removed       = std::max(growth.removed, removed);
-    growth.whole         = std::max(growth.whole, after + removed - before);
+    cloth.step(h);
+    const double after = cloth.kinetic_energy() + cloth.stored_energy();
+    growth             = std::max(growth, after - before);
     largest = std::max(largest, cloth.kinetic_energy() + std::abs(cloth.stored_energy()));
     before  = after;
   }
-  for (double *const one : {&growth.left, &growth.removed, &growth.whole})
-    *one = *one > 0. ? *one / largest : 0.;
-  return growth;
-}
-
-double largest_energy_growth(shell::Cloth &cloth, const double h, const int n_steps)
-{
-  return energy_growth(cloth, h, n_steps).whole;
+  return growth > 0. ? growth / largest : 0.;
 }
 
 shell::Vectors random_vectors(const Eigen::Index n, const unsigned int seed)

@@ -59,19 +59,8 @@ shell::Cloth sheet_cloth(const meshes::ClothMesh &mesh, const SheetStiffness &st
 /// Positions and velocities side by side (n,6): what a user gets.
 Eigen::MatrixXd state_of(const shell::Cloth &cloth);
 
-/// Growth of kinetic and stored energy, the largest within one step, over the largest energy met [-]; zero where there
-/// is none.
-struct EnergyGrowth
-{
-  double left    = 0.; ///< that a user sees
-  double removed = 0.; ///< that the step took from the motion again
-  double whole   = 0.; ///< both: what the integrator alone would do
-};
-
-/// Takes steps.
-EnergyGrowth energy_growth(shell::Cloth &cloth, double h, int n_steps);
-
-/// The whole of energy_growth(): it is the integrator that is judged, not its guard.
+/// Takes steps. The growth of kinetic and stored energy, the largest within one step, over the largest energy met [-]; zero
+/// where there is none.
 double largest_energy_growth(shell::Cloth &cloth, double h, int n_steps);
 
 /// Independent numbers between −1 and 1.

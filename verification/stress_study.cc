@@ -52,10 +52,9 @@ nlohmann::ordered_json notes(const bool has_cells)
     "numbers to the last bit. Cells are homogenized twice, those of 100,000 triangles and more once.",
     "C^H of a cell is held against the closed form of a laminate, against a factorized solve, or against itself "
     "moved, by the relative energy of the worst macro strain.",
-    "Energy that a step took from the motion lest it grow counts as growth; of a free sheet that spins, where it is the "
-    "price of the spin that is put right, it has a limit of its own. Momenta are those after a "
-    "step has put the spin "
-    "right, which is part of the method.",
+    "Of a free sheet that spins each integrator is asked for what its theory gives: both Euler methods for "
+    "their linear momentum and a falling energy, the conserving one for both momenta and the energy. That a "
+    "sheet turns is judged by (x_new − x_old)/h: half of what a rigid body would turn by is asked for.",
     "The figure of a case is the largest of its repetitions; the time is that of all of them.",
     "Each limit stands in stress.csv with where it comes from: theory, round-off, or a "
     "requirement. Iterations and times "
@@ -162,8 +161,8 @@ private:
     for (const std::vector<StressCase> &some :
          {cell_cases(unit_cells, by_all_ranks, n_ranks(), options.most_triangles),
           time_step_cases(stiffnesses), stiffness_cases(), start_cases(stiffnesses),
-          mesh_cases(stiffnesses[0]), rotation_cases(stiffnesses), motion_cases(stiffnesses),
-          scene_cases(stiffnesses[0]), localization_cases(cells, names)})
+          mesh_cases(stiffnesses[0]), rotation_cases(stiffnesses), spin_cases(stiffnesses),
+          motion_cases(stiffnesses), scene_cases(stiffnesses[0]), localization_cases(cells, names)})
       cases.insert(cases.end(), some.begin(), some.end());
     std::set<std::vector<std::string>> keys;
     for (const StressCase &one : cases)
