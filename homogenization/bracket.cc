@@ -3,6 +3,7 @@
 
 #include "homogenization/compatible_strain.h"
 #include "homogenization/equilibrated_stress.h"
+#include "homogenization/loewner.h"
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
@@ -20,20 +21,7 @@ std::size_t at(const int index)
 {
   return static_cast<std::size_t>(index);
 }
-
-/// A matrix whose entries may be wrong by part x sqrt(A_ii A_jj) lies below this one.
-Eigen::Matrix3d raised(const Eigen::Matrix3d &A, const double part)
-{
-  const Eigen::Matrix3d diagonal = A.diagonal().asDiagonal();
-  return A + 3. * part * diagonal;
-}
 } // namespace
-
-double relative_width(const Eigen::Matrix3d &lower, const Eigen::Matrix3d &upper)
-{
-  return Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::Matrix3d>(upper - lower, upper)
-    .eigenvalues()(2);
-}
 
 Bracket bracket(const TorusMesh &mesh, const std::vector<Eigen::Matrix3d> &stiffness_of_material,
                 const unsigned order)
@@ -44,11 +32,13 @@ Bracket bracket(const TorusMesh &mesh, const std::vector<Eigen::Matrix3d> &stiff
   // The vectors of the edges carry the shape to a few units of round-off.
   const double of_shape    = 16. * std::numeric_limits<double>::epsilon();
   const double below_error = below.round_off + of_shape, above_error = above.round_off + of_shape;
-  result.lower             = raised(below.compliance, below_error).inverse();
-  result.lower             = 0.5 * (result.lower + result.lower.transpose()).eval();
-  result.upper             = raised(above.stiffness, above_error);
-  result.round_off         = 3. * (below_error + above_error);
-  result.width             = std::max(relative_width(result.lower, result.upper), result.round_off);
+  const RoundedInverse lower = inverse_of(raised(below.compliance, below_error));
+  result.lower               = (1. - lower.round_off) * lower.value;
+  result.upper               = raised(above.stiffness, above_error);
+  result.round_off = 3. * below_error * weakness(below.compliance) + 2. * lower.round_off +
+                     3. * above_error * weakness(above.stiffness);
+  result.width =
+    std::max(relative_width(result.lower, result.upper, result.round_off), result.round_off);
   result.excess            = std::max(below.excess, above.excess);
   result.compliance        = below.compliance;
   result.stiffness         = above.stiffness;

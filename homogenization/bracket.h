@@ -43,12 +43,10 @@ struct Bracket
 
 /// Brackets C^H on one mesh.
 /// @param order of the displacement elements, 1 or 2
-/// @throws BadInput, NotConverged as EquilibratedStress and CompatibleStrain
+/// @throws BadInput, NotConverged as EquilibratedStress and CompatibleStrain; std::logic_error where the lower side
+///   lies above the upper one
 Bracket bracket(const TorusMesh &mesh, const std::vector<Eigen::Matrix3d> &stiffness_of_material,
                 unsigned order);
-
-/// (upper − lower) relative to upper: the largest eigenvalue of the pencil.
-double relative_width(const Eigen::Matrix3d &lower, const Eigen::Matrix3d &upper);
 
 /// Marks the fewest triangles that hold the given part of the sum of all values.
 /// Source: W. Doerfler, A convergent adaptive algorithm for Poisson's equation, 1996.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "verification/cell_output.h"
 
+#include "homogenization/loewner.h"
 #include "meshes/cell_file.h"
 #include "meshes/surface_files.h"
 #include "verification/algebraic_limit.h"
@@ -133,8 +134,13 @@ std::optional<homogenization::EngineeringConstants> bars_of_moduli(const Assesse
   if (assessed.bracket && assessed.bracket->bracket)
   {
     const homogenization::Bracket &found = *assessed.bracket->bracket;
+    const homogenization::RoundedInverse most  = homogenization::inverse_of(found.lower),
+                                         least = homogenization::inverse_of(found.upper);
     const Eigen::Vector3d root =
-      (found.lower.inverse() - found.upper.inverse()).diagonal().cwiseMax(0.).cwiseSqrt();
+      (most.value / (1. - most.round_off) - least.value / (1. + least.round_off))
+        .diagonal()
+        .cwiseMax(0.)
+        .cwiseSqrt();
     bars = root * root.transpose() + (S - found.stiffness.inverse()).cwiseAbs();
   }
   else if (assessed.uncertainty)
