@@ -32,13 +32,18 @@ Bracket bracket(const TorusMesh &given, const std::vector<Eigen::Matrix3d> &stif
   const TorusMesh &mesh = both.mesh;
   // Which triangles the stresses may use, and their numbers there.
   std::vector<char> is_sure(mesh.triangles.size());
+  std::vector<char> is_flat;
   std::vector<int> below_of(mesh.triangles.size(), -1);
   int n_sure = 0;
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
     if ((is_sure[t] = !both.is_void_below[t]))
+    {
+      is_flat.push_back(both.is_flat[t]);
       below_of[t] = n_sure++;
+    }
   const TorusMesh sure_mesh = n_sure < mesh.n_triangles() ? with_only(mesh, is_sure) : mesh;
-  const EquilibratedStress below(sure_mesh, both.lower);
+  const EquilibratedStress below(sure_mesh, both.lower,
+                                 given.is_drawn() ? is_flat : std::vector<char>{});
   const CompatibleStrain above(mesh, both.upper, order);
   // The vectors of the edges carry the shape to a few units of round-off.
   const double of_shape    = 16. * std::numeric_limits<double>::epsilon();

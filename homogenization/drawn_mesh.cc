@@ -128,15 +128,18 @@ private:
     return parts;
   }
 
-  void keep(const TorusTriangle &triangle, const int parent, const bool is_void_below = false)
+  void keep(const TorusTriangle &triangle, const int parent, const bool is_void_below = false,
+            const bool is_flat = false)
   {
+    result.is_flat.push_back(is_flat);
     result.mesh.triangles.push_back(triangle);
     result.parent.push_back(parent);
     result.is_void_below.push_back(is_void_below);
   }
 
   /// An element that may be of any of some materials, or of none.
-  void keep_uncertain(TorusTriangle triangle, const int parent, std::vector<int> candidates)
+  void keep_uncertain(TorusTriangle triangle, const int parent, std::vector<int> candidates,
+                      const bool is_flat = true)
   {
     std::sort(candidates.begin(), candidates.end());
     candidates.erase(std::unique(candidates.begin(), candidates.end()), candidates.end());
@@ -157,7 +160,7 @@ private:
       result.upper.push_back(upper);
     }
     triangle.material = place->second;
-    keep(triangle, parent, may_be_void);
+    keep(triangle, parent, may_be_void, is_flat);
   }
 
   int across(const TorusTriangle &triangle, const std::size_t k) const
@@ -182,7 +185,7 @@ private:
       std::vector<int> candidates = {triangle.material};
       for (const std::size_t k : arcs)
         candidates.push_back(across(triangle, k));
-      keep_uncertain(triangle, t, candidates);
+      keep_uncertain(triangle, t, candidates, false);
     }
     else if (arcs.size() == 1)
       carve_arc(triangle, arcs[0], t);

@@ -38,6 +38,7 @@ struct DrawnMesh
   std::vector<Eigen::Matrix3d> lower, upper;
   int n_certain = 0;               ///< materials
   std::vector<char> is_void_below; ///< of each triangle: it may be a part of a hole
+  std::vector<char> is_flat; ///< of each triangle: it lies between chord, its edge 0, and apex
 
   bool is_uncertain(const int triangle) const
   {
