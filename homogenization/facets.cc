@@ -164,30 +164,46 @@ std::optional<GeometryEstimate> geometry_estimate(const UnitCell &cell,
   for (const Facet &facet : facets)
   {
     const Eigen::Matrix3d M = frame_of(facet.vector), back = M.inverse();
+    struct Mixed // stiffness where stretch and traction are given
+    {
+      double k;
+      Eigen::Vector2d q;
+      Eigen::Matrix2d f;
+    };
+    const auto stiffness_in_frame = [&](const int t) -> Eigen::Matrix3d
+    { return back.transpose() * stiffness[at(cell.mesh.material(t))] * back; };
+    const auto mixed_of = [&](const int t) -> Mixed
+    {
+      const Eigen::Matrix3d c = stiffness_in_frame(t);
+      const Eigen::Matrix2d f = c.bottomRightCorner<2, 2>().inverse();
+      const Eigen::Vector2d q = f * c.bottomLeftCorner<2, 1>();
+      return {c(0, 0) - c.topRightCorner<1, 2>().dot(q), q, f};
+    };
     Eigen::RowVector3d stretch           = Eigen::RowVector3d::Zero();
     Eigen::Matrix<double, 2, 3> traction = Eigen::Matrix<double, 2, 3>::Zero();
-    const bool has_hole                  = facet.inside < 0 || facet.outside < 0;
-    const auto stiffness_in_frame        = [&](const int t) -> Eigen::Matrix3d
-    { return back.transpose() * stiffness[at(cell.mesh.material(t))] * back; };
+    double stiff = 0., soft = 0.;
     for (const int t : {facet.inside, facet.outside})
       if (t >= 0)
       {
         const Eigen::Matrix3d strain = M * strain_in(cell, chi, t);
-        stretch += (has_hole ? 1. : 0.5) * strain.row(0);
-        if (!has_hole) // on its rim there is no traction
-          traction += 0.5 * (stiffness_in_frame(t) * strain).bottomRows<2>();
+        const Mixed its              = mixed_of(t);
+        stretch += its.k * strain.row(0);
+        traction += its.f.trace() * (stiffness_in_frame(t) * strain).bottomRows<2>();
+        stiff += its.k;
+        soft += its.f.trace();
       }
+    stretch /= stiff;
+    traction /= soft;
+    if (facet.inside < 0 || facet.outside < 0) // the rim of a hole
+      traction.setZero();
     const auto psi = [&](const int t) -> Eigen::Matrix3d
     {
       if (t < 0)
         return Eigen::Matrix3d::Zero();
-      const Eigen::Matrix3d c     = stiffness_in_frame(t);
-      const Eigen::Matrix2d f     = c.bottomRightCorner<2, 2>().inverse();
-      const Eigen::Vector2d q     = f * c.bottomLeftCorner<2, 1>();
-      const double k              = c(0, 0) - c.topRightCorner<1, 2>().dot(q);
-      const Eigen::Matrix3d mixed = stretch.transpose() * (q.transpose() * traction);
-      return k * stretch.transpose() * stretch + mixed + mixed.transpose() -
-             traction.transpose() * f * traction;
+      const Mixed its             = mixed_of(t);
+      const Eigen::Matrix3d mixed = stretch.transpose() * (its.q.transpose() * traction);
+      return its.k * stretch.transpose() * stretch + mixed + mixed.transpose() -
+             traction.transpose() * its.f * traction;
     };
     estimate.area += facet.area / cell.lattice.area();
     estimate.change += facet.area / cell.lattice.area() * (psi(facet.inside) - psi(facet.outside));

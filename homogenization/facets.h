@@ -40,7 +40,8 @@ struct GeometryEstimate
 /// C^H changes by 1/|Y| sum of area x (psi_inside − psi_outside). Stretch e along and traction t on an interface are
 /// continuous across it, and with stiffness c in its frame (along a, across b)
 ///   psi = e k e + 2 e q.t − t.f.t,   f = c_bb^-1, q = f c_ba, k = c_aa − c_ab f c_ba;
-/// e and t are means of both sides, from displacements that are linear in each triangle. Nothing without facets.
+/// e is the mean of both sides weighted by k, for the stiff side knows it best, t that by f, from displacements that are
+/// linear in each triangle. Nothing without facets.
 /// @param chi at the vertices of the cell
 /// Source: G. Allaire, Conception optimale de structures, 2007, chapter 6 (the shape derivative of an interface).
 std::optional<GeometryEstimate> geometry_estimate(const UnitCell &cell,

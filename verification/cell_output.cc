@@ -328,8 +328,9 @@ std::string summary(const UnitCell &cell, const AssessedCell &assessed)
   std::ostringstream text;
   char line[240];
   text << cell.name << ": "
-       << (is_bracketed ? static_cast<int>(assessed.bracket->bracket->n_triangles)
-                        : cell.mesh.n_triangles())
+       << (is_bracketed && !is_of_drawing(assessed)
+             ? static_cast<int>(assessed.bracket->bracket->n_triangles)
+             : cell.mesh.n_triangles())
        << " triangles, " << cell.phases.size() << " phases, P" << assessed.options.order << ", "
        << result.n_dofs << " DoFs, " << result.iterations[0] << "/" << result.iterations[1] << "/"
        << result.iterations[2] << " iterations\n";
