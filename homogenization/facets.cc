@@ -71,10 +71,11 @@ public:
       if (groups[at(e)][0] == groups[at(e)][1] || !edge.bulge.isZero(0.))
         continue;
       // Walking backwards the outline turns the other way.
-      const Bend head          = bend(e, edge.head, edge.vector);
-      Bend tail                = bend(e, edge.tail, -edge.vector);
-      tail.turn                = -tail.turn;
-      const auto [least, most] = std::minmax(std::abs(tail.turn), std::abs(head.turn));
+      const Bend head    = bend(e, edge.head, edge.vector);
+      Bend tail          = bend(e, edge.tail, -edge.vector);
+      tail.turn          = -tail.turn;
+      const double least = std::min(std::abs(tail.turn), std::abs(head.turn)),
+                   most  = std::max(std::abs(tail.turn), std::abs(head.turn));
       if (tail.turn * head.turn <= 0. || least < smallest_turn || most > largest_turn ||
           most > largest_ratio * least)
         continue;

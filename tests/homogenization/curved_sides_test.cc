@@ -204,7 +204,7 @@ TEST(exact_curved_sides, the_curves_of_an_outline_must_be_periodic)
     EXPECT_NE(tests::refusal([&]() { glued(cell.mesh, cell.lattice, sides); }).find(said),
               std::string::npos);
   // Inside of a phase a curve is no side of it.
-  const CurvedSide inside{vertex(0.5, 0.), vertex(0., 0.5), {0.02, 0.02}};
+  const CurvedSide inside{vertex(0., 0.), vertex(0.5, 0.5), {0.02, -0.02}};
   EXPECT_EQ(glued(cell.mesh, cell.lattice, {inside}).n_arcs(), 0);
 }
 

@@ -11,6 +11,7 @@
 
 #include <cmath>
 #include <random>
+#include <set>
 
 using namespace homespun;
 using namespace homespun::homogenization;
@@ -251,5 +252,67 @@ TEST(bound_drawn_mesh, brackets_of_a_drawing_nest_and_hold_those_of_finer_polygo
           before = b.width;
         }
       }
+  }
+}
+
+TEST(bound_drawn_mesh, holes_are_circumscribed_for_the_lower_side_and_inscribed_for_the_upper_one)
+{
+  // A round hole, whose sides bulge into the phase, and one whose sides bulge into the hole.
+  for (const double bulge : {1., -1.})
+  {
+    DrawnCell drawing = disc(8, 0.3, tests::contrasting(10.));
+    for (CurvedSide &side : drawing.sides)
+      side.sagitta *= bulge;
+    meshes::TriangleMesh &mesh = drawing.cell.mesh;
+    int n_kept                 = 0;
+    for (int t = 0; t < mesh.n_triangles(); ++t)
+      if (mesh.material(t) == 0)
+        mesh.triangles.row(n_kept++) = mesh.triangles.row(t);
+    mesh.triangles.conservativeResize(n_kept, 3);
+    mesh.material.setZero(n_kept);
+    // Vertices in the hole go, and sides inside of it.
+    std::vector<int> number(static_cast<std::size_t>(mesh.n_vertices()), -1);
+    for (int k = 0; k < 3 * n_kept; ++k)
+      number[static_cast<std::size_t>(mesh.triangles(k / 3, k % 3))] = 0;
+    int n = 0;
+    for (int v = 0; v < mesh.n_vertices(); ++v)
+      if (number[static_cast<std::size_t>(v)] == 0)
+      {
+        mesh.vertices.row(n)                = mesh.vertices.row(v).eval();
+        number[static_cast<std::size_t>(v)] = n++;
+      }
+    mesh.vertices.conservativeResize(n, 2);
+    for (int k = 0; k < 3 * n_kept; ++k)
+    {
+      int &v = mesh.triangles(k / 3, k % 3);
+      v      = number[static_cast<std::size_t>(v)];
+    }
+    std::set<std::array<int, 2>> rim;
+    for (const auto &edge : meshes::boundary_edges(mesh))
+      rim.insert({std::min(edge[0], edge[1]), std::max(edge[0], edge[1])});
+    std::vector<CurvedSide> sides;
+    for (const CurvedSide &side : drawing.sides)
+    {
+      const int a = number[static_cast<std::size_t>(side.a)],
+                b = number[static_cast<std::size_t>(side.b)];
+      if (rim.count({std::min(a, b), std::max(a, b)}) > 0)
+        sides.push_back({a, b, side.sagitta});
+    }
+    drawing.sides = sides;
+    ASSERT_EQ(drawing.mesh().n_arcs(), 16);
+    const Bracket polygon = bracket(as_mesh(halved(drawing.mesh(), 3)), drawing.cell.stiffness, 2);
+    double before         = 1.;
+    for (const int times : {0, 1, 2})
+    {
+      const Bracket b = bracket(halved(drawing.mesh(), times), drawing.cell.stiffness, 2);
+      EXPECT_TRUE(b.is_of_drawing);
+      EXPECT_LE(excess(b.lower, polygon.upper), 0.) << times;
+      EXPECT_LE(excess(polygon.lower, b.upper), 0.) << times;
+      EXPECT_GE(b.gaps.minCoeff(), 0.);
+      const double gap = (b.stiffness.inverse() * (b.stiffness - b.compliance.inverse())).trace();
+      EXPECT_NEAR(b.gaps.sum(), gap, 1e-10 * gap);
+      EXPECT_LT(b.width, 0.6 * before) << times;
+      before = b.width;
+    }
   }
 }
