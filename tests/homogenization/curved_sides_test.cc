@@ -92,34 +92,41 @@ void says(const Square &square, const std::vector<std::string> &parts)
     EXPECT_NE(message.find(part), std::string::npos) << part << " in: " << message;
 }
 
-/// A regular polygon of n sides about the middle of a square cell, in a fan, within a ring out to the outline.
+/// A regular polygon of n sides about the middle of a square cell, in a fan, within rings out to the outline; n a multiple
+/// of 8.
 UnitCell polygon(const int n, const double radius, const double contrast)
 {
-  // The ring's outer corners on the square: n a multiple of 8 makes opposite sides alike.
+  constexpr int n_rings = 5;
   UnitCell cell;
   cell.name    = "polygon";
   cell.lattice = tests::square_lattice(1.);
-  cell.mesh.vertices.resize(2 * n + 1, 2);
-  cell.mesh.triangles.resize(3 * n, 3);
-  cell.mesh.material.resize(3 * n);
+  cell.mesh.vertices.resize((n_rings + 1) * n + 1, 2);
+  cell.mesh.triangles.resize((2 * n_rings + 1) * n, 3);
+  cell.mesh.material.setZero(cell.mesh.triangles.rows());
+  const int middle = (n_rings + 1) * n, quarter        = n / 4;
+  const Eigen::RowVector2d centre(0.5, 0.5), corners[] = {{1., 0.}, {1., 1.}, {0., 1.}, {0., 0.}};
+  cell.mesh.vertices.row(middle) = centre;
   for (int k = 0; k < n; ++k)
   {
     const double angle = 2. * M_PI * (k + 0.5) / n;
-    const Eigen::RowVector2d direction(std::cos(angle), std::sin(angle));
-    cell.mesh.vertices.row(k) = Eigen::RowVector2d(0.5, 0.5) + radius * direction;
-    const int quarter         = n / 4;
     const int side = (k + quarter / 2) / quarter, along = (k + quarter / 2) % quarter;
-    const double part                  = static_cast<double>(along) / quarter;
-    const Eigen::RowVector2d corners[] = {{1., 0.}, {1., 1.}, {0., 1.}, {0., 0.}};
-    cell.mesh.vertices.row(n + k) =
-      (1. - part) * corners[side % 4] + part * corners[(side + 1) % 4];
+    const double part              = static_cast<double>(along) / quarter;
+    const Eigen::RowVector2d inner = centre +
+                                     radius * Eigen::RowVector2d(std::cos(angle), std::sin(angle)),
+                             outer =
+                               (1. - part) * corners[side % 4] + part * corners[(side + 1) % 4];
+    for (int ring = 0; ring <= n_rings; ++ring)
+      cell.mesh.vertices.row(ring * n + k) = inner + ring * (outer - inner) / n_rings;
     const int next = (k + 1) % n;
-    cell.mesh.triangles.row(3 * k) << 2 * n, k, next;
-    cell.mesh.triangles.row(3 * k + 1) << k, n + k, n + next;
-    cell.mesh.triangles.row(3 * k + 2) << k, n + next, next;
-    cell.mesh.material.segment<3>(3 * k) << 1, 0, 0;
+    cell.mesh.triangles.row(k) << middle, k, next;
+    cell.mesh.material(k) = 1;
+    for (int ring = 0; ring < n_rings; ++ring)
+    {
+      const int first = n + 2 * (ring * n + k), low = ring * n, high = low + n;
+      cell.mesh.triangles.row(first) << low + k, high + k, high + next;
+      cell.mesh.triangles.row(first + 1) << low + k, high + next, low + next;
+    }
   }
-  cell.mesh.vertices.row(2 * n) << 0.5, 0.5;
   cell.phases = {isotropic("ground", 1., 0.3, 1., 1.), isotropic("dot", contrast, 0.3, 1., 1.)};
   return cell;
 }
@@ -210,15 +217,16 @@ TEST(exact_curved_sides, the_curves_of_an_outline_must_be_periodic)
 
 TEST(exact_curved_sides, shipped_cells_draw_their_arcs)
 {
-  const Eigen::Vector2d middle(0.0075, 0.005 * std::sqrt(3.) / 2.);
+  const Eigen::Vector2d middle(0.0015, 0.0005 * std::sqrt(3.)); // of a rhombus with sides of 2 mm
+  const double radius   = 0.28 * 0.002;
   const UnitCell dots   = shipped("hexagonal-dots");
   const TorusMesh torus = glued(dots.mesh, dots.lattice, dots.curved_sides);
   EXPECT_GT(torus.n_arcs(), 30);
   for (const CurvedSide &side : dots.curved_sides)
   {
     const Eigen::Vector2d a = dots.mesh.vertices.row(side.a), b = dots.mesh.vertices.row(side.b);
-    EXPECT_NEAR((a - middle).norm(), 0.0028, 1e-15);
-    EXPECT_NEAR((0.5 * (a + b) + side.sagitta - middle).norm(), 0.0028, 1e-15);
+    EXPECT_NEAR((a - middle).norm(), radius, 1e-15);
+    EXPECT_NEAR((0.5 * (a + b) + side.sagitta - middle).norm(), radius, 1e-15);
   }
   for (const char *name : {"three-stiffness", "hexagonal-dots", "random-dots", "printed-patch"})
   {
