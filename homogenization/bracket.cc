@@ -2,7 +2,9 @@
 #include "homogenization/bracket.h"
 
 #include "homogenization/compatible_strain.h"
+#include "homogenization/drawn_mesh.h"
 #include "homogenization/equilibrated_stress.h"
+#include "homogenization/loewner.h"
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
@@ -20,41 +22,46 @@ std::size_t at(const int index)
 {
   return static_cast<std::size_t>(index);
 }
-
-/// A matrix whose entries may be wrong by part x sqrt(A_ii A_jj) lies below this one.
-Eigen::Matrix3d raised(const Eigen::Matrix3d &A, const double part)
-{
-  const Eigen::Matrix3d diagonal = A.diagonal().asDiagonal();
-  return A + 3. * part * diagonal;
-}
 } // namespace
 
-double relative_width(const Eigen::Matrix3d &lower, const Eigen::Matrix3d &upper)
-{
-  return Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::Matrix3d>(upper - lower, upper)
-    .eigenvalues()(2);
-}
-
-Bracket bracket(const TorusMesh &mesh, const std::vector<Eigen::Matrix3d> &stiffness_of_material,
+Bracket bracket(const TorusMesh &given, const std::vector<Eigen::Matrix3d> &stiffness_of_material,
                 const unsigned order)
 {
   Bracket result;
-  const EquilibratedStress below(mesh, stiffness_of_material);
-  const CompatibleStrain above(mesh, stiffness_of_material, order);
+  const DrawnMesh both  = drawn(given, stiffness_of_material);
+  const TorusMesh &mesh = both.mesh;
+  // Which triangles the stresses may use, and their numbers there.
+  std::vector<char> is_sure(mesh.triangles.size());
+  std::vector<char> is_flat;
+  std::vector<int> below_of(mesh.triangles.size(), -1);
+  int n_sure = 0;
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+    if ((is_sure[t] = !both.is_void_below[t]))
+    {
+      is_flat.push_back(both.is_flat[t]);
+      below_of[t] = n_sure++;
+    }
+  const TorusMesh sure_mesh = n_sure < mesh.n_triangles() ? with_only(mesh, is_sure) : mesh;
+  const EquilibratedStress below(sure_mesh, both.lower,
+                                 given.is_drawn() ? is_flat : std::vector<char>{});
+  const CompatibleStrain above(mesh, both.upper, order);
   // The vectors of the edges carry the shape to a few units of round-off.
   const double of_shape    = 16. * std::numeric_limits<double>::epsilon();
   const double below_error = below.round_off + of_shape, above_error = above.round_off + of_shape;
-  result.lower             = raised(below.compliance, below_error).inverse();
-  result.lower             = 0.5 * (result.lower + result.lower.transpose()).eval();
-  result.upper             = raised(above.stiffness, above_error);
-  result.round_off         = 3. * (below_error + above_error);
-  result.width             = std::max(relative_width(result.lower, result.upper), result.round_off);
-  result.excess            = std::max(below.excess, above.excess);
-  result.compliance        = below.compliance;
-  result.stiffness         = above.stiffness;
-  result.stiffness_by_flux = above.stiffness_by_flux;
-  result.chi               = above.chi_at_given_vertices();
-  result.n_triangles       = static_cast<unsigned>(mesh.n_triangles());
+  const RoundedInverse lower = inverse_of(raised(below.compliance, below_error));
+  result.lower               = (1. - lower.round_off) * lower.value;
+  result.upper               = raised(above.stiffness, above_error);
+  result.round_off = 3. * below_error * weakness(below.compliance) + 2. * lower.round_off +
+                     3. * above_error * weakness(above.stiffness);
+  result.width =
+    std::max(relative_width(result.lower, result.upper, result.round_off), result.round_off);
+  result.is_of_drawing       = given.is_drawn();
+  result.excess              = std::max(below.excess, above.excess);
+  result.compliance          = below.compliance;
+  result.stiffness           = above.stiffness;
+  result.stiffness_by_flux   = above.stiffness_by_flux;
+  result.chi                 = above.chi_at_given_vertices();
+  result.n_triangles         = static_cast<unsigned>(mesh.n_triangles());
   result.n_displacement_dofs = above.n_dofs;
   result.n_stress_dofs       = below.n_dofs;
   result.iterations          = std::max(above.iterations, below.iterations);
@@ -62,28 +69,51 @@ Bracket bracket(const TorusMesh &mesh, const std::vector<Eigen::Matrix3d> &stiff
   // Of all mean stresses, compliance^-1 e comes closest to the strains of e.
   const Eigen::Matrix3d mean_stress = below.compliance.inverse();
   const Eigen::Matrix3d weights     = above.stiffness.inverse() / mesh.lattice.area();
-  result.indicators                 = above.unbalanced_tractions(weights) +
-                      below.incompatible_strains(mean_stress * weights * mean_stress);
-  std::vector<Eigen::Matrix3d> compliances;
-  for (const Eigen::Matrix3d &c : stiffness_of_material)
-    compliances.emplace_back(c.inverse());
-  result.gaps.setZero(mesh.n_triangles());
+  const Eigen::VectorXd jumps_above = above.unbalanced_tractions(weights),
+                        jumps_below =
+                          below.incompatible_strains(mean_stress * weights * mean_stress);
+  std::vector<Eigen::Matrix3d> compliances, slack;
+  for (std::size_t m = 0; m < both.upper.size(); ++m)
+  {
+    compliances.emplace_back(both.upper[m].inverse());
+    slack.emplace_back(both.lower[m].inverse() - compliances[m]);
+  }
+  result.gaps.setZero(given.n_triangles());
+  result.indicators.setZero(given.n_triangles());
+  Eigen::VectorXd of_arcs = result.gaps;
   for (int t = 0; t < mesh.n_triangles(); ++t)
   {
     const TorusTriangle &triangle = mesh.triangles[at(t)];
     const auto shape              = triangle.shape(mesh.edges);
     const double area             = 0.5 * (shape[1](0) * shape[2](1) - shape[1](1) * shape[2](0));
-    const FieldOfLoads stress = below.stress(t) * mean_stress, strain = above.strain(t);
+    FieldOfLoads stress           = FieldOfLoads::Zero();
+    if (is_sure[at(t)])
+      stress = below.stress(below_of[at(t)]) * mean_stress;
+    const FieldOfLoads strain = above.strain(t);
+    const auto energy         = [&](const Eigen::Matrix3d &form, const Eigen::Matrix3d &field)
+    { return (field.transpose() * form * field).cwiseProduct(weights).sum(); };
+    double gap = 0.;
     for (int q = 0; q < n_field_points; ++q)
     {
-      const Eigen::Matrix3d gap =
-        stress.middleRows<3>(3 * q) -
-        stiffness_of_material[at(triangle.material)] * strain.middleRows<3>(3 * q);
-      result.gaps(t) +=
-        area / n_field_points *
-        (gap.transpose() * compliances[at(triangle.material)] * gap).cwiseProduct(weights).sum();
+      const Eigen::Matrix3d sigma = stress.middleRows<3>(3 * q);
+      const Eigen::Matrix3d differs =
+        sigma - both.upper[at(triangle.material)] * strain.middleRows<3>(3 * q);
+      gap += area / n_field_points * energy(compliances[at(triangle.material)], differs);
+      if (both.is_uncertain(t))
+        gap += area / n_field_points * energy(slack[at(triangle.material)], sigma);
     }
+    const int parent = both.parent[at(t)];
+    result.gaps(parent) += gap;
+    if (both.is_uncertain(t))
+      of_arcs(parent) += gap;
+    result.indicators(parent) += jumps_above(t);
+    if (is_sure[at(t)])
+      result.indicators(parent) += jumps_below(below_of[at(t)]);
   }
+  // Jumps are errors but for a factor: that of the part of the gap which is not due to the curves.
+  const double rest = result.gaps.sum() - of_arcs.sum();
+  if (result.is_of_drawing && rest > 0.)
+    result.indicators += result.indicators.sum() / rest * of_arcs;
   return result;
 }
 
@@ -107,14 +137,14 @@ std::vector<char> largest(const Eigen::VectorXd &values, const double part)
   return is_marked;
 }
 
-AdaptiveBracket adaptive_bracket(const meshes::TriangleMesh &mesh, const meshes::Lattice &lattice,
+AdaptiveBracket adaptive_bracket(const TorusMesh &mesh,
                                  const std::vector<Eigen::Matrix3d> &stiffness_of_material,
                                  const AdaptiveOptions &options,
                                  const std::function<void(const Bracket &)> &observe)
 {
   // Squares of edges are far above the smallest numbers.
   constexpr double finest = 1e-100;
-  AdaptiveBracket result{{}, glued(mesh, lattice), Ending::tolerance};
+  AdaptiveBracket result{{}, mesh, Ending::tolerance};
   while (true)
   {
     result.bracket = bracket(result.mesh, stiffness_of_material, options.order);
@@ -129,9 +159,11 @@ AdaptiveBracket adaptive_bracket(const meshes::TriangleMesh &mesh, const meshes:
       return result;
     TorusMesh finer =
       bisected(result.mesh, largest(result.bracket.indicators, options.marked_part));
+    // Each arc has a vertex and three edges of its own.
+    const int n_vertices = finer.n_vertices + finer.n_arcs(),
+              n_edges    = finer.n_edges() + 3 * finer.n_arcs();
     const int n_dofs =
-      std::max(3 * finer.n_vertices + finer.n_edges(),
-               2 * (finer.n_vertices + (options.order == 2 ? finer.n_edges() : 0)));
+      std::max(3 * n_vertices + n_edges, 2 * (n_vertices + (options.order == 2 ? n_edges : 0)));
     if (n_dofs > static_cast<int>(options.max_dofs))
       return result;
     result.mesh = std::move(finer);

@@ -18,6 +18,7 @@ namespace homespun::homogenization
 struct Bracket
 {
   Eigen::Matrix3d lower, upper; ///< round-off of the evaluation added on the outside
+  bool is_of_drawing = false;   ///< whose phases have curved sides; else of the mesh as it is
   /// Largest v.(upper − lower).v / v.upper.v: by how much any energy can be wrong, relative.
   double width     = 0.;
   double round_off = 0.; ///< what was added, relative: the width is never below it
@@ -30,25 +31,25 @@ struct Bracket
   unsigned n_triangles = 0, n_displacement_dofs = 0, n_stress_dofs = 0, iterations = 0;
 
   /// Per triangle, 1/|Y| integral of c^-1 : (sigma − c : eps)^2 over it, summed over three macro
-  /// strains that are orthonormal in the upper stiffness (Prager and Synge). All are positive; their sum is
+  /// strains that are orthonormal in the upper stiffness (Prager and Synge); where c is uncertain with the upper
+  /// c, and sigma : (lower c^-1 − upper c^-1) : sigma more. All are positive; their sum is
   /// trace(upper^-1 (upper − lower)) but for round-off, hence between one and three widths.
   Eigen::VectorXd gaps;
 
   /// Per triangle, what the mesh should be refined by: the jumps of the tractions of the displacements and of
   /// the strains along edges of the stresses. The gaps certify, but they do not tell where an error comes from:
   /// at the corners of a stiff checkerboard both fields are wrong by a factor far away from the
-  /// corner that causes it, and gaps then refine everywhere.
+  /// corner that causes it, and gaps then refine everywhere. What curves leave uncertain is added as it stands in the
+  /// gaps, in parts of the rest of these.
   Eigen::VectorXd indicators;
 };
 
-/// Brackets C^H on one mesh.
+/// Brackets C^H on one mesh; where it has curved edges, the C^H of the drawing (drawn_mesh.h).
 /// @param order of the displacement elements, 1 or 2
-/// @throws BadInput, NotConverged as EquilibratedStress and CompatibleStrain
-Bracket bracket(const TorusMesh &mesh, const std::vector<Eigen::Matrix3d> &stiffness_of_material,
+/// @throws BadInput, NotConverged as EquilibratedStress and CompatibleStrain; std::logic_error where the lower side
+///   lies above the upper one
+Bracket bracket(const TorusMesh &given, const std::vector<Eigen::Matrix3d> &stiffness_of_material,
                 unsigned order);
-
-/// (upper − lower) relative to upper: the largest eigenvalue of the pencil.
-double relative_width(const Eigen::Matrix3d &lower, const Eigen::Matrix3d &upper);
 
 /// Marks the fewest triangles that hold the given part of the sum of all values.
 /// Source: W. Doerfler, A convergent adaptive algorithm for Poisson's equation, 1996.
@@ -80,8 +81,18 @@ struct AdaptiveBracket
 
 /// Solves, marks and bisects until the width is reached.
 /// @param observe is called with each bracket, coarsest first
-AdaptiveBracket adaptive_bracket(const meshes::TriangleMesh &mesh, const meshes::Lattice &lattice,
+AdaptiveBracket adaptive_bracket(const TorusMesh &mesh,
                                  const std::vector<Eigen::Matrix3d> &stiffness_of_material,
                                  const AdaptiveOptions &options,
                                  const std::function<void(const Bracket &)> &observe);
+
+/// The same on a mesh that is its own drawing.
+inline AdaptiveBracket adaptive_bracket(const meshes::TriangleMesh &mesh,
+                                        const meshes::Lattice &lattice,
+                                        const std::vector<Eigen::Matrix3d> &stiffness_of_material,
+                                        const AdaptiveOptions &options,
+                                        const std::function<void(const Bracket &)> &observe)
+{
+  return adaptive_bracket(glued(mesh, lattice), stiffness_of_material, options, observe);
+}
 } // namespace homespun::homogenization

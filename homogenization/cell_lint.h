@@ -37,6 +37,10 @@ std::vector<Finding> lint_phases(const UnitCell &cell, double side);
 /// Contrast beyond double precision: an error where no digit is left.
 std::vector<Finding> lint_contrast(const UnitCell &cell);
 
+/// Outlines that turn by small equal angles, polygons in the place of arcs: needs a mesh with phases, and a lattice that
+/// fits.
+std::vector<Finding> lint_facets(const UnitCell &cell, double metres_per_unit);
+
 /// Phases with a single element across: needs a mesh with phases, and a lattice that fits.
 std::vector<Finding> lint_thin_parts(const UnitCell &cell, double metres_per_unit);
 } // namespace homespun::homogenization

@@ -5,6 +5,7 @@
 #include "homogenization/parameter_text.h"
 #include "meshes/errors.h"
 
+#include <algorithm>
 #include <filesystem>
 #include <sstream>
 
@@ -44,13 +45,19 @@ void require_flat(const std::string &file, const RawMesh &raw)
   Eigen::Vector3d low  = raw.points[static_cast<std::size_t>(raw.cells[0].corners[0])];
   Eigen::Vector3d high = low;
   for (const RawMesh::Cell &cell : raw.cells)
-    for (int k = 0; k < cell.n_corners; ++k)
+  {
+    const auto hold = [&](const int point)
     {
-      const Eigen::Vector3d &x =
-        raw.points[static_cast<std::size_t>(cell.corners[static_cast<std::size_t>(k)])];
-      low  = low.cwiseMin(x);
-      high = high.cwiseMax(x);
-    }
+      const Eigen::Vector3d &x = raw.points[static_cast<std::size_t>(point)];
+      low                      = low.cwiseMin(x);
+      high                     = high.cwiseMax(x);
+    };
+    for (int k = 0; k < cell.n_corners; ++k)
+      hold(cell.corners[static_cast<std::size_t>(k)]);
+    for (const int middle : cell.middles)
+      if (middle >= 0)
+        hold(middle);
+  }
   // Rounded to eight digits, as old tools write.
   if (high(2) - low(2) > 1e-7 * (high - low).norm())
   {
@@ -67,6 +74,23 @@ double area(const RawMesh &raw, const int a, const int b, const int c)
   const auto at = [&](const int k) { return raw.points[static_cast<std::size_t>(k)].head<2>(); };
   const Eigen::Vector2d u = at(b) - at(a), v = at(c) - at(a);
   return 0.5 * (u(0) * v(1) - u(1) * v(0));
+}
+
+/// The middles of the sides of a triangle with these corners, which are those of the element in either order;
+/// those of the chords where the element has none.
+MiddleNodes middles_of(const RawMesh &raw, const RawMesh::Cell &cell,
+                       const std::array<int, 3> &corners)
+{
+  const auto at = [&](const int k) -> Eigen::Vector2d
+  { return raw.points[static_cast<std::size_t>(k)].head<2>(); };
+  // Turned around, (a, b, c) is (a, c, b): side 0 was side 2, and so on.
+  const bool is_turned = corners[1] != cell.corners[1];
+  MiddleNodes middles;
+  for (std::size_t k = 0; k < 3; ++k)
+    middles[k] = cell.middles[k] < 0
+                   ? Eigen::Vector2d(0.5 * (at(corners[k]) + at(corners[(k + 1) % 3])))
+                   : at(cell.middles[is_turned ? 2 - k : k]);
+  return middles;
 }
 
 /// The triangles of an element, counter-clockwise.
@@ -130,6 +154,10 @@ CellMeshFile read_cell_mesh(const std::string &file)
   mesh.triangles.resize(n_triangles, 3);
   mesh.material.resize(n_triangles);
   result.angle.resize(raw.angles.empty() ? 0 : n_triangles);
+  const bool has_middles =
+    std::any_of(raw.cells.begin(), raw.cells.end(),
+                [](const RawMesh::Cell &cell) { return cell.middles[0] >= 0; });
+  std::vector<MiddleNodes> middles;
   Eigen::Index t = 0;
   for (std::size_t e = 0; e < raw.cells.size(); ++e)
     for (const std::array<int, 3> &corners : triangles_of(raw, raw.cells[e]))
@@ -140,8 +168,12 @@ CellMeshFile read_cell_mesh(const std::string &file)
       mesh.material(t) = raw.cells[e].group;
       if (!raw.angles.empty())
         result.angle(t) = raw.angles[e];
+      if (has_middles)
+        middles.push_back(middles_of(raw, raw.cells[e], corners));
       ++t;
     }
+  if (has_middles)
+    result.curved_sides = curved_sides_of(mesh, middles, file);
   return result;
 }
 } // namespace homespun::homogenization

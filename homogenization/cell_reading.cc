@@ -3,6 +3,7 @@
 
 #include "homogenization/cell_keys.h"
 #include "homogenization/cell_lint.h"
+#include "homogenization/torus_mesh.h"
 #include "meshes/errors.h"
 
 #include <cmath>
@@ -147,6 +148,8 @@ CellReading read_cell(const std::string &prm_file)
     return reading;
   }
   mesh_file.mesh.vertices *= reading.metres_per_unit;
+  for (CurvedSide &side : mesh_file.curved_sides)
+    side.sagitta *= reading.metres_per_unit;
   reading.has_mesh = true;
   add(findings, "mesh", meshes::placed_faults_of(mesh_file.mesh, mesh_path));
   const bool mesh_is_sound = !has_errors(findings);
@@ -154,6 +157,7 @@ CellReading read_cell(const std::string &prm_file)
   const Eigen::VectorXi groups = mesh_file.mesh.material;
   cell.phases                  = assign_phases(prm_file, keys, mesh_file, of_phases);
   cell.mesh                    = std::move(mesh_file.mesh);
+  cell.curved_sides            = std::move(mesh_file.curved_sides);
   if (!of_phases.empty())
     cell.mesh.material = groups;
   add(findings, "phases", of_phases);
@@ -189,6 +193,16 @@ CellReading read_cell(const std::string &prm_file)
   reading.is_whole   = mesh_is_sound && fits && reading.has_phases;
   if (reading.is_whole)
     append(findings, prm_file, lint_contrast(cell));
+  if (reading.is_whole && !cell.curved_sides.empty())
+    try
+    {
+      glued(cell.mesh, cell.lattice, cell.curved_sides);
+    }
+    catch (const meshes::BadInput &bad)
+    {
+      add(findings, "periodicity", {mesh_path + ": " + bad.what()});
+      reading.is_whole = false;
+    }
   return reading;
 }
 
@@ -211,6 +225,7 @@ CellReading inspect_cell(const std::string &prm_file)
     append(findings, prm_file, lint_sides(cell.mesh, cell.lattice, reading.metres_per_unit));
     append(findings, prm_file, lint_phases(cell, side));
     append(findings, prm_file, lint_thin_parts(cell, reading.metres_per_unit));
+    append(findings, prm_file, lint_facets(cell, reading.metres_per_unit));
   }
   return reading;
 }

@@ -57,9 +57,11 @@ const std::array<FieldPoint, n_field_points> &field_points()
 }
 
 EquilibratedStress::EquilibratedStress(const TorusMesh &mesh,
-                                       const std::vector<Eigen::Matrix3d> &stiffness_of_material)
+                                       const std::vector<Eigen::Matrix3d> &stiffness_of_material,
+                                       std::vector<char> flat)
     : mesh(mesh)
     , numbering(mesh)
+    , flat(std::move(flat))
 {
   for (const Eigen::Matrix3d &c : stiffness_of_material)
   {
@@ -104,15 +106,19 @@ void EquilibratedStress::assemble_and_solve()
   const int n = static_cast<int>(n_dofs);
   // Unknowns behind the pinned one move up by one place.
   const auto row_of = [this](const int unknown) { return unknown - (unknown > numbering.pinned); };
-  std::vector<Eigen::Triplet<double>> entries;
+  // Those of flat triangles are in other unknowns.
+  std::vector<Eigen::Triplet<double>> entries, entries_of_flat;
   entries.reserve(80 * mesh.triangles.size());
-  Eigen::MatrixXd loads = Eigen::MatrixXd::Zero(n, 3);
+  Eigen::MatrixXd loads = Eigen::MatrixXd::Zero(n, 3), loads_of_flat = loads;
   for (int t = 0; t < mesh.n_triangles(); ++t)
   {
     const TorusTriangle &triangle = mesh.triangles[at(t)];
     const Eigen::Matrix3d &s      = compliances[at(triangle.material)];
-    const StressRows B            = stress_rows(t);
-    const double weight           = area_of(triangle.shape(mesh.edges)) / n_field_points;
+    StressRows B                  = stress_rows(t);
+    AiryDofs dofs                 = numbering.of_triangle(t);
+    if (is_flat(t))
+      change_basis(t, B, dofs);
+    const double weight = area_of(triangle.shape(mesh.edges)) / n_field_points;
     StressRows sB;
     for (int q = 0; q < n_field_points; ++q)
       sB.middleRows<3>(3 * q).noalias() = weight * s * B.middleRows<3>(3 * q);
@@ -121,7 +127,6 @@ void EquilibratedStress::assemble_and_solve()
     for (int q = 0; q < n_field_points; ++q)
       load -= sB.middleRows<3>(3 * q).transpose();
 
-    const AiryDofs dofs = numbering.of_triangle(t);
     for (int i = 0; i < 12; ++i)
       for (int j = 0; j < 12; ++j)
         if (!dofs[at(j)].known.isZero(0.))
@@ -133,22 +138,35 @@ void EquilibratedStress::assemble_and_solve()
         if (row < 0)
           continue;
         const double factor = dofs[at(i)].factors[at(a)];
-        loads.row(row_of(row)) += factor * load.row(i);
+        (is_flat(t) ? loads_of_flat : loads).row(row_of(row)) += factor * load.row(i);
         for (int j = 0; j < 12; ++j)
           for (int b = 0; b < 3; ++b)
           {
             const int column = dofs[at(j)].unknowns[at(b)];
             if (column >= 0 && column <= row)
-              entries.emplace_back(row_of(row), row_of(column),
-                                   factor * matrix(i, j) * dofs[at(j)].factors[at(b)]);
+              (is_flat(t) ? entries_of_flat : entries)
+                .emplace_back(row_of(row), row_of(column),
+                              factor * matrix(i, j) * dofs[at(j)].factors[at(b)]);
           }
       }
   }
   Eigen::SparseMatrix<double> matrix(n, n);
   matrix.setFromTriplets(entries.begin(), entries.end());
   entries = {};
-  const CholeskySolver::Solution solution =
-    CholeskySolver(matrix, "complementary energy").solve(loads);
+  Eigen::SparseMatrix<double> basis;
+  if (!flat.empty())
+  {
+    basis                                  = basis_of_flat_triangles();
+    const Eigen::SparseMatrix<double> full = matrix.selfadjointView<Eigen::Lower>();
+    Eigen::SparseMatrix<double> of_flat(n, n);
+    of_flat.setFromTriplets(entries_of_flat.begin(), entries_of_flat.end());
+    const Eigen::SparseMatrix<double> changed = basis.transpose() * full * basis;
+    matrix = Eigen::SparseMatrix<double>(changed.triangularView<Eigen::Lower>()) + of_flat;
+    loads  = loads_of_flat + basis.transpose() * loads;
+  }
+  CholeskySolver::Solution solution = CholeskySolver(matrix, "complementary energy").solve(loads);
+  if (!flat.empty())
+    solution.values = basis * solution.values;
   for (int unknown = 0; unknown <= n; ++unknown)
     if (unknown != numbering.pinned)
       unknowns.row(unknown) = solution.values.row(row_of(unknown));

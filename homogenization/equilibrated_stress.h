@@ -11,6 +11,7 @@
 #include "homogenization/torus_mesh.h"
 
 #include <Eigen/Core>
+#include <Eigen/SparseCore>
 
 #include <vector>
 
@@ -38,9 +39,11 @@ class EquilibratedStress
 {
 public:
   /// @param stiffness_of_material [N/m]
+  /// @param flat whether vertex 2 of a triangle lies close to its edge 0 (and to that of no other); empty: none does
   /// @throws BadInput where holes meet across the outline; NotConverged where the matrix is singular
   EquilibratedStress(const TorusMesh &mesh,
-                     const std::vector<Eigen::Matrix3d> &stiffness_of_material);
+                     const std::vector<Eigen::Matrix3d> &stiffness_of_material,
+                     std::vector<char> flat = {});
 
   /// Stress at the field points of a triangle under the three unit mean stresses.
   FieldOfLoads stress(int triangle) const;
@@ -65,12 +68,20 @@ private:
   StressRows stress_rows(int triangle) const;
   LocalValues local_values(int triangle) const;
   void assemble_and_solve();
+  bool is_flat(const int triangle) const
+  {
+    return !flat.empty() && flat[static_cast<std::size_t>(triangle)];
+  }
+  Eigen::Matrix<double, 5, 7> continued(int triangle) const;
+  Eigen::SparseMatrix<double> basis_of_flat_triangles() const;
+  void change_basis(int triangle, StressRows &B, AiryDofs &dofs) const;
   void evaluate();
 
   const TorusMesh &mesh;
   const AiryUnknowns numbering;
   std::vector<Eigen::Matrix3d> compliances; ///< c^-1 of each material
-  double inversion_error = 0.;              ///< of these, relative
+  const std::vector<char> flat;
+  double inversion_error = 0.; ///< of the compliances, relative
   Eigen::MatrixXd unknowns;
 };
 } // namespace homespun::homogenization

@@ -25,6 +25,8 @@ struct RawMesh
     std::array<int, 4> corners; ///< indices of points; the last is unused in a triangle
     int n_corners;              ///< 3 or 4
     int group = 0;
+    /// Points in the middles of the sides of a six-node triangle, the first between the corners 0 and 1; else −1.
+    std::array<int, 3> middles = {-1, -1, -1};
   };
 
   std::vector<Eigen::Vector3d> points;

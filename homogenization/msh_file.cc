@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Gmsh's .msh as text: https://gmsh.info/doc/texinfo/gmsh.html#File-formats, and its legacy formats 1 and 2.
+// Gmsh's .msh as text: https://gmsh.info/doc/texinfo/gmsh.html#File-formats, and its legacy formats 1 and 2. Triangles
+// may have six nodes: corners, then the middles of the sides.
 #include "homogenization/mesh_formats.h"
 
 #include <cmath>
@@ -12,8 +13,11 @@ namespace
 constexpr std::array<int, 21> nodes_of_type = {2,  3,  4,  4, 8, 6,  5,  3,  6, 9, 10,
                                                27, 18, 14, 1, 8, 20, 15, 13, 9, 10};
 
-/// Numbers of the points of elements, from 1 to 4 of them; more are refused before.
-using Nodes = std::array<long, 4>;
+/// Numbers of the points of elements, from 1 to 6 of them; more are refused before.
+using Nodes = std::array<long, 6>;
+
+/// Gmsh's types of the elements that cells are made of.
+constexpr long triangle = 2, quadrilateral = 3, six_node_triangle = 9;
 
 class MshReader
 {
@@ -222,7 +226,7 @@ private:
     if (type < 1 || type > static_cast<long>(nodes_of_type.size()))
       text.fail("holds an element of Gmsh's type " + std::to_string(type) + straight_and_flat);
     const bool is_needless = type == 1 || type == 15 || type == 8;
-    if (!is_needless && type != 2 && type != 3)
+    if (!is_needless && type != triangle && type != quadrilateral && type != six_node_triangle)
       text.fail("holds an element of Gmsh's type " + std::to_string(type) + straight_and_flat);
     return nodes_of_type[static_cast<std::size_t>(type - 1)];
   }
@@ -233,11 +237,14 @@ private:
     Nodes nodes{};
     for (int k = 0; k < n; ++k)
       nodes[static_cast<std::size_t>(k)] = text.integer("the number of a point of an element");
-    if (type != 2 && type != 3)
+    if (type != triangle && type != quadrilateral && type != six_node_triangle)
       return;
-    RawMesh::Cell cell{{0, 0, 0, 0}, n, group_number(text, static_cast<double>(group))};
-    for (std::size_t k = 0; k < static_cast<std::size_t>(n); ++k)
+    const int n_corners = type == quadrilateral ? 4 : 3;
+    RawMesh::Cell cell{{0, 0, 0, 0}, n_corners, group_number(text, static_cast<double>(group))};
+    for (std::size_t k = 0; k < static_cast<std::size_t>(n_corners); ++k)
       cell.corners[k] = numbers.index(text, nodes[k]);
+    for (std::size_t k = 0; type == six_node_triangle && k < 3; ++k)
+      cell.middles[k] = numbers.index(text, nodes[k + 3]);
     mesh.cells.push_back(cell);
   }
 

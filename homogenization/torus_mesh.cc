@@ -90,9 +90,47 @@ std::map<std::array<int, 2>, std::array<int, 2>> glue_edges(const meshes::Triang
   }
   return first_of;
 }
+
+/// Gives the edges between two materials and on rims their bulge.
+/// @param edge_of a curved side @param is_paired whether it has an image on the opposite side of the outline
+template <typename EdgeOf, typename IsPaired>
+void curve(TorusMesh &torus, const std::vector<CurvedSide> &curved_sides, const EdgeOf &edge_of,
+           const IsPaired &is_paired)
+{
+  const double tolerance = meshes::image_tolerance * std::sqrt(torus.lattice.area());
+  std::map<int, CurvedSide> alone; // without its image
+  for (const CurvedSide &side : curved_sides)
+  {
+    const int e                  = edge_of(side);
+    torus.edges[at(e)].bulge     = side.sagitta;
+    const auto [place, is_first] = alone.emplace(e, side);
+    const double off             = (place->second.sagitta - side.sagitta).norm();
+    if (!is_paired(side) || (!is_first && off <= tolerance))
+      alone.erase(place);
+  }
+  for (const auto &[e, side] : alone)
+    if (std::max(side.sagitta.norm(), torus.edges[at(e)].bulge.norm()) > tolerance)
+      throw meshes::BadInput(
+        "the side of the outline from vertex " + std::to_string(side.a) + " to vertex " +
+        std::to_string(side.b) +
+        " is curved otherwise than its periodic image; expected the same curve: "
+        "mesh opposite sides alike");
+  std::vector<int> material(torus.edges.size(), -1);
+  std::vector<char> is_inside(torus.edges.size(), 0);
+  for (const TorusTriangle &triangle : torus.triangles)
+    for (const int e : triangle.edges)
+    {
+      is_inside[at(e)] = material[at(e)] == triangle.material;
+      material[at(e)]  = triangle.material;
+    }
+  for (std::size_t e = 0; e < torus.edges.size(); ++e)
+    if (is_inside[e])
+      torus.edges[e].bulge.setZero();
+}
 } // namespace
 
-TorusMesh glued(const meshes::TriangleMesh &mesh, const meshes::Lattice &lattice)
+TorusMesh glued(const meshes::TriangleMesh &mesh, const meshes::Lattice &lattice,
+                const std::vector<CurvedSide> &curved_sides)
 {
   const GluedVertices vertices = glue_vertices(mesh, lattice);
   const auto first_of          = glue_edges(mesh, vertices, lattice);
@@ -157,6 +195,11 @@ TorusMesh glued(const meshes::TriangleMesh &mesh, const meshes::Lattice &lattice
   for (const TorusEdge &edge : torus.edges)
     for (const int end : {edge.tail, edge.head})
       torus.reach[at(end)] = std::min(torus.reach[at(end)], edge.vector.norm());
+  const auto edge_of   = [&](const CurvedSide &side) { return edge_between(side.a, side.b).first; };
+  const auto is_paired = [&](const CurvedSide &side) {
+    return first_of.count({std::min(side.a, side.b), std::max(side.a, side.b)}) > 0;
+  };
+  curve(torus, curved_sides, edge_of, is_paired);
   return torus;
 }
 
@@ -218,11 +261,12 @@ private:
     Halves &its                = halves[at(e)];
     its.midpoint               = fine.n_vertices++;
     its.first                  = fine.n_edges();
-    fine.edges.push_back({edge.tail, its.midpoint, half});
+    fine.edges.push_back({edge.tail, its.midpoint, half + edge.bulge, 0.25 * edge.bulge});
     its.second = fine.n_edges();
-    fine.edges.push_back({its.midpoint, edge.head, half});
+    fine.edges.push_back({its.midpoint, edge.head, half - edge.bulge, 0.25 * edge.bulge});
     const Home &tail = fine.homes[at(edge.tail)], &head = fine.homes[at(edge.head)];
-    const Eigen::Vector2d from_tail = tail.offset + half, from_head = head.offset - half;
+    const Eigen::Vector2d from_tail = tail.offset + half + edge.bulge,
+                          from_head = head.offset - half + edge.bulge;
     fine.homes.push_back(from_tail.squaredNorm() <= from_head.squaredNorm()
                            ? Home{tail.vertex, from_tail}
                            : Home{head.vertex, from_head});
@@ -246,8 +290,9 @@ private:
     const bool runs_ab            = triangle.signs[0] > 0.;
     const Eigen::Vector2d edge_ab = triangle.signs[0] * fine.edges[at(triangle.edges[0])].vector;
     const Eigen::Vector2d edge_bc = triangle.signs[1] * fine.edges[at(triangle.edges[1])].vector;
+    const Eigen::Vector2d bulge   = fine.edges[at(triangle.edges[0])].bulge;
     const int spine               = fine.n_edges();
-    fine.edges.push_back({its.midpoint, c, 0.5 * edge_ab + edge_bc});
+    fine.edges.push_back({its.midpoint, c, 0.5 * edge_ab + edge_bc - bulge});
     TorusTriangle first = triangle, second = triangle;
     first.vertices  = {c, a, its.midpoint};
     first.edges     = {triangle.edges[2], runs_ab ? its.first : its.second, spine};

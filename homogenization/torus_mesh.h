@@ -9,11 +9,13 @@
 // contrast 1000, needs triangles far smaller than that.
 #pragma once
 
+#include "homogenization/curved_sides.h"
 #include "meshes/lattice.h"
 #include "meshes/triangle_mesh.h"
 
 #include <Eigen/Core>
 
+#include <algorithm>
 #include <array>
 #include <vector>
 
@@ -24,6 +26,9 @@ struct TorusEdge
 {
   int tail, head;         ///< vertices of the torus
   Eigen::Vector2d vector; ///< from tail to head [m]
+  /// From the middle of the edge to the middle of the parabola that the drawing has there, x(t) = tail + t vector +
+  /// 4 t (1 − t) bulge [m]; zero where it is straight, and on edges inside of a phase.
+  Eigen::Vector2d bulge = Eigen::Vector2d::Zero();
 };
 
 /// A triangle of the torus, counter-clockwise. Edge k joins the vertices k and k + 1; edge 0 is the
@@ -72,17 +77,30 @@ struct TorusMesh
   {
     return static_cast<int>(edges.size());
   }
+  /// Whether any side of a phase is curved: the mesh then stands for a drawing, not for itself.
+  bool is_drawn() const
+  {
+    return n_arcs() > 0;
+  }
+  int n_arcs() const
+  {
+    return static_cast<int>(std::count_if(
+      edges.begin(), edges.end(), [](const TorusEdge &edge) { return !edge.bulge.isZero(0.); }));
+  }
 };
 
 /// Glues a periodic mesh. Images are moved onto each other exactly: where the sides of the given mesh
 /// match within the tolerance of match_images() only, its shape changes by that much.
 /// The longest edge of each triangle is bisected first.
-/// @throws BadInput where the outline is not periodic
-TorusMesh glued(const meshes::TriangleMesh &mesh, const meshes::Lattice &lattice);
+/// @param curved_sides of the mesh; those between two materials and on rims are kept
+/// @throws BadInput where the outline is not periodic, or its images are curved differently
+TorusMesh glued(const meshes::TriangleMesh &mesh, const meshes::Lattice &lattice,
+                const std::vector<CurvedSide> &curved_sides = {});
 
 /// Bisects all three edges of the marked triangles, and as many more as keep the mesh conforming
-/// (newest-vertex bisection: the angles stay those of at most four shapes per given triangle).
-/// Children inherit the material.
+/// (newest-vertex bisection: the angles stay those of at most four shapes per given triangle, and come near to those
+/// where edges are curved). Children inherit the material. A curved edge is bisected at the middle of its parabola,
+/// whose halves have a quarter of its bulge.
 /// @param is_marked (n_triangles)
 TorusMesh bisected(const TorusMesh &mesh, const std::vector<char> &is_marked);
 

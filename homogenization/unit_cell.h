@@ -3,6 +3,7 @@
 // groups. Reading it means validating it: all faults are reported at once.
 #pragma once
 
+#include "homogenization/curved_sides.h"
 #include "homogenization/material.h"
 #include "meshes/lattice.h"
 #include "meshes/triangle_mesh.h"
@@ -20,6 +21,7 @@ struct UnitCell
   meshes::TriangleMesh mesh; ///< [m]
   meshes::Lattice lattice;
   std::vector<Phase> phases;
+  std::vector<CurvedSide> curved_sides; ///< of the mesh, where the drawing has arcs
 
   /// Membrane stiffness of each phase, (3,3) [N/m].
   std::vector<Eigen::Matrix3d> stiffness_of_phase() const;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "verification/cell_bracket.h"
 
+#include "homogenization/compatible_strain.h"
 #include "meshes/errors.h"
 #include "meshes/refine.h"
 #include "verification/energy_order.h"
@@ -16,6 +17,19 @@ using homogenization::Bracket;
 
 namespace
 {
+/// The mesh of a cell on the torus, as often refined as the cell problems; that of a drawing on its curves.
+homogenization::TorusMesh torus_of(const homogenization::UnitCell &cell,
+                                   const meshes::TriangleMesh &refined, const unsigned times)
+{
+  homogenization::TorusMesh torus =
+    homogenization::glued(cell.mesh, cell.lattice, cell.curved_sides);
+  if (!torus.is_drawn())
+    return homogenization::glued(refined, cell.lattice);
+  for (unsigned k = 0; k < times; ++k)
+    torus = homogenization::bisected(torus, std::vector<char>(torus.triangles.size(), 1));
+  return torus;
+}
+
 std::string text_of(const homogenization::Ending ending, const BracketOptions &options)
 {
   using homogenization::Ending;
@@ -61,28 +75,32 @@ CellBracket bracket_of(const homogenization::UnitCell &cell, const BracketOption
       result.on_given_mesh = bracket.stiffness;
     char line[160];
     std::snprintf(line, sizeof(line),
-                  "bracket: %u triangles, %u + %u DoFs, relative width %.2g, %.1f s",
-                  bracket.n_triangles, bracket.n_displacement_dofs, bracket.n_stress_dofs,
-                  bracket.width, seconds);
+                  "bracket of the %s: %u triangles, %u + %u DoFs, relative width %.2g, %.1f s",
+                  name_of_subject(bracket), bracket.n_triangles, bracket.n_displacement_dofs,
+                  bracket.n_stress_dofs, bracket.width, seconds);
     report(line);
   };
   try
   {
+    const auto stiffness                  = cell.stiffness_of_phase();
+    const homogenization::TorusMesh torus = torus_of(cell, mesh, options.refine);
+    if (torus.is_drawn()) // whose displacements are others than those of the straight triangles
+      result.on_given_mesh = homogenization::CompatibleStrain(
+                               homogenization::glued(mesh, cell.lattice), stiffness, options.order)
+                               .stiffness;
     if (options.tolerance)
     {
       homogenization::AdaptiveOptions adaptive;
       adaptive.order     = options.order;
       adaptive.tolerance = *options.tolerance;
       adaptive.max_dofs  = options.max_dofs;
-      auto reached = homogenization::adaptive_bracket(mesh, cell.lattice, cell.stiffness_of_phase(),
-                                                      adaptive, observe);
-      result.bracket = std::move(reached.bracket);
-      result.remark  = text_of(reached.ending, options);
+      auto reached       = homogenization::adaptive_bracket(torus, stiffness, adaptive, observe);
+      result.bracket     = std::move(reached.bracket);
+      result.remark      = text_of(reached.ending, options);
     }
     else
     {
-      result.bracket = homogenization::bracket(homogenization::glued(mesh, cell.lattice),
-                                               cell.stiffness_of_phase(), options.order);
+      result.bracket = homogenization::bracket(torus, stiffness, options.order);
       observe(*result.bracket);
       result.remark = "on the mesh of the cell problems";
     }
@@ -145,6 +163,11 @@ std::vector<Verdict> checks_of(const CellBracket &bracket, const BracketOptions 
     at_most("Bracket of C^H as narrow as --tolerance (relative width)", found.width,
             *options.tolerance, asked_for, Kind::input);
   return checks;
+}
+
+const char *name_of_subject(const Bracket &bracket)
+{
+  return bracket.is_of_drawing ? "drawing" : "mesh";
 }
 
 Eigen::Matrix3d bars_of(const Bracket &bracket)

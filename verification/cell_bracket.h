@@ -33,9 +33,10 @@ struct BracketStep
 struct CellBracket
 {
   std::optional<homogenization::Bracket> bracket; ///< on the last mesh
-  std::optional<Eigen::Matrix3d> on_given_mesh;   ///< its energies on the first one [N/m]
-  std::string remark;                             ///< why there is none, or how adaptivity ended
-  bool is_left_out = false;                       ///< the settings allow none on this mesh
+  std::optional<Eigen::Matrix3d>
+    on_given_mesh;          ///< energies on the straight triangles as given [N/m]
+  std::string remark;       ///< why there is none, or how adaptivity ended
+  bool is_left_out = false; ///< the settings allow none on this mesh
   std::vector<BracketStep> history;
 };
 
@@ -50,6 +51,9 @@ CellBracket bracket_of(const homogenization::UnitCell &cell, const BracketOption
 /// @param round_off algebraic_limit() of the cell: solvers that differ by more than 1e-6 and less than this are INCONCLUSIVE
 std::vector<Verdict> checks_of(const CellBracket &bracket, const BracketOptions &options,
                                const Eigen::Matrix3d &stiffness, double round_off);
+
+/// Whose C^H a bracket holds: `mesh`, of straight triangles, or `drawing`, where phases have curved sides.
+const char *name_of_subject(const homogenization::Bracket &bracket);
 
 /// How far an entry C_ij of either side can be from that of C^H: with D = upper − lower, which is not
 /// negative, |C_ij − C^H_ij| <= sqrt(D_ii D_jj) [N/m].

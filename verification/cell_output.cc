@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "verification/cell_output.h"
 
+#include "homogenization/facets.h"
 #include "meshes/cell_file.h"
 #include "meshes/surface_files.h"
 #include "meshes/write_whole.h"
 #include "verification/algebraic_limit.h"
+#include "verification/cell_bars.h"
 #include "verification/energy_order.h"
 #include "verification/printed_digits.h"
 #include "verification/provenance.h"
@@ -144,40 +146,23 @@ std::vector<Verdict> checks_of_sampled_chi(const UnitCell &cell, const Homogeniz
       Kind::input)};
 }
 
-/// How far each entry of the C that is written may be from C^H [N/m]: guaranteed where there is a bracket, whose
-/// mesh may differ from that of the cell problems.
-std::optional<Eigen::Matrix3d> bars_of_stiffness(const AssessedCell &assessed)
+ordered_json json_matrix(const Eigen::Matrix3d &matrix)
 {
-  if (!assessed.bracket || !assessed.bracket->bracket)
-    return assessed.uncertainty;
-  const homogenization::Bracket &found = *assessed.bracket->bracket;
-  return Eigen::Matrix3d(bars_of(found) + (assessed.result.stiffness - found.stiffness).cwiseAbs());
+  ordered_json rows = ordered_json::array();
+  for (int i = 0; i < 3; ++i)
+    rows.push_back({matrix(i, 0), matrix(i, 1), matrix(i, 2)});
+  return rows;
 }
 
-/// The same of the moduli, by the bars of the compliance: with D the difference of the compliances of both sides
-/// |S_ij − S^H_ij| <= sqrt(D_ii D_jj); without a bracket to first order, |S| bars |S|.
-std::optional<homogenization::EngineeringConstants> bars_of_moduli(const AssessedCell &assessed)
+/// Polygons in the place of arcs, of whose C^H no bar knows.
+ordered_json geometry_json(const UnitCell &cell, const Homogenization &result)
 {
-  const Eigen::Matrix3d S = assessed.result.stiffness.inverse();
-  Eigen::Matrix3d bars;
-  if (assessed.bracket && assessed.bracket->bracket)
-  {
-    const homogenization::Bracket &found = *assessed.bracket->bracket;
-    const Eigen::Vector3d root =
-      (found.lower.inverse() - found.upper.inverse()).diagonal().cwiseMax(0.).cwiseSqrt();
-    bars = root * root.transpose() + (S - found.stiffness.inverse()).cwiseAbs();
-  }
-  else if (assessed.uncertainty)
-    bars = S.cwiseAbs() * *assessed.uncertainty * S.cwiseAbs();
-  else
-    return std::nullopt;
-  // 1/S_ii and S_12/S_ii over all S within their bars.
-  const auto least = [&](const int i) { return bars(i, i) < S(i, i) ? S(i, i) - bars(i, i) : 0.; };
-  const auto of_modulus = [&](const int i) { return bars(i, i) / (S(i, i) * least(i)); };
-  const auto of_ratio   = [&](const int i)
-  { return (bars(0, 1) + std::abs(S(0, 1) / S(i, i)) * bars(i, i)) / least(i); };
-  return homogenization::EngineeringConstants{of_modulus(0), of_modulus(1), of_modulus(2),
-                                              of_ratio(0), of_ratio(1)};
+  const auto estimate = homogenization::geometry_estimate(cell, result.chi);
+  if (!estimate)
+    return {};
+  return {{"faceted_sides", estimate->n_facets},
+          {"area", estimate->area}, // of the slivers, in parts of the cell
+          {"C_change", json_matrix(estimate->change)}};
 }
 
 ordered_json json_moduli(const homogenization::EngineeringConstants &moduli)
@@ -187,14 +172,6 @@ ordered_json json_moduli(const homogenization::EngineeringConstants &moduli)
           {"G12", json_number(moduli.G12)},
           {"nu12", json_number(moduli.nu12)},
           {"nu21", json_number(moduli.nu21)}};
-}
-
-ordered_json json_matrix(const Eigen::Matrix3d &matrix)
-{
-  ordered_json rows = ordered_json::array();
-  for (int i = 0; i < 3; ++i)
-    rows.push_back({matrix(i, 0), matrix(i, 1), matrix(i, 2)});
-  return rows;
 }
 
 ordered_json bracket_json(const AssessedCell &assessed)
@@ -288,8 +265,10 @@ ordered_json homogenize_json(const UnitCell &cell, const AssessedCell &assessed,
     {"C_by_mean_stress", json_matrix(result.stiffness_by_flux)},
     {"C_lower", is_bracketed ? json_matrix(assessed.bracket->bracket->lower) : ordered_json()},
     {"C_upper", json_matrix(upper)},
+    {"bracket_of", is_of_drawing(assessed) ? "drawing" : "mesh"},
     {"bracket", assessed.bracket ? bracket_json(assessed) : ordered_json()},
     {"history", assessed.bracket ? history_json(assessed.bracket->history) : ordered_json::array()},
+    {"geometry", geometry_json(cell, result)},
     {"voigt", json_matrix(result.voigt)},
     {"reuss", json_matrix(result.reuss)},
     {"area", cell.lattice.area()},
@@ -346,7 +325,8 @@ void add_bracket(const UnitCell &cell, const BracketOptions &options,
     checks_of(*assessed.bracket, options, assessed.result.stiffness,
               algebraic_limit(cell, std::sqrt(0.5 * cell.mesh.n_triangles())));
   assessed.checks.insert(assessed.checks.end(), of_bracket.begin(), of_bracket.end());
-  if (!options.tolerance || !assessed.bracket->bracket)
+  // C and chi stay those of the straight triangles where the bracket is that of a drawing.
+  if (!options.tolerance || !assessed.bracket->bracket || is_of_drawing(assessed))
     return;
   const homogenization::Bracket &found = *assessed.bracket->bracket;
   assessed.result.stiffness            = found.stiffness;
@@ -381,36 +361,37 @@ std::string summary(const UnitCell &cell, const AssessedCell &assessed)
   std::ostringstream text;
   char line[240];
   text << cell.name << ": "
-       << (is_bracketed ? static_cast<int>(assessed.bracket->bracket->n_triangles)
-                        : cell.mesh.n_triangles())
+       << (is_bracketed && !is_of_drawing(assessed)
+             ? static_cast<int>(assessed.bracket->bracket->n_triangles)
+             : cell.mesh.n_triangles())
        << " triangles, " << cell.phases.size() << " phases, P" << assessed.options.order << ", "
        << result.n_dofs << " DoFs, " << result.iterations[0] << "/" << result.iterations[1] << "/"
        << result.iterations[2] << " iterations\n";
-  text << "C^H [N/m], Voigt 11, 22, 12 with engineering shear";
-  text << (is_bracketed           ? ", +- guaranteed by the bracket:\n"
-           : assessed.uncertainty ? ", +- distance to P2 on the refined mesh:\n"
-                                  : " (no error bar: left out, or its mesh too large):\n");
-  const auto bars = bars_of_stiffness(assessed);
+  text << "C^H" << (is_of_drawing(assessed) ? " of the drawing" : "")
+       << " [N/m], Voigt 11, 22, 12 with engineering shear";
+  text << (is_of_drawing(assessed) ? ", middle of its bracket, +- guaranteed:\n"
+           : is_bracketed          ? ", +- guaranteed by the bracket of the mesh:\n"
+           : assessed.uncertainty  ? ", +- distance to P2 on the refined mesh:\n"
+                                   : " (no error bar: left out, or its mesh too large):\n");
+  const auto &[stiffness, bars, moduli_bars] = shown(assessed);
   // No more digits than round-off leaves.
   constexpr double digits_of_solvers = 1e-9;
   for (int i = 0; i < 3; ++i)
   {
     for (int j = 0; j < 3; ++j)
     {
-      const double scale = result.stiffness.cwiseAbs().maxCoeff();
+      const double scale = stiffness.cwiseAbs().maxCoeff();
       if (bars)
         std::snprintf(
           line, sizeof(line), "  %26s",
-          with_bar(result.stiffness(i, j), larger(digits_of_solvers * scale, (*bars)(i, j)))
-            .c_str());
+          with_bar(stiffness(i, j), larger(digits_of_solvers * scale, (*bars)(i, j))).c_str());
       else
-        std::snprintf(line, sizeof(line), "  %16.6g", result.stiffness(i, j));
+        std::snprintf(line, sizeof(line), "  %16.6g", stiffness(i, j));
       text << line;
     }
     text << "\n";
   }
-  const auto moduli      = homogenization::engineering_constants(result.stiffness);
-  const auto moduli_bars = bars_of_moduli(assessed);
+  const auto moduli = homogenization::engineering_constants(stiffness);
   if (moduli_bars)
   {
     const auto modulus = [&](const double value, const double bar)
@@ -437,14 +418,24 @@ std::string summary(const UnitCell &cell, const AssessedCell &assessed)
     if (is_bracketed)
     {
       std::snprintf(line, sizeof(line),
-                    "Bracket C_lower <= C^H <= C_upper of relative width %.2g, ",
-                    assessed.bracket->bracket->width);
+                    "Bracket of the %s, C_lower <= C^H <= C_upper of relative width %.2g, ",
+                    name_of_subject(*assessed.bracket->bracket), assessed.bracket->bracket->width);
       text << line;
     }
     else
       text << "Bracket: ";
     text << assessed.bracket->remark << "\n";
   }
+  if (is_of_drawing(assessed))
+  {
+    std::snprintf(
+      line, sizeof(line),
+      "C of the straight triangles, which the files and all other studies hold, differs from it by %.2g of an "
+      "energy\n",
+      energy_difference(result.stiffness, stiffness));
+    text << line;
+  }
+  text << geometry_text(cell, result);
   for (const Verdict &check : assessed.checks)
   {
     std::snprintf(line, sizeof(line), "%-4s %s: %.2g (%s)\n", name_of(check.outcome).c_str(),

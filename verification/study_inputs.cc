@@ -40,6 +40,8 @@ std::string fingerprint(const UnitCell &cell)
   hash               = hashed(hash, cell.mesh.triangles);
   hash               = hashed(hash, cell.mesh.material);
   hash               = hashed(hash, cell.lattice.vectors);
+  for (const homogenization::CurvedSide &side : cell.curved_sides)
+    hash = hashed(hashed(hash, Eigen::Vector2i(side.a, side.b)), side.sagitta);
   for (const Eigen::Matrix3d &stiffness : cell.stiffness_of_phase())
     hash = hashed(hash, stiffness);
   for (const homogenization::Phase &phase : cell.phases)

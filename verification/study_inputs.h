@@ -13,7 +13,7 @@ namespace homespun::verification
 /// @throws BadInput where two cells share one, or one holds a comma, a quote or a line break
 void check_names(const std::vector<homogenization::UnitCell> &cells);
 
-/// A hash of a cell's mesh and lattice, and of stiffness and mass per area of its phases.
+/// A hash of a cell's mesh, with its curved sides, and lattice, and of stiffness and mass per area of its phases.
 std::string fingerprint(const homogenization::UnitCell &cell);
 
 /// A hash of a text.

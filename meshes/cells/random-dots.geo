@@ -22,6 +22,7 @@ DefineConstant[
 
 SetFactory("OpenCASCADE");
 Mesh.Algorithm = 6;      // Frontal-Delaunay: near-equilateral triangles
+Mesh.ElementOrder = 2;   // six nodes: the sides of arcs are curved, and brackets those of the drawing
 Mesh.Smoothing = 5;
 Mesh.MeshSizeMin = h;
 Mesh.MeshSizeMax = h;

@@ -245,7 +245,7 @@ TEST(tripwire_cell_mesh_file, what_cannot_be_a_cell_is_refused_with_what_to_do)
   says("b.msh", "$MeshFormat\n3.0 0 8\n$EndMeshFormat\n", "expected 2, 4.0 or 4.1");
   says(
     "c.msh",
-    "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n0\n$EndNodes\n$Elements\n1\n1 9 2 0 0 1 2 3 4 5 6\n$EndElements\n",
+    "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n0\n$EndNodes\n$Elements\n1\n1 10 2 0 0 1 2 3 4 5 6 7 8 9\n$EndElements\n",
     "-order 1");
   says("a.vtk", "# vtk DataFile Version 3.0\nx\nBINARY\n", "expected ASCII");
   says("a.inp", "*NODE\n1, 0, 0\n*ELEMENT, TYPE=C3D8\n", "Abaqus' type `C3D8`");

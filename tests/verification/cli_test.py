@@ -65,14 +65,17 @@ class Homogenize(InFolder):
         result = run("homogenize", CELLS / "layered.prm", "--output", self.folder)
         self.assertEqual(result.returncode, 0, result.stderr)
         found = json.loads((self.folder / "homogenize.json").read_text())
-        for key in ("C", "C_lower", "C_upper", "voigt", "reuss", "area", "areal_density", "engineering",
-                    "dofs", "iterations", "seconds", "checks", "provenance"):
+        for key in ("C", "C_lower", "C_upper", "bracket_of", "geometry", "voigt", "reuss", "area", "areal_density",
+                    "engineering", "dofs", "iterations", "seconds", "checks", "provenance"):
             self.assertIn(key, found)
         # 500 N/m x (E = 1, 10; unit thickness)
         self.assertAlmostEqual(found["C"][0][0], 500 * 5.67982018, delta=1e-5)
         self.assertAlmostEqual(found["C"][1][1], 500 * 1.99800200, delta=1e-5)
         self.assertAlmostEqual(found["C"][2][2], 500 * 0.699300699, delta=1e-6)
         self.assertEqual({check["verdict"] for check in found["checks"]}, {"PASS"})
+        self.assertEqual(found["bracket_of"], "mesh")
+        self.assertIsNone(found["geometry"])
+        self.assertIn("Bracket of the mesh", result.stdout)
         self.assertTrue((self.folder / "cell.h5").exists())
         self.assertIn(b"chi_12", (self.folder / "characteristic-displacements.vtu").read_bytes())
 
@@ -114,6 +117,43 @@ class Homogenize(InFolder):
             self.assertEqual(sorted(check), ["derivation", "kind", "limit", "name", "value", "verdict"])
             self.assertEqual(check["kind"], "program")
             self.assertTrue(check["derivation"])
+
+
+    def test_a_drawing_has_its_own_bracket_and_a_polygon_in_its_place_is_called_faceted(self):
+        cell = CELLS / "hexagonal-dots.prm"
+        result = run("homogenize", cell, "--tolerance", "5e-4", "--output", self.folder / "drawn")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        for text in ("C^H of the drawing", "Bracket of the drawing, C_lower", "C of the straight triangles"):
+            self.assertIn(text, result.stdout)
+        self.assertNotIn("faceted", result.stdout)
+        drawn = json.loads((self.folder / "drawn" / "homogenize.json").read_text())
+        self.assertEqual(drawn["bracket_of"], "drawing")
+        self.assertIsNone(drawn["geometry"])
+        # The same triangles with straight sides.
+        mesh = (CELLS / "hexagonal-dots.msh").read_text().split("$Elements\n")
+        lines, straight = mesh[1].split("\n"), []
+        for line in lines:
+            words = line.split()
+            if len(words) == 4 and words[2] == "9":
+                line = f"{words[0]} {words[1]} 2 {words[3]}"
+            straight.append(" ".join(words[:4]) if len(words) == 7 else line)
+        (self.folder / "faceted.msh").write_text(mesh[0] + "$Elements\n" + "\n".join(straight))
+        (self.folder / "faceted.prm").write_text(cell.read_text().replace("hexagonal-dots.msh", "faceted.msh"))
+        result = run("check", self.folder / "faceted.prm")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertRegex(result.stdout, "warning: .*the outline of phase `dot` is faceted: 42 of its sides")
+        result = run("homogenize", self.folder / "faceted.prm", "--output", self.folder / "faceted")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertIn("Bracket of the mesh", result.stdout)
+        self.assertIn("geometry (an estimate, in no bar)", result.stdout)
+        faceted = json.loads((self.folder / "faceted" / "homogenize.json").read_text())
+        self.assertEqual(faceted["bracket_of"], "mesh")
+        self.assertEqual(faceted["C"], drawn["C"])  # all but brackets is that of the straight triangles
+        self.assertEqual(faceted["geometry"]["faceted_sides"], 42)
+        # The estimate brings C to within the drawing's bracket and what P2 leaves on these triangles.
+        arcs = faceted["C"][0][0] + faceted["geometry"]["C_change"][0][0]
+        middle = 0.5 * (drawn["C_lower"][0][0] + drawn["C_upper"][0][0])
+        self.assertLess(abs(arcs - middle), 0.3 * abs(faceted["C"][0][0] - middle))
 
 
 # Cases of `homespun stress` that do not hold, each with the reason. A case that fails anew breaks the test, and

@@ -108,7 +108,8 @@ def stiffness_table(cell):
                          (("C^H", matrix_rows(cell.stiffness("C"))),
                           ("Voigt", matrix_rows(cell.stiffness("voigt"))),
                           ("Reuss", matrix_rows(cell.stiffness("reuss")))) if rows],
-            "bracket": bracket, "bracket_remark": (value.get("bracket") or {}).get("remark"), "facts": facts}
+            "bracket": bracket, "bracket_of": value.get("bracket_of", "mesh"),
+            "bracket_remark": (value.get("bracket") or {}).get("remark"), "facts": facts}
 
 
 def shown(value):
