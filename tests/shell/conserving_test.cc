@@ -214,12 +214,13 @@ TEST(invariant_conserving, an_undamped_sheet_keeps_its_energy_however_long_the_s
       double gained = 0.;
       for (int k = 0; k < 100; ++k)
         gained += cloth.step(h).energy_gained;
-      EXPECT_NEAR(cloth.kinetic_energy() + cloth.stored_energy(), energy, 1e-11 * energy) << h;
-      EXPECT_LT(gained, 1e-11 * energy) << h;
+      // A hundred steps, each solved to a hundred-thousandth of the tolerance by its last iteration.
+      EXPECT_NEAR(cloth.kinetic_energy() + cloth.stored_energy(), energy, 1e-9 * energy) << h;
+      EXPECT_LT(gained, 1e-9 * energy) << h;
       if (!is_held)
       {
-        EXPECT_LT((cloth.momentum() - p).norm(), 1e-12 * p.norm()) << h;
-        EXPECT_LT((cloth.angular_momentum() - L).norm(), 1e-11 * L.norm()) << h;
+        EXPECT_LT((cloth.momentum() - p).norm(), 1e-11 * p.norm()) << h;
+        EXPECT_LT((cloth.angular_momentum() - L).norm(), 1e-9 * L.norm()) << h;
       }
     }
 }
@@ -248,13 +249,14 @@ TEST(exact_conserving, a_fall_is_exact_and_the_air_slows_by_the_midpoint_rule)
 
 TEST(bound_conserving, a_step_that_cannot_be_solved_is_cut_counted_and_keeps_what_it_should)
 {
-  // Thrown apart at several times the speed of sound.
-  const meshes::ClothMesh mesh = lying_sheet(6);
-  Fabric fabric(mesh, {}, conserving(), isotropic(1000., 0.3), 1e-3);
+  // Three iterations are too few for a step of 5 ms, and enough for a part of it.
+  const meshes::ClothMesh mesh  = lying_sheet(6);
+  ClothOptions options          = conserving();
+  options.max_newton_iterations = 3;
+  Fabric fabric(mesh, {}, options, isotropic(1000., 0.3), 1e-3);
   Cloth &cloth = fabric.cloth;
   std::mt19937 generator(8);
-  cloth.set_state(mesh.positions, 300. * random_matrix<Vectors>(generator, mesh.n_vertices(), 3),
-                  0.);
+  cloth.set_state(mesh.positions, random_matrix<Vectors>(generator, mesh.n_vertices(), 3), 0.);
   const Eigen::RowVector3d p = cloth.momentum(), L = cloth.angular_momentum();
   double energy = cloth.kinetic_energy();
   int cuts      = 0;
@@ -262,11 +264,11 @@ TEST(bound_conserving, a_step_that_cannot_be_solved_is_cut_counted_and_keeps_wha
   {
     cuts += cloth.step(5e-3).cuts;
     const double after = cloth.kinetic_energy() + cloth.stored_energy();
-    EXPECT_LE(after, energy * (1. + 1e-11));
+    EXPECT_LE(after, energy * (1. + 1e-10));
     energy = after;
   }
   EXPECT_GT(cuts, 0);
-  EXPECT_LT((cloth.momentum() - p).norm(), 1e-11 * p.norm());
+  EXPECT_LT((cloth.momentum() - p).norm(), 1e-10 * p.norm());
   EXPECT_LT((cloth.angular_momentum() - L).norm(), 1e-10 * L.norm());
 }
 
