@@ -26,6 +26,13 @@ class OneRun(InFolder):
         self.assertRegex(result.stdout, "FAIL +program +layered, shear-frame, green: .*each of 2 levels")
         self.assertIn("no equilibrium found", result.stderr)
 
+    def test_on_two_ranks_the_page_is_made_also_where_a_claim_failed(self):
+        output = self.folder / "run"
+        result = run("strain", LAYERED, "--cells", "2", "--loads", "periodic-12,shear-frame", "--references", "green", "--strains",
+                     "0.6,0.8", "--no-budget", "--no-runtime", "--output", output, ranks=2)
+        self.assertEqual(result.returncode, 1, result.stderr)
+        self.assertTrue((output / "report.html").exists(), result.stderr)
+
     def test_every_claim_has_a_kind_and_a_limit_that_says_where_it_comes_from(self):
         output = self.folder / "run"
         self.assertEqual(run("strain", LAYERED, "--quick", "--no-runtime", "--no-report", "--output", output).returncode, 0)

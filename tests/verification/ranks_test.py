@@ -58,7 +58,7 @@ class Ranks(InFolder):
         output = self.folder / "study"
         result = run("strain", cell, "--cells", 2, "--strains", "0.01,0.1", "--loads", "strip-1", "--references", "biot",
                      "--methods", "localized", "--no-report", "--no-runtime", "--quiet", "--output", output, ranks=2)
-        self.assertIn(result.returncode, (0, 1), result.stderr)
+        self.assertIn(result.returncode, (0, 1, 4), result.stderr)
         notes = (output / "notes.csv").read_text()
         self.assertIn("error budget: ", notes)
         with open(output / "strain.csv", newline="", encoding="utf-8") as file:
@@ -157,7 +157,7 @@ class Scaling(InFolder):
         (self.folder / "run").mkdir()  # of the user: not the study's to remove
         result = run(*self.STUDY, "--output", self.folder)
         # Meshes as small as these are no claim on memory.
-        self.assertIn(result.returncode, (0, 1), result.stderr)
+        self.assertIn(result.returncode, (0, 1, 4), result.stderr)
         rows = rows_of(self.folder / "scaling.csv")
         self.assertEqual([(row["refine"], row["ranks"]) for row in rows], [("1", "1"), ("1", "2"), ("2", "1"), ("2", "2")])
         self.assertTrue(all(float(row["seconds_solve"]) > 0 and float(row["bytes_largest_rank"]) > 1e7 for row in rows))

@@ -81,7 +81,7 @@ def errors(results):
         affine, localized = some["affine"], some["localized"]
         per = {name: 1000. * row["error_mean_per_cell"] / row["strain"] for name, row in some.items()}
         side = affine["error_mean_m"] / affine["error_mean_per_cell"]
-        yield {"cell": cell, "load": load, "affine": per["affine"], "localized": per["localized"],
+        yield {"cell": cell, "load": load, "cells_per_side": affine["cells"], "affine": per["affine"], "localized": per["localized"],
                "reference_bar": 1000. * localized["reference_uncertainty_m"] / side / localized["strain"],
                "share_of_affine_left": 100. * per["localized"] / per["affine"],
                "share_of_fluctuation_left": 100. * localized["error_mean_per_fluctuation"],
