@@ -3,10 +3,10 @@
 // function of the positions with a gradient and a Hessian. The cloth (cloth.h) sums the terms that are
 // there; of one that is not, nothing is called, allocated or coupled.
 //
-// A time step minimises  Σ m/(2 h²) |x − x_n − h v_n|² + Σ_terms E(x)  (implicit Euler), or takes one
-// Newton step of it from x_n (linearly implicit Euler), or asks for discrete gradients (conserving_step.h). What a term freezes over the step (the
-// direction of friction, the wind's relative speed) it freezes in begin_step(), so that E is a function
-// of x alone.
+// A time step minimises  Σ m/(2 h²) |x − x_n − h v_n|² + Σ_terms E(x)  (implicit Euler), takes one
+// Newton step of it (linearly implicit Euler), or asks for discrete gradients (conserving_step.h).
+// What a term freezes over the step (the direction of friction, the wind's relative speed) it freezes
+// in begin_step(), so that E is a function of x alone.
 #pragma once
 
 #include "shell/block_matrix.h"
