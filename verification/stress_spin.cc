@@ -7,8 +7,6 @@
 #include "verification/record/fields.h"
 #include "verification/stress_cases.h"
 
-#include <Eigen/Eigenvalues>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -69,15 +67,6 @@ Cloth spinning_cloth(const SheetStiffness &stiffness, const Spin &spin, const In
   velocities.rowwise() += Eigen::RowVector3d(0.3, 0.1, -0.2);
   cloth.set_state(mesh.positions, velocities, 0.);
   return cloth;
-}
-
-/// rho omega² r² over the softest stiffness, r half a diagonal of the sheet: below one a sheet turns nearly as a rigid body.
-double centrifugal_strain(const SheetStiffness &stiffness, const Spin &spin)
-{
-  constexpr double radius_squared = 0.5 * 0.2 * 0.2;
-  const double softest =
-    Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(stiffness.D).eigenvalues()(0);
-  return stiffness.areal_density * spin.angular_velocity.squaredNorm() * radius_squared / softest;
 }
 
 /// The largest change of what is kept.

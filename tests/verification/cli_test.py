@@ -158,17 +158,18 @@ class Homogenize(InFolder):
 
 # Cases of `homespun stress` that do not hold, each with the reason. A case that fails anew breaks the test, and
 # so does one that holds again: then it leaves the list.
-CRUSHED = ("thrown apart by a spin whose centrifugal stress rho omega^2 r^2 is a hundred times the softest stiffness and more: triangles are "
-           "crushed to a line, where the law in space has a kink that Newton's method does not get over; cut eight times, then refused")
+CRUSHED = ("thrown apart by a spin whose centrifugal stress rho omega^2 r^2 is above the softest stiffness: triangles are crushed to a line, where "
+           "the law in space has a kink that Newton's method does not get over; cut eight times, then refused")
+NO_RIGID_BODY = "thrown apart: it swells to many times its size in a step, and turns less than the rigid body that its theory speaks of"
 KNOWN_FAILURES = {
-    ("spin", f"keeps; {turns} turns per step of 10 ms; {integrator}; {stiffness}"): CRUSHED
+    ("spin", f"{what}; {turns} turns per step of 10 ms; {integrator}; {stiffness}"): CRUSHED
+    for what in ("keeps", "turns")
     for turns, integrator, stiffness in (
         ("0.25", "conserving", "anisotropic 1e4"), ("0.5", "conserving", "anisotropic 1e4"), ("1", "conserving", "anisotropic 1e4"),
         ("5", "conserving", "anisotropic 1e4"), ("5", "conserving", "laminate"), ("0.5", "implicit", "anisotropic 1e4"),
         ("1", "implicit", "anisotropic 1e4"), ("5", "implicit", "anisotropic 1e4"))
 }
-KNOWN_FAILURES.update({
-    ("spin", f"turns; {turns} turns per step of 10 ms; implicit; anisotropic 1e4"): CRUSHED for turns in ("0.5", "1", "5")})
+KNOWN_FAILURES["spin", "turns; 5 turns per step of 10 ms; conserving; isotropic"] = NO_RIGID_BODY
 
 
 def differences_from_known(rows):
