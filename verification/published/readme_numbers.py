@@ -30,6 +30,7 @@ FOLDS = {"min": min, "max": max, "sum": sum, "count": len}
 ALLOWED = {
     "exit statuses": r"[Ee]xit status(?:es)?[^.\n]*(?:\n[^.\n]+)?",
     "sizes that a command asks for": r"\d+ x \d+(?: cells)?",
+    "the paper's size": r"800 coarse and 288,000 fine triangles|800 triangles",
     "strains at which errors are told": r"\b(?:1 %|10 %|1 % and 10 %) strain",
     "the unit of a table": r"1/1000|1000ths",
     "equations and figures of the paper": r"(?:Eq\.|Equation|Figures?|Figs?\.) \d+(?:(?: and |, )\d+)*",
