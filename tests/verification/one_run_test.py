@@ -5,6 +5,7 @@ import os
 import shutil
 import signal
 import subprocess
+import sys
 import time
 import unittest
 
@@ -125,6 +126,26 @@ class OneRun(InFolder):
         again = run(*study[1:], "--no-budget", "--no-runtime", "--overwrite")  # the lock went with its process
         self.assertEqual(again.returncode, 0, again.stderr)
         self.assertGreaterEqual(len(rows_of(output / "strain.csv")), len(rows))
+
+
+class Figure3(InFolder):
+    def test_the_target_ends_well_where_only_the_method_failed_or_claims_are_open(self):
+        script = CELLS.parents[1] / "verification" / "figure3.py"
+
+        def ends_with(status, *claims):
+            verdicts = [{"claim": "a claim", "kind": kind, "verdict": verdict, "value": 1, "limit": "0"} for kind, verdict in claims]
+            (self.folder / "verdicts.json").write_text(json.dumps({"verdicts": verdicts}))
+            return subprocess.run([sys.executable, "-B", script, self.folder, "sh", "-c", f"exit {status}"], capture_output=True,
+                                  text=True, check=False)
+        self.assertEqual(ends_with(0).returncode, 0)
+        self.assertEqual(ends_with(4, ("program", "INCONCLUSIVE")).returncode, 0)
+        of_method = ends_with(1, ("method", "FAIL"), ("program", "PASS"))
+        self.assertEqual(of_method.returncode, 0)
+        self.assertIn("a claim: 1 (0)", of_method.stdout)
+        self.assertEqual(ends_with(1, ("method", "FAIL"), ("program", "FAIL")).returncode, 1)
+        self.assertEqual(ends_with(1).returncode, 1)
+        self.assertEqual(ends_with(2).returncode, 2)
+        self.assertEqual(ends_with(3).returncode, 3)
 
 
 if __name__ == "__main__":
