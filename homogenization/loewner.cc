@@ -49,9 +49,10 @@ RoundedInverse inverse_of(const Eigen::Matrix3d &A)
   const Eigen::LLT<Eigen::Matrix3d> factors(scaled(A, scale));
   const double round_off = roundings * weakness(A);
   if (!A.allFinite() || factors.info() != Eigen::Success || !(round_off < 0.1))
-    throw meshes::NotConverged("a side of the bracket is not positive beyond round-off: the contrast of the "
-                               "phases leaves it no digit; expected a lower contrast",
-                               {});
+    throw meshes::NotConverged(
+      "a side of the bracket is not positive beyond round-off: the contrast of the "
+      "phases leaves it no digit; expected a lower contrast",
+      {});
   const Eigen::Matrix3d root = factors.matrixL().solve(Eigen::Matrix3d(scale.asDiagonal()));
   return {root.transpose() * root, round_off};
 }
@@ -61,8 +62,8 @@ double relative_width(const Eigen::Matrix3d &lower, const Eigen::Matrix3d &upper
 {
   Eigen::Vector3d gaps = Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
   if (lower.allFinite() && upper.allFinite())
-    gaps = Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::Matrix3d>(upper - lower, upper)
-             .eigenvalues();
+    gaps =
+      Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::Matrix3d>(upper - lower, upper).eigenvalues();
   if (!(gaps(0) >= -round_off))
   {
     std::ostringstream text;

@@ -241,8 +241,8 @@ std::string outcome_line(const std::vector<Verdict> &verdicts)
              n_held      = count(Outcome::pass);
   const std::string open = n_open == 0 ? "" : ", " + std::to_string(n_open) + " cannot be judged";
   if (n_failed == 0)
-    return (n_open == 0 && n_held > 0 ? "PASS: " : "INCONCLUSIVE: ") + std::to_string(n_held) + " of " +
-           std::to_string(verdicts.size()) + " claims hold" + open;
+    return (n_open == 0 && n_held > 0 ? "PASS: " : "INCONCLUSIVE: ") + std::to_string(n_held) +
+           " of " + std::to_string(verdicts.size()) + " claims hold" + open;
   const auto first =
     std::find_if(verdicts.begin(), verdicts.end(),
                  [](const Verdict &verdict) { return verdict.outcome == Outcome::fail; });

@@ -31,7 +31,7 @@ Eigen::Vector2d gaps(const Exact &A, const Exact &B)
 /// C^H of equal layers of isotropic phases that are stacked along (−1, 1): Backus' averages, turned by 45 degrees.
 Exact diagonal_laminate(const std::vector<Eigen::Matrix3d> &layers)
 {
-  using Number = long double;
+  using Number    = long double;
   Number flexible = 0, flux = 0, rest = 0, shear = 0;
   for (const Eigen::Matrix3d &c : layers)
   {
@@ -70,9 +70,9 @@ TEST(bound_loewner, the_lower_side_of_a_turned_laminate_stays_below_the_exact_st
     const Exact exact             = diagonal_laminate(cell.stiffness);
     for (const unsigned order : {1u, 2u})
     {
-      const Bracket b       = tests::bracketed(cell, order);
-      const auto below      = gaps(b.lower.cast<long double>(), exact),
-                 above      = gaps(exact, b.upper.cast<long double>());
+      const Bracket b  = tests::bracketed(cell, order);
+      const auto below = gaps(b.lower.cast<long double>(), exact),
+                 above = gaps(exact, b.upper.cast<long double>());
       EXPECT_GE(below(0), 0.) << contrast;
       EXPECT_GE(above(0), 0.) << contrast;
       // Nothing but round-off is between them, and it is declared.
@@ -87,12 +87,12 @@ TEST(bound_loewner, an_inverse_is_off_by_no_more_than_it_declares)
   for (const double contrast : {1., 1e4, 1e8, 1e12})
     for (const double angle : {0., 0.3, M_PI / 4., 1.2})
     {
-      const Eigen::Matrix3d T = stiffness_rotation(angle);
-      Eigen::Matrix3d A       = Eigen::Vector3d(contrast, 1., 0.4).asDiagonal();
-      A                       = T * A * T.transpose();
-      A                       = (0.5 * (A + A.transpose())).eval();
-      const RoundedInverse X  = inverse_of(A);
-      const Exact exact       = Eigen::LLT<Exact>(A.cast<long double>()).solve(Exact::Identity());
+      const Eigen::Matrix3d T   = stiffness_rotation(angle);
+      Eigen::Matrix3d A         = Eigen::Vector3d(contrast, 1., 0.4).asDiagonal();
+      A                         = T * A * T.transpose();
+      A                         = (0.5 * (A + A.transpose())).eval();
+      const RoundedInverse X    = inverse_of(A);
+      const Exact exact         = Eigen::LLT<Exact>(A.cast<long double>()).solve(Exact::Identity());
       const Eigen::Vector2d off = gaps(X.value.cast<long double>(), exact);
       EXPECT_LE(std::max(-off(0), off(1)), X.round_off) << contrast << " at " << angle;
       EXPECT_LE(X.round_off, 1e-12 * contrast);
