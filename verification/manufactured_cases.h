@@ -3,8 +3,8 @@
 // step: the references in the plane (periodic and clamped) and the reference in space (statics, steps).
 #pragma once
 
-#include "verification/record/convergence.h"
 #include "verification/field_integrals.h"
+#include "verification/record/convergence.h"
 
 #include <Eigen/Core>
 #include <mpi.h>

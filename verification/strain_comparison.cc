@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace homespun::verification
 {
@@ -46,7 +47,8 @@ Fluctuation fluctuation_of(const StrainLevel &level, const meshes::Points &refer
                       std::string("the homogenized sheet, resolved, finds no equilibrium, and the "
                                   "fluctuation is not known; ") +
                         failure.what());
-    return {0., 0., 0.};
+    const double unknown = std::numeric_limits<double>::quiet_NaN();
+    return {unknown, unknown, unknown};
   }
 }
 
