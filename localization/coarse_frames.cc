@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "localization/coarse_frames.h"
 
-#include "meshes/errors.h"
+#include "meshes/plain/errors.h"
 
 #include <cmath>
 #include <string>

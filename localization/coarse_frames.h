@@ -12,8 +12,8 @@
 #pragma once
 
 #include "localization/options.h"
-#include "meshes/homogenized_cell.h"
-#include "meshes/triangle_mesh.h"
+#include "meshes/plain/homogenized_cell.h"
+#include "meshes/plain/triangle_mesh.h"
 
 #include <Eigen/Core>
 

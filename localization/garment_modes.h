@@ -3,8 +3,8 @@
 // turned with the grain of the panel, and faded to zero at seams. Private to upsampler.
 #pragma once
 
-#include "meshes/fine_cloth.h"
-#include "meshes/homogenized_cell.h"
+#include "meshes/garment/fine_cloth.h"
+#include "meshes/plain/homogenized_cell.h"
 
 #include <Eigen/Core>
 

@@ -3,9 +3,9 @@
 
 #include "localization/garment_modes.h"
 #include "localization/upsampler_faults.h"
-#include "meshes/errors.h"
-#include "meshes/point_location.h"
-#include "meshes/seams.h"
+#include "meshes/cloth/seams.h"
+#include "meshes/plain/errors.h"
+#include "meshes/plain/point_location.h"
 
 #include <algorithm>
 #include <cmath>

@@ -20,10 +20,10 @@
 #include "localization/coarse_frames.h"
 #include "localization/options.h"
 #include "localization/vertex_table.h"
-#include "meshes/cloth_mesh.h"
-#include "meshes/fine_cloth.h"
-#include "meshes/homogenized_cell.h"
-#include "meshes/sheet.h"
+#include "meshes/cloth/cloth_mesh.h"
+#include "meshes/garment/fine_cloth.h"
+#include "meshes/plain/homogenized_cell.h"
+#include "meshes/plain/sheet.h"
 
 #include <Eigen/Core>
 

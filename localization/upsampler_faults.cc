@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "localization/upsampler_faults.h"
 
-#include "meshes/cloth_faults.h"
-#include "meshes/seams.h"
+#include "meshes/cloth/cloth_faults.h"
+#include "meshes/cloth/seams.h"
 
 #include <cmath>
 #include <sstream>

@@ -3,10 +3,10 @@
 #pragma once
 
 #include "localization/options.h"
-#include "meshes/cloth_mesh.h"
-#include "meshes/fine_cloth.h"
-#include "meshes/homogenized_cell.h"
-#include "meshes/sheet.h"
+#include "meshes/cloth/cloth_mesh.h"
+#include "meshes/garment/fine_cloth.h"
+#include "meshes/plain/homogenized_cell.h"
+#include "meshes/plain/sheet.h"
 
 #include <string>
 #include <vector>

@@ -2,7 +2,7 @@
 // Normals of a surface for who draws it: computed when asked for, never otherwise.
 #pragma once
 
-#include "meshes/triangle_mesh.h"
+#include "meshes/plain/triangle_mesh.h"
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>

@@ -2,7 +2,7 @@
 // What homespun says to bad input, for tests of the text.
 #pragma once
 
-#include "meshes/errors.h"
+#include "meshes/plain/errors.h"
 
 #include <string>
 

@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: MIT
-// The moving cloth (shell/cloth.h), part by part and step by step: a sheet of 20 cm that hangs from its upper
+// The moving cloth (shell/solver/cloth.h), part by part and step by step: a sheet of 20 cm that hangs from its upper
 // edge, with 800, 5,000 and 50,000 triangles, and the resolved sheet of 380 x 380 x 2. One thread, but for
 // step_on_all_cores: as many independent cloths as there are cores.
 //
 // Counters. flops: of the formulas written without waste, a root or a division counting as one; of_peak:
 // of the multiply-adds that one thread reaches in registers. bytes: what must be read and written if nothing is
 // moved twice; of_copy: of a copy of as many bytes, in the same cache. factorisations: per step.
-#include "meshes/cloth_mesh.h"
-#include "shell/bending.h"
-#include "shell/cloth.h"
-#include "shell/free_vertex_matrix.h"
-#include "shell/inertial_terms.h"
-#include "shell/membrane_term.h"
+#include "meshes/cloth/cloth_mesh.h"
+#include "shell/algebra/free_vertex_matrix.h"
+#include "shell/solver/cloth.h"
+#include "shell/terms/bending.h"
+#include "shell/terms/inertial_terms.h"
+#include "shell/terms/membrane_term.h"
 #include "tests/benchmarks/machine.h"
-#include "tests/meshes/shapes.h"
+#include "tests/meshes/plain/shapes.h"
 
 #include <benchmark/benchmark.h>
 

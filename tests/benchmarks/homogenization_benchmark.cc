@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Homogenization of larger and larger cells, one rank, everything but reading the mesh: time per DoF,
 // iterations, and iterations against the contrast of the phases.
-#include "tests/homogenization/cells.h"
+#include "tests/homogenization/cell/cells.h"
 
 #include <deal.II/base/mpi.h>
 

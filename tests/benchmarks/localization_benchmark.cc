@@ -4,7 +4,7 @@
 // part of the copy's bandwidth that the writing alone reaches.
 #include "localization/upsampler.h"
 #include "tests/benchmarks/machine.h"
-#include "tests/meshes/shapes.h"
+#include "tests/meshes/plain/shapes.h"
 
 #include <benchmark/benchmark.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The coarse cloth at the paper's size, 20 x 20 cells: 441 vertices, 800 triangles, one thread.
-#include "shell/equilibrium.h"
-#include "tests/meshes/shapes.h"
+#include "shell/solver/equilibrium.h"
+#include "tests/meshes/plain/shapes.h"
 
 #include <benchmark/benchmark.h>
 

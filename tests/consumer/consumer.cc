@@ -3,13 +3,13 @@
 // up-sampled after every step.
 //   consumer CELL.h5 CLOTH.obj OUTPUT.ply
 #include "localization/upsampler.h"
-#include "meshes/cell_file.h"
-#include "meshes/fine_cloth.h"
-#include "meshes/obj_file.h"
-#include "meshes/surface_files.h"
-#include "shell/cloth.h"
-#include "shell/inertial_terms.h"
-#include "shell/membrane_term.h"
+#include "meshes/files/cell_file.h"
+#include "meshes/files/obj_file.h"
+#include "meshes/files/surface_files.h"
+#include "meshes/garment/fine_cloth.h"
+#include "shell/solver/cloth.h"
+#include "shell/terms/inertial_terms.h"
+#include "shell/terms/membrane_term.h"
 
 #include <chrono>
 #include <iostream>

@@ -37,7 +37,7 @@ function(refused what components message)
   endif()
 endfunction()
 refused("components that homespun has not" shell,looms,weave
-  "has no component looms, weave; expected some of meshes, shell, localization, cell_file")
+  "has no component looms, weave; expected some of meshes, garment, shell, contact, localization, cell_file")
 
 if(WITH_DEALII)
   # layered.prm: soft and hard stripes across axis 2, hence C22 = 1 / <1/D>, D = E h / (1 - nu^2) of 1e6 Pa and 1e7 Pa.

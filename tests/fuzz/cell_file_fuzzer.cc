@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 // A sound cell.h5, a checkpoint at the same time, whose datasets and attributes are replaced, as the bytes say, by others of any kind, shape and content.
 // HDF5 itself is not under test: what it is handed is always a well-formed file.
-#include "meshes/cell_file.h"
-#include "meshes/state_file.h"
+#include "meshes/files/cell_file.h"
+#include "meshes/files/state_file.h"
 #include "tests/fuzz/input_file.h"
-#include "tests/meshes/shapes.h"
+#include "tests/meshes/plain/shapes.h"
 
 #include <array>
 #include <cmath>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Bytes as the mesh of a cell, in the format that the first of them chooses.
-#include "homogenization/cell_mesh_file.h"
+#include "homogenization/cell/cell_mesh_file.h"
 #include "tests/fuzz/input_file.h"
 
 #include <map>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Bytes as the .prm of a cell, beside a sound mesh.
-#include "homogenization/unit_cell.h"
+#include "homogenization/cell/unit_cell.h"
 #include "tests/fuzz/input_file.h"
 
 #include <filesystem>

@@ -2,7 +2,7 @@
 // Fuzzing of what homespun parses itself: any bytes are read or refused by BadInput, with nothing else between.
 #pragma once
 
-#include "meshes/errors.h"
+#include "meshes/plain/errors.h"
 
 #include <cstddef>
 #include <cstdint>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // An OBJ as a cloth and as a closed surface. What was read is finite, its indices exist, and it is written and read again
 // without a change.
-#include "meshes/obj_file.h"
+#include "meshes/files/obj_file.h"
 #include "tests/fuzz/input_file.h"
 
 using namespace homespun;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "localization/coarse_frames.h"
-#include "meshes/errors.h"
-#include "meshes/point_location.h"
+#include "meshes/plain/errors.h"
+#include "meshes/plain/point_location.h"
 #include "tests/localization/localization_cases.h"
 
 #include <gtest/gtest.h>

@@ -3,9 +3,9 @@
 #pragma once
 
 #include "localization/upsampler.h"
-#include "meshes/obj_file.h"
+#include "meshes/files/obj_file.h"
 #include "tests/localization/localization_cases.h"
-#include "tests/meshes/garments.h"
+#include "tests/meshes/garment/garments.h"
 
 #include <random>
 

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "localization/upsampler.h"
-#include "tests/meshes/shapes.h"
+#include "tests/meshes/plain/shapes.h"
 
 #include <Eigen/Geometry>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "meshes/seams.h"
+#include "meshes/cloth/seams.h"
 #include "tests/localization/garment_cases.h"
 
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "localization/upsampler.h"
-#include "meshes/errors.h"
+#include "meshes/plain/errors.h"
 #include "tests/localization/localization_cases.h"
 #include "tests/refusal.h"
 

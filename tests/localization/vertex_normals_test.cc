@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "localization/options.h"
 #include "localization/vertex_normals.h"
-#include "meshes/obj_file.h"
+#include "meshes/files/obj_file.h"
 
 #include <gtest/gtest.h>
 

@@ -2,8 +2,8 @@
 // Stiffness, meshes and measures that the shell tests share.
 #pragma once
 
-#include "shell/equilibrium.h"
-#include "tests/meshes/shapes.h"
+#include "shell/solver/equilibrium.h"
+#include "tests/meshes/plain/shapes.h"
 
 #include <Eigen/Geometry>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "verification/record/checksum.h"
 
-#include "meshes/errors.h"
+#include "meshes/plain/errors.h"
 
 #include <cstdint>
 #include <cstdio>

@@ -2,7 +2,7 @@
 // Results as JSON files.
 #pragma once
 
-#include "meshes/write_whole.h"
+#include "meshes/files/write_whole.h"
 #include "verification/record/verdict.h"
 
 #include <nlohmann/json.hpp>

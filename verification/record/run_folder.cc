@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "verification/record/run_folder.h"
 
-#include "meshes/errors.h"
-#include "meshes/write_whole.h"
-#include "verification/provenance.h"
+#include "meshes/files/write_whole.h"
+#include "meshes/plain/errors.h"
 #include "verification/record/checksum.h"
 #include "verification/record/json_files.h"
+#include "verification/record/provenance.h"
 
 #include <algorithm>
 #include <chrono>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "verification/record/table_file.h"
 
-#include "meshes/errors.h"
-#include "meshes/write_whole.h"
+#include "meshes/files/write_whole.h"
+#include "meshes/plain/errors.h"
 
 #include <cstdio>
 #include <filesystem>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // homespun's homogenization in another program: prints C^H of a cell, row by row [N/m].
 //   stiffness CELL.prm
-#include "homogenization/homogenize.h"
+#include "homogenization/fem/homogenize.h"
 
 #include <deal.II/base/mpi.h>
 

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: MIT
+// The unknowns of a periodic stress function on Clough-Tocher triangles, with holes on whose rims it is known up to
+// an affine function: which of them each triangle's twelve degrees of freedom are made of.
+#pragma once
+
+#include "homogenization/cell/torus_mesh.h"
+
+#include <Eigen/Core>
+
+#include <array>
+#include <vector>
+
+namespace homespun::homogenization
+{
+/// A degree of freedom of a triangle, in terms of the unknowns: sum of factor x unknown + known.
+struct AiryDof
+{
+  std::array<int, 3> unknowns   = {-1, -1, -1}; ///< -1 where there is none
+  std::array<double, 3> factors = {0., 0., 0.};
+  Eigen::RowVector3d known      = Eigen::RowVector3d::Zero(); ///< per load
+};
+
+/// Value, d/dx, d/dy at the three corners, then the derivative along edge_normal() in the middle of each edge.
+using AiryDofs = std::array<AiryDof, 12>;
+
+/// The unit normal of an edge that belongs to its degree of freedom.
+Eigen::Vector2d edge_normal(const TorusEdge &edge);
+
+/// Numbers phi of the three unit mean stresses: value and gradient at each vertex, normal derivative at each edge; on the
+/// rim of a hole phi is minus the mean stress's own stress function plus an affine function of three unknowns.
+class AiryUnknowns
+{
+public:
+  /// @throws BadInput where holes meet across the outline
+  explicit AiryUnknowns(const TorusMesh &mesh);
+
+  AiryDofs of_triangle(int t) const;
+
+  int number = 0;  ///< of unknowns, the pinned one among them
+  int pinned = -1; ///< the value that takes out the constant
+
+private:
+  /// phi on the rim of a hole: value, d/dx, d/dy at a point.
+  struct Rim
+  {
+    int hole = -1;
+    Eigen::Vector2d position; ///< from the first vertex of the hole's rim [m]
+  };
+
+  void find_holes();
+  void number_unknowns();
+  AiryDof on_rim(const Rim &rim, const Eigen::RowVector3d &of_value_and_gradient) const;
+
+  const TorusMesh &mesh;
+  std::vector<int> first_unknown;   ///< of each vertex: value, d/dx, d/dy; -1 on rims
+  std::vector<int> unknown_of_edge; ///< -1 on rims
+  std::vector<int> centre_of;       ///< see number_unknowns(); -1 for most vertices
+  std::vector<Rim> rim_of_vertex, rim_of_edge;
+  std::vector<int> first_unknown_of_hole;
+};
+} // namespace homespun::homogenization

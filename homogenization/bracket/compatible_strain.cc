@@ -1,0 +1,266 @@
+// SPDX-License-Identifier: MIT
+#include "homogenization/bracket/compatible_strain.h"
+
+#include "homogenization/bracket/cholesky_solver.h"
+
+#include <Eigen/LU>
+
+#include <cmath>
+#include <limits>
+
+namespace homespun::homogenization
+{
+namespace
+{
+constexpr double epsilon = std::numeric_limits<double>::epsilon();
+
+std::size_t at(const int index)
+{
+  return static_cast<std::size_t>(index);
+}
+
+/// The 3 x 2n strain-displacement matrix B at a point. P2 shapes 3, 4, 5 stand on the edges 0, 1, 2.
+template <int n_shapes>
+Eigen::Matrix<double, 3, 2 * n_shapes>
+strain_displacement(const Eigen::Matrix<double, 3, 2> &gradients,
+                    const Eigen::Vector3d &barycentric)
+{
+  Eigen::Matrix<double, 3, 2 * n_shapes> B;
+  for (int i = 0; i < n_shapes; ++i)
+  {
+    Eigen::RowVector2d g = gradients.row(i % 3);
+    if (n_shapes == 6 && i < 3)
+      g *= 4. * barycentric(i) - 1.;
+    else if (n_shapes == 6)
+      g = 4. * (barycentric(i - 3) * gradients.row((i - 2) % 3) +
+                barycentric((i - 2) % 3) * gradients.row(i - 3));
+    B.col(2 * i) << g(0), 0., g(1);
+    B.col(2 * i + 1) << 0., g(1), g(0);
+  }
+  return B;
+}
+
+/// Gradients of the barycentric coordinates, one per row, and the area.
+std::pair<Eigen::Matrix<double, 3, 2>, double>
+gradients_of(const std::array<Eigen::Vector2d, 3> &shape)
+{
+  Eigen::Matrix2d legs;
+  legs << shape[1], shape[2];
+  Eigen::Matrix<double, 3, 2> gradients;
+  gradients.bottomRows<2>() = legs.inverse();
+  gradients.row(0)          = -gradients.row(1) - gradients.row(2);
+  return {gradients, 0.5 * legs.determinant()};
+}
+} // namespace
+
+CompatibleStrain::CompatibleStrain(const TorusMesh &mesh,
+                                   const std::vector<Eigen::Matrix3d> &stiffness_of_material,
+                                   const unsigned order)
+    : mesh(mesh)
+    , stiffnesses(stiffness_of_material)
+    , order(order)
+{
+  order == 1 ? assemble_and_solve<3>() : assemble_and_solve<6>();
+  evaluate();
+}
+
+int CompatibleStrain::first_unknown(const int triangle, const int shape) const
+{
+  const TorusTriangle &its = mesh.triangles[at(triangle)];
+  return shape < 3 ? 2 * its.vertices[at(shape)] : 2 * (mesh.n_vertices + its.edges[at(shape - 3)]);
+}
+
+template <int n_shapes>
+void CompatibleStrain::assemble_and_solve()
+{
+  const int n_unknowns = 2 * (mesh.n_vertices + (order == 2 ? mesh.n_edges() : 0));
+  const int pinned     = 2 * mesh.anchor;
+  n_dofs               = static_cast<unsigned>(n_unknowns - 2);
+  const auto row_of    = [pinned](const int unknown) {
+    return unknown < pinned ? unknown : unknown < pinned + 2 ? -1 : unknown - 2;
+  };
+  std::vector<Eigen::Triplet<double>> entries;
+  entries.reserve(static_cast<std::size_t>(n_shapes * (2 * n_shapes + 1)) * mesh.triangles.size());
+  Eigen::MatrixXd loads        = Eigen::MatrixXd::Zero(n_dofs, 3);
+  const Eigen::Vector3d thirds = Eigen::Vector3d::Constant(1. / 3.);
+  for (int t = 0; t < mesh.n_triangles(); ++t)
+  {
+    const TorusTriangle &triangle = mesh.triangles[at(t)];
+    const Eigen::Matrix3d &c      = stiffnesses[at(triangle.material)];
+    const auto [gradients, area]  = gradients_of(triangle.shape(mesh.edges));
+    Eigen::Matrix<double, 2 * n_shapes, 2 * n_shapes> matrix;
+    Eigen::Matrix<double, 2 * n_shapes, 3> load;
+    matrix.setZero();
+    load.setZero();
+    constexpr int n_points = n_shapes == 3 ? 1 : 3;
+    for (int q = 0; q < n_points; ++q)
+    {
+      Eigen::Vector3d point = thirds;
+      if (n_shapes == 6)
+        point = Eigen::Vector3d::Constant(0.5) - 0.5 * Eigen::Vector3d::Unit(q);
+      const auto B = strain_displacement<n_shapes>(gradients, point);
+      const Eigen::Matrix<double, 2 * n_shapes, 3> stress_rows =
+        area / n_points * B.transpose() * c;
+      matrix.noalias() += stress_rows * B;
+      load += stress_rows;
+    }
+    for (int i = 0; i < 2 * n_shapes; ++i)
+    {
+      const int row = row_of(first_unknown(t, i / 2) + i % 2);
+      if (row < 0)
+        continue;
+      loads.row(row) += load.row(i);
+      for (int j = 0; j < 2 * n_shapes; ++j)
+      {
+        const int column = row_of(first_unknown(t, j / 2) + j % 2);
+        if (column >= 0 && column <= row)
+          entries.emplace_back(row, column, matrix(i, j));
+      }
+    }
+  }
+  Eigen::SparseMatrix<double> matrix(n_dofs, n_dofs);
+  matrix.setFromTriplets(entries.begin(), entries.end());
+  entries                                 = {};
+  const CholeskySolver::Solution solution = CholeskySolver(matrix, "cell problems").solve(loads);
+  unknowns.setZero(n_unknowns, 3);
+  for (int unknown = 0; unknown < n_unknowns; ++unknown)
+    if (row_of(unknown) >= 0)
+      unknowns.row(unknown) = solution.values.row(row_of(unknown));
+  excess     = solution.excess;
+  iterations = solution.iterations;
+}
+
+template <int n_shapes>
+Eigen::Matrix<double, 2 * n_shapes, 3>
+CompatibleStrain::displacements_from_first_vertex(const int t) const
+{
+  // Differences from vertex 0: the translation has no strain.
+  Eigen::Matrix<double, 2 * n_shapes, 3> chi;
+  for (int i = 0; i < n_shapes; ++i)
+    chi.template middleRows<2>(2 * i) =
+      unknowns.middleRows<2>(first_unknown(t, i)) - unknowns.middleRows<2>(first_unknown(t, 0));
+  return chi;
+}
+
+template <int n_shapes>
+FieldOfLoads CompatibleStrain::strain_of(const int t, FieldOfLoads *const bar) const
+{
+  const auto gradients = gradients_of(mesh.triangles[at(t)].shape(mesh.edges)).first;
+  const auto chi       = displacements_from_first_vertex<n_shapes>(t);
+  FieldOfLoads field;
+  for (int q = 0; q < n_field_points; ++q)
+  {
+    const auto B = strain_displacement<n_shapes>(gradients, field_points()[at(q)].in_triangle);
+    field.middleRows<3>(3 * q) = Eigen::Matrix3d::Identity() - B * chi;
+    if (bar)
+      bar->middleRows<3>(3 * q) = 12. * epsilon * B.cwiseAbs() * chi.cwiseAbs();
+  }
+  return field;
+}
+
+FieldOfLoads CompatibleStrain::strain(const int triangle) const
+{
+  return order == 1 ? strain_of<3>(triangle, nullptr) : strain_of<6>(triangle, nullptr);
+}
+
+Eigen::VectorXd CompatibleStrain::unbalanced_tractions(const Eigen::Matrix3d &weights) const
+{
+  return order == 1 ? unbalanced_tractions_of<3>(weights) : unbalanced_tractions_of<6>(weights);
+}
+
+template <int n_shapes>
+Eigen::VectorXd CompatibleStrain::unbalanced_tractions_of(const Eigen::Matrix3d &weights) const
+{
+  // At two Gauss points of each edge, from its tail on: exact for products of linear tractions.
+  const double gauss[2] = {0.5 - 0.5 / std::sqrt(3.), 0.5 + 0.5 / std::sqrt(3.)};
+  struct OfEdge
+  {
+    Eigen::Matrix<double, 2, 3> jumps[2] = {Eigen::Matrix<double, 2, 3>::Zero(),
+                                            Eigen::Matrix<double, 2, 3>::Zero()};
+    Eigen::Matrix2d stiffness            = Eigen::Matrix2d::Zero();
+  };
+  std::vector<OfEdge> of_edge(mesh.edges.size());
+  for (int t = 0; t < mesh.n_triangles(); ++t)
+  {
+    const TorusTriangle &triangle = mesh.triangles[at(t)];
+    const Eigen::Matrix3d &c      = stiffnesses[at(triangle.material)];
+    const auto gradients          = gradients_of(triangle.shape(mesh.edges)).first;
+    const auto chi                = displacements_from_first_vertex<n_shapes>(t);
+    for (int k = 0; k < 3; ++k)
+    {
+      const Eigen::Vector2d &edge = mesh.edges[at(triangle.edges[at(k)])].vector;
+      const Eigen::Vector2d along = edge / edge.norm();
+      Eigen::Matrix<double, 2, 3> normal; // of the edge, acting on stresses in Voigt order
+      normal << along(1), 0., -along(0), 0., -along(0), along(1);
+      OfEdge &its = of_edge[at(triangle.edges[at(k)])];
+      its.stiffness += normal * c * normal.transpose();
+      for (int g = 0; g < 2; ++g)
+      {
+        const double part = triangle.signs[at(k)] > 0. ? gauss[g] : 1. - gauss[g];
+        const Eigen::Vector3d point =
+          (1. - part) * Eigen::Vector3d::Unit(k) + part * Eigen::Vector3d::Unit((k + 1) % 3);
+        const Eigen::Matrix3d strain =
+          Eigen::Matrix3d::Identity() - strain_displacement<n_shapes>(gradients, point) * chi;
+        its.jumps[g] += triangle.signs[at(k)] * normal * c * strain;
+      }
+    }
+  }
+  std::vector<double> on_edge(mesh.edges.size());
+  for (std::size_t e = 0; e < mesh.edges.size(); ++e)
+  {
+    const Eigen::Matrix2d inverse = of_edge[e].stiffness.inverse();
+    for (const auto &jump : of_edge[e].jumps)
+      on_edge[e] += 0.5 * mesh.edges[e].vector.squaredNorm() *
+                    (jump.transpose() * inverse * jump).cwiseProduct(weights).sum();
+  }
+  Eigen::VectorXd of_triangle = Eigen::VectorXd::Zero(mesh.n_triangles());
+  for (int t = 0; t < mesh.n_triangles(); ++t)
+    for (const int edge : mesh.triangles[at(t)].edges)
+      of_triangle(t) += 0.5 * on_edge[at(edge)];
+  return of_triangle;
+}
+
+void CompatibleStrain::evaluate()
+{
+  using Sum  = Eigen::Matrix<long double, 3, 3>;
+  Sum energy = Sum::Zero(), flux = Sum::Zero();
+  Eigen::Array3d bars = Eigen::Array3d::Zero();
+  for (int t = 0; t < mesh.n_triangles(); ++t)
+  {
+    const TorusTriangle &triangle = mesh.triangles[at(t)];
+    const Eigen::Matrix3d &c      = stiffnesses[at(triangle.material)];
+    const double weight = gradients_of(triangle.shape(mesh.edges)).second / n_field_points;
+    FieldOfLoads bar;
+    const FieldOfLoads field = order == 1 ? strain_of<3>(t, &bar) : strain_of<6>(t, &bar);
+    for (int q = 0; q < n_field_points; ++q)
+    {
+      const Eigen::Matrix3d strain = field.middleRows<3>(3 * q);
+      const Eigen::Matrix3d stress = weight * c * strain;
+      energy += (strain.transpose() * stress).cast<long double>();
+      flux += stress.cast<long double>();
+      const Eigen::Matrix3d wrong = bar.middleRows<3>(3 * q) + epsilon * strain.cwiseAbs();
+      bars +=
+        2. * weight *
+        (strain.cwiseAbs().cwiseProduct(c.cwiseAbs() * wrong)).colwise().sum().transpose().array();
+    }
+  }
+  const auto averaged = [this](const Sum &sum) -> Eigen::Matrix3d
+  { return (sum / static_cast<long double>(mesh.lattice.area())).cast<double>(); };
+  const Eigen::Matrix3d unsymmetric = averaged(energy);
+  stiffness                         = 0.5 * (unsymmetric + unsymmetric.transpose());
+  stiffness_by_flux                 = averaged(flux);
+  round_off = (bars / (mesh.lattice.area() * stiffness.diagonal().array())).maxCoeff();
+}
+
+meshes::CharacteristicDisplacements CompatibleStrain::chi_at_given_vertices() const
+{
+  const auto n = static_cast<Eigen::Index>(mesh.vertex_of_original.size());
+  meshes::CharacteristicDisplacements chi(n, 6);
+  for (Eigen::Index v = 0; v < n; ++v)
+    for (int a = 0; a < 3; ++a)
+      for (int c = 0; c < 2; ++c)
+        chi(v, 2 * a + c) =
+          unknowns(2 * mesh.vertex_of_original[static_cast<std::size_t>(v)] + c, a);
+  return chi;
+}
+} // namespace homespun::homogenization

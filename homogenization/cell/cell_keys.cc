@@ -1,0 +1,223 @@
+// SPDX-License-Identifier: MIT
+#include "homogenization/cell/cell_keys.h"
+
+#include "meshes/plain/errors.h"
+#include "meshes/plain/general_lattice.h"
+
+#include <Eigen/LU>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+
+namespace homespun::homogenization
+{
+namespace
+{
+/// `group: values, ...` as a map; malformed entries become faults.
+std::map<std::string, std::vector<double>> group_values(const std::string &file,
+                                                        const std::string &key,
+                                                        const std::string &text,
+                                                        const std::size_t n_values, Faults &faults)
+{
+  std::map<std::string, std::vector<double>> values;
+  for (const std::string &entry : split(text, ','))
+  {
+    const std::size_t colon = entry.rfind(':');
+    const std::string group = trimmed(entry.substr(0, colon));
+    const auto parsed =
+      colon == std::string::npos ? std::nullopt : numbers(entry.substr(colon + 1));
+    if (group.empty() || !parsed || parsed->size() != n_values)
+      faults.push_back(file + ": key `" + key + "`: found `" + entry + "`; expected `group: " +
+                       (n_values == 1 ? "value" : "E1 E2 nu12 G12 angle") + "`");
+    else if (!values.emplace(group, *parsed).second)
+      faults.push_back(file + ": key `" + key + "`: group `" + group +
+                       "` is given twice; expected once");
+  }
+  return values;
+}
+
+/// A phase for each angle that the triangles of an orthotropic group have on top of that of the group.
+void turn_phases(const std::string &file, const std::string &mesh_name,
+                 const std::vector<char> &is_orthotropic, CellMeshFile &mesh_file,
+                 std::vector<Phase> &phases, Faults &faults)
+{
+  if (std::find(is_orthotropic.begin(), is_orthotropic.end(), 1) == is_orthotropic.end())
+  {
+    faults.push_back(
+      file + ": the mesh " + mesh_name +
+      " has cell data `angle`, and no group is in key `Orthotropic`; expected the group "
+      "that the angles are for: add it there, or leave the data out");
+    return;
+  }
+  const std::vector<Phase> groups = std::move(phases);
+  phases.clear();
+  std::map<std::pair<int, double>, int> phase_of; // by group and angle on top
+  for (Eigen::Index t = 0; t < mesh_file.angle.size(); ++t)
+  {
+    int &material       = mesh_file.mesh.material(t);
+    const auto group    = static_cast<std::size_t>(material);
+    const double on_top = is_orthotropic[group] ? mesh_file.angle(t) : 0.;
+    if (!std::isfinite(on_top))
+    {
+      faults.push_back(file + ": the mesh " + mesh_name + ": triangle " + std::to_string(t) +
+                       " has no finite number as cell data `angle`; expected degrees");
+      return;
+    }
+    const auto [place, is_new] =
+      phase_of.emplace(std::pair(material, on_top), static_cast<int>(phases.size()));
+    if (is_new)
+    {
+      phases.push_back(groups[group]);
+      phases.back().angle += on_top;
+    }
+    material = place->second;
+  }
+}
+} // namespace
+
+std::optional<meshes::Lattice> lattice_from(const std::string &file, const CellKeys &keys,
+                                            const double length_unit,
+                                            const meshes::TriangleMesh &mesh, Faults &faults)
+{
+  meshes::Lattice lattice;
+  if (trimmed(keys.lattice) == "auto")
+  {
+    try
+    {
+      return meshes::lattice_of_outline(mesh);
+    }
+    catch (const meshes::BadInput &fault)
+    {
+      const auto general = meshes::lattice_by_matching(mesh);
+      if (!general)
+        faults.push_back(file + ": key `Lattice vectors` = auto: " + fault.what());
+      return general;
+    }
+  }
+  const std::vector<std::string> rows = split(keys.lattice, ';');
+  bool good                           = rows.size() == 2;
+  for (std::size_t r = 0; good && r < 2; ++r)
+  {
+    const auto row = numbers(rows[r]);
+    good           = row && row->size() == 2;
+    if (good)
+      lattice.vectors.row(static_cast<Eigen::Index>(r)) << (*row)[0], (*row)[1];
+  }
+  if (!good)
+    faults.push_back(file + ": key `Lattice vectors`: found `" + keys.lattice +
+                     "`; expected `auto` or two vectors in mesh units like `1 0; 0.5 0.866`");
+  lattice.vectors *= length_unit;
+  if (!good)
+    return std::nullopt;
+  if (lattice.vectors.determinant() < 0.)
+  {
+    faults.push_back(
+      file + ": key `Lattice vectors`: found `" + keys.lattice +
+      "`, with the second vector to the right of the first; expected it to the left: "
+      "exchange the two");
+    return std::nullopt;
+  }
+  return lattice;
+}
+
+std::vector<Phase> assign_phases(const std::string &file, const CellKeys &keys,
+                                 CellMeshFile &mesh_file, Faults &faults)
+{
+  const auto young       = group_values(file, "Young's modulus", keys.young, 1, faults);
+  const auto poisson     = group_values(file, "Poisson's ratio", keys.poisson, 1, faults);
+  const auto thickness   = group_values(file, "Thickness", keys.thickness, 1, faults);
+  const auto density     = group_values(file, "Density", keys.density, 1, faults);
+  const auto orthotropic = group_values(file, "Orthotropic", keys.orthotropic, 5, faults);
+
+  const std::set<int> present(mesh_file.mesh.material.data(),
+                              mesh_file.mesh.material.data() + mesh_file.mesh.material.size());
+  const auto name_of = [&](const int number)
+  {
+    for (const auto &[name, its_number] : mesh_file.number_of_name)
+      if (its_number == number)
+        return name;
+    return std::to_string(number);
+  };
+  std::string groups;
+  for (const int number : present)
+    groups += (groups.empty() ? "`" : ", `") + name_of(number) + "`";
+
+  // A group may be called by its name or by its number.
+  const auto find = [&](const auto &values, const int number)
+  {
+    const auto by_name = values.find(name_of(number));
+    return by_name != values.end() ? by_name : values.find(std::to_string(number));
+  };
+  using GroupValues = std::map<std::string, std::vector<double>>;
+  const std::vector<std::pair<const char *, const GroupValues *>> tables = {
+    {"Young's modulus", &young},
+    {"Poisson's ratio", &poisson},
+    {"Thickness", &thickness},
+    {"Density", &density},
+    {"Orthotropic", &orthotropic}};
+  for (const auto &[key, values] : tables)
+    for (const auto &entry : *values)
+    {
+      const bool known = std::any_of(present.begin(), present.end(),
+                                     [&](const int number) {
+                                       return entry.first == name_of(number) ||
+                                              entry.first == std::to_string(number);
+                                     });
+      if (!known)
+        faults.push_back(file + ": key `" + key + "` names the group `" + entry.first +
+                         "`, which no triangle of the mesh has; expected one of " + groups);
+    }
+
+  std::vector<Phase> phases;
+  std::vector<char> is_orthotropic;
+  std::map<int, int> phase_of;
+  for (const int number : present)
+  {
+    Phase phase;
+    bool complete   = true;
+    const auto take = [&](const char *key, const auto &values)
+    {
+      const auto entry = find(values, number);
+      if (entry != values.end())
+        return entry->second[0];
+      faults.push_back(file + ": group `" + name_of(number) +
+                       "` of the mesh has no value in key `" + key + "`; expected `" +
+                       name_of(number) + ": value` there");
+      complete = false;
+      return 1.;
+    };
+    const auto yarn = find(orthotropic, number);
+    phase.name      = name_of(number);
+    if (yarn != orthotropic.end())
+    {
+      const std::vector<double> &values = yarn->second;
+      phase = {phase.name, values[0], values[1], values[2], values[3], values[4], 0., 0.};
+      if (find(young, number) != young.end() || find(poisson, number) != poisson.end())
+        faults.push_back(
+          file + ": group `" + phase.name +
+          "` is given both in `Orthotropic` and in `Young's modulus` or `Poisson's ratio`; "
+          "expected one of them: remove the other");
+    }
+    else
+    {
+      const double E = take("Young's modulus", young), nu = take("Poisson's ratio", poisson);
+      phase = isotropic(phase.name, E, nu, 0., 0.);
+    }
+    phase.thickness = take("Thickness", thickness);
+    phase.density   = take("Density", density);
+    if (complete)
+      for (const std::string &fault : faults_of(phase))
+        faults.push_back(file + ": " + fault);
+    phase_of[number] = static_cast<int>(phases.size());
+    phases.push_back(phase);
+    is_orthotropic.push_back(yarn != orthotropic.end());
+  }
+  for (int &number : mesh_file.mesh.material)
+    number = phase_of[number];
+  if (mesh_file.angle.size() > 0)
+    turn_phases(file, keys.mesh, is_orthotropic, mesh_file, phases, faults);
+  return phases;
+}
+} // namespace homespun::homogenization

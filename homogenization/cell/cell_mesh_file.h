@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: MIT
+// Meshes of unit cells from files, whatever their format, as a plain mesh of triangles.
+#pragma once
+
+#include "homogenization/cell/curved_sides.h"
+#include "meshes/plain/triangle_mesh.h"
+
+#include <map>
+#include <string>
+
+namespace homespun::homogenization
+{
+/// A mesh file as it stands: coordinates in the file's own unit, material numbers as written.
+struct CellMeshFile
+{
+  meshes::TriangleMesh mesh;                 ///< mesh.material holds the file's numbers
+  std::map<std::string, int> number_of_name; ///< names of groups, where the format has them
+  Eigen::VectorXd angle;                     ///< (m) cell data `angle` of the file [deg], or empty
+  std::vector<CurvedSide> curved_sides;      ///< of six-node triangles, in the file's unit
+};
+
+/// Reads a mesh. Quadrilaterals are cut in two along their shorter diagonal (along the one that lies inside, where they
+/// are not convex); elements are turned counter-clockwise; points that no element has as a corner are left out, the
+/// middle nodes of six-node triangles among them. Text .msh 1, 2 and 4,
+/// .vtk, .vtu, .ucd, .inp (AVS or Abaqus) and .unv are known.
+/// @throws BadInput naming the file, the line, what was found and what was expected
+CellMeshFile read_cell_mesh(const std::string &file);
+} // namespace homespun::homogenization

@@ -1,0 +1,305 @@
+// SPDX-License-Identifier: MIT
+// Gmsh's .msh as text: https://gmsh.info/doc/texinfo/gmsh.html#File-formats, and its legacy formats 1 and 2. Triangles
+// may have six nodes: corners, then the middles of the sides.
+#include "homogenization/cell/mesh_formats.h"
+
+#include <cmath>
+
+namespace homespun::homogenization
+{
+namespace
+{
+/// Nodes of Gmsh's element types from 1 on; 0 where cells have no use for them.
+constexpr std::array<int, 21> nodes_of_type = {2,  3,  4,  4, 8, 6,  5,  3,  6, 9, 10,
+                                               27, 18, 14, 1, 8, 20, 15, 13, 9, 10};
+
+/// Numbers of the points of elements, from 1 to 6 of them; more are refused before.
+using Nodes = std::array<long, 6>;
+
+/// Gmsh's types of the elements that cells are made of.
+constexpr long triangle = 2, quadrilateral = 3, six_node_triangle = 9;
+
+class MshReader
+{
+public:
+  explicit MshReader(MeshText &text)
+      : text(text)
+  {
+  }
+
+  RawMesh read()
+  {
+    bool has_elements = false;
+    for (std::string_view word = text.word(); !word.empty(); word = text.word())
+      if (word == "$MeshFormat")
+        format();
+      else if (word == "$PhysicalNames")
+        names();
+      else if (word == "$Entities")
+        entities();
+      else if (word == "$Nodes" || word == "$NOD")
+      {
+        version = word == "$NOD" ? 1. : version;
+        need_version();
+        version < 4. ? nodes() : node_blocks();
+      }
+      else if (word == "$Elements" || word == "$ELM")
+      {
+        need_version();
+        version < 4. ? elements() : element_blocks();
+        has_elements = true;
+      }
+      else if (word[0] == '$')
+        pass_over(std::string(word.substr(1)));
+      else
+        text.fail("found `" + std::string(word.substr(0, 40)) +
+                  "`; expected a section like $Nodes: write the file again");
+    if (!has_elements)
+      text.fail(
+        "found the end of the file; expected the section $Elements: it is cut off, write it again");
+    return std::move(mesh);
+  }
+
+private:
+  void format()
+  {
+    version           = text.number("the version of the format");
+    const long binary = text.integer("0 for text");
+    text.integer("the size of a number");
+    if (binary != 0)
+      text.fail(
+        "is a binary .msh; expected text: save it as ASCII (Gmsh: Mesh.Binary = 0, or gmsh -2 without -bin)");
+    const bool known = (version >= 2. && version < 3.) || std::abs(version - 4.) < 1e-9 ||
+                       std::abs(version - 4.1) < 1e-9;
+    if (!known)
+      text.fail("found version " + std::to_string(version) +
+                "; expected 2, 4.0 or 4.1: gmsh -2 -format msh41");
+    close("$EndMeshFormat");
+  }
+
+  void need_version() const
+  {
+    if (version == 0.)
+      text.fail("the section $MeshFormat is missing; expected it first: write the file again");
+  }
+
+  void close(const char *end)
+  {
+    const std::string_view found = text.word();
+    if (found != end)
+      text.fail("found " +
+                (found.empty() ? std::string("the end of the file")
+                               : "`" + std::string(found.substr(0, 40)) + "`") +
+                "; expected " + end +
+                ": the file is cut off or its counts are wrong, write it again");
+  }
+
+  void pass_over(const std::string &section)
+  {
+    const std::string end = "$End" + section;
+    std::string_view line;
+    while (text.line(line))
+      if (line.substr(0, end.size()) == end)
+        return;
+    text.fail("found the end of the file; expected " + end);
+  }
+
+  void names()
+  {
+    const long n = text.count("names of physical groups");
+    for (long k = 0; k < n; ++k)
+    {
+      const long dimension = text.integer("the dimension of a physical group");
+      const long number    = text.integer("the number of a physical group");
+      std::string_view rest;
+      text.line(rest);
+      const std::size_t first = rest.find('"'), last = rest.rfind('"');
+      if (first == std::string_view::npos || last <= first)
+        text.fail("found a physical group without a name in quotes; expected \"name\"");
+      if (dimension == 2)
+        mesh.number_of_name[std::string(rest.substr(first + 1, last - first - 1))] =
+          group_number(text, static_cast<double>(number));
+    }
+    close("$EndPhysicalNames");
+  }
+
+  void entities()
+  {
+    need_version();
+    std::array<long, 4> n{};
+    for (long &its : n)
+      its = text.count("entities");
+    for (std::size_t dimension = 0; dimension < 4; ++dimension)
+      for (long k = 0; k < n[dimension]; ++k)
+      {
+        const long tag = text.integer("the number of an entity");
+        text.skip(dimension == 0 && version > 4.05 ? 3 : 6, "the box of an entity");
+        const long n_groups = text.count("physical groups of an entity");
+        for (long g = 0; g < n_groups; ++g)
+        {
+          // Negative numbers mean a reversed surface.
+          const long group = std::abs(text.integer("the number of a physical group"));
+          if (dimension == 2 && g == 0)
+            group_of_surface[tag] = group_number(text, static_cast<double>(group));
+        }
+        if (dimension > 0)
+          text.skip(text.count("entities that bound another"), "the number of an entity");
+      }
+    close("$EndEntities");
+  }
+
+  Eigen::Vector3d point()
+  {
+    Eigen::Vector3d x;
+    for (double &component : x)
+      component = text.number("a coordinate");
+    return x;
+  }
+
+  void nodes()
+  {
+    const long n = text.count("points");
+    mesh.points.reserve(static_cast<std::size_t>(n));
+    for (long k = 0; k < n; ++k)
+    {
+      const long number = text.integer("the number of a point");
+      numbers.add(text, mesh, number, point());
+    }
+    close(version < 2. ? "$ENDNOD" : "$EndNodes");
+  }
+
+  struct Block
+  {
+    long entity, dimension, property, n;
+  };
+
+  /// The number of blocks of points or elements of a file of version 4.
+  /// @param range what is passed over
+  long blocks(const char *items, const char *range)
+  {
+    const long n = text.count("blocks");
+    text.count(items);
+    if (version > 4.05)
+      text.skip(2, range);
+    return n;
+  }
+
+  /// The first line of a block; 4.0 and 4.1 have entity and dimension in another order.
+  Block block(const char *property, const char *items)
+  {
+    Block its{};
+    its.entity    = text.integer("the entity of a block");
+    its.dimension = text.integer("the entity of a block");
+    if (version > 4.05)
+      std::swap(its.entity, its.dimension);
+    its.property = text.integer(property);
+    its.n        = text.count(items);
+    return its;
+  }
+
+  void node_blocks()
+  {
+    const bool is_new = version > 4.05;
+    for (long rest = blocks("points", "the range of the numbers of points"); rest > 0; --rest)
+    {
+      const auto [entity, dimension, parametric, n] =
+        block("whether points are parametric", "points");
+      const long extra = parametric != 0 ? std::clamp(dimension, 0L, 3L) : 0;
+      std::vector<long> tags;
+      if (is_new)
+        for (long k = 0; k < n; ++k)
+          tags.push_back(text.integer("the number of a point"));
+      for (long k = 0; k < n; ++k)
+      {
+        const long tag =
+          is_new ? tags[static_cast<std::size_t>(k)] : text.integer("the number of a point");
+        const Eigen::Vector3d x = point();
+        text.skip(extra, "a parametric coordinate");
+        numbers.add(text, mesh, tag, x);
+      }
+    }
+    close("$EndNodes");
+  }
+
+  int nodes_of(const long type) const
+  {
+    if (type < 1 || type > static_cast<long>(nodes_of_type.size()))
+      text.fail("holds an element of Gmsh's type " + std::to_string(type) + straight_and_flat);
+    const bool is_needless = type == 1 || type == 15 || type == 8;
+    if (!is_needless && type != triangle && type != quadrilateral && type != six_node_triangle)
+      text.fail("holds an element of Gmsh's type " + std::to_string(type) + straight_and_flat);
+    return nodes_of_type[static_cast<std::size_t>(type - 1)];
+  }
+
+  void add(const long type, const long group)
+  {
+    const int n = nodes_of(type);
+    Nodes nodes{};
+    for (int k = 0; k < n; ++k)
+      nodes[static_cast<std::size_t>(k)] = text.integer("the number of a point of an element");
+    if (type != triangle && type != quadrilateral && type != six_node_triangle)
+      return;
+    const int n_corners = type == quadrilateral ? 4 : 3;
+    RawMesh::Cell cell{{0, 0, 0, 0}, n_corners, group_number(text, static_cast<double>(group))};
+    for (std::size_t k = 0; k < static_cast<std::size_t>(n_corners); ++k)
+      cell.corners[k] = numbers.index(text, nodes[k]);
+    for (std::size_t k = 0; type == six_node_triangle && k < 3; ++k)
+      cell.middles[k] = numbers.index(text, nodes[k + 3]);
+    mesh.cells.push_back(cell);
+  }
+
+  void elements()
+  {
+    const long n = text.count("elements");
+    for (long k = 0; k < n; ++k)
+    {
+      text.integer("the number of an element");
+      const long type = text.integer("the type of an element");
+      long group      = 0;
+      if (version < 2.)
+      {
+        group = text.integer("the physical number of an element");
+        text.skip(2, "the entity and the number of points of an element");
+      }
+      else
+      {
+        const long n_tags = text.count("tags of an element");
+        for (long tag = 0; tag < n_tags; ++tag)
+        {
+          const long value = text.integer("a tag of an element");
+          group            = tag == 0 ? value : group;
+        }
+      }
+      add(type, std::abs(group));
+    }
+    close(version < 2. ? "$ENDELM" : "$EndElements");
+  }
+
+  void element_blocks()
+  {
+    for (long rest = blocks("elements", "the range of the numbers of elements"); rest > 0; --rest)
+    {
+      const auto [entity, dimension, type, n] = block("the type of elements", "elements");
+      const auto group                        = group_of_surface.find(entity);
+      for (long k = 0; k < n; ++k)
+      {
+        text.integer("the number of an element");
+        add(type, dimension == 2 && group != group_of_surface.end() ? group->second : 0);
+      }
+    }
+    close("$EndElements");
+  }
+
+  MeshText &text;
+  double version = 0.;
+  RawMesh mesh;
+  PointNumbers numbers;
+  std::unordered_map<long, int> group_of_surface;
+};
+} // namespace
+
+RawMesh read_msh(MeshText &text)
+{
+  return MshReader(text).read();
+}
+} // namespace homespun::homogenization

@@ -1,0 +1,400 @@
+// SPDX-License-Identifier: MIT
+#include "homogenization/cell/torus_mesh.h"
+
+#include "meshes/plain/errors.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <tuple>
+
+namespace homespun::homogenization
+{
+namespace
+{
+std::size_t at(const int index)
+{
+  return static_cast<std::size_t>(index);
+}
+
+/// Vertices of the torus in the order of their first vertex in the mesh, and where that one lies.
+struct GluedVertices
+{
+  std::vector<int> of_original;
+  meshes::Points positions; ///< of the originals, images exactly a lattice vector apart
+  int n = 0;
+};
+
+GluedVertices glue_vertices(const meshes::TriangleMesh &mesh, const meshes::Lattice &lattice)
+{
+  // The outline alone: a rim may come near the image of another one without being it.
+  const std::vector<int> outline = meshes::outline(mesh);
+  meshes::Points points(static_cast<Eigen::Index>(outline.size()), 2);
+  for (std::size_t k = 0; k < outline.size(); ++k)
+    points.row(static_cast<Eigen::Index>(k)) = mesh.vertices.row(outline[k]);
+  const meshes::ImageClasses classes = meshes::match_images(points, lattice);
+
+  GluedVertices glued;
+  const Eigen::RowVector2d origin = mesh.vertices.row(0);
+  glued.positions                 = mesh.vertices.rowwise() - origin;
+  std::vector<int> master(at(mesh.n_vertices()));
+  for (int v = 0; v < mesh.n_vertices(); ++v)
+    master[at(v)] = v;
+  for (std::size_t k = 0; k < outline.size(); ++k)
+  {
+    const int first                 = outline[at(classes.representative[k])];
+    master[at(outline[k])]          = first;
+    const Eigen::Index row          = static_cast<Eigen::Index>(k);
+    const Eigen::Vector2d n         = classes.offset.row(row).cast<double>();
+    glued.positions.row(outline[k]) = glued.positions.row(first) + n.transpose() * lattice.vectors;
+  }
+  std::vector<int> number(at(mesh.n_vertices()), -1);
+  glued.of_original.resize(at(mesh.n_vertices()));
+  for (int v = 0; v < mesh.n_vertices(); ++v)
+  {
+    int &its_number = number[at(master[at(v)])];
+    if (its_number < 0)
+      its_number = glued.n++;
+    glued.of_original[at(v)] = its_number;
+  }
+  return glued;
+}
+
+/// For each edge (lower vertex, higher vertex) of the outline the same edge on the opposite side that
+/// was met first.
+std::map<std::array<int, 2>, std::array<int, 2>> glue_edges(const meshes::TriangleMesh &mesh,
+                                                            const GluedVertices &glued,
+                                                            const meshes::Lattice &lattice)
+{
+  const std::vector<int> outline = meshes::outline(mesh);
+  const std::size_t n            = outline.size();
+  meshes::Points midpoints(static_cast<Eigen::Index>(n), 2);
+  for (std::size_t k = 0; k < n; ++k)
+    midpoints.row(static_cast<Eigen::Index>(k)) =
+      0.5 * (glued.positions.row(outline[k]) + glued.positions.row(outline[(k + 1) % n]));
+  const meshes::ImageClasses classes = meshes::match_images(midpoints, lattice);
+  std::map<std::array<int, 2>, std::array<int, 2>> first_of;
+  const auto edge = [&](const std::size_t k) -> std::array<int, 2> {
+    return {outline[k], outline[(k + 1) % n]};
+  };
+  for (std::size_t k = 0; k < n; ++k)
+  {
+    const std::array<int, 2> mine = edge(k), first = edge(at(classes.representative[k]));
+    if (classes.size[k] != 2)
+      throw meshes::BadInput("the edge of the outline from vertex " + std::to_string(mine[0]) +
+                             " to vertex " + std::to_string(mine[1]) + " has " +
+                             std::to_string(classes.size[k] - 1) +
+                             " periodic images; expected one: mesh opposite sides alike");
+    first_of[{std::min(mine[0], mine[1]), std::max(mine[0], mine[1])}] = first;
+  }
+  return first_of;
+}
+
+/// Gives the edges between two materials and on rims their bulge.
+/// @param edge_of a curved side @param is_paired whether it has an image on the opposite side of the outline
+template <typename EdgeOf, typename IsPaired>
+void curve(TorusMesh &torus, const std::vector<CurvedSide> &curved_sides, const EdgeOf &edge_of,
+           const IsPaired &is_paired)
+{
+  const double tolerance = meshes::image_tolerance * std::sqrt(torus.lattice.area());
+  std::map<int, CurvedSide> alone; // without its image
+  for (const CurvedSide &side : curved_sides)
+  {
+    const int e                  = edge_of(side);
+    torus.edges[at(e)].bulge     = side.sagitta;
+    const auto [place, is_first] = alone.emplace(e, side);
+    const double off             = (place->second.sagitta - side.sagitta).norm();
+    if (!is_paired(side) || (!is_first && off <= tolerance))
+      alone.erase(place);
+  }
+  for (const auto &[e, side] : alone)
+    if (std::max(side.sagitta.norm(), torus.edges[at(e)].bulge.norm()) > tolerance)
+      throw meshes::BadInput(
+        "the side of the outline from vertex " + std::to_string(side.a) + " to vertex " +
+        std::to_string(side.b) +
+        " is curved otherwise than its periodic image; expected the same curve: "
+        "mesh opposite sides alike");
+  std::vector<int> material(torus.edges.size(), -1);
+  std::vector<char> is_inside(torus.edges.size(), 0);
+  for (const TorusTriangle &triangle : torus.triangles)
+    for (const int e : triangle.edges)
+    {
+      is_inside[at(e)] = material[at(e)] == triangle.material;
+      material[at(e)]  = triangle.material;
+    }
+  for (std::size_t e = 0; e < torus.edges.size(); ++e)
+    if (is_inside[e])
+      torus.edges[e].bulge.setZero();
+}
+} // namespace
+
+TorusMesh glued(const meshes::TriangleMesh &mesh, const meshes::Lattice &lattice,
+                const std::vector<CurvedSide> &curved_sides)
+{
+  const GluedVertices vertices = glue_vertices(mesh, lattice);
+  const auto first_of          = glue_edges(mesh, vertices, lattice);
+
+  TorusMesh torus;
+  torus.lattice            = lattice;
+  torus.n_vertices         = vertices.n;
+  torus.vertex_of_original = vertices.of_original;
+  torus.anchor             = vertices.of_original[at(meshes::anchor_vertex(mesh, lattice))];
+  for (int v = 0; v < vertices.n; ++v)
+    torus.homes.push_back({v, Eigen::Vector2d::Zero()});
+
+  std::map<std::array<int, 2>, int> number_of;
+  /// The edge of the torus between two vertices of the mesh, and whether it runs from a to b.
+  const auto edge_between = [&](const int a, const int b) -> std::pair<int, double>
+  {
+    std::array<int, 2> key = {std::min(a, b), std::max(a, b)};
+    const auto image       = first_of.find(key);
+    if (image != first_of.end())
+      key = {std::min(image->second[0], image->second[1]),
+             std::max(image->second[0], image->second[1])};
+    const Eigen::RowVector2d wanted = vertices.positions.row(b) - vertices.positions.row(a);
+    const auto [place, is_new]      = number_of.emplace(key, torus.n_edges());
+    if (is_new)
+      torus.edges.push_back(
+        {vertices.of_original[at(key[0])], vertices.of_original[at(key[1])],
+         (vertices.positions.row(key[1]) - vertices.positions.row(key[0])).transpose()});
+    const Eigen::Vector2d &found = torus.edges[at(place->second)].vector;
+    return {place->second, found.dot(wanted.transpose()) > 0. ? 1. : -1.};
+  };
+  const Eigen::RowVector2d origin = mesh.vertices.row(0);
+  for (int t = 0; t < mesh.n_triangles(); ++t)
+  {
+    std::array<int, 3> edges;
+    std::array<double, 3> signs;
+    for (int k = 0; k < 3; ++k)
+      std::tie(edges[at(k)], signs[at(k)]) =
+        edge_between(mesh.triangles(t, k), mesh.triangles(t, (k + 1) % 3));
+    int longest = 0;
+    for (int k = 1; k < 3; ++k)
+    {
+      const auto length = [&](const int j)
+      { return torus.edges[at(edges[at(j)])].vector.squaredNorm(); };
+      // Equal lengths, but for round-off, go to the edge with the lower number, whoever asks.
+      const double difference = length(k) / length(longest) - 1.;
+      if (difference > 1e-9 || (difference > -1e-9 && edges[at(k)] < edges[at(longest)]))
+        longest = k;
+    }
+    TorusTriangle triangle;
+    for (int k = 0; k < 3; ++k)
+    {
+      const int from           = (longest + k) % 3;
+      triangle.vertices[at(k)] = vertices.of_original[at(mesh.triangles(t, from))];
+      triangle.edges[at(k)]    = edges[at(from)];
+      triangle.signs[at(k)]    = signs[at(from)];
+    }
+    triangle.material = mesh.material(t);
+    triangle.corner   = (vertices.positions.row(mesh.triangles(t, longest)) + origin).transpose();
+    torus.triangles.push_back(triangle);
+  }
+  torus.reach.assign(at(vertices.n), std::numeric_limits<double>::infinity());
+  for (const TorusEdge &edge : torus.edges)
+    for (const int end : {edge.tail, edge.head})
+      torus.reach[at(end)] = std::min(torus.reach[at(end)], edge.vector.norm());
+  const auto edge_of   = [&](const CurvedSide &side) { return edge_between(side.a, side.b).first; };
+  const auto is_paired = [&](const CurvedSide &side) {
+    return first_of.count({std::min(side.a, side.b), std::max(side.a, side.b)}) > 0;
+  };
+  curve(torus, curved_sides, edge_of, is_paired);
+  return torus;
+}
+
+namespace
+{
+/// Both halves of an edge and the vertex between them.
+struct Halves
+{
+  int midpoint = -1, first = -1, second = -1; ///< the first half holds the tail
+};
+
+/// The marked edges, and with every marked edge of a triangle the one that it bisects first.
+std::vector<char> closure(const TorusMesh &mesh, const std::vector<char> &is_marked)
+{
+  std::vector<char> is_split(mesh.edges.size(), 0);
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+    if (is_marked[t])
+      for (const int edge : mesh.triangles[t].edges)
+        is_split[at(edge)] = 1;
+  for (bool grows = true; grows;)
+  {
+    grows = false;
+    for (const TorusTriangle &triangle : mesh.triangles)
+      if (!is_split[at(triangle.edges[0])] &&
+          (is_split[at(triangle.edges[1])] || is_split[at(triangle.edges[2])]))
+      {
+        is_split[at(triangle.edges[0])] = 1;
+        grows                           = true;
+      }
+  }
+  return is_split;
+}
+
+/// One round of bisection on a mesh that grows.
+class Bisection
+{
+public:
+  Bisection(const TorusMesh &mesh, const std::vector<char> &is_split)
+      : fine(mesh)
+      , halves(mesh.edges.size())
+  {
+    fine.triangles.clear();
+    fine.triangles.reserve(2 * mesh.triangles.size());
+    for (int e = 0; e < mesh.n_edges(); ++e)
+      if (is_split[at(e)])
+        split(e);
+    for (const TorusTriangle &triangle : mesh.triangles)
+      bisect(triangle);
+    forget_split_edges();
+  }
+
+  TorusMesh fine;
+
+private:
+  void split(const int e)
+  {
+    const TorusEdge edge       = fine.edges[at(e)];
+    const Eigen::Vector2d half = 0.5 * edge.vector;
+    Halves &its                = halves[at(e)];
+    its.midpoint               = fine.n_vertices++;
+    its.first                  = fine.n_edges();
+    fine.edges.push_back({edge.tail, its.midpoint, half + edge.bulge, 0.25 * edge.bulge});
+    its.second = fine.n_edges();
+    fine.edges.push_back({its.midpoint, edge.head, half - edge.bulge, 0.25 * edge.bulge});
+    const Home &tail = fine.homes[at(edge.tail)], &head = fine.homes[at(edge.head)];
+    const Eigen::Vector2d from_tail = tail.offset + half + edge.bulge,
+                          from_head = head.offset - half + edge.bulge;
+    fine.homes.push_back(from_tail.squaredNorm() <= from_head.squaredNorm()
+                           ? Home{tail.vertex, from_tail}
+                           : Home{head.vertex, from_head});
+  }
+
+  bool is_split(const int e) const
+  {
+    return at(e) < halves.size() && halves[at(e)].midpoint >= 0;
+  }
+
+  void bisect(const TorusTriangle &triangle)
+  {
+    if (!is_split(triangle.edges[0]))
+    {
+      fine.triangles.push_back(triangle);
+      return;
+    }
+    // (a, b, c) with m between a and b becomes (c, a, m) and (b, c, m).
+    const auto [a, b, c]          = triangle.vertices;
+    const Halves &its             = halves[at(triangle.edges[0])];
+    const bool runs_ab            = triangle.signs[0] > 0.;
+    const Eigen::Vector2d edge_ab = triangle.signs[0] * fine.edges[at(triangle.edges[0])].vector;
+    const Eigen::Vector2d edge_bc = triangle.signs[1] * fine.edges[at(triangle.edges[1])].vector;
+    const Eigen::Vector2d bulge   = fine.edges[at(triangle.edges[0])].bulge;
+    const int spine               = fine.n_edges();
+    fine.edges.push_back({its.midpoint, c, 0.5 * edge_ab + edge_bc - bulge});
+    TorusTriangle first = triangle, second = triangle;
+    first.vertices  = {c, a, its.midpoint};
+    first.edges     = {triangle.edges[2], runs_ab ? its.first : its.second, spine};
+    first.signs     = {triangle.signs[2], triangle.signs[0], 1.};
+    first.corner    = triangle.corner + edge_ab + edge_bc;
+    second.vertices = {b, c, its.midpoint};
+    second.edges    = {triangle.edges[1], spine, runs_ab ? its.second : its.first};
+    second.signs    = {triangle.signs[1], -1., triangle.signs[0]};
+    second.corner   = triangle.corner + edge_ab;
+    bisect(first);
+    bisect(second);
+  }
+
+  void forget_split_edges()
+  {
+    std::vector<int> number(fine.edges.size(), -1);
+    int n = 0;
+    for (std::size_t e = 0; e < fine.edges.size(); ++e)
+      if (!is_split(static_cast<int>(e)))
+      {
+        number[e]         = n;
+        fine.edges[at(n)] = fine.edges[e];
+        ++n;
+      }
+    fine.edges.resize(at(n));
+    for (TorusTriangle &triangle : fine.triangles)
+      for (int &edge : triangle.edges)
+        edge = number[at(edge)];
+  }
+
+  std::vector<Halves> halves;
+};
+} // namespace
+
+TorusMesh bisected(const TorusMesh &mesh, const std::vector<char> &is_marked)
+{
+  return Bisection(mesh, closure(mesh, is_marked)).fine;
+}
+
+meshes::TriangleMesh unfolded(const TorusMesh &mesh)
+{
+  meshes::TriangleMesh plane;
+  plane.triangles.resize(mesh.n_triangles(), 3);
+  plane.material.resize(mesh.n_triangles());
+  // A vertex of the torus lies at one point of the plane per lattice offset from where it was met first.
+  std::vector<Eigen::RowVector2d> points;
+  std::vector<int> first_point(at(mesh.n_vertices), -1);
+  std::map<std::array<long, 3>, int> point_of;
+  for (int t = 0; t < mesh.n_triangles(); ++t)
+  {
+    const TorusTriangle &triangle = mesh.triangles[at(t)];
+    const auto shape              = triangle.shape(mesh.edges);
+    for (int k = 0; k < 3; ++k)
+    {
+      const Eigen::RowVector2d point = (triangle.corner + shape[at(k)]).transpose();
+      const int vertex               = triangle.vertices[at(k)];
+      int &first                     = first_point[at(vertex)];
+      if (first < 0)
+        first = static_cast<int>(points.size());
+      else
+      {
+        const Eigen::RowVector2d f    = mesh.lattice.fractional(point - points[at(first)]);
+        const std::array<long, 3> key = {vertex, std::lround(f(0)), std::lround(f(1))};
+        const auto [place, is_new]    = point_of.emplace(key, static_cast<int>(points.size()));
+        plane.triangles(t, k)         = place->second;
+        if (is_new)
+          points.push_back(points[at(first)] +
+                           static_cast<double>(key[1]) * mesh.lattice.vectors.row(0) +
+                           static_cast<double>(key[2]) * mesh.lattice.vectors.row(1));
+        continue;
+      }
+      point_of[{vertex, 0, 0}] = first;
+      plane.triangles(t, k)    = first;
+      points.push_back(point);
+    }
+    plane.material(t) = triangle.material;
+  }
+  plane.vertices.resize(static_cast<Eigen::Index>(points.size()), 2);
+  for (std::size_t v = 0; v < points.size(); ++v)
+    plane.vertices.row(static_cast<Eigen::Index>(v)) = points[v];
+  return plane;
+}
+
+std::vector<std::array<int, 2>> rim_edges(const TorusMesh &mesh)
+{
+  std::vector<int> n_triangles_of(mesh.edges.size(), 0);
+  for (const TorusTriangle &triangle : mesh.triangles)
+    for (const int edge : triangle.edges)
+      ++n_triangles_of[at(edge)];
+  std::vector<std::array<int, 2>> rims;
+  for (int t = 0; t < mesh.n_triangles(); ++t)
+    for (int k = 0; k < 3; ++k)
+      if (n_triangles_of[at(mesh.triangles[at(t)].edges[at(k)])] == 1)
+        rims.push_back({t, k});
+  return rims;
+}
+
+double relative_resolution(const TorusMesh &mesh)
+{
+  double shortest = std::numeric_limits<double>::infinity();
+  for (const TorusEdge &edge : mesh.edges)
+    shortest = std::min(shortest, edge.vector.norm());
+  return shortest / std::sqrt(mesh.lattice.area());
+}
+} // namespace homespun::homogenization

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: MIT
+// A unit cell as the user describes it: a .prm file that names a mesh and the materials of its
+// groups. Reading it means validating it: all faults are reported at once.
+#pragma once
+
+#include "homogenization/cell/curved_sides.h"
+#include "homogenization/cell/material.h"
+#include "meshes/plain/lattice.h"
+#include "meshes/plain/triangle_mesh.h"
+
+#include <string>
+#include <vector>
+
+namespace homespun::homogenization
+{
+/// A periodic cell in SI units. mesh.material holds indices into phases.
+struct UnitCell
+{
+  std::string name;          ///< the file's name without its ending
+  std::string file;          ///< the .prm file
+  meshes::TriangleMesh mesh; ///< [m]
+  meshes::Lattice lattice;
+  std::vector<Phase> phases;
+  std::vector<CurvedSide> curved_sides; ///< of the mesh, where the drawing has arcs
+
+  /// Membrane stiffness of each phase, (3,3) [N/m].
+  std::vector<Eigen::Matrix3d> stiffness_of_phase() const;
+
+  /// The group of each phase, 0, 1, ... as they first appear. Phases of one name differ in their angle alone, where
+  /// the mesh has an angle per triangle; else each is a group of its own.
+  std::vector<int> group_of_phase() const;
+
+  /// The first phase of each group.
+  std::vector<int> phase_of_group() const;
+
+  /// Mass per area of the cell, sum over triangles of area x thickness x density / |Y| [kg/m^2].
+  double areal_density() const;
+};
+
+/// Reads and validates a cell file.
+/// @throws BadInput with one message per fault, each naming the file and the key, group or element
+UnitCell read_unit_cell(const std::string &prm_file);
+
+/// The documented keys of a cell file, in deal.II's .prm syntax.
+std::string unit_cell_keys();
+} // namespace homespun::homogenization

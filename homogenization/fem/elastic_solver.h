@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: MIT
+// The linear algebra that cell problems and references share: a distributed stiffness matrix,
+// Trilinos' algebraic multigrid with the rigid body modes (in space: the translations), conjugate
+// gradients.
+#pragma once
+
+#include "homogenization/fem/discretization.h"
+
+#include <deal.II/lac/affine_constraints.h>
+#include <deal.II/lac/trilinos_precondition.h>
+#include <deal.II/lac/trilinos_sparse_matrix.h>
+#include <deal.II/lac/trilinos_vector.h>
+
+#include <limits>
+
+namespace homespun::homogenization
+{
+/// Elasticity with the preconditioner kept between solves, because nearby matrices (the steps of
+/// Newton's method) can share one.
+class ElasticSolver
+{
+public:
+  using Vector = dealii::TrilinosWrappers::MPI::Vector;
+
+  /// Lays out the matrix for the given constraints (whose masters may live on another rank).
+  ElasticSolver(const Discretization &discretization,
+                const dealii::AffineConstraints<double> &constraints);
+
+  /// A vector of the DoFs that this rank owns, zero.
+  Vector owned_vector() const;
+
+  /// Builds the multigrid hierarchy from the present matrix.
+  void build_preconditioner();
+
+  bool has_preconditioner() const
+  {
+    return preconditioner != nullptr;
+  }
+
+  /// Conjugate gradients from the given start until the residual r = b − A x has |r| <= tolerance and, with the
+  /// preconditioner M, r . M^-1 r <= energy_tolerance. The latter is about twice the energy of the error: where stiff
+  /// parts lie in soft ones the former is that of the stiff parts, and says nothing of the soft ones.
+  /// A start that meets the first is left as it is: what it misses is round-off.
+  /// @param tolerance absolute, in the unit of the right-hand side
+  /// @param energy_tolerance absolute [J]
+  /// @return number of iterations
+  /// @throws NotConverged with the residual history after `max_iterations`, or where the matrix or
+  ///   the preconditioner turns out not to be positive definite
+  unsigned int solve(Vector &solution, const Vector &right_hand_side, double tolerance,
+                     unsigned int max_iterations = 2000,
+                     double energy_tolerance     = std::numeric_limits<double>::infinity());
+
+  dealii::TrilinosWrappers::SparseMatrix matrix;
+
+private:
+  const Discretization &discretization;
+  std::vector<double> rigid_modes;
+  std::unique_ptr<dealii::TrilinosWrappers::PreconditionAMG> preconditioner;
+};
+} // namespace homespun::homogenization

@@ -1,0 +1,284 @@
+// SPDX-License-Identifier: MIT
+#include "homogenization/fem/homogenize.h"
+
+#include "homogenization/fem/elastic_solver.h"
+#include "homogenization/fem/load_checkpoint.h"
+#include "homogenization/fem/solution_pieces.h"
+#include "meshes/plain/refine.h"
+
+#include <deal.II/base/mpi.h>
+#include <deal.II/base/timer.h>
+
+#include <Eigen/Cholesky>
+
+#include <cmath>
+
+namespace homespun::homogenization
+{
+using namespace dealii;
+using Vector = ElasticSolver::Vector;
+
+namespace
+{
+/// The 3 x 2n strain-displacement matrix B of a triangle at one quadrature point.
+template <int n_shapes>
+Eigen::Matrix<double, 3, 2 * n_shapes>
+strain_displacement(const AffineTriangle &triangle,
+                    const std::vector<Eigen::Vector2d> &reference_gradients)
+{
+  Eigen::Matrix<double, 3, 2 * n_shapes> B;
+  for (int i = 0; i < n_shapes; ++i)
+  {
+    const Eigen::Vector2d g =
+      triangle.inverse_transpose * reference_gradients[static_cast<std::size_t>(i)];
+    B.col(2 * i) << g(0), 0., g(1);
+    B.col(2 * i + 1) << 0., g(1), g(0);
+  }
+  return B;
+}
+
+constexpr unsigned int most_iterations = 2000; ///< of conjugate gradients
+
+/// Of a positive definite matrix. Not by cofactors, whose determinant loses twice the digits of the condition number.
+Eigen::Matrix3d inverse_of(const Eigen::Matrix3d &matrix)
+{
+  return matrix.ldlt().solve(Eigen::Matrix3d::Identity());
+}
+
+/// The cell problems on one mesh.
+class CellProblems
+{
+public:
+  CellProblems(const UnitCell &cell, const HomogenizationOptions &options,
+               const MPI_Comm communicator)
+      : cell(cell)
+      , options(options)
+      , stiffness_of_phase(cell.stiffness_of_phase())
+      , discretization(meshes::refined(cell.mesh, static_cast<int>(options.refine)), options.order,
+                       communicator)
+  {
+  }
+
+  Homogenization run()
+  {
+    constrain();
+    solver = std::make_unique<ElasticSolver>(discretization, constraints);
+    lap(result.seconds.setup);
+    options.order == 1 ? assemble<3>() : assemble<6>();
+    lap(result.seconds.assembly);
+    solver->build_preconditioner();
+    lap(result.seconds.preconditioner);
+    solve();
+    lap(result.seconds.solve);
+    options.order == 1 ? evaluate<3>() : evaluate<6>();
+    sample_at_vertices();
+    if (!options.pieces.empty())
+      write_pieces(options.pieces, discretization, solutions);
+    lap(result.seconds.evaluation);
+    return result;
+  }
+
+private:
+  void lap(double &seconds)
+  {
+    seconds = Utilities::MPI::max(timer.wall_time(), discretization.communicator);
+    timer.restart();
+  }
+
+  void constrain()
+  {
+    result.anchor                   = meshes::anchor_vertex(cell.mesh, cell.lattice);
+    const Eigen::RowVector2d anchor = cell.mesh.vertices.row(result.anchor);
+    const std::vector<Node> nodes   = discretization.boundary_nodes();
+    make_periodic_constraints(discretization, cell.lattice, anchor, nodes, constraints);
+    result.audit =
+      audit_periodic_constraints(discretization, cell.lattice, anchor, nodes, constraints);
+    result.n_dofs = discretization.dof_handler.n_dofs();
+  }
+
+  template <int n_shapes>
+  void assemble()
+  {
+    constexpr int n = 2 * n_shapes;
+    for (int a = 0; a < 3; ++a)
+    {
+      loads[a]      = solver->owned_vector();
+      load_sizes[a] = 0.;
+    }
+    const ReferenceElement &reference = discretization.stiffness_quadrature;
+    std::vector<types::global_dof_index> dofs(n);
+    FullMatrix<double> matrix(n, n);
+    dealii::Vector<double> load(n);
+    for (const auto &dealii_cell : discretization.dof_handler.active_cell_iterators())
+    {
+      if (!dealii_cell->is_locally_owned())
+        continue;
+      const unsigned int t = Discretization::triangle_of(dealii_cell);
+      const AffineTriangle triangle(discretization.mesh, t);
+      const Eigen::Matrix3d &c =
+        stiffness_of_phase[static_cast<std::size_t>(discretization.mesh.material(t))];
+
+      Eigen::Matrix<double, n, n> element_matrix = Eigen::Matrix<double, n, n>::Zero();
+      Eigen::Matrix<double, n, 3> element_loads  = Eigen::Matrix<double, n, 3>::Zero();
+      for (std::size_t q = 0; q < reference.weights.size(); ++q)
+      {
+        const auto B        = strain_displacement<n_shapes>(triangle, reference.gradients[q]);
+        const double weight = reference.weights[q] * triangle.determinant;
+        const Eigen::Matrix<double, n, 3> stress_rows = weight * B.transpose() * c;
+        element_matrix.noalias() += stress_rows * B;
+        element_loads += stress_rows; // B^T c e_a for the three unit strains
+      }
+      dealii_cell->get_dof_indices(dofs);
+      for (int i = 0; i < n; ++i)
+        for (int j = 0; j < n; ++j)
+          matrix(static_cast<unsigned int>(i), static_cast<unsigned int>(j)) = element_matrix(i, j);
+      constraints.distribute_local_to_global(matrix, dofs, solver->matrix);
+      for (int a = 0; a < 3; ++a)
+      {
+        for (int i = 0; i < n; ++i)
+          load(static_cast<unsigned int>(i)) = element_loads(i, a);
+        constraints.distribute_local_to_global(load, dofs, loads[a]);
+        load_sizes[a] += element_loads.col(a).squaredNorm();
+      }
+    }
+    solver->matrix.compress(VectorOperation::add);
+    for (int a = 0; a < 3; ++a)
+    {
+      loads[a].compress(VectorOperation::add);
+      load_sizes[a] = std::sqrt(Utilities::MPI::sum(load_sizes[a], discretization.communicator));
+    }
+  }
+
+  /// Twice the energies of the unit strains if all triangles had the same stress [J].
+  Eigen::Vector3d energies_at_equal_stress() const
+  {
+    const Eigen::VectorXd areas = meshes::signed_areas(cell.mesh);
+    Eigen::Matrix3d compliance  = Eigen::Matrix3d::Zero();
+    for (int t = 0; t < cell.mesh.n_triangles(); ++t)
+      compliance +=
+        areas(t) * inverse_of(stiffness_of_phase[static_cast<std::size_t>(cell.mesh.material(t))]);
+    return std::pow(areas.sum(), 2) * inverse_of(compliance).diagonal();
+  }
+
+  /// The tolerance is relative to the element loads before they cancel: in a homogeneous cell what
+  /// is left of them is round-off, and chi is exactly zero. These loads are those of the stiff phases; what is left of the
+  /// energy of the error is held against the soft ones, with the mean of their compliance.
+  void solve()
+  {
+    const Eigen::Vector3d softest = energies_at_equal_stress();
+    const LoadCheckpoint checkpoint(options.checkpoint, discretization.communicator);
+    IndexSet ghosted = constraints.get_local_lines();
+    for (int a = 0; a < 3; ++a)
+    {
+      Vector owned           = solver->owned_vector();
+      const bool is_taken_up = checkpoint.read(a, owned);
+      result.loads_taken_up += is_taken_up ? 1 : 0;
+      result.iterations[a] =
+        solver->solve(owned, loads[a], options.tolerance * load_sizes[a], most_iterations,
+                      std::pow(1e2 * options.tolerance, 2) * softest(a));
+      if (!is_taken_up)
+        checkpoint.write(a, owned);
+      constraints.distribute(owned);
+      solutions[a].reinit(discretization.locally_owned, ghosted, discretization.communicator);
+      solutions[a] = owned;
+    }
+  }
+
+  template <int n_shapes>
+  void evaluate()
+  {
+    constexpr int n                   = 2 * n_shapes;
+    const ReferenceElement &reference = discretization.stiffness_quadrature;
+    std::vector<types::global_dof_index> dofs(n);
+    Eigen::Matrix3d energy = Eigen::Matrix3d::Zero(), flux = Eigen::Matrix3d::Zero();
+    Eigen::Matrix3d mean = Eigen::Matrix3d::Zero(), mean_compliance = Eigen::Matrix3d::Zero();
+    std::vector<Eigen::Matrix3d> compliance_of_phase;
+    for (const Eigen::Matrix3d &c : stiffness_of_phase)
+      compliance_of_phase.push_back(inverse_of(c));
+    for (const auto &dealii_cell : discretization.dof_handler.active_cell_iterators())
+    {
+      if (!dealii_cell->is_locally_owned())
+        continue;
+      const unsigned int t = Discretization::triangle_of(dealii_cell);
+      const AffineTriangle triangle(discretization.mesh, t);
+      const auto phase         = static_cast<std::size_t>(discretization.mesh.material(t));
+      const Eigen::Matrix3d &c = stiffness_of_phase[phase];
+      dealii_cell->get_dof_indices(dofs);
+      Eigen::Matrix<double, n, 3> chi;
+      for (int a = 0; a < 3; ++a)
+        for (int i = 0; i < n; ++i)
+          chi(i, a) = solutions[a](dofs[static_cast<std::size_t>(i)]);
+      for (std::size_t q = 0; q < reference.weights.size(); ++q)
+      {
+        const auto B        = strain_displacement<n_shapes>(triangle, reference.gradients[q]);
+        const double weight = reference.weights[q] * triangle.determinant;
+        const Eigen::Matrix3d strain = Eigen::Matrix3d::Identity() - B * chi;
+        energy += weight * strain.transpose() * c * strain;
+        flux += weight * c * strain;
+        mean += weight * c;
+        mean_compliance += weight * compliance_of_phase[phase];
+      }
+    }
+    const auto averaged = [&](Eigen::Matrix3d matrix) -> Eigen::Matrix3d
+    {
+      MPI_Allreduce(MPI_IN_PLACE, matrix.data(), 9, MPI_DOUBLE, MPI_SUM,
+                    discretization.communicator);
+      return matrix / cell.lattice.area();
+    };
+    const Eigen::Matrix3d unsymmetric = averaged(energy);
+    result.stiffness                  = 0.5 * (unsymmetric + unsymmetric.transpose());
+    result.stiffness_by_flux          = averaged(flux);
+    result.voigt                      = averaged(mean);
+    // With holes the mean compliance is infinite and the bound is zero.
+    const double covered = meshes::signed_areas(cell.mesh).sum() / cell.lattice.area();
+    result.reuss =
+      covered < 1. - 1e-9 ? Eigen::Matrix3d::Zero() : inverse_of(averaged(mean_compliance));
+  }
+
+  void sample_at_vertices()
+  {
+    const auto dofs = discretization.vertex_dofs();
+    const int n     = cell.mesh.n_vertices(); // refinement keeps these in front
+    result.chi.setZero(n, 6);
+    for (int v = 0; v < n; ++v)
+      for (int a = 0; a < 3; ++a)
+        for (int c = 0; c < 2; ++c)
+          if (discretization.locally_owned.is_element(dofs(v, c)))
+            result.chi(v, 2 * a + c) = solutions[a](dofs(v, c));
+    MPI_Allreduce(MPI_IN_PLACE, result.chi.data(), static_cast<int>(result.chi.size()), MPI_DOUBLE,
+                  MPI_SUM, discretization.communicator);
+  }
+
+  const UnitCell &cell;
+  const HomogenizationOptions options;
+  const std::vector<Eigen::Matrix3d> stiffness_of_phase;
+  Timer timer; ///< started before the discretization is made
+  const Discretization discretization;
+  AffineConstraints<double> constraints;
+  std::unique_ptr<ElasticSolver> solver;
+  std::array<Vector, 3> loads;
+  std::array<double, 3> load_sizes;
+  std::array<Vector, 3> solutions;
+  Homogenization result;
+};
+} // namespace
+
+Homogenization homogenize(const UnitCell &cell, const HomogenizationOptions &options,
+                          const MPI_Comm communicator)
+{
+  return CellProblems(cell, options, communicator).run();
+}
+
+meshes::HomogenizedCell homogenized_cell(const UnitCell &cell, const Homogenization &result,
+                                         const std::string &provenance)
+{
+  return {cell.mesh,        cell.lattice,         result.chi, result.anchor,
+          result.stiffness, cell.areal_density(), provenance};
+}
+
+EngineeringConstants engineering_constants(const Eigen::Matrix3d &stiffness)
+{
+  const Eigen::Matrix3d S = inverse_of(stiffness);
+  return {1. / S(0, 0), 1. / S(1, 1), 1. / S(2, 2), -S(0, 1) / S(0, 0), -S(0, 1) / S(1, 1)};
+}
+} // namespace homespun::homogenization

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: MIT
+// Homogenization of a periodic unit cell (paper Eqs. 1-4): three cell problems, the effective
+// stiffness from their energies, and the checks that come for free.
+#pragma once
+
+#include "homogenization/cell/unit_cell.h"
+#include "homogenization/fem/periodic_constraints.h"
+#include "meshes/plain/homogenized_cell.h"
+
+#include <mpi.h>
+
+#include <array>
+#include <string>
+
+namespace homespun::homogenization
+{
+struct HomogenizationOptions
+{
+  unsigned int order  = 2;     ///< 1 or 2, of the displacement elements
+  unsigned int refine = 0;     ///< uniform refinements of the given mesh before the solve
+  double tolerance    = 1e-11; ///< of |residual|, relative to the summed size of the element loads
+  std::string
+    checkpoint; ///< folder of the loads that are done (LoadCheckpoint), of this problem alone; empty: none
+  std::string pieces; ///< path without ending of .pvtu and its pieces (write_pieces()); empty: none
+};
+
+/// Seconds of each stage on the slowest rank.
+struct HomogenizationSeconds
+{
+  double setup = 0., assembly = 0., preconditioner = 0., solve = 0., evaluation = 0.;
+};
+
+struct Homogenization
+{
+  meshes::CharacteristicDisplacements chi; ///< (n,6) at the vertices of the given mesh [m]
+  int anchor;                              ///< vertex where chi = 0
+  Eigen::Matrix3d stiffness;               ///< C^H from the energies [N/m]
+  Eigen::Matrix3d stiffness_by_flux;       ///< C^H from Eq. 4, the mean stress [N/m]
+  Eigen::Matrix3d voigt;                   ///< mean of c [N/m]
+  Eigen::Matrix3d reuss;                   ///< inverse of the mean of c^-1 [N/m]
+  unsigned long n_dofs;
+  std::array<unsigned int, 3>
+    iterations; ///< of the conjugate gradients, per load, since the start of this run
+  unsigned int loads_taken_up = 0; ///< of a run before, see LoadCheckpoint
+  ConstraintAudit audit;
+  HomogenizationSeconds seconds;
+};
+
+/// Solves the cell problems: find periodic chi_a with
+///   integral eps(v) : c : eps(chi_a) = integral eps(v) : c : e_a   for all periodic v,
+/// for the unit macro strains e_a, a = 11, 22, 12 (engineering shear), and forms
+///   C^H_ab = 1/|Y| integral (e_a − eps(chi_a)) : c : (e_b − eps(chi_b)),
+/// the energy form, which is symmetric, approaches the exact C^H from above and differs from
+/// Eq. 4, 1/|Y| integral e_a : c : (e_b − eps(chi_b)), by what the solver left undone.
+/// Discretization error: O(h^2) for P1, O(h^4) for P2 on smooth solutions; at corners of a phase less.
+///
+/// @throws NotConverged with the residual history; BadInput where the cell is not periodic;
+///   std::logic_error where the audit of the constraints fails
+/// Source: the paper, Eqs. 2-4, with I as diag(1,1,1) on strains with engineering shear.
+Homogenization homogenize(const UnitCell &cell, const HomogenizationOptions &options,
+                          MPI_Comm communicator);
+
+/// What the runtime needs of it.
+meshes::HomogenizedCell homogenized_cell(const UnitCell &cell, const Homogenization &result,
+                                         const std::string &provenance);
+
+/// Engineering constants of a membrane stiffness, from the compliance S = C^-1:
+/// E1 = 1/S11, E2 = 1/S22, G12 = 1/S66 [N/m], nu12 = −S12/S11, nu21 = −S12/S22.
+struct EngineeringConstants
+{
+  double E1, E2, G12, nu12, nu21;
+};
+EngineeringConstants engineering_constants(const Eigen::Matrix3d &stiffness);
+} // namespace homespun::homogenization

@@ -1,0 +1,366 @@
+// SPDX-License-Identifier: MIT
+#include "homogenization/lint/cell_lint.h"
+
+#include "homogenization/lint/mechanisms.h"
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <sstream>
+#include <unordered_map>
+
+namespace homespun::homogenization
+{
+using meshes::Lattice;
+using meshes::Place;
+using meshes::TriangleMesh;
+
+namespace
+{
+/// The P1 stiffness of a triangle grows as one over the sine of its smallest angle: eleven times here.
+constexpr double smallest_angle = 5.; // [deg]
+
+/// Of one kind no more than this many are told one by one.
+constexpr int most_of_a_kind = 3;
+
+/// A thousandth of the tolerance of images, 1e-10 of the cell: coordinates of 16 digits that were made alike agree to
+/// 1e-14, Gmsh's periodic curves and files with 14 digits to 1e-13. What lies between was rounded to few digits or single
+/// precision, or meshed apart and luckily alike, and may fail after the next change.
+constexpr double nearly = 1e-3;
+
+/// Where something is, in the unit of the mesh file.
+std::string at(const Eigen::RowVector2d &point, const double metres_per_unit)
+{
+  std::ostringstream text;
+  text.precision(6);
+  text << " at (" << point(0) / metres_per_unit << ", " << point(1) / metres_per_unit
+       << ") in the mesh's unit";
+  return text.str();
+}
+
+Place place_of(const TriangleMesh &mesh, const int t)
+{
+  return {(mesh.vertices.row(mesh.triangles(t, 0)) + mesh.vertices.row(mesh.triangles(t, 1)) +
+           mesh.vertices.row(mesh.triangles(t, 2))) /
+            3.,
+          t, -1};
+}
+
+double angle_at(const TriangleMesh &mesh, const int t, const int k)
+{
+  const Eigen::RowVector2d x = mesh.vertices.row(mesh.triangles(t, k));
+  const Eigen::RowVector2d a = mesh.vertices.row(mesh.triangles(t, (k + 1) % 3)) - x;
+  const Eigen::RowVector2d b = mesh.vertices.row(mesh.triangles(t, (k + 2) % 3)) - x;
+  return std::atan2(std::abs(a(0) * b(1) - a(1) * b(0)), a.dot(b)) * 180. / M_PI;
+}
+
+} // namespace
+
+std::vector<Finding> lint_slivers(const TriangleMesh &mesh, const double metres_per_unit)
+{
+  int n = 0, worst = -1;
+  double least = smallest_angle;
+  for (int t = 0; t < mesh.n_triangles(); ++t)
+  {
+    const double angle =
+      std::min({angle_at(mesh, t, 0), angle_at(mesh, t, 1), angle_at(mesh, t, 2)});
+    n += angle < smallest_angle ? 1 : 0;
+    if (angle < least)
+    {
+      least = angle;
+      worst = t;
+    }
+  }
+  if (worst < 0)
+    return {};
+  std::ostringstream what, remedy;
+  what << n << (n == 1 ? " sliver" : " slivers") << ": triangle " << worst
+       << at(place_of(mesh, worst).point, metres_per_unit) << " has an angle of " << least
+       << " degrees";
+  remedy
+    << "expected at least " << smallest_angle
+    << ", below which solvers slow down and fields are wrong there: remesh, or merge points that nearly coincide";
+  return {{Severity::warning, "sliver", what.str(), remedy.str(), place_of(mesh, worst)}};
+}
+
+std::vector<Finding> lint_coincidence(const TriangleMesh &mesh, const double metres_per_unit)
+{
+  // Only vertices on a boundary can lie side by side without being joined.
+  std::unordered_map<long, int> n_triangles;
+  const auto key = [&](const int a, const int b)
+  { return static_cast<long>(std::min(a, b)) * mesh.n_vertices() + std::max(a, b); };
+  for (int t = 0; t < mesh.n_triangles(); ++t)
+    for (int k = 0; k < 3; ++k)
+      ++n_triangles[key(mesh.triangles(t, k), mesh.triangles(t, (k + 1) % 3))];
+  std::vector<int> boundary;
+  for (const auto &[edge, n] : n_triangles)
+    if (n == 1)
+    {
+      boundary.push_back(static_cast<int>(edge / mesh.n_vertices()));
+      boundary.push_back(static_cast<int>(edge % mesh.n_vertices()));
+    }
+  std::sort(boundary.begin(), boundary.end());
+  boundary.erase(std::unique(boundary.begin(), boundary.end()), boundary.end());
+  // By x, so that candidates are neighbours.
+  std::stable_sort(boundary.begin(), boundary.end(),
+                   [&](const int a, const int b)
+                   { return mesh.vertices(a, 0) < mesh.vertices(b, 0); });
+  const Eigen::RowVector2d size =
+    mesh.vertices.colwise().maxCoeff() - mesh.vertices.colwise().minCoeff();
+  const double tolerance = meshes::image_tolerance * size.norm();
+  int n = 0, first = -1, other = -1;
+  std::size_t open = 0;
+  for (std::size_t i = 0; i < boundary.size(); ++i)
+  {
+    const Eigen::RowVector2d x = mesh.vertices.row(boundary[i]);
+    while (x(0) - mesh.vertices(boundary[open], 0) > tolerance)
+      ++open;
+    for (std::size_t k = open; k < i; ++k)
+      if ((mesh.vertices.row(boundary[k]) - x).norm() <= tolerance)
+      {
+        if (n++ == 0)
+        {
+          first = boundary[k];
+          other = boundary[i];
+        }
+        break;
+      }
+  }
+  if (n == 0)
+    return {};
+  const Place place{mesh.vertices.row(first), -1, first};
+  return {
+    {Severity::error, "coinciding vertices",
+     std::to_string(n) + (n == 1 ? " pair" : " pairs") +
+       " of vertices coincide without being one, the first " + std::to_string(first) + " and " +
+       std::to_string(other) + at(place.point, metres_per_unit) +
+       ": parts that lie side by side there are not joined",
+     "expected one vertex at a place: join the parts before meshing (Gmsh: BooleanFragments, or "
+     "Coherence)",
+     place}};
+}
+
+std::vector<Finding> lint_sides(const TriangleMesh &mesh, const Lattice &lattice,
+                                const double metres_per_unit)
+{
+  const std::vector<int> outer = meshes::outline(mesh);
+  meshes::Points points(static_cast<Eigen::Index>(outer.size()), 2);
+  for (std::size_t k = 0; k < outer.size(); ++k)
+    points.row(static_cast<Eigen::Index>(k)) = mesh.vertices.row(outer[k]);
+  const meshes::ImageClasses classes = meshes::match_images(points, lattice);
+  const double tolerance             = meshes::image_tolerance * std::sqrt(lattice.area());
+  double widest                      = nearly * tolerance;
+  Eigen::Index worst                 = -1;
+  for (Eigen::Index k = 0; k < points.rows(); ++k)
+  {
+    const int image  = classes.representative[static_cast<std::size_t>(k)];
+    const double gap = lattice.shortest(points.row(k) - points.row(image)).norm();
+    if (gap > widest)
+    {
+      widest = gap;
+      worst  = k;
+    }
+  }
+  if (worst < 0)
+    return {};
+  const int vertex = outer[static_cast<std::size_t>(worst)];
+  const int image =
+    outer[static_cast<std::size_t>(classes.representative[static_cast<std::size_t>(worst)])];
+  std::ostringstream what, remedy;
+  what << "opposite sides match only just: vertex " << vertex
+       << at(mesh.vertices.row(vertex), metres_per_unit) << " and its image, vertex " << image
+       << at(mesh.vertices.row(image), metres_per_unit) << ", are off by "
+       << widest / metres_per_unit << ", " << 100. * widest / tolerance << " % of the tolerance";
+  remedy
+    << "expected less than " << nearly * tolerance / metres_per_unit
+    << ": write coordinates in double precision with 16 digits, and mesh opposite sides alike (Gmsh: Periodic Curve)";
+  return {{Severity::warning,
+           "nearly unmatched",
+           what.str(),
+           remedy.str(),
+           {mesh.vertices.row(vertex), -1, vertex}}};
+}
+
+std::vector<Finding> lint_mechanisms(const TriangleMesh &mesh, const Lattice &lattice,
+                                     const double metres_per_unit)
+{
+  std::vector<Finding> findings;
+  const Mechanisms found = find_mechanisms(mesh, lattice);
+  int n_free             = 0;
+  for (const MeshPart &part : found.parts)
+  {
+    if (!part.is_free || ++n_free > most_of_a_kind)
+      continue;
+    std::ostringstream what;
+    what << "a part of " << part.n_triangles
+         << (part.n_triangles == 1 ? " triangle, " : " triangles, ")
+         << 100. * part.area / lattice.area() << " % of the cell,"
+         << at(part.place.point, metres_per_unit);
+    if (part.n_joints == 0)
+      what << " floats: nothing holds it";
+    else if (part.n_joints == 1)
+      what << " hangs on a single vertex and turns freely";
+    else
+      what << " moves freely on the " << part.n_joints << " vertices that hold it";
+    findings.push_back(
+      {Severity::error, part.n_joints == 0 ? "floating part" : "mechanism", what.str(),
+       "expected every part to be connected along edges: join it to the rest so that they share the "
+       "points between them (Gmsh: BooleanFragments), fill the void with a soft phase, or remove the part",
+       part.place});
+  }
+  if (n_free > most_of_a_kind)
+    findings.push_back(
+      {Severity::error,
+       "floating part",
+       "and " + std::to_string(n_free - most_of_a_kind) + " more parts that move freely",
+       "",
+       {}});
+  if (found.free_strains.cols() > 0)
+  {
+    std::ostringstream what;
+    what.precision(3);
+    what << "nothing resists the macro strain (e11, e22, gamma12) = ("
+         << found.free_strains.col(0).transpose() << "): C^H would be singular";
+    if (found.parts[0].n_periods < 2)
+      what << ", for the largest part is connected with its own images across "
+           << found.parts[0].n_periods << " of 2 periods";
+    findings.push_back(
+      {Severity::error, "singular stiffness", what.str(),
+       "expected a cell that is connected along edges across both lattice vectors: mesh the "
+       "connection, or fill the void with a soft phase",
+       found.parts[0].place});
+  }
+  if (!found.is_determined)
+    findings.push_back(
+      {Severity::error, "mechanism",
+       "the mesh falls into " + std::to_string(found.parts.size()) +
+         " parts that share no edge, more than the " + std::to_string(most_parts) +
+         " of which free motions are looked for: whether they hold one another is not known",
+       "expected parts to be connected along edges: widen the bridges, or join parts that lie side by side "
+       "(Gmsh: BooleanFragments, or Coherence)",
+       found.parts[1].place});
+  int n_hinges = 0;
+  for (const int vertex : found.hinges)
+    if (++n_hinges <= most_of_a_kind)
+      findings.push_back(
+        {Severity::warning,
+         "hinge",
+         "parts meet in nothing but vertex " + std::to_string(vertex) +
+           at(mesh.vertices.row(vertex), metres_per_unit) +
+           ", a hinge: a point has no stiffness, so that results follow the mesh width there",
+         "expected parts to meet along edges: widen the bridge, or leave a gap",
+         {mesh.vertices.row(vertex), -1, vertex}});
+  if (n_hinges > most_of_a_kind)
+    findings.push_back({Severity::warning,
+                        "hinge",
+                        "and " + std::to_string(n_hinges - most_of_a_kind) + " more hinges",
+                        "",
+                        {}});
+  return findings;
+}
+
+std::vector<Finding> lint_thin_parts(const UnitCell &cell, const double metres_per_unit)
+{
+  const TriangleMesh &mesh = cell.mesh;
+  // Images count as one vertex, so that the sides of the cell are no boundary of a part.
+  std::vector<int> torus(static_cast<std::size_t>(mesh.n_vertices()));
+  for (int v = 0; v < mesh.n_vertices(); ++v)
+    torus[static_cast<std::size_t>(v)] = v;
+  const std::vector<int> outer = meshes::outline(mesh);
+  meshes::Points points(static_cast<Eigen::Index>(outer.size()), 2);
+  for (std::size_t k = 0; k < outer.size(); ++k)
+    points.row(static_cast<Eigen::Index>(k)) = mesh.vertices.row(outer[k]);
+  const meshes::ImageClasses classes = meshes::match_images(points, cell.lattice);
+  for (std::size_t k = 0; k < outer.size(); ++k)
+    torus[static_cast<std::size_t>(outer[k])] =
+      outer[static_cast<std::size_t>(classes.representative[k])];
+  const auto vertex = [&](const int t, const int k)
+  { return torus[static_cast<std::size_t>(mesh.triangles(t, k % 3))]; };
+
+  const std::vector<int> group_of_phase = cell.group_of_phase();
+  const auto group                      = [&](const int t)
+  { return group_of_phase[static_cast<std::size_t>(mesh.material(t))]; };
+
+  struct Edge
+  {
+    int first = -1, second = -1; ///< triangles
+    bool is_inside = false;      ///< of one group
+  };
+  std::unordered_map<long, Edge> edges;
+  const auto key = [&](const int t, const int k)
+  {
+    const int a = vertex(t, k), b = vertex(t, k + 1);
+    return static_cast<long>(std::min(a, b)) * mesh.n_vertices() + std::max(a, b);
+  };
+  for (int t = 0; t < mesh.n_triangles(); ++t)
+    for (int k = 0; k < 3; ++k)
+    {
+      Edge &edge                                  = edges[key(t, k)];
+      (edge.first < 0 ? edge.first : edge.second) = t;
+    }
+  std::vector<char> on_boundary(static_cast<std::size_t>(mesh.n_vertices()), 0);
+  for (auto &[its_key, edge] : edges)
+  {
+    edge.is_inside = edge.second >= 0 && group(edge.first) == group(edge.second);
+    if (!edge.is_inside)
+      for (const long end : {its_key / mesh.n_vertices(), its_key % mesh.n_vertices()})
+        on_boundary[static_cast<std::size_t>(end)] = 1;
+  }
+  // Two triangles side by side whose other boundaries have no vertex in common: both banks of a strip. In a corner they
+  // would have one in common.
+  struct Thin
+  {
+    int n = 0, triangle = -1;
+    double least = std::numeric_limits<double>::infinity();
+  };
+  const std::vector<int> phase_of_group = cell.phase_of_group();
+  std::vector<Thin> thin(phase_of_group.size());
+  for (const auto &[its_key, edge] : edges)
+  {
+    if (!edge.is_inside || !on_boundary[static_cast<std::size_t>(its_key / mesh.n_vertices())] ||
+        !on_boundary[static_cast<std::size_t>(its_key % mesh.n_vertices())])
+      continue;
+    bool is_strip = false;
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j)
+      {
+        const int a = vertex(edge.first, i), b = vertex(edge.first, i + 1),
+                  c = vertex(edge.second, j), d = vertex(edge.second, j + 1);
+        is_strip = is_strip ||
+                   (!edges[key(edge.first, i)].is_inside && !edges[key(edge.second, j)].is_inside &&
+                    a != c && a != d && b != c && b != d);
+      }
+    if (!is_strip)
+      continue;
+    Thin &its = thin[static_cast<std::size_t>(group(edge.first))];
+    ++its.n;
+    const auto [low, high] = std::minmax(edge.first, edge.second);
+    if (its.triangle < 0 || low < its.triangle)
+      its.triangle = low;
+    double shortest = std::numeric_limits<double>::infinity();
+    for (int k = 0; k < 3; ++k)
+      shortest = std::min(shortest, (mesh.vertices.row(mesh.triangles(high, k)) -
+                                     mesh.vertices.row(mesh.triangles(high, (k + 1) % 3)))
+                                      .norm());
+    its.least = std::min(its.least, shortest);
+  }
+  std::vector<Finding> findings;
+  for (std::size_t p = 0; p < thin.size(); ++p)
+    if (thin[p].n > 0)
+    {
+      const Place place = place_of(mesh, thin[p].triangle);
+      std::ostringstream what;
+      what << "phase `" << cell.phases[static_cast<std::size_t>(phase_of_group[p])].name
+           << "` has a single element across in " << thin[p].n
+           << (thin[p].n == 1 ? " place" : " places") << ", the first"
+           << at(place.point, metres_per_unit);
+      findings.push_back(
+        {Severity::warning, "one element across", what.str(),
+         "expected two or more, because one cannot bend: mesh finer there, or compute with --order 2 or --refine 1",
+         place});
+    }
+  return findings;
+}
+} // namespace homespun::homogenization

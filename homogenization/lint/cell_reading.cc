@@ -1,0 +1,232 @@
+// SPDX-License-Identifier: MIT
+#include "homogenization/lint/cell_reading.h"
+
+#include "homogenization/cell/cell_keys.h"
+#include "homogenization/cell/torus_mesh.h"
+#include "homogenization/lint/cell_lint.h"
+#include "meshes/plain/errors.h"
+
+#include <cmath>
+#include <filesystem>
+#include <sstream>
+
+namespace homespun::homogenization
+{
+namespace
+{
+void add(std::vector<Finding> &findings, const std::string &kind,
+         const std::vector<std::string> &messages)
+{
+  for (const std::string &message : messages)
+    findings.push_back(finding_of(kind, message));
+}
+
+void add(std::vector<Finding> &findings, const std::string &kind,
+         const std::vector<meshes::MeshFault> &faults)
+{
+  for (const meshes::MeshFault &fault : faults)
+    findings.push_back(finding_of(kind, fault.message, fault.place));
+}
+
+/// Adds what was found in a file.
+void append(std::vector<Finding> &findings, const std::string &file, std::vector<Finding> more)
+{
+  for (Finding &finding : more)
+  {
+    finding.what = file + ": " + finding.what;
+    findings.push_back(std::move(finding));
+  }
+}
+
+/// A part can only move where the mesh has a boundary other than its outline.
+bool may_move(const meshes::TriangleMesh &mesh)
+{
+  return meshes::boundary_loops(mesh).size() > 1;
+}
+
+/// Pieces side by side: boundary loops other than the outline that reach beyond its box. What lies inside is left to
+/// lint_mechanisms().
+std::vector<meshes::MeshFault> piece_faults(const meshes::TriangleMesh &mesh,
+                                            const std::string &name)
+{
+  const std::vector<int> outer = meshes::outline(mesh);
+  Eigen::RowVector2d low = mesh.vertices.row(outer[0]), high = low;
+  for (const int v : outer)
+  {
+    low  = low.cwiseMin(mesh.vertices.row(v));
+    high = high.cwiseMax(mesh.vertices.row(v));
+  }
+  const double slack = 1e-6 * (high - low).norm();
+  int n_pieces       = 1;
+  meshes::Place place;
+  for (const std::vector<int> &loop : meshes::boundary_loops(mesh))
+    for (const int v : loop)
+    {
+      const Eigen::RowVector2d x = mesh.vertices.row(v);
+      if (((low - x).array() < slack).all() && ((x - high).array() < slack).all())
+        continue;
+      ++n_pieces;
+      place = {x, -1, v};
+      break;
+    }
+  if (n_pieces == 1)
+    return {};
+  std::ostringstream text;
+  text << name << ": the mesh falls into " << n_pieces
+       << " pieces that share no edge, one with vertex " << place.vertex << " at (" << place.point
+       << ") m; expected one outline: join parts that lie side by side so that they share points "
+          "(Gmsh: BooleanFragments, or Coherence), or mesh what connects them";
+  return {{text.str(), place}};
+}
+
+/// The path of a file that a cell file names. It stays in the folder of the cell file, links followed, so that a cell
+/// from elsewhere opens nothing but what came with it.
+/// @throws BadInput where it leads out of the folder
+std::string file_beside(const std::string &prm_file, const std::string &name)
+{
+  const std::filesystem::path folder = std::filesystem::path(prm_file).parent_path(),
+                              path   = folder / name;
+  const std::filesystem::path within = std::filesystem::weakly_canonical(path).lexically_relative(
+    std::filesystem::weakly_canonical(folder.empty() ? "." : folder));
+  if (std::filesystem::path(name).is_absolute() || within.empty() || *within.begin() == "..")
+    throw meshes::BadInput(
+      prm_file + ": key `Mesh`: found `" + name +
+      "`, which lies outside of the folder of the cell file; expected a file in it or below: "
+      "copy the mesh there");
+  return path.string();
+}
+
+/// The keys, with the length unit [m]; faults become findings.
+CellKeys read_keys(const std::string &prm_file, CellReading &reading)
+{
+  Faults faults;
+  CellKeys keys;
+  dealii::ParameterHandler handler;
+  keys.declare(handler);
+  parse_parameters(prm_file, handler, faults);
+  const auto unit = numbers(keys.length_unit);
+  if (unit && unit->size() == 1 && (*unit)[0] > 0. && std::isfinite((*unit)[0]))
+    reading.metres_per_unit = (*unit)[0];
+  else
+    faults.push_back(prm_file + ": key `Length unit`: found `" + keys.length_unit +
+                     "`; expected metres per mesh unit as one positive number like `0.01`");
+  if (faults.empty() && trimmed(keys.mesh).empty())
+    faults.push_back(prm_file + ": key `Mesh` is missing; expected the mesh of one cell");
+  add(reading.findings, "key", faults);
+  return keys;
+}
+} // namespace
+
+CellReading read_cell(const std::string &prm_file)
+{
+  CellReading reading;
+  UnitCell &cell                 = reading.cell;
+  std::vector<Finding> &findings = reading.findings;
+  cell.file                      = prm_file;
+  cell.name                      = std::filesystem::path(prm_file).stem().string();
+  if (!std::filesystem::is_regular_file(prm_file))
+  {
+    add(findings, "file",
+        {prm_file + ": no such file; expected a cell file (.prm): `homespun cells` lists "
+                    "the shipped ones"});
+    return reading;
+  }
+  const CellKeys keys = read_keys(prm_file, reading);
+  if (has_errors(findings))
+    return reading;
+
+  std::string mesh_path;
+  CellMeshFile mesh_file;
+  try
+  {
+    mesh_path = file_beside(prm_file, trimmed(keys.mesh));
+    mesh_file = read_cell_mesh(mesh_path);
+  }
+  catch (const meshes::BadInput &bad)
+  {
+    add(findings, "mesh file", bad.faults());
+    return reading;
+  }
+  mesh_file.mesh.vertices *= reading.metres_per_unit;
+  for (CurvedSide &side : mesh_file.curved_sides)
+    side.sagitta *= reading.metres_per_unit;
+  reading.has_mesh = true;
+  add(findings, "mesh", meshes::placed_faults_of(mesh_file.mesh, mesh_path));
+  const bool mesh_is_sound = !has_errors(findings);
+  Faults of_phases;
+  const Eigen::VectorXi groups = mesh_file.mesh.material;
+  cell.phases                  = assign_phases(prm_file, keys, mesh_file, of_phases);
+  cell.mesh                    = std::move(mesh_file.mesh);
+  cell.curved_sides            = std::move(mesh_file.curved_sides);
+  if (!of_phases.empty())
+    cell.mesh.material = groups;
+  add(findings, "phases", of_phases);
+
+  bool fits = false;
+  try
+  {
+    const auto pieces = piece_faults(cell.mesh, mesh_path);
+    add(findings, "pieces", pieces);
+    Faults of_lattice;
+    std::optional<meshes::Lattice> lattice;
+    if (pieces.empty())
+      lattice = lattice_from(prm_file, keys, reading.metres_per_unit, cell.mesh, of_lattice);
+    add(findings, "lattice", of_lattice);
+    if (lattice)
+    {
+      reading.has_lattice = true;
+      cell.lattice        = *lattice;
+      const auto faults   = meshes::placed_periodicity_faults(cell.mesh, cell.lattice, mesh_path);
+      add(findings, "periodicity", faults);
+      fits = faults.empty();
+    }
+    if (fits && mesh_is_sound && may_move(cell.mesh))
+      append(findings, mesh_path,
+             lint_mechanisms(cell.mesh, cell.lattice, reading.metres_per_unit));
+  }
+  catch (const meshes::BadInput &bad)
+  {
+    add(findings, "mesh", {mesh_path + ": " + bad.what()});
+    fits = false;
+  }
+  reading.has_phases = of_phases.empty();
+  reading.is_whole   = mesh_is_sound && fits && reading.has_phases;
+  if (reading.is_whole)
+    append(findings, prm_file, lint_contrast(cell));
+  if (reading.is_whole && !cell.curved_sides.empty())
+    try
+    {
+      glued(cell.mesh, cell.lattice, cell.curved_sides);
+    }
+    catch (const meshes::BadInput &bad)
+    {
+      add(findings, "periodicity", {mesh_path + ": " + bad.what()});
+      reading.is_whole = false;
+    }
+  return reading;
+}
+
+CellReading inspect_cell(const std::string &prm_file)
+{
+  CellReading reading  = read_cell(prm_file);
+  const UnitCell &cell = reading.cell;
+  if (!reading.has_mesh || !cell.mesh.vertices.allFinite())
+    return reading;
+  std::vector<Finding> &findings = reading.findings;
+  append(findings, prm_file, lint_slivers(cell.mesh, reading.metres_per_unit));
+  if (!reading.has_lattice)
+    append(findings, prm_file, lint_coincidence(cell.mesh, reading.metres_per_unit));
+  const Eigen::RowVector2d box =
+    cell.mesh.vertices.colwise().maxCoeff() - cell.mesh.vertices.colwise().minCoeff();
+  const double side = reading.is_whole ? std::sqrt(cell.lattice.area()) : std::sqrt(box.prod());
+  append(findings, prm_file, lint_size(side, reading.metres_per_unit));
+  if (reading.is_whole)
+  {
+    append(findings, prm_file, lint_sides(cell.mesh, cell.lattice, reading.metres_per_unit));
+    append(findings, prm_file, lint_phases(cell, side));
+    append(findings, prm_file, lint_thin_parts(cell, reading.metres_per_unit));
+    append(findings, prm_file, lint_facets(cell, reading.metres_per_unit));
+  }
+  return reading;
+}
+} // namespace homespun::homogenization

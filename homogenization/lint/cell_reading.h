@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: MIT
+// A cell file read as far as it can be, with all that is wrong: what read_unit_cell() refuses, and what the
+// linter shows.
+#pragma once
+
+#include "homogenization/cell/finding.h"
+#include "homogenization/cell/unit_cell.h"
+
+#include <string>
+#include <vector>
+
+namespace homespun::homogenization
+{
+struct CellReading
+{
+  UnitCell
+    cell; ///< [m]; where its phases could not be given, material holds the numbers of the mesh file
+  double metres_per_unit = 1.;    ///< of the mesh file
+  bool has_mesh          = false; ///< the mesh file was read
+  bool has_lattice       = false; ///< it was given, or found from the outline; it need not fit
+  bool has_phases = false; ///< its groups have their phases, and material holds their indices
+  bool is_whole   = false; ///< mesh, phases and lattice are sound: a UnitCell
+  std::vector<Finding> findings;
+};
+
+/// Reads a cell; parts that move freely and contrasts that leave no digit are errors here already, because no solver
+/// could answer.
+CellReading read_cell(const std::string &prm_file);
+
+/// Reads a cell and adds the findings of the linter, as many as the state of the cell allows.
+CellReading inspect_cell(const std::string &prm_file);
+} // namespace homespun::homogenization

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: MIT
+#include "meshes/cloth/seams.h"
+
+#include <cstdint>
+#include <numeric>
+#include <unordered_map>
+
+namespace homespun::meshes
+{
+Panels panels_of(const ClothMesh &cloth)
+{
+  std::vector<int> parent(static_cast<std::size_t>(cloth.rest.n_vertices()));
+  std::iota(parent.begin(), parent.end(), 0);
+  const auto root = [&](int v)
+  {
+    while (parent[static_cast<std::size_t>(v)] != v)
+    {
+      int &up = parent[static_cast<std::size_t>(v)];
+      up      = parent[static_cast<std::size_t>(up)];
+      v       = up;
+    }
+    return v;
+  };
+  for (int t = 0; t < cloth.rest.n_triangles(); ++t)
+    for (int k = 1; k < 3; ++k)
+      parent[static_cast<std::size_t>(root(cloth.rest.triangles(t, k)))] =
+        root(cloth.rest.triangles(t, 0));
+
+  Panels panels;
+  panels.of_vertex.setConstant(cloth.rest.n_vertices(), -1);
+  panels.of_triangle.resize(cloth.rest.n_triangles());
+  for (int t = 0; t < cloth.rest.n_triangles(); ++t)
+  {
+    int &panel = panels.of_vertex(root(cloth.rest.triangles(t, 0)));
+    if (panel < 0)
+      panel = panels.count++;
+    panels.of_triangle(t) = panel;
+  }
+  for (int t = 0; t < cloth.rest.n_triangles(); ++t)
+    for (int k = 0; k < 3; ++k)
+      panels.of_vertex(cloth.rest.triangles(t, k)) = panels.of_triangle(t);
+  return panels;
+}
+
+std::array<int, 2> rest_ends(const ClothMesh &cloth, const Side &side)
+{
+  return {cloth.rest.triangles(side.triangle, side.side),
+          cloth.rest.triangles(side.triangle, (side.side + 1) % 3)};
+}
+
+std::array<int, 2> space_ends(const ClothMesh &cloth, const Side &side)
+{
+  return {cloth.triangles(side.triangle, side.side),
+          cloth.triangles(side.triangle, (side.side + 1) % 3)};
+}
+
+std::vector<SeamEdge> seam_edges(const ClothMesh &cloth)
+{
+  const auto key = [](const std::array<int, 2> &ends)
+  {
+    return (static_cast<std::uint64_t>(static_cast<std::uint32_t>(ends[0])) << 32) |
+           static_cast<std::uint32_t>(ends[1]);
+  };
+  std::unordered_map<std::uint64_t, Side> side_of;
+  side_of.reserve(3 * static_cast<std::size_t>(cloth.n_triangles()));
+  for (int t = 0; t < cloth.n_triangles(); ++t)
+    for (int k = 0; k < 3; ++k)
+      side_of.emplace(key(space_ends(cloth, {t, k})), Side{t, k});
+  std::vector<SeamEdge> seams;
+  for (int t = 0; t < cloth.n_triangles(); ++t)
+    for (int k = 0; k < 3; ++k)
+    {
+      const Side side                = {t, k};
+      const std::array<int, 2> space = space_ends(cloth, side);
+      const auto other               = side_of.find(key({space[1], space[0]}));
+      if (other == side_of.end() || other->second.triangle <= t)
+        continue;
+      const std::array<int, 2> here  = rest_ends(cloth, side),
+                               there = rest_ends(cloth, other->second);
+      if (here[0] != there[1] || here[1] != there[0])
+        seams.push_back({{side, other->second}});
+    }
+  return seams;
+}
+
+Eigen::VectorXi space_of_rest(const ClothMesh &cloth)
+{
+  Eigen::VectorXi space = Eigen::VectorXi::Constant(cloth.rest.n_vertices(), -1);
+  for (int t = 0; t < cloth.n_triangles(); ++t)
+    for (int k = 0; k < 3; ++k)
+      space(cloth.rest.triangles(t, k)) = cloth.triangles(t, k);
+  return space;
+}
+} // namespace homespun::meshes

@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: MIT
+#include "meshes/files/cell_file.h"
+
+#include "meshes/files/hdf5_reader.h"
+#include "meshes/files/hdf5_writer.h"
+#include "meshes/plain/errors.h"
+
+#include <Eigen/Eigenvalues>
+
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <sstream>
+#include <vector>
+
+namespace homespun::meshes
+{
+namespace
+{
+/// What every cell fulfils, whoever made it.
+std::vector<std::string> faults_of(const HomogenizedCell &cell, const std::string &path)
+{
+  std::vector<std::string> faults = faults_of(cell.mesh, path);
+  const auto add = [&](const std::string &message) { faults.push_back(path + ": " + message); };
+  if (!cell.chi.allFinite())
+    add("/chi holds values that are not finite");
+  if (cell.chi.rows() != cell.mesh.n_vertices())
+    add("/chi has " + std::to_string(cell.chi.rows()) + " rows for " +
+        std::to_string(cell.mesh.n_vertices()) + " vertices");
+  else if (cell.anchor < 0 || cell.anchor >= cell.mesh.n_vertices())
+    add("attribute anchor of /chi is " + std::to_string(cell.anchor) + "; expected a vertex index");
+  else if (cell.chi.row(cell.anchor).cwiseAbs().maxCoeff() >
+           1e-12 * std::max(cell.chi.cwiseAbs().maxCoeff(), 1e-300))
+    add("/chi is not zero at its anchor, vertex " + std::to_string(cell.anchor));
+  if (!cell.stiffness.allFinite())
+    add("/C holds values that are not finite");
+  else
+  {
+    const double scale = cell.stiffness.cwiseAbs().maxCoeff();
+    if ((cell.stiffness - cell.stiffness.transpose()).cwiseAbs().maxCoeff() > 1e-9 * scale)
+      add("/C is not symmetric; expected an effective stiffness");
+    else if (!(Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(cell.stiffness).eigenvalues()(0) >
+               0.))
+      add("/C is not positive definite; expected an effective stiffness");
+  }
+  if (!(cell.areal_density > 0.) || !(cell.areal_density < 1e300))
+    add("/areal_density is " + std::to_string(cell.areal_density) +
+        " kg/m^2; expected a positive number");
+  if (!cell.lattice.vectors.allFinite() || !(cell.lattice.area() > 0.))
+    add("/lattice spans no area; expected two independent vectors");
+  return faults;
+}
+} // namespace
+
+void write_cell(const HomogenizedCell &cell, const std::string &path)
+{
+  const std::vector<std::string> faults = faults_of(cell, path);
+  if (!faults.empty())
+    throw BadInput(faults);
+
+  Hdf5Writer file(path);
+  const auto n = static_cast<unsigned long long>(cell.mesh.n_vertices());
+  const auto m = static_cast<unsigned long long>(cell.mesh.n_triangles());
+  file.write("/vertices", {n, 2}, cell.mesh.vertices.data(), "m");
+  file.write("/triangles", {m, 3}, cell.mesh.triangles.data());
+  file.write("/material", {m}, cell.mesh.material.data());
+  const Eigen::Matrix<double, 2, 2, Eigen::RowMajor> lattice = cell.lattice.vectors;
+  file.write("/lattice", {2, 2}, lattice.data(), "m");
+  // Stored as (vertex, component, load); in memory a row is load-major.
+  std::vector<double> chi(6 * static_cast<std::size_t>(n));
+  for (Eigen::Index v = 0; v < cell.chi.rows(); ++v)
+    for (int a = 0; a < 3; ++a)
+      for (int c = 0; c < 2; ++c)
+        chi[static_cast<std::size_t>(6 * v + 3 * c + a)] = cell.chi(v, 2 * a + c);
+  file.write("/chi", {n, 2, 3}, chi.data(), "m");
+  file.attribute("/chi", "anchor", cell.anchor);
+  file.attribute(
+    "/chi", "convention",
+    "w = -(E11 chi_11 + E22 chi_22 + gamma12 chi_12), engineering shear; axes: vertex, "
+    "component, load (11, 22, 12)");
+  const Eigen::Matrix<double, 3, 3, Eigen::RowMajor> stiffness = cell.stiffness;
+  file.write("/C", {3, 3}, stiffness.data(), "N/m");
+  file.attribute("/C", "convention", "Voigt 11, 22, 12 with engineering shear");
+  file.write("/areal_density", {1}, &cell.areal_density, "kg/m^2");
+  file.attribute("/", "provenance", cell.provenance);
+  file.finish();
+}
+
+HomogenizedCell read_cell(const std::string &path)
+{
+  const Hdf5Reader file(path, "a cell.h5: make it with `homespun homogenize`");
+  const auto n = file.shape_of("/vertices", {Hdf5Reader::any, 2})[0],
+             m = file.shape_of("/triangles", {Hdf5Reader::any, 3})[0];
+
+  HomogenizedCell cell;
+  const auto rows = static_cast<Eigen::Index>(n), triangles = static_cast<Eigen::Index>(m);
+  const std::vector<double> vertices = file.numbers("/vertices", {n, 2}),
+                            lattice  = file.numbers("/lattice", {2, 2}),
+                            chi = file.numbers("/chi", {n, 2, 3}), C = file.numbers("/C", {3, 3});
+  const std::vector<int> corners  = file.integers("/triangles", {m, 3}),
+                         material = file.integers("/material", {m});
+  cell.mesh.vertices              = Eigen::Map<const Points>(vertices.data(), rows, 2);
+  cell.mesh.triangles             = Eigen::Map<const Triangles>(corners.data(), triangles, 3);
+  cell.mesh.material              = Eigen::Map<const Eigen::VectorXi>(material.data(), triangles);
+  cell.lattice.vectors =
+    Eigen::Map<const Eigen::Matrix<double, 2, 2, Eigen::RowMajor>>(lattice.data());
+  cell.stiffness     = Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(C.data());
+  cell.areal_density = file.numbers("/areal_density", {1})[0];
+  cell.chi.resize(rows, 6);
+  for (Eigen::Index v = 0; v < rows; ++v)
+    for (int a = 0; a < 3; ++a)
+      for (int c = 0; c < 2; ++c)
+        cell.chi(v, 2 * a + c) = chi[static_cast<std::size_t>(6 * v + 3 * c + a)];
+  const std::optional<int> anchor = file.integer_attribute("/chi", "anchor");
+  if (!anchor)
+    throw BadInput(path +
+                   ": attribute anchor of /chi is missing; expected the vertex where chi is zero");
+  cell.anchor                           = *anchor;
+  cell.provenance                       = file.text_attribute("/", "provenance").value_or("");
+  const std::vector<std::string> faults = faults_of(cell, path);
+  if (!faults.empty())
+    throw BadInput(faults);
+  return cell;
+}
+} // namespace homespun::meshes

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: MIT
+// cell.h5: the homogenized cell on disk. HDF5, SI units, every dataset says its unit:
+//   /vertices (n,2) [m]   /triangles (m,3)   /material (m)   /lattice (2,2) [m], rows a1, a2
+//   /chi (n,2,3) [m], vertex, component, load; attribute `anchor`: the vertex where chi is zero
+//   /C (3,3) [N/m]        /areal_density [kg/m^2]            attribute `provenance` of the file
+#pragma once
+
+#include "meshes/plain/homogenized_cell.h"
+
+#include <string>
+
+namespace homespun::meshes
+{
+/// Writes a cell whole or not at all: to a temporary file beside it, which then takes its name.
+/// @throws BadInput where a value is not finite, or the file cannot be written
+void write_cell(const HomogenizedCell &cell, const std::string &file);
+
+/// Reads a cell and holds it against what every cell fulfils: matching shapes, a sound mesh, finite
+/// values, a symmetric positive definite stiffness, chi zero at its anchor.
+/// @throws BadInput naming the file and the dataset
+HomogenizedCell read_cell(const std::string &file);
+} // namespace homespun::meshes

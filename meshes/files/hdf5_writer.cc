@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: MIT
+#include "meshes/files/hdf5_writer.h"
+
+#include "meshes/files/write_whole.h"
+#include "meshes/plain/errors.h"
+
+#include <hdf5.h>
+#include <hdf5_hl.h>
+
+namespace homespun::meshes
+{
+void silence_hdf5()
+{
+  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+}
+
+namespace
+{
+void require(const bool condition, const std::string &message)
+{
+  if (!condition)
+    throw BadInput(message);
+}
+} // namespace
+
+Hdf5Writer::Hdf5Writer(const std::string &path)
+    : path(path)
+{
+  silence_hdf5();
+  constexpr std::size_t growth = 1 << 20; // bytes that the image in memory grows by
+  const hid_t in_memory        = H5Pcreate(H5P_FILE_ACCESS);
+  const bool is_set            = H5Pset_fapl_core(in_memory, growth, false) >= 0;
+  file = is_set ? H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, in_memory) : H5I_INVALID_HID;
+  H5Pclose(in_memory);
+  require(file >= 0, path + ": cannot be made in memory");
+}
+
+Hdf5Writer::~Hdf5Writer()
+{
+  H5Fclose(file);
+}
+
+void Hdf5Writer::write(const std::string &name, const Shape &shape, const double *values,
+                       const std::string &unit)
+{
+  require(H5LTmake_dataset_double(file, name.c_str(), static_cast<int>(shape.size()), shape.data(),
+                                  values) >= 0,
+          path + ": dataset " + name + " finds no memory");
+  attribute(name, "unit", unit);
+}
+
+void Hdf5Writer::write(const std::string &name, const Shape &shape, const int *values)
+{
+  require(H5LTmake_dataset_int(file, name.c_str(), static_cast<int>(shape.size()), shape.data(),
+                               values) >= 0,
+          path + ": dataset " + name + " finds no memory");
+}
+
+void Hdf5Writer::attribute(const std::string &object, const std::string &name,
+                           const std::string &value)
+{
+  require(H5LTset_attribute_string(file, object.c_str(), name.c_str(), value.c_str()) >= 0,
+          path + ": attribute " + name + " of " + object + " finds no memory");
+}
+
+void Hdf5Writer::attribute(const std::string &object, const std::string &name, const int value)
+{
+  require(H5LTset_attribute_int(file, object.c_str(), name.c_str(), &value, 1) >= 0,
+          path + ": attribute " + name + " of " + object + " finds no memory");
+}
+
+void Hdf5Writer::attribute(const std::string &object, const std::string &name, const double value)
+{
+  require(H5LTset_attribute_double(file, object.c_str(), name.c_str(), &value, 1) >= 0,
+          path + ": attribute " + name + " of " + object + " finds no memory");
+}
+
+void Hdf5Writer::finish()
+{
+  const ssize_t size =
+    H5Fflush(file, H5F_SCOPE_GLOBAL) >= 0 ? H5Fget_file_image(file, nullptr, 0) : -1;
+  std::string bytes(size > 0 ? static_cast<std::size_t>(size) : 0, '\0');
+  require(size > 0 && H5Fget_file_image(file, bytes.data(), bytes.size()) == size,
+          path + ": its image finds no memory");
+  write_whole(path, bytes);
+}
+} // namespace homespun::meshes

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: MIT
+// Triangles in space for other programs: .ply (Blender, MeshLab), .vtu (ParaView, VTK) with data on
+// the vertices, .pvtu, one made of pieces, and .pvd, the collection that makes an animation of many .vtu. Every file appears whole
+// or not at all, and no number in it is NaN or infinite.
+#pragma once
+
+#include "meshes/plain/triangle_mesh.h"
+
+#include <Eigen/Core>
+
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace homespun::meshes
+{
+/// Points in space in single precision, one per row, shape (n,3) [m]: what up-sampling returns.
+using FloatPoints = Eigen::Matrix<float, Eigen::Dynamic, 3, Eigen::RowMajor>;
+
+/// Numbers on the vertices, or on the triangles.
+struct VertexData
+{
+  std::string name; ///< with its unit, e.g. "strain_11 [-]"
+  Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>
+    values; ///< (n,1), or (n,3) for a vector
+};
+
+/// Writes binary little-endian PLY with float positions and int faces.
+/// @param scalars each (n,1) becomes a float property of the vertices; a name is made of letters, digits and _
+/// @throws BadInput where a number is not finite, shapes do not match, or the file cannot be written
+void write_ply(const std::string &file, const FloatPoints &positions, const Triangles &triangles,
+               const std::vector<VertexData> &scalars = {});
+
+/// Writes a VTK XML unstructured grid of triangles, appended raw binary, float.
+/// @param cell_data (m,1) or (m,3) on the triangles
+/// @throws BadInput as write_ply()
+void write_vtu(const std::string &file, const FloatPoints &positions, const Triangles &triangles,
+               const std::vector<VertexData> &data      = {},
+               const std::vector<VertexData> &cell_data = {});
+
+/// Writes the .pvtu file that makes one of .vtu pieces with the same data.
+/// @param pieces relative to the folder of the file
+/// @param data, cell_data of any of the pieces: their names and components
+void write_pvtu(const std::string &file, const std::vector<std::string> &pieces,
+                const std::vector<VertexData> &data      = {},
+                const std::vector<VertexData> &cell_data = {});
+
+/// A .pvd file: which .vtu shows which time. It is written whole after each frame, so that a run that
+/// was killed leaves a collection of all frames before.
+class FrameCollection
+{
+public:
+  /// Nothing is written before the first frame.
+  explicit FrameCollection(std::string file);
+
+  /// @param time [s], finite
+  /// @param frame .vtu file, relative to the folder of the collection
+  /// @throws BadInput where the time is not finite, or the file cannot be written
+  void append(double time, const std::string &frame);
+
+private:
+  std::string file;
+  std::vector<std::pair<double, std::string>> frames;
+};
+} // namespace homespun::meshes

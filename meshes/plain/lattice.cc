@@ -1,0 +1,314 @@
+// SPDX-License-Identifier: MIT
+#include "meshes/plain/lattice.h"
+
+#include "meshes/plain/errors.h"
+#include "meshes/plain/mesh_fault.h"
+
+#include <Eigen/LU>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <sstream>
+#include <unordered_map>
+
+namespace homespun::meshes
+{
+double Lattice::area() const
+{
+  return std::abs(vectors.determinant());
+}
+
+Eigen::RowVector2d Lattice::fractional(const Eigen::RowVector2d &point) const
+{
+  return point * vectors.inverse();
+}
+
+Eigen::RowVector2d Lattice::shortest(const Eigen::RowVector2d &difference) const
+{
+  Eigen::RowVector2d f = fractional(difference);
+  f(0) -= std::round(f(0));
+  f(1) -= std::round(f(1));
+  return f * vectors;
+}
+
+ImageClasses match_images(const Points &points, const Lattice &lattice,
+                          const double relative_tolerance)
+{
+  const int n            = static_cast<int>(points.rows());
+  const double tolerance = relative_tolerance * std::sqrt(lattice.area());
+
+  // Bins in fractional coordinates, so wide that images lie in the same or in adjacent bins; about
+  // one point each, but no fewer than three per direction so that the neighbours differ.
+  const Eigen::Matrix2d to_fractional = lattice.vectors.inverse();
+  const double widest = tolerance * to_fractional.cwiseAbs().colwise().sum().maxCoeff();
+  const double wanted = std::sqrt(static_cast<double>(std::max(n, 9)));
+  const auto n_bins   = static_cast<long>(std::max(3., std::min(wanted, std::floor(0.5 / widest))));
+
+  ImageClasses classes;
+  classes.representative.resize(static_cast<std::size_t>(n));
+  classes.size.assign(static_cast<std::size_t>(n), 0);
+  classes.offset.setZero(n, 2);
+
+  std::unordered_map<long, std::vector<int>> representatives_in;
+  const Eigen::RowVector2d origin = n > 0 ? points.row(0) : Eigen::RowVector2d(0, 0);
+  for (int i = 0; i < n; ++i)
+  {
+    const Eigen::RowVector2d f = (points.row(i) - origin) * to_fractional;
+    const auto bin_of          = [n_bins](const double x)
+    {
+      return std::min(n_bins - 1,
+                      static_cast<long>((x - std::floor(x)) * static_cast<double>(n_bins)));
+    };
+    const long bin1 = bin_of(f(0)), bin2 = bin_of(f(1));
+    int found = -1;
+    for (long d1 = -1; d1 <= 1 && found < 0; ++d1)
+      for (long d2 = -1; d2 <= 1 && found < 0; ++d2)
+      {
+        const long key = ((bin1 + d1 + n_bins) % n_bins) * n_bins + (bin2 + d2 + n_bins) % n_bins;
+        const auto bin = representatives_in.find(key);
+        if (bin == representatives_in.end())
+          continue;
+        for (const int candidate : bin->second)
+          if (lattice.shortest(points.row(i) - points.row(candidate)).norm() <= tolerance)
+          {
+            found = candidate;
+            break;
+          }
+      }
+    const auto index = static_cast<std::size_t>(i);
+    if (found < 0)
+    {
+      representatives_in[bin1 * n_bins + bin2].push_back(i);
+      classes.representative[index] = i;
+    }
+    else
+    {
+      const Eigen::RowVector2d d    = (points.row(i) - points.row(found)) * to_fractional;
+      classes.representative[index] = found;
+      classes.offset(i, 0)          = static_cast<int>(std::lround(d(0)));
+      classes.offset(i, 1)          = static_cast<int>(std::lround(d(1)));
+    }
+    ++classes.size[static_cast<std::size_t>(classes.representative[index])];
+  }
+  for (std::size_t i = 0; i < classes.size.size(); ++i)
+    classes.size[i] = classes.size[static_cast<std::size_t>(classes.representative[i])];
+  return classes;
+}
+
+std::vector<int> outline(const TriangleMesh &mesh)
+{
+  std::vector<int> outer;
+  double largest = -std::numeric_limits<double>::infinity();
+  for (std::vector<int> &loop : boundary_loops(mesh))
+  {
+    double twice_area = 0.;
+    for (std::size_t k = 0; k < loop.size(); ++k)
+    {
+      const auto a = mesh.vertices.row(loop[k]), b = mesh.vertices.row(loop[(k + 1) % loop.size()]);
+      twice_area += a(0) * b(1) - a(1) * b(0);
+    }
+    if (twice_area > largest)
+    {
+      largest = twice_area;
+      outer   = std::move(loop);
+    }
+  }
+  return outer;
+}
+
+Lattice lattice_of_outline(const TriangleMesh &mesh)
+{
+  const std::vector<int> loop = outline(mesh);
+  std::vector<Eigen::RowVector2d> corners;
+  for (std::size_t k = 0; k < loop.size(); ++k)
+  {
+    const Eigen::RowVector2d here   = mesh.vertices.row(loop[k]);
+    const Eigen::RowVector2d before = mesh.vertices.row(loop[(k + loop.size() - 1) % loop.size()]);
+    const Eigen::RowVector2d after  = mesh.vertices.row(loop[(k + 1) % loop.size()]);
+    const Eigen::RowVector2d a = (here - before).normalized(), b = (after - here).normalized();
+    if (std::abs(a(0) * b(1) - a(1) * b(0)) > 1e-5)
+      corners.push_back(here);
+  }
+  std::ostringstream found;
+  for (std::size_t k = 0; k < std::min<std::size_t>(corners.size(), 6); ++k)
+    found << " (" << corners[k](0) << ", " << corners[k](1) << ")";
+  if (corners.size() > 6)
+    found << " ...";
+  const std::string remedy = "; expected a parallelogram: give `Lattice vectors` explicitly";
+  if (corners.size() != 4)
+    throw BadInput("the outline of the cell has " + std::to_string(corners.size()) + " corners," +
+                   found.str() + " in m" + remedy);
+
+  std::size_t lowest = 0;
+  for (std::size_t k = 1; k < 4; ++k)
+  {
+    const double scale = (corners[2] - corners[0]).norm();
+    const double dy    = corners[k](1) - corners[lowest](1);
+    if (dy < -1e-9 * scale || (dy < 1e-9 * scale && corners[k](0) < corners[lowest](0)))
+      lowest = k;
+  }
+  const Eigen::RowVector2d origin = corners[lowest];
+  Lattice lattice;
+  lattice.vectors.row(0) = corners[(lowest + 1) % 4] - origin;
+  lattice.vectors.row(1) = corners[(lowest + 3) % 4] - origin;
+  const Eigen::RowVector2d gap =
+    origin + lattice.vectors.row(0) + lattice.vectors.row(1) - corners[(lowest + 2) % 4];
+  if (gap.norm() > image_tolerance * std::sqrt(lattice.area()))
+    throw BadInput("the outline of the cell has the corners" + found.str() +
+                   " in m, which miss a parallelogram by " + std::to_string(gap.norm()) + " m" +
+                   remedy);
+  return lattice;
+}
+
+namespace
+{
+/// Two vertices within the tolerance of periodic images, anywhere in the mesh: whoever matches images would take them
+/// for one.
+std::vector<MeshFault> coincidence_faults(const TriangleMesh &mesh, const Lattice &lattice,
+                                          const std::string &name, const double relative_tolerance)
+{
+  const ImageClasses classes = match_images(mesh.vertices, lattice, relative_tolerance);
+  std::map<std::array<int, 3>, int> vertex_at;
+  for (int v = 0; v < mesh.n_vertices(); ++v)
+  {
+    const auto [other, is_new] =
+      vertex_at.insert({{classes.representative[static_cast<std::size_t>(v)], classes.offset(v, 0),
+                         classes.offset(v, 1)},
+                        v});
+    if (is_new)
+      continue;
+    std::ostringstream text;
+    text.precision(10);
+    text << name << ": vertices " << other->second << " at (" << mesh.vertices.row(other->second)
+         << ") m and " << v << " at (" << mesh.vertices.row(v)
+         << ") m count as one; expected more than "
+         << relative_tolerance * std::sqrt(lattice.area())
+         << " m between them, the tolerance of periodic images: merge them, or move them apart";
+    return {{text.str(), {mesh.vertices.row(v), -1, v}}};
+  }
+  return {};
+}
+} // namespace
+
+std::vector<std::string> periodicity_faults(const TriangleMesh &mesh, const Lattice &lattice,
+                                            const std::string &name,
+                                            const double relative_tolerance)
+{
+  return messages_of(placed_periodicity_faults(mesh, lattice, name, relative_tolerance));
+}
+
+std::vector<MeshFault> placed_periodicity_faults(const TriangleMesh &mesh, const Lattice &lattice,
+                                                 const std::string &name,
+                                                 const double relative_tolerance)
+{
+  std::vector<MeshFault> faults;
+  const auto place_at = [&](const int vertex) {
+    return Place{mesh.vertices.row(vertex), -1, vertex};
+  };
+  if (!lattice.vectors.allFinite() ||
+      !(lattice.area() > 1e-6 * lattice.vectors.rowwise().norm().prod()))
+  {
+    std::ostringstream text;
+    text << name << ": the lattice vectors (" << lattice.vectors.row(0) << ") and ("
+         << lattice.vectors.row(1) << ") m are parallel or zero; expected two independent vectors";
+    return {{text.str(), Place()}};
+  }
+
+  const std::vector<int> loop = outline(mesh);
+  Points points(static_cast<Eigen::Index>(loop.size()), 2);
+  double enclosed = 0.;
+  for (std::size_t k = 0; k < loop.size(); ++k)
+  {
+    points.row(static_cast<Eigen::Index>(k)) = mesh.vertices.row(loop[k]);
+    const auto a = mesh.vertices.row(loop[k]), b = mesh.vertices.row(loop[(k + 1) % loop.size()]);
+    enclosed += 0.5 * (a(0) * b(1) - a(1) * b(0));
+  }
+  const double cell_size = std::sqrt(lattice.area());
+  if (std::abs(enclosed - lattice.area()) > 1e-6 * lattice.area())
+  {
+    std::ostringstream text;
+    text << name << ": the outline of the mesh encloses " << enclosed
+         << " m^2, but the lattice vectors (" << lattice.vectors.row(0) << ") and ("
+         << lattice.vectors.row(1) << ") m span " << lattice.area()
+         << " m^2; expected equal areas: mend `Lattice vectors`, or mesh exactly one cell (a hole "
+            "must not cut the outline: shift the cell so that it lies inside)";
+    faults.push_back({text.str(), Place()});
+  }
+  const double covered = signed_areas(mesh).cwiseAbs().sum();
+  if (covered > enclosed * (1. + 1e-9))
+  {
+    std::ostringstream text;
+    text
+      << name << ": the triangles cover " << covered << " m^2 inside an outline of " << enclosed
+      << " m^2; expected at most that: some triangles overlap, remove one of two coinciding parts";
+    faults.push_back({text.str(), Place()});
+  }
+
+  for (const MeshFault &fault : coincidence_faults(mesh, lattice, name, relative_tolerance))
+    faults.push_back(fault);
+  const ImageClasses classes = match_images(points, lattice, relative_tolerance);
+  int unmatched              = 0;
+  for (Eigen::Index i = 0; i < points.rows(); ++i)
+  {
+    if (classes.size[static_cast<std::size_t>(i)] > 1)
+      continue;
+    if (++unmatched > 3)
+      continue;
+    Eigen::Index nearest = -1;
+    double gap           = std::numeric_limits<double>::infinity();
+    for (Eigen::Index k = 0; k < points.rows(); ++k)
+    {
+      const Eigen::RowVector2d difference = points.row(k) - points.row(i);
+      const Eigen::RowVector2d shortest   = lattice.shortest(difference);
+      // Neighbours on the same side are no candidates: an image lies a lattice vector away.
+      if (k != i && (difference - shortest).norm() > 0.5 * cell_size && shortest.norm() < gap)
+      {
+        gap     = shortest.norm();
+        nearest = k;
+      }
+    }
+    std::ostringstream text;
+    text.precision(10);
+    text << name << ": vertex " << loop[static_cast<std::size_t>(i)] << " at (" << points.row(i)
+         << ") m on the outline has no periodic image";
+    if (nearest >= 0)
+      text << "; the nearest candidate is vertex " << loop[static_cast<std::size_t>(nearest)]
+           << " at (" << points.row(nearest) << ") m, off by " << gap << " m";
+    text
+      << "; expected one within " << relative_tolerance * cell_size
+      << " m: mesh opposite sides alike (Gmsh: Periodic Curve {right} = {left} Translate {dx, dy, "
+         "0};) or mend `Lattice vectors`";
+    faults.push_back({text.str(), place_at(loop[static_cast<std::size_t>(i)])});
+  }
+  if (unmatched > 3)
+    faults.push_back({name + ": and " + std::to_string(unmatched - 3) +
+                        " more vertices of the outline without a periodic image",
+                      Place()});
+  return faults;
+}
+
+int anchor_vertex(const TriangleMesh &mesh, const Lattice &lattice)
+{
+  const std::vector<int> loop = outline(mesh);
+  Points points(static_cast<Eigen::Index>(loop.size()), 2);
+  for (std::size_t k = 0; k < loop.size(); ++k)
+    points.row(static_cast<Eigen::Index>(k)) = mesh.vertices.row(loop[k]);
+  const ImageClasses classes = match_images(points, lattice);
+  const double slack         = image_tolerance * std::sqrt(lattice.area());
+
+  std::size_t best = 0;
+  for (std::size_t k = 1; k < loop.size(); ++k)
+  {
+    const auto here = static_cast<Eigen::Index>(k), there = static_cast<Eigen::Index>(best);
+    const double dy = points(here, 1) - points(there, 1), dx = points(here, 0) - points(there, 0);
+    const bool lower_left = dy < -slack || (dy < slack && dx < -slack);
+    if (classes.size[k] > classes.size[best] ||
+        (classes.size[k] == classes.size[best] && lower_left))
+      best = k;
+  }
+  return loop[best];
+}
+} // namespace homespun::meshes

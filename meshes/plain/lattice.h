@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: MIT
+// The lattice that repeats a unit cell, and the one question that periodicity asks of it: which
+// points are images of each other? Everything periodic in homespun (constraints, tiled sheets,
+// anchors) goes through match_images(), so that there is one tolerance and one place to be right.
+#pragma once
+
+#include "meshes/plain/triangle_mesh.h"
+
+#include <Eigen/Core>
+
+#include <vector>
+
+namespace homespun::meshes
+{
+/// Two lattice vectors a1, a2; the cell repeats at x + n1 a1 + n2 a2.
+struct Lattice
+{
+  Eigen::Matrix2d vectors = Eigen::Matrix2d::Identity(); ///< row 0: a1, row 1: a2 [m]
+
+  /// |a1 x a2|, the area of the cell Y [m^2].
+  double area() const;
+
+  /// Coordinates (f1, f2) of a point, x = f1 a1 + f2 a2.
+  Eigen::RowVector2d fractional(const Eigen::RowVector2d &point) const;
+
+  /// The difference of two points, brought to its image nearest to zero in fractional coordinates.
+  Eigen::RowVector2d shortest(const Eigen::RowVector2d &difference) const;
+};
+
+/// How far two lattice images may lie apart, as a part of the cell size sqrt(|Y|). Gmsh writes 16
+/// digits, older tools 8: 1e-7 accepts both and still tells neighbours apart in a mesh with a
+/// thousand vertices along a side.
+constexpr double image_tolerance = 1e-7;
+
+/// The classes of points that are images of each other.
+struct ImageClasses
+{
+  std::vector<int> representative;              ///< (n) lowest index in the class
+  Eigen::Matrix<int, Eigen::Dynamic, 2> offset; ///< (n,2) x − x_representative in lattice vectors
+  std::vector<int> size;                        ///< (n) number of points in the class
+};
+
+/// Sorts points into classes modulo the lattice, x_i = x_r + n1 a1 + n2 a2 within the tolerance.
+///
+/// A hash over the torus, O(n). Every point is compared with its representative, never along a
+/// chain, so that corners, which belong to two pairs of sides, end in one class.
+/// @param points (n,2) [m]
+/// @param relative_tolerance of the distance between images, in units of sqrt(|Y|)
+ImageClasses match_images(const Points &points, const Lattice &lattice,
+                          double relative_tolerance = image_tolerance);
+
+/// The lattice of a cell whose outline is a parallelogram: its two sides that leave the lowest
+/// corner, counter-clockwise, so that a1 x a2 > 0.
+/// @param mesh whose outer loop is searched for four corners
+/// @throws BadInput where the outline is not a parallelogram, with the corners that were found
+Lattice lattice_of_outline(const TriangleMesh &mesh);
+
+/// The outer loop of a mesh: the boundary loop that encloses the largest area.
+std::vector<int> outline(const TriangleMesh &mesh);
+
+/// The faults that make a cell mesh not periodic: vertices of the outline without an image (with
+/// the nearest candidate and the gap), vertices anywhere that are closer than the tolerance and count as one, an outline
+/// that does not enclose |Y|, triangles that overlap.
+std::vector<std::string> periodicity_faults(const TriangleMesh &mesh, const Lattice &lattice,
+                                            const std::string &name,
+                                            double relative_tolerance = image_tolerance);
+
+/// The vertex at which characteristic displacements are anchored: of all vertices the one with the
+/// most images on the outline (the corners of a parallelogram), and of those the lowest-left.
+int anchor_vertex(const TriangleMesh &mesh, const Lattice &lattice);
+} // namespace homespun::meshes

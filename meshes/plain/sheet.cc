@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: MIT
+#include "meshes/plain/sheet.h"
+
+#include "meshes/plain/errors.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <sstream>
+#include <vector>
+
+namespace homespun::meshes
+{
+Eigen::RowVector2d Sheet::fraction(const Eigen::RowVector2d &point) const
+{
+  return lattice.fractional(point - origin).cwiseQuotient(Eigen::RowVector2d(n1, n2));
+}
+
+Eigen::Matrix2d Sheet::sides() const
+{
+  return Eigen::Vector2d(n1, n2).asDiagonal() * lattice.vectors;
+}
+
+Sheet tile(const TriangleMesh &cell_mesh, const Lattice &lattice, const int n1, const int n2)
+{
+  const int n        = cell_mesh.n_vertices();
+  const int anchor   = anchor_vertex(cell_mesh, lattice);
+  const double snap  = 2. * image_tolerance;
+  const auto classes = match_images(cell_mesh.vertices, lattice);
+  Sheet sheet;
+  sheet.lattice = lattice;
+  sheet.origin  = cell_mesh.vertices.row(anchor);
+  sheet.n1      = n1;
+  sheet.n2      = n2;
+
+  // Each vertex is a node of the lattice cell that holds it in [0,1)^2, plus whole cells.
+  std::vector<int> representatives;
+  std::vector<int> place_in_cell(static_cast<std::size_t>(n), -1);
+  Points fraction(n, 2);
+  std::vector<int> whole1(static_cast<std::size_t>(n)), whole2(static_cast<std::size_t>(n));
+  for (int v = 0; v < n; ++v)
+  {
+    const auto index           = static_cast<std::size_t>(v);
+    const Eigen::RowVector2d f = lattice.fractional(cell_mesh.vertices.row(v) - sheet.origin);
+    whole1[index]              = static_cast<int>(std::floor(f(0) + snap));
+    whole2[index]              = static_cast<int>(std::floor(f(1) + snap));
+    fraction.row(v) << f(0) - whole1[index], f(1) - whole2[index];
+    if (f.minCoeff() < -snap || f.maxCoeff() > 1. + snap)
+    {
+      std::ostringstream text;
+      text << "vertex " << v << " at (" << cell_mesh.vertices.row(v)
+           << ") m lies outside the parallelogram of the lattice vectors at (" << sheet.origin
+           << ") m; expected all inside: a sheet with straight edges needs a cell whose outline is "
+              "that parallelogram ";
+      throw BadInput(text.str());
+    }
+    if (classes.representative[index] == v)
+      representatives.push_back(v);
+  }
+  const auto is_below = [&](const int v) { return fraction(v, 1) <= fraction(v, 0) + snap; };
+  std::stable_sort(representatives.begin(), representatives.end(),
+                   [&](const int a, const int b) { return is_below(a) && !is_below(b); });
+  sheet.n_per_cell = static_cast<int>(representatives.size());
+  sheet.n_below =
+    static_cast<int>(std::count_if(representatives.begin(), representatives.end(), is_below));
+  for (int k = 0; k < sheet.n_per_cell; ++k)
+    place_in_cell[static_cast<std::size_t>(representatives[static_cast<std::size_t>(k)])] = k;
+
+  const double n_triangles = static_cast<double>(n1) * n2 * cell_mesh.n_triangles();
+  if (n_triangles > 5e8)
+  {
+    std::ostringstream text;
+    text << "a sheet of " << n1 << " x " << n2 << " cells has " << n_triangles
+         << " triangles; expected at most 5e8: take fewer cells or a coarser cell";
+    throw BadInput(text.str());
+  }
+
+  // Nodes of cells (0..n1-1, 0..n2-1) are numbered by blocks; those that close the sheet on demand.
+  const int n_blocks = n1 * n2 * sheet.n_per_cell;
+  std::vector<int> closing(static_cast<std::size_t>((n1 + 1) * (n2 + 1) * sheet.n_per_cell), -1);
+  int n_nodes = n_blocks;
+  sheet.mesh.triangles.resize(n1 * n2 * cell_mesh.n_triangles(), 3);
+  sheet.mesh.material.resize(sheet.mesh.triangles.rows());
+  std::vector<std::array<int, 3>> closing_nodes; // I, J, place
+  const auto node_of = [&](const int i, const int j, const int v)
+  {
+    const auto index = static_cast<std::size_t>(v);
+    const int I = i + whole1[index], J = j + whole2[index];
+    const int place = place_in_cell[static_cast<std::size_t>(classes.representative[index])];
+    if (I < n1 && J < n2)
+      return (J * n1 + I) * sheet.n_per_cell + place;
+    int &node = closing[static_cast<std::size_t>((J * (n1 + 1) + I) * sheet.n_per_cell + place)];
+    if (node < 0)
+    {
+      node = n_nodes++;
+      closing_nodes.push_back({I, J, place});
+    }
+    return node;
+  };
+  int triangle = 0;
+  for (int j = 0; j < n2; ++j)
+    for (int i = 0; i < n1; ++i)
+      for (int t = 0; t < cell_mesh.n_triangles(); ++t, ++triangle)
+      {
+        for (int k = 0; k < 3; ++k)
+          sheet.mesh.triangles(triangle, k) = node_of(i, j, cell_mesh.triangles(t, k));
+        sheet.mesh.material(triangle) = cell_mesh.material(t);
+      }
+
+  sheet.mesh.vertices.resize(n_nodes, 2);
+  sheet.cell_vertex.resize(n_nodes);
+  sheet.cell.resize(n_nodes, 2);
+  const auto put = [&](const int node, const int I, const int J, const int place)
+  {
+    const int v             = representatives[static_cast<std::size_t>(place)];
+    sheet.cell_vertex(node) = v;
+    sheet.cell.row(node) << I, J;
+    sheet.mesh.vertices.row(node) =
+      sheet.origin + Eigen::RowVector2d(fraction(v, 0) + I, fraction(v, 1) + J) * lattice.vectors;
+  };
+  for (int j = 0; j < n2; ++j)
+    for (int i = 0; i < n1; ++i)
+      for (int k = 0; k < sheet.n_per_cell; ++k)
+        put((j * n1 + i) * sheet.n_per_cell + k, i, j, k);
+  for (std::size_t k = 0; k < closing_nodes.size(); ++k)
+    put(n_blocks + static_cast<int>(k), closing_nodes[k][0], closing_nodes[k][1],
+        closing_nodes[k][2]);
+  return sheet;
+}
+
+TriangleMesh coarse_sheet(const Eigen::RowVector2d &origin, const Eigen::Matrix2d &steps,
+                          const int n1, const int n2)
+{
+  TriangleMesh mesh;
+  mesh.vertices.resize((n1 + 1) * (n2 + 1), 2);
+  for (int j = 0; j <= n2; ++j)
+    for (int i = 0; i <= n1; ++i)
+      mesh.vertices.row(j * (n1 + 1) + i) = origin + Eigen::RowVector2d(i, j) * steps;
+  mesh.triangles.resize(2 * n1 * n2, 3);
+  mesh.material.setZero(2 * n1 * n2);
+  for (int j = 0; j < n2; ++j)
+    for (int i = 0; i < n1; ++i)
+    {
+      const int corner = j * (n1 + 1) + i, above = corner + n1 + 1;
+      mesh.triangles.row(2 * (j * n1 + i)) << corner, corner + 1, above + 1;
+      mesh.triangles.row(2 * (j * n1 + i) + 1) << corner, above + 1, above;
+    }
+  return mesh;
+}
+} // namespace homespun::meshes

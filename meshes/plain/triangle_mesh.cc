@@ -1,0 +1,256 @@
+// SPDX-License-Identifier: MIT
+#include "meshes/plain/triangle_mesh.h"
+
+#include "meshes/plain/errors.h"
+#include "meshes/plain/fault_list.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <map>
+#include <numeric>
+#include <set>
+#include <sstream>
+#include <unordered_map>
+
+namespace homespun::meshes
+{
+namespace
+{
+std::uint64_t key(const int from, const int to)
+{
+  return (static_cast<std::uint64_t>(static_cast<std::uint32_t>(from)) << 32) |
+         static_cast<std::uint32_t>(to);
+}
+
+std::string at(const TriangleMesh &mesh, const int vertex)
+{
+  std::ostringstream text;
+  text << '(' << mesh.vertices(vertex, 0) << ", " << mesh.vertices(vertex, 1) << ") m";
+  return text.str();
+}
+
+Place place_of_triangle(const TriangleMesh &mesh, const int t)
+{
+  return {(mesh.vertices.row(mesh.triangles(t, 0)) + mesh.vertices.row(mesh.triangles(t, 1)) +
+           mesh.vertices.row(mesh.triangles(t, 2))) /
+            3.,
+          t, -1};
+}
+} // namespace
+
+Eigen::VectorXd signed_areas(const TriangleMesh &mesh)
+{
+  Eigen::VectorXd areas(mesh.n_triangles());
+  for (int t = 0; t < mesh.n_triangles(); ++t)
+  {
+    const Eigen::RowVector2d x0    = mesh.vertices.row(mesh.triangles(t, 0));
+    const Eigen::RowVector2d edge1 = mesh.vertices.row(mesh.triangles(t, 1)) - x0;
+    const Eigen::RowVector2d edge2 = mesh.vertices.row(mesh.triangles(t, 2)) - x0;
+    areas(t)                       = 0.5 * (edge1(0) * edge2(1) - edge1(1) * edge2(0));
+  }
+  return areas;
+}
+
+std::vector<std::array<int, 2>> boundary_edges(const TriangleMesh &mesh)
+{
+  // Where the edges that leave each vertex go, side by side in memory: a hash table of all edges takes ten times as long and as
+  // much, which shows in cells of millions of triangles.
+  std::vector<std::size_t> first(static_cast<std::size_t>(mesh.n_vertices()) + 1, 0);
+  for (int t = 0; t < mesh.n_triangles(); ++t)
+    for (int k = 0; k < 3; ++k)
+      ++first[static_cast<std::size_t>(mesh.triangles(t, k)) + 1];
+  std::partial_sum(first.begin(), first.end(), first.begin());
+  struct Leaving
+  {
+    int to, triangle;
+  };
+  std::vector<Leaving> leaving(3 * static_cast<std::size_t>(mesh.n_triangles()));
+  std::vector<std::size_t> end(first.begin(), first.end() - 1); // of those seen so far
+  const auto find = [&](const int from, const int to) -> const Leaving *
+  {
+    const auto v = static_cast<std::size_t>(from);
+    for (std::size_t e = first[v]; e < end[v]; ++e)
+      if (leaving[e].to == to)
+        return &leaving[e];
+    return nullptr;
+  };
+  for (int t = 0; t < mesh.n_triangles(); ++t)
+    for (int k = 0; k < 3; ++k)
+    {
+      const int from = mesh.triangles(t, k), to = mesh.triangles(t, (k + 1) % 3);
+      if (const Leaving *other = find(from, to))
+        throw BadInput("the edge from vertex " + std::to_string(from) + " to vertex " +
+                       std::to_string(to) + " is traversed the same way by triangles " +
+                       std::to_string(other->triangle) + " and " + std::to_string(t) +
+                       "; expected one triangle on each side: remove the duplicate triangle or "
+                       "turn the inverted one");
+      leaving[end[static_cast<std::size_t>(from)]++] = {to, t};
+    }
+  std::vector<std::array<int, 2>> edges;
+  for (int t = 0; t < mesh.n_triangles(); ++t)
+    for (int k = 0; k < 3; ++k)
+    {
+      const int from = mesh.triangles(t, k), to = mesh.triangles(t, (k + 1) % 3);
+      if (!find(to, from))
+        edges.push_back({from, to});
+    }
+  return edges;
+}
+
+std::vector<std::vector<int>> boundary_loops(const TriangleMesh &mesh)
+{
+  const std::vector<std::array<int, 2>> edges = boundary_edges(mesh);
+  std::unordered_map<int, std::vector<std::size_t>> leaving;
+  for (std::size_t e = 0; e < edges.size(); ++e)
+    leaving[edges[e][0]].push_back(e);
+
+  // Where loops touch, several edges leave a vertex: the one that turns most to the left, seen from
+  // the edge that arrives, keeps the two loops apart on the side of the mesh.
+  const auto direction = [&](const std::size_t e) -> Eigen::RowVector2d
+  { return mesh.vertices.row(edges[e][1]) - mesh.vertices.row(edges[e][0]); };
+  const auto turn = [&](const std::size_t from, const std::size_t to)
+  {
+    const Eigen::RowVector2d a = direction(from), b = direction(to);
+    return std::atan2(a(0) * b(1) - a(1) * b(0), a.dot(b));
+  };
+
+  std::vector<char> used(edges.size(), 0);
+  std::vector<std::vector<int>> loops;
+  for (std::size_t first = 0; first < edges.size(); ++first)
+  {
+    if (used[first])
+      continue;
+    std::vector<int> loop;
+    std::size_t edge = first;
+    while (true)
+    {
+      used[edge] = 1;
+      loop.push_back(edges[edge][0]);
+      const std::vector<std::size_t> &candidates = leaving[edges[edge][1]];
+      std::size_t next                           = edges.size();
+      for (const std::size_t candidate : candidates)
+        if (!used[candidate] || candidate == first)
+          if (next == edges.size() || turn(edge, candidate) > turn(edge, next))
+            next = candidate;
+      if (next == edges.size() || next == first)
+        break;
+      edge = next;
+    }
+    loops.push_back(std::move(loop));
+  }
+  return loops;
+}
+
+std::vector<std::string> faults_of(const TriangleMesh &mesh, const std::string &name)
+{
+  return messages_of(placed_faults_of(mesh, name));
+}
+
+std::vector<MeshFault> placed_faults_of(const TriangleMesh &mesh, const std::string &name)
+{
+  FaultList faults(name);
+  if (mesh.n_triangles() == 0)
+    faults.add("empty meshes", "no triangle found; expected at least one");
+  if (mesh.material.size() != mesh.n_triangles())
+    faults.add("sizes", std::to_string(mesh.material.size()) + " material numbers for " +
+                          std::to_string(mesh.n_triangles()) + " triangles; expected as many");
+
+  bool usable = true;
+  for (int v = 0; v < mesh.n_vertices(); ++v)
+    if (!mesh.vertices.row(v).allFinite())
+    {
+      faults.add("vertices that are not finite",
+                 "vertex " + std::to_string(v) + " has coordinates that are not finite numbers");
+      usable = false;
+    }
+  for (int t = 0; t < mesh.n_triangles(); ++t)
+    for (int k = 0; k < 3; ++k)
+      if (mesh.triangles(t, k) < 0 || mesh.triangles(t, k) >= mesh.n_vertices())
+      {
+        faults.add("indices out of range", "triangle " + std::to_string(t) + " names vertex " +
+                                             std::to_string(mesh.triangles(t, k)) +
+                                             "; expected 0 to " +
+                                             std::to_string(mesh.n_vertices() - 1));
+        usable = false;
+      }
+  if (!usable)
+    return faults.take_placed();
+
+  const Eigen::VectorXd areas = signed_areas(mesh);
+  for (int t = 0; t < mesh.n_triangles(); ++t)
+  {
+    double longest = 0.;
+    for (int k = 0; k < 3; ++k)
+      longest = std::max(longest, (mesh.vertices.row(mesh.triangles(t, (k + 1) % 3)) -
+                                   mesh.vertices.row(mesh.triangles(t, k)))
+                                    .squaredNorm());
+    std::ostringstream text;
+    text << "triangle " << t << " near " << at(mesh, mesh.triangles(t, 0));
+    // 1e-10 of the square of its longest edge: beyond that, gradients lose half their digits.
+    if (std::abs(areas(t)) <= 1e-10 * longest)
+    {
+      text << " has area " << areas(t) << " m^2 with a longest edge of " << std::sqrt(longest)
+           << " m; expected a proper triangle: merge its vertices or remesh";
+      faults.add("triangles without area", text.str(), place_of_triangle(mesh, t));
+    }
+    else if (areas(t) < 0.)
+    {
+      text << " is inverted (area " << areas(t)
+           << " m^2); expected vertices in counter-clockwise order: reverse it, or untangle "
+              "the mesh there";
+      faults.add("inverted triangles", text.str(), place_of_triangle(mesh, t));
+    }
+  }
+
+  std::map<std::array<int, 3>, int> first_with;
+  /// Triangles at an edge: how many, how many of them from the lower vertex to the higher, the first.
+  struct Sharing
+  {
+    int n = 0, upwards = 0, first = -1;
+  };
+  std::unordered_map<std::uint64_t, Sharing> sharing;
+  std::vector<char> is_used(static_cast<std::size_t>(mesh.n_vertices()), 0);
+  for (int t = 0; t < mesh.n_triangles(); ++t)
+  {
+    std::array<int, 3> corners = {mesh.triangles(t, 0), mesh.triangles(t, 1), mesh.triangles(t, 2)};
+    std::sort(corners.begin(), corners.end());
+    const auto [place, is_new] = first_with.emplace(corners, t);
+    if (!is_new)
+      faults.add("duplicate triangles",
+                 "triangle " + std::to_string(t) + " repeats triangle " +
+                   std::to_string(place->second) + "; expected each once: delete one",
+                 place_of_triangle(mesh, t));
+    for (int k = 0; k < 3; ++k)
+    {
+      is_used[static_cast<std::size_t>(corners[static_cast<std::size_t>(k)])] = 1;
+      const int from = mesh.triangles(t, k), to = mesh.triangles(t, (k + 1) % 3);
+      Sharing &edge = sharing[key(std::min(from, to), std::max(from, to))];
+      edge.first    = edge.n == 0 ? t : edge.first;
+      edge.upwards += from < to ? 1 : 0;
+      const Place place_of_edge{0.5 * (mesh.vertices.row(from) + mesh.vertices.row(to)), t, -1};
+      const std::string its_name = "the edge between vertices " + std::to_string(from) + " and " +
+                                   std::to_string(to) + " near " + at(mesh, from);
+      if (++edge.n == 3)
+        faults.add("edges with more than two triangles",
+                   its_name + " belongs to more than two triangles; expected one or two: triangles "
+                              "overlap there",
+                   place_of_edge);
+      else if (is_new && edge.n == 2 && edge.upwards != 1)
+        faults.add("edges with both triangles on one side",
+                   its_name + " has triangles " + std::to_string(edge.first) + " and " +
+                     std::to_string(t) +
+                     " on the same side; expected one on each: the mesh folds "
+                     "over itself there, untangle it",
+                   place_of_edge);
+    }
+  }
+  for (int v = 0; v < mesh.n_vertices(); ++v)
+    if (!is_used[static_cast<std::size_t>(v)])
+      faults.add("isolated vertices",
+                 "vertex " + std::to_string(v) + " at " + at(mesh, v) +
+                   " belongs to no triangle; expected none such: remove it",
+                 {mesh.vertices.row(v), -1, v});
+  return faults.take_placed();
+}
+} // namespace homespun::meshes

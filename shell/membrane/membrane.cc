@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: MIT
+#include "shell/membrane/membrane.h"
+
+#include "meshes/plain/errors.h"
+
+#include <Eigen/Cholesky>
+
+#include <limits>
+#include <sstream>
+
+namespace homespun::shell
+{
+namespace
+{
+std::vector<std::string> stiffness_faults(const std::vector<Eigen::Matrix3d> &stiffness)
+{
+  std::vector<std::string> faults;
+  for (std::size_t phase = 0; phase < stiffness.size(); ++phase)
+  {
+    const Eigen::Matrix3d &D = stiffness[phase];
+    const std::string name   = "stiffness of phase " + std::to_string(phase);
+    if (!D.allFinite())
+    {
+      faults.push_back(name + ": has an entry that is not finite; expected numbers in N/m");
+      continue;
+    }
+    const double gap = (D - D.transpose()).cwiseAbs().maxCoeff(), size = D.cwiseAbs().maxCoeff();
+    std::ostringstream text;
+    if (gap > 1e-9 * size)
+    {
+      text << name << ": is not symmetric, entries differ by " << gap
+           << " N/m where the largest is " << size << " N/m; expected C = C^T (Voigt 11, 22, 12)";
+      faults.push_back(text.str());
+    }
+    else if (const Eigen::LLT<Eigen::Matrix3d> cholesky(D / (size > 0. ? size : 1.));
+             cholesky.info() != Eigen::Success)
+    {
+      text << name << ": is not positive definite, [" << D.row(0) << "; " << D.row(1) << "; "
+           << D.row(2) << "] N/m; expected positive energy for every strain";
+      faults.push_back(text.str());
+    }
+  }
+  return faults;
+}
+
+template <int dim>
+Eigen::Matrix<double, 3, dim> corners_of(const Membrane &membrane, const Positions<dim> &positions,
+                                         const int t)
+{
+  Eigen::Matrix<double, 3, dim> corners;
+  for (int k = 0; k < 3; ++k)
+    corners.row(k) = positions.row(membrane.triangles(t, k));
+  return corners;
+}
+
+const MembraneStiffness &stiffness_of(const Membrane &membrane, const int t)
+{
+  return membrane.stiffness[static_cast<std::size_t>(membrane.phase[static_cast<std::size_t>(t)])];
+}
+} // namespace
+
+Membrane membrane(const meshes::TriangleMesh &mesh, const std::vector<Eigen::Matrix3d> &stiffness)
+{
+  std::vector<std::string> faults = stiffness_faults(stiffness);
+  const auto fault                = [&](const int t, const std::string &message)
+  {
+    if (faults.size() < 10)
+      faults.push_back("triangle " + std::to_string(t) + ": " + message);
+  };
+  if (mesh.material.size() != mesh.n_triangles())
+    throw meshes::BadInput("mesh: " + std::to_string(mesh.material.size()) + " phases for " +
+                           std::to_string(mesh.n_triangles()) + " triangles; expected one each");
+  if (const int v = first_not_finite<2>(mesh.vertices); v >= 0)
+    throw meshes::BadInput("vertex " + std::to_string(v) + ": rest position is not finite");
+
+  Membrane result;
+  result.vertices  = mesh.vertices;
+  result.triangles = mesh.triangles;
+  result.stiffness.assign(stiffness.begin(), stiffness.end());
+  result.rest.resize(static_cast<std::size_t>(mesh.n_triangles()));
+  result.phase.assign(mesh.material.data(), mesh.material.data() + mesh.material.size());
+  for (int t = 0; t < mesh.n_triangles(); ++t)
+  {
+    const auto corners = mesh.triangles.row(t);
+    if (corners.minCoeff() < 0 || corners.maxCoeff() >= mesh.n_vertices())
+    {
+      std::ostringstream text;
+      text << "has vertices " << corners << "; expected indices 0 ... " << mesh.n_vertices() - 1;
+      fault(t, text.str());
+      continue;
+    }
+    Eigen::Matrix<double, 3, 2> points;
+    for (int k = 0; k < 3; ++k)
+      points.row(k) = mesh.vertices.row(corners(k));
+    // Compared with its longest side: nothing that a unit of length could change.
+    const double longest = std::max({(points.row(1) - points.row(0)).squaredNorm(),
+                                     (points.row(2) - points.row(1)).squaredNorm(),
+                                     (points.row(0) - points.row(2)).squaredNorm()});
+    RestTriangle &rest   = result.rest[static_cast<std::size_t>(t)];
+    rest                 = rest_triangle(points);
+    if (!(rest.area > 1e-14 * longest))
+    {
+      std::ostringstream text;
+      text << "has area " << rest.area << " m^2 at rest (longest side " << std::sqrt(longest)
+           << " m); expected a counter-clockwise triangle of positive area: remove or turn it";
+      fault(t, text.str());
+    }
+    if (mesh.material(t) < 0 || mesh.material(t) >= static_cast<int>(stiffness.size()))
+      fault(t, "has phase " + std::to_string(mesh.material(t)) + "; expected 0 ... " +
+                 std::to_string(static_cast<int>(stiffness.size()) - 1) +
+                 ", one stiffness is given for each");
+  }
+  if (!faults.empty())
+    throw meshes::BadInput(faults);
+  return result;
+}
+
+Membrane membrane(const meshes::ClothMesh &cloth, const std::vector<Eigen::Matrix3d> &stiffness)
+{
+  Membrane result = membrane(cloth.rest, stiffness);
+  result.vertices.resize(0, 2);
+  result.triangles = cloth.triangles;
+  return result;
+}
+
+template <int dim>
+double membrane_energy(const Membrane &membrane, const Positions<dim> &positions)
+{
+  double energy = 0.;
+  for (int t = 0; t < static_cast<int>(membrane.triangles.rows()); ++t)
+    energy +=
+      triangle_energy<dim>(membrane.rest[static_cast<std::size_t>(t)],
+                           corners_of<dim>(membrane, positions, t), stiffness_of(membrane, t).D);
+  return energy;
+}
+
+template <int dim>
+MembraneGradient<dim> membrane_gradient(const Membrane &membrane, const Positions<dim> &positions)
+{
+  constexpr double epsilon = std::numeric_limits<double>::epsilon();
+  MembraneGradient<dim> result;
+  result.gradient.setZero(positions.rows(), dim);
+  result.magnitude.setZero(positions.rows());
+  result.round_off.setZero(positions.rows());
+  for (int t = 0; t < static_cast<int>(membrane.triangles.rows()); ++t)
+  {
+    const RestTriangle &rest                     = membrane.rest[static_cast<std::size_t>(t)];
+    const auto corners                           = corners_of<dim>(membrane, positions, t);
+    const Eigen::Matrix3d &D                     = stiffness_of(membrane, t).D;
+    const Eigen::Matrix<double, 3, dim> gradient = triangle_gradient<dim>(rest, corners, D);
+    const Eigen::Vector3d hats                   = rest.shape_gradients.rowwise().norm();
+    const Eigen::Vector3d sizes                  = corners.rowwise().norm();
+    // One rounding of the positions changes F by this, and the forces by the stiffness times it.
+    const double rounding = epsilon * (1. + hats.dot(sizes)) * rest.area * D.diagonal().maxCoeff();
+    for (int k = 0; k < 3; ++k)
+    {
+      const int v = membrane.triangles(t, k);
+      result.gradient.row(v) += gradient.row(k);
+      result.magnitude(v) += gradient.row(k).norm();
+      result.round_off(v) += rounding * hats(k);
+      result.energy_round_off += epsilon * gradient.row(k).norm() * (sizes(k) + 1. / hats(k));
+    }
+  }
+  return result;
+}
+
+template <int dim>
+void add_membrane_hessian(const Membrane &membrane, const Positions<dim> &positions,
+                          const Hessian kind, FreeVertexMatrix<dim> &matrix)
+{
+  for (int t = 0; t < static_cast<int>(membrane.triangles.rows()); ++t)
+    matrix.add(t, triangle_hessian<dim>(membrane.rest[static_cast<std::size_t>(t)],
+                                        corners_of<dim>(membrane, positions, t),
+                                        stiffness_of(membrane, t), kind));
+}
+
+template <int dim>
+int first_not_finite(const Positions<dim> &positions)
+{
+  for (int v = 0; v < static_cast<int>(positions.rows()); ++v)
+    if (!positions.row(v).allFinite())
+      return v;
+  return -1;
+}
+
+#define HOMESPUN_INSTANTIATE(dim)                                                                  \
+  template double membrane_energy<dim>(const Membrane &, const Positions<dim> &);                  \
+  template MembraneGradient<dim> membrane_gradient<dim>(const Membrane &, const Positions<dim> &); \
+  template void add_membrane_hessian<dim>(const Membrane &, const Positions<dim> &, Hessian,       \
+                                          FreeVertexMatrix<dim> &);                                \
+  template int first_not_finite<dim>(const Positions<dim> &);
+HOMESPUN_INSTANTIATE(2)
+HOMESPUN_INSTANTIATE(3)
+#undef HOMESPUN_INSTANTIATE
+} // namespace homespun::shell

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: MIT
+// The membrane term of a cloth: the corotational energy of corotational_energy.h summed over a
+// triangle mesh with a stiffness per phase. Value, gradient and Hessian take the same arguments and
+// keep no state, so that a solver adds further terms beside it or leaves this one out.
+#pragma once
+
+#include "meshes/cloth/cloth_mesh.h"
+#include "meshes/plain/triangle_mesh.h"
+#include "shell/algebra/free_vertex_matrix.h"
+#include "shell/membrane/corotational_energy.h"
+
+#include <Eigen/Core>
+
+#include <vector>
+
+namespace homespun::shell
+{
+/// Positions of vertices, one per row, shape (n,dim) [m].
+template <int dim>
+using Positions = Eigen::Matrix<double, Eigen::Dynamic, dim, Eigen::RowMajor>;
+
+/// A membrane at rest.
+struct Membrane
+{
+  meshes::Points vertices;                  ///< (n,2) rest positions [m]; empty of a sewn cloth
+  meshes::Triangles triangles;              ///< (m,3)
+  std::vector<RestTriangle> rest;           ///< (m)
+  std::vector<int> phase;                   ///< (m) index into stiffness
+  std::vector<MembraneStiffness> stiffness; ///< Voigt 11, 22, 12, engineering shear [N/m]
+};
+
+/// Prepares the rest state of a membrane, mesh.material being the phase of each triangle.
+/// @param stiffness one symmetric positive definite matrix per phase [N/m]
+/// @throws BadInput with all faults: indices, coordinates or stiffness that are not finite, triangles
+///   without positive area, phases out of range, a stiffness that is not symmetric positive definite
+Membrane membrane(const meshes::TriangleMesh &mesh, const std::vector<Eigen::Matrix3d> &stiffness);
+
+/// The same of a cloth sewn from panels: triangles connect vertices in space, vertices are left empty.
+Membrane membrane(const meshes::ClothMesh &cloth, const std::vector<Eigen::Matrix3d> &stiffness);
+
+/// Total energy, sum of area times W [J].
+/// @param positions (n,dim) [m]
+template <int dim>
+double membrane_energy(const Membrane &membrane, const Positions<dim> &positions);
+
+/// Gradient of the energy, with the scales that make its smallness a question without units.
+template <int dim>
+struct MembraneGradient
+{
+  Positions<dim> gradient;   ///< (n,dim) [N]; the elastic forces are its negative
+  Eigen::VectorXd magnitude; ///< (n) sum of |element forces| at each vertex [N]
+  Eigen::VectorXd round_off; ///< (n) change of the forces when positions move by one rounding [N]
+  double energy_round_off = 0.; ///< change of the energy when positions move by one rounding [J]
+};
+
+/// Gradient of membrane_energy(); every triangle's contributions sum to zero.
+template <int dim>
+MembraneGradient<dim> membrane_gradient(const Membrane &membrane, const Positions<dim> &positions);
+
+/// Adds the Hessian of membrane_energy() to a matrix over the free vertices.
+/// @param matrix whose elements are the membrane's triangles
+template <int dim>
+void add_membrane_hessian(const Membrane &membrane, const Positions<dim> &positions, Hessian kind,
+                          FreeVertexMatrix<dim> &matrix);
+
+/// Index of the first vertex with a component that is not finite, −1 where there is none.
+template <int dim>
+int first_not_finite(const Positions<dim> &positions);
+} // namespace homespun::shell

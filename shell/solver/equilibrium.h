@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: MIT
+// Static equilibrium of the coarse cloth under prescribed positions: grad W = 0 at every vertex that
+// is not held, with the corotational energy of METHOD 2, and its small-strain linear form.
+#pragma once
+
+#include "meshes/plain/triangle_mesh.h"
+#include "shell/algebra/free_vertex_matrix.h"
+#include "shell/membrane/membrane.h"
+
+#include <Eigen/Core>
+
+#include <memory>
+#include <vector>
+
+namespace homespun::shell
+{
+struct EquilibriumOptions
+{
+  /// Norm of the free vertices' forces over that of the sums of absolute element forces [-]. Forces
+  /// below what one rounding of the positions changes them by count as zero.
+  double relative_tolerance = 1e-10;
+  int max_iterations        = 50;
+};
+
+template <int dim>
+struct Equilibrium
+{
+  Positions<dim> positions;             ///< (n,dim) [m]
+  int iterations  = 0;                  ///< Newton steps taken
+  double energy   = 0.;                 ///< [J]
+  double residual = 0.;                 ///< norm of the forces on the free vertices [N]
+  std::vector<double> residual_history; ///< before each step and at the end [N]
+  int projected_steps =
+    0; ///< steps that needed the projected Hessian: the cloth was near an instability
+  int inverted_triangles = 0; ///< dim = 2: triangles with det F <= 0 at the end
+};
+
+/// Keeps the rest state, the sparsity and the symbolic factorisation of one cloth with one set of
+/// held vertices. Solves reuse its work space: one solver belongs to one thread at a time.
+template <int dim>
+class MembraneSolver
+{
+public:
+  /// Prepares the rest state and factors symbolically.
+  /// @param rest mesh at rest, rest.material being the phase of each triangle
+  /// @param stiffness_of_phase symmetric positive definite [N/m]
+  /// @param held_vertices whose positions are prescribed, in any order
+  /// @throws BadInput as membrane() does, and where no vertex is held, a held vertex does not exist, or
+  ///   a vertex hangs on no held one
+  MembraneSolver(const meshes::TriangleMesh &rest, std::vector<Eigen::Matrix3d> stiffness_of_phase,
+                 const std::vector<int> &held_vertices);
+
+  /// Small-strain equilibrium, K u = 0 at the free vertices with K the Hessian at rest; factored on
+  /// first use, then a substitution per call.
+  /// @param prescribed (n,2) current positions of the held vertices [m]; other rows are ignored
+  /// @return (n,2) current positions X + u [m]
+  /// @throws BadInput where a prescribed position is not finite or the held vertices leave a rigid
+  ///   motion free
+  Positions<dim> solve_linear(const Positions<dim> &prescribed) const
+  {
+    static_assert(dim == 2, "a flat sheet at rest has no stiffness out of its plane: the linear "
+                            "problem exists in the plane only");
+    return linear_equilibrium(prescribed);
+  }
+
+  /// Equilibrium at finite strain by Newton's method with a line search on the energy. A step uses the
+  /// exact Hessian where it is positive definite, else the projected one (with the smallest shift
+  /// that makes it so).
+  /// @param start (n,dim) [m] first guess; its held rows are the prescribed positions
+  /// @return positions of a stationary point at or below the energy of the start
+  /// @throws BadInput where the start is not finite; NotConverged with the residual history
+  Equilibrium<dim> solve_equilibrium(const Positions<dim> &start,
+                                     const EquilibriumOptions &options = {}) const;
+
+  /// The membrane at rest, for its energy, gradient and Hessian.
+  const Membrane &rest_membrane() const;
+
+  /// Free vertices' matrix with the exact Hessian at the given positions, factored: one assembly and
+  /// one numeric factorisation of a Newton step, for benchmarks. @return whether it is positive definite
+  bool factorize_at(const Positions<dim> &positions) const;
+
+private:
+  Positions<dim> linear_equilibrium(const Positions<dim> &prescribed) const;
+  Positions<dim> newton_step(const Positions<dim> &positions, const Positions<dim> &gradient,
+                             int &projected_steps) const;
+
+  Membrane membrane;
+  std::vector<bool> is_held;
+  mutable FreeVertexMatrix<dim> matrix;                         ///< of the Newton step
+  mutable std::unique_ptr<FreeVertexMatrix<dim>> linear_matrix; ///< K, factored; made on first use
+};
+} // namespace homespun::shell

@@ -1,0 +1,233 @@
+// SPDX-License-Identifier: MIT
+#include "shell/terms/membrane_term.h"
+
+#include "meshes/plain/errors.h"
+#include "shell/algebra/index.h"
+#include "shell/algebra/triangle_places.h"
+#include "shell/algebra/vertex_matrix.h"
+#include "shell/membrane/discrete_gradient.h"
+
+#include <cmath>
+#include <sstream>
+
+namespace homespun::shell
+{
+namespace
+{
+class MembraneTerm : public Term
+{
+public:
+  /// @param is_elastic false: the viscous part alone
+  MembraneTerm(Membrane &&membrane, const double viscosity, const bool is_elastic)
+      : membrane(std::move(membrane))
+      , viscosity(viscosity)
+      , is_elastic(is_elastic)
+      , effective(this->membrane.stiffness)
+  {
+  }
+
+  std::string name() const override
+  {
+    return is_elastic ? "membrane" : "viscosity";
+  }
+
+  void couple(std::vector<std::array<int, 2>> &pairs) const override
+  {
+    couple_corners(membrane.triangles, pairs);
+  }
+
+  void attach(const BlockMatrix &matrix) override
+  {
+    places = places_of(membrane.triangles, matrix);
+  }
+
+  void begin_step(const StepStart &start) override
+  {
+    if (viscosity == 0.)
+      return;
+    // An infinite step, an equilibrium, has no rate of strain.
+    factor = viscosity / start.step;
+    for (std::size_t phase = 0; phase < effective.size(); ++phase)
+      effective[phase] =
+        MembraneStiffness(((is_elastic ? 1. : 0.) + factor) * membrane.stiffness[phase].D);
+    old_stress.resize(index(n_triangles()));
+    for (int t = 0; t < n_triangles(); ++t)
+      old_stress[index(t)] =
+        -factor * (membrane.stiffness[phase_of(t)].D *
+                   biot_strain<3>(deformation_gradient<3>(membrane.rest[index(t)],
+                                                          corners_of(start.positions, t))));
+  }
+
+  double energy(const Vectors &positions) const override
+  {
+    double sum = 0.;
+    if (!acts())
+      return sum;
+    for (int t = 0; t < n_triangles(); ++t)
+    {
+      const RestTriangle &rest = membrane.rest[index(t)];
+      const Eigen::Vector3d e =
+        biot_strain<3>(deformation_gradient<3>(rest, corners_of(positions, t)));
+      sum +=
+        rest.area * (0.5 * e.dot(effective[phase_of(t)].D * e) +
+                     (viscosity > 0. && !old_stress.empty() ? old_stress[index(t)].dot(e) : 0.));
+    }
+    return sum;
+  }
+
+  double stored_energy(const Vectors &positions) const override
+  {
+    return is_elastic ? membrane_energy<3>(membrane, positions) : 0.;
+  }
+
+  void add_gradient(const Vectors &positions, Vectors &gradient) const override
+  {
+    if (!acts())
+      return;
+    for (int t = 0; t < n_triangles(); ++t)
+    {
+      const RestTriangle &rest       = membrane.rest[index(t)];
+      const DeformationGradient<3> F = deformation_gradient<3>(rest, corners_of(positions, t));
+      const Eigen::Matrix3d forces =
+        rest.shape_gradients *
+        (rest.area * energy_gradient<3>(F, effective[phase_of(t)].D, initial_stress(t)))
+          .transpose();
+      for (int k = 0; k < 3; ++k)
+        gradient.row(membrane.triangles(t, k)) += forces.row(k);
+    }
+  }
+
+  void add_derivatives(const Vectors &positions, const Hessian kind, Vectors &gradient,
+                       BlockMatrix &matrix) const override
+  {
+    if (!acts())
+      return;
+    for (int t = 0; t < n_triangles(); ++t)
+    {
+      const TriangleDerivatives<3> local =
+        triangle_derivatives<3>(membrane.rest[index(t)], corners_of(positions, t),
+                                effective[phase_of(t)], kind, initial_stress(t));
+      for (int k = 0; k < 3; ++k)
+        gradient.row(membrane.triangles(t, k)) += local.gradient.row(k);
+      for (std::size_t b = 0; b < 6; ++b)
+        matrix.add(places[index(t)][b], local.blocks[b]);
+    }
+  }
+
+  bool has_discrete_gradient() const override
+  {
+    return true;
+  }
+
+  void add_discrete_gradient(const Vectors &old, const Vectors &positions, Vectors &gradient,
+                             VertexMatrix &jacobian) const override
+  {
+    if (!acts())
+      return;
+    const double elastic = is_elastic ? 0.5 : 0.;
+    for (int t = 0; t < n_triangles(); ++t)
+    {
+      const TriangleStep step =
+        triangle_step(membrane.rest[index(t)], corners_of(old, t), corners_of(positions, t),
+                      membrane.stiffness[phase_of(t)].D, {elastic - factor, elastic + factor});
+      for (int a = 0; a < 3; ++a)
+      {
+        gradient.row(membrane.triangles(t, a)) += step.gradient.row(a);
+        for (int b = 0; b < 3; ++b)
+          jacobian.add(membrane.triangles(t, a), membrane.triangles(t, b),
+                       step.jacobian.block<3, 3>(3 * a, 3 * b));
+      }
+    }
+  }
+
+  std::size_t bytes() const override
+  {
+    return index(n_triangles()) *
+           (3 * sizeof(int) + sizeof(RestTriangle) + sizeof(int) + sizeof(places[0]) +
+            (viscosity > 0. ? sizeof(Eigen::Vector3d) : 0));
+  }
+
+private:
+  /// Viscosity alone does nothing before the first step and in an equilibrium.
+  bool acts() const
+  {
+    return is_elastic || factor > 0.;
+  }
+  int n_triangles() const
+  {
+    return static_cast<int>(membrane.triangles.rows());
+  }
+  std::size_t phase_of(const int t) const
+  {
+    return index(membrane.phase[index(t)]);
+  }
+  Eigen::Matrix3d corners_of(const Vectors &positions, const int t) const
+  {
+    Eigen::Matrix3d corners;
+    for (int k = 0; k < 3; ++k)
+      corners.row(k) = positions.row(membrane.triangles(t, k));
+    return corners;
+  }
+  Eigen::Vector3d initial_stress(const int t) const
+  {
+    if (viscosity == 0. || old_stress.empty())
+      return Eigen::Vector3d::Zero();
+    return old_stress[index(t)];
+  }
+
+  const Membrane membrane;
+  const double viscosity; ///< [s]
+  const bool is_elastic;
+  double factor = 0.;                       ///< β/h
+  std::vector<MembraneStiffness> effective; ///< (1 + β/h) D, or β/h D
+  std::vector<Eigen::Vector3d> old_stress;  ///< −β/h D e_n; empty without viscosity
+  std::vector<TrianglePlaces> places;       ///< (m)
+};
+} // namespace
+
+std::unique_ptr<Term> membrane_term(const meshes::ClothMesh &cloth,
+                                    const std::vector<Eigen::Matrix3d> &stiffness,
+                                    const double viscosity)
+{
+  if (!(viscosity >= 0.) || !std::isfinite(viscosity))
+    throw meshes::BadInput("viscosity of the membrane: found " + std::to_string(viscosity) +
+                           " s; expected zero or a positive time");
+  return std::make_unique<MembraneTerm>(membrane(cloth, stiffness), viscosity, true);
+}
+
+std::unique_ptr<Term> viscosity_term(const meshes::ClothMesh &cloth,
+                                     const std::vector<Eigen::Matrix3d> &stiffness,
+                                     const double viscosity)
+{
+  if (!(viscosity > 0.) || !std::isfinite(viscosity))
+    throw meshes::BadInput("viscosity of the membrane: found " + std::to_string(viscosity) +
+                           " s; expected a positive time");
+  return std::make_unique<MembraneTerm>(membrane(cloth, stiffness), viscosity, false);
+}
+
+Eigen::VectorXd lumped_masses(const meshes::ClothMesh &cloth,
+                              const std::vector<double> &areal_density)
+{
+  std::vector<std::string> faults;
+  for (std::size_t phase = 0; phase < areal_density.size(); ++phase)
+    if (!(areal_density[phase] > 0.) || !std::isfinite(areal_density[phase]))
+      faults.push_back("areal density of phase " + std::to_string(phase) + ": found " +
+                       std::to_string(areal_density[phase]) +
+                       " kg/m^2; expected a positive number");
+  if (!faults.empty())
+    throw meshes::BadInput(faults);
+  Eigen::VectorXd masses      = Eigen::VectorXd::Zero(cloth.n_vertices());
+  const Eigen::VectorXd areas = meshes::signed_areas(cloth.rest);
+  for (int t = 0; t < cloth.n_triangles(); ++t)
+    for (int k = 0; k < 3; ++k)
+      masses(cloth.triangles(t, k)) +=
+        areas(t) / 3. * areal_density.at(index(cloth.rest.material(t)));
+  for (int v = 0; v < cloth.n_vertices(); ++v)
+    if (!(masses(v) > 0.))
+      faults.push_back("vertex " + std::to_string(v) +
+                       ": belongs to no triangle and has no mass; remove it");
+  if (!faults.empty())
+    throw meshes::BadInput(faults);
+  return masses;
+}
+} // namespace homespun::shell

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: MIT
+#include "meshes/files/cell_file.h"
+#include "meshes/plain/errors.h"
+#include "tests/meshes/plain/shapes.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <limits>
+
+using namespace homespun;
+using namespace homespun::meshes;
+
+namespace
+{
+HomogenizedCell some_cell()
+{
+  HomogenizedCell cell;
+  cell.lattice = tests::skewed_lattice();
+  cell.mesh    = tests::parallelogram(cell.lattice, 3, 2);
+  cell.mesh.material << 0, 1, 0, 1, 0, 1, 2, 2, 2, 2, 0, 0;
+  cell.chi.resize(cell.mesh.n_vertices(), 6);
+  for (Eigen::Index k = 0; k < cell.chi.size(); ++k)
+    cell.chi.data()[k] = 1e-5 * static_cast<double>(k * k);
+  cell.chi.rowwise() -= Eigen::Matrix<double, 1, 6>(cell.chi.row(0));
+  cell.stiffness << 5., 1., 0.1, 1., 4., 0.2, 0.1, 0.2, 1.;
+  cell.areal_density = 0.2;
+  cell.provenance    = "made for a test";
+  return cell;
+}
+
+std::string temporary(const std::string &name)
+{
+  return (std::filesystem::temp_directory_path() / ("homespun-" + name)).string();
+}
+
+/// The text of the refusal, empty where the file was read.
+std::string refusal(const std::string &file)
+{
+  try
+  {
+    read_cell(file);
+    return "";
+  }
+  catch (const BadInput &fault)
+  {
+    return fault.what();
+  }
+}
+} // namespace
+
+TEST(exact_cell_file, a_cell_comes_back_as_it_was_written)
+{
+  const HomogenizedCell cell = some_cell();
+  const std::string file     = temporary("round-trip.h5");
+  write_cell(cell, file);
+  const HomogenizedCell back = read_cell(file);
+  EXPECT_EQ(back.mesh.vertices, cell.mesh.vertices);
+  EXPECT_EQ(back.mesh.triangles, cell.mesh.triangles);
+  EXPECT_EQ(back.mesh.material, cell.mesh.material);
+  EXPECT_EQ(back.lattice.vectors, cell.lattice.vectors);
+  EXPECT_EQ(back.chi, cell.chi);
+  EXPECT_EQ(back.anchor, cell.anchor);
+  EXPECT_EQ(back.stiffness, cell.stiffness);
+  EXPECT_EQ(back.areal_density, cell.areal_density);
+  EXPECT_EQ(back.provenance, cell.provenance);
+  EXPECT_FALSE(std::filesystem::exists(file + ".part"));
+}
+
+TEST(tripwire_cell_file, every_truncation_is_refused_by_name)
+{
+  const std::string whole = temporary("whole.h5"), cut = temporary("cut.h5");
+  write_cell(some_cell(), whole);
+  const auto size = std::filesystem::file_size(whole);
+  for (const double part : {0., 0.01, 0.3, 0.6, 0.9, 0.99})
+  {
+    std::filesystem::copy_file(whole, cut, std::filesystem::copy_options::overwrite_existing);
+    std::filesystem::resize_file(cut,
+                                 static_cast<std::uintmax_t>(part * static_cast<double>(size)));
+    EXPECT_NE(refusal(cut).find("cut.h5: is not a readable HDF5 file"), std::string::npos) << part;
+  }
+}
+
+TEST(tripwire_cell_file, a_file_of_another_kind_and_an_absent_one_are_refused)
+{
+  const std::string text = temporary("text.h5");
+  std::ofstream(text) << "not HDF5\n";
+  EXPECT_NE(refusal(text).find("not a readable HDF5 file"), std::string::npos);
+  EXPECT_NE(refusal(temporary("absent.h5")).find("no such file"), std::string::npos);
+}
+
+TEST(tripwire_cell_file, values_that_no_cell_has_are_not_written)
+{
+  const std::string file = temporary("bad.h5");
+  std::filesystem::remove(file);
+  HomogenizedCell not_finite = some_cell();
+  not_finite.chi(2, 3)       = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_THROW(write_cell(not_finite, file), BadInput);
+  HomogenizedCell indefinite = some_cell();
+  indefinite.stiffness(2, 2) = -1.;
+  EXPECT_THROW(write_cell(indefinite, file), BadInput);
+  HomogenizedCell not_anchored = some_cell();
+  not_anchored.anchor          = 1;
+  EXPECT_THROW(write_cell(not_anchored, file), BadInput);
+  EXPECT_FALSE(std::filesystem::exists(file));
+  EXPECT_FALSE(std::filesystem::exists(file + ".part"));
+}

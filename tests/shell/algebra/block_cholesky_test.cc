@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: MIT
+// The factorisation of a block matrix against the product with it, on meshes whose panels are narrow and wide,
+// and what it refuses.
+#include "shell/algebra/block_cholesky.h"
+#include "tests/meshes/plain/shapes.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <random>
+
+using namespace homespun;
+using namespace homespun::shell;
+
+namespace
+{
+/// A random positive definite matrix over a sheet of n x n x 2 triangles, whose lower edge is held.
+BlockMatrix random_matrix(const int n)
+{
+  const meshes::TriangleMesh mesh =
+    meshes::coarse_sheet({0., 0.}, Eigen::Matrix2d::Identity(), n, n);
+  std::vector<std::array<int, 2>> pairs;
+  for (int t = 0; t < mesh.n_triangles(); ++t)
+    for (int k = 0; k < 3; ++k)
+      pairs.push_back({mesh.triangles(t, k), mesh.triangles(t, (k + 1) % 3)});
+  std::vector<bool> is_held(static_cast<std::size_t>(mesh.n_vertices()), false);
+  std::fill_n(is_held.begin(), n + 1, true);
+  BlockMatrix matrix(pairs, is_held);
+  std::mt19937 generator(3);
+  std::uniform_real_distribution<double> random(-1., 1.);
+  // Σ (B_i x_i + B_j x_j)² + 0.01 |x|²
+  for (const auto &pair : pairs)
+  {
+    const Eigen::Matrix3d first = Eigen::Matrix3d::NullaryExpr([&] { return random(generator); }),
+                          other = Eigen::Matrix3d::NullaryExpr([&] { return random(generator); });
+    matrix.add(matrix.place(pair[0], pair[0]), first.transpose() * first);
+    matrix.add(matrix.place(pair[1], pair[1]), other.transpose() * other);
+    matrix.add(matrix.place(pair[0], pair[1]), first.transpose() * other);
+  }
+  for (int v = 0; v < mesh.n_vertices(); ++v)
+    matrix.add_multiple(matrix.place(v, v), 0.01);
+  return matrix;
+}
+} // namespace
+
+TEST(exact_block_cholesky, a_solution_times_the_matrix_is_the_right_side)
+{
+  for (const int n : {1, 2, 5, 20, 60})
+  {
+    const BlockMatrix matrix = random_matrix(n);
+    BlockCholesky cholesky(matrix);
+    for (int repeat = 0; repeat < 2; ++repeat)
+    {
+      ASSERT_TRUE(cholesky.factorize(matrix)) << n;
+      Vectors x = Vectors::Random(matrix.n_vertices(), 3), right_side, solution;
+      for (int v = 0; v < matrix.n_vertices(); ++v)
+        if (!matrix.is_free(v))
+          x.row(v).setZero();
+      matrix.multiply(x, right_side);
+      cholesky.solve(right_side, solution);
+      EXPECT_LE((solution - x).norm(), 1e-11 * x.norm()) << n;
+    }
+  }
+}
+
+TEST(tripwire_block_cholesky, a_matrix_that_is_not_positive_definite_is_refused_wherever_it_fails)
+{
+  BlockMatrix matrix = random_matrix(20);
+  BlockCholesky cholesky(matrix);
+  for (int v = 21; v < matrix.n_vertices(); v += 7)
+    for (const double wrong : {-1e3, std::numeric_limits<double>::quiet_NaN()})
+    {
+      BlockMatrix::Block &block = matrix.blocks[static_cast<std::size_t>(matrix.place(v, v).block)];
+      const BlockMatrix::Block kept = block;
+      block(v % 3, v % 3) += wrong;
+      EXPECT_FALSE(cholesky.factorize(matrix)) << v << ' ' << wrong;
+      block = kept;
+    }
+  EXPECT_TRUE(cholesky.factorize(matrix));
+}

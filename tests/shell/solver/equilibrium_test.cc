@@ -1,0 +1,248 @@
+// SPDX-License-Identifier: MIT
+#include "meshes/plain/errors.h"
+#include "tests/refusal.h"
+#include "tests/shell/shell_cases.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+using namespace homespun;
+using namespace homespun::shell;
+using homespun::tests::refusal;
+
+namespace
+{
+/// Lower and upper edge of a square of n x n x 2 triangles.
+std::vector<int> two_edges(const int n)
+{
+  std::vector<int> held;
+  for (int i = 0; i <= n; ++i)
+  {
+    held.push_back(i);
+    held.push_back(n * (n + 1) + i);
+  }
+  return held;
+}
+
+Positions<2> pulled(const meshes::TriangleMesh &mesh, const int n, const double displacement)
+{
+  Positions<2> x = mesh.vertices;
+  for (int i = 0; i <= n; ++i)
+    x(n * (n + 1) + i, 1) += displacement;
+  return x;
+}
+} // namespace
+
+TEST(exact_equilibrium, patch_test_an_affine_boundary_gives_an_affine_inside)
+{
+  const meshes::TriangleMesh mesh = tests::irregular_sheet(6);
+  Eigen::Matrix2d F;
+  F << 1.12, 0.08, -0.05, 0.93;
+  Eigen::Matrix<double, 3, 2> F3;
+  F3 << 1.12, 0.08, -0.05, 1.03, 0.3, 0.2;
+  const Positions<2> affine2 = mesh.vertices * F.transpose();
+  const Positions<3> affine3 = mesh.vertices * F3.transpose();
+  const auto hold            = tests::outline_of(mesh);
+  const MembraneSolver<2> plane(mesh, {tests::anisotropic()}, hold);
+  const MembraneSolver<3> space(mesh, {tests::anisotropic()}, hold);
+  // The start has the right boundary and a disturbed inside.
+  Positions<2> start2 = affine2;
+  Positions<3> start3 = affine3;
+  std::mt19937 generator(21);
+  std::vector<bool> held(static_cast<std::size_t>(mesh.n_vertices()), false);
+  for (const int v : hold)
+    held[static_cast<std::size_t>(v)] = true;
+  for (int v = 0; v < mesh.n_vertices(); ++v)
+    if (!held[static_cast<std::size_t>(v)])
+    {
+      start2.row(v) += 1e-4 * tests::random_matrix<Eigen::RowVector2d>(generator);
+      start3.row(v) += 1e-4 * tests::random_matrix<Eigen::RowVector3d>(generator);
+    }
+  EXPECT_LT((plane.solve_linear(start2) - affine2).cwiseAbs().maxCoeff(), 1e-11 * 0.01);
+  const auto in_plane = plane.solve_equilibrium(start2, {1e-13, 50});
+  const auto in_space = space.solve_equilibrium(start3, {1e-13, 50});
+  EXPECT_LT((in_plane.positions - affine2).cwiseAbs().maxCoeff(), 1e-11 * 0.01);
+  EXPECT_LT((in_space.positions - affine3).cwiseAbs().maxCoeff(), 1e-11 * 0.01);
+  EXPECT_EQ(in_plane.inverted_triangles, 0);
+  EXPECT_EQ(in_plane.residual_history.size(), static_cast<std::size_t>(in_plane.iterations) + 1);
+}
+
+TEST(exact_equilibrium, a_strip_free_to_contract_shrinks_by_its_poisson_ratio)
+{
+  // Uniaxial tension of a square of one stiffness, edges sliding: U = diag(1 − nu e, 1 + e) and the
+  // energy ½ E h e² per area, linear in stretch. Sliding edges: hold one vertex below and move the others
+  // to where the closed form has them.
+  const int n       = 5;
+  const double side = 0.01, nu = 0.3, strain = 0.15, young = 2.;
+  const meshes::TriangleMesh mesh = tests::irregular_sheet(n, side);
+  Positions<2> expected           = mesh.vertices;
+  expected.col(0) *= 1. - nu * strain;
+  expected.col(1) *= 1. + strain;
+  Positions<2> start = expected;
+  for (int v = n + 1; v < n * (n + 1); ++v)
+    start.row(v) = 0.5 * (expected.row(v) + mesh.vertices.row(v));
+  const MembraneSolver<2> solver(mesh, {tests::isotropic(young, nu)}, two_edges(n));
+  const auto result = solver.solve_equilibrium(start);
+  EXPECT_LT((result.positions - expected).cwiseAbs().maxCoeff(), 1e-9 * side);
+  const double energy = 0.5 * young * strain * strain * side * side;
+  EXPECT_NEAR(result.energy, energy, 1e-12 * energy);
+}
+
+TEST(order_equilibrium, linear_and_nonlinear_displacements_differ_by_strain_squared)
+{
+  const int n                     = 8;
+  const double side               = 0.01;
+  const meshes::TriangleMesh mesh = tests::irregular_sheet(n, side);
+  const MembraneSolver<2> solver(mesh, {tests::isotropic(1., 0.4)}, two_edges(n));
+  std::vector<double> strains, differences;
+  for (double strain = 1e-3; strain < 0.02; strain *= 2.)
+  {
+    const Positions<2> start = pulled(mesh, n, strain * side);
+    strains.push_back(strain);
+    differences.push_back(
+      (solver.solve_equilibrium(start).positions - solver.solve_linear(start)).norm());
+  }
+  EXPECT_NEAR(tests::slope(strains, differences), 2., 0.1);
+}
+
+TEST(invariant_equilibrium, positions_scale_with_the_unit_of_length_and_ignore_that_of_stiffness)
+{
+  const int n = 5;
+  std::vector<Positions<2>> results;
+  for (const auto &[length, stiffness] : std::vector<std::pair<double, double>>{
+         {1., 1.}, {1e3, 1.}, {1e-3, 1e9}, {1., 1e-9}, {1., 1e8}})
+  {
+    meshes::TriangleMesh mesh = tests::irregular_sheet(n);
+    mesh.vertices *= length;
+    const MembraneSolver<2> solver(mesh, {stiffness * tests::isotropic(1., 0.3)}, two_edges(n));
+    results.push_back(solver.solve_equilibrium(pulled(mesh, n, 1e-3 * length)).positions / length);
+  }
+  for (const auto &result : results)
+    EXPECT_LT((result - results[0]).cwiseAbs().maxCoeff(), 1e-9 * 0.01);
+}
+
+TEST(invariant_equilibrium, prescribed_rigid_motions_carry_the_whole_sheet_even_by_180_degrees)
+{
+  const int n                     = 4;
+  const meshes::TriangleMesh mesh = tests::irregular_sheet(n);
+  const MembraneSolver<2> solver(mesh, {tests::isotropic(1., 0.3)}, two_edges(n));
+  for (const double angle : {0.5, 3.1415926535897931})
+  {
+    const Positions<2> turned = mesh.vertices * tests::rotation<2>(angle).transpose();
+    const auto result         = solver.solve_equilibrium(turned);
+    EXPECT_EQ(result.iterations, 0);
+    EXPECT_LT((result.positions - turned).norm(), 1e-15);
+  }
+}
+
+TEST(bound_equilibrium, bad_starts_end_in_an_equilibrium_or_a_refusal)
+{
+  const int n                     = 5;
+  const double side               = 0.01;
+  const meshes::TriangleMesh mesh = tests::irregular_sheet(n, side);
+  const MembraneSolver<2> plane(mesh, {tests::isotropic(1., 0.3)}, two_edges(n));
+  const MembraneSolver<3> space(mesh, {tests::isotropic(1., 0.3)}, two_edges(n));
+  std::mt19937 generator(22);
+  const auto inside = [&](const auto &change)
+  {
+    Positions<2> x = pulled(mesh, n, 0.1 * side);
+    for (int v = n + 1; v < n * (n + 1); ++v)
+      change(x, v);
+    return x;
+  };
+  const std::vector<Positions<2>> starts = {
+    inside([&](Positions<2> &x, int v)
+           { x.row(v) = side * tests::random_matrix<Eigen::RowVector2d>(generator); }),
+    inside([&](Positions<2> &x, int v) { x(v, 1) = 0.; }),             // onto a line
+    inside([&](Positions<2> &x, int v) { x.row(v).setZero(); }),       // onto a point
+    inside([&](Positions<2> &x, int v) { x.row(v) = -x.row(v); }),     // turned by 180 degrees
+    inside([&](Positions<2> &x, int v) { x(v, 0) = side - x(v, 0); }), // mirrored
+    inside(
+      [&](Positions<2> &x, int v)
+      {
+        if (v == 12)
+          x(v, 0) = 1e6;
+      })};
+  const auto check = [](const auto &solver, const auto &start, const int k)
+  {
+    try
+    {
+      const auto result = solver.solve_equilibrium(start, {1e-10, 200});
+      EXPECT_TRUE(result.positions.allFinite()) << k;
+      EXPECT_LE(result.energy, membrane_energy(solver.rest_membrane(), start)) << k;
+    }
+    catch (const meshes::NotConverged &stop)
+    {
+      EXPECT_FALSE(stop.residual_history().empty()) << k;
+    }
+  };
+  for (std::size_t k = 0; k < starts.size(); ++k)
+  {
+    check(plane, starts[k], static_cast<int>(k));
+    Positions<3> lifted  = Positions<3>::Zero(mesh.n_vertices(), 3);
+    lifted.leftCols<2>() = starts[k];
+    check(space, lifted, static_cast<int>(k));
+  }
+}
+
+TEST(bound_equilibrium, converges_to_round_off_at_any_strain_contrast_origin_and_tolerance)
+{
+  const int n = 6;
+  for (const double origin : {0., 1e4})
+    for (const double strain : {1e-8, 1e-5, 1e-3, 0.1, -0.05})
+      for (const double contrast : {1., 1e6})
+        for (const double tolerance : {1e-8, 1e-12})
+        {
+          meshes::TriangleMesh mesh = tests::irregular_sheet(n, 0.2);
+          mesh.vertices.array() += origin;
+          for (int t = 0; t < mesh.n_triangles(); ++t)
+            mesh.material(t) = (t / (2 * n)) % 2;
+          const MembraneSolver<2> solver(
+            mesh, {tests::isotropic(1., 0.3), tests::isotropic(contrast, 0.3)}, two_edges(n));
+          const Positions<2> start = solver.solve_linear(pulled(mesh, n, 0.2 * strain));
+          EXPECT_LE(solver.solve_equilibrium(start, {tolerance, 50}).iterations, 8)
+            << origin << ' ' << strain << ' ' << contrast << ' ' << tolerance;
+        }
+}
+
+TEST(exact_equilibrium, in_the_plane_an_inverted_start_unfolds)
+{
+  const int n                     = 4;
+  const meshes::TriangleMesh mesh = tests::irregular_sheet(n);
+  const MembraneSolver<2> solver(mesh, {tests::isotropic(1., 0.3)}, tests::outline_of(mesh));
+  Positions<2> start = mesh.vertices;
+  start(12, 0) += 0.004; // beyond its neighbours: triangles with det F < 0
+  const auto result = solver.solve_equilibrium(start);
+  EXPECT_LT((result.positions - mesh.vertices).norm(), 1e-9 * 0.01);
+  EXPECT_EQ(result.inverted_triangles, 0);
+}
+
+TEST(tripwire_equilibrium, faults_are_named)
+{
+  const meshes::TriangleMesh mesh = tests::irregular_sheet(3);
+  const Eigen::Matrix3d D         = tests::isotropic(1., 0.3);
+  const auto expect               = [](const std::string &text, const std::string &part)
+  { EXPECT_NE(text.find(part), std::string::npos) << text; };
+  expect(refusal([&] { MembraneSolver<2>(mesh, {D}, {}); }), "held vertices: none is given");
+  expect(refusal([&] { MembraneSolver<2>(mesh, {D}, {99}); }), "held vertex 99: does not exist");
+  meshes::TriangleMesh apart = mesh;
+  apart.vertices.conservativeResize(mesh.n_vertices() + 1, 2);
+  apart.vertices.row(mesh.n_vertices()) << 1., 1.;
+  expect(refusal([&] { MembraneSolver<2>(apart, {D}, {0}); }),
+         "vertex 16: no triangles connect it to a held vertex");
+
+  const MembraneSolver<2> solver(mesh, {D}, two_edges(3));
+  Positions<2> start = mesh.vertices;
+  start(6, 1)        = std::numeric_limits<double>::quiet_NaN();
+  expect(refusal([&] { solver.solve_equilibrium(start); }),
+         "vertex 6: its start position is not finite");
+  EXPECT_NO_THROW(solver.solve_linear(start)); // vertex 6 is free: its row is ignored
+  start(0, 0) = std::numeric_limits<double>::infinity();
+  expect(refusal([&] { solver.solve_linear(start); }), "held vertex 0: its prescribed position");
+  expect(refusal([&] { solver.solve_linear(Positions<2>::Zero(3, 2)); }),
+         "has 3 rows; expected 16");
+  const MembraneSolver<2> hinged(mesh, {D}, {0});
+  expect(refusal([&] { hinged.solve_linear(mesh.vertices); }), "leave a rigid motion");
+  EXPECT_THROW(solver.solve_equilibrium(pulled(mesh, 3, 0.002), {1e-14, 1}), meshes::NotConverged);
+}

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: MIT
+// What every term of a moving cloth is asked: its matrix, its Taylor remainders, its balance.
+#pragma once
+
+#include "shell/terms/term.h"
+#include "tests/shell/shell_cases.h"
+
+#include <Eigen/Dense>
+
+#include <limits>
+#include <string>
+
+namespace homespun::tests
+{
+/// A matrix laid out for one term, all vertices free unless said otherwise.
+inline shell::BlockMatrix matrix_for(shell::Term &term, const int n_vertices,
+                                     std::vector<bool> is_held = {})
+{
+  std::vector<std::array<int, 2>> pairs;
+  term.couple(pairs);
+  is_held.resize(static_cast<std::size_t>(n_vertices), false);
+  shell::BlockMatrix matrix(pairs, is_held);
+  term.attach(matrix);
+  return matrix;
+}
+
+inline shell::Vectors gradient_of(const shell::Term &term, const shell::Vectors &x)
+{
+  shell::Vectors gradient = shell::Vectors::Zero(x.rows(), 3);
+  term.add_gradient(x, gradient);
+  return gradient;
+}
+
+/// All entries, vertex by vertex (3 n, 3 n); zero rows and columns for held vertices.
+inline Eigen::MatrixXd dense(const shell::BlockMatrix &matrix)
+{
+  const int n = matrix.n_vertices();
+  Eigen::MatrixXd all(3 * n, 3 * n);
+  shell::Vectors x(n, 3), y;
+  for (int c = 0; c < 3 * n; ++c)
+  {
+    x.setZero();
+    if (matrix.is_free(c / 3))
+      x(c / 3, c % 3) = 1.;
+    matrix.multiply(x, y);
+    all.col(c) = Eigen::Map<const Eigen::VectorXd>(y.data(), 3 * n);
+  }
+  return all;
+}
+
+inline Eigen::Vector3d torque(const shell::Vectors &x, const shell::Vectors &forces)
+{
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (Eigen::Index v = 0; v < x.rows(); ++v)
+    sum += Eigen::Vector3d(x.row(v)).cross(Eigen::Vector3d(forces.row(v)));
+  return sum;
+}
+
+/// Remainders of energy, gradient and Hessian along a direction, halving the step.
+struct TaylorOrders
+{
+  double gradient = 0., hessian = 0.;
+};
+inline TaylorOrders taylor_orders(shell::Term &term, const shell::Vectors &x,
+                                  const shell::Vectors &direction)
+{
+  shell::BlockMatrix matrix = matrix_for(term, static_cast<int>(x.rows()));
+  shell::Vectors gradient   = shell::Vectors::Zero(x.rows(), 3), product;
+  term.add_derivatives(x, shell::Hessian::exact, gradient, matrix);
+  matrix.multiply(direction, product);
+  const double value = term.energy(x), first = gradient.cwiseProduct(direction).sum(),
+               second = product.cwiseProduct(direction).sum();
+  std::vector<double> steps, two, three;
+  for (double h = 1. / 16.; h > 2e-3; h *= 0.5)
+  {
+    const double remainder = term.energy(x + h * direction) - value - h * first;
+    steps.push_back(h);
+    two.push_back(std::abs(remainder));
+    three.push_back(std::abs(remainder - 0.5 * h * h * second));
+  }
+  return {slope(steps, two), slope(steps, three)};
+}
+
+/// Smallest over largest eigenvalue.
+inline double smallest_eigenvalue_ratio(const shell::BlockMatrix &matrix)
+{
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> modes(dense(matrix));
+  return modes.eigenvalues().minCoeff() / modes.eigenvalues().cwiseAbs().maxCoeff();
+}
+} // namespace homespun::tests

@@ -1,0 +1,278 @@
+// SPDX-License-Identifier: MIT
+// The arithmetic of the error budget, run times and the range of validity on synthetic data: what is planted
+// must be found, and what is right must pass.
+#include "verification/budget/budget_rows.h"
+#include "verification/record/timing.h"
+#include "verification/strain/run_time.h"
+#include "verification/strain/validity.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+using namespace homespun::verification;
+using homespun::meshes::Points;
+
+namespace
+{
+constexpr int n_vertices = 40;
+
+/// A field that differs from vertex to vertex.
+Points field(const double size, const double turn)
+{
+  Points points(n_vertices, 2);
+  for (int v = 0; v < n_vertices; ++v)
+    points.row(v) << size * std::cos(0.7 * v + turn), size * std::sin(1.3 * v + turn);
+  return points;
+}
+
+/// A budget whose parts make up the total exactly.
+ErrorBudget known_budget(const double strain)
+{
+  ErrorBudget budget;
+  budget.total = Points::Zero(n_vertices, 2);
+  double size  = 1e-3 * strain;
+  double turn  = 0.;
+  for (const std::string &name : budget_parts())
+  {
+    budget.parts[name] = field(name == "nonlinearity"                     ? 1e-3 * strain * strain
+                               : name == "solver" || name == "resolution" ? 1e-9 * strain
+                                                                          : size,
+                               turn);
+    if (name != "precision" && name != "resolution")
+      budget.total += budget.parts[name];
+    size *= 0.8;
+    turn += 1.;
+  }
+  return budget;
+}
+
+const std::vector<int> all_interior(n_vertices, 1);
+
+std::vector<StrainRow> strain_rows(const std::vector<double> &strains)
+{
+  std::vector<StrainRow> rows;
+  for (const double strain : strains)
+  {
+    StrainRow row       = {"cell", "strip-2", strain, "biot", "localized", 20, 800, 288000};
+    row.mean            = 1e-6;
+    row.per_cell        = 1e-4;
+    row.per_fluctuation = 0.01;
+    row.uncertainty     = 1e-9;
+    rows.push_back(row);
+  }
+  return rows;
+}
+
+void add_level(const double strain, const ErrorBudget &budget, std::vector<BudgetRow> &rows)
+{
+  for (const BudgetRow &row :
+       budget_rows({"cell", "strip-2", strain, "biot"}, budget, all_interior, 0.01))
+    rows.push_back(row);
+}
+
+std::vector<BudgetRow> ladder(const std::vector<double> &strains, const std::string &planted = "",
+                              const double factor = 1.)
+{
+  std::vector<BudgetRow> rows;
+  for (const double strain : strains)
+  {
+    ErrorBudget budget = known_budget(strain);
+    if (!planted.empty())
+      budget.parts[planted] *= factor;
+    add_level(strain, budget, rows);
+  }
+  return rows;
+}
+
+std::vector<Verdict> judged(const std::vector<double> &asked, const std::vector<BudgetRow> &rows)
+{
+  return budget_verdicts(strain_rows(asked), rows, asked);
+}
+
+const Verdict &verdict_with(const std::vector<Verdict> &verdicts, const std::string &word)
+{
+  for (const Verdict &verdict : verdicts)
+    if (verdict.claim.find(word) != std::string::npos)
+      return verdict;
+  throw std::runtime_error("no verdict speaks of " + word);
+}
+
+const std::vector<double> strains = {0.001, 0.005, 0.01, 0.1};
+} // namespace
+
+TEST(exact_budget, parts_that_make_up_the_total_have_effectivity_one)
+{
+  const auto verdicts = judged(strains, ladder(strains));
+  EXPECT_EQ(verdicts.size(), 5u); // two levels, two claims each, and the slope
+  for (const Verdict &verdict : verdicts)
+    EXPECT_EQ(verdict.outcome, Outcome::pass) << verdict.claim;
+  EXPECT_NEAR(verdict_with(verdicts, "add up").value, 1., 1e-5);
+  EXPECT_NEAR(verdict_with(verdicts, "slope").value, 2., 1e-4);
+}
+
+TEST(exact_budget, the_shares_of_the_parts_are_the_share_of_their_sum)
+{
+  const ErrorBudget budget = known_budget(0.01);
+  double shares            = 0.;
+  for (const std::string &name : budget_parts())
+    if (name != "precision" && name != "resolution")
+      shares += norms_of(budget.parts.at(name), budget.total, all_interior, 0).share;
+  EXPECT_NEAR(shares, 1., 1e-12);
+  EXPECT_NEAR(norms_of(budget.total, budget.total, all_interior, 0).share, 1., 1e-14);
+  EXPECT_NEAR(norms_of(-budget.total, budget.total, all_interior, 0).share, -1., 1e-14);
+}
+
+TEST(exact_budget, regions_are_averaged_apart)
+{
+  std::vector<int> regions(n_vertices, 1);
+  for (int v = 0; v < 10; ++v)
+    regions[static_cast<std::size_t>(v)] = 3;
+  Points part = Points::Zero(n_vertices, 2);
+  part.topRows(10).col(0).setConstant(2.);
+  const Points total = Points::Constant(n_vertices, 2, 1.);
+  EXPECT_DOUBLE_EQ(norms_of(part, total, regions, 3).mean, 2.);
+  EXPECT_DOUBLE_EQ(norms_of(part, total, regions, 1).mean, 0.);
+  EXPECT_DOUBLE_EQ(norms_of(part, total, regions, 0).mean, 0.5);
+  EXPECT_DOUBLE_EQ(norms_of(part, total, regions, 0).max, 2.);
+}
+
+TEST(tripwire_budget, an_error_planted_in_one_part_moves_the_effectivity_out_of_range)
+{
+  for (const char *part : {"scale", "coarse-mesh", "cell"})
+    for (const double factor : {-2., 4.})
+    {
+      const auto verdicts = judged(strains, ladder(strains, part, factor));
+      EXPECT_EQ(verdict_with(verdicts, "add up").outcome, Outcome::fail)
+        << part << " times " << factor;
+    }
+}
+
+TEST(tripwire_budget, a_sum_as_long_as_the_error_that_points_elsewhere_is_noticed)
+{
+  std::vector<BudgetRow> rows;
+  for (const double strain : strains)
+  {
+    ErrorBudget budget = known_budget(strain);
+    for (auto &[name, field] : budget.parts)
+      field *= -1.;
+    add_level(strain, budget, rows);
+  }
+  EXPECT_EQ(verdict_with(judged(strains, rows), "add up").outcome, Outcome::pass); // lengths alone
+  const auto notes = budget_notes(strain_rows(strains), rows);
+  ASSERT_EQ(notes.size(), 2u); // 1 % and 10 %
+  EXPECT_NE(notes[0].find("misses 2e+02 %"), std::string::npos) << notes[0];
+}
+
+TEST(tripwire_budget, a_homogenized_sheet_that_is_not_resolved_is_told)
+{
+  const auto notes = budget_notes(strain_rows(strains), ladder(strains, "resolution", 1e6));
+  const auto right = budget_notes(strain_rows(strains), ladder(strains));
+  EXPECT_NE(notes[0], right[0]);
+  EXPECT_NE(notes[0].find("counts as resolved changes by"), std::string::npos) << notes[0];
+}
+
+TEST(tripwire_budget, a_solver_that_stops_early_is_noticed)
+{
+  const auto verdicts = judged(strains, ladder(strains, "solver", 1e6));
+  EXPECT_EQ(verdict_with(verdicts, "solvers").outcome, Outcome::fail);
+}
+
+TEST(tripwire_budget, a_nonlinearity_of_first_order_is_noticed)
+{
+  std::vector<BudgetRow> rows = ladder(strains);
+  for (BudgetRow &row : rows)
+    if (row.part == "nonlinearity")
+      row.per_cell = 1e-3 * row.strain;
+  EXPECT_EQ(verdict_with(judged(strains, rows), "slope").outcome, Outcome::fail);
+}
+
+TEST(exact_budget, a_slope_needs_three_levels_or_nothing_to_measure)
+{
+  const std::vector<double> two = {0.01, 0.1};
+  for (const Verdict &verdict : judged(two, ladder(two)))
+    EXPECT_EQ(verdict.claim.find("slope"), std::string::npos); // such a study cannot decide it
+  EXPECT_EQ(verdict_with(judged(strains, ladder({0.01, 0.1})), "slope").outcome,
+            Outcome::inconclusive);
+  const auto nothing = judged(strains, ladder(strains, "nonlinearity", 0.));
+  EXPECT_EQ(verdict_with(nothing, "slope").outcome, Outcome::pass);
+}
+
+TEST(exact_budget, a_level_without_a_budget_is_inconclusive)
+{
+  int n_judged = 0;
+  for (const Verdict &verdict : judged(strains, ladder({0.001, 0.005, 0.01})))
+    if (verdict.claim.find("at 10 %") != std::string::npos)
+    {
+      EXPECT_EQ(verdict.outcome, Outcome::inconclusive) << verdict.claim;
+      ++n_judged;
+    }
+  EXPECT_EQ(n_judged, 2);
+}
+
+TEST(exact_run_time, the_median_is_the_middle)
+{
+  EXPECT_EQ(median({3., 1., 2.}), 2.);
+  EXPECT_EQ(median({4., 1., 2., 3.}), 2.5);
+  EXPECT_TRUE(std::isnan(median({})));
+}
+
+TEST(exact_validity, the_limit_of_a_power_law_is_found)
+{
+  std::vector<double> x, y;
+  for (const double strain : {0.001, 0.003, 0.02, 0.1})
+  {
+    x.push_back(strain);
+    y.push_back(7. * strain * strain);
+  }
+  const Crossing found = crossing(x, y, 7. * 0.04 * 0.04);
+  EXPECT_EQ(found.relation, '=');
+  EXPECT_NEAR(found.strain, 0.04, 1e-12);
+  EXPECT_EQ(crossing(x, y, 1.).relation, '>');
+  EXPECT_EQ(crossing(x, y, 1.).strain, 0.1);
+  EXPECT_EQ(crossing(x, y, 1e-9).relation, '-');
+}
+
+TEST(exact_validity, a_curve_that_comes_back_counts_up_to_its_first_crossing)
+{
+  EXPECT_LT(crossing({0.01, 0.02, 0.04}, {1., 3., 1.}, 2.).strain, 0.02);
+}
+
+TEST(exact_validity, rows_carry_the_error_bar_and_the_reason)
+{
+  std::vector<StrainRow> rows = strain_rows(strains);
+  for (StrainRow &row : rows)
+  {
+    row.mean            = 1e-2 * row.strain;
+    row.per_cell        = row.strain;     // 1 % at strain 0.01
+    row.per_fluctuation = 0.5;            // never within 10 %
+    row.uncertainty     = 0.1 * row.mean; // a tenth of the error
+  }
+  const std::vector<ValidityRow> found = validity_rows(rows);
+  ASSERT_EQ(found.size(), 5u);
+  for (int k = 0; k < 3; ++k)
+  {
+    const ValidityRow &row = found[static_cast<std::size_t>(k)];
+    EXPECT_EQ(row.relation, "-");
+    EXPECT_TRUE(std::isnan(row.largest));
+    EXPECT_NE(row.note.find("already 50 %"), std::string::npos);
+  }
+  EXPECT_EQ(found[3].relation, "=");
+  EXPECT_NEAR(found[3].largest, 0.01, 1e-12);
+  EXPECT_NEAR(found[3].lower, 0.01 / 1.1, 1e-12);
+  EXPECT_NEAR(found[3].upper, 0.01 / 0.9, 1e-12);
+  rows.push_back({"cell", "strip-2", 0.05, "biot", unreached});
+  EXPECT_EQ(validity_rows(rows)[4].relation, ">"); // the ladder ends at 0.01
+  EXPECT_NE(validity_rows(rows)[4].note.find("no equilibrium"), std::string::npos);
+}
+
+TEST(exact_run_time, the_bar_of_the_best_solution_is_carried_to_the_full_sheet)
+{
+  const std::vector<UncertaintyRow> rows = {
+    {"cell", "strip-2", "linear", 0.001, 4, 2e-9, 3e-9, 1e-10},
+    {"cell", "strip-2", "linear", 0.001, 20, 1e-9},
+    {"cell", "strip-2", "biot", 0.05, 4, 1e-7, 1e-7, 2e-8}};
+  EXPECT_NEAR(bar_of_p2(rows, "cell", "strip-2", 20, 0.1), 2e-8 / 0.05 * 0.5 * 0.1, 1e-15);
+  EXPECT_TRUE(std::isnan(bar_of_p2(rows, "cell", "strip-1", 20, 0.1)));
+}

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: MIT
+// What a sheet fluctuates by, and what the place of the cut decides.
+#include "homogenization/fem/homogenize.h"
+#include "verification/method/anchor_choice.h"
+#include "verification/method/fluctuation.h"
+
+#include <gtest/gtest.h>
+
+using namespace homespun;
+using namespace homespun::verification;
+
+namespace
+{
+struct Striped
+{
+  homogenization::UnitCell cell = homogenization::read_unit_cell(CELLS "layered.prm");
+  meshes::HomogenizedCell homogenized;
+  meshes::Sheet sheet = meshes::tile(cell.mesh, cell.lattice, 4, 4);
+
+  Striped()
+  {
+    homogenization::HomogenizationOptions p1;
+    p1.order    = 1;
+    homogenized = homogenization::homogenized_cell(
+      cell, homogenization::homogenize(cell, p1, MPI_COMM_WORLD), "");
+  }
+};
+} // namespace
+
+TEST(exact_fluctuation, in_an_infinite_cloth_it_is_the_distance_from_the_affine_motion)
+{
+  const Striped striped;
+  const meshes::Sheet one = meshes::tile(striped.cell.mesh, striped.cell.lattice, 1, 1);
+  const Load load("periodic-22");
+  meshes::Points positions = one.mesh.vertices * load.gradient(0.01).transpose();
+  positions.col(1).array() += 2e-6;
+  FluctuationMeasure measure(striped.homogenized.stiffness, one, load);
+  const Fluctuation found = measure.at(Law::biot, 0.01, positions);
+  EXPECT_NEAR(found.mean, 2e-6, 1e-15);
+  EXPECT_NEAR(found.bar, 0., 1e-15);
+}
+
+// A sheet of one stiffness does not fluctuate; what is found is the discretization of the measure, which its bar covers.
+TEST(bound_fluctuation, a_homogeneous_sheet_has_none_beyond_its_bar)
+{
+  const Striped striped;
+  for (const char *name : {"strip-1", "strip-2", "shear-frame"})
+  {
+    const Load load(name);
+    const HomogenizedSheet resolved(striped.homogenized.stiffness, striped.sheet, load, 32, 32);
+    const shell::Positions<2> solved = resolved.solve(Law::biot, resolved.prescribed(0.05));
+    FluctuationMeasure measure(striped.homogenized.stiffness, striped.sheet, load);
+    const Fluctuation found =
+      measure.at(Law::biot, 0.05, resolved.at_fine_vertices(Law::biot, solved).positions);
+    EXPECT_GT(found.mean, 0.);
+    EXPECT_LE(found.mean, found.bar) << name;
+    EXPECT_LE(found.mean, 1e-2 * 0.05 * 0.01) << name; // a hundredth of strain x cell side
+  }
+}
+
+// Stripes pulled across: with the mean of chi in place of the corner as its zero nothing is gained, so another anchor must do
+// much worse than the corner.
+TEST(tripwire_fluctuation, another_place_of_the_cut_changes_the_error_and_is_told)
+{
+  const Striped striped;
+  const Load load("strip-2");
+  const HomogenizedSheet coarse(striped.homogenized.stiffness, striped.sheet, load, 4, 4);
+  const shell::Positions<2> solved = coarse.solve(Law::biot, coarse.prescribed(0.01));
+  const LocalState state           = coarse.at_fine_vertices(Law::biot, solved);
+  const meshes::Points reference   = localized(state, striped.homogenized, striped.sheet);
+  const AnchorChoice choice        = errors_of_other_anchors(striped.homogenized, coarse.mesh,
+                                                             striped.sheet, Law::biot, solved, reference);
+  EXPECT_LT(choice.smallest, 0.05 * choice.largest);
+  EXPECT_GT(choice.largest, 0.1 * 0.01 * 0.01); // a tenth of strain x cell side
+  EXPECT_NE(note_of_anchor(choice, 1e-6, 2e-5, 1e-7).find("where the cell is cut"),
+            std::string::npos);
+  EXPECT_EQ(note_of_anchor(choice, 1e-6, 2e-5, choice.largest), "");
+}

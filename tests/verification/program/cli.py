@@ -1,0 +1,75 @@
+# SPDX-License-Identifier: MIT
+"""What the tests of the program share: running it, and folders that go away."""
+import csv
+import json
+import os
+import pathlib
+import shutil
+import subprocess
+import tempfile
+import unittest
+
+PROGRAM = os.environ["HOMESPUN"]
+PATIENCE = int(os.environ.get("PATIENCE", "1"))  # more where all assertions are on
+MPIEXEC = os.environ.get("MPIEXEC", "mpiexec")
+CELLS = pathlib.Path(__file__).resolve().parents[3] / "meshes" / "cells"
+
+
+def run(*arguments, ranks=1, **options):
+    """Runs homespun and returns the finished process, with its output as text."""
+    command = [PROGRAM, *map(str, arguments)]
+    if ranks > 1:
+        command = [MPIEXEC, "--oversubscribe", "-n", str(ranks), *command]
+    return subprocess.run(command, capture_output=True, text=True, timeout=240 * PATIENCE, check=False, **options)
+
+
+def rows_of(path):
+    """The rows of a table."""
+    with open(path, newline="", encoding="utf-8") as file:
+        return list(csv.DictReader(file))
+
+
+def cut(folder):
+    """Makes of a run that ended one that was killed, as far as its run.json tells."""
+    path = folder / "run.json"
+    description = json.loads(path.read_text(encoding="utf-8"))
+    description["finished"] = False
+    del description["files"]
+    path.write_text(json.dumps(description), encoding="utf-8")
+
+
+def status_of(verdicts):
+    """The exit status that claims amount to."""
+    outcomes = {verdict["verdict"] for verdict in verdicts}
+    return 1 if "FAIL" in outcomes else 4 if "INCONCLUSIVE" in outcomes else 0
+
+
+class InFolder(unittest.TestCase):
+    """A test with an empty folder of its own."""
+
+    def setUp(self):
+        self.folder = pathlib.Path(tempfile.mkdtemp(prefix="homespun-"))
+        self.addCleanup(shutil.rmtree, self.folder, ignore_errors=True)
+
+    def cell_with(self, before, after, name="layered"):
+        """A copy of a shipped cell, with one piece of its .prm replaced."""
+        shutil.copy(CELLS / f"{name}.msh", self.folder)
+        text = (CELLS / f"{name}.prm").read_text(encoding="utf-8")
+        self.assertIn(before, text)
+        path = self.folder / f"{name}.prm"
+        path.write_text(text.replace(before, after), encoding="utf-8")
+        return path
+
+    def assert_same_rows(self, found, expected):
+        """Texts are equal, and numbers but times to what a solver leaves open."""
+        self.assertEqual(len(found), len(expected))
+        for one, two in zip(found, expected):
+            for key, value in two.items():
+                if key.startswith("seconds"):
+                    continue
+                try:
+                    number = float(value)
+                except ValueError:
+                    self.assertEqual(one[key], value, two)
+                else:
+                    self.assertAlmostEqual(float(one[key]), number, delta=2e-5 * abs(number) + 1e-13, msg=f"{key} of {two}")

@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: MIT
+#include "verification/budget/error_budget.h"
+
+#include "localization/upsampler.h"
+#include "meshes/plain/errors.h"
+
+#include <Eigen/QR>
+
+#include <algorithm>
+#include <limits>
+
+namespace homespun::verification
+{
+using meshes::Points;
+
+const std::vector<std::string> &budget_parts()
+{
+  static const std::vector<std::string> names = {
+    "scale",  "nonlinearity", "coarse-mesh", "cell",      "blending",  "time-step",
+    "solver", "precision",    "convention",  "reference", "resolution"};
+  return names;
+}
+
+Points ErrorBudget::sum() const
+{
+  Points result = Points::Zero(total.rows(), 2);
+  for (const auto &[name, field] : parts)
+    if (name != "precision" && name != "resolution")
+      result += field;
+  return result;
+}
+
+int budget_refinement(const meshes::Sheet &sheet)
+{
+  return std::clamp(160 / std::max(sheet.n1, sheet.n2) / 2 * 2, 4, 16);
+}
+
+namespace
+{
+/// The method with its default options.
+Points upsampled(const meshes::HomogenizedCell &cell, const meshes::TriangleMesh &coarse,
+                 const meshes::Sheet &sheet, const Law law, const shell::Positions<2> &positions)
+{
+  localization::Upsampler<2, double>::Fine fine;
+  localization::Upsampler<2, double>(cell, coarse, sheet, Method("localized").options(law))
+    .upsample(positions, fine);
+  return fine;
+}
+
+/// The constants c (3,2) of w for which E · c comes nearest to a field, in least squares. Directions of strain that the
+/// sheet hardly knows are left alone.
+Eigen::Matrix<double, 3, 2> best_constant(const LocalState &state, const Points &field)
+{
+  Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> solver;
+  solver.setThreshold(1e-6);
+  solver.compute(state.frames.leftCols<3>());
+  return solver.solve(Eigen::MatrixXd(field));
+}
+
+/// L (E · c): what a constant of w adds to the positions.
+Points from_constant(const LocalState &state, const Eigen::Matrix<double, 3, 2> &constant)
+{
+  Points result = state.frames.leftCols<3>() * constant;
+  for (Eigen::Index v = 0; v < result.rows(); ++v)
+  {
+    const Eigen::RowVector2d w = result.row(v);
+    const auto &lift           = state.frames.row(v).tail<4>();
+    result.row(v) << lift(0) * w(0) + lift(1) * w(1), lift(2) * w(0) + lift(3) * w(1);
+  }
+  return result;
+}
+} // namespace
+
+LoadBudget::LoadBudget(const BudgetCells &cells, const meshes::Sheet &sheet, const Load &load,
+                       const Points &linear, const Points &linear_best, const double linear_strain,
+                       const int refinement)
+    : cells(cells)
+    , sheet(sheet)
+    , load(load)
+    , coarse(cells.given.stiffness, sheet, load, sheet.n1, sheet.n2)
+    , coarse_best(cells.best.stiffness, sheet, load, sheet.n1, sheet.n2)
+    , coarse_tight(cells.tight.stiffness, sheet, load, sheet.n1, sheet.n2)
+    , resolved(cells.given.stiffness, sheet, load, load.is_periodic() ? 1 : sheet.n1 * refinement,
+               load.is_periodic() ? 1 : sheet.n2 * refinement)
+    , half_resolved(cells.given.stiffness, sheet, load,
+                    load.is_periodic() ? 1 : sheet.n1 * refinement / 2,
+                    load.is_periodic() ? 1 : sheet.n2 * refinement / 2)
+{
+  const HomogenizedSheet resolved_best(cells.best.stiffness, sheet, load,
+                                       load.is_periodic() ? 1 : sheet.n1 * refinement,
+                                       load.is_periodic() ? 1 : sheet.n2 * refinement);
+  const LocalState state = resolved_best.at_fine_vertices(
+    Law::linear, resolved_best.solve(Law::linear, resolved_best.prescribed(linear_strain)));
+  const Points error = localized(state, cells.best, sheet) - linear_best;
+  constant           = best_constant(state, error);
+  scale              = (error - from_constant(state, constant)) / linear_strain;
+
+  const auto method = [&](const meshes::HomogenizedCell &cell, const HomogenizedSheet &homogenized)
+  {
+    return upsampled(cell, coarse.mesh, sheet, Law::linear,
+                     homogenized.solve(Law::linear, homogenized.prescribed(linear_strain)));
+  };
+  cell_and_reference =
+    (linear_best - linear + method(cells.given, coarse) - method(cells.best, coarse_best)) /
+    linear_strain;
+}
+
+ErrorBudget LoadBudget::measure(const Law law, const SolvedLevel &level)
+{
+  ErrorBudget budget;
+  const double strain = level.strain;
+  budget.total        = level.upsampled - level.reference;
+  const Points zero   = Points::Zero(budget.total.rows(), 2);
+
+  // The resolved homogenized solution starts from that of the strain before.
+  shell::Positions<2> start = resolved.prescribed(strain);
+  if (last_displacement.size() > 0)
+    start = resolved.with_held(resolved.mesh.vertices + strain * last_displacement, strain);
+  const shell::Positions<2> u = resolved.solve(law, start);
+  last_displacement           = (u - resolved.mesh.vertices) / strain;
+  const LocalState exact      = resolved.at_fine_vertices(law, u);
+  const LocalState averaged   = resolved.at_fine_vertices(law, u, coarse);
+  const Points with_exact     = localized(exact, cells.given, sheet);
+  const Points with_averaged  = localized(averaged, cells.given, sheet);
+
+  budget.parts["scale"]      = strain * scale;
+  budget.parts["convention"] = from_constant(exact, constant);
+  budget.parts["nonlinearity"] =
+    law == Law::linear ? zero : nonlinearity(law, u, with_exact, budget);
+  budget.parts["coarse-mesh"] =
+    localized(coarse.at_fine_vertices(law, level.coarse), cells.given, sheet) - with_averaged;
+  budget.parts["blending"]   = with_averaged - with_exact;
+  budget.parts["resolution"] = resolution(law, strain, with_exact);
+
+  const shell::Positions<2> u_best =
+    coarse_best.solve(law, coarse_best.with_held(level.coarse, strain));
+  budget.parts["cell"] = level.upsampled - upsampled(cells.best, coarse.mesh, sheet, law, u_best);
+  budget.parts["reference"] = strain * cell_and_reference - budget.parts["cell"];
+
+  shell::EquilibriumOptions tight;
+  tight.relative_tolerance          = 1e-13;
+  const shell::Positions<2> u_tight = coarse_tight.solve(law, level.coarse, tight);
+  budget.parts["solver"] =
+    (level.upsampled - upsampled(cells.tight, coarse.mesh, sheet, law, u_tight)) -
+    (level.reference - level.tight_reference);
+
+  localization::Upsampler<2, float>::Fine in_float;
+  localization::Upsampler<2, float>(cells.given, coarse.mesh, sheet,
+                                    Method("localized").options(law))
+    .upsample(level.coarse, in_float);
+  budget.parts["precision"] = in_float.cast<double>() - level.upsampled;
+  budget.parts["time-step"] = zero;
+  return budget;
+}
+
+/// What the homogenized sheet moves by from a mesh half as fine. It stands beside the sum: where that mesh finds no
+/// equilibrium it is not a number, and the other parts stay.
+Points LoadBudget::resolution(const Law law, const double strain, const Points &with_exact)
+{
+  if (load.is_periodic()) // the affine motion is exact on any mesh
+    return Points::Zero(with_exact.rows(), 2);
+  shell::Positions<2> start = half_resolved.prescribed(strain);
+  if (last_half_displacement.size() > 0)
+    start = half_resolved.with_held(half_resolved.mesh.vertices + strain * last_half_displacement,
+                                    strain);
+  try
+  {
+    const shell::Positions<2> u = half_resolved.solve(law, start);
+    last_half_displacement      = (u - half_resolved.mesh.vertices) / strain;
+    return with_exact - localized(half_resolved.at_fine_vertices(law, u), cells.given, sheet);
+  }
+  catch (const meshes::NotConverged &)
+  {
+    return Points::Constant(with_exact.rows(), 2, std::numeric_limits<double>::quiet_NaN());
+  }
+}
+
+/// Part 2: the homogenized sheet and its localization by the small-strain theory, against both at finite strain.
+Points LoadBudget::nonlinearity(const Law law, const shell::Positions<2> &u,
+                                const Points &with_exact, ErrorBudget &budget) const
+{
+  const NonlinearCell cell(cells.given, cells.stiffness_of_phase, law);
+  const NonlinearLocalization at_finite_strain(cell, cells.given, resolved.strains(law, u));
+  budget.misfit_of_localization         = at_finite_strain.misfit();
+  const shell::Positions<2> u_nonlinear = resolved.solve(at_finite_strain, u);
+  return with_exact - localized(resolved.at_fine_vertices(law, u_nonlinear), cells.given, sheet,
+                                &at_finite_strain);
+}
+} // namespace homespun::verification

@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: MIT
+#include "verification/cell/cell_bracket.h"
+
+#include "homogenization/bracket/compatible_strain.h"
+#include "meshes/plain/errors.h"
+#include "meshes/plain/refine.h"
+#include "verification/cell/energy_order.h"
+
+#include <chrono>
+#include <cstdio>
+#include <limits>
+#include <sstream>
+
+namespace homespun::verification
+{
+using homogenization::Bracket;
+
+namespace
+{
+/// The mesh of a cell on the torus, as often refined as the cell problems; that of a drawing on its curves.
+homogenization::TorusMesh torus_of(const homogenization::UnitCell &cell,
+                                   const meshes::TriangleMesh &refined, const unsigned times)
+{
+  homogenization::TorusMesh torus =
+    homogenization::glued(cell.mesh, cell.lattice, cell.curved_sides);
+  if (!torus.is_drawn())
+    return homogenization::glued(refined, cell.lattice);
+  for (unsigned k = 0; k < times; ++k)
+    torus = homogenization::bisected(torus, std::vector<char>(torus.triangles.size(), 1));
+  return torus;
+}
+
+std::string text_of(const homogenization::Ending ending, const BracketOptions &options)
+{
+  using homogenization::Ending;
+  switch (ending)
+  {
+  case Ending::tolerance:
+    return "the width that was asked for is reached";
+  case Ending::max_dofs:
+    return "stopped before a mesh of more than " + std::to_string(options.max_dofs) +
+           " DoFs: raise --max-dofs";
+  case Ending::round_off:
+    return "stopped at round-off: a finer mesh does not narrow it";
+  case Ending::resolution:
+    return "stopped at triangles of 1e-100 of the cell: the singularity is too strong";
+  }
+  return "";
+}
+} // namespace
+
+CellBracket bracket_of(const homogenization::UnitCell &cell, const BracketOptions &options,
+                       const std::function<void(const std::string &)> &report)
+{
+  const auto start                = std::chrono::steady_clock::now();
+  const meshes::TriangleMesh mesh = meshes::refined(cell.mesh, static_cast<int>(options.refine));
+  CellBracket result;
+  // A periodic mesh has three edges to two triangles, and half as many vertices as triangles.
+  const int n_dofs = options.order == 2 ? 4 * mesh.n_triangles() : 3 * mesh.n_triangles();
+  if (n_dofs > static_cast<int>(options.max_dofs))
+  {
+    result.is_left_out = true;
+    result.remark      = "none: it would take " + std::to_string(n_dofs) +
+                    " DoFs on this mesh, more than " + std::to_string(options.max_dofs) +
+                    ": raise --max-dofs, or refine less";
+    return result;
+  }
+  const auto observe = [&](const Bracket &bracket)
+  {
+    const double seconds =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    result.history.push_back({bracket.n_triangles, bracket.n_displacement_dofs,
+                              bracket.n_stress_dofs, bracket.width, seconds});
+    if (!result.on_given_mesh)
+      result.on_given_mesh = bracket.stiffness;
+    char line[160];
+    std::snprintf(line, sizeof(line),
+                  "bracket of the %s: %u triangles, %u + %u DoFs, relative width %.2g, %.1f s",
+                  name_of_subject(bracket), bracket.n_triangles, bracket.n_displacement_dofs,
+                  bracket.n_stress_dofs, bracket.width, seconds);
+    report(line);
+  };
+  try
+  {
+    const auto stiffness                  = cell.stiffness_of_phase();
+    const homogenization::TorusMesh torus = torus_of(cell, mesh, options.refine);
+    if (torus.is_drawn()) // whose displacements are others than those of the straight triangles
+      result.on_given_mesh = homogenization::CompatibleStrain(
+                               homogenization::glued(mesh, cell.lattice), stiffness, options.order)
+                               .stiffness;
+    if (options.tolerance)
+    {
+      homogenization::AdaptiveOptions adaptive;
+      adaptive.order     = options.order;
+      adaptive.tolerance = *options.tolerance;
+      adaptive.max_dofs  = options.max_dofs;
+      auto reached       = homogenization::adaptive_bracket(torus, stiffness, adaptive, observe);
+      result.bracket     = std::move(reached.bracket);
+      result.remark      = text_of(reached.ending, options);
+    }
+    else
+    {
+      result.bracket = homogenization::bracket(torus, stiffness, options.order);
+      observe(*result.bracket);
+      result.remark = "on the mesh of the cell problems";
+    }
+  }
+  catch (const meshes::BadInput &bad)
+  {
+    result.remark = std::string("none: ") + bad.what();
+  }
+  catch (const meshes::NotConverged &failed)
+  {
+    result.remark = std::string("none: ") + failed.what();
+  }
+  return result;
+}
+
+std::vector<Verdict> checks_of(const CellBracket &bracket, const BracketOptions &options,
+                               const Eigen::Matrix3d &stiffness, const double round_off)
+{
+  std::vector<Verdict> checks;
+  const auto at_most = [&](const std::string &claim, const double value, const double limit,
+                           const std::string &derivation, const Kind kind)
+  {
+    std::ostringstream text;
+    text << "<= " << limit;
+    checks.push_back(
+      {claim, value <= limit ? Outcome::pass : Outcome::fail, value, text.str(), derivation, kind});
+  };
+  const std::string asked_for = "--tolerance asks for it";
+  if (!bracket.bracket)
+  {
+    const double none = std::numeric_limits<double>::quiet_NaN();
+    if (options.tolerance)
+      checks.push_back({"Bracket of C^H as narrow as --tolerance (relative width)", Outcome::fail,
+                        none, bracket.remark, asked_for, Kind::input});
+    else if (!bracket.is_left_out)
+      checks.push_back({"C^H has a bracket", Outcome::inconclusive, none, bracket.remark,
+                        "a cell whose stresses have a single-valued stress function", Kind::input});
+    return checks;
+  }
+  const Bracket &found = *bracket.bracket;
+  at_most("C_lower <= C_upper (relative violation of the worst energy)",
+          order_violation(found.lower, found.upper), 0.,
+          "theory; both sides carry their round-off on the outside", Kind::program);
+  // Images may lie 1e-7 of the cell apart, which the bracket's mesh mends and the other one does not. That C lies
+  // above C_lower follows from both.
+  at_most(
+    "Direct and multigrid solvers agree on C^H of the given mesh (largest relative difference of an energy)",
+    energy_difference(*bracket.on_given_mesh, stiffness), 1e-6,
+    "one discrete problem; images that lie 1e-7 of the cell apart are taken, and on four sides move its area by 4e-7, the "
+    "energies by up to twice that",
+    Kind::program);
+  if (checks.back().outcome == Outcome::fail && checks.back().value <= round_off)
+  {
+    std::ostringstream text;
+    text << "<= 1e-06, of which round-off takes up to " << round_off << " at this contrast";
+    checks.back().outcome = Outcome::inconclusive;
+    checks.back().limit   = text.str();
+  }
+  if (options.tolerance)
+    at_most("Bracket of C^H as narrow as --tolerance (relative width)", found.width,
+            *options.tolerance, asked_for, Kind::input);
+  return checks;
+}
+
+const char *name_of_subject(const Bracket &bracket)
+{
+  return bracket.is_of_drawing ? "drawing" : "mesh";
+}
+
+Eigen::Matrix3d bars_of(const Bracket &bracket)
+{
+  const Eigen::Vector3d diagonal =
+    (bracket.upper - bracket.lower).diagonal().cwiseMax(0.).cwiseSqrt();
+  return diagonal * diagonal.transpose();
+}
+} // namespace homespun::verification

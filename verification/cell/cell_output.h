@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+// A homogenized cell with its error bar and its checks, on disk and on the terminal.
+#pragma once
+
+#include "homogenization/fem/homogenize.h"
+#include "verification/cell/cell_bracket.h"
+#include "verification/record/verdict.h"
+
+#include <mpi.h>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace homespun::verification
+{
+/// A homogenization and how far it may be from the limit of fine meshes.
+struct AssessedCell
+{
+  homogenization::Homogenization result;
+  homogenization::HomogenizationOptions options;
+  /// |C − C of P2 on the once more refined mesh|, entry by entry [N/m]; nothing where that mesh
+  /// would exceed the limit of DoFs.
+  std::optional<Eigen::Matrix3d> uncertainty;
+  std::vector<Verdict> checks;
+  /// Nothing where nobody asked for it. After adaptivity `result` holds the C^H, chi, DoFs and iterations of the
+  /// last mesh.
+  std::optional<CellBracket> bracket;
+  /// Largest resident memory of each rank since the program began [bytes]; on the first rank alone.
+  std::vector<double> peak_memory_of_rank;
+};
+
+/// Homogenizes a cell and judges the result: Hill-Mandel gap, Voigt and Reuss as matrix
+/// inequalities.
+/// @param max_dofs_of_estimate a finer solve for the error bar is made up to this size
+AssessedCell assess(const homogenization::UnitCell &cell,
+                    const homogenization::HomogenizationOptions &options,
+                    unsigned long max_dofs_of_estimate, MPI_Comm communicator);
+
+/// Brackets the C^H of an assessed cell and adds the verdicts; an adaptive bracket replaces C^H and chi by its
+/// better ones. To be called on one rank.
+/// @param report is told of each step, one line
+void add_bracket(const homogenization::UnitCell &cell, const BracketOptions &options,
+                 const std::function<void(const std::string &)> &report, AssessedCell &assessed);
+
+/// Writes homogenize.json, cell.h5, cell.json and characteristic-displacements.vtu into a folder.
+/// To be called on one rank.
+void write_cell_results(const homogenization::UnitCell &cell, const AssessedCell &assessed,
+                        unsigned int n_ranks, const std::string &folder);
+
+/// C^H and its engineering moduli as a table, with as many digits as the bracket justifies, or without one
+/// the error bar.
+std::string summary(const homogenization::UnitCell &cell, const AssessedCell &assessed);
+} // namespace homespun::verification

@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: MIT
+#include "verification/cell/cell_study.h"
+
+#include "homogenization/fem/solution_pieces.h"
+#include "verification/cell/study_inputs.h"
+#include "verification/record/on_root.h"
+#include "verification/record/progress.h"
+
+#include <deal.II/base/utilities.h>
+
+#include <filesystem>
+#include <memory>
+
+namespace homespun::verification
+{
+namespace
+{
+/// DoFs up to which the finer problem of the error bar is solved.
+constexpr unsigned long largest_error_bar = 4000000;
+
+constexpr const char *name_of_pieces = "characteristic-displacements-refined";
+
+nlohmann::ordered_json inputs_of(const homogenization::UnitCell &cell,
+                                 const CellStudyOptions &options)
+{
+  nlohmann::ordered_json inputs = {{"cell", cell.name},
+                                   {"cell " + cell.name, fingerprint(cell)},
+                                   {"order", options.solve.order},
+                                   {"refine", options.solve.refine},
+                                   {"bars", options.bars},
+                                   {"pieces", options.pieces},
+                                   {"max_dofs", options.bracket.max_dofs}};
+  if (options.bracket.tolerance)
+    inputs["tolerance"] = *options.bracket.tolerance;
+  return inputs;
+}
+} // namespace
+
+AssessedCell run_cell_study(const homogenization::UnitCell &cell, const CellStudyOptions &options,
+                            const MPI_Comm communicator)
+{
+  homogenization::HomogenizationOptions solve = options.solve;
+  solve.checkpoint                            = options.output + "/.homespun-loads";
+  if (options.pieces)
+    solve.pieces = options.output + "/" + name_of_pieces;
+  std::unique_ptr<RunFolder> folder; // on the first rank
+  on_root(communicator,
+          [&]()
+          {
+            folder = open_run_folder(options.output, {"homogenize", inputs_of(cell, options)},
+                                     options.earlier, options.quiet);
+            homogenization::remove_pieces(options.output + "/" + name_of_pieces);
+            std::filesystem::create_directories(solve.checkpoint);
+          });
+  AssessedCell assessed = [&]()
+  {
+    Progress progress(is_root(communicator) && !options.quiet, options.bars ? 2 : 1);
+    progress.begin(cell.name + (options.bars
+                                  ? ": three cell problems, and once more refined for the error bar"
+                                  : ": three cell problems"));
+    AssessedCell its = assess(cell, solve, options.bars ? largest_error_bar : 0, communicator);
+    progress.done();
+    if (!options.bars)
+      return its;
+    progress.begin(cell.name + ": bracket on C^H");
+    BracketOptions bracket = options.bracket;
+    bracket.order          = options.solve.order;
+    bracket.refine         = options.solve.refine;
+    on_root(communicator,
+            [&]()
+            {
+              add_bracket(
+                cell, bracket,
+                [&](const std::string &step)
+                { bracket.tolerance ? progress.note(step) : progress.begin(step); },
+                its);
+            });
+    return its;
+  }();
+  share_failure(assessed.checks, communicator);
+  dealii::Utilities::System::MemoryStats memory;
+  dealii::Utilities::System::get_memory_stats(memory);
+  assessed.peak_memory_of_rank =
+    dealii::Utilities::MPI::gather(communicator, 1024. * static_cast<double>(memory.VmHWM));
+  on_root(communicator,
+          [&]()
+          {
+            write_cell_results(cell, assessed,
+                               dealii::Utilities::MPI::n_mpi_processes(communicator),
+                               options.output);
+            std::filesystem::remove_all(solve.checkpoint);
+            folder->finish();
+          });
+  return assessed;
+}
+
+AssessedCell assess_for_study(const homogenization::UnitCell &cell, const MPI_Comm communicator,
+                              std::vector<Verdict> &verdicts)
+{
+  homogenization::HomogenizationOptions p1;
+  p1.order              = 1;
+  AssessedCell assessed = assess(cell, p1, 300000, communicator);
+  BracketOptions bracket;
+  bracket.order = p1.order;
+  on_root(communicator,
+          [&]()
+          {
+            add_bracket(
+              cell, bracket, [](const std::string &) {}, assessed);
+          });
+  for (Verdict check : assessed.checks)
+  {
+    check.claim = cell.name + ": " + check.claim;
+    verdicts.push_back(check);
+  }
+  return assessed;
+}
+} // namespace homespun::verification

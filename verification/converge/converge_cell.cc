@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: MIT
+// Studies of one cell: uniform refinement, and strain under periodic loads.
+#include "homogenization/fem/homogenize.h"
+#include "meshes/plain/errors.h"
+#include "verification/converge/cell_refinement.h"
+#include "verification/converge/converge_cases.h"
+#include "verification/converge/manufactured_cases.h"
+#include "verification/method/lightweight_cloth.h"
+#include "verification/reference/fine_reference.h"
+
+#include <cmath>
+
+namespace homespun::verification
+{
+using homogenization::UnitCell;
+
+namespace
+{
+RefinementLadder refined_uniformly(const UnitCell &cell, const unsigned int order,
+                                   const std::vector<int> &levels, const MPI_Comm communicator,
+                                   ConvergenceResult &result)
+{
+  RefinementLadder ladder{order, {}};
+  const auto solve = [&](const int refine)
+  {
+    homogenization::HomogenizationOptions options;
+    options.order  = order;
+    options.refine = static_cast<unsigned int>(refine);
+    const homogenization::Homogenization one =
+      homogenization::homogenize(cell, options, communicator);
+    const auto &s = one.seconds;
+    ladder.levels.push_back({std::pow(0.5, refine) / std::sqrt(cell.mesh.n_triangles()), one.n_dofs,
+                             one.stiffness,
+                             s.setup + s.assembly + s.preconditioner + s.solve + s.evaluation});
+  };
+  for (const int refine : levels)
+    if (!result.solves([&]() { solve(refine); }))
+      break;
+  return ladder;
+}
+
+ConvergenceResult refine_uniformly(const UnitCell &cell, const ConvergenceSizes &sizes,
+                                   const MPI_Comm communicator)
+{
+  ConvergenceResult result;
+  const RefinementLadder p1 =
+    refined_uniformly(cell, 1, sizes.refinements_p1, communicator, result);
+  const RefinementLadder p2 =
+    refined_uniformly(cell, 2, sizes.refinements_p2, communicator, result);
+  judge_refinements(cell, {p1, p2}, result);
+  return result;
+}
+
+/// How far an observed order may be from the one of theory.
+const std::string with_settled = " +- 0.1, the change from level to level that counts as settled";
+
+/// The distance of `localized` and `affine` from biot on one cell, along a ladder of strains.
+ConvergenceResult climb_strains(const UnitCell &cell, const meshes::HomogenizedCell &homogenized,
+                                const Load &load, const ConvergenceSizes &sizes,
+                                const MPI_Comm communicator)
+{
+  constexpr double floor    = 1e-12; // of errors in cell sides: solvers stop at 1e-11 of the strain
+  const meshes::Sheet sheet = meshes::tile(cell.mesh, cell.lattice, 1, 1);
+  ReferenceOptions options;
+  options.tolerance = 1e-11;
+  FineReference reference(sheet, cell.stiffness_of_phase(), options, communicator);
+  reference.start(load, Law::biot);
+  LightweightCloth cloth(homogenized, sheet, load);
+  const double side                      = std::sqrt(cell.lattice.area());
+  const std::vector<std::string> methods = {"localized", "affine"};
+  std::vector<Series> all(2);
+  for (std::size_t m = 0; m < 2; ++m)
+  {
+    all[m].quantity = methods[m] + ": mean error [cell sides]";
+    all[m].h_unit   = "strain";
+  }
+  const auto solve = [&](const double strain)
+  {
+    const ReferenceStep fine = reference.advance(strain);
+    if (!fine.reached)
+      throw meshes::NotConverged(load.name + ": " + fine.why, {});
+    const auto coarse = cloth.solve(Law::biot, strain).positions;
+    for (std::size_t m = 0; m < 2; ++m)
+    {
+      const double error =
+        (cloth.upsample(Method(methods[m]), Law::biot, coarse).positions - fine.positions)
+          .rowwise()
+          .norm()
+          .mean() /
+        side;
+      all[m].levels.insert(all[m].levels.begin(),
+                           {strain, reference.n_dofs(), std::nullopt, error, fine.seconds});
+    }
+  };
+  ConvergenceResult result;
+  // References walk up; the levels of a series run from coarse to fine.
+  for (auto strain = sizes.strains.rbegin(); strain != sizes.strains.rend(); ++strain)
+    if (!result.solves([&]() { solve(*strain); }))
+      break;
+  if (all[0].levels.empty())
+    return result;
+  result.outcome_of_unfinished = Outcome::inconclusive; // a limit point, or one that was missed
+  const bool is_laminate =
+    homogenization::corners_of(cell.mesh, cell.lattice, cell.stiffness_of_phase()).empty();
+  for (std::size_t m = 0; m < 2; ++m)
+  {
+    double largest = 0.; // per strain
+    for (const ConvergenceLevel &level : all[m].levels)
+      largest = larger(largest, *level.error / level.h);
+    const std::string what = methods[m] + " against biot";
+    if (largest < 1e-10)
+    {
+      result.verdicts.push_back(
+        {what +
+           ": zero to round-off at every level; only in a laminate can the law be linear in a load (largest "
+           "error per strain and cell side)",
+         is_laminate ? Outcome::pass : Outcome::fail, largest,
+         is_laminate ? "< 1e-10" : "not zero: the cell has corners",
+         "the reference stops where 1e-11 of the element forces are left; positions per strain have ten times that"});
+      result.add(all[m]);
+      continue;
+    }
+    all[m].judgement =
+      judge_errors(all[m].sizes(), all[m].errors(), about(m == 0 ? 2. : 1.), floor);
+    result.add(all[m], {what + (m == 0 ? " errs by strain squared" : " errs by strain"),
+                        std::string(m == 0 ? "chi is exact to first order in strain: order 2"
+                                           : "affine lacks the fluctuation: order 1") +
+                          with_settled + "; levels below 1e-12 of a cell side are the solver's"});
+  }
+  return result;
+}
+} // namespace
+
+std::vector<ConvergenceCase> mesh_cases(const UnitCell &cell, const ConvergenceSizes &sizes,
+                                        const MPI_Comm communicator)
+{
+  return {{cell.name, "mesh", "uniform refinement",
+           [&cell, sizes, communicator]() { return refine_uniformly(cell, sizes, communicator); }}};
+}
+
+std::vector<ConvergenceCase> strain_cases(const UnitCell &cell,
+                                          const meshes::HomogenizedCell &homogenized,
+                                          const ConvergenceSizes &sizes,
+                                          const MPI_Comm communicator)
+{
+  std::vector<ConvergenceCase> cases;
+  for (const char *name : {"periodic-11", "periodic-22", "periodic-12"})
+    cases.push_back({cell.name, "strain", name,
+                     [&cell, &homogenized, load = Load(name), sizes, communicator]()
+                     { return climb_strains(cell, homogenized, load, sizes, communicator); }});
+  return cases;
+}
+
+std::vector<ConvergenceCase> manufactured_study_cases(const MPI_Comm communicator)
+{
+  std::vector<ConvergenceCase> cases;
+  for (const ManufacturedCase &one : manufactured_cases())
+    cases.push_back(
+      {"none", "manufactured", one.name + "; P" + std::to_string(one.order),
+       [&one, communicator]()
+       {
+         const ManufacturedLadder ladder = climb(one, communicator);
+         const ManufacturedClaims claims = judge(one, ladder);
+         ConvergenceResult result;
+         result.unfinished = ladder.unfinished;
+         const auto add    = [&](const char *quantity, const std::vector<double> &errors,
+                              const OrderJudgement &judgement, const char *claim)
+         {
+           const std::string theory =
+             one.has_H1 ? "interpolation with elements of degree p" : "implicit Euler";
+           Series series;
+           series.quantity  = quantity;
+           series.order     = one.order;
+           series.h_unit    = one.h_unit;
+           series.judgement = judgement;
+           for (std::size_t k = 0; k < errors.size(); ++k)
+             series.levels.push_back({ladder.h[k], ladder.n_dofs[k], std::nullopt, errors[k], 0.});
+           result.add(series, {claim, theory + with_settled});
+         };
+         add("L2 error [side]", ladder.L2, claims.L2,
+             one.has_H1 ? "the L2 error has order p + 1" : "the L2 error has order 1");
+         if (one.has_H1)
+           add("H1 error [-]", ladder.H1, claims.H1, "the H1 error has order p");
+         result.verdicts.push_back(
+           {"the algebraic error lies 100 times below the smallest L2 error (their ratio)",
+            claims.algebraic_share <= largest_algebraic_share ? Outcome::pass
+                                                              : Outcome::inconclusive,
+            claims.algebraic_share, "<= 0.01",
+            "1 % of the smallest error changes an order from one level to the next by at most log2(1.01 / 0.99) = 0.03, "
+            "less than a third of its tolerance"});
+         return result;
+       }});
+  return cases;
+}
+} // namespace homespun::verification

@@ -1,0 +1,310 @@
+// SPDX-License-Identifier: MIT
+// Studies of sheets: cells per sheet, coarse triangles per cell, time steps of the coarse cloth.
+#include "meshes/cloth/cloth_mesh.h"
+#include "meshes/plain/errors.h"
+#include "shell/solver/cloth.h"
+#include "shell/terms/inertial_terms.h"
+#include "shell/terms/membrane_term.h"
+#include "verification/converge/converge_cases.h"
+#include "verification/method/lightweight_cloth.h"
+#include "verification/reference/fine_reference.h"
+
+#include <chrono>
+#include <cmath>
+
+namespace homespun::verification
+{
+using homogenization::UnitCell;
+
+namespace
+{
+const std::vector<std::string> sheet_loads = {"strip-1", "strip-2", "shear-frame"};
+
+/// The linear reference is in proportion to the strain: any will do.
+constexpr double linear_strain = 0.01;
+
+double mean_distance(const meshes::Points &a, const meshes::Points &b)
+{
+  return (a - b).rowwise().norm().mean();
+}
+
+/// `localized` and `affine` against the linear reference on sheets of more and more cells.
+ConvergenceResult add_cells(const UnitCell &cell, const meshes::HomogenizedCell &homogenized,
+                            const Load &load, const ConvergenceSizes &sizes,
+                            const MPI_Comm communicator)
+{
+  const double side                      = std::sqrt(cell.lattice.area());
+  const std::vector<std::string> methods = {"affine", "localized"};
+  std::vector<Series> per_sheet(2), per_cell(2), per_fluctuation(2);
+  for (std::size_t m = 0; m < 2; ++m)
+  {
+    per_sheet[m].quantity       = methods[m] + ": mean error per strain [sheet sides]";
+    per_cell[m].quantity        = methods[m] + ": mean error per strain [cell sides]";
+    per_fluctuation[m].quantity = methods[m] + ": mean error [mean fluctuation]";
+    for (Series *series : {&per_sheet[m], &per_cell[m], &per_fluctuation[m]})
+      series->h_unit = "cell sides per sheet side";
+  }
+  const auto solve = [&](const int n)
+  {
+    const meshes::Sheet sheet = meshes::tile(cell.mesh, cell.lattice, n, n);
+    FineReference reference(sheet, cell.stiffness_of_phase(), ReferenceOptions(), communicator);
+    reference.start(load, Law::linear);
+    const ReferenceStep fine = reference.advance(linear_strain);
+    if (!fine.reached)
+      throw meshes::NotConverged(load.name + ": " + fine.why, {});
+    LightweightCloth cloth(homogenized, sheet, load);
+    const auto coarse  = cloth.solve(Law::linear, linear_strain).positions;
+    double fluctuation = 0.;
+    for (std::size_t m = 0; m < 2; ++m)
+    {
+      const double error = mean_distance(
+        cloth.upsample(Method(methods[m]), Law::linear, coarse).positions, fine.positions);
+      if (m == 0)
+        fluctuation = error; // what the coarse motion lacks
+      const double in_cells = error / (linear_strain * side);
+      const auto add        = [&](Series &series, const double value) {
+        series.levels.push_back({1. / n, reference.n_dofs(), std::nullopt, value, fine.seconds});
+      };
+      add(per_sheet[m], in_cells / n);
+      add(per_cell[m], in_cells);
+      if (m == 1)
+        add(per_fluctuation[m], error / fluctuation);
+    }
+  };
+  ConvergenceResult result;
+  for (const int n : sizes.cells_per_sheet)
+    if (!result.solves([&]() { solve(n); }))
+      break;
+  if (per_sheet[0].levels.empty())
+    return result;
+  per_sheet[0].judgement =
+    judge_errors(per_sheet[0].sizes(), per_sheet[0].errors(), about(1., 0.15));
+  per_sheet[1].judgement = judge_errors(per_sheet[1].sizes(), per_sheet[1].errors(), {0.85, 2.15});
+  const std::string edges =
+    "; +- 0.15, because cells at the edge are 4/n of all: where these err by up to twice as much as the others the last "
+    "halving, at n = 32, shows log2((1 + 4/16) / (1 + 4/32)) = 0.15 more";
+  result.add(per_sheet[0],
+             {"affine lacks a fluctuation of the size of a cell: order 1 in sheet sides",
+              "two-scale expansion: the fluctuation has the size of a cell" + edges});
+  result.add(per_sheet[1],
+             {"localized converges at least as fast: order 1 to 2 in sheet sides",
+              "two-scale expansion: a boundary layer leaves order 1, smooth strain order 2" + edges,
+              Kind::method});
+  result.add(per_cell[0]);
+  result.add(per_cell[1]);
+  result.add(per_fluctuation[1]);
+  const double ratio = *per_fluctuation[1].levels.back().error;
+  result.verdicts.push_back(
+    {"localized is closer to the linear reference than affine on the largest sheet (ratio of errors)",
+     ratio < 1. ? Outcome::pass : Outcome::fail, ratio, "< 1", "what closer means", Kind::method});
+  return result;
+}
+
+/// A coarse sheet with any number of triangles, pulled as the load says.
+struct CoarseSolution
+{
+  meshes::TriangleMesh mesh;
+  shell::Positions<2> linear; ///< positions by linear theory [m]
+  double energy;              ///< of the corotational equilibrium [J]
+};
+
+CoarseSolution solve_coarse(const meshes::HomogenizedCell &homogenized, const meshes::Sheet &sheet,
+                            const Load &load, const int n, const double strain)
+{
+  CoarseSolution result;
+  result.mesh               = meshes::coarse_sheet(sheet.origin, sheet.sides() / n, n, n);
+  shell::Positions<2> start = result.mesh.vertices;
+  std::vector<int> held;
+  for (int v = 0; v < result.mesh.n_vertices(); ++v)
+  {
+    const Eigen::RowVector2d fraction = sheet.fraction(result.mesh.vertices.row(v));
+    start.row(v) += load.displacement(fraction, sheet.sides(), strain);
+    if (load.holds(fraction))
+      held.push_back(v);
+  }
+  const shell::MembraneSolver<2> solver(result.mesh, {homogenized.stiffness}, held);
+  result.linear = solver.solve_linear(start);
+  result.energy = solver.solve_equilibrium(result.linear).energy;
+  return result;
+}
+
+ConvergenceResult refine_coarse_mesh(const UnitCell &cell,
+                                     const meshes::HomogenizedCell &homogenized, const Load &load,
+                                     const ConvergenceSizes &sizes, const MPI_Comm communicator)
+{
+  const int n_cells         = sizes.cells_of_coarse_study;
+  const meshes::Sheet sheet = meshes::tile(cell.mesh, cell.lattice, n_cells, n_cells);
+  const double side         = std::sqrt(cell.lattice.area());
+  FineReference reference(sheet, cell.stiffness_of_phase(), ReferenceOptions(), communicator);
+  reference.start(load, Law::linear);
+  const ReferenceStep fine = reference.advance(linear_strain);
+  if (!fine.reached)
+    throw meshes::NotConverged(load.name + ": " + fine.why, {});
+
+  Series energy, motion, localized;
+  energy.quantity    = "energy of the coarse sheet at 1 % strain [J]";
+  motion.quantity    = "change of the coarse motion by halving H: mean per strain [cell sides]";
+  localized.quantity = "localized: mean error against the linear reference per strain [cell sides]";
+  for (Series *series : {&energy, &motion, &localized})
+    series->h_unit = "H in cell sides";
+  meshes::Points before;
+  const auto solve = [&](const double per_cell)
+  {
+    const auto start            = std::chrono::steady_clock::now();
+    const int n                 = static_cast<int>(std::lround(n_cells * per_cell));
+    const CoarseSolution coarse = solve_coarse(homogenized, sheet, load, n, linear_strain);
+    const double seconds =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    const auto upsampled = [&](const char *method) -> meshes::Points
+    {
+      localization::Upsampler<2, double>::Fine positions;
+      localization::Upsampler<2, double>(homogenized, coarse.mesh, sheet,
+                                         Method(method).options(Law::linear))
+        .upsample(coarse.linear, positions);
+      return positions;
+    };
+    const auto n_dofs           = static_cast<unsigned long>(2 * coarse.mesh.n_vertices());
+    const meshes::Points affine = upsampled("affine");
+    if (!motion.levels.empty())
+      motion.levels.back().error = mean_distance(affine, before) / (linear_strain * side);
+    motion.levels.push_back({1. / per_cell, n_dofs, std::nullopt, std::nullopt, seconds});
+    energy.levels.push_back({1. / per_cell, n_dofs, coarse.energy, std::nullopt, seconds});
+    localized.levels.push_back(
+      {1. / per_cell, n_dofs, std::nullopt,
+       mean_distance(upsampled("localized"), fine.positions) / (linear_strain * side), seconds});
+    before = affine;
+  };
+  ConvergenceResult result;
+  for (const double per_cell : sizes.coarse_per_cell)
+    if (!result.solves([&]() { solve(per_cell); }))
+      break;
+  if (motion.levels.empty())
+    return result;
+  motion.levels.pop_back(); // nothing finer to compare it with
+
+  double rise = -1.; // relative
+  for (std::size_t k = 1; k < energy.levels.size(); ++k)
+    rise = larger(rise, *energy.levels[k].value / *energy.levels[k - 1].value - 1.);
+  result.verdicts.push_back(
+    {"the energy falls when the coarse mesh is refined; the meshes are nested (largest "
+     "relative rise)",
+     rise <= 1e-10 ? Outcome::pass : Outcome::fail, rise, "<= 1e-10",
+     "the least energy of a larger space is not larger; 1e-10 is the round-off of sums over up to 1e5 triangles (2e-16 "
+     "each) and of stretches of 1 % (4e-14)"});
+  const double floor      = 1e-11 * std::abs(*energy.levels.back().value);
+  const OrderLimit limits = {0.9, 2.1};
+  energy.judgement        = judge_values(energy.sizes(), energy.values(), limits, floor);
+  energy.extrapolate(floor, 2., *energy.judgement);
+  motion.judgement = judge_errors(motion.sizes(), motion.errors(), limits);
+  const std::string why =
+    "P1 has order 2 in energy; where a clamped edge meets a free one the solution behaves as "
+    "r^lambda with lambda between 1/2 and 1, which leaves order 2 lambda; +- 0.1, the "
+    "change from level to level that counts as settled";
+  result.add(energy, {"the energy of the coarse sheet converges with order 1 to 2 in H", why});
+  result.add(motion, {"the coarse motion converges with order 1 to 2 in H", why});
+  result.add(localized);
+  return result;
+}
+
+/// A coarse sheet of 8 x 8 cells lies flat, is held at its edge f2 = 1 and swings down for 40 ms.
+ConvergenceResult refine_time_step(const UnitCell &cell, const meshes::HomogenizedCell &homogenized,
+                                   const shell::Integrator integrator,
+                                   const ConvergenceSizes &sizes)
+{
+  constexpr int n                  = 8;
+  constexpr double duration        = 0.04; // [s]
+  Eigen::Matrix<double, 3, 2> flat = Eigen::Matrix<double, 3, 2>::Identity();
+  meshes::TriangleMesh rest =
+    meshes::coarse_sheet(Eigen::RowVector2d::Zero(), cell.lattice.vectors, n, n);
+  const meshes::ClothMesh mesh = meshes::placed_sheet(rest, flat, Eigen::RowVector3d::Zero());
+  std::vector<int> held;
+  for (int i = 0; i <= n; ++i)
+    held.push_back(n * (n + 1) + i);
+  const Eigen::VectorXd masses = shell::lumped_masses(mesh, {homogenized.areal_density});
+  const double side            = n * std::sqrt(cell.lattice.area());
+  const auto end_of            = [&](const int n_steps)
+  {
+    shell::ClothOptions options;
+    options.integrator       = integrator;
+    options.newton_tolerance = 1e-11;
+    shell::Cloth cloth(mesh.positions, masses, held, options);
+    cloth.add(shell::membrane_term(mesh, {homogenized.stiffness}));
+    cloth.add(shell::gravity_term(masses, {0., 0., -9.81}));
+    for (int k = 0; k < n_steps; ++k)
+      cloth.step(duration / n_steps);
+    return meshes::SpacePoints(cloth.positions());
+  };
+  // A first-order method: twice the finest minus the next one is of second order.
+  const int finest                    = 4 * sizes.time_steps.back();
+  const meshes::SpacePoints reference = 2. * end_of(finest) - end_of(finest / 2);
+  Series series;
+  series.quantity  = "mean error of the positions [sheet sides]";
+  series.h_unit    = "s";
+  const auto solve = [&](const int n_steps)
+  {
+    const auto start                    = std::chrono::steady_clock::now();
+    const meshes::SpacePoints positions = end_of(n_steps);
+    const double seconds =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    series.levels.push_back({duration / n_steps, static_cast<unsigned long>(3 * rest.n_vertices()),
+                             std::nullopt, (positions - reference).rowwise().norm().mean() / side,
+                             seconds});
+  };
+  ConvergenceResult result;
+  for (const int n_steps : sizes.time_steps)
+    if (!result.solves([&]() { solve(n_steps); }))
+      break;
+  series.judgement = judge_errors(series.sizes(), series.errors(), about(1.));
+  result.add(
+    series,
+    {"the positions converge with order 1 in the time step",
+     "both Euler methods are of first order; +- 0.1, the change from level to level that counts as "
+     "settled"});
+  return result;
+}
+
+template <typename Run>
+std::vector<ConvergenceCase> of_sheet_loads(const UnitCell &cell, const std::string &study,
+                                            const Run &run)
+{
+  std::vector<ConvergenceCase> cases;
+  for (const std::string &name : sheet_loads)
+    cases.push_back({cell.name, study, name, [run, load = Load(name)]() { return run(load); }});
+  return cases;
+}
+} // namespace
+
+std::vector<ConvergenceCase> scale_cases(const UnitCell &cell,
+                                         const meshes::HomogenizedCell &homogenized,
+                                         const ConvergenceSizes &sizes, const MPI_Comm communicator)
+{
+  return of_sheet_loads(cell, "scale",
+                        [&cell, &homogenized, sizes, communicator](const Load &load)
+                        { return add_cells(cell, homogenized, load, sizes, communicator); });
+}
+
+std::vector<ConvergenceCase> coarse_cases(const UnitCell &cell,
+                                          const meshes::HomogenizedCell &homogenized,
+                                          const ConvergenceSizes &sizes,
+                                          const MPI_Comm communicator)
+{
+  return of_sheet_loads(cell, "coarse",
+                        [&cell, &homogenized, sizes, communicator](const Load &load) {
+                          return refine_coarse_mesh(cell, homogenized, load, sizes, communicator);
+                        });
+}
+
+std::vector<ConvergenceCase> time_cases(const UnitCell &cell,
+                                        const meshes::HomogenizedCell &homogenized,
+                                        const ConvergenceSizes &sizes)
+{
+  std::vector<ConvergenceCase> cases;
+  for (const auto &[name, integrator] :
+       {std::make_pair("linearly implicit Euler", shell::Integrator::linearly_implicit),
+        std::make_pair("implicit Euler", shell::Integrator::implicit)})
+    cases.push_back({cell.name, "time", name,
+                     [&cell, &homogenized, integrator = integrator, sizes]()
+                     { return refine_time_step(cell, homogenized, integrator, sizes); }});
+  return cases;
+}
+} // namespace homespun::verification

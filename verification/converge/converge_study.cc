@@ -1,0 +1,287 @@
+// SPDX-License-Identifier: MIT
+#include "verification/converge/converge_study.h"
+
+#include "homogenization/fem/homogenize.h"
+#include "meshes/files/write_whole.h"
+#include "meshes/plain/errors.h"
+#include "meshes/plain/sheet.h"
+#include "verification/cell/study_inputs.h"
+#include "verification/converge/converge_cases.h"
+#include "verification/record/json_files.h"
+#include "verification/record/on_root.h"
+#include "verification/record/progress.h"
+#include "verification/record/provenance.h"
+
+#include <algorithm>
+#include <chrono>
+#include <limits>
+#include <map>
+#include <memory>
+#include <tuple>
+
+namespace homespun::verification
+{
+using homogenization::UnitCell;
+
+ConvergenceSizes convergence_sizes(const bool quick)
+{
+  ConvergenceSizes sizes;
+  sizes.refinements_p1  = quick ? std::vector<int>{0, 1, 2, 3} : std::vector<int>{0, 1, 2, 3, 4, 5};
+  sizes.refinements_p2  = quick ? std::vector<int>{0, 1, 2, 3} : std::vector<int>{0, 1, 2, 3, 4};
+  sizes.adaptive_dofs   = quick ? 60000 : 400000;
+  sizes.cells_per_sheet = quick ? std::vector<int>{2, 4, 8, 16} : std::vector<int>{2, 4, 8, 16, 32};
+  sizes.cells_of_coarse_study = quick ? 4 : 16;
+  sizes.coarse_per_cell       = {0.5, 1., 2., 4., 8.};
+  if (!quick)
+    sizes.coarse_per_cell.push_back(16.);
+  // At 1e-4 the rounding of F = 1 + grad u is 1e-12 of the strain, and Newton's method stalls above its tolerance.
+  sizes.strains    = quick ? std::vector<double>{0.1, 0.03, 0.01, 0.003, 0.001}
+                           : std::vector<double>{0.1, 0.05, 0.02, 0.01, 0.005, 0.002, 0.001};
+  sizes.time_steps = quick ? std::vector<int>{50, 100, 200, 400}
+                           : std::vector<int>{25, 50, 100, 200, 400, 800, 1600};
+  return sizes;
+}
+
+const std::vector<std::string> &convergence_studies()
+{
+  static const std::vector<std::string> all = {"mesh",   "adaptive", "scale",       "coarse",
+                                               "strain", "time",     "manufactured"};
+  return all;
+}
+
+namespace
+{
+bool has(const ConvergenceStudyOptions &options, const std::string &study)
+{
+  return std::find(options.studies.begin(), options.studies.end(), study) != options.studies.end();
+}
+
+nlohmann::ordered_json what_was_left_out(const ConvergenceStudyOptions &options,
+                                         const std::vector<ConvergeRow> &levels)
+{
+  nlohmann::ordered_json list = nlohmann::ordered_json::array();
+  const auto left_out         = [&](const std::string &what, const std::string &why) {
+    list.push_back({{"what", what}, {"why", why}});
+  };
+  for (const std::string &study : convergence_studies())
+    if (!has(options, study))
+      left_out("study " + study, "--studies does not name it");
+  if (has(options, "manufactured"))
+    left_out("manufactured solutions with P2 and lumped mass",
+             "lumping takes one order from P2, as cloth_reference.h says");
+  if (options.quick)
+    left_out("finer levels", "--quick");
+  // Series of meshes whose number the DoFs decide, by cell, order and kind of mesh.
+  std::map<std::tuple<std::string, unsigned int, bool>, std::size_t> n_meshes;
+  for (const ConvergeRow &row : levels)
+    if (row.study == "adaptive")
+      ++n_meshes[{row.cell, row.order_p, !row.judgement && row.quantity.rfind("adaptive", 0) == 0}];
+  for (const auto &[key, n] : n_meshes)
+    if (std::get<2>(key) && n < fewest_uneven_levels)
+      left_out(std::get<0>(key) + ", adaptive, P" + std::to_string(std::get<1>(key)) +
+                 ": order of the width",
+               std::to_string(n) + " meshes have no more than " +
+                 std::to_string(convergence_sizes(options.quick).adaptive_dofs) +
+                 " DoFs; a fit needs " + std::to_string(fewest_uneven_levels));
+  return list;
+}
+
+/// What a reader has to know of the studies that ran.
+nlohmann::ordered_json notes(const ConvergenceStudyOptions &options)
+{
+  nlohmann::ordered_json list = {
+    "An order is judged on the three finest levels of at least four. PASS: it lies within the limits and has settled "
+    "(the last two differ by no more than 0.1). FAIL: the last one lies below the limits and does not rise, or it has "
+    "settled above. Everything else is INCONCLUSIVE.",
+    "Where the exact value is not known, errors are distances from the Richardson limit of the last three levels, "
+    "and the error bar is the grid convergence index with the safety factor 1.25."};
+  const auto add = [&](const std::string &study, const std::string &note)
+  {
+    if (has(options, study))
+      list.push_back(study + ": " + note);
+  };
+  add(
+    "mesh",
+    "h is the square root of the mean area of a triangle over the cell side. Where phases meet in corners "
+    "the order is at least twice the exponent of the strongest one and at most twice the smallest exponent above 1 (with "
+    "P1 at most 2), all computed from angles and stiffnesses: finer meshes come nearer to the first. C^H falls from "
+    "level to level. An error bar is given only where the order has settled.");
+  add(
+    "adaptive",
+    "h is one over the square root of the DoFs of the displacements. Adaptive meshes do not grow evenly: "
+    "the order is fitted to the last five levels and to the last three, and both must lie within the limit.");
+  add("manufactured",
+      "smooth motions with strains of some ten per cent, body forces from energies written apart "
+      "from the solvers' laws; irregular meshes, refined uniformly.");
+  return list;
+}
+
+class ConvergenceStudy
+{
+public:
+  ConvergenceStudy(const ConvergenceStudyOptions &options, const MPI_Comm communicator)
+      : options(options)
+      , communicator(communicator)
+      , is_root(verification::is_root(communicator))
+      , begin(std::chrono::steady_clock::now())
+      , sizes(convergence_sizes(options.quick))
+  {
+  }
+
+  std::vector<Verdict> run()
+  {
+    for (const std::string &file : options.cell_files)
+      cells.push_back(homogenization::read_unit_cell(file));
+    check_names(cells);
+    for (const UnitCell &cell : cells)
+      meshes::tile(cell.mesh, cell.lattice, 1, 1); // refuses cells that make no sheet
+    on_root(communicator, [&]() { open_tables(); });
+    collect();
+    run_cases();
+    return conclude();
+  }
+
+private:
+  void open_tables()
+  {
+    nlohmann::ordered_json inputs;
+    inputs["quick"]                 = options.quick;
+    inputs["studies"]               = options.studies;
+    inputs["refinements_p1"]        = sizes.refinements_p1;
+    inputs["refinements_p2"]        = sizes.refinements_p2;
+    inputs["adaptive_dofs"]         = sizes.adaptive_dofs;
+    inputs["cells_per_sheet"]       = sizes.cells_per_sheet;
+    inputs["cells_of_coarse_study"] = sizes.cells_of_coarse_study;
+    inputs["coarse_per_cell"]       = sizes.coarse_per_cell;
+    inputs["strains"]               = sizes.strains;
+    inputs["time_steps"]            = sizes.time_steps;
+    for (const UnitCell &cell : cells)
+      inputs["cells"][cell.name] = fingerprint(cell);
+    folder = open_run_folder(options.output, {"converge", inputs}, options.earlier, options.quiet);
+    record = std::make_unique<ConvergenceRecord>(options.output);
+  }
+
+  /// Cases stand study by study, so that the finest levels of one cell do not delay the others.
+  void collect()
+  {
+    for (const UnitCell &cell : cells)
+    {
+      homogenization::HomogenizationOptions p1;
+      p1.order = 1;
+      homogenized.push_back(homogenization::homogenized_cell(
+        cell, homogenization::homogenize(cell, p1, communicator), provenance_line()));
+    }
+    const auto add = [&](const std::string &study, const auto &cases_of)
+    {
+      if (has(options, study))
+        for (std::size_t k = 0; k < cells.size(); ++k)
+          for (ConvergenceCase &one : cases_of(cells[k], homogenized[k]))
+            cases.push_back(std::move(one));
+    };
+    add("mesh",
+        [&](const UnitCell &cell, const auto &) { return mesh_cases(cell, sizes, communicator); });
+    add("adaptive", [&](const UnitCell &cell, const auto &)
+        { return adaptive_cases(cell, sizes, communicator); });
+    add("scale", [&](const UnitCell &cell, const auto &h)
+        { return scale_cases(cell, h, sizes, communicator); });
+    add("coarse", [&](const UnitCell &cell, const auto &h)
+        { return coarse_cases(cell, h, sizes, communicator); });
+    add("strain", [&](const UnitCell &cell, const auto &h)
+        { return strain_cases(cell, h, sizes, communicator); });
+    add("time", [&](const UnitCell &cell, const auto &h) { return time_cases(cell, h, sizes); });
+    if (has(options, "manufactured"))
+      for (ConvergenceCase &one : manufactured_study_cases(communicator))
+        cases.push_back(std::move(one));
+  }
+
+  void run_cases()
+  {
+    Progress progress(is_root && !options.quiet, static_cast<int>(cases.size()));
+    std::string group;
+    for (const ConvergenceCase &one : cases)
+    {
+      const std::string here = one.cell == "none" ? one.study : one.cell + ", " + one.study;
+      progress.begin(here + ": " + one.name, here != group);
+      group        = here;
+      int is_there = is_root && record->is_complete(one);
+      MPI_Bcast(&is_there, 1, MPI_INT, 0, communicator);
+      if (!is_there)
+        run_case(one, progress);
+      progress.done();
+    }
+  }
+
+  /// Solvers are deterministic and agree on all ranks: where one does not converge, none does.
+  void run_case(const ConvergenceCase &one, Progress &progress)
+  {
+    const auto start = std::chrono::steady_clock::now();
+    ConvergenceResult result;
+    result.solves([&]() { result = one.run(); });
+    if (!result.unfinished.empty())
+    {
+      result.verdicts.push_back(
+        {"all levels are solved", result.outcome_of_unfinished,
+         std::numeric_limits<double>::quiet_NaN(), result.unfinished,
+         "every solver reaches its tolerance; a load may end at a limit point, "
+         "which leaves this open"});
+      unfinished.push_back(one.cell + ", " + one.study + ", " + one.name + ": " +
+                           result.unfinished);
+      progress.note(unfinished.back());
+    }
+    const double seconds =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    on_root(communicator, [&]() { record->add(one, result, seconds); });
+  }
+
+  std::vector<Verdict> conclude()
+  {
+    std::vector<Verdict> verdicts;
+    on_root(communicator,
+            [&]()
+            {
+              verdicts = record->verdicts();
+              meshes::write_whole(options.output + "/verdicts.json",
+                                  json_text(to_json(verdicts, options.command)));
+              const double seconds =
+                std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+              nlohmann::ordered_json all_notes = notes(options);
+              for (const std::string &note : unfinished)
+                all_notes.push_back(note);
+              const unsigned int n_ranks = dealii::Utilities::MPI::n_mpi_processes(communicator);
+              meshes::write_whole(
+                options.output + "/study.json",
+                json_text({{"command", options.command},
+                           {"studies", options.studies},
+                           {"quick", options.quick},
+                           {"ranks", n_ranks},
+                           {"seconds_total", seconds},
+                           {"resumed", folder->is_taken_up()},
+                           {"left_out", what_was_left_out(options, record->levels())},
+                           {"notes", all_notes},
+                           {"provenance", provenance(n_ranks)}}));
+              folder->finish();
+            });
+    share_failure(verdicts, communicator);
+    return verdicts;
+  }
+
+  const ConvergenceStudyOptions options;
+  const MPI_Comm communicator;
+  const bool is_root;
+  const std::chrono::steady_clock::time_point begin;
+  const ConvergenceSizes sizes;
+  std::vector<UnitCell> cells;
+  std::vector<meshes::HomogenizedCell> homogenized;
+  std::vector<ConvergenceCase> cases;
+  std::vector<std::string> unfinished;       ///< cases whose ladder ended early, and why
+  std::unique_ptr<RunFolder> folder;         ///< on the first rank alone
+  std::unique_ptr<ConvergenceRecord> record; ///< on the first rank alone
+};
+} // namespace
+
+std::vector<Verdict> run_convergence_study(const ConvergenceStudyOptions &options,
+                                           const MPI_Comm communicator)
+{
+  return ConvergenceStudy(options, communicator).run();
+}
+} // namespace homespun::verification

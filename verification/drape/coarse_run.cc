@@ -1,0 +1,192 @@
+// SPDX-License-Identifier: MIT
+#include "verification/drape/coarse_run.h"
+
+#include "meshes/plain/errors.h"
+#include "verification/record/json_files.h"
+
+#include <filesystem>
+#include <limits>
+#include <optional>
+
+namespace homespun::verification
+{
+namespace
+{
+/// A cloth ten thousand times its size away from where it began has blown up: pictures and curves of it
+/// would show nothing else.
+void check_reach(const shell::Vectors &positions, const shell::Vectors &start, const double time)
+{
+  constexpr double reach = 1e4;
+  const double size      = (start.colwise().maxCoeff() - start.colwise().minCoeff()).maxCoeff();
+  Eigen::Index vertex    = 0;
+  const double moved     = (positions - start).rowwise().norm().maxCoeff(&vertex);
+  if (moved > reach * size)
+    throw meshes::NotConverged("the motion blows up: at " + short_text(time) + " s vertex " +
+                                 std::to_string(vertex) + " is " + short_text(moved) +
+                                 " m from where it began, the cloth being " + short_text(size) +
+                                 " m large; try a smaller time step",
+                               {});
+}
+
+/// A scene with terms forced upon it, whose steps are timed.
+class TimedCloth
+{
+public:
+  TimedCloth(const DrapedCell &draped, const std::set<std::string> &forced)
+      : step_length(draped.scene.time_step)
+      , moving(draped.scene, draped.coarse, draped.effective, draped.coarse_motion(),
+               MembraneModel::corotational, forced)
+  {
+  }
+
+  /// A cloth that does not converge has no times from then on.
+  void step()
+  {
+    if (failed)
+      return;
+    try
+    {
+      seconds.push_back(seconds_of([&]() { moving.step(step_length); }));
+    }
+    catch (const meshes::NotConverged &)
+    {
+      failed = true;
+    }
+  }
+
+  /// Not a number where the cloth did not converge [s].
+  double median_of_steps() const
+  {
+    return failed ? std::numeric_limits<double>::quiet_NaN() : median(seconds);
+  }
+
+  double spread_of_steps() const
+  {
+    return failed ? std::numeric_limits<double>::quiet_NaN() : half_of_interquartile_range(seconds);
+  }
+
+  std::size_t bytes() const
+  {
+    return moving.cloth().bytes();
+  }
+
+private:
+  const double step_length; ///< [s]
+  SceneCloth moving;
+  std::vector<double> seconds;
+  bool failed = false;
+};
+} // namespace
+
+CoarseRun run_coarse(const DrapedCell &draped, const std::string &variant,
+                     const DrapeSchedule &schedule, DrapeOutput &output, Progress &progress)
+{
+  CoarseRun run;
+  run.variant                 = variant;
+  const std::string name      = draped.cell.name + "-" + variant;
+  const std::string folder    = output.folder + "/" + name;
+  const Upsampler3f upsampler = draped.upsampler<float>(Method("localized"));
+  std::filesystem::create_directories(folder);
+  meshes::FrameCollection coarse_list(folder + "/coarse.pvd"), fine_list(folder + "/fine.pvd");
+  std::vector<double> step_seconds, upsampling_seconds;
+  int cuts = 0;
+  Upsampler3f::Fine fine;
+  SceneCloth moving(draped.scene, draped.coarse, draped.effective, draped.coarse_motion(),
+                    membrane_model_of(variant));
+  const auto upsample = [&]() { upsampler.upsample(moving.cloth().positions(), fine); };
+  for (int frame = 0; frame <= schedule.n_frames; ++frame)
+  {
+    progress.begin(draped.cell.name + ", " + variant + " cloth, frame " + std::to_string(frame));
+    try
+    {
+      for (int k = 0; k < schedule.steps_to(frame); ++k)
+      {
+        step_seconds.push_back(seconds_of(
+          [&]()
+          {
+            if (schedule.is_static)
+              moving.solve_equilibrium(schedule.time_of(frame));
+            else
+              cuts += moving.step(schedule.step).cuts;
+          }));
+        upsampling_seconds.push_back(seconds_of(upsample));
+      }
+      check_reach(moving.cloth().positions(), draped.coarse.positions, schedule.time_of(frame));
+      if (frame == 0)
+        upsample();
+    }
+    catch (const meshes::NotConverged &failure)
+    {
+      run.failure = failure.what();
+      progress.note(name + ": " + run.failure);
+      break;
+    }
+    run.frames.push_back(moving.cloth().positions());
+    MotionRow row    = output.motion_row(draped.cell.name, variant, frame,
+                                         run.frames.back().row(draped.centre_vertex));
+    row.kinetic      = moving.cloth().kinetic_energy();
+    row.elastic      = moving.elastic_energy();
+    row.gravity      = gravity_energy(draped.scene, moving.cloth().masses(), run.frames.back());
+    row.stretch      = largest_stretch(draped.coarse, run.frames.back());
+    row.step_seconds = median(step_seconds);
+    row.upsampling_seconds = median(upsampling_seconds);
+    output.write(row);
+    // Of the variants one picture is enough: the report shows their curves.
+    if (run.is_method() || frame == schedule.n_frames)
+    {
+      output.write_frame(name, "coarse", frame, run.frames.back().cast<float>(),
+                         draped.coarse.triangles, {}, &coarse_list);
+      output.write_frame(name, "fine", frame, fine, draped.fine_triangles(), draped.fine_data(),
+                         &fine_list);
+    }
+    if (frame > 0)
+      progress.done();
+  }
+  run.seconds_per_step       = median(step_seconds);
+  run.seconds_per_upsampling = median(upsampling_seconds);
+  run.description            = {{"variant", variant},
+                                {"folder", name},
+                                {"frames", run.frames.size()},
+                                {"steps", step_seconds.size()},
+                                {"cut_steps", cuts},
+                                {"seconds_per_coarse_step", json_number(run.seconds_per_step)},
+                                {"seconds_per_upsampling", json_number(run.seconds_per_upsampling)},
+                                {"bytes", moving.cloth().bytes()},
+                                {"threads", 1}};
+  return run;
+}
+
+void measure_term_costs(const DrapedCell &draped, DrapeOutput &output, Progress &progress)
+{
+  constexpr int n_steps = 60;
+  for (const std::string &term : terms_with_a_cost(draped.scene))
+  {
+    TermRow row = output.term_row(draped.cell.name, term);
+    if (output.has(row))
+      continue;
+    progress.begin(draped.cell.name + ": what `" + term + "` costs");
+    row.is_present = draped.scene.has(term);
+    // Turn about, so that what else the machine does falls on both alike.
+    TimedCloth as_it_is(draped, {});
+    std::optional<TimedCloth> with_term;
+    if (!row.is_present)
+      with_term.emplace(draped, std::set<std::string>{term});
+    for (int k = 0; k < n_steps; ++k)
+    {
+      as_it_is.step();
+      if (with_term)
+        with_term->step();
+    }
+    row.seconds = as_it_is.median_of_steps();
+    row.spread  = as_it_is.spread_of_steps();
+    row.bytes   = as_it_is.bytes();
+    if (with_term)
+    {
+      row.forced_seconds = with_term->median_of_steps();
+      row.forced_spread  = with_term->spread_of_steps();
+      row.forced_bytes   = with_term->bytes();
+    }
+    output.write(row);
+  }
+}
+} // namespace homespun::verification

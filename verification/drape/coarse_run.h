@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+// The coarse cloth of a scene over all its frames, up-sampled every step; and what each term that the scene
+// leaves out would have cost.
+#pragma once
+
+#include "verification/drape/drape_output.h"
+#include "verification/drape/drape_schedule.h"
+#include "verification/drape/draped_cell.h"
+#include "verification/record/progress.h"
+#include "verification/record/timing.h"
+
+#include <nlohmann/json.hpp>
+
+#include <string>
+#include <vector>
+
+namespace homespun::verification
+{
+/// The coarse cloth of one variant at every frame.
+struct CoarseRun
+{
+  std::string variant, failure;
+  std::vector<shell::Vectors> frames;                        ///< (n_coarse,3) [m]
+  double seconds_per_step = 0., seconds_per_upsampling = 0.; ///< medians [s]
+  nlohmann::ordered_json description;                        ///< for drape.json
+
+  /// The variant that is the method, against which the others are held.
+  bool is_method() const
+  {
+    return variant == "corotational";
+  }
+};
+
+/// Runs it and writes its frames and its rows of motion.csv. Takes seconds, and is computed again when a
+/// study is resumed. A cloth that does not converge ends the run, with the reason in `failure`.
+CoarseRun run_coarse(const DrapedCell &draped, const std::string &variant,
+                     const DrapeSchedule &schedule, DrapeOutput &output, Progress &progress);
+
+/// Writes terms.csv: median time per step with its spread, and memory, as the scene is and with each term that it
+/// does not have forced upon it at zero strength. A time of steps that do not converge stays empty.
+void measure_term_costs(const DrapedCell &draped, DrapeOutput &output, Progress &progress);
+} // namespace homespun::verification

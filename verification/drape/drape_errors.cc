@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: MIT
+#include "verification/drape/drape_errors.h"
+
+#include "meshes/plain/errors.h"
+
+#include <cmath>
+#include <limits>
+
+namespace homespun::verification
+{
+using meshes::SpacePoints;
+
+namespace
+{
+constexpr double not_known = std::numeric_limits<double>::quiet_NaN();
+} // namespace
+
+double DrapeErrorBar::at(const std::size_t frame, const double fluctuation_there) const
+{
+  if (frame >= difference.size() || !(fluctuation[frame] > 0.))
+    return not_known;
+  return difference[frame] / fluctuation[frame] * fluctuation_there;
+}
+
+DrapeErrorBar drape_error_bar(const DrapedCell &draped, const Law law, const int n_cells,
+                              const DrapeSchedule &schedule, const MPI_Comm communicator)
+{
+  const Scene small = scaled(draped.scene, n_cells);
+  const DrapedCell sheet(small, draped.cell, draped.homogenized);
+  const std::unique_ptr<FineRun> p1 = dealii_run(sheet, law, 1, communicator),
+                                 p2 = dealii_run(sheet, law, 2, communicator);
+  SceneCloth coarse(small, sheet.coarse, sheet.effective, sheet.coarse_motion());
+  const Upsampler3d affine = sheet.upsampler<double>(Method("affine"));
+  Upsampler3d::Fine motion;
+  DrapeErrorBar bar;
+  for (int frame = 0; frame <= schedule.n_frames; ++frame)
+  {
+    const double time = schedule.time_of(frame);
+    for (int k = 0; k < schedule.steps_to(frame); ++k)
+    {
+      // Every rank has the same coarse cloth, and they end together.
+      try
+      {
+        if (schedule.is_static)
+          coarse.solve_equilibrium(time);
+        else
+          coarse.step(schedule.step);
+      }
+      catch (const meshes::NotConverged &)
+      {
+        return bar;
+      }
+      for (FineRun *const run : {p1.get(), p2.get()})
+        if (!run->advance(schedule.is_static, schedule.step, time).why.empty())
+          return bar;
+    }
+    affine.upsample(coarse.cloth().positions(), motion);
+    bar.difference.push_back((p1->positions() - p2->positions()).rowwise().norm().mean());
+    bar.fluctuation.push_back((p2->positions() - motion).rowwise().norm().mean());
+  }
+  return bar;
+}
+
+DrapeComparison::DrapeComparison(const DrapedCell &draped, const std::vector<std::string> &methods,
+                                 const std::vector<CoarseRun> &runs)
+    : draped(draped)
+    , methods(methods)
+    , runs(runs)
+{
+  upsamplers.emplace("affine", draped.upsampler<double>(Method("affine")));
+  for (const std::string &method : methods)
+    if (upsamplers.count(method) == 0)
+      upsamplers.emplace(method, draped.upsampler<double>(Method(method)));
+}
+
+SpacePoints DrapeComparison::upsampled(const std::string &method,
+                                       const shell::Vectors &coarse) const
+{
+  Upsampler3d::Fine fine;
+  upsamplers.at(method).upsample(coarse, fine);
+  return fine;
+}
+
+std::vector<meshes::VertexData> DrapeComparison::compare(const std::string &reference,
+                                                         const int frame,
+                                                         const SpacePoints &positions,
+                                                         const DrapeErrorBar &bar,
+                                                         DrapeOutput &output) const
+{
+  const auto at      = static_cast<std::size_t>(frame);
+  double fluctuation = not_known;
+  std::vector<meshes::VertexData> error;
+  for (const CoarseRun &run : runs)
+  {
+    if (run.frames.size() <= at)
+      continue;
+    const SpacePoints affine = upsampled("affine", run.frames[at]);
+    if (run.is_method())
+    {
+      fluctuation = (positions - affine).rowwise().norm().mean();
+      // Where nothing has moved yet, round-off over round-off is no figure.
+      if (fluctuation < 1e-12 * draped.side)
+        fluctuation = not_known;
+    }
+    for (const std::string &method : methods)
+    {
+      const SpacePoints up = method == "affine" ? affine : upsampled(method, run.frames[at]);
+      const Eigen::VectorXd distance = (up - positions).rowwise().norm();
+      if (!distance.allFinite())
+        throw meshes::NotConverged(draped.cell.name + ", " + run.variant + ", " + method +
+                                     ": positions that are not finite",
+                                   {});
+      DrapeRow row      = output.error_row(draped.cell.name, run.variant, reference, method, frame);
+      row.mean          = distance.mean();
+      row.rms           = std::sqrt(distance.squaredNorm() / static_cast<double>(distance.size()));
+      row.max           = distance.maxCoeff();
+      row.mean_per_cell = row.mean / draped.side;
+      row.mean_per_fluctuation = row.mean / fluctuation;
+      row.uncertainty          = bar.at(at, fluctuation);
+      output.write(row);
+      if (run.is_method() && method == "localized")
+        error = {{"error", distance.cast<float>()}};
+    }
+  }
+  return error;
+}
+
+bool DrapeComparison::has_rows(const std::string &reference, const int frame,
+                               const DrapeOutput &output) const
+{
+  const std::string &cell = draped.cell.name;
+  if (!output.has(output.motion_row(cell, reference, frame, Eigen::RowVector3d::Zero())))
+    return false;
+  for (const CoarseRun &run : runs)
+    if (run.frames.size() > static_cast<std::size_t>(frame))
+      for (const std::string &method : methods)
+        if (!output.has(output.error_row(cell, run.variant, reference, method, frame)))
+          return false;
+  return true;
+}
+} // namespace homespun::verification

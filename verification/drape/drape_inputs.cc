@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: MIT
+#include "verification/drape/drape_inputs.h"
+
+#include "meshes/plain/errors.h"
+#include "verification/cell/study_inputs.h"
+#include "verification/drape/draped_cell.h"
+
+#include <algorithm>
+#include <fstream>
+#include <iterator>
+
+namespace homespun::verification
+{
+using homogenization::UnitCell;
+
+namespace
+{
+/// Hash of a file's content.
+std::string fingerprint_of_file(const std::string &path)
+{
+  std::ifstream input(path, std::ios::binary);
+  return fingerprint(
+    std::string((std::istreambuf_iterator<char>(input)), std::istreambuf_iterator<char>()));
+}
+} // namespace
+
+bool is_dealii(const std::string &reference)
+{
+  return reference != "shell";
+}
+
+Scene scene_of(const DrapeOptions &options)
+{
+  Scene scene = read_scene(options.scene_file);
+  if (!options.cell_files.empty())
+    scene.cell_files = options.cell_files;
+  if (options.n_cells > 0)
+    scene = scaled(scene, options.n_cells);
+  if (options.time_step > 0.)
+    scene.time_step = options.time_step;
+  if (options.duration > 0.)
+    scene.duration = options.duration;
+  return scene;
+}
+
+void check_references(const DrapeOptions &options, const Scene &scene)
+{
+  std::vector<std::string> faults;
+  for (const std::string &reference : options.references)
+  {
+    if (!is_dealii(reference))
+      continue;
+    if (!scene.is_sheet())
+      faults.push_back("--references " + reference + ": scene `" + scene.name +
+                       "` is a garment; expected a flat sheet, or the reference `shell`");
+    for (const char *term : {"bending", "wind", "obstacles"})
+      if (scene.has(term))
+        faults.push_back("--references " + reference + ": scene `" + scene.name +
+                         "` has the term `" + term +
+                         "`, which this reference lacks; expected the reference `shell`");
+    if (scene.has("damping") && scene.viscosity > 0.)
+      faults.push_back("--references " + reference + ": scene `" + scene.name +
+                       "` has a `Viscosity`, which this reference lacks; expected 0, or the "
+                       "reference `shell`");
+    // What the error bar would refuse when it is made.
+    if (options.n_cells_of_error_bar > 0)
+      try
+      {
+        scaled(scene, std::min(options.n_cells_of_error_bar, scene.n1));
+      }
+      catch (const meshes::BadInput &fault)
+      {
+        faults.push_back(
+          "--references " + reference +
+          " has an error bar on a small sheet, the reference `shell` has none: " + fault.what());
+      }
+  }
+  if (scene.integration == TimeIntegration::equilibria ||
+      scene.integration == TimeIntegration::conserving)
+    for (const char *term : {"wind", "obstacles"})
+      if (scene.has(term))
+        faults.push_back(scene.file + ": key `Integrator` = " + scene.echo.at("Integrator") +
+                         " with the term `" + term +
+                         "`; expected `implicit` or `linearly implicit`");
+  if (scene.integration == TimeIntegration::conserving)
+    for (const std::string &variant : options.variants)
+      if (variant != "corotational")
+        faults.push_back(
+          "--variants " + variant + ": scene `" + scene.name +
+          "` has the key `Integrator` = conserving, which asks for a membrane with an energy; expected "
+          "corotational alone, or another integrator");
+  if (!faults.empty())
+    throw meshes::BadInput(faults);
+}
+
+void check_cloth(const DrapeOptions &options, const Scene &scene,
+                 const std::vector<UnitCell> &cells)
+{
+  const bool fine_too = std::any_of(options.references.begin(), options.references.end(),
+                                    [](const std::string &name) { return !is_dealii(name); });
+  std::vector<std::string> faults;
+  for (const UnitCell &cell : cells)
+  {
+    const CoarseCloth cloth(scene, cell);
+    for (const HeldPlace &held : scene.held)
+      for (const int v : held.vertices)
+        if (v >= cloth.mesh.n_vertices())
+          faults.push_back(scene.file + ": held vertex " + std::to_string(v) +
+                           " does not exist; expected 0 ... " +
+                           std::to_string(cloth.mesh.n_vertices() - 1));
+    if (!faults.empty())
+      throw meshes::BadInput(faults);
+    for (const std::string &place : cloth.motion(scene).idle_places(cloth.mesh))
+      faults.push_back(scene.file + ": the place `" + place +
+                       "` holds no vertex, or those of later places only; expected one that holds "
+                       "a part of the cloth: remove it");
+    if (!faults.empty())
+      throw meshes::BadInput(faults);
+    // A garment's cells are cut along its panels alone: not each of its vertices is one of the fine cloth.
+    if (fine_too && !scene.is_sheet() &&
+        std::any_of(scene.held.begin(), scene.held.end(),
+                    [](const HeldPlace &held) { return held.place == "vertices"; }))
+      DrapedCell(scene, cell, {}).fine_motion();
+  }
+}
+
+nlohmann::ordered_json drape_inputs(const DrapeOptions &options, const Scene &scene,
+                                    const DrapeSchedule &schedule,
+                                    const std::vector<UnitCell> &cells)
+{
+  nlohmann::ordered_json inputs = {{"scene", scene.echo},
+                                   {"time_step", scene.time_step},
+                                   {"frames", schedule.n_frames},
+                                   {"frame_interval", schedule.interval},
+                                   {"sheet_cells", {scene.n1, scene.n2}},
+                                   {"variants", options.variants},
+                                   {"methods", options.methods},
+                                   {"references", options.references},
+                                   {"cells_of_error_bar", options.n_cells_of_error_bar},
+                                   {"formats", options.frames},
+                                   {"costs", options.costs}};
+  if (!scene.is_sheet())
+    inputs["meshes"].push_back(fingerprint_of_file(scene.mesh_file));
+  for (const SceneObstacle &obstacle : scene.obstacles)
+    if (!obstacle.file.empty())
+      inputs["meshes"].push_back(fingerprint_of_file(obstacle.file));
+  for (const UnitCell &cell : cells)
+    inputs["cells"][cell.name] = fingerprint(cell);
+  return inputs;
+}
+} // namespace homespun::verification

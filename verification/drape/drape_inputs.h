@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: MIT
+// What a scene run is made of, known before any file is written: the scene with what the options put in its place,
+// what cannot be asked for, and the description by which a run is recognised when it is resumed.
+#pragma once
+
+#include "homogenization/cell/unit_cell.h"
+#include "verification/drape/drape_schedule.h"
+#include "verification/drape/drape_study.h"
+
+#include <nlohmann/json.hpp>
+
+#include <string>
+#include <vector>
+
+namespace homespun::verification
+{
+/// Whether a reference is solved by finite elements, else by the shell's own code.
+bool is_dealii(const std::string &reference);
+
+/// The scene file with what the options replace.
+/// @throws BadInput with one message per fault
+Scene scene_of(const DrapeOptions &options);
+
+/// @throws BadInput where a reference lacks a term or a place, or a static scene has a motion
+void check_references(const DrapeOptions &options, const Scene &scene);
+
+/// @throws BadInput where the cloth cannot be made of a cell, a held vertex does not exist, or a place holds
+///   nothing
+void check_cloth(const DrapeOptions &options, const Scene &scene,
+                 const std::vector<homogenization::UnitCell> &cells);
+
+/// All that the rows, frames and states of a run depend on.
+nlohmann::ordered_json drape_inputs(const DrapeOptions &options, const Scene &scene,
+                                    const DrapeSchedule &schedule,
+                                    const std::vector<homogenization::UnitCell> &cells);
+} // namespace homespun::verification

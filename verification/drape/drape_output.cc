@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: MIT
+#include "verification/drape/drape_output.h"
+
+#include "meshes/files/obj_file.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <map>
+#include <utility>
+
+namespace homespun::verification
+{
+namespace
+{
+std::string frame_name(const std::string &what, const int frame, const std::string &format)
+{
+  char number[16];
+  std::snprintf(number, sizeof(number), "%04d", frame);
+  return what + "_" + number + "." + format;
+}
+} // namespace
+
+DrapeOutput::DrapeOutput(std::string folder, std::string scene, const double interval,
+                         std::vector<std::string> formats, const bool with_terms)
+    : folder(std::move(folder))
+    , scene(std::move(scene))
+    , interval(interval)
+    , formats(std::move(formats))
+    , errors(this->folder)
+    , motion(this->folder)
+    , terms(with_terms ? std::make_unique<Table<TermRow>>(this->folder) : nullptr)
+{
+}
+
+DrapeRow DrapeOutput::error_row(const std::string &cell, const std::string &variant,
+                                const std::string &reference, const std::string &method,
+                                const int frame) const
+{
+  DrapeRow row;
+  row.scene     = scene;
+  row.cell      = cell;
+  row.variant   = variant;
+  row.reference = reference;
+  row.method    = method;
+  row.frame     = frame;
+  row.time      = frame * interval;
+  return row;
+}
+
+MotionRow DrapeOutput::motion_row(const std::string &cell, const std::string &variant,
+                                  const int frame, const Eigen::RowVector3d &centre) const
+{
+  MotionRow row;
+  row.scene    = scene;
+  row.cell     = cell;
+  row.variant  = variant;
+  row.frame    = frame;
+  row.time     = frame * interval;
+  row.centre_x = centre(0);
+  row.centre_y = centre(1);
+  row.centre_z = centre(2);
+  return row;
+}
+
+TermRow DrapeOutput::term_row(const std::string &cell, const std::string &term) const
+{
+  TermRow row;
+  row.scene = scene;
+  row.cell  = cell;
+  row.term  = term;
+  return row;
+}
+
+void DrapeOutput::write_frame(const std::string &run, const std::string &what, const int frame,
+                              const meshes::FloatPoints &positions,
+                              const meshes::Triangles &triangles,
+                              const std::vector<meshes::VertexData> &data,
+                              meshes::FrameCollection *collection) const
+{
+  for (const std::string &format : formats)
+  {
+    const std::string name = frame_name(what, frame, format);
+    const std::string path = folder + "/" + run + "/" + name;
+    if (format == "ply")
+      meshes::write_ply(path, positions, triangles);
+    else if (format == "obj")
+      meshes::write_obj(path, positions.cast<double>(), triangles);
+    else
+    {
+      meshes::write_vtu(path, positions, triangles, data);
+      if (collection)
+        collection->append(frame * interval, name);
+    }
+  }
+}
+
+void DrapeOutput::list_earlier_frames(const std::string &run, const int n,
+                                      meshes::FrameCollection &collection) const
+{
+  for (int frame = 0; frame < n; ++frame)
+    if (const std::string name = frame_name("fine", frame, "vtu");
+        std::filesystem::exists(folder + "/" + run + "/" + name))
+      collection.append(frame * interval, name);
+}
+
+std::vector<std::string> DrapeOutput::worst_errors() const
+{
+  std::map<std::string, double> worst;
+  for (const DrapeRow &row : errors.rows())
+    if (row.variant == "corotational" && row.method == "localized" &&
+        std::isfinite(row.mean_per_cell))
+    {
+      double &largest = worst[row.cell + " against " + row.reference];
+      largest         = std::max(largest, row.mean_per_cell);
+    }
+  std::vector<std::string> lines;
+  for (const auto &[what, error] : worst)
+    lines.push_back(what + ": largest mean error of `localized` over time " + short_text(error) +
+                    " cell sides");
+  return lines;
+}
+} // namespace homespun::verification

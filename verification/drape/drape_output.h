@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: MIT
+// What a scene run leaves on the disk as it goes on: the tables drape.csv (errors), motion.csv (motion and
+// energies) and terms.csv (what absent terms would cost), and the frames.
+#pragma once
+
+#include "meshes/files/surface_files.h"
+#include "verification/drape/drape_tables.h"
+#include "verification/record/table.h"
+
+#include <Eigen/Core>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace homespun::verification
+{
+/// Tables and frames in a folder. Rows that are there already are not written again.
+class DrapeOutput
+{
+public:
+  /// @param interval between frames [s]
+  /// @param formats of the frames: vtu, ply, obj
+  /// @param with_terms whether terms.csv is to be written
+  /// @throws BadInput where a table in the folder is damaged
+  DrapeOutput(std::string folder, std::string scene, double interval,
+              std::vector<std::string> formats, bool with_terms);
+
+  /// Rows that have but their keys yet.
+  DrapeRow error_row(const std::string &cell, const std::string &variant,
+                     const std::string &reference, const std::string &method, int frame) const;
+  /// @param centre of the vertex in the middle [m]
+  MotionRow motion_row(const std::string &cell, const std::string &variant, int frame,
+                       const Eigen::RowVector3d &centre) const;
+  TermRow term_row(const std::string &cell, const std::string &term) const;
+
+  void write(const DrapeRow &row)
+  {
+    errors.append_if_missing(row);
+  }
+  void write(const MotionRow &row)
+  {
+    motion.append_if_missing(row);
+  }
+  void write(const TermRow &row)
+  {
+    terms->append_if_missing(row);
+  }
+
+  /// Whether a row with these keys is there.
+  bool has(const DrapeRow &row) const
+  {
+    return errors.contains(row);
+  }
+  bool has(const MotionRow &row) const
+  {
+    return motion.contains(row);
+  }
+  bool has(const TermRow &row) const
+  {
+    return terms->contains(row);
+  }
+
+  /// A frame on the disk in every format; the .vtu is listed in the collection, where there is one.
+  /// @param run folder of the run, in that of the study
+  /// @param what coarse or fine
+  void write_frame(const std::string &run, const std::string &what, int frame,
+                   const meshes::FloatPoints &positions, const meshes::Triangles &triangles,
+                   const std::vector<meshes::VertexData> &data,
+                   meshes::FrameCollection *collection) const;
+
+  /// Lists the frames that an earlier run wrote.
+  void list_earlier_frames(const std::string &run, int n,
+                           meshes::FrameCollection &collection) const;
+
+  /// Largest mean error of `localized` over time, in cell sides, of each cell against each reference; from
+  /// the table, so that a resumed run speaks of all its frames. Ready lines.
+  std::vector<std::string> worst_errors() const;
+
+  const std::string folder;
+
+private:
+  const std::string scene;
+  const double interval;
+  const std::vector<std::string> formats;
+  Table<DrapeRow> errors;
+  Table<MotionRow> motion;
+  std::unique_ptr<Table<TermRow>> terms; ///< where costs are measured
+};
+} // namespace homespun::verification

@@ -1,0 +1,216 @@
+// SPDX-License-Identifier: MIT
+#include "verification/drape/draped_cell.h"
+
+#include "meshes/files/obj_file.h"
+#include "meshes/plain/errors.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace homespun::verification
+{
+namespace
+{
+int nearest_to_middle(const meshes::SpacePoints &positions)
+{
+  const Eigen::RowVector3d middle = positions.colwise().mean();
+  Eigen::Index nearest            = 0;
+  (positions.rowwise() - middle).rowwise().squaredNorm().minCoeff(&nearest);
+  return static_cast<int>(nearest);
+}
+
+meshes::ClothMesh placed(const meshes::TriangleMesh &rest, const SheetPlacement &placement)
+{
+  meshes::ClothMesh cloth;
+  cloth.rest      = rest;
+  cloth.triangles = rest.triangles;
+  cloth.positions.resize(rest.n_vertices(), 3);
+  for (int v = 0; v < rest.n_vertices(); ++v)
+    cloth.positions.row(v) = placement.start(rest.vertices.row(v));
+  return cloth;
+}
+
+std::string size_of(const Scene &sheet)
+{
+  return std::to_string(sheet.n1) + " x " + std::to_string(sheet.n2) + " cells";
+}
+
+/// The vertices of another sheet that are at the places of these.
+std::vector<int> at_same_places(const std::vector<int> &vertices, const Scene &from,
+                                const Scene &to, std::vector<std::string> &faults)
+{
+  std::vector<int> result;
+  for (const int v : vertices)
+  {
+    const int i = v % (from.n1 + 1), j = v / (from.n1 + 1);
+    const std::string name = from.file + ": held vertex " + std::to_string(v);
+    if (j > from.n2)
+      faults.push_back(name + " does not exist; expected 0 ... " +
+                       std::to_string((from.n1 + 1) * (from.n2 + 1) - 1));
+    else if (i * to.n1 % from.n1 != 0 || j * to.n2 % from.n2 != 0)
+      faults.push_back(name + ", at (" + std::to_string(i) + ", " + std::to_string(j) + ") of " +
+                       size_of(from) + ", is no vertex of a sheet of " + size_of(to) +
+                       "; expected an edge or a corner by name, or --cells for which it is one");
+    else
+      result.push_back(j * to.n2 / from.n2 * (to.n1 + 1) + i * to.n1 / from.n1);
+  }
+  return result;
+}
+} // namespace
+
+Scene scaled(const Scene &scene, const int n_cells)
+{
+  Scene result = scene;
+  if (!scene.is_sheet())
+    return result;
+  const double ratio = static_cast<double>(n_cells) / scene.n1;
+  result.n2          = std::max(1, static_cast<int>(std::lround(ratio * scene.n2)));
+  result.n1          = n_cells;
+  result.disturbance *= ratio;
+  std::vector<std::string> faults;
+  for (HeldPlace &held : result.held)
+  {
+    if (held.motion.kind == Motion::Kind::translate)
+      held.motion.along *= ratio;
+    held.vertices = at_same_places(held.vertices, scene, result, faults);
+  }
+  if (!faults.empty())
+    throw meshes::BadInput(faults);
+  return result;
+}
+
+CoarseCloth::CoarseCloth(const Scene &scene, const homogenization::UnitCell &cell)
+{
+  if (!scene.is_sheet())
+  {
+    mesh = meshes::read_cloth(scene.mesh_file, scene.vt_unit);
+    mesh.rest.material.setZero(mesh.n_triangles());
+    return;
+  }
+  const meshes::Sheet first = meshes::tile(cell.mesh, cell.lattice, 1, 1);
+  origin                    = first.origin;
+  sides     = Eigen::Vector2d(scene.n1, scene.n2).asDiagonal() * first.lattice.vectors;
+  placement = placement_of(scene, origin, sides);
+  meshes::TriangleMesh rest =
+    meshes::coarse_sheet(origin, first.lattice.vectors, scene.n1, scene.n2);
+  rest.material = Eigen::VectorXi::Zero(rest.n_triangles());
+  mesh          = placed(rest, *placement);
+}
+
+HeldMotion CoarseCloth::motion(const Scene &scene) const
+{
+  if (placement)
+    return {scene, *placement, origin, sides};
+  return {scene, mesh};
+}
+
+DrapedCell::DrapedCell(const Scene &given, const homogenization::UnitCell &cell,
+                       const meshes::HomogenizedCell &homogenized)
+    : scene(given)
+    , cell(cell)
+    , homogenized(homogenized)
+    , side(std::sqrt(cell.lattice.area()))
+{
+  effective        = {{homogenized.stiffness}, {homogenized.areal_density}};
+  phases.stiffness = cell.stiffness_of_phase();
+  for (const homogenization::Phase &phase : cell.phases)
+    phases.areal_density.push_back(phase.thickness * phase.density);
+  CoarseCloth begin(scene, cell);
+  coarse    = std::move(begin.mesh);
+  placement = begin.placement;
+  if (scene.is_sheet())
+  {
+    sheet = meshes::tile(cell.mesh, cell.lattice, scene.n1, scene.n2);
+    fine  = placed(sheet->mesh, *placement);
+  }
+  else
+  {
+    garment = meshes::fine_cloth(cell.mesh, cell.lattice, coarse);
+    // Vertices in space are numbered without gaps.
+    space_vertex.assign(static_cast<std::size_t>(garment->n_vertices()), -1);
+    int n = 0;
+    for (int v = 0; v < garment->n_vertices(); ++v)
+    {
+      const int first = garment->same_in_space(v);
+      space_vertex[static_cast<std::size_t>(v)] =
+        first == v ? n++ : space_vertex[static_cast<std::size_t>(first)];
+    }
+    fine.rest = garment->rest;
+    fine.positions.resize(n, 3);
+    fine.triangles = garment->rest.triangles;
+    for (int t = 0; t < fine.n_triangles(); ++t)
+      for (int k = 0; k < 3; ++k)
+        fine.triangles(t, k) = space_vertex[static_cast<std::size_t>(fine.triangles(t, k))];
+    fine_of_coarse.assign(static_cast<std::size_t>(coarse.n_vertices()), -1);
+    for (int v = 0; v < garment->n_vertices(); ++v)
+    {
+      Eigen::RowVector3d at = Eigen::RowVector3d::Zero();
+      for (int k = 0; k < 3; ++k)
+      {
+        const int corner = coarse.triangles(garment->coarse_triangle(v), k);
+        at += garment->coarse_weights(v, k) * coarse.positions.row(corner);
+        if (garment->coarse_weights(v, k) > 1. - 1e-9)
+          fine_of_coarse[static_cast<std::size_t>(corner)] =
+            space_vertex[static_cast<std::size_t>(v)];
+      }
+      fine.positions.row(space_vertex[static_cast<std::size_t>(v)]) = at;
+    }
+  }
+  centre_vertex      = nearest_to_middle(coarse.positions);
+  fine_centre_vertex = nearest_to_middle(at_fine_vertices(fine.positions));
+
+  // A vertex belongs to the group of most of its triangles.
+  const std::vector<int> group_of_phase = cell.group_of_phase();
+  Eigen::MatrixXf share =
+    Eigen::MatrixXf::Zero(n_fine(), static_cast<Eigen::Index>(cell.phase_of_group().size()));
+  const meshes::TriangleMesh &rest = sheet ? sheet->mesh : garment->rest;
+  for (int t = 0; t < rest.n_triangles(); ++t)
+    for (int k = 0; k < 3; ++k)
+      share(rest.triangles(t, k), group_of_phase[static_cast<std::size_t>(rest.material(t))]) +=
+        1.f;
+  meshes::VertexData material{"material", {}};
+  material.values.resize(n_fine(), 1);
+  for (int v = 0; v < n_fine(); ++v)
+  {
+    Eigen::Index phase = 0;
+    share.row(v).maxCoeff(&phase);
+    material.values(v, 0) = static_cast<float>(phase);
+  }
+  data = {material};
+}
+
+HeldMotion DrapedCell::coarse_motion() const
+{
+  if (sheet)
+    return {scene, *placement, sheet->origin, sheet->sides()};
+  return {scene, coarse};
+}
+
+HeldMotion DrapedCell::fine_motion() const
+{
+  if (sheet)
+    return {scene, *placement, sheet->origin, sheet->sides()};
+  return {scene, coarse, fine_of_coarse};
+}
+
+int DrapedCell::n_fine() const
+{
+  return sheet ? sheet->mesh.n_vertices() : garment->n_vertices();
+}
+
+meshes::Triangles DrapedCell::fine_triangles() const
+{
+  return sheet ? sheet->mesh.triangles : garment->sewn_triangles();
+}
+
+meshes::SpacePoints DrapedCell::at_fine_vertices(const meshes::SpacePoints &positions) const
+{
+  if (sheet)
+    return positions;
+  meshes::SpacePoints result(garment->n_vertices(), 3);
+  for (int v = 0; v < garment->n_vertices(); ++v)
+    result.row(v) = positions.row(space_vertex[static_cast<std::size_t>(v)]);
+  return result;
+}
+} // namespace homespun::verification

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: MIT
+// One cell in one scene: the coarse cloth with its effective material, the fine cloth with its phases, and
+// the ways between them.
+#pragma once
+
+#include "homogenization/cell/unit_cell.h"
+#include "localization/upsampler.h"
+#include "meshes/files/surface_files.h"
+#include "meshes/garment/fine_cloth.h"
+#include "meshes/plain/sheet.h"
+#include "verification/drape/scene_cloth.h"
+#include "verification/method/lightweight_cloth.h"
+#include "verification/reference/laws.h"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace homespun::verification
+{
+using Upsampler3f = localization::Upsampler<3, float>;
+using Upsampler3d = localization::Upsampler<3, double>;
+
+/// The scene on a smaller or larger sheet: translations of handles go with its size, held vertices are those at the
+/// same places. A garment has no cells per side and stays as it is.
+/// @throws BadInput where a held vertex is none of the other sheet, or of the given one
+Scene scaled(const Scene &scene, int n_cells);
+
+/// The coarse cloth of a scene where it begins, and where it is held.
+struct CoarseCloth
+{
+  /// @throws BadInput where the mesh of the scene or the cell cannot be used
+  CoarseCloth(const Scene &scene, const homogenization::UnitCell &cell);
+
+  HeldMotion motion(const Scene &scene) const;
+
+  meshes::ClothMesh mesh;
+  std::optional<SheetPlacement> placement;                ///< of a sheet
+  Eigen::RowVector2d origin = Eigen::RowVector2d::Zero(); ///< of a sheet [m]
+  Eigen::Matrix2d sides     = Eigen::Matrix2d::Zero();    ///< of a sheet, rows [m]
+};
+
+class DrapedCell
+{
+public:
+  /// @throws BadInput where the cloth of the scene or the cell cannot be used
+  DrapedCell(const Scene &scene, const homogenization::UnitCell &cell,
+             const meshes::HomogenizedCell &homogenized);
+
+  HeldMotion coarse_motion() const;
+  /// @throws BadInput where a held vertex of the coarse cloth is none of the fine one
+  HeldMotion fine_motion() const;
+
+  template <typename Scalar>
+  localization::Upsampler<3, Scalar> upsampler(const Method &method) const
+  {
+    const localization::UpsamplerOptions options = method.options(Law::biot);
+    if (sheet)
+      return {homogenized, coarse.rest, *sheet, options};
+    return {homogenized, coarse, *garment, options};
+  }
+
+  /// Vertices that up-sampling gives.
+  int n_fine() const;
+
+  /// Triangles between those.
+  meshes::Triangles fine_triangles() const;
+
+  /// The phases, for pictures.
+  const std::vector<meshes::VertexData> &fine_data() const
+  {
+    return data;
+  }
+
+  /// Positions at the vertices that up-sampling gives, from those of `fine`.
+  meshes::SpacePoints at_fine_vertices(const meshes::SpacePoints &positions) const;
+
+  const Scene scene;
+  const homogenization::UnitCell cell;
+  const meshes::HomogenizedCell homogenized;
+  const double side; ///< sqrt(|Y|) [m]
+  std::optional<meshes::Sheet> sheet;
+  std::optional<meshes::FineCloth> garment;
+  meshes::ClothMesh coarse, fine; ///< of `fine`, the vertices in space that the shell moves
+  ClothMaterial effective, phases;
+  int centre_vertex = 0, fine_centre_vertex = 0; ///< nearest to the middle of the cloth
+  std::optional<SheetPlacement> placement;
+
+private:
+  std::vector<meshes::VertexData> data;
+  std::vector<int> space_vertex; ///< of a garment's fine vertex
+  std::vector<int>
+    fine_of_coarse; ///< vertex of `fine` at each of `coarse` of a garment, −1 where there is none
+};
+} // namespace homespun::verification

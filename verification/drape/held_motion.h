@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: MIT
+// Where the held places of a scene are at a time: the same rule for the vertices of a coarse or fine cloth
+// and for the nodes of a finite-element reference.
+#pragma once
+
+#include "meshes/cloth/cloth_mesh.h"
+#include "verification/drape/scene.h"
+
+#include <Eigen/Core>
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace homespun::verification
+{
+/// A sheet as a scene places it: 0 to 1 from edge to edge, and where a point begins.
+struct SheetPlacement
+{
+  std::function<Eigen::RowVector2d(const Eigen::RowVector2d &rest_point)> fraction; ///< [-]
+  std::function<Eigen::RowVector3d(const Eigen::RowVector2d &rest_point)> start;    ///< [m]
+};
+
+/// @param origin lower-left corner of the sheet at rest [m]
+/// @param sides rows: its sides at rest [m]
+SheetPlacement placement_of(const Scene &scene, const Eigen::RowVector2d &origin,
+                            const Eigen::Matrix2d &sides);
+
+/// The held places of a scene on one cloth. Coarse and fine cloth hold the same places and turn them about the same
+/// centres: `vertices ...` are vertices of the coarse cloth, and of the fine one those at the same points.
+class HeldMotion
+{
+public:
+  /// Of a sheet, coarse or fine. Vertices are numbered as in meshes::coarse_sheet().
+  HeldMotion(const Scene &scene, const SheetPlacement &placement, const Eigen::RowVector2d &origin,
+             const Eigen::Matrix2d &sides);
+
+  /// Of a garment, by its vertices in space.
+  /// @param fine_of_coarse fine vertex at each coarse one, −1 where there is none; empty: of the coarse cloth
+  /// @throws BadInput where a held vertex is no vertex of the fine cloth
+  HeldMotion(const Scene &scene, const meshes::ClothMesh &coarse,
+             const std::vector<int> &fine_of_coarse = {});
+
+  /// Position of a held point of a sheet at a time, nothing where it is free.
+  std::optional<Eigen::RowVector3d> at(const Eigen::RowVector2d &rest_point, double time) const;
+
+  /// Held vertices of a cloth.
+  std::vector<int> vertices(const meshes::ClothMesh &cloth) const;
+
+  /// Positions of these vertices at a time.
+  Eigen::RowVector3d position(int vertex, const meshes::ClothMesh &cloth, double time) const;
+
+  /// Whether anything moves at or after a time.
+  bool moves_after(double time) const;
+
+  /// Places that hold no vertex of a cloth, as the scene calls them: later places win.
+  std::vector<std::string> idle_places(const meshes::ClothMesh &cloth) const;
+
+private:
+  struct Place
+  {
+    HeldPlace held;
+    Eigen::RowVector3d centre;                 ///< about which it rotates [m]
+    std::vector<int> vertices;                 ///< of `vertices ...` on this garment
+    std::vector<Eigen::RowVector2d> fractions; ///< of `vertices ...` on a sheet
+  };
+  /// The place that holds a vertex, −1 where none does; later places win.
+  int place_of_vertex(int vertex, const meshes::ClothMesh &cloth) const;
+  bool holds(const Place &place, const Eigen::RowVector2d &fraction) const;
+  bool holds(const Place &place, int vertex, const meshes::ClothMesh &garment) const;
+
+  std::optional<SheetPlacement> placement;
+  std::vector<Place> places;
+  double waist = 0.; ///< height above which a vertex belongs to the waist [m]
+};
+} // namespace homespun::verification

@@ -1,0 +1,221 @@
+// SPDX-License-Identifier: MIT
+#include "verification/drape/scene_cloth.h"
+
+#include "meshes/files/obj_file.h"
+#include "meshes/plain/errors.h"
+#include "shell/contact/obstacles.h"
+#include "shell/terms/bending.h"
+#include "shell/terms/inertial_terms.h"
+#include "shell/terms/membrane_term.h"
+#include "shell/terms/warping.h"
+#include "shell/terms/wind.h"
+
+#include <Eigen/LU>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace homespun::verification
+{
+namespace
+{
+shell::Obstacle obstacle_of(const SceneObstacle &given, const double friction)
+{
+  shell::Obstacle obstacle;
+  const std::vector<double> &n = given.numbers;
+  obstacle.name                = given.kind;
+  obstacle.friction            = friction;
+  if (given.kind == "plane")
+    obstacle.shape = shell::plane({n[0], n[1], n[2]}, {n[3], n[4], n[5]});
+  else if (given.kind == "sphere")
+  {
+    obstacle.shape = shell::sphere({n[0], n[1], n[2]}, n[3]);
+  }
+  else
+  {
+    meshes::Surface surface = meshes::read_surface(given.file);
+    surface.positions.rowwise() += Eigen::RowVector3d(n[0], n[1], n[2]);
+    obstacle.shape =
+      shell::closed_mesh(shell::ClosedSurface(surface.positions, surface.triangles, given.file));
+  }
+  return obstacle;
+}
+
+shell::Integrator integrator_of(const TimeIntegration integration)
+{
+  switch (integration)
+  {
+  case TimeIntegration::implicit:
+    return shell::Integrator::implicit;
+  case TimeIntegration::conserving:
+    return shell::Integrator::conserving;
+  default:
+    return shell::Integrator::linearly_implicit;
+  }
+}
+} // namespace
+
+std::string name_of(const MembraneModel model)
+{
+  return model == MembraneModel::corotational       ? "corotational"
+         : model == MembraneModel::triangle_warping ? "triangle-warping"
+                                                    : "nodal-warping";
+}
+
+MembraneModel membrane_model_of(const std::string &name)
+{
+  for (const MembraneModel model :
+       {MembraneModel::corotational, MembraneModel::triangle_warping, MembraneModel::nodal_warping})
+    if (name_of(model) == name)
+      return model;
+  throw meshes::BadInput("found `" + name +
+                         "`; expected corotational, triangle-warping or nodal-warping");
+}
+
+std::vector<std::string> terms_with_a_cost(const Scene &scene)
+{
+  std::vector<std::string> terms = {"bending", "gravity", "damping"};
+  if (scene.integration != TimeIntegration::conserving)
+    terms.insert(terms.end(), {"wind", "obstacles"});
+  if (scene.has("obstacles"))
+    terms.emplace_back("friction");
+  return terms;
+}
+
+double gravity_energy(const Scene &scene, const Eigen::VectorXd &masses,
+                      const shell::Vectors &positions)
+{
+  if (!scene.has("gravity"))
+    return std::numeric_limits<double>::quiet_NaN();
+  return 0. - masses.dot(positions * scene.gravity.transpose());
+}
+
+SceneCloth::SceneCloth(const Scene &scene, const meshes::ClothMesh &mesh,
+                       const ClothMaterial &material, HeldMotion given_motion,
+                       const MembraneModel model, const std::set<std::string> &forced)
+    : mesh(mesh)
+    , motion(std::move(given_motion))
+    , held(motion.vertices(mesh))
+{
+  const Eigen::VectorXd masses = shell::lumped_masses(mesh, material.areal_density);
+  shell::ClothOptions options;
+  options.integrator = integrator_of(scene.integration);
+  moving             = std::make_unique<shell::Cloth>(mesh.positions, masses, held, options);
+  const auto forces  = [&](const char *term) { return forced.count(term) != 0; };
+
+  const bool damped      = scene.has("damping");
+  const double viscosity = damped ? scene.viscosity : forces("damping") ? 1e-300 : 0.;
+  switch (model)
+  {
+  case MembraneModel::corotational:
+    moving->add(shell::membrane_term(mesh, material.stiffness, viscosity));
+    break;
+  case MembraneModel::triangle_warping:
+    moving->add(shell::triangle_warping_term(mesh, material.stiffness));
+    break;
+  case MembraneModel::nodal_warping:
+    moving->add(shell::nodal_warping_term(mesh, material.stiffness, masses));
+    break;
+  }
+  // The scene is the same for every model of the elasticity.
+  if (model != MembraneModel::corotational && viscosity > 0.)
+    moving->add(shell::viscosity_term(mesh, material.stiffness, viscosity));
+  if (scene.has("bending") || forces("bending"))
+  {
+    const shell::PlateStiffness plate =
+      scene.has("bending") ? scene.bending : shell::PlateStiffness::isotropic(1e-30, 0.);
+    moving->add(shell::bending_term(
+      mesh, std::vector<shell::PlateStiffness>(material.stiffness.size(), plate)));
+  }
+  if (scene.has("gravity") || forces("gravity"))
+    moving->add(shell::gravity_term(
+      masses, scene.has("gravity") ? scene.gravity : Eigen::RowVector3d::Zero().eval()));
+  if ((damped && scene.damping_rate > 0.) || forces("damping"))
+    moving->add(shell::mass_damping_term(masses, damped ? scene.damping_rate : 0.));
+  if (scene.has("wind") || forces("wind"))
+  {
+    shell::Air air;
+    air.density                    = scene.has("wind") ? scene.air_density : 0.;
+    air.normal_drag                = scene.drag;
+    const Eigen::Vector3d velocity = scene.wind.transpose();
+    air.velocity = [velocity](const Eigen::Vector3d &, double) { return velocity; };
+    moving->add(shell::wind_term(mesh, air));
+    if (scene.pressure != 0.)
+      moving->add(
+        shell::pressure_term(mesh, [pressure = scene.pressure](double) { return pressure; }));
+  }
+  if (scene.has("obstacles") || forces("obstacles"))
+  {
+    shell::ContactParameters parameters;
+    parameters.thickness = scene.contact_thickness;
+    if (scene.has("gravity"))
+      parameters.gravity = scene.gravity.transpose();
+    std::vector<SceneObstacle> obstacles = scene.obstacles;
+    // Out of reach.
+    if (obstacles.empty())
+      obstacles.push_back({"plane", {0., 0., -1e6, 0., 0., 1.}, ""});
+    for (const SceneObstacle &obstacle : obstacles)
+      moving->add(shell::obstacle_term(obstacle_of(obstacle, scene.has("friction") ? scene.friction
+                                                             : forces("friction")  ? 1e-30
+                                                                                   : 0.),
+                                       masses, parameters));
+  }
+}
+
+void SceneCloth::prescribe(const double time)
+{
+  for (const int v : held)
+    moving->prescribe(v, motion.position(v, mesh, time));
+}
+
+shell::StepReport SceneCloth::step(const double h)
+{
+  if (motion.moves_after(moving->time()))
+    prescribe(moving->time() + h);
+  return moving->step(h);
+}
+
+void SceneCloth::solve_equilibrium(const double time)
+{
+  prescribe(time);
+  moving->solve_equilibrium();
+  moving->set_state(moving->positions(), moving->velocities(), time);
+}
+
+double SceneCloth::elastic_energy() const
+{
+  double sum = 0.;
+  for (const auto &term : moving->terms())
+  {
+    if (!term->has_energy())
+      return std::numeric_limits<double>::quiet_NaN();
+    if (term->name() != "gravity")
+      sum += term->stored_energy(moving->positions());
+  }
+  return sum;
+}
+
+double largest_stretch(const meshes::ClothMesh &mesh, const shell::Vectors &positions)
+{
+  double largest = 0.;
+  for (int t = 0; t < mesh.n_triangles(); ++t)
+  {
+    Eigen::Matrix2d rest;
+    Eigen::Matrix<double, 3, 2> current;
+    for (int k = 0; k < 2; ++k)
+    {
+      rest.col(k) = (mesh.rest.vertices.row(mesh.rest.triangles(t, k + 1)) -
+                     mesh.rest.vertices.row(mesh.rest.triangles(t, 0)))
+                      .transpose();
+      current.col(k) =
+        (positions.row(mesh.triangles(t, k + 1)) - positions.row(mesh.triangles(t, 0))).transpose();
+    }
+    const Eigen::Matrix<double, 3, 2> F = current * rest.inverse();
+    const Eigen::Matrix2d C             = F.transpose() * F;
+    const double mean                   = 0.5 * C.trace();
+    largest = std::max(largest, std::sqrt(mean + std::hypot(0.5 * (C(0, 0) - C(1, 1)), C(0, 1))));
+  }
+  return largest;
+}
+} // namespace homespun::verification

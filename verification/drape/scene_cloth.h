@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: MIT
+// The cloth of a scene in the shell's code, coarse or at full resolution: composed from the terms that the
+// scene lists and no others.
+#pragma once
+
+#include "shell/solver/cloth.h"
+#include "verification/drape/held_motion.h"
+#include "verification/drape/scene.h"
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace homespun::verification
+{
+/// How the membrane is modelled; corotational is the method, the others are variants of the paper.
+enum class MembraneModel
+{
+  corotational,
+  triangle_warping,
+  nodal_warping
+};
+
+std::string name_of(MembraneModel model);
+
+/// @throws BadInput listing the names
+MembraneModel membrane_model_of(const std::string &name);
+
+/// One entry per phase of the mesh.
+struct ClothMaterial
+{
+  std::vector<Eigen::Matrix3d> stiffness; ///< [N/m]
+  std::vector<double> areal_density;      ///< [kg/m^2]
+};
+
+class SceneCloth
+{
+public:
+  /// @param forced terms that the scene does not list, added at zero strength: what they would cost
+  /// @throws BadInput where the parts do not fit together
+  SceneCloth(const Scene &scene, const meshes::ClothMesh &mesh, const ClothMaterial &material,
+             HeldMotion motion, MembraneModel model = MembraneModel::corotational,
+             const std::set<std::string> &forced = {});
+
+  /// Moves the handles to their places at the end of the step, and steps.
+  shell::StepReport step(double h);
+
+  /// Equilibrium with the handles where they are at a time.
+  void solve_equilibrium(double time);
+
+  /// What the membrane and the plate store [J]; not a number where the forces of the membrane have no energy.
+  double elastic_energy() const;
+
+  shell::Cloth &cloth()
+  {
+    return *moving;
+  }
+  const shell::Cloth &cloth() const
+  {
+    return *moving;
+  }
+
+private:
+  void prescribe(double time);
+
+  const meshes::ClothMesh mesh;
+  const HeldMotion motion;
+  std::vector<int> held;
+  std::unique_ptr<shell::Cloth> moving;
+};
+
+/// Terms whose cost can be measured: those that the scene has, and those that can be forced on it at zero strength.
+/// Friction needs obstacles to act on.
+std::vector<std::string> terms_with_a_cost(const Scene &scene);
+
+/// Potential of the weight, −Σ m g·x [J]; not a number in a scene without gravity.
+double gravity_energy(const Scene &scene, const Eigen::VectorXd &masses,
+                      const shell::Vectors &positions);
+
+/// Largest principal stretch of any triangle [-].
+double largest_stretch(const meshes::ClothMesh &mesh, const shell::Vectors &positions);
+} // namespace homespun::verification

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: MIT
+// A stress case as data: what is done, how it must end, the one figure that is measured and its limit; and
+// what became of it. Running never throws: a failure is a row of the table, not the end of the program.
+#pragma once
+
+#include "verification/extremes/stress_tables.h"
+#include "verification/record/verdict.h"
+
+#include <Eigen/Core>
+
+#include <functional>
+#include <limits>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace homespun::verification
+{
+/// What one repetition found.
+struct StressAnswer
+{
+  double figure = 0.;     ///< compared with the case's limit
+  Eigen::MatrixXd values; ///< all numbers that a user would get; every one must be finite
+};
+
+enum class Ending
+{
+  finite, ///< a finite answer whose figure is within the limit
+  refused ///< BadInput or NotConverged, whose message names the fault
+};
+
+struct StressCase
+{
+  std::string group, name;
+  std::string expected; ///< in words
+  Ending ending = Ending::finite;
+  double limit  = 0.;    ///< of the figure; finite cases
+  std::string figure_is; ///< what the figure is, with its unit; finite cases
+  std::string names;     ///< what the refusal must contain; refused cases
+  bool is_random =
+    false; ///< seeds differ; else every repetition must give the same numbers to the last bit
+  /// @throws BadInput, NotConverged where it refuses
+  std::function<StressAnswer(unsigned int seed)> run;
+  int most_repeats =
+    std::numeric_limits<int>::max(); ///< for cases that are long or need but a second look
+  std::string derivation =
+    {}; ///< where the limit comes from, known before the figure; finite cases
+};
+
+/// Where limits come from, by what the figure is.
+using Derivations = std::map<std::string, std::string>;
+
+/// Gives the cases that end in an answer the derivation of their figure; one that is not known
+/// stays empty.
+void derive(std::vector<StressCase> &cases, const Derivations &derivations);
+
+/// Growth of energy that round-off explains, over the largest energy: the cloth's own slack
+/// (shell/solver/cloth.cc), 1e-12 of the energy before and of what is stored, in up to five parts of a
+/// step that was cut.
+constexpr double energy_round_off = 1e-11;
+
+/// Where that comes from.
+inline const char *const of_energy =
+  "theory: nothing brings energy into the sheet, and damping takes some; round-off: 1e-12 of the "
+  "energy before and of "
+  "what is stored, in up to five parts of a step that was cut";
+
+struct StressResult
+{
+  std::string outcome;  ///< finite; finite but ...; not finite; refused: message; error: message
+  double figure   = 0.; ///< the largest of all repetitions; not-a-number where there is none
+  Outcome verdict = Outcome::fail;
+  int repeats     = 0;
+  double seconds  = 0.; ///< of all repetitions
+};
+
+/// Runs a case with the seeds 0 ... repeats − 1, or fewer where the case wants no more.
+StressResult run_case(const StressCase &stress_case, int repeats);
+
+/// The limit as a table shows it: of the figure, or the words that a refusal must contain.
+std::string limit_text(const StressCase &stress_case);
+
+/// What names a case in the table.
+StressRow keys_of(const StressCase &stress_case);
+
+/// The row of a case that was run.
+/// @throws std::logic_error where its limit has no derivation
+StressRow stress_row(const StressCase &stress_case, const StressResult &result);
+
+/// One verdict per group, in the order of the rows: how many of its cases do not hold.
+std::vector<Verdict> stress_verdicts(const std::vector<StressRow> &rows);
+} // namespace homespun::verification

@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: MIT
+#include "verification/extremes/stress_sheet.h"
+
+#include "meshes/plain/sheet.h"
+#include "shell/terms/inertial_terms.h"
+#include "shell/terms/membrane_term.h"
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+namespace homespun::verification
+{
+SheetStiffness isotropic_sheet(const double young, const double poisson)
+{
+  Eigen::Matrix3d D;
+  D << 1., poisson, 0., poisson, 1., 0., 0., 0., 0.5 * (1. - poisson);
+  return {"isotropic", young / (1. - poisson * poisson) * D};
+}
+
+std::vector<SheetStiffness> built_in_stiffnesses()
+{
+  Eigen::Matrix3d laminate;
+  laminate << 2840., 300., 0., 300., 999., 0., 0., 0., 350.;
+  const Eigen::Matrix3d Q = (Eigen::AngleAxisd(0.5, Eigen::Vector3d::UnitX()) *
+                             Eigen::AngleAxisd(0.9, Eigen::Vector3d::UnitZ()))
+                              .toRotationMatrix();
+  const Eigen::Matrix3d skewed = Q * Eigen::Vector3d(1e4, 30., 1.).asDiagonal() * Q.transpose();
+  return {isotropic_sheet(1000., 0.3),
+          {"laminate", laminate},
+          {"anisotropic 1e4", 0.5 * (skewed + skewed.transpose())}};
+}
+
+meshes::TriangleMesh irregular_sheet(const int n, const double side)
+{
+  meshes::TriangleMesh mesh =
+    meshes::coarse_sheet({0., 0.}, side / n * Eigen::Matrix2d::Identity(), n, n);
+  const shell::Vectors shift = 0.25 * side / n * random_vectors(mesh.n_vertices(), 7);
+  for (int j = 1; j < n; ++j)
+    for (int i = 1; i < n; ++i)
+      mesh.vertices.row(j * (n + 1) + i) += shift.row(j * (n + 1) + i).head<2>();
+  return mesh;
+}
+
+meshes::ClothMesh hanging_mesh(const int n, const double side)
+{
+  Eigen::Matrix<double, 3, 2> placement;
+  placement << 1., 0., 0., 0., 0., 1.;
+  return meshes::placed_sheet(irregular_sheet(n, side), placement, Eigen::RowVector3d::Zero());
+}
+
+meshes::ClothMesh lying_mesh(const int n, const double side)
+{
+  return meshes::placed_sheet(irregular_sheet(n, side), Eigen::Matrix<double, 3, 2>::Identity(),
+                              Eigen::RowVector3d::Zero());
+}
+
+std::vector<int> outline_of(const int n)
+{
+  std::vector<int> vertices;
+  for (int j = 0; j <= n; ++j)
+    for (int i = 0; i <= n; ++i)
+      if (i == 0 || j == 0 || i == n || j == n)
+        vertices.push_back(j * (n + 1) + i);
+  return vertices;
+}
+
+std::vector<int> upper_corners(const int n)
+{
+  return {n * (n + 1), (n + 1) * (n + 1) - 1};
+}
+
+shell::Cloth sheet_cloth(const meshes::ClothMesh &mesh, const SheetStiffness &stiffness,
+                         const std::vector<int> &held, const SheetPhysics &physics)
+{
+  const Eigen::VectorXd masses = shell::lumped_masses(mesh, {stiffness.areal_density});
+  shell::Cloth cloth(mesh.positions, masses, held, physics.options);
+  cloth.add(shell::membrane_term(mesh, {stiffness.D}, physics.viscosity));
+  if (physics.damping > 0.)
+    cloth.add(shell::mass_damping_term(masses, physics.damping));
+  if (!physics.gravity.isZero(0.))
+    cloth.add(shell::gravity_term(masses, physics.gravity));
+  return cloth;
+}
+
+Eigen::MatrixXd state_of(const shell::Cloth &cloth)
+{
+  Eigen::MatrixXd state(cloth.positions().rows(), 6);
+  state << cloth.positions(), cloth.velocities();
+  return state;
+}
+
+double largest_energy_growth(shell::Cloth &cloth, const double h, const int n_steps)
+{
+  double before  = cloth.kinetic_energy() + cloth.stored_energy();
+  double largest = cloth.kinetic_energy() + std::abs(cloth.stored_energy());
+  double growth  = 0.;
+  for (int k = 0; k < n_steps; ++k)
+  {
+    cloth.step(h);
+    const double after = cloth.kinetic_energy() + cloth.stored_energy();
+    growth             = std::max(growth, after - before);
+    largest = std::max(largest, cloth.kinetic_energy() + std::abs(cloth.stored_energy()));
+    before  = after;
+  }
+  return growth > 0. ? growth / largest : 0.;
+}
+
+shell::Vectors random_vectors(const Eigen::Index n, const unsigned int seed)
+{
+  // Without std::uniform_real_distribution, whose numbers differ between libraries.
+  std::mt19937 generator(seed);
+  shell::Vectors vectors(n, 3);
+  for (Eigen::Index i = 0; i < n; ++i)
+    for (int c = 0; c < 3; ++c)
+      vectors(i, c) = static_cast<double>(generator()) / 2147483647.5 - 1.;
+  return vectors;
+}
+
+shell::Vectors spinning(const shell::Vectors &positions, const Eigen::VectorXd &masses,
+                        const Eigen::RowVector3d &angular_velocity)
+{
+  const Eigen::RowVector3d centre = masses.transpose() * positions / masses.sum();
+  shell::Vectors velocities(positions.rows(), 3);
+  for (Eigen::Index i = 0; i < velocities.rows(); ++i)
+    velocities.row(i) = angular_velocity.cross(positions.row(i) - centre);
+  return velocities;
+}
+} // namespace homespun::verification

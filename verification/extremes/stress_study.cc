@@ -1,0 +1,267 @@
+// SPDX-License-Identifier: MIT
+#include "verification/extremes/stress_study.h"
+
+#include "meshes/files/write_whole.h"
+#include "meshes/plain/errors.h"
+#include "meshes/plain/sheet.h"
+#include "verification/cell/cell_study.h"
+#include "verification/cell/study_inputs.h"
+#include "verification/extremes/stress_cases.h"
+#include "verification/extremes/stress_solver.h"
+#include "verification/record/json_files.h"
+#include "verification/record/on_root.h"
+#include "verification/record/progress.h"
+#include "verification/record/provenance.h"
+#include "verification/record/table.h"
+
+#include <deal.II/base/mpi.h>
+
+#include <chrono>
+#include <memory>
+#include <set>
+
+namespace homespun::verification
+{
+namespace
+{
+nlohmann::ordered_json what_was_left_out(const int most_triangles, const int n_ranks)
+{
+  const auto left_out = [](const char *what, const char *why) {
+    return nlohmann::ordered_json{{"what", what}, {"why", why}};
+  };
+  nlohmann::ordered_json all = {
+    left_out("1e6 steps at rest",
+             "20,000 steps in each repetition, on a sheet of 8 triangles, to end in minutes"),
+    left_out("cloth and up-sampling on many threads and ranks",
+             "the cases run on one thread of one rank"),
+    left_out("linear strain field of the up-sampling, O(cell)",
+             "an order, which the strain study measures"),
+    left_out("a resumed run equals an uninterrupted one",
+             "a test of the moving cloth holds it to the last bit")};
+  if (most_triangles < 1000000)
+    all.push_back(left_out("a cell of 1e6 triangles", "1e5 at most, to end in minutes"));
+  if (n_ranks == 1)
+    all.push_back(left_out("C^H by several ranks beside one", "the study ran on one rank"));
+  return all;
+}
+
+nlohmann::ordered_json notes(const bool has_cells)
+{
+  nlohmann::ordered_json all = {
+    "A case is repeated with different seeds where it has random numbers; else every repetition must give the same "
+    "numbers to the last bit. Cells are homogenized twice, those of 100,000 triangles and more once.",
+    "C^H of a cell is held against the closed form of a laminate, against a factorized solve, or against itself "
+    "moved, by the relative energy of the worst macro strain.",
+    "Of a free sheet that spins each integrator is asked for what its theory gives: both Euler methods for "
+    "their linear momentum and a falling energy, the conserving one for both momenta and the energy. That a "
+    "sheet turns is judged by (x_new − x_old)/h: half of what a rigid body would turn by is asked for.",
+    "The figure of a case is the largest of its repetitions; the time is that of all of them.",
+    "Each limit stands in stress.csv with where it comes from: theory, round-off, or a "
+    "requirement. Iterations and times "
+    "of the solver have none: they are reported."};
+  if (!has_cells)
+    all.push_back(
+      "No cell was given: the cloths are sheets of three built-in stiffnesses, and up-sampling "
+      "takes a cell "
+      "of smooth modes.");
+  return all;
+}
+
+class StressStudy
+{
+public:
+  StressStudy(const StressStudyOptions &options, const MPI_Comm communicator)
+      : options(options)
+      , communicator(communicator)
+      , is_root(verification::is_root(communicator))
+      , begin(std::chrono::steady_clock::now())
+  {
+  }
+
+  std::vector<Verdict> run()
+  {
+    read_cells();
+    on_root(communicator, [&]() { open_folder(); });
+    homogenize();
+    homogenize_by_all_ranks();
+    on_root(communicator,
+            [&]()
+            {
+              collect();
+              run_cases();
+              measure_solver();
+              conclude();
+            });
+    share_failure(verdicts, communicator);
+    return verdicts;
+  }
+
+private:
+  void read_cells()
+  {
+    for (const std::string &file : options.cell_files)
+      unit_cells.push_back(homogenization::read_unit_cell(file));
+    check_names(unit_cells);
+    for (const homogenization::UnitCell &cell : unit_cells)
+      meshes::tile(cell.mesh, cell.lattice, 1, 1); // refuses cells that make no sheet
+  }
+
+  void open_folder()
+  {
+    nlohmann::ordered_json inputs = {{"repeats", options.repeats},
+                                     {"most_triangles", options.most_triangles},
+                                     {"ranks", n_ranks()}};
+    for (const homogenization::UnitCell &cell : unit_cells)
+      inputs["cells"][cell.name] = fingerprint(cell);
+    folder = open_run_folder(options.output, {"stress", inputs}, options.earlier, options.quiet);
+    table  = std::make_unique<Table<StressRow>>(options.output);
+  }
+
+  /// C^H and modes of the given cells.
+  void homogenize()
+  {
+    Progress progress(is_root && !options.quiet, static_cast<int>(unit_cells.size()));
+    for (const homogenization::UnitCell &cell : unit_cells)
+    {
+      progress.begin(cell.name + ": homogenization", true);
+      const AssessedCell assessed = assess_for_study(cell, communicator, verdicts);
+      cells.push_back(homogenization::homogenized_cell(cell, assessed.result, provenance_line()));
+      names.push_back(cell.name);
+      stiffnesses.push_back({cell.name, cells.back().stiffness, cells.back().areal_density});
+      progress.done();
+    }
+    if (cells.empty())
+    {
+      cells       = {smooth_cell()};
+      names       = {"smooth modes"};
+      stiffnesses = built_in_stiffnesses();
+    }
+  }
+
+  /// The cells that the cases move, by all ranks, to be held against one.
+  void homogenize_by_all_ranks()
+  {
+    if (n_ranks() == 1)
+      return;
+    std::vector<homogenization::UnitCell> moved = built_in_cells();
+    moved.insert(moved.end(), unit_cells.begin(), unit_cells.end());
+    homogenization::HomogenizationOptions p1;
+    p1.order = 1;
+    for (const homogenization::UnitCell &cell : moved)
+      by_all_ranks.push_back(homogenization::homogenize(cell, p1, communicator).stiffness);
+  }
+
+  int n_ranks() const
+  {
+    return static_cast<int>(dealii::Utilities::MPI::n_mpi_processes(communicator));
+  }
+
+  void collect()
+  {
+    for (const std::vector<StressCase> &some :
+         {cell_cases(unit_cells, by_all_ranks, n_ranks(), options.most_triangles),
+          time_step_cases(stiffnesses), stiffness_cases(), start_cases(stiffnesses),
+          mesh_cases(stiffnesses[0]), rotation_cases(stiffnesses), spin_cases(stiffnesses),
+          motion_cases(stiffnesses), scene_cases(stiffnesses[0]), localization_cases(cells, names)})
+      cases.insert(cases.end(), some.begin(), some.end());
+    std::set<std::vector<std::string>> keys;
+    for (const StressCase &one : cases)
+      if (!keys.insert(keys_of_row(keys_of(one))).second)
+        throw meshes::BadInput("two stress cases are called `" + one.group + ": " + one.name +
+                               "`; a cell has the name of a built-in one: rename its file");
+  }
+
+  void run_cases()
+  {
+    Progress progress(is_root && !options.quiet, static_cast<int>(cases.size()));
+    std::string group;
+    for (const StressCase &one : cases)
+    {
+      if (table->contains(keys_of(one)))
+      {
+        progress.done();
+        continue;
+      }
+      progress.begin(one.group + (one.group == group ? ": " + one.name : ""), one.group != group);
+      group                     = one.group;
+      const StressResult result = run_case(one, options.repeats);
+      table->append(stress_row(one, result));
+      if (result.verdict != Outcome::pass)
+        progress.note("FAIL " + one.group + ": " + one.name + ": " + result.outcome + ", " +
+                      short_text(result.figure) + " (" + limit_text(one) + ")");
+      progress.done();
+    }
+  }
+
+  /// Iterations and times, which have no limit.
+  void measure_solver()
+  {
+    Table<SolverRow> rows(options.output);
+    const std::vector<SolverMeasurement> all = solver_measurements();
+    Progress progress(is_root && !options.quiet, static_cast<int>(all.size()));
+    std::string parameter;
+    for (const SolverMeasurement &one : all)
+    {
+      progress.begin("solver: " + one.keys.parameter + " " + short_text(one.keys.value),
+                     one.keys.parameter != parameter);
+      parameter = one.keys.parameter;
+      if (!rows.contains(one.keys))
+        rows.append(one.run(options.repeats > 2 ? 3 : 1));
+      progress.done();
+    }
+  }
+
+  void conclude()
+  {
+    for (const Verdict &verdict : stress_verdicts(table->rows()))
+      verdicts.push_back(verdict);
+    meshes::write_whole(options.output + "/verdicts.json",
+                        json_text(to_json(verdicts, options.command)));
+    nlohmann::ordered_json sheets = nlohmann::ordered_json::array();
+    for (const SheetStiffness &sheet : stiffnesses)
+    {
+      nlohmann::ordered_json rows = nlohmann::ordered_json::array();
+      for (int i = 0; i < 3; ++i)
+        rows.push_back({sheet.D(i, 0), sheet.D(i, 1), sheet.D(i, 2)});
+      sheets.push_back({{"name", sheet.name},
+                        {"stiffness_N_per_m", rows},
+                        {"areal_density_kg_per_m2", sheet.areal_density}});
+    }
+    const double seconds =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    const nlohmann::ordered_json study = {
+      {"command", options.command},
+      {"cases", cases.size()},
+      {"repeats", options.repeats},
+      {"sheets", sheets},
+      {"seconds_total", seconds},
+      {"resumed", folder->is_taken_up()},
+      {"left_out", what_was_left_out(options.most_triangles, n_ranks())},
+      {"notes", notes(!unit_cells.empty())},
+      {"provenance", provenance(static_cast<unsigned int>(n_ranks()))}};
+    meshes::write_whole(options.output + "/study.json", json_text(study));
+    folder->finish();
+  }
+
+  const StressStudyOptions options;
+  const MPI_Comm communicator;
+  const bool is_root;
+  const std::chrono::steady_clock::time_point begin;
+  std::vector<homogenization::UnitCell> unit_cells; ///< as given
+  std::vector<Eigen::Matrix3d> by_all_ranks;        ///< C^H of the cells that the cases move
+  std::vector<meshes::HomogenizedCell> cells;
+  std::vector<std::string> names; ///< of the cells
+  std::vector<SheetStiffness> stiffnesses;
+  std::vector<StressCase> cases;
+  std::unique_ptr<RunFolder> folder;       ///< on the first rank alone
+  std::unique_ptr<Table<StressRow>> table; ///< on the first rank alone
+  std::vector<Verdict> verdicts;
+};
+} // namespace
+
+std::vector<Verdict> run_stress_study(const StressStudyOptions &options,
+                                      const MPI_Comm communicator)
+{
+  return StressStudy(options, communicator).run();
+}
+} // namespace homespun::verification

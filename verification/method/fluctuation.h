@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+// The fluctuation of a resolved sheet: what it does beside the motion of the homogenized sheet. It is what
+// up-sampling has to restore, and by its size an error of up-sampling is judged.
+#pragma once
+
+#include "verification/method/homogenized_sheet.h"
+
+#include <Eigen/Core>
+
+namespace homespun::verification
+{
+/// mean |x − u| over the fine vertices, x the resolved sheet, u the homogenized one.
+struct Fluctuation
+{
+  double mean    = 0.; ///< [m]
+  double bar     = 0.; ///< change of the mean from a homogenized sheet half as fine [m]
+  double seconds = 0.; ///< of both homogenized sheets, one thread
+};
+
+/// Fluctuations of one sheet under one load, from strain to strain.
+///
+/// The homogenized sheet has the stiffness C^H in every triangle, the same edges held, and quads a quarter of
+/// a cell wide, so that its own discretization counts little; how much, `bar` says. Its law is `linear` for
+/// the reference of that law and `biot` for all others: those approach each other as strain squared,
+/// and C^H has no other. In an infinite cloth it is the affine motion, exactly.
+class FluctuationMeasure
+{
+public:
+  /// @param stiffness C^H (3,3) [N/m]
+  /// @param sheet to be kept by the caller
+  FluctuationMeasure(const Eigen::Matrix3d &stiffness, const meshes::Sheet &sheet,
+                     const Load &load);
+
+  /// @param law of the reference
+  /// @param reference (n,2) positions of the resolved sheet [m]
+  /// @throws NotConverged where the homogenized sheet finds no equilibrium
+  Fluctuation at(Law law, double strain, const meshes::Points &reference);
+
+  /// The law of the homogenized sheet.
+  static Law law_beside(Law law);
+
+private:
+  struct Sheet
+  {
+    HomogenizedSheet sheet;
+    shell::Positions<2> displacement; ///< of the last level [m]
+    double strain = 0.;
+  };
+  double distance(Sheet &of, Law law, double strain, const meshes::Points &reference) const;
+
+  Sheet fine, half_as_fine;
+  Law last_law = Law::linear;
+};
+} // namespace homespun::verification

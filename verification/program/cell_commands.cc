@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: MIT
+// homespun homogenize, cells: what concerns a cell alone.
+#include "meshes/plain/errors.h"
+#include "verification/cell/cell_study.h"
+#include "verification/program/cells_make.h"
+#include "verification/program/check_command.h"
+#include "verification/program/commands.h"
+#include "verification/program/data_folder.h"
+#include "verification/program/study_arguments.h"
+#include "verification/record/on_root.h"
+#include "verification/record/progress.h"
+
+#include <deal.II/base/mpi.h>
+
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+#include <CLI/Option.hpp>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <memory>
+
+namespace homespun::verification
+{
+using homogenization::UnitCell;
+
+namespace
+{
+struct HomogenizeArguments
+{
+  std::string file;
+  CellStudyOptions study;
+};
+
+int homogenize(HomogenizeArguments arguments)
+{
+  const UnitCell cell     = homogenization::read_unit_cell(arguments.file);
+  CellStudyOptions &study = arguments.study;
+  if (study.output.empty())
+    study.output = default_folder("homogenize", {cell.name}, false);
+  const AssessedCell assessed = run_cell_study(cell, study, MPI_COMM_WORLD);
+  if (is_root(MPI_COMM_WORLD) && !study.quiet)
+    std::cout << summary(cell, assessed) << "Written to " << study.output
+              << ": homogenize.json, cell.h5, cell.json, characteristic-displacements.vtu"
+              << (study.pieces ? ", characteristic-displacements-refined.pvtu\n" : "\n");
+  return status_of(assessed.checks);
+}
+
+/// The first sentence of the comment at the head of a cell file: its story in one line.
+std::string story_of(const std::string &file)
+{
+  std::ifstream input(file);
+  std::string line, story;
+  while (std::getline(input, line) && line.rfind("#", 0) == 0)
+    story += (story.empty() ? "" : " ") + line.substr(std::min<std::size_t>(2, line.size()));
+  return story.substr(0, story.find(". "));
+}
+
+/// @param pictures folder; empty: none
+int list_cells(const std::string &pictures, Afterwards &afterwards)
+{
+  if (!is_root(MPI_COMM_WORLD))
+    return 0;
+  std::vector<std::filesystem::path> files;
+  for (const auto &entry : std::filesystem::directory_iterator(cells_folder()))
+    if (entry.path().extension() == ".prm")
+      files.push_back(entry.path());
+  std::sort(files.begin(), files.end());
+  for (std::filesystem::path file : files)
+  {
+    std::cout << file.string() << "\n    " << story_of(file.string()) << "\n    --set";
+    const char *separator = " ";
+    for (const CellParameter &parameter : cell_parameters(file.replace_extension(".geo").string()))
+    {
+      std::cout << separator << description(parameter);
+      separator = ", ";
+    }
+    std::cout << "\n";
+  }
+  if (!pictures.empty())
+  {
+    std::vector<homogenization::CellReading> readings;
+    for (const std::filesystem::path &file : files)
+      readings.push_back(homogenization::inspect_cell(file.string()));
+    write_pictures(readings, pictures, afterwards);
+  }
+  return 0;
+}
+
+/// Makes a variant and says of it what `homespun check` says.
+int make(const CellVariant &variant)
+{
+  int status = exit_status::good;
+  on_root(MPI_COMM_WORLD,
+          [&]()
+          {
+            const std::string file = make_cell(variant);
+            std::cout << "Made " << file << ", with its .geo and .msh\n";
+            // One rank alone: the others do not know the file's name.
+            if (homogenization::has_errors(tell_findings(file).findings))
+              status = exit_status::bad_input;
+          });
+  return status;
+}
+} // namespace
+
+std::string cells_folder()
+{
+  return data_folder("cells", "meshes/cells");
+}
+
+void add_homogenize_command(CLI::App &app, Action &action)
+{
+  CLI::App *command = app.add_subcommand(
+    "homogenize", "C^H with its guaranteed bracket, characteristic displacements, moduli: cell.h5, "
+                  "homogenize.json, a .vtu for ParaView");
+  const auto arguments = std::make_shared<HomogenizeArguments>();
+  command->add_option("CELL.prm", arguments->file, "Cell file")->required();
+  command
+    ->add_option("--order", arguments->study.solve.order,
+                 "Order of the elements, 1 (solves on the mesh as given) or 2")
+    ->check(CLI::Range(1, 2))
+    ->capture_default_str();
+  command
+    ->add_option("--refine", arguments->study.solve.refine,
+                 "Uniform refinements of the mesh; each makes four triangles of one")
+    ->check(CLI::Range(0, 8))
+    ->capture_default_str();
+  CLI::Option *tolerance =
+    command
+      ->add_option(
+        "--tolerance", arguments->study.bracket.tolerance,
+        "Refine adaptively until the bracket C_lower <= C^H <= C_upper has this relative "
+        "width, the largest v.(C_upper - C_lower).v / v.C_upper.v; without it the bracket is "
+        "that of the given mesh")
+      ->check(CLI::Range(1e-12, 1.));
+  CLI::Option *max_dofs =
+    command
+      ->add_option(
+        "--max-dofs", arguments->study.bracket.max_dofs,
+        "DoFs up to which a bracket is made, of the larger of its two problems; adaptivity "
+        "stops before")
+      ->check(CLI::Range(100u, 20000000u))
+      ->capture_default_str();
+  command
+    ->add_flag(
+      "!--no-bars", arguments->study.bars,
+      "Neither bracket nor the finer solve of the error bar: the cell problems alone, for large meshes")
+    ->excludes(tolerance)
+    ->excludes(max_dofs);
+  command
+    ->add_flag(
+      "--pieces", arguments->study.pieces,
+      "Also characteristic-displacements-refined.pvtu: on the mesh of the solve, a piece from each rank")
+    ->excludes(tolerance);
+  add_folder_options(*command, arguments->study, "out/NAME/homogenize");
+  command->footer("Example:\n  homespun homogenize meshes/cells/layered.prm\n"
+                  "  homespun homogenize meshes/cells/three-stiffness.prm --tolerance 1e-3\n"
+                  "  mpirun -n 2 homespun homogenize mycell.prm --refine 2 --pieces");
+  command->callback([&action, arguments]()
+                    { action = [arguments]() { return homogenize(*arguments); }; });
+}
+
+void add_cells_command(CLI::App &app, Action &action, Afterwards &afterwards)
+{
+  CLI::App *command =
+    app.add_subcommand("cells", "List the shipped cells with their parameters; make variants");
+  command->require_subcommand(0, 1);
+  const auto pictures = std::make_shared<std::string>();
+  command->add_option("--pictures", *pictures, "Folder for a picture of each cell, .svg and .png");
+  command->callback(
+    [&action, &afterwards, command, pictures]()
+    {
+      if (command->get_subcommands().empty())
+        action = [&afterwards, pictures]() { return list_cells(*pictures, afterwards); };
+    });
+  command->footer(
+    "Example:\n  homespun cells\n  homespun cells --pictures out/cells\n  homespun cells make twill --set yarn_width=0.4");
+
+  CLI::App *make_command = command->add_subcommand(
+    "make", "Copy a shipped cell, change parameters of its Gmsh source, mesh and check it");
+  const auto variant = std::make_shared<CellVariant>();
+  make_command->add_option("NAME", variant->cell, "A shipped cell")->required();
+  make_command
+    ->add_option("--set", variant->settings,
+                 "`key=value`, a parameter of the cell; may be given several times")
+    ->allow_extra_args(false);
+  make_command->add_option("--name", variant->name, "Name of the new files (default NAME)");
+  make_command->add_option("--output", variant->output, "Folder of the new files")
+    ->capture_default_str();
+  make_command->footer(
+    "Writes NAME.geo, NAME.msh and NAME.prm, or nothing. Gmsh makes the mesh: apt "
+    "install gmsh.\nExample:\n"
+    "  homespun cells make twill --set yarn_width=0.4 --output mine\n"
+    "  homespun cells make random-dots --set seed=7 --set dots=20 --name random-7");
+  make_command->callback([&action, variant]() { action = [variant]() { return make(*variant); }; });
+}
+} // namespace homespun::verification

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: MIT
+// homespun drape: a scene and its page.
+#include "verification/drape/drape_study.h"
+#include "verification/drape/scene.h"
+#include "verification/drape/scene_cloth.h"
+#include "verification/method/lightweight_cloth.h"
+#include "verification/program/study_arguments.h"
+
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+
+#include <memory>
+
+namespace homespun::verification
+{
+namespace
+{
+struct DrapeArguments
+{
+  DrapeOptions study;
+  StudyEnd end;
+  bool quick = false, no_frames = false;
+};
+
+void check_arguments(const DrapeOptions &study)
+{
+  ArgumentFaults faults;
+  faults.check_names("--variants", study.variants, membrane_model_of);
+  faults.check_names("--methods", study.methods,
+                     [](const std::string &name) { return Method(name); });
+  faults.check_names("--references", study.references, {"shell", "biot", "green"});
+  faults.check_names("--frames", study.frames, {"vtu", "ply", "obj"});
+  if (study.variants.empty() || study.variants.front() != "corotational")
+    faults.add("--variants: expected `corotational` first, against which the others are held");
+  if (!(study.time_step >= 0.) || !(study.duration >= 0.))
+    faults.add("--time-step, --duration: expected positive numbers in seconds");
+  faults.throw_if_any();
+}
+
+int run_drape(DrapeArguments arguments, Afterwards &afterwards)
+{
+  DrapeOptions &study = arguments.study;
+  if (arguments.no_frames)
+    study.frames.clear();
+  check_arguments(study);
+  if (study.output.empty())
+    study.output = default_folder("drape", stems({study.scene_file}), arguments.quick);
+  return arguments.end.conclude(run_drape_study(study, MPI_COMM_WORLD), study.output, study.quiet,
+                                afterwards);
+}
+} // namespace
+
+void add_drape_command(CLI::App &app, Action &action, Afterwards &afterwards,
+                       const std::string &command_line)
+{
+  CLI::App *command = app.add_subcommand(
+    "drape",
+    "Run a scene: the coarse cloth in motion, up-sampled every step, against the resolved one");
+  const auto arguments = std::make_shared<DrapeArguments>();
+  DrapeOptions &study  = arguments->study;
+  study.variants       = {"corotational"};
+  study.methods        = {"affine", "localized", "localized-affine-lift"};
+  study.command        = command_line;
+
+  command
+    ->add_option("SCENE.prm", study.scene_file, "Scene file; the shipped ones are in meshes/scenes")
+    ->required();
+  add_list(*command, "--unit-cells", study.cell_files,
+           "Cell files in place of the scene's, comma-separated");
+  add_list(*command, "--references", study.references,
+           "Full-resolution cloths to run beside it, comma-separated: shell, biot, green");
+  add_list(*command, "--variants", study.variants,
+           "Membrane models of the coarse cloth: corotational, triangle-warping, nodal-warping");
+  add_list(*command, "--methods", study.methods, "Ways to the fine positions");
+  command
+    ->add_option("--cells", study.n_cells, "Cells per side of a sheet, in place of the scene's")
+    ->check(CLI::Range(1, 400));
+  command->add_option("--time-step", study.time_step, "[s], in place of the scene's");
+  command->add_option("--duration", study.duration, "[s], in place of the scene's");
+  add_list(*command, "--frames", study.frames,
+           "Formats of the frames, comma-separated: vtu, ply, obj");
+  command->add_flag("--no-frames", arguments->no_frames, "Write no frames");
+  command->add_flag("--costs", study.costs,
+                    "Measure what each term that the scene leaves out would have cost");
+  command->add_flag("--quick", arguments->quick, "A sheet of 4 x 4 cells, no error bar: seconds");
+  add_folder_options(*command, study, "out/SCENE/drape, --quick drape-quick");
+  arguments->end.add_options(*command);
+  command->footer(
+    "References: shell is this program's own cloth with a stiffness per triangle, the naive way at its\n"
+    "best; biot and green are finite elements (deal.II), on all ranks, for sheets under gravity that are\n"
+    "held by edges, corners or vertices.\n"
+    "Examples:\n  homespun drape meshes/scenes/hang.prm\n"
+    "  mpirun -n 2 homespun drape meshes/scenes/pull.prm --references biot\n"
+    "  homespun drape meshes/scenes/clamp-four.prm --variants corotational,nodal-warping\n\n"
+    "Keys of a scene file:\n" +
+    scene_keys());
+  command->callback(
+    [&action, &afterwards, arguments]()
+    {
+      if (arguments->quick)
+      {
+        if (arguments->study.n_cells == 0)
+          arguments->study.n_cells = 4;
+        arguments->study.n_cells_of_error_bar = 0;
+      }
+      action = [&afterwards, arguments]() { return run_drape(*arguments, afterwards); };
+    });
+}
+} // namespace homespun::verification

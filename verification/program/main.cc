@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: MIT
+// The program: a command line, and what its exit status means.
+#include "meshes/plain/errors.h"
+#include "verification/program/commands.h"
+#include "verification/record/provenance.h"
+#include "verification/record/verdict.h"
+
+#include <deal.II/base/mpi.h>
+
+#include <CLI/App.hpp>
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+
+#include <filesystem>
+#include <iostream>
+
+namespace
+{
+/// Runs the chosen action; every rank meets the same faults, the first one tells.
+int guarded(const homespun::verification::Action &action, const bool tells)
+{
+  try
+  {
+    return action();
+  }
+  catch (const homespun::meshes::BadInput &bad)
+  {
+    if (tells)
+      for (const std::string &fault : bad.faults())
+        std::cerr << "homespun: " << fault << "\n";
+    return homespun::verification::exit_status::bad_input;
+  }
+  catch (const std::filesystem::filesystem_error &error)
+  {
+    if (tells)
+      std::cerr << "homespun: " << error.what()
+                << "; expected a folder that can be written: choose "
+                << "another --output\n";
+    return homespun::verification::exit_status::bad_input;
+  }
+  catch (const homespun::meshes::NotConverged &failure)
+  {
+    if (tells)
+      std::cerr << "homespun: " << failure.what() << "\n";
+    return homespun::verification::exit_status::not_converged;
+  }
+}
+/// All that happens while MPI runs.
+/// @param afterwards receives what is left to do when it has ended
+int run(int argc, char **argv, homespun::verification::Afterwards &afterwards)
+{
+  using namespace homespun::verification;
+  dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+  const bool is_root = dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0;
+
+  std::string command_line = "homespun";
+  for (int k = 1; k < argc; ++k)
+    command_line += std::string(" ") + argv[k];
+  const unsigned int n_ranks = dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD);
+  if (n_ranks > 1)
+    command_line = "mpirun -n " + std::to_string(n_ranks) + " " + command_line;
+
+  CLI::App app(
+    "homespun tells how far an up-sampled cloth is from the truth, and where the error comes "
+    "from.\nA periodic unit cell is homogenized once, a coarse cloth moves with the effective "
+    "stiffness, the fine\nmesh is restored from it and held against the resolved solution.",
+    "homespun");
+  app.set_version_flag("--version", version_text());
+  app.require_subcommand(1);
+  app.footer(
+    "Exit status, the worst in this order: 2 bad input; 3 a solver did not converge where it had to; "
+    "1 a claim failed;\n4 a claim is open; 0 all claims hold. Claims are of the program, of the input, "
+    "or of the method.\n`homespun COMMAND --help` teaches a command; `mpirun -n N homespun ...` works for "
+    "every command that solves.");
+  Action action;
+  add_check_command(app, action, afterwards);
+  add_homogenize_command(app, action);
+  add_strain_command(app, action, afterwards, command_line);
+  add_drape_command(app, action, afterwards, command_line);
+  add_stress_command(app, action, afterwards, command_line);
+  add_converge_command(app, action, afterwards, command_line);
+  add_verify_command(app, action, afterwards, command_line);
+  add_report_command(app, action, afterwards);
+  add_cells_command(app, action, afterwards);
+  add_scaling_command(app, action, afterwards, command_line);
+  try
+  {
+    app.parse(argc, argv);
+  }
+  catch (const CLI::ParseError &error)
+  {
+    const bool is_fault = error.get_exit_code() != 0;
+    if (is_root)
+      app.exit(error, std::cout, std::cerr);
+    return is_fault ? 2 : 0;
+  }
+  const int status = guarded(action, is_root);
+  // A launcher ends all ranks when one of them ends with another status than zero, and the first one may have a
+  // report to make yet: what the claims come to is its word alone.
+  const bool is_of_claims =
+    status == exit_status::claim_failed || status == exit_status::claim_open;
+  return is_of_claims && !is_root ? exit_status::good : status;
+}
+} // namespace
+
+int main(int argc, char **argv)
+{
+  homespun::verification::Afterwards afterwards;
+  const int status = run(argc, argv, afterwards);
+  return afterwards
+           ? guarded([&]() { return homespun::verification::worse(status, afterwards()); }, true)
+           : status;
+}

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: MIT
+// homespun report: the pages of stored results, made by Debian's Python.
+#include "meshes/plain/errors.h"
+#include "verification/build_info.h"
+#include "verification/program/commands.h"
+#include "verification/program/data_folder.h"
+#include "verification/program/report_script.h"
+#include "verification/record/child_process.h"
+#include "verification/record/on_root.h"
+#include "verification/record/run_folder.h"
+
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+#include <CLI/Option.hpp>
+
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+
+namespace homespun::verification
+{
+int run_report_script(const std::string &name, const std::vector<std::string> &arguments)
+{
+  const std::string folder = data_folder("report", "verification/report"),
+                    script = folder + "/" + name, installed = folder + "/schema.json";
+  // The sources have no schema: the build keeps it.
+  const std::string schema = std::filesystem::exists(installed)
+                               ? installed
+                               : std::string(HOMESPUN_BUILD_DIR) + "/schema.json";
+  // -B: no __pycache__ in a folder that a package manager keeps.
+  std::vector<std::string> words = {HOMESPUN_PYTHON, "-B", script};
+  words.insert(words.end(), arguments.begin(), arguments.end());
+  const int status = run_child(words, "", {"HOMESPUN_SCHEMA=" + schema});
+  if (status == 127)
+    throw meshes::BadInput(
+      std::string(HOMESPUN_PYTHON) + " " + script +
+      ": cannot be run; expected Debian's Python with numpy, h5py, matplotlib and "
+      "jinja2: ./bootstrap installs them");
+  if (const std::string killed = text_of_signal(status); !killed.empty())
+    throw meshes::BadInput(name + " did not end: " + killed);
+  return status;
+}
+
+void make_report(const std::vector<std::string> &folders, const std::string &output,
+                 const bool quiet)
+{
+  std::vector<std::string> arguments = folders;
+  arguments.insert(arguments.end(), {"--output", output});
+  if (run_report_script("report.py", arguments) != 0)
+    throw meshes::BadInput("the report could not be made, see above; the results are in " +
+                           folders[0] + ": mend them, then `homespun report " + folders[0] + "`");
+  if (!quiet)
+    std::printf("Report: %s/report.html\n", output.c_str());
+}
+
+void add_report_command(CLI::App &app, Action &action, Afterwards &afterwards)
+{
+  CLI::App *command =
+    app.add_subcommand("report", "Make report.html and the figures again from stored results");
+  struct Arguments
+  {
+    std::vector<std::string> folders;
+    std::string output;
+    bool quiet = false;
+  };
+  const auto arguments = std::make_shared<Arguments>();
+  command
+    ->add_option("DIR", arguments->folders,
+                 "Folders of results; several cells or versions are compared in one page")
+    ->required();
+  command->add_option("--output", arguments->output,
+                      "Folder of the report (default DIR; of several out/report)");
+  command->add_flag("--quiet", arguments->quiet, "Print nothing but faults");
+  command->callback(
+    [&action, &afterwards, arguments]()
+    {
+      action = [&afterwards, arguments]()
+      {
+        if (is_root(MPI_COMM_WORLD))
+          afterwards = [arguments]()
+          {
+            // A page of several runs belongs to none of them.
+            const std::string output = !arguments->output.empty()       ? arguments->output
+                                       : arguments->folders.size() == 1 ? arguments->folders[0]
+                                                                        : "out/report";
+            make_report(arguments->folders, output, arguments->quiet);
+            list_report(output);
+            return 0;
+          };
+        return 0;
+      };
+    });
+}
+} // namespace homespun::verification

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: MIT
+// homespun strain: error against strain and its page.
+#include "verification/method/lightweight_cloth.h"
+#include "verification/program/study_arguments.h"
+#include "verification/strain/strain_study.h"
+
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+
+#include <algorithm>
+#include <memory>
+
+namespace homespun::verification
+{
+namespace
+{
+struct StrainArguments
+{
+  StrainStudyOptions study;
+  StudyEnd end;
+  bool quick = false;
+};
+
+/// Ascending strains; the references walk up the ladder.
+void check_arguments(StrainStudyOptions &study)
+{
+  ArgumentFaults faults;
+  for (const double strain : study.strains)
+    if (!(strain > 0. && strain <= 1.))
+      faults.add("--strains: found " + std::to_string(strain) +
+                 "; expected fractions between 0 and 1, 0.1 is 10 %");
+  std::sort(study.strains.begin(), study.strains.end());
+  study.strains.erase(std::unique(study.strains.begin(), study.strains.end()), study.strains.end());
+  for (const auto &[option, is_empty] : {std::make_pair("--strains", study.strains.empty()),
+                                         std::make_pair("--loads", study.loads.empty()),
+                                         std::make_pair("--references", study.references.empty()),
+                                         std::make_pair("--methods", study.methods.empty())})
+    if (is_empty)
+      faults.add(std::string(option) + ": found nothing; expected at least one");
+  faults.check_names("--loads", study.loads, [](const std::string &name) { return Load(name); });
+  faults.check_names("--references", study.references, law_of);
+  faults.check_names("--methods", study.methods,
+                     [](const std::string &name) { return Method(name); });
+  faults.throw_if_any();
+}
+
+int run_strain(StrainArguments arguments, Afterwards &afterwards)
+{
+  StrainStudyOptions &study = arguments.study;
+  check_arguments(study);
+  if (study.output.empty())
+    study.output = default_folder("strain", stems(study.cell_files), study.is_quick);
+  return arguments.end.conclude(run_strain_study(study, MPI_COMM_WORLD), study.output, study.quiet,
+                                afterwards);
+}
+} // namespace
+
+void add_strain_command(CLI::App &app, Action &action, Afterwards &afterwards,
+                        const std::string &command_line)
+{
+  CLI::App *command = app.add_subcommand(
+    "strain", "Error against strain (Figure 3): up-sampled cloth held against the resolved one");
+  const auto arguments      = std::make_shared<StrainArguments>();
+  StrainStudyOptions &study = arguments->study;
+  study                     = default_strain_study();
+  study.command             = command_line;
+
+  command->add_option("CELL.prm", study.cell_files, "Cell files")->required();
+  CLI::Option *cells =
+    command->add_option("--cells", study.n_cells, "Cells per side of the sheet; the paper has 20")
+      ->check(CLI::Range(1, 200))
+      ->capture_default_str();
+  CLI::Option *strains = add_list(*command, "--strains", study.strains,
+                                  "Strains as fractions, 0.1 is 10 %, comma-separated");
+  add_list(*command, "--loads", study.loads, "Loads, comma-separated");
+  add_list(*command, "--references", study.references, "Laws of the fine reference");
+  add_list(*command, "--methods", study.methods, "Ways to the fine positions");
+  add_folder_options(*command, study, "out/NAME/strain, with --quick out/NAME/strain-quick");
+  command->add_flag("--quick", arguments->quick,
+                    "4 x 4 cells at 0.1, 1 and 10 % unless given otherwise: seconds");
+  command->add_flag("!--no-budget", study.budget,
+                    "Leave out the error budget: budget.csv, the error split into its parts");
+  command->add_flag("!--no-runtime", study.run_time,
+                    "Leave out error against run time: runtime.csv, every way to the positions");
+  arguments->end.add_options(*command);
+  command->footer(
+    "Loads: periodic-11, periodic-22, periodic-12 (infinite cloth; 12 is simple shear), strip-1,\n"
+    "strip-2 (two edges clamped, one pulled outwards), shear-frame (upper edge moved sideways).\n"
+    "References: linear; biot (what the coarse cloth approximates); green (St. Venant-Kirchhoff).\n"
+    "Example:\n  homespun strain mycell.prm --quick\n"
+    "  mpirun -n 2 homespun strain mycell.prm --loads strip-2,shear-frame --strains 0.01,0.1");
+  command->callback(
+    [&action, &afterwards, arguments, cells, strains]()
+    {
+      if (arguments->quick)
+      {
+        StrainStudyOptions &given      = arguments->study;
+        const StrainStudyOptions asked = given;
+        make_quick(given);
+        if (cells->count() > 0)
+          given.n_cells = asked.n_cells;
+        if (strains->count() > 0)
+          given.strains = asked.strains;
+      }
+      action = [&afterwards, arguments]() { return run_strain(*arguments, afterwards); };
+    });
+}
+} // namespace homespun::verification

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: MIT
+#include "verification/program/study_arguments.h"
+
+#include "verification/record/on_root.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+
+namespace homespun::verification
+{
+void ArgumentFaults::check_names(const std::string &option, const std::vector<std::string> &names,
+                                 const std::vector<std::string> &known)
+{
+  check_names(option, names,
+              [&](const std::string &name)
+              {
+                if (std::find(known.begin(), known.end(), name) != known.end())
+                  return;
+                std::string list;
+                for (std::size_t k = 0; k < known.size(); ++k)
+                  list += (k == 0 ? "" : k + 1 == known.size() ? " or " : ", ") + known[k];
+                throw meshes::BadInput("found `" + name + "`; expected " + list);
+              });
+}
+
+std::vector<std::string> stems(const std::vector<std::string> &files)
+{
+  std::vector<std::string> names;
+  for (const std::string &file : files)
+    names.push_back(std::filesystem::path(file).stem().string());
+  return names;
+}
+
+void print(const std::vector<Verdict> &verdicts)
+{
+  for (const Verdict &verdict : verdicts)
+    std::printf("%-12s %-7s %s: %.4g (%s)\n", name_of(verdict.outcome).c_str(),
+                name_of(verdict.kind).c_str(), verdict.claim.c_str(), verdict.value,
+                verdict.limit.c_str());
+}
+
+void StudyEnd::add_options(CLI::App &command)
+{
+  command.add_flag("--no-report", no_report, "Leave out report.html");
+}
+
+int StudyEnd::conclude(const std::vector<Verdict> &verdicts, const std::string &output,
+                       const bool quiet, Afterwards &afterwards) const
+{
+  if (is_root(MPI_COMM_WORLD))
+  {
+    if (!quiet)
+      print(verdicts);
+    if (!no_report)
+      afterwards = [output, quiet]()
+      {
+        make_report({output}, output, quiet);
+        list_report(output);
+        return 0;
+      };
+  }
+  return status_of(verdicts);
+}
+} // namespace homespun::verification

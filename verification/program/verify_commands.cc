@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: MIT
+// homespun verify: everything, for a list of cells.
+#include "verification/program/study_arguments.h"
+#include "verification/program/verify_study.h"
+#include "verification/record/on_root.h"
+
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+
+#include <cstdio>
+#include <memory>
+
+namespace homespun::verification
+{
+namespace
+{
+struct VerifyArguments
+{
+  VerifyOptions verify;
+  bool no_report = false;
+};
+
+int run_verify(VerifyArguments arguments, Afterwards &afterwards)
+{
+  VerifyOptions &options = arguments.verify;
+  ArgumentFaults faults;
+  faults.check_names("--parts", options.parts, verify_parts());
+  faults.throw_if_any();
+  if (options.output.empty())
+    options.output = default_folder("verify", stems(options.cell_files), options.quick);
+  const bool tells = is_root(MPI_COMM_WORLD);
+  Verification result;
+  try
+  {
+    result = verify(options, MPI_COMM_WORLD);
+  }
+  catch (const meshes::BadInput &bad)
+  {
+    // The first line of the answer, whoever reads only that.
+    if (tells)
+      std::printf("FAIL: %s\n", bad.faults().front().c_str());
+    throw;
+  }
+  if (tells)
+  {
+    std::printf("%s\n", outcome_line(result.verdicts).c_str());
+    if (!options.quiet)
+      print(result.verdicts);
+    if (!arguments.no_report)
+    {
+      // The first folder holds the claims of all parts, those too of a part that did not run to its end.
+      std::vector<std::string> folders = {options.output};
+      folders.insert(folders.end(), result.folders.begin(), result.folders.end());
+      afterwards = [folders, output = options.output, quiet = options.quiet]()
+      {
+        make_report(folders, output, quiet);
+        list_report(output);
+        return 0;
+      };
+    }
+  }
+  return result.status;
+}
+} // namespace
+
+void add_verify_command(CLI::App &app, Action &action, Afterwards &afterwards,
+                        const std::string &command_line)
+{
+  CLI::App *command = app.add_subcommand(
+    "verify", "Everything, for a list of cells: one report with all claims and verdicts on top");
+  const auto arguments   = std::make_shared<VerifyArguments>();
+  VerifyOptions &options = arguments->verify;
+  options.parts          = verify_parts();
+  options.command        = command_line;
+  command->add_option("CELL.prm", options.cell_files, "Cell files")->required();
+  add_list(*command, "--parts", options.parts, "What to run, comma-separated");
+  add_folder_options(*command, options, "out/NAME/verify, with --quick out/NAME/verify-quick");
+  command->add_flag("--quick", options.quick, "Small sizes everywhere: minutes");
+  command->add_flag("--no-report", arguments->no_report, "Leave out report.html");
+  command->footer(
+    "Parts: homogenize (brackets of C^H), strain (error against strain, budget, run time, range of validity),\n"
+    "converge (observed orders), stress (stability), drape (hang and pull in motion against biot).\n"
+    "The first line says PASS, or FAIL with the first claim that failed; each part has a folder of its own.\n"
+    "Taken up again, cells are homogenized again; all else keeps what is there.\n"
+    "Example:\n  homespun verify mycell.prm --quick\n  mpirun -n 2 homespun verify mycell.prm");
+  command->callback(
+    [&action, &afterwards, arguments]()
+    { action = [&afterwards, arguments]() { return run_verify(*arguments, afterwards); }; });
+}
+} // namespace homespun::verification

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MIT
+// Writes schema.json, the columns of every table, for the report: run by the build.
+#include "verification/converge/converge_tables.h"
+#include "verification/drape/drape_tables.h"
+#include "verification/extremes/stress_tables.h"
+#include "verification/record/json_files.h"
+#include "verification/record/schema.h"
+#include "verification/scaling/scaling_tables.h"
+#include "verification/strain/strain_tables.h"
+
+#include <cstdio>
+
+int main(int argc, char **argv)
+{
+  using namespace homespun::verification;
+  if (argc != 2)
+  {
+    std::fprintf(stderr, "write_schema: expected one argument, the path of schema.json\n");
+    return exit_status::bad_input;
+  }
+  nlohmann::ordered_json schema;
+  add_to_schema<StrainRow>(schema);
+  add_to_schema<StepRow>(schema);
+  add_to_schema<NoteRow>(schema);
+  add_to_schema<UncertaintyRow>(schema);
+  add_to_schema<BudgetRow>(schema);
+  add_to_schema<RunTimeRow>(schema);
+  add_to_schema<ValidityRow>(schema);
+  add_to_schema<ConvergeRow>(schema);
+  add_to_schema<ClaimRow>(schema);
+  add_to_schema<CaseRow>(schema);
+  add_to_schema<DrapeRow>(schema);
+  add_to_schema<MotionRow>(schema);
+  add_to_schema<TermRow>(schema);
+  add_to_schema<StressRow>(schema);
+  add_to_schema<SolverRow>(schema);
+  add_to_schema<ScalingRun>(schema);
+  write_whole(argv[1], json_text(schema));
+  return exit_status::good;
+}

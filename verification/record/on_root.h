@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: MIT
+// Work for the first rank alone that may fail, without leaving the other ranks waiting for it.
+#pragma once
+
+#include "meshes/plain/errors.h"
+#include "verification/record/verdict.h"
+
+#include <deal.II/base/mpi.h>
+
+#include <exception>
+#include <vector>
+
+namespace homespun::verification
+{
+inline bool is_root(const MPI_Comm communicator)
+{
+  return dealii::Utilities::MPI::this_mpi_process(communicator) == 0;
+}
+
+/// Runs `work` on the first rank. All ranks must call this; where the work throws, all throw: the
+/// first rank what it caught, the others the same kind (NotConverged, else BadInput).
+template <typename Work>
+void on_root(const MPI_Comm communicator, Work &&work)
+{
+  enum Status : int
+  {
+    good,
+    bad_input,
+    not_converged
+  };
+  int status = good;
+  std::exception_ptr failure;
+  if (is_root(communicator))
+    try
+    {
+      work();
+    }
+    catch (const meshes::NotConverged &)
+    {
+      status  = not_converged;
+      failure = std::current_exception();
+    }
+    catch (...)
+    {
+      status  = bad_input;
+      failure = std::current_exception();
+    }
+  MPI_Bcast(&status, 1, MPI_INT, 0, communicator);
+  if (failure)
+    std::rethrow_exception(failure);
+  if (status == not_converged)
+    throw meshes::NotConverged("the first rank did not converge", {});
+  if (status == bad_input)
+    throw meshes::BadInput("the first rank failed");
+}
+
+/// Verdicts of work on the first rank: the worst outcome there becomes one of every rank, so that all end
+/// with the same status. All ranks must call this.
+inline void share_failure(std::vector<Verdict> &verdicts, const MPI_Comm communicator)
+{
+  int status = status_of(verdicts);
+  MPI_Bcast(&status, 1, MPI_INT, 0, communicator);
+  if (status != exit_status::good && status_of(verdicts) != status)
+    verdicts.push_back({"the first rank saw a failure",
+                        status == exit_status::claim_failed ? Outcome::fail : Outcome::inconclusive,
+                        1., "0", "all ranks end with the status of the first", Kind::program});
+}
+} // namespace homespun::verification

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: MIT
+// A folder for what other programs write on the way.
+#pragma once
+
+#include "meshes/plain/errors.h"
+
+#include <cstdlib>
+#include <filesystem>
+#include <string>
+#include <system_error>
+
+namespace homespun::verification
+{
+/// A new folder that goes away with all that is in it.
+class PassingFolder
+{
+public:
+  /// @throws BadInput where a folder cannot be made in `parent`
+  explicit PassingFolder(const std::string &parent)
+      : path(parent + "/.homespun-XXXXXX")
+  {
+    if (!mkdtemp(path.data()))
+      throw meshes::BadInput(
+        parent + ": cannot be written; expected a folder that can: choose another --output");
+  }
+  PassingFolder(const PassingFolder &)            = delete;
+  PassingFolder &operator=(const PassingFolder &) = delete;
+  ~PassingFolder()
+  {
+    std::error_code ignored;
+    std::filesystem::remove_all(path, ignored);
+  }
+
+  std::string path;
+};
+} // namespace homespun::verification

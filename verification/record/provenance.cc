@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: MIT
+#include "verification/record/provenance.h"
+
+#include "verification/build_info.h"
+#include "verification/record/checksum.h"
+
+#include <deal.II/base/config.h>
+
+#include <CLI/Version.hpp>
+#include <Eigen/Core>
+#include <H5public.h>
+
+#include <ctime>
+#include <fstream>
+
+#include <unistd.h>
+
+namespace homespun::verification
+{
+namespace
+{
+std::string dotted(const int major, const int minor, const int patch)
+{
+  return std::to_string(major) + "." + std::to_string(minor) + "." + std::to_string(patch);
+}
+
+std::string processor()
+{
+  std::ifstream input("/proc/cpuinfo");
+  std::string line;
+  while (std::getline(input, line))
+    if (line.rfind("model name", 0) == 0)
+      return line.substr(line.find(':') + 2);
+  return "unknown";
+}
+
+std::string now()
+{
+  const std::time_t seconds = std::time(nullptr);
+  char text[32];
+  std::strftime(text, sizeof(text), "%Y-%m-%d %H:%M UTC", std::gmtime(&seconds));
+  return text;
+}
+
+std::string host()
+{
+  char name[256] = "";
+  gethostname(name, sizeof(name) - 1);
+  return name;
+}
+} // namespace
+
+std::string revision()
+{
+  static const std::string text = []() -> std::string
+  {
+    const std::string described = HOMESPUN_GIT_REVISION;
+    const bool is_known         = described.find("dirty") == std::string::npos &&
+                          described.find("no revision") == std::string::npos;
+    return is_known ? described : described + "-" + checksum_of_file("/proc/self/exe");
+  }();
+  return text;
+}
+
+nlohmann::ordered_json provenance(const unsigned int n_ranks)
+{
+  return {{"homespun", HOMESPUN_VERSION},
+          {"git", revision()},
+          {"dealii", DEAL_II_PACKAGE_VERSION},
+          {"trilinos", dotted(DEAL_II_TRILINOS_VERSION_MAJOR, DEAL_II_TRILINOS_VERSION_MINOR,
+                              DEAL_II_TRILINOS_VERSION_SUBMINOR)},
+          {"hdf5", dotted(H5_VERS_MAJOR, H5_VERS_MINOR, H5_VERS_RELEASE)},
+          {"eigen", dotted(EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION)},
+          {"compiler", std::string("GCC ") + __VERSION__},
+          {"flags", HOMESPUN_BUILD_FLAGS},
+          {"host", host()},
+          {"processor", processor()},
+          {"ranks", n_ranks},
+          {"threads_per_rank", 1},
+          {"date", now()}};
+}
+
+std::string provenance_line()
+{
+  return std::string("homespun ") + HOMESPUN_VERSION + " (" + HOMESPUN_GIT_REVISION +
+         "), deal.II " + DEAL_II_PACKAGE_VERSION + ", " + now() + ", " + host();
+}
+
+std::string version_text()
+{
+  const nlohmann::ordered_json all = provenance(1);
+  std::string text;
+  for (const char *key : {"homespun", "git", "dealii", "trilinos", "hdf5", "eigen"})
+    text += std::string(key) + " " + all[key].get<std::string>() + "\n";
+  return text + "CLI11 " + CLI11_VERSION + "\nnlohmann-json " +
+         dotted(NLOHMANN_JSON_VERSION_MAJOR, NLOHMANN_JSON_VERSION_MINOR,
+                NLOHMANN_JSON_VERSION_PATCH) +
+         "\ncompiler " + all["compiler"].get<std::string>() + "\nflags " +
+         all["flags"].get<std::string>() + "\n";
+}
+} // namespace homespun::verification

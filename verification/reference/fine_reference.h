@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: MIT
+// The resolved solution that an up-sampled cloth is held against: every triangle of the sheet, or of
+// one cell of an infinite cloth, with its own stiffness. Newton's method with line search, load
+// stepping with warm start, multigrid kept between steps.
+#pragma once
+
+#include "homogenization/fem/elastic_solver.h"
+#include "meshes/plain/sheet.h"
+#include "verification/reference/field_integrals.h"
+#include "verification/reference/laws.h"
+#include "verification/reference/loads.h"
+
+#include <mpi.h>
+
+#include <algorithm>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace homespun::verification
+{
+/// One solved strain level.
+struct ReferenceStep
+{
+  double strain = 0.;
+  bool reached  = false;         ///< false: no equilibrium found, `why` says where it stopped
+  std::string why;               ///< reason where it was not reached
+  meshes::Points positions;      ///< (n,2) at the vertices of the sheet, on every rank [m]
+  unsigned int n_newton    = 0;  ///< Newton steps
+  unsigned int n_linear    = 0;  ///< iterations of conjugate gradients, all Newton steps
+  double relative_residual = 0.; ///< |forces on free nodes| / size of the element forces
+  bool is_at_round_off =
+    false; ///< that is more than the tolerance, but rounding alone makes as much
+  unsigned int n_inverted = 0;  ///< triangles with det F <= 0, under biot and green
+  double seconds          = 0.; ///< wall time of this level, slowest rank
+};
+
+/// What a reader has to know of a level that ended at round-off: empty unless it left more than a millionth of the forces.
+std::string note_of_round_off(const ReferenceStep &step);
+
+struct ReferenceOptions
+{
+  unsigned int order  = 1; ///< P1 or P2
+  unsigned int refine = 0; ///< uniform refinements of the sheet's mesh
+  double tolerance =
+    1e-9; ///< of |residual| relative to the size of the element forces; no smaller than round-off
+};
+
+/// A resolved sheet under one load and one law, brought from strain to strain.
+class FineReference
+{
+public:
+  /// @param sheet n1 x n2 cells; of periodic loads one cell is solved (n1 = n2 = 1)
+  /// @param stiffness_of_phase (3,3) [N/m]
+  FineReference(const meshes::Sheet &sheet, std::vector<Eigen::Matrix3d> stiffness_of_phase,
+                const ReferenceOptions &options, MPI_Comm communicator);
+
+  /// Force per rest area [N/m^2] at a rest point and a strain. The loads of a study have none; a solution
+  /// that is prescribed (manufactured.h) needs one.
+  using BodyForce =
+    std::function<Eigen::RowVector2d(const Eigen::RowVector2d &rest_point, double strain)>;
+
+  /// Takes up a load and a law, and forgets earlier levels. The first call for a load lays out the
+  /// matrix.
+  void start(const Load &load, Law law, BodyForce body_force = {});
+
+  /// Solves at a strain, from the levels solved before: u(s) is extrapolated, u/s linear in s. A
+  /// step that does not converge is cut in two, up to three times; after that the level counts as not
+  /// reached, and the ones solved before stay. Under green a state with an inverted triangle
+  /// (det F <= 0) has infinite energy, because that law would reward it; under biot it is allowed (its
+  /// energy is that of the coarse cloth, smooth through the collapse) and counted.
+  ReferenceStep advance(double strain);
+
+  /// How far the level solved last is from a known displacement, in the interior of the elements too; of
+  /// periodic loads from a known fluctuation, up to a constant.
+  FieldDistance distance_from(const KnownField &known) const;
+
+  /// The last level once more from where it stands, to a smaller tolerance; later levels start from the result.
+  /// @param tolerance of |residual| relative to the size of the element forces
+  ReferenceStep tighten(double tolerance);
+
+  unsigned long n_dofs() const;
+
+private:
+  using Vector = homogenization::ElasticSolver::Vector;
+  struct State
+  {
+    double energy           = 0.; ///< [J]
+    unsigned int n_inverted = 0;  ///< triangles with det F <= 0
+    double residual         = 0.; ///< norm over free DoFs [N]
+    double force_size       = 0.; ///< norm of the element forces before they cancel [N]
+    double round_off        = 0.; ///< norm of what rounded gradients do to the element forces [N]
+    double energy_round_off = 0.; ///< what they do to the energy at most [J]
+
+    /// The residual that counts as none.
+    double least_residual(const double tolerance) const
+    {
+      return std::max(tolerance * force_size, round_off);
+    }
+  };
+
+  void constrain(const Load &load);
+  Vector affine(double strain) const;
+  Vector guess(double strain) const;
+  void solve(Vector &displacement, double strain, double tolerance, ReferenceStep &step);
+  unsigned int solve_linearized(Vector &increment, const Vector &forces, double target);
+  State evaluate(const Vector &displacement, const Eigen::Matrix2d &mean_gradient, Vector &residual,
+                 bool with_matrix, bool projected);
+  template <int n_shapes>
+  State assemble(const Vector &displacement, const Eigen::Matrix2d &mean_gradient, Vector &residual,
+                 bool with_matrix, bool projected);
+  meshes::Points positions_of(const Vector &displacement, double strain) const;
+
+  const meshes::Sheet &sheet;
+  const std::vector<Eigen::Matrix3d> stiffness_of_phase;
+  const ReferenceOptions options;
+  const homogenization::Discretization discretization;
+  homogenization::DofTable vertex_dofs;
+  std::vector<homogenization::Node> boundary;
+
+  std::unique_ptr<Load> load;
+  Law law = Law::linear;
+  BodyForce body_force;
+  Vector body_load; ///< at the strain that is being solved; empty without a body force
+  dealii::AffineConstraints<double> constraints; ///< homogeneous: held nodes, periodic images
+  std::unique_ptr<homogenization::ElasticSolver> solver;
+  double seconds_of_linear_solve       = 0.;
+  bool preconditioner_is_old           = false;
+  double iterations_per_digit_when_new = 0.; ///< of the present preconditioner
+
+  struct Level
+  {
+    double strain;
+    Vector displacement;
+  };
+  std::vector<Level> levels; ///< the last two
+};
+} // namespace homespun::verification

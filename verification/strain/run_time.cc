@@ -1,0 +1,361 @@
+// SPDX-License-Identifier: MIT
+#include "verification/strain/run_time.h"
+
+#include "localization/upsampler.h"
+#include "meshes/cloth/cloth_mesh.h"
+#include "meshes/plain/errors.h"
+#include "shell/solver/cloth.h"
+#include "shell/terms/membrane_term.h"
+#include "shell/terms/warping.h"
+#include "verification/method/homogenized_sheet.h"
+#include "verification/method/lightweight_cloth.h"
+#include "verification/record/on_root.h"
+#include "verification/record/timing.h"
+#include "verification/reference/fine_reference.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <limits>
+
+namespace homespun::verification
+{
+namespace
+{
+using meshes::Points;
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(const Clock::time_point begin)
+{
+  return std::chrono::duration<double>(Clock::now() - begin).count();
+}
+
+/// What one way came to.
+struct Timed
+{
+  Points positions;            ///< at the fine vertices [m]
+  std::vector<double> seconds; ///< of each run
+  long n_triangles = 0;
+  std::string note;
+};
+
+/// The paper's warped cloth brought to rest: implicit steps so long that inertia plays no part, each from rest.
+shell::Positions<2> warped_equilibrium(const meshes::TriangleMesh &coarse,
+                                       const meshes::HomogenizedCell &cell,
+                                       const shell::Positions<2> &start,
+                                       const std::vector<int> &held)
+{
+  Eigen::Matrix<double, 3, 2> flat = Eigen::Matrix<double, 3, 2>::Identity();
+  const meshes::ClothMesh mesh     = meshes::placed_sheet(coarse, flat, Eigen::RowVector3d::Zero());
+  const Eigen::VectorXd masses =
+    shell::lumped_masses(mesh, std::vector<double>{cell.areal_density});
+  shell::Vectors positions = shell::Vectors::Zero(start.rows(), 3);
+  positions.leftCols<2>()  = start;
+  shell::Cloth cloth(positions, masses, held);
+  cloth.add(shell::nodal_warping_term(mesh, {cell.stiffness}, masses));
+  const double side = std::sqrt(cell.lattice.area());
+  std::vector<double> history;
+  for (int step = 0; step < 500; ++step)
+  {
+    const shell::Vectors before = cloth.positions();
+    cloth.step(1.);
+    const shell::Vectors after = cloth.positions();
+    cloth.set_state(after, shell::Vectors::Zero(after.rows(), 3), 0.);
+    history.push_back((after - before).rowwise().norm().maxCoeff());
+    if (history.back() <= 1e-7 * side)
+      return after.leftCols<2>();
+  }
+  throw meshes::NotConverged("nodal warping: the cloth does not come to rest", history);
+}
+
+class RunTimeStudy
+{
+public:
+  RunTimeStudy(const homogenization::UnitCell &cell, const meshes::HomogenizedCell &homogenized,
+               const StiffnessBounds &bounds, const meshes::Sheet &sheet, const Load &load,
+               const RunTimeOptions &options, const std::vector<UncertaintyRow> &uncertainty,
+               Table<RunTimeRow> *table, const MPI_Comm communicator,
+               const std::function<void(const std::string &)> &tell)
+      : cell(cell)
+      , homogenized(homogenized)
+      , bounds(bounds)
+      , sheet(sheet)
+      , load(load)
+      , options(options)
+      , uncertainty(uncertainty)
+      , table(table)
+      , communicator(communicator)
+      , tell(tell)
+  {
+  }
+
+  std::string run()
+  {
+    int is_there = table != nullptr && has("nodal-warping"); // the last one
+    MPI_Bcast(&is_there, 1, MPI_INT, 0, communicator);
+    if (is_there)
+      return {};
+    const Timed p2 = fine(2);
+    if (p2.positions.size() == 0)
+      return "the best reference finds no equilibrium; " + p2.note;
+    best                     = p2.positions;
+    const Timed p1           = fine(1);
+    const unsigned int ranks = n_ranks();
+    on_root(communicator,
+            [&]()
+            {
+              bar         = bar_of_p2(uncertainty, cell.name, load.name, sheet.n1, options.strain);
+              Timed of_p2 = p2;
+              of_p2.note += std::string(of_p2.note.empty() ? "" : "; ") +
+                            "what the others are held against: its error is its own error bar";
+              write("fine-p2", of_p2, ranks, bar);
+              write("fine-p1", p1, ranks);
+              full_resolution();
+              coarse_cloths();
+            });
+    return {};
+  }
+
+private:
+  unsigned int n_ranks() const
+  {
+    int n = 1;
+    MPI_Comm_size(communicator, &n);
+    return static_cast<unsigned int>(n);
+  }
+
+  RunTimeRow row_of(const std::string &way) const
+  {
+    return {cell.name, load.name, options.strain, name_of(Law::biot), way};
+  }
+
+  bool has(const std::string &way) const
+  {
+    return table->contains(row_of(way));
+  }
+
+  /// Repeats a run up to the number asked for, or until it has taken long enough.
+  template <typename Run>
+  void repeat(Timed &outcome, const Run &one) const
+  {
+    const Clock::time_point begin = Clock::now();
+    for (int k = 0; k < options.n_runs; ++k)
+    {
+      const Clock::time_point of_run = Clock::now();
+      one();
+      outcome.seconds.push_back(seconds_since(of_run));
+      if (seconds_since(begin) > options.seconds_of_a_way)
+        break;
+    }
+    say_if_fewer(outcome);
+  }
+
+  void say_if_fewer(Timed &outcome) const
+  {
+    if (const auto n = static_cast<int>(outcome.seconds.size()); n < options.n_runs)
+      outcome.note = std::to_string(n) + " of " + std::to_string(options.n_runs) +
+                     " runs: together they took more than " + short_text(options.seconds_of_a_way) +
+                     " s";
+  }
+
+  Timed fine(const unsigned int order)
+  {
+    const std::string name = order == 1 ? "P1" : "P2";
+    Timed outcome;
+    outcome.n_triangles = sheet.mesh.n_triangles();
+    ReferenceOptions with_order;
+    with_order.order = order;
+    FineReference reference(sheet, cell.stiffness_of_phase(), with_order, communicator);
+    double spent = 0.; // slowest rank, the same on all
+    for (int k = 0; k < options.n_runs && spent <= options.seconds_of_a_way; ++k)
+    {
+      tell("fine " + name + ", run " + std::to_string(k + 1));
+      reference.start(load, Law::biot);
+      const ReferenceStep step = reference.advance(options.strain);
+      if (!step.reached)
+        return {{}, {}, 0, step.why};
+      outcome.seconds.push_back(step.seconds);
+      spent += step.seconds;
+      outcome.positions = step.positions;
+    }
+    say_if_fewer(outcome);
+    return outcome;
+  }
+
+  void full_resolution()
+  {
+    tell("fine corotational");
+    std::vector<int> held;
+    shell::Positions<2> start = sheet.mesh.vertices;
+    for (int v = 0; v < sheet.mesh.n_vertices(); ++v)
+    {
+      const Eigen::RowVector2d fraction = sheet.fraction(sheet.mesh.vertices.row(v));
+      start.row(v) += load.displacement(fraction, sheet.sides(), options.strain);
+      if (load.holds(fraction))
+        held.push_back(v);
+    }
+    Timed outcome;
+    outcome.n_triangles = sheet.mesh.n_triangles();
+    const shell::MembraneSolver<2> solver(sheet.mesh, cell.stiffness_of_phase(), held);
+    attempt("fine-corotational", outcome,
+            [&]() {
+              repeat(outcome,
+                     [&]() { outcome.positions = solver.solve_equilibrium(start).positions; });
+            });
+  }
+
+  void coarse_cloths()
+  {
+    for (const int quads : {5, 10, 20, 40})
+      for (const char *method : {"affine", "localized"})
+        coarse_cloth(method + ("-" + std::to_string(quads)), method, quads, homogenized.stiffness);
+    coarse_cloth("voigt", "localized", sheet.n1, bounds.voigt);
+    if (bounds.reuss.isZero())
+    {
+      Timed left_out;
+      left_out.note = "left out: of a cell with holes Reuss's bound is zero";
+      write("reuss", left_out, 1);
+    }
+    else
+      coarse_cloth("reuss", "localized", sheet.n1, bounds.reuss);
+
+    const HomogenizedSheet coarse(homogenized.stiffness, sheet, load, sheet.n1, sheet.n2);
+    const shell::Positions<2> start = coarse.prescribed(options.strain);
+    std::vector<int> held;
+    for (int v = 0; v < coarse.mesh.n_vertices(); ++v)
+      if (load.holds(sheet.fraction(coarse.mesh.vertices.row(v))))
+        held.push_back(v);
+    upsampled("nodal-warping", "localized", coarse,
+              [&]() { return warped_equilibrium(coarse.mesh, homogenized, start, held); });
+  }
+
+  void coarse_cloth(const std::string &way, const std::string &method, const int quads,
+                    const Eigen::Matrix3d &stiffness)
+  {
+    // As many quads along the other side as there are per cell along the first.
+    const int across = std::max(1, quads * sheet.n2 / sheet.n1);
+    const HomogenizedSheet coarse(stiffness, sheet, load, quads, across);
+    const shell::Positions<2> start = coarse.prescribed(options.strain);
+    upsampled(way, method, coarse, [&]() { return coarse.solve(Law::biot, start); });
+  }
+
+  /// Solves a coarse cloth and up-samples it: timed in single precision, held against the best in double.
+  template <typename Solve>
+  void upsampled(const std::string &way, const std::string &method, const HomogenizedSheet &coarse,
+                 const Solve &solve)
+  {
+    tell(way);
+    const localization::UpsamplerOptions choices = Method(method).options(Law::biot);
+    const localization::Upsampler<2, float> in_float(homogenized, coarse.mesh, sheet, choices);
+    localization::Upsampler<2, float>::Fine fine;
+    Timed outcome;
+    outcome.n_triangles = coarse.mesh.n_triangles();
+    attempt(way, outcome,
+            [&]()
+            {
+              shell::Positions<2> positions;
+              repeat(outcome,
+                     [&]()
+                     {
+                       positions = solve();
+                       in_float.upsample(positions, fine);
+                     });
+              localization::Upsampler<2, double>::Fine in_double;
+              localization::Upsampler<2, double>(homogenized, coarse.mesh, sheet, choices)
+                .upsample(positions, in_double);
+              outcome.positions = in_double;
+            });
+  }
+
+  /// A way that finds no equilibrium has a row that says so.
+  template <typename Work>
+  void attempt(const std::string &way, Timed &outcome, const Work &work)
+  {
+    if (has(way))
+      return;
+    try
+    {
+      work();
+    }
+    catch (const meshes::NotConverged &failure)
+    {
+      outcome.positions.resize(0, 2);
+      outcome.note = std::string("no equilibrium found; ") + failure.what();
+    }
+    write(way, outcome, 1);
+  }
+
+  void write(const std::string &way, const Timed &outcome, const unsigned int ranks,
+             const double known_error = std::numeric_limits<double>::quiet_NaN())
+  {
+    if (has(way))
+      return;
+    const bool is_known = outcome.positions.size() > 0;
+    RunTimeRow row      = row_of(way);
+    row.triangles       = outcome.n_triangles;
+    if (std::isfinite(known_error))
+      row.mean = known_error;
+    else if (is_known && way != "fine-p2")
+      row.mean = (outcome.positions - best).rowwise().norm().mean();
+    row.per_cell    = row.mean / std::sqrt(cell.lattice.area());
+    row.uncertainty = bar;
+    if (is_known)
+      row.seconds = median(outcome.seconds);
+    row.runs  = static_cast<int>(outcome.seconds.size());
+    row.ranks = ranks;
+    row.note  = outcome.note;
+    table->append(row);
+  }
+
+  const homogenization::UnitCell &cell;
+  const meshes::HomogenizedCell &homogenized;
+  const StiffnessBounds &bounds;
+  const meshes::Sheet &sheet;
+  const Load &load;
+  const RunTimeOptions &options;
+  const std::vector<UncertaintyRow> &uncertainty;
+  Table<RunTimeRow> *const table;
+  const MPI_Comm communicator;
+  const std::function<void(const std::string &)> &tell;
+  Points best;
+  double bar = 0.;
+};
+} // namespace
+
+double bar_of_p2(const std::vector<UncertaintyRow> &rows, const std::string &cell,
+                 const std::string &load, const int n_cells, const double strain)
+{
+  const double unknown = std::numeric_limits<double>::quiet_NaN();
+  double small = unknown, full = unknown, of_p2 = unknown;
+  int n_small = 0;
+  for (const UncertaintyRow &row : rows)
+    if (row.cell == cell && row.load == load && std::isfinite(row.p2_to_refined))
+    {
+      n_small = row.cells;
+      if (row.reference == name_of(Law::biot) || !std::isfinite(of_p2))
+        of_p2 = row.p2_to_refined / row.strain;
+    }
+  for (const UncertaintyRow &row : rows)
+    if (row.cell == cell && row.load == load && row.reference == name_of(Law::linear))
+    {
+      if (row.cells == n_small)
+        small = row.p1_to_p2 / row.strain;
+      if (row.cells == n_cells)
+        full = row.p1_to_p2 / row.strain;
+    }
+  return of_p2 * (full / small) * strain;
+}
+
+std::string run_time_study(const homogenization::UnitCell &cell,
+                           const meshes::HomogenizedCell &homogenized,
+                           const StiffnessBounds &bounds, const meshes::Sheet &sheet,
+                           const Load &load, const RunTimeOptions &options,
+                           const std::vector<UncertaintyRow> &uncertainty, Table<RunTimeRow> *table,
+                           const MPI_Comm communicator,
+                           const std::function<void(const std::string &)> &tell)
+{
+  return RunTimeStudy(cell, homogenized, bounds, sheet, load, options, uncertainty, table,
+                      communicator, tell)
+    .run();
+}
+} // namespace homespun::verification

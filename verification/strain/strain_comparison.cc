@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: MIT
+#include "verification/strain/strain_comparison.h"
+
+#include "meshes/plain/errors.h"
+#include "verification/method/anchor_choice.h"
+#include "verification/strain/sheet_fields.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace homespun::verification
+{
+bool has_biot(const StrainStudyOptions &options)
+{
+  return std::find(options.references.begin(), options.references.end(), "biot") !=
+         options.references.end();
+}
+
+double pictured_strain(const StrainStudyOptions &options)
+{
+  return *std::min_element(options.strains.begin(), options.strains.end(),
+                           [](double a, double b)
+                           { return std::abs(std::log(a / 0.1)) < std::abs(std::log(b / 0.1)); });
+}
+
+double compared_strain(const StrainStudyOptions &options)
+{
+  return *std::min_element(options.strains.begin(), options.strains.end(),
+                           [](double a, double b)
+                           { return std::abs(std::log(a / 0.01)) < std::abs(std::log(b / 0.01)); });
+}
+
+namespace
+{
+/// The fluctuation, or a note why there is none.
+Fluctuation fluctuation_of(const StrainLevel &level, const meshes::Points &reference,
+                           FluctuationMeasure &measure, StrainOutput &output)
+{
+  try
+  {
+    return measure.at(level.law, level.strain, reference);
+  }
+  catch (const meshes::NotConverged &failure)
+  {
+    output.write_note(level,
+                      std::string("the homogenized sheet, resolved, finds no equilibrium, and the "
+                                  "fluctuation is not known; ") +
+                        failure.what());
+    const double unknown = std::numeric_limits<double>::quiet_NaN();
+    return {unknown, unknown, unknown};
+  }
+}
+
+/// One picture per sheet load, against biot if it is there.
+bool is_pictured(const StrainStudyOptions &options, const Load &load, const StrainLevel &level)
+{
+  return !load.is_periodic() && level.strain == pictured_strain(options) &&
+         (has_biot(options) ? level.law == Law::biot
+                            : name_of(level.law) == options.references.front());
+}
+} // namespace
+
+UpsampledLevel compare_methods(const StrainStudyOptions &options, const StrainLevel &level,
+                               const ResolvedLevel &resolved, MethodOnSheet &method,
+                               const Load &load, StrainOutput &output)
+{
+  const ReferenceStep &fine = resolved.fine;
+  LightweightCloth &cloth   = method.cloth;
+  const CoarseStep coarse   = cloth.solve(level.law, level.strain);
+  const auto upsampled_with = [&](const std::string &name)
+  {
+    UpsampledSheet upsampled = cloth.upsample(Method(name), level.law, coarse.positions);
+    if (!upsampled.positions.allFinite())
+      throw meshes::NotConverged(
+        level.cell + ", " + level.load + ", " + name + ": positions that are not finite", {});
+    return upsampled;
+  };
+  const auto distance_of = [&](const meshes::Points &positions)
+  { return (positions - fine.positions).rowwise().norm(); };
+  const UpsampledSheet affine = upsampled_with("affine"), localized = upsampled_with("localized");
+  StrainErrors errors;
+  const Fluctuation fluctuation = fluctuation_of(level, fine.positions, method.fluctuation, output);
+  errors.fluctuation            = fluctuation.mean;
+  errors.side                   = std::sqrt(resolved.sheet.lattice.area());
+  errors.uncertainty            = resolved.uncertainty;
+  errors.seconds_reference      = fine.seconds;
+  // All methods before the first row: a level has the errors of all, or is unreached.
+  std::vector<std::pair<std::string, UpsampledSheet>> missing;
+  for (const std::string &name : options.methods)
+    if (Method(name).has_meaning(level.law) && !output.has_errors(level, name))
+      missing.emplace_back(name, name == "affine"      ? affine
+                                 : name == "localized" ? localized
+                                                       : upsampled_with(name));
+  for (const auto &[name, upsampled] : missing)
+  {
+    errors.distance = distance_of(upsampled.positions);
+    errors.seconds  = coarse.seconds + upsampled.seconds;
+    // The row comes last: where it is there, so is all that belongs to it.
+    if (name == "localized")
+    {
+      if (is_pictured(options, load, level))
+        write_sheet_fields(options.output + "/" + level.cell + "/fields-" + load.name + ".h5",
+                           resolved.sheet, cloth.coarse,
+                           {load.name, level.strain, name_of(level.law), name, fine.positions,
+                            upsampled.positions, coarse.positions});
+      StepRow step;
+      step.seconds_coarse      = coarse.seconds;
+      step.seconds_upsample    = upsampled.seconds;
+      step.seconds_fine        = fine.seconds;
+      step.coarse_iterations   = coarse.iterations;
+      step.fine_iterations     = fine.n_newton;
+      step.fine_dofs           = resolved.n_dofs;
+      step.ranks               = resolved.n_ranks;
+      step.fluctuation         = fluctuation.mean;
+      step.fluctuation_bar     = fluctuation.bar;
+      step.homogenized_law     = name_of(FluctuationMeasure::law_beside(level.law));
+      step.seconds_homogenized = fluctuation.seconds;
+      output.write_step(level, step);
+    }
+    output.write_errors(level, name, resolved.sheet, cloth.coarse.n_triangles(), errors);
+  }
+  if (!load.is_periodic() && level.law == Law::biot && level.strain == compared_strain(options))
+    if (const std::string note =
+          note_of_anchor(errors_of_other_anchors(method.cell, cloth.coarse, resolved.sheet,
+                                                 level.law, coarse.positions, fine.positions),
+                         distance_of(localized.positions).mean(),
+                         distance_of(affine.positions).mean(), resolved.uncertainty);
+        !note.empty())
+      output.write_note(level, note);
+  return {coarse.positions, localized.positions};
+}
+} // namespace homespun::verification

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+// What a strain study compares at one level: every method against the resolved sheet, vertex by vertex.
+#pragma once
+
+#include "meshes/plain/sheet.h"
+#include "verification/budget/budget_study.h"
+#include "verification/method/fluctuation.h"
+#include "verification/method/lightweight_cloth.h"
+#include "verification/reference/fine_reference.h"
+#include "verification/strain/strain_output.h"
+
+namespace homespun::verification
+{
+/// The resolved sheet at one level.
+struct ResolvedLevel
+{
+  const meshes::Sheet &sheet;
+  const ReferenceStep &fine;
+  unsigned long n_dofs;
+  unsigned int n_ranks;
+  double uncertainty; ///< of its positions, mean over the vertices [m]
+};
+
+/// The method, and what its error is measured by.
+struct MethodOnSheet
+{
+  const meshes::HomogenizedCell &cell;
+  LightweightCloth cloth;
+  FluctuationMeasure fluctuation;
+};
+
+/// The level nearest to 1 %, at which methods are compared.
+double compared_strain(const StrainStudyOptions &options);
+
+/// Whether biot is among the references.
+bool has_biot(const StrainStudyOptions &options);
+
+/// The level nearest to 10 %: it is pictured, and its run times are measured.
+double pictured_strain(const StrainStudyOptions &options);
+
+/// Moves the coarse cloth to a level, up-samples it by every method, and writes the errors whose row is not there,
+/// the times, the picture if this is the level for one, and a note on the anchor at the compared strain. First rank.
+/// @return the coarse cloth, and the fine positions of `localized`
+/// @throws NotConverged where the coarse cloth finds no equilibrium, or positions are not finite
+UpsampledLevel compare_methods(const StrainStudyOptions &options, const StrainLevel &level,
+                               const ResolvedLevel &resolved, MethodOnSheet &method,
+                               const Load &load, StrainOutput &output);
+} // namespace homespun::verification

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: MIT
+#include "verification/strain/strain_output.h"
+
+#include "verification/method/lightweight_cloth.h"
+#include "verification/strain/validity.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace homespun::verification
+{
+namespace
+{
+StrainRow row_of(const StrainLevel &level, const std::string &method)
+{
+  return {level.cell, level.load, level.strain, name_of(level.law), method};
+}
+
+template <typename Row>
+std::unique_ptr<Table<Row>> table_if(const bool is_wanted, const std::string &folder)
+{
+  return is_wanted ? std::make_unique<Table<Row>>(folder) : nullptr;
+}
+} // namespace
+
+StrainOutput::StrainOutput(const StrainStudyOptions &options,
+                           std::function<void(const std::string &)> tell)
+    : uncertainty(options.output)
+    , budget(table_if<BudgetRow>(options.budget, options.output))
+    , run_time(table_if<RunTimeRow>(options.run_time, options.output))
+    , folder(options.output)
+    , methods(options.methods)
+    , tell(std::move(tell))
+    , strain(options.output)
+    , steps(options.output)
+    , note_table(options.output)
+{
+}
+
+bool StrainOutput::is_complete(const StrainLevel &level) const
+{
+  return is_unreached(level) || std::all_of(methods.begin(), methods.end(),
+                                            [&](const std::string &method) {
+                                              return !Method(method).has_meaning(level.law) ||
+                                                     has_errors(level, method);
+                                            });
+}
+
+bool StrainOutput::has_errors(const StrainLevel &level, const std::string &method) const
+{
+  return strain.contains(row_of(level, method));
+}
+
+bool StrainOutput::is_unreached(const StrainLevel &level) const
+{
+  return has_errors(level, unreached);
+}
+
+void StrainOutput::write_errors(const StrainLevel &level, const std::string &method,
+                                const meshes::Sheet &sheet, const int n_coarse_triangles,
+                                const StrainErrors &errors)
+{
+  const Eigen::VectorXd &distance = errors.distance;
+  StrainRow row                   = row_of(level, method);
+  row.cells                       = sheet.n1;
+  row.coarse_triangles            = n_coarse_triangles;
+  row.fine_triangles              = sheet.mesh.n_triangles();
+  row.mean                        = distance.mean();
+  row.rms      = std::sqrt(distance.squaredNorm() / static_cast<double>(distance.size()));
+  row.max      = distance.maxCoeff();
+  row.per_cell = row.mean / errors.side;
+  if (errors.fluctuation > 0.)
+    row.per_fluctuation = row.mean / errors.fluctuation;
+  row.uncertainty       = errors.uncertainty;
+  row.seconds           = errors.seconds;
+  row.seconds_reference = errors.seconds_reference;
+  strain.append(row);
+}
+
+void StrainOutput::write_step(const StrainLevel &level, StepRow step)
+{
+  step.cell      = level.cell;
+  step.load      = level.load;
+  step.reference = name_of(level.law);
+  step.strain    = level.strain;
+  steps.append_if_missing(step);
+}
+
+void StrainOutput::write_unreached(const StrainLevel &level, const meshes::Sheet &sheet)
+{
+  StrainRow row        = row_of(level, unreached);
+  row.cells            = sheet.n1;
+  row.coarse_triangles = 2 * sheet.n1 * sheet.n2;
+  row.fine_triangles   = sheet.mesh.n_triangles();
+  strain.append(row);
+}
+
+void StrainOutput::write_note(const StrainLevel &level, std::string text)
+{
+  text              = text.substr(0, text.find("; residual norms"));
+  const NoteRow row = {level.cell, level.load, name_of(level.law), level.strain, text};
+  note_table.append_if_missing(row);
+  tell(row.cell + ", " + row.load + ", " + row.reference + " reference at strain " +
+       short_text(row.strain) + ": " + text);
+}
+
+void StrainOutput::write_validity() const
+{
+  Table<ValidityRow>(folder).replace(validity_rows(strain.rows()));
+}
+
+std::vector<std::string> StrainOutput::notes() const
+{
+  std::vector<std::string> sentences;
+  for (const NoteRow &row : note_table.rows())
+    sentences.push_back(row.cell + ", " + row.load + ", " + row.reference + " at strain " +
+                        short_text(row.strain) + ": " + row.note);
+  return sentences;
+}
+} // namespace homespun::verification

@@ -1,0 +1,420 @@
+// SPDX-License-Identifier: MIT
+#include "verification/strain/strain_study.h"
+
+#include "meshes/plain/errors.h"
+#include "verification/budget/budget_study.h"
+#include "verification/cell/cell_study.h"
+#include "verification/cell/study_inputs.h"
+#include "verification/record/json_files.h"
+#include "verification/record/on_root.h"
+#include "verification/record/progress.h"
+#include "verification/record/provenance.h"
+#include "verification/reference/fine_reference.h"
+#include "verification/strain/reference_uncertainty.h"
+#include "verification/strain/run_time.h"
+#include "verification/strain/strain_comparison.h"
+#include "verification/strain/strain_output.h"
+#include "verification/strain/strain_verdicts.h"
+#include "verification/strain/study_description.h"
+
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <filesystem>
+#include <memory>
+
+#include <sys/resource.h>
+
+namespace homespun::verification
+{
+using homogenization::UnitCell;
+
+namespace
+{
+/// All that the numbers of a study depend on.
+nlohmann::ordered_json inputs_of(const StrainStudyOptions &options,
+                                 const std::vector<UnitCell> &cells)
+{
+  nlohmann::ordered_json inputs = {
+    {"cells per side", options.n_cells},
+    {"cells per side of the error bar", options.n_cells_of_error_bar},
+    {"strains", options.strains},
+    {"loads", options.loads},
+    {"references", options.references},
+    {"methods", options.methods},
+    {"budget", options.budget},
+    {"run time", options.run_time}};
+  for (const UnitCell &cell : cells)
+    inputs["cell " + cell.name] = fingerprint(cell);
+  return inputs;
+}
+
+class StrainStudy
+{
+public:
+  StrainStudy(const StrainStudyOptions &options, const MPI_Comm communicator)
+      : options(options)
+      , communicator(communicator)
+      , n_ranks(dealii::Utilities::MPI::n_mpi_processes(communicator))
+      , is_root(verification::is_root(communicator))
+      , begin(std::chrono::steady_clock::now())
+      , progress(is_root && !options.quiet,
+                 static_cast<int>(options.cell_files.size() * options.loads.size() *
+                                  (1 + options.references.size() * options.strains.size())))
+  {
+  }
+
+  std::vector<Verdict> run()
+  {
+    for (const std::string &file : options.cell_files)
+      cells.push_back(homogenization::read_unit_cell(file));
+    check_names(cells);
+    for (const UnitCell &cell : cells)
+      meshes::tile(cell.mesh, cell.lattice, 1,
+                   1); // refuses cells that make no sheet, before any file
+    on_root(communicator, [&]() { open_tables(); });
+    if (options.budget)
+      budget = std::make_unique<BudgetStudy>(options.references,
+                                             output ? output->budget.get() : nullptr, communicator);
+    for (const UnitCell &cell : cells)
+      study_cell(cell);
+    return conclude();
+  }
+
+private:
+  /// Tables live on the first rank alone.
+  void open_tables()
+  {
+    folder = open_run_folder(options.output, {"strain", inputs_of(options, cells)}, options.earlier,
+                             options.quiet);
+    output = std::make_unique<StrainOutput>(options, [this](const std::string &line)
+                                            { progress.note(line); });
+  }
+
+  void study_cell(const UnitCell &cell)
+  {
+    progress.begin(cell.name + ": homogenization", true);
+    const AssessedCell assessed = assess_for_study(cell, communicator, verdicts);
+    const std::string folder    = options.output + "/" + cell.name;
+    on_root(communicator,
+            [&]()
+            {
+              std::filesystem::create_directories(folder);
+              write_cell_results(cell, assessed, n_ranks, folder);
+            });
+    const meshes::HomogenizedCell homogenized =
+      homogenization::homogenized_cell(cell, assessed.result, provenance_line());
+    const meshes::Sheet one_cell = meshes::tile(cell.mesh, cell.lattice, 1, 1);
+    std::unique_ptr<meshes::Sheet> full; // made where a load asks for it
+
+    // One discretization serves all loads of a sheet.
+    std::unique_ptr<FineReference> of_cell, of_sheet;
+    for (const std::string &name : options.loads)
+    {
+      const Load load(name);
+      if (!load.is_periodic() && !full)
+        full = std::make_unique<meshes::Sheet>(
+          meshes::tile(cell.mesh, cell.lattice, options.n_cells, options.n_cells));
+      const meshes::Sheet &sheet                = load.is_periodic() ? one_cell : *full;
+      std::unique_ptr<FineReference> &reference = load.is_periodic() ? of_cell : of_sheet;
+      study_load(cell, homogenized, sheet, load, reference);
+    }
+    of_cell.reset();
+    of_sheet.reset(); // the run times have references of their own
+    if (full && options.run_time && has_biot(options))
+      study_run_time(cell, homogenized, {assessed.result.voigt, assessed.result.reuss}, *full);
+  }
+
+  /// Every way to the positions under one load, in which the coarse mesh matters most, at the pictured strain.
+  void study_run_time(const UnitCell &cell, const meshes::HomogenizedCell &homogenized,
+                      const StiffnessBounds &bounds, const meshes::Sheet &sheet)
+  {
+    for (const char *name : {"shear-frame", "strip-1", "strip-2"})
+      if (std::find(options.loads.begin(), options.loads.end(), name) != options.loads.end())
+      {
+        const Load load(name);
+        RunTimeOptions of_run;
+        of_run.strain = pictured_strain(options);
+        const std::string fault =
+          run_time_study(cell, homogenized, bounds, sheet, load, of_run,
+                         output ? output->uncertainty.rows() : std::vector<UncertaintyRow>(),
+                         output ? output->run_time.get() : nullptr, communicator,
+                         [&](const std::string &what) {
+                           progress.begin(cell.name + ", " + load.name + ", run times: " + what);
+                         });
+        on_root(
+          communicator,
+          [&]()
+          {
+            if (!fault.empty())
+              write_note({cell.name, load.name, Law::biot, of_run.strain}, "run times: " + fault);
+          });
+        return;
+      }
+  }
+
+  void study_load(const UnitCell &cell, const meshes::HomogenizedCell &homogenized,
+                  const meshes::Sheet &sheet, const Load &load,
+                  std::unique_ptr<FineReference> &reference)
+  {
+    std::vector<Law> laws;
+    for (const std::string &name : options.references)
+      laws.push_back(law_of(name));
+    std::vector<bool> law_is_done;
+    for (const Law law : laws)
+      law_is_done.push_back(missing_strains(cell, load, law).empty());
+    const int n_steps = 1 + static_cast<int>(laws.size() * options.strains.size());
+    if (std::all_of(law_is_done.begin(), law_is_done.end(), [](const bool done) { return done; }))
+    {
+      progress.begin(cell.name + ", " + load.name + ": all rows are there", true);
+      for (int k = 0; k < n_steps; ++k)
+        progress.done();
+      return;
+    }
+
+    progress.begin(cell.name + ", " + load.name + ": error bar of the reference", true);
+    const ReferenceUncertainty uncertainty(
+      cell, load, laws, options.n_cells, options.n_cells_of_error_bar,
+      output ? &output->uncertainty : nullptr, communicator,
+      [&](const std::string &what) { progress.begin(cell.name + ", " + load.name + ": " + what); });
+    progress.done();
+
+    if (!reference)
+      reference = std::make_unique<FineReference>(sheet, cell.stiffness_of_phase(),
+                                                  ReferenceOptions(), communicator);
+    MethodOnSheet method  = {homogenized, LightweightCloth(homogenized, sheet, load),
+                             FluctuationMeasure(homogenized.stiffness, sheet, load)};
+    const bool has_budget = begin_budget(cell, homogenized, sheet, load, *reference);
+    for (std::size_t k = 0; k < laws.size(); ++k)
+    {
+      const std::vector<double> missing = missing_strains(cell, load, laws[k]);
+      for (std::size_t done = missing.size(); done < options.strains.size(); ++done)
+        progress.done();
+      if (missing.empty())
+        continue;
+      reference->start(load, laws[k]);
+      // Above a level that was not reached none is tried, now or when a study is taken up again.
+      bool is_reached = !is_unreached_below(cell, load, laws[k], missing.front());
+      for (const double strain : missing)
+      {
+        progress.begin(cell.name + ", " + load.name + ": " + name_of(laws[k]) +
+                         " reference, strain " + short_text(strain),
+                       true);
+        if (is_reached)
+          is_reached = study_strain(cell, sheet, load, laws[k], strain, *reference, method,
+                                    uncertainty.at(laws[k], strain), has_budget);
+        else
+          on_root(communicator,
+                  [&]() {
+                    output->write_unreached({cell.name, load.name, laws[k], strain}, sheet);
+                  });
+        progress.done();
+      }
+    }
+  }
+
+  /// What the budget of a load asks for beside the study, if any level of it is missing.
+  /// @return whether levels can be measured, on every rank
+  bool begin_budget(const UnitCell &cell, const meshes::HomogenizedCell &homogenized,
+                    const meshes::Sheet &sheet, const Load &load, FineReference &reference)
+  {
+    if (!budget || !budget->is_missing(cell.name, load.name, options.strains))
+      return false;
+    progress.begin(cell.name + ", " + load.name + ": linear references of the error budget");
+    try
+    {
+      budget->begin_load(cell, homogenized, sheet, load, reference);
+      return true;
+    }
+    catch (const meshes::NotConverged &failure)
+    {
+      const std::string why = failure.what();
+      on_root(communicator,
+              [&]()
+              {
+                write_note({cell.name, load.name, budget->law_of_budget, options.strains.front()},
+                           "no error budget of this load; " + why);
+              });
+      return false;
+    }
+  }
+
+  /// The levels of which a row is missing, told to all ranks.
+  std::vector<double> missing_strains(const UnitCell &cell, const Load &load, const Law law) const
+  {
+    std::vector<char> is_missing(options.strains.size(), 0);
+    if (is_root)
+      for (std::size_t k = 0; k < options.strains.size(); ++k)
+      {
+        const StrainLevel level = {cell.name, load.name, law, options.strains[k]};
+        is_missing[k]           = !output->is_complete(level) ||
+                        (budget && !output->is_unreached(level) &&
+                         budget->row_is_missing(cell.name, load.name, law, options.strains[k]));
+      }
+    MPI_Bcast(is_missing.data(), static_cast<int>(is_missing.size()), MPI_CHAR, 0, communicator);
+    std::vector<double> missing;
+    for (std::size_t k = 0; k < options.strains.size(); ++k)
+      if (is_missing[k])
+        missing.push_back(options.strains[k]);
+    return missing;
+  }
+
+  bool is_unreached_below(const UnitCell &cell, const Load &load, const Law law,
+                          const double strain) const
+  {
+    int answer = 0;
+    if (is_root)
+      for (const double lower : options.strains)
+        if (lower < strain && output->is_unreached({cell.name, load.name, law, lower}))
+          answer = 1;
+    MPI_Bcast(&answer, 1, MPI_INT, 0, communicator);
+    return answer == 1;
+  }
+
+  /// @return whether reference and coarse cloth found an equilibrium, so that the next level may start from it
+  bool study_strain(const UnitCell &cell, const meshes::Sheet &sheet, const Load &load,
+                    const Law law, const double strain, FineReference &reference,
+                    MethodOnSheet &method, const double uncertainty, const bool has_budget)
+  {
+    const StrainLevel level  = {cell.name, load.name, law, strain};
+    const ReferenceStep fine = reference.advance(strain);
+    if (!fine.reached)
+    {
+      on_root(communicator,
+              [&]()
+              {
+                write_note(level, "no equilibrium found; " + fine.why);
+                output->write_unreached(level, sheet);
+              });
+      return false;
+    }
+    if (fine.n_inverted > 0)
+      on_root(communicator,
+              [&]()
+              {
+                write_note(level, std::to_string(fine.n_inverted) +
+                                    " triangles of the fine reference are inverted (det F <= 0)");
+              });
+    on_root(communicator,
+            [&]()
+            {
+              if (const std::string note = note_of_round_off(fine); !note.empty())
+                write_note(level, note);
+            });
+    largest_residual = std::max(largest_residual, fine.relative_residual);
+    UpsampledLevel solved;
+    int is_solved = 0;
+    on_root(communicator,
+            [&]()
+            {
+              try
+              {
+                solved    = compare_methods(options, level,
+                                            {sheet, fine, reference.n_dofs(), n_ranks, uncertainty},
+                                            method, load, *output);
+                is_solved = 1;
+              }
+              catch (const meshes::NotConverged &failure)
+              {
+                write_note(level,
+                           std::string("the coarse cloth found no equilibrium; ") + failure.what());
+                output->write_unreached(level, sheet);
+              }
+            });
+    MPI_Bcast(&is_solved, 1, MPI_INT, 0, communicator);
+    if (is_solved && has_budget && budget->is_missing(cell.name, load.name, law, strain))
+    {
+      const std::string fault = budget->measure(law, strain, fine.positions, reference, solved);
+      on_root(communicator,
+              [&]()
+              {
+                if (!fault.empty())
+                  write_note(level, "error budget: " + fault);
+              });
+    }
+    return is_solved == 1;
+  }
+
+  /// A remark on a level, for the terminal and the report.
+  void write_note(const StrainLevel &level, const std::string &text)
+  {
+    output->write_note(level, text);
+  }
+
+  std::vector<Verdict> conclude()
+  {
+    const double seconds =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    rusage usage;
+    getrusage(RUSAGE_SELF, &usage);
+    const double peak_memory =
+      dealii::Utilities::MPI::sum(static_cast<double>(usage.ru_maxrss) * 1024., communicator);
+    on_root(communicator,
+            [&]()
+            {
+              const auto add = [&](const std::vector<Verdict> &some)
+              { verdicts.insert(verdicts.end(), some.begin(), some.end()); };
+              add(strain_verdicts(output->strain_rows(), options.strains));
+              output->write_validity();
+              std::vector<std::string> notes = output->notes();
+              if (options.budget)
+              {
+                const std::vector<BudgetRow> &rows = output->budget->rows();
+                add(budget_verdicts(output->strain_rows(), rows, options.strains));
+                for (const std::string &note : budget_notes(output->strain_rows(), rows))
+                  notes.push_back(note);
+              }
+              write_whole(options.output + "/verdicts.json",
+                          json_text(to_json(verdicts, options.command)));
+              write_whole(
+                options.output + "/study.json",
+                json_text(describe(
+                  options, {output->strain_rows(), output->step_rows(), notes},
+                  {seconds, peak_memory, largest_residual, n_ranks, folder->is_taken_up()})));
+              folder->finish();
+            });
+    share_failure(verdicts, communicator);
+    return verdicts;
+  }
+
+  const StrainStudyOptions options;
+  const MPI_Comm communicator;
+  const unsigned int n_ranks;
+  const bool is_root;
+  const std::chrono::steady_clock::time_point begin;
+  Progress progress;
+  std::vector<UnitCell> cells;
+  std::unique_ptr<RunFolder> folder;    ///< first rank
+  std::unique_ptr<StrainOutput> output; ///< first rank
+  std::unique_ptr<BudgetStudy> budget;  ///< none where it is left out
+  std::vector<Verdict> verdicts;
+  double largest_residual = 0.;
+};
+} // namespace
+
+StrainStudyOptions default_strain_study()
+{
+  StrainStudyOptions options;
+  options.strains    = {0.001, 0.002, 0.005, 0.01, 0.02, 0.05, 0.1, 0.15, 0.2};
+  options.loads      = Load::names();
+  options.references = {"linear", "biot", "green"};
+  options.methods    = Method::names();
+  return options;
+}
+
+void make_quick(StrainStudyOptions &options)
+{
+  options.is_quick             = true;
+  options.n_cells              = 4;
+  options.strains              = {0.001, 0.01, 0.1};
+  options.n_cells_of_error_bar = 2;
+}
+
+std::vector<Verdict> run_strain_study(const StrainStudyOptions &options,
+                                      const MPI_Comm communicator)
+{
+  return StrainStudy(options, communicator).run();
+}
+} // namespace homespun::verification

@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: MIT
+#include "verification/strain/study_description.h"
+
+#include "verification/method/lightweight_cloth.h"
+#include "verification/record/provenance.h"
+#include "verification/reference/laws.h"
+#include "verification/reference/loads.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+namespace homespun::verification
+{
+namespace
+{
+bool has_sheet(const StrainStudyOptions &options)
+{
+  return std::any_of(options.loads.begin(), options.loads.end(),
+                     [](const std::string &load) { return !Load(load).is_periodic(); });
+}
+
+bool has_periodic(const StrainStudyOptions &options)
+{
+  return std::any_of(options.loads.begin(), options.loads.end(),
+                     [](const std::string &load) { return Load(load).is_periodic(); });
+}
+
+bool has(const std::vector<std::string> &names, const char *name)
+{
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+nlohmann::ordered_json what_was_left_out(const StrainStudyOptions &options)
+{
+  nlohmann::ordered_json all = nlohmann::ordered_json::array();
+  const auto left_out        = [&](const std::string &what, const std::string &why) {
+    all.push_back({{"what", what}, {"why", why}});
+  };
+  left_out("mass, damping, time integration", "the loads are static");
+  left_out("third displacement component, bending, rotation out of the plane",
+           "the loads act in the plane: coarse cloth and reference carry two components");
+  left_out("contact", "no load has an obstacle");
+  left_out("per-vertex coarse index of the up-sampling",
+           "the coarse mesh is aligned with the lattice: all cells share one table");
+  if (has_periodic(options))
+    left_out("resolved sheet of the periodic loads",
+             "an infinite cloth repeats one cell: one cell with periodic constraints is exact");
+  if (has(options.references, "linear"))
+    for (const std::string &method : options.methods)
+      if (!Method(method).has_meaning(Law::linear))
+        left_out(method + " against the linear reference", "linear theory knows no lift");
+  for (const std::string &load : Load::names())
+    if (!has(options.loads, load.c_str()))
+      left_out("load " + load, "--loads does not name it");
+  if (!options.budget)
+    left_out("error budget", "--no-budget");
+  if (!options.run_time)
+    left_out("error against run time", "--no-runtime");
+  else if (!has_sheet(options) || !has(options.references, "biot"))
+    left_out("error against run time", "it is measured on a sheet, against biot");
+  return all;
+}
+
+/// Of the levels that were reached.
+std::string note_of_fluctuation(const std::vector<StepRow> &steps)
+{
+  double largest_change = 0., seconds = 0., seconds_fine = 0.;
+  for (const StepRow &step : steps)
+    if (step.fluctuation > 0. && step.load.rfind("periodic", 0) != 0)
+    {
+      largest_change = std::max(largest_change, step.fluctuation_bar / step.fluctuation);
+      seconds += step.seconds_homogenized;
+      seconds_fine += step.seconds_fine;
+    }
+  if (seconds == 0.)
+    return {};
+  char text[400];
+  std::snprintf(
+    text, sizeof(text),
+    "Fluctuation: reference minus the homogenized sheet (C^H in every triangle, quads a "
+    "quarter of a cell wide; law linear beside the linear reference, biot beside all "
+    "others). Its mean changes by at most %.2g %% from a homogenized sheet half as fine; "
+    "these sheets took %.3g s, the references %.3g s.",
+    100. * largest_change, seconds, seconds_fine);
+  return text;
+}
+
+std::vector<std::string> notes_on_the_method(const StrainStudyOptions &options,
+                                             const StudyRecord &record)
+{
+  std::vector<std::string> notes = {
+    "The cell is homogenized with P1 on its given mesh, the discretization of the reference: "
+    "errors are those of the method on this mesh, which both sides share; the error bar says how "
+    "far P1 is from the limit of fine meshes.",
+    "Errors are computed from positions in double precision; times of up-sampling are those of "
+    "single precision, median of five runs on one thread, beside the coarse solve on one thread."};
+  if (const std::string note = note_of_fluctuation(record.steps); !note.empty())
+    notes.push_back(note);
+  double smallest_bar = 1., largest_bar = 0.;
+  for (const StrainRow &row : record.rows)
+    if (row.method == "localized" && row.load.rfind("periodic", 0) == 0 && row.mean > 0. &&
+        row.uncertainty > row.mean)
+    {
+      smallest_bar = std::min(smallest_bar, row.mean / row.uncertainty);
+      largest_bar  = std::max(largest_bar, row.uncertainty / row.mean);
+    }
+  if (largest_bar > 1.)
+  {
+    char text[300];
+    std::snprintf(
+      text, sizeof(text),
+      "In the infinite cloth the localized error lies below the reference's error bar at "
+      "some levels, down to %.2g of it: there it says that method and reference agree on "
+      "this mesh, and nothing of the limit of fine meshes.",
+      smallest_bar);
+    notes.emplace_back(text);
+  }
+  if (std::any_of(record.rows.begin(), record.rows.end(),
+                  [](const StrainRow &row) { return std::isfinite(row.uncertainty); }))
+    notes.emplace_back(
+      "Error bar of the reference: |P1 - refined P2| + |P2 - refined P2| at the same vertices on a "
+      "small sheet, carried to the full sheet by the measured ratio of |P1 - P2| (linear law) of "
+      "the two sizes; between small strain and 5 % linear in strain, and beyond on the same line.");
+  if (options.budget)
+    notes.emplace_back(
+      "Error budget: parts 1, 9's constant and the reference's own discretization are measured in "
+      "linear theory and scaled with strain; parts 2, 3 and 5 at the strain itself, on a homogenized "
+      "sheet whose coarse mesh is refined four to sixteen times. Products of parts are in no part: "
+      "they show as misfit, which has no limit. Part 2 takes its stiffness and modes at finite "
+      "strain from cell problems over the strains of the sheet, all but 0.5 % at either end of each "
+      "component.");
+  if (options.run_time && has_sheet(options) && has(options.references, "biot"))
+    notes.emplace_back(
+      "Run times: every run begins with the affine motion that agrees with what is prescribed; "
+      "set-up that is done once per sheet is not counted. Parts of the machine that others use are "
+      "not known to the clock.");
+  return notes;
+}
+} // namespace
+
+nlohmann::ordered_json describe(const StrainStudyOptions &options, const StudyRecord &record,
+                                const StudyCost &cost)
+{
+  std::vector<std::string> notes = notes_on_the_method(options, record);
+  notes.insert(notes.end(), record.notes.begin(), record.notes.end());
+  return {{"command", options.command},
+          {"strains", options.strains},
+          {"loads", options.loads},
+          {"references", options.references},
+          {"methods", options.methods},
+          {"cells_per_side", options.n_cells},
+          {"ranks", cost.ranks},
+          {"threads_per_rank", 1},
+          {"seconds_total", cost.seconds},
+          {"resumed", cost.is_taken_up},
+          {"largest_relative_residual", cost.largest_residual},
+          {"peak_memory_bytes", cost.peak_memory},
+          {"left_out", what_was_left_out(options)},
+          {"notes", notes},
+          {"provenance", provenance(cost.ranks)}};
+}
+} // namespace homespun::verification

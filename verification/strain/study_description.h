@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: MIT
+// What a strain study says of itself: how it was made, what it left out and why, how its numbers came to be. Every
+// sentence follows from what ran.
+#pragma once
+
+#include "verification/strain/strain_study.h"
+#include "verification/strain/strain_tables.h"
+
+#include <nlohmann/json.hpp>
+
+#include <string>
+#include <vector>
+
+namespace homespun::verification
+{
+struct StudyCost
+{
+  double seconds          = 0.;
+  double peak_memory      = 0.; ///< of all ranks together [B]
+  double largest_residual = 0.; ///< of the references, relative
+  unsigned int ranks      = 1;
+  bool is_taken_up        = false; ///< an earlier process of the same run had begun
+};
+
+/// What ran.
+struct StudyRecord
+{
+  const std::vector<StrainRow> &rows;
+  const std::vector<StepRow> &steps;
+  std::vector<std::string> notes; ///< on levels and on the budget
+};
+
+/// study.json.
+nlohmann::ordered_json describe(const StrainStudyOptions &options, const StudyRecord &record,
+                                const StudyCost &cost);
+} // namespace homespun::verification

@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: MIT
+#include "verification/strain/validity.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+
+namespace homespun::verification
+{
+Crossing crossing(const std::vector<double> &strains, const std::vector<double> &errors,
+                  const double limit)
+{
+  const auto log_of = [](const double x)
+  { return std::log(std::max(x, std::numeric_limits<double>::min())); };
+  if (strains.empty() || errors.front() > limit)
+    return {'-', strains.empty() ? 0. : strains.front()};
+  for (std::size_t k = 1; k < strains.size(); ++k)
+    if (errors[k] > limit)
+    {
+      const double from = log_of(errors[k - 1]), to = log_of(errors[k]);
+      const double part = (log_of(limit) - from) / (to - from);
+      return {'=', strains[k - 1] * std::pow(strains[k] / strains[k - 1], part)};
+    }
+  return {'>', strains.back()};
+}
+
+namespace
+{
+std::string percent(const double value)
+{
+  char text[32];
+  std::snprintf(text, sizeof(text), "%.3g %%", 100. * value);
+  return text;
+}
+
+struct Level
+{
+  double strain, error, bar; ///< in the unit of the measure
+};
+
+ValidityRow row_of(const StrainRow &one, const std::string &measure, const double limit,
+                   const std::vector<Level> &levels)
+{
+  std::vector<double> strains, errors, with_bar, without_bar;
+  for (const Level &level : levels)
+  {
+    const double bar = std::isfinite(level.bar) ? level.bar : 0.;
+    strains.push_back(level.strain);
+    errors.push_back(level.error);
+    with_bar.push_back(level.error + bar);
+    without_bar.push_back(std::max(0., level.error - bar));
+  }
+  const Crossing best = crossing(strains, errors, limit);
+  // The bars' own ends: nothing below the ladder, its end where the limit is kept throughout.
+  const Crossing low  = crossing(strains, with_bar, limit),
+                 high = crossing(strains, without_bar, limit);
+  std::string note;
+  if (best.relation == '-')
+    note = "at strain " + short_text(strains.front()) + " the error is already " +
+           percent(errors.front()) + " of the " + measure;
+  else if (low.relation == '-')
+    note =
+      "not resolved: with the reference's error bar the limit is exceeded at the smallest strain";
+  else if (best.relation == '=' && high.relation == '>')
+    note = "upper end open: without the error bar the limit is kept at every level";
+  if (std::any_of(levels.begin(), levels.end(),
+                  [](const Level &level) { return !std::isfinite(level.bar); }))
+    note += std::string(note.empty() ? "" : "; ") + "error bar of the reference not known";
+  const auto shown = [](const Crossing &crossed)
+  { return crossed.relation == '-' ? ValidityRow::none : crossed.strain; };
+  return {one.cell,    one.load,   one.reference, measure, limit, std::string(1, best.relation),
+          shown(best), shown(low), shown(high),   note};
+}
+} // namespace
+
+std::vector<ValidityRow> validity_rows(const std::vector<StrainRow> &all)
+{
+  const auto same_case = [](const StrainRow &a, const StrainRow &b)
+  { return a.cell == b.cell && a.load == b.load && a.reference == b.reference; };
+  std::vector<StrainRow> cases;
+  for (const StrainRow &row : all)
+    if (row.method == "localized" &&
+        std::none_of(cases.begin(), cases.end(),
+                     [&](const StrainRow &known) { return same_case(known, row); }))
+      cases.push_back(row);
+  struct Measure
+  {
+    const char *name;
+    double StrainRow::*error;
+    std::vector<double> limits;
+  };
+  const std::vector<Measure> measures = {
+    {"fluctuation", &StrainRow::per_fluctuation, {0.01, 0.05, 0.1}},
+    {"cell side", &StrainRow::per_cell, {0.01, 0.05}}};
+  std::vector<ValidityRow> rows;
+  for (const StrainRow &one : cases)
+  {
+    std::vector<StrainRow> of_case;
+    double first_unreached = std::numeric_limits<double>::infinity();
+    for (const StrainRow &row : all)
+      if (same_case(row, one))
+      {
+        if (!row.is_reached())
+          first_unreached = std::min(first_unreached, row.strain);
+        else if (row.method == "localized" && std::isfinite(row.mean))
+          of_case.push_back(row);
+      }
+    std::sort(of_case.begin(), of_case.end(),
+              [](const StrainRow &a, const StrainRow &b) { return a.strain < b.strain; });
+    for (const Measure &measure : measures)
+    {
+      std::vector<Level> levels;
+      for (const StrainRow &row : of_case)
+        if (const double error = row.*(measure.error);
+            std::isfinite(error) && row.strain < first_unreached)
+          // The bar in m has the unit of the measure by the row's own ratio.
+          levels.push_back(
+            {row.strain, error, row.mean > 0. ? row.uncertainty * error / row.mean : 0.});
+      if (levels.empty())
+        continue; // a sheet whose reference does not fluctuate has no such measure
+      for (const double limit : measure.limits)
+      {
+        ValidityRow row = row_of(one, measure.name, limit, levels);
+        if (row.relation == ">" && std::isfinite(first_unreached))
+          row.note += std::string(row.note.empty() ? "" : "; ") +
+                      "no equilibrium of reference or coarse cloth was found at strain " +
+                      short_text(first_unreached);
+        rows.push_back(row);
+      }
+    }
+  }
+  return rows;
+}
+} // namespace homespun::verification

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: MIT
+// The range of validity: the largest strain up to which the up-sampled position stays within a limit of the reference,
+// read off the rows of strain.csv. log error is taken linear in log strain between the levels of the ladder, and the
+// limit counts as kept up to the first crossing.
+#pragma once
+
+#include "verification/strain/strain_tables.h"
+
+#include <vector>
+
+namespace homespun::verification
+{
+/// Where a curve meets a limit.
+struct Crossing
+{
+  char relation = '-';
+  double strain = 0.; ///< of the crossing; of the last level for '>', of the first for '-'
+};
+
+/// First crossing of a limit from below.
+/// @param strains ascending, positive
+/// @param errors >= 0, as many; zero counts as the smallest positive number
+Crossing crossing(const std::vector<double> &strains, const std::vector<double> &errors,
+                  double limit);
+
+/// Rows of validity.csv from those of strain.csv: method `localized`, every reference, limits of 1, 5 and 10 % of the mean
+/// fluctuation of the reference and 1 and 5 % of the cell side. Levels that were not reached end the ladder.
+std::vector<ValidityRow> validity_rows(const std::vector<StrainRow> &rows);
+} // namespace homespun::verification
