@@ -220,4 +220,14 @@ std::vector<Phase> assign_phases(const std::string &file, const CellKeys &keys,
     turn_phases(file, keys.mesh, is_orthotropic, mesh_file, phases, faults);
   return phases;
 }
+
+std::string unit_cell_keys()
+{
+  CellKeys keys;
+  dealii::ParameterHandler handler;
+  keys.declare(handler);
+  std::ostringstream text;
+  handler.print_parameters(text, dealii::ParameterHandler::PRM);
+  return text.str();
+}
 } // namespace homespun::homogenization

@@ -62,4 +62,7 @@ std::optional<meshes::Lattice> lattice_from(const std::string &file, const CellK
 /// renumbers mesh.material to indices into the phases.
 std::vector<Phase> assign_phases(const std::string &file, const CellKeys &keys,
                                  CellMeshFile &mesh_file, Faults &faults);
+
+/// The documented keys of a cell file, in deal.II's .prm syntax.
+std::string unit_cell_keys();
 } // namespace homespun::homogenization

@@ -1,12 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "homogenization/cell/unit_cell.h"
 
-#include "homogenization/cell/cell_keys.h"
-#include "homogenization/lint/cell_reading.h"
-#include "meshes/plain/errors.h"
-
 #include <map>
-#include <sstream>
 
 namespace homespun::homogenization
 {
@@ -48,27 +43,5 @@ double UnitCell::areal_density() const
     mass += areas(t) * phase.thickness * phase.density;
   }
   return mass / lattice.area();
-}
-
-UnitCell read_unit_cell(const std::string &prm_file)
-{
-  CellReading reading = read_cell(prm_file);
-  std::vector<std::string> faults;
-  for (const Finding &finding : reading.findings)
-    if (finding.severity == Severity::error)
-      faults.push_back(text_of(finding));
-  if (!faults.empty())
-    throw meshes::BadInput(faults);
-  return std::move(reading.cell);
-}
-
-std::string unit_cell_keys()
-{
-  CellKeys keys;
-  dealii::ParameterHandler handler;
-  keys.declare(handler);
-  std::ostringstream text;
-  handler.print_parameters(text, dealii::ParameterHandler::PRM);
-  return text.str();
 }
 } // namespace homespun::homogenization

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A unit cell as the user describes it: a .prm file that names a mesh and the materials of its
-// groups. Reading it means validating it: all faults are reported at once.
+// A periodic unit cell: its mesh, its lattice, the materials of its phases.
 #pragma once
 
 #include "homogenization/cell/curved_sides.h"
@@ -36,11 +35,4 @@ struct UnitCell
   /// Mass per area of the cell, sum over triangles of area x thickness x density / |Y| [kg/m^2].
   double areal_density() const;
 };
-
-/// Reads and validates a cell file.
-/// @throws BadInput with one message per fault, each naming the file and the key, group or element
-UnitCell read_unit_cell(const std::string &prm_file);
-
-/// The documented keys of a cell file, in deal.II's .prm syntax.
-std::string unit_cell_keys();
 } // namespace homespun::homogenization

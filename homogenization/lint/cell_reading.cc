@@ -5,6 +5,7 @@
 #include "homogenization/cell/torus_mesh.h"
 #include "homogenization/lint/cell_lint.h"
 #include "meshes/plain/errors.h"
+#include "meshes/plain/lattice.h"
 
 #include <cmath>
 #include <filesystem>
@@ -228,5 +229,17 @@ CellReading inspect_cell(const std::string &prm_file)
     append(findings, prm_file, lint_facets(cell, reading.metres_per_unit));
   }
   return reading;
+}
+
+UnitCell read_unit_cell(const std::string &prm_file)
+{
+  CellReading reading = read_cell(prm_file);
+  std::vector<std::string> faults;
+  for (const Finding &finding : reading.findings)
+    if (finding.severity == Severity::error)
+      faults.push_back(text_of(finding));
+  if (!faults.empty())
+    throw meshes::BadInput(faults);
+  return std::move(reading.cell);
 }
 } // namespace homespun::homogenization

@@ -29,4 +29,8 @@ CellReading read_cell(const std::string &prm_file);
 
 /// Reads a cell and adds the findings of the linter, as many as the state of the cell allows.
 CellReading inspect_cell(const std::string &prm_file);
+
+/// Reads and validates a cell file.
+/// @throws BadInput with one message per fault, each naming the file and the key, group or element
+UnitCell read_unit_cell(const std::string &prm_file);
 } // namespace homespun::homogenization

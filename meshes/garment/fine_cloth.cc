@@ -284,13 +284,6 @@ Eigen::VectorXi vector_of(const std::vector<int> &numbers)
 }
 } // namespace
 
-Eigen::Matrix2d Grain::rotation() const
-{
-  Eigen::Matrix2d matrix;
-  matrix << std::cos(angle), -std::sin(angle), std::sin(angle), std::cos(angle);
-  return matrix;
-}
-
 Triangles FineCloth::sewn_triangles() const
 {
   return rest.triangles.unaryExpr([&](const int v) { return same_in_space(v); });

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "meshes/cloth/cloth_mesh.h"
+#include "meshes/garment/fine_cloth_options.h"
 #include "meshes/plain/lattice.h"
 #include "meshes/plain/triangle_mesh.h"
 
@@ -13,29 +14,6 @@
 
 namespace homespun::meshes
 {
-/// How the cells lie on a panel.
-struct Grain
-{
-  Eigen::RowVector2d origin = {0., 0.}; ///< rest point that is a lattice point [m]
-  double angle              = 0.; ///< of the cell's first axis against the first rest axis [rad]
-
-  /// From the cell's frame into the panel's.
-  Eigen::Matrix2d rotation() const;
-};
-
-/// What becomes of the fine triangles that an outline crosses.
-enum class Outline
-{
-  clipped, ///< cut: the fine cloth covers every panel exactly, and the seams close
-  whole    ///< left out: every triangle is one of the cell's, the outline is jagged, the seams gape
-};
-
-struct FineClothOptions
-{
-  std::vector<Grain> grains = {Grain()}; ///< one for all panels, or one per panel
-  Outline outline           = Outline::clipped;
-};
-
 /// Vertex v is an image of a vertex of the cell, or was made where an outline crosses; in both cases its
 /// place in the coarse cloth is known, on an outline to round-off.
 ///
@@ -70,13 +48,6 @@ struct FineCloth
   /// Triangles by the first of all vertices that coincide in space: watertight along the seams.
   Triangles sewn_triangles() const;
 };
-
-/// Up to which distance seam_distance is known, in cell sides sqrt(|Y|).
-constexpr double seam_reach = 4.;
-
-/// A fine vertex nearer than this to the outline is moved onto it, in cell sides: above the digits of
-/// the usual files, far below any triangle of a cell.
-constexpr double outline_tolerance = 1e-6;
 
 /// Tiles a cell over all panels.
 ///

@@ -5,9 +5,10 @@
 // the rest coordinates are large.
 #pragma once
 
+#include "meshes/cloth/cloth_mesh.h"
 #include "meshes/cloth/seams.h"
 #include "meshes/garment/cut_mesh.h"
-#include "meshes/garment/fine_cloth.h"
+#include "meshes/garment/fine_cloth_options.h"
 #include "meshes/plain/point_location.h"
 #include "meshes/plain/sheet.h"
 

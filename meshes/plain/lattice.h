@@ -65,6 +65,11 @@ std::vector<std::string> periodicity_faults(const TriangleMesh &mesh, const Latt
                                             const std::string &name,
                                             double relative_tolerance = image_tolerance);
 
+/// The same with their places.
+std::vector<MeshFault> placed_periodicity_faults(const TriangleMesh &mesh, const Lattice &lattice,
+                                                 const std::string &name,
+                                                 double relative_tolerance = image_tolerance);
+
 /// The vertex at which characteristic displacements are anchored: of all vertices the one with the
 /// most images on the outline (the corners of a parallelogram), and of those the lowest-left.
 int anchor_vertex(const TriangleMesh &mesh, const Lattice &lattice);

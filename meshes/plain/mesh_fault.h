@@ -2,8 +2,6 @@
 // The faults of a mesh with their places, so that they can be shown as well as told.
 #pragma once
 
-#include "meshes/plain/lattice.h"
-
 #include <Eigen/Core>
 
 #include <limits>
@@ -41,12 +39,4 @@ inline std::vector<std::string> messages_of(const std::vector<MeshFault> &faults
     messages.push_back(fault.message);
   return messages;
 }
-
-/// faults_of() with places.
-std::vector<MeshFault> placed_faults_of(const TriangleMesh &mesh, const std::string &name);
-
-/// periodicity_faults() with places.
-std::vector<MeshFault> placed_periodicity_faults(const TriangleMesh &mesh, const Lattice &lattice,
-                                                 const std::string &name,
-                                                 double relative_tolerance = image_tolerance);
 } // namespace homespun::meshes

@@ -3,6 +3,8 @@
 // resolved sheet. Plain data, in the plane; current positions are kept apart from it.
 #pragma once
 
+#include "meshes/plain/mesh_fault.h"
+
 #include <Eigen/Core>
 
 #include <array>
@@ -50,4 +52,7 @@ std::vector<std::vector<int>> boundary_loops(const TriangleMesh &mesh);
 /// more than two triangles, vertices that no triangle uses. At most three messages per kind.
 /// @param name of the mesh, put before each message, usually its file
 std::vector<std::string> faults_of(const TriangleMesh &mesh, const std::string &name);
+
+/// The same with their places.
+std::vector<MeshFault> placed_faults_of(const TriangleMesh &mesh, const std::string &name);
 } // namespace homespun::meshes

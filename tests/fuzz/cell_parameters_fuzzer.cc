@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Bytes as the .prm of a cell, beside a sound mesh.
 #include "homogenization/cell/unit_cell.h"
+#include "homogenization/lint/cell_reading.h"
 #include "tests/fuzz/input_file.h"
 
 #include <filesystem>

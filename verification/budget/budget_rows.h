@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// An error budget as numbers: norms of its parts over the sheet, its interior, its boundary layer and its corners, and
-// the claims that they add up. Plain arithmetic on fields and rows, held against synthetic budgets.
+// An error budget as numbers: norms of its parts over the sheet, its interior, its boundary layer and its corners.
+// Plain arithmetic on fields, held against synthetic budgets.
 //
 //   mean, rms, max  of |p| over the vertices of a region
 //   share           Σ p·t / |t|  over  Σ |t|, t the measured total at the vertex: the part of the total that p makes up;
@@ -10,9 +10,8 @@
 #pragma once
 
 #include "meshes/plain/sheet.h"
+#include "verification/budget/budget_tables.h"
 #include "verification/budget/error_budget.h"
-#include "verification/record/verdict.h"
-#include "verification/strain/strain_tables.h"
 
 #include <string>
 #include <vector>
@@ -41,20 +40,4 @@ PartNorms norms_of(const meshes::Points &part, const meshes::Points &total,
 /// @param level names the rows: cell, load, strain, reference
 std::vector<BudgetRow> budget_rows(const BudgetRow &level, const ErrorBudget &budget,
                                    const std::vector<int> &regions, double side);
-
-/// Judges, for every cell and load among the rows of strain.csv and at the levels nearest to 1 % and 10 %:
-/// - effectivity within [0.8, 1.25]; INCONCLUSIVE where the reference was not reached or a part not found; where the total is
-///   zero to what the solvers leave, whether the sum is as well
-/// - part 7 at most 1 % of the total
-/// and over the levels up to 2 %, where the study has three of them: the mean of part 2 grows as strain squared, slope
-/// 2 +- 0.1, or is zero to what the solvers leave at each.
-/// @param strains that the study was asked for: what they cannot decide is no claim
-std::vector<Verdict> budget_verdicts(const std::vector<StrainRow> &strain_rows,
-                                     const std::vector<BudgetRow> &budget_rows,
-                                     const std::vector<double> &strains);
-
-/// What the sum of the parts misses at the same levels, vertex by vertex, and how far the homogenized sheet that counts as
-/// resolved is so: figures without a limit. Ready sentences.
-std::vector<std::string> budget_notes(const std::vector<StrainRow> &strain_rows,
-                                      const std::vector<BudgetRow> &budget_rows);
 } // namespace homespun::verification

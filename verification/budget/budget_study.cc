@@ -3,6 +3,7 @@
 
 #include "homogenization/fem/homogenize.h"
 #include "meshes/plain/errors.h"
+#include "verification/record/number_text.h"
 #include "verification/record/on_root.h"
 
 #include <algorithm>

@@ -64,11 +64,6 @@ std::optional<homogenization::EngineeringConstants> bars_of_moduli(const Assesse
   return std::nullopt;
 }
 
-bool is_of_drawing(const AssessedCell &assessed)
-{
-  return assessed.bracket && assessed.bracket->bracket && assessed.bracket->bracket->is_of_drawing;
-}
-
 Shown shown(const AssessedCell &assessed)
 {
   if (!is_of_drawing(assessed))

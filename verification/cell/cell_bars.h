@@ -2,7 +2,7 @@
 // How far the stiffness and the moduli of a cell may be from those of C^H, and what is shown of them.
 #pragma once
 
-#include "verification/cell/cell_output.h"
+#include "verification/cell/assessed_cell.h"
 
 #include <Eigen/Core>
 
@@ -17,9 +17,6 @@ std::optional<Eigen::Matrix3d> bars_of_stiffness(const AssessedCell &assessed);
 
 /// The same for the moduli; without a bracket to first order, |S| bars |S|.
 std::optional<homogenization::EngineeringConstants> bars_of_moduli(const AssessedCell &assessed);
-
-/// Whether the bracket is that of a drawing whose phases have curved sides.
-bool is_of_drawing(const AssessedCell &assessed);
 
 /// C^H and its moduli as they are printed, with their bars. A drawing's C^H is known from its bracket alone, whose
 /// middle is shown: C is that of the straight triangles.

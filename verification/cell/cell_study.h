@@ -2,7 +2,8 @@
 // What `homespun homogenize` does with one cell, and what other studies do with theirs.
 #pragma once
 
-#include "verification/cell/cell_output.h"
+#include "verification/cell/assessed_cell.h"
+#include "verification/cell/cell_files.h"
 #include "verification/record/run_folder.h"
 
 #include <mpi.h>

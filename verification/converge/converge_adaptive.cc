@@ -5,6 +5,7 @@
 #include "homogenization/cell/corners.h"
 #include "meshes/plain/refine.h"
 #include "verification/converge/converge_cases.h"
+#include "verification/record/number_text.h"
 #include "verification/record/on_root.h"
 
 #include <chrono>

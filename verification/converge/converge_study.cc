@@ -2,6 +2,7 @@
 #include "verification/converge/converge_study.h"
 
 #include "homogenization/fem/homogenize.h"
+#include "homogenization/lint/cell_reading.h"
 #include "meshes/files/write_whole.h"
 #include "meshes/plain/errors.h"
 #include "meshes/plain/sheet.h"

@@ -5,8 +5,8 @@
 #include "meshes/plain/refine.h"
 #include "meshes/plain/sheet.h"
 #include "verification/converge/manufactured.h"
-#include "verification/extremes/stress_sheet.h"
 #include "verification/record/fields.h"
+#include "verification/record/number_text.h"
 #include "verification/reference/cloth_reference.h"
 #include "verification/reference/fine_reference.h"
 

@@ -3,6 +3,7 @@
 
 #include "meshes/plain/errors.h"
 #include "verification/record/json_files.h"
+#include "verification/record/number_text.h"
 
 #include <filesystem>
 #include <limits>

@@ -4,8 +4,8 @@
 #pragma once
 
 #include "homogenization/cell/unit_cell.h"
+#include "verification/drape/drape_options.h"
 #include "verification/drape/drape_schedule.h"
-#include "verification/drape/drape_study.h"
 
 #include <nlohmann/json.hpp>
 

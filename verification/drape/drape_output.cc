@@ -2,6 +2,7 @@
 #include "verification/drape/drape_output.h"
 
 #include "meshes/files/obj_file.h"
+#include "verification/record/number_text.h"
 
 #include <algorithm>
 #include <cmath>

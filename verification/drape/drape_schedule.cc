@@ -3,6 +3,7 @@
 
 #include "meshes/plain/errors.h"
 #include "verification/record/fields.h"
+#include "verification/record/number_text.h"
 
 #include <algorithm>
 #include <cmath>

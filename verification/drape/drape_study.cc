@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "verification/drape/drape_study.h"
 
+#include "homogenization/lint/cell_reading.h"
 #include "meshes/files/obj_file.h"
 #include "meshes/files/write_whole.h"
 #include "meshes/plain/errors.h"
@@ -12,6 +13,7 @@
 #include "verification/drape/drape_verdicts.h"
 #include "verification/drape/obstacle_surface.h"
 #include "verification/record/json_files.h"
+#include "verification/record/number_text.h"
 #include "verification/record/on_root.h"
 #include "verification/record/progress.h"
 #include "verification/record/provenance.h"

@@ -3,7 +3,7 @@
 // `right: translate 0.02 0 0 during 1`.
 #pragma once
 
-#include "verification/drape/scene.h"
+#include "verification/drape/held_place.h"
 
 #include <functional>
 #include <optional>

@@ -2,6 +2,7 @@
 #include "verification/extremes/stress_case.h"
 
 #include "meshes/plain/errors.h"
+#include "verification/record/number_text.h"
 
 #include <algorithm>
 #include <chrono>

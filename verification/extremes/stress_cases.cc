@@ -2,6 +2,8 @@
 // Time steps, stiffness, starts.
 #include "verification/extremes/stress_cases.h"
 
+#include "verification/record/number_text.h"
+
 #include <Eigen/Geometry>
 
 #include <cmath>

@@ -7,6 +7,7 @@
 #include "verification/extremes/stress_cases.h"
 #include "verification/extremes/stress_cell_group.h"
 #include "verification/extremes/stress_solver.h"
+#include "verification/record/number_text.h"
 
 #include <algorithm>
 #include <cmath>

@@ -5,6 +5,7 @@
 #include "localization/upsampler.h"
 #include "meshes/plain/sheet.h"
 #include "verification/extremes/stress_cases.h"
+#include "verification/record/number_text.h"
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>

@@ -7,6 +7,7 @@
 #include "shell/terms/wind.h"
 #include "verification/extremes/stress_cases.h"
 #include "verification/record/fields.h"
+#include "verification/record/number_text.h"
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>

@@ -6,6 +6,7 @@
 #include "shell/solver/rigid_motion.h"
 #include "verification/extremes/stress_cases.h"
 #include "verification/record/fields.h"
+#include "verification/record/number_text.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "verification/extremes/stress_study.h"
 
+#include "homogenization/lint/cell_reading.h"
 #include "meshes/files/write_whole.h"
 #include "meshes/plain/errors.h"
 #include "meshes/plain/sheet.h"
@@ -9,6 +10,7 @@
 #include "verification/extremes/stress_cases.h"
 #include "verification/extremes/stress_solver.h"
 #include "verification/record/json_files.h"
+#include "verification/record/number_text.h"
 #include "verification/record/on_root.h"
 #include "verification/record/progress.h"
 #include "verification/record/provenance.h"

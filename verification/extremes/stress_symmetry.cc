@@ -2,6 +2,7 @@
 // Stress cases of a cell that is another description of the same cloth: cut elsewhere, moved, repeated, turned,
 // mirrored, in other units.
 #include "verification/extremes/stress_cell_group.h"
+#include "verification/record/number_text.h"
 
 #include <cmath>
 

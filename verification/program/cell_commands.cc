@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // homespun homogenize, cells: what concerns a cell alone.
+#include "homogenization/lint/cell_reading.h"
 #include "meshes/plain/errors.h"
 #include "verification/cell/cell_study.h"
 #include "verification/program/cells_make.h"

@@ -3,9 +3,9 @@
 
 #include "homogenization/cell/parameter_text.h"
 #include "homogenization/cell/unit_cell.h"
+#include "homogenization/lint/cell_reading.h"
 #include "meshes/files/write_whole.h"
 #include "meshes/plain/errors.h"
-#include "verification/program/commands.h"
 #include "verification/record/child_process.h"
 #include "verification/record/passing_folder.h"
 

@@ -2,6 +2,7 @@
 // homespun check: all findings of the linter, as text, as check.json and as a picture of each cell.
 #include "verification/program/check_command.h"
 
+#include "homogenization/cell/cell_keys.h"
 #include "meshes/files/hdf5_writer.h"
 #include "meshes/files/write_whole.h"
 #include "meshes/plain/errors.h"

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "verification/program/verify_study.h"
 
+#include "homogenization/lint/cell_reading.h"
 #include "meshes/plain/errors.h"
 #include "meshes/plain/sheet.h"
 #include "verification/cell/cell_study.h"

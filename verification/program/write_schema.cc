@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Writes schema.json, the columns of every table, for the report: run by the build.
+#include "verification/budget/budget_tables.h"
 #include "verification/converge/converge_tables.h"
 #include "verification/drape/drape_tables.h"
 #include "verification/extremes/stress_tables.h"

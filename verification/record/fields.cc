@@ -206,13 +206,4 @@ std::vector<std::string> fields_of(const std::string &line)
       fields.back() += line[k];
   return fields;
 }
-
-std::string short_text(const double value)
-{
-  if (!std::isfinite(value))
-    return "not a number";
-  char text[32];
-  std::snprintf(text, sizeof(text), "%.6g", value);
-  return text;
-}
 } // namespace homespun::verification

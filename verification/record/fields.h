@@ -74,7 +74,4 @@ std::string fault_of(const std::string &field, Domain domain);
 
 /// The fields of a line of a CSV file.
 std::vector<std::string> fields_of(const std::string &line);
-
-/// A number for people: six digits; "not a number" where it is none.
-std::string short_text(double value);
 } // namespace homespun::verification

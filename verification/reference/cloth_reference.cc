@@ -3,7 +3,7 @@
 
 #include "meshes/plain/errors.h"
 #include "meshes/plain/refine.h"
-#include "verification/record/fields.h"
+#include "verification/record/number_text.h"
 #include "verification/reference/cloth_reference_faults.h"
 
 #include <deal.II/base/mpi.h>

@@ -14,6 +14,7 @@
 
 #include "homogenization/fem/elastic_solver.h"
 #include "meshes/cloth/cloth_mesh.h"
+#include "verification/reference/cloth_reference_options.h"
 #include "verification/reference/field_integrals.h"
 #include "verification/reference/space_laws.h"
 
@@ -27,15 +28,6 @@
 
 namespace homespun::verification
 {
-struct ClothReferenceOptions
-{
-  Law law              = Law::biot; ///< biot or green
-  unsigned int order   = 1;         ///< P1 or P2
-  unsigned int refine  = 0;         ///< uniform refinements of the rest mesh
-  bool consistent_mass = false;     ///< else lumped: row sums (P1), scaled diagonal of HRZ (P2)
-  double tolerance     = 1e-8;      ///< of |residual| relative to the size of the element forces
-};
-
 struct ClothLoads
 {
   Eigen::RowVector3d gravity = Eigen::RowVector3d::Zero(); ///< [m/s^2]

@@ -2,7 +2,10 @@
 // What a resolved cloth cannot be made of.
 #pragma once
 
-#include "verification/reference/cloth_reference.h"
+#include "meshes/plain/triangle_mesh.h"
+#include "verification/reference/cloth_reference_options.h"
+
+#include <Eigen/Core>
 
 #include <string>
 #include <vector>

@@ -4,7 +4,7 @@
 #include "homogenization/fem/periodic_constraints.h"
 #include "meshes/plain/errors.h"
 #include "meshes/plain/refine.h"
-#include "verification/record/fields.h"
+#include "verification/record/number_text.h"
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/timer.h>

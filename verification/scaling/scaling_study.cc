@@ -2,11 +2,13 @@
 #include "verification/scaling/scaling_study.h"
 
 #include "homogenization/cell/unit_cell.h"
+#include "homogenization/lint/cell_reading.h"
 #include "meshes/files/write_whole.h"
 #include "meshes/plain/errors.h"
 #include "verification/cell/study_inputs.h"
 #include "verification/record/child_process.h"
 #include "verification/record/json_files.h"
+#include "verification/record/number_text.h"
 #include "verification/record/passing_folder.h"
 #include "verification/record/progress.h"
 #include "verification/record/provenance.h"

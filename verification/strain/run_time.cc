@@ -9,6 +9,7 @@
 #include "shell/terms/warping.h"
 #include "verification/method/homogenized_sheet.h"
 #include "verification/method/lightweight_cloth.h"
+#include "verification/record/number_text.h"
 #include "verification/record/on_root.h"
 #include "verification/record/timing.h"
 #include "verification/reference/fine_reference.h"

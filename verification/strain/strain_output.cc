@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "verification/strain/strain_output.h"
 
+#include "verification/budget/budget_tables.h"
 #include "verification/method/lightweight_cloth.h"
+#include "verification/record/number_text.h"
 #include "verification/strain/validity.h"
 
 #include <algorithm>

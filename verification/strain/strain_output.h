@@ -4,8 +4,9 @@
 #pragma once
 
 #include "meshes/plain/sheet.h"
+#include "verification/budget/budget_tables.h"
 #include "verification/reference/laws.h"
-#include "verification/strain/strain_study.h"
+#include "verification/strain/strain_options.h"
 #include "verification/strain/strain_tables.h"
 
 #include <Eigen/Core>

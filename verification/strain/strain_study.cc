@@ -1,15 +1,19 @@
 // SPDX-License-Identifier: MIT
 #include "verification/strain/strain_study.h"
 
+#include "homogenization/lint/cell_reading.h"
 #include "meshes/plain/errors.h"
 #include "verification/budget/budget_study.h"
+#include "verification/budget/budget_tables.h"
 #include "verification/cell/cell_study.h"
 #include "verification/cell/study_inputs.h"
 #include "verification/record/json_files.h"
+#include "verification/record/number_text.h"
 #include "verification/record/on_root.h"
 #include "verification/record/progress.h"
 #include "verification/record/provenance.h"
 #include "verification/reference/fine_reference.h"
+#include "verification/strain/budget_verdicts.h"
 #include "verification/strain/reference_uncertainty.h"
 #include "verification/strain/run_time.h"
 #include "verification/strain/strain_comparison.h"
@@ -393,24 +397,6 @@ private:
   double largest_residual = 0.;
 };
 } // namespace
-
-StrainStudyOptions default_strain_study()
-{
-  StrainStudyOptions options;
-  options.strains    = {0.001, 0.002, 0.005, 0.01, 0.02, 0.05, 0.1, 0.15, 0.2};
-  options.loads      = Load::names();
-  options.references = {"linear", "biot", "green"};
-  options.methods    = Method::names();
-  return options;
-}
-
-void make_quick(StrainStudyOptions &options)
-{
-  options.is_quick             = true;
-  options.n_cells              = 4;
-  options.strains              = {0.001, 0.01, 0.1};
-  options.n_cells_of_error_bar = 2;
-}
 
 std::vector<Verdict> run_strain_study(const StrainStudyOptions &options,
                                       const MPI_Comm communicator)

@@ -3,7 +3,7 @@
 // sentence follows from what ran.
 #pragma once
 
-#include "verification/strain/strain_study.h"
+#include "verification/strain/strain_options.h"
 #include "verification/strain/strain_tables.h"
 
 #include <nlohmann/json.hpp>

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "verification/strain/validity.h"
 
+#include "verification/record/number_text.h"
+
 #include <algorithm>
 #include <cmath>
 #include <cstdio>

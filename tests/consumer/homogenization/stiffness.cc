@@ -2,6 +2,7 @@
 // homespun's homogenization in another program: prints C^H of a cell, row by row [N/m].
 //   stiffness CELL.prm
 #include "homogenization/fem/homogenize.h"
+#include "homogenization/lint/cell_reading.h"
 
 #include <deal.II/base/mpi.h>
 

@@ -4,6 +4,7 @@
 #include "homogenization/bracket/bracket.h"
 #include "homogenization/cell/cell_mesh_file.h"
 #include "homogenization/lint/cell_lint.h"
+#include "homogenization/lint/cell_reading.h"
 #include "homogenization/lint/facets.h"
 #include "tests/homogenization/bracket/bracket_cells.h"
 #include "tests/refusal.h"

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The library of cells: shapes that finite elements like, and stiffnesses with the symmetry of the drawing.
 #include "homogenization/bracket/bracket.h"
+#include "homogenization/lint/cell_reading.h"
 #include "tests/homogenization/cell/cells.h"
 
 #include <Eigen/Geometry>

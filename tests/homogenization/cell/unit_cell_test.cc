@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Every way to hand in a broken cell, and the message that answers it.
 #include "homogenization/cell/unit_cell.h"
+#include "homogenization/lint/cell_reading.h"
 #include "meshes/plain/errors.h"
 #include "tests/meshes/plain/shapes.h"
 

@@ -2,9 +2,11 @@
 // The error budget on sheets whose budget theory knows: an infinite cloth errs by geometric nonlinearity alone, a
 // homogeneous one by its coarse mesh alone; and a method with a planted bug is not explained by parts that are right.
 #include "homogenization/fem/homogenize.h"
+#include "homogenization/lint/cell_reading.h"
 #include "verification/budget/budget_rows.h"
 #include "verification/budget/error_budget.h"
 #include "verification/reference/fine_reference.h"
+#include "verification/strain/budget_verdicts.h"
 #include "verification/strain/strain_verdicts.h"
 
 #include <gtest/gtest.h>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What is held, on the coarse and on the fine cloth of one scene.
 #include "homogenization/cell/unit_cell.h"
+#include "homogenization/lint/cell_reading.h"
 #include "tests/refusal.h"
 #include "verification/drape/draped_cell.h"
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What a sheet fluctuates by, and what the place of the cut decides.
 #include "homogenization/fem/homogenize.h"
+#include "homogenization/lint/cell_reading.h"
 #include "verification/method/anchor_choice.h"
 #include "verification/method/fluctuation.h"
 

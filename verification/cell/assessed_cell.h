@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A homogenized cell with its error bar and its checks, on disk and on the terminal.
+// A homogenized cell with its error bar, its checks and its bracket.
 #pragma once
 
 #include "homogenization/fem/homogenize.h"
@@ -8,6 +8,7 @@
 
 #include <mpi.h>
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -30,6 +31,9 @@ struct AssessedCell
   std::vector<double> peak_memory_of_rank;
 };
 
+/// Whether the bracket is that of a drawing whose phases have curved sides.
+bool is_of_drawing(const AssessedCell &assessed);
+
 /// Homogenizes a cell and judges the result: Hill-Mandel gap, Voigt and Reuss as matrix
 /// inequalities.
 /// @param max_dofs_of_estimate a finer solve for the error bar is made up to this size
@@ -42,13 +46,4 @@ AssessedCell assess(const homogenization::UnitCell &cell,
 /// @param report is told of each step, one line
 void add_bracket(const homogenization::UnitCell &cell, const BracketOptions &options,
                  const std::function<void(const std::string &)> &report, AssessedCell &assessed);
-
-/// Writes homogenize.json, cell.h5, cell.json and characteristic-displacements.vtu into a folder.
-/// To be called on one rank.
-void write_cell_results(const homogenization::UnitCell &cell, const AssessedCell &assessed,
-                        unsigned int n_ranks, const std::string &folder);
-
-/// C^H and its engineering moduli as a table, with as many digits as the bracket justifies, or without one
-/// the error bar.
-std::string summary(const homogenization::UnitCell &cell, const AssessedCell &assessed);
 } // namespace homespun::verification

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// As many digits as an error bar justifies.
+// Numbers for people: six digits, or as many as an error bar justifies.
 #pragma once
 
 #include <algorithm>
@@ -9,6 +9,16 @@
 
 namespace homespun::verification
 {
+/// Six digits; "not a number" where it is none.
+inline std::string short_text(const double value)
+{
+  if (!std::isfinite(value))
+    return "not a number";
+  char text[32];
+  std::snprintf(text, sizeof(text), "%.6g", value);
+  return text;
+}
+
 /// "2.12 +- 0.02": the value rounded to the place of the bar's first digit, and the bar with what that rounding did
 /// to the value added, rounded up to one digit: what is printed never claims more than what is known.
 /// @param bar on the value, in its unit; not negative

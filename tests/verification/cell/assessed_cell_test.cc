@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
 // Printed digits, and the checks of brackets.
-#include "verification/cell/cell_output.h"
+#include "verification/cell/assessed_cell.h"
+#include "verification/cell/cell_summary.h"
 #include "verification/cell/energy_order.h"
 #include "verification/extremes/stress_cells.h"
-#include "verification/record/printed_digits.h"
+#include "verification/record/number_text.h"
 
 #include <gtest/gtest.h>
 

@@ -2,7 +2,9 @@
 // The arithmetic of the error budget, run times and the range of validity on synthetic data: what is planted
 // must be found, and what is right must pass.
 #include "verification/budget/budget_rows.h"
+#include "verification/budget/budget_tables.h"
 #include "verification/record/timing.h"
+#include "verification/strain/budget_verdicts.h"
 #include "verification/strain/run_time.h"
 #include "verification/strain/validity.h"
 

@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: MIT
+#include "verification/cell/assessed_cell.h"
+
+#include "verification/cell/algebraic_limit.h"
+#include "verification/cell/energy_order.h"
+
+#include <Eigen/LU>
+
+#include <array>
+#include <limits>
+#include <sstream>
+
+namespace homespun::verification
+{
+using homogenization::Homogenization;
+using homogenization::UnitCell;
+
+namespace
+{
+Verdict at_most(const std::string &claim, const double value, const double limit,
+                const std::string &derivation, const Kind kind = Kind::program)
+{
+  std::ostringstream text;
+  text << "<= " << limit;
+  return {claim, value <= limit ? Outcome::pass : Outcome::fail, value, text.str(), derivation,
+          kind};
+}
+
+/// What a bound on an energy of C^H may miss by, relative: round-off at this size and contrast, the sums over all
+/// triangles, and lattice images that lie apart.
+double limit_of_bounds(const UnitCell &cell, const Homogenization &result)
+{
+  const auto n_triangles = static_cast<double>(result.n_dofs); // with P1; fewer with P2
+  return algebraic_limit(cell, std::sqrt(0.5 * n_triangles)) +
+         n_triangles * std::numeric_limits<double>::epsilon() +
+         4. * result.audit.largest_gap / std::sqrt(cell.lattice.area());
+}
+
+const std::string source_of_bounds =
+  "theory: 0; beside it round-off at this size and contrast, of the sums over all triangles, and the share of the area "
+  "between lattice images that lie apart, four sides of the largest gap";
+
+std::vector<Verdict> checks_of(const UnitCell &cell, const Homogenization &result)
+{
+  // cwiseAbs().maxCoeff() may pass over what is not a number.
+  double size = 0., gap = 0.;
+  for (int k = 0; k < 9; ++k)
+  {
+    size = larger(size, std::abs(result.stiffness(k)));
+    gap  = larger(gap, std::abs(result.stiffness(k) - result.stiffness_by_flux(k)));
+  }
+  // The solver leaves 1e-9 of the displacements in the energy norm of the soft phases, as its preconditioner measures
+  // them; that norm may be the root of the condition too small, and conjugate gradients that fall by 1e-11 in up to
+  // 130 iterations show a root of at most ten. In the mean stress it counts with the stiffness of the stiff phases:
+  // by Cauchy and Schwarz with the root of Voigt's energy.
+  const double leverage =
+    std::sqrt(result.voigt.diagonal().maxCoeff() / result.stiffness.diagonal().maxCoeff());
+  const double limit = limit_of_bounds(cell, result);
+  return {
+    at_most(
+      "Hill-Mandel: energy form and mean stress of C^H agree (relative gap)", gap / size,
+      1e-8 * std::max(1., leverage),
+      "the solver leaves 1e-9 of the displacements by its preconditioner, whose root of the condition is at "
+      "most ten; in the mean stress this counts with the root of Voigt's energy over that of C^H"),
+    at_most("C^H <= Voigt bound (relative violation)",
+            order_violation(result.stiffness, result.voigt), limit, source_of_bounds),
+    at_most("C^H >= Reuss bound (relative violation)",
+            order_violation(result.reuss, result.stiffness), limit, source_of_bounds)};
+}
+
+/// C of displacements that are linear in each triangle of the given mesh, 1/|Y| integral (e − eps(chi)):c:(e − eps(chi)).
+Eigen::Matrix3d energies_of(const meshes::CharacteristicDisplacements &chi, const UnitCell &cell)
+{
+  const std::vector<Eigen::Matrix3d> c = cell.stiffness_of_phase();
+  Eigen::Matrix3d energy               = Eigen::Matrix3d::Zero();
+  for (int t = 0; t < cell.mesh.n_triangles(); ++t)
+  {
+    const Eigen::RowVector3i corners = cell.mesh.triangles.row(t);
+    const Eigen::RowVector2d first   = cell.mesh.vertices.row(corners(0));
+    Eigen::Matrix2d sides;
+    Eigen::Matrix<double, 2, 6> change;
+    for (int k = 0; k < 2; ++k)
+    {
+      sides.row(k)  = cell.mesh.vertices.row(corners(k + 1)) - first;
+      change.row(k) = chi.row(corners(k + 1)) - chi.row(corners(0));
+    }
+    const Eigen::Matrix<double, 2, 6> gradient =
+      sides.inverse() * change; // row d: derivative by x_d
+    Eigen::Matrix3d strain = Eigen::Matrix3d::Identity();
+    for (int load = 0; load < 3; ++load)
+      strain.col(load) -= Eigen::Vector3d(gradient(0, 2 * load), gradient(1, 2 * load + 1),
+                                          gradient(1, 2 * load) + gradient(0, 2 * load + 1));
+    energy += 0.5 * std::abs(sides.determinant()) * strain.transpose() *
+              c[static_cast<std::size_t>(cell.mesh.material(t))] * strain;
+  }
+  return energy / cell.lattice.area();
+}
+
+/// What chi must be that was taken from the last mesh of an adaptive bracket and is handed on at the vertices of the
+/// given one.
+std::vector<Verdict> checks_of_sampled_chi(const UnitCell &cell, const Homogenization &result,
+                                           const homogenization::Bracket &bracket)
+{
+  const meshes::ImageClasses classes = meshes::match_images(cell.mesh.vertices, cell.lattice);
+  double size = 0., fault = 0.;
+  for (int v = 0; v < cell.mesh.n_vertices(); ++v)
+    for (int k = 0; k < 6; ++k)
+    {
+      const double value = result.chi(v, k);
+      size               = larger(size, std::abs(value));
+      fault =
+        larger(fault, std::abs(value -
+                               result.chi(classes.representative[static_cast<std::size_t>(v)], k)));
+      if (v == result.anchor)
+        fault = larger(fault, std::abs(value));
+    }
+  const Eigen::Matrix3d energies = energies_of(result.chi, cell);
+  const double limit             = limit_of_bounds(cell, result);
+  return {
+    at_most(
+      "chi of the last mesh is zero at the anchor and the same at lattice images (relative to the "
+      "largest)",
+      size > 0. ? fault / size : fault, 1e-12,
+      "by definition 0; values are copied, and the anchor's is subtracted, with a rounding of 2e-16 of the coordinates' "
+      "size each"),
+    at_most(
+      "chi of the last mesh is admissible on the given one: its energies lie above C_lower (relative "
+      "violation)",
+      order_violation(bracket.lower, energies), limit, source_of_bounds),
+    // No theorem: on a mesh that is much too coarse for them exact displacements may cost more than none.
+    at_most(
+      "chi of the last mesh is better on the given one than no displacements: its energies lie below Voigt's "
+      "(relative violation)",
+      order_violation(energies, result.voigt), limit,
+      "what better means, and round-off; where it fails the given mesh is too coarse for --tolerance",
+      Kind::input)};
+}
+} // namespace
+
+bool is_of_drawing(const AssessedCell &assessed)
+{
+  return assessed.bracket && assessed.bracket->bracket && assessed.bracket->bracket->is_of_drawing;
+}
+
+AssessedCell assess(const UnitCell &cell, const homogenization::HomogenizationOptions &options,
+                    const unsigned long max_dofs_of_estimate, const MPI_Comm communicator)
+{
+  AssessedCell assessed;
+  assessed.result  = homogenization::homogenize(cell, options, communicator);
+  assessed.options = options;
+  homogenization::HomogenizationOptions finer = options;
+  finer.order                                 = 2;
+  finer.checkpoint.clear();
+  finer.pieces.clear();
+  ++finer.refine;
+  const unsigned long growth = options.order == 1 ? 16 : 4;
+  if (growth * assessed.result.n_dofs <= max_dofs_of_estimate)
+    assessed.uncertainty =
+      (homogenization::homogenize(cell, finer, communicator).stiffness - assessed.result.stiffness)
+        .cwiseAbs();
+  assessed.checks = checks_of(cell, assessed.result);
+  return assessed;
+}
+
+void add_bracket(const UnitCell &cell, const BracketOptions &options,
+                 const std::function<void(const std::string &)> &report, AssessedCell &assessed)
+{
+  assessed.bracket = bracket_of(cell, options, report);
+  // Against C^H of the given mesh, before it is replaced.
+  const std::vector<Verdict> of_bracket =
+    checks_of(*assessed.bracket, options, assessed.result.stiffness,
+              algebraic_limit(cell, std::sqrt(0.5 * cell.mesh.n_triangles())));
+  assessed.checks.insert(assessed.checks.end(), of_bracket.begin(), of_bracket.end());
+  // C and chi stay those of the straight triangles where the bracket is that of a drawing.
+  if (!options.tolerance || !assessed.bracket->bracket || is_of_drawing(assessed))
+    return;
+  const homogenization::Bracket &found = *assessed.bracket->bracket;
+  assessed.result.stiffness            = found.stiffness;
+  assessed.result.stiffness_by_flux    = found.stiffness_by_flux;
+  assessed.result.chi                  = found.chi.topRows(cell.mesh.n_vertices());
+  assessed.result.n_dofs               = found.n_displacement_dofs;
+  assessed.result.iterations.fill(found.iterations);
+  assessed.result.seconds       = {}; // those were of the given mesh
+  assessed.result.seconds.solve = assessed.bracket->history.back().seconds;
+  assessed.uncertainty.reset();
+  assessed.checks = checks_of(cell, assessed.result);
+  for (const std::vector<Verdict> &some :
+       {of_bracket, checks_of_sampled_chi(cell, assessed.result, found)})
+    assessed.checks.insert(assessed.checks.end(), some.begin(), some.end());
+}
+} // namespace homespun::verification

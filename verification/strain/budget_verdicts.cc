@@ -1,0 +1,220 @@
+// SPDX-License-Identifier: MIT
+#include "verification/strain/budget_verdicts.h"
+
+#include "verification/record/number_text.h"
+#include "verification/reference/loads.h"
+#include "verification/strain/strain_verdicts.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+
+namespace homespun::verification
+{
+namespace
+{
+/// A level of a budget, without a part.
+BudgetRow level_of(const StrainRow &row)
+{
+  return {row.cell, row.load, row.strain, row.reference};
+}
+
+/// Mean of a part over the whole sheet, per cell side; NaN where the row is not there.
+double mean_of(const std::vector<BudgetRow> &rows, const BudgetRow &level, const std::string &part)
+{
+  for (const BudgetRow &row : rows)
+    if (row.cell == level.cell && row.load == level.load && row.strain == level.strain &&
+        row.reference == level.reference && row.part == part && row.region == "all")
+      return row.per_cell;
+  return std::numeric_limits<double>::quiet_NaN();
+}
+
+std::string title_of(const BudgetRow &level)
+{
+  return level.cell + ", " + level.load + " at " + short_text(100. * level.strain) + " %: ";
+}
+
+bool is_zero(const double error, const double strain)
+{
+  return error < solved_to * strain;
+}
+
+void judge_level(const std::vector<BudgetRow> &rows, const BudgetRow &level,
+                 std::vector<Verdict> &verdicts)
+{
+  const std::string what = title_of(level);
+  const double total = mean_of(rows, level, "total"), sum = mean_of(rows, level, "sum");
+  if (is_zero(total, level.strain))
+  {
+    verdicts.push_back({what + "the error is zero to what the solvers leave, and so is the sum of "
+                               "its parts (per strain and cell side)",
+                        is_zero(sum, level.strain) ? Outcome::pass : Outcome::fail,
+                        sum / level.strain, "< " + short_text(solved_to), derivation_of_solved_to,
+                        Kind::program});
+    return;
+  }
+  const auto outcome_of = [](const double value, const bool holds) {
+    return !std::isfinite(value) ? Outcome::inconclusive : holds ? Outcome::pass : Outcome::fail;
+  };
+  const double effectivity = sum / total;
+  verdicts.push_back({what + "the parts of the error add up (|sum of the parts| / |measured|)",
+                      outcome_of(effectivity, effectivity >= 0.8 && effectivity <= 1.25),
+                      effectivity, "0.8 to 1.25",
+                      "acceptance limit set before any budget was measured: the parts explain four "
+                      "fifths of the error and claim no more than five fourths",
+                      Kind::program});
+  const double solver = mean_of(rows, level, "solver") / total;
+  verdicts.push_back({what + "what the solvers leave undone, over the measured error",
+                      outcome_of(solver, solver <= 0.01), solver, "<= 0.01",
+                      "acceptance limit set before any budget was measured: algebraic errors are a "
+                      "hundred times below what is measured",
+                      Kind::program});
+}
+
+/// Levels up to 2 %: beyond, the third order shows.
+bool is_small(const double strain)
+{
+  return strain <= 0.0201;
+}
+
+void judge_slope(const std::vector<BudgetRow> &rows, const BudgetRow &of_case,
+                 const std::vector<double> &asked, std::vector<Verdict> &verdicts)
+{
+  const auto in_window = [](const double strain) { return strain >= 0.99e-4 && is_small(strain); };
+  std::vector<double> strains = asked, x, y, small_x, small_y;
+  std::sort(strains.begin(), strains.end());
+  if (std::count_if(strains.begin(), strains.end(), in_window) < 3)
+    return; // the study was not asked for what would decide it
+  std::size_t n_round_off = 0;
+  for (const double strain : strains)
+  {
+    BudgetRow level   = of_case;
+    level.strain      = strain;
+    const double mean = mean_of(rows, level, "nonlinearity");
+    if (!is_small(strain) || !std::isfinite(mean))
+      continue;
+    if (mean > 10. * solved_to * strain)
+    {
+      small_x.push_back(strain);
+      small_y.push_back(mean);
+    }
+    if (!in_window(strain))
+      continue;
+    n_round_off += is_zero(mean, strain);
+    x.push_back(strain);
+    y.push_back(mean);
+  }
+  const bool is_all_zero = !x.empty() && n_round_off == x.size();
+  const bool is_decided  = is_all_zero || (x.size() >= 3 && n_round_off == 0);
+  const double slope =
+    is_decided && !is_all_zero ? log_slope(x, y) : std::numeric_limits<double>::quiet_NaN();
+  const std::string what = of_case.cell + ", " + of_case.load +
+                           ": geometric nonlinearity, measured apart, grows as strain squared";
+  // 2 % is not small for a weave, and symmetry may leave no quadratic term.
+  if (std::abs(slope - 2.) > 0.1 && small_x.size() >= 3)
+  {
+    verdicts.push_back(verdict_of_smallest(what + " or faster (slope at the three smallest levels)",
+                                           small_x, small_y));
+    return;
+  }
+  verdicts.push_back({what + " up to 2 % (slope" +
+                        (is_all_zero ? "; zero to what the solvers leave at every level)" : ")"),
+                      !is_decided                                  ? Outcome::inconclusive
+                      : is_all_zero || std::abs(slope - 2.) <= 0.1 ? Outcome::pass
+                                                                   : Outcome::fail,
+                      is_all_zero ? 0. : slope, "2 +- 0.1 over at least three levels, or zero",
+                      derivation_of_slope_two, Kind::program});
+}
+
+/// The case of each cell and load, against biot or the last reference of the study; its strains, ascending.
+std::vector<std::pair<BudgetRow, std::vector<double>>>
+cases_of(const std::vector<StrainRow> &strain_rows)
+{
+  std::string reference;
+  for (const StrainRow &row : strain_rows)
+    if (row.reference == "biot" || reference.empty())
+      reference = row.reference;
+  std::vector<std::pair<BudgetRow, std::vector<double>>> cases;
+  for (const StrainRow &row : strain_rows)
+    if (row.reference == reference)
+    {
+      auto known = std::find_if(
+        cases.begin(), cases.end(),
+        [&](const auto &one) { return one.first.cell == row.cell && one.first.load == row.load; });
+      if (known == cases.end())
+        known = cases.insert(cases.end(), {level_of(row), {}});
+      known->second.push_back(row.strain);
+    }
+  for (auto &[level, strains] : cases)
+  {
+    std::sort(strains.begin(), strains.end());
+    strains.erase(std::unique(strains.begin(), strains.end()), strains.end());
+  }
+  return cases;
+}
+
+/// Calls `judge` with the levels nearest to 1 % and 10 %, where there are such.
+template <typename Judge>
+void at_judged_levels(const std::vector<StrainRow> &strain_rows, const Judge &judge)
+{
+  for (const auto &[of_case, strains] : cases_of(strain_rows))
+    for (const double wanted : {0.01, 0.1})
+    {
+      const auto distance = [&](const double strain)
+      { return std::abs(std::log(strain / wanted)); };
+      const double nearest = *std::min_element(strains.begin(), strains.end(),
+                                               [&](const double a, const double b)
+                                               { return distance(a) < distance(b); });
+      BudgetRow level      = of_case;
+      level.strain         = nearest;
+      if (distance(nearest) < std::log(1.5))
+        judge(level);
+    }
+}
+} // namespace
+
+std::vector<Verdict> budget_verdicts(const std::vector<StrainRow> &strain_rows,
+                                     const std::vector<BudgetRow> &budget_rows,
+                                     const std::vector<double> &strains)
+{
+  std::vector<Verdict> verdicts;
+  at_judged_levels(strain_rows,
+                   [&](const BudgetRow &level) { judge_level(budget_rows, level, verdicts); });
+  for (const auto &[of_case, its_strains] : cases_of(strain_rows))
+    judge_slope(budget_rows, of_case, strains, verdicts);
+  return verdicts;
+}
+
+std::vector<std::string> budget_notes(const std::vector<StrainRow> &strain_rows,
+                                      const std::vector<BudgetRow> &budget_rows)
+{
+  std::vector<std::string> notes;
+  at_judged_levels(
+    strain_rows,
+    [&](const BudgetRow &level)
+    {
+      const double total  = mean_of(budget_rows, level, "total");
+      const double misfit = mean_of(budget_rows, level, "misfit") / total,
+                   change = mean_of(budget_rows, level, "resolution") / total;
+      if (is_zero(total, level.strain) || !std::isfinite(misfit))
+        return;
+      char text[160];
+      std::snprintf(text, sizeof(text),
+                    "vertex by vertex the sum of the parts misses %.2g %% of the measured error",
+                    100. * misfit);
+      std::string note = title_of(level) + text;
+      if (!Load(level.load).is_periodic()) // whose affine motion is exact on any mesh
+      {
+        std::snprintf(
+          text, sizeof(text),
+          "; the homogenized sheet that counts as resolved changes by %.2g %% of it from "
+          "a mesh half as fine",
+          100. * change);
+        note += text;
+      }
+      notes.push_back(note);
+    });
+  return notes;
+}
+} // namespace homespun::verification

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: MIT
+#include "verification/strain/strain_options.h"
+
+#include "verification/method/lightweight_cloth.h"
+#include "verification/reference/loads.h"
+
+namespace homespun::verification
+{
+StrainStudyOptions default_strain_study()
+{
+  StrainStudyOptions options;
+  options.strains    = {0.001, 0.002, 0.005, 0.01, 0.02, 0.05, 0.1, 0.15, 0.2};
+  options.loads      = Load::names();
+  options.references = {"linear", "biot", "green"};
+  options.methods    = Method::names();
+  return options;
+}
+
+void make_quick(StrainStudyOptions &options)
+{
+  options.is_quick             = true;
+  options.n_cells              = 4;
+  options.strains              = {0.001, 0.01, 0.1};
+  options.n_cells_of_error_bar = 2;
+}
+} // namespace homespun::verification
