@@ -288,8 +288,7 @@ fine_position(const CoarseFrames<dim> &frames, const int triangle, const Eigen::
   return position;
 }
 
-meshes::CharacteristicDisplacements anchored(const meshes::HomogenizedCell &cell,
-                                             const Anchor anchor)
+meshes::Chi anchored(const meshes::HomogenizedCell &cell, const Anchor anchor)
 {
   if (cell.chi.rows() != cell.mesh.n_vertices())
     throw meshes::BadInput("cell: has " + std::to_string(cell.chi.rows()) +

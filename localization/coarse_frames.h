@@ -92,5 +92,5 @@ fine_position(const CoarseFrames<dim> &frames, int triangle, const Eigen::Vector
 /// Characteristic displacements with the chosen constant.
 /// @return (n,6) [m]: minus their values at the anchor, or minus their mean over the cell
 /// @throws BadInput where shapes do not match or a value is not finite
-meshes::CharacteristicDisplacements anchored(const meshes::HomogenizedCell &cell, Anchor anchor);
+meshes::Chi anchored(const meshes::HomogenizedCell &cell, Anchor anchor);
 } // namespace homespun::localization

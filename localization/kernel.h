@@ -29,7 +29,7 @@ struct alignas(64) Weights
 
 /// −chi of a block of fine vertices, column 2 a + c [m].
 template <typename Scalar>
-struct alignas(64) Modes
+struct alignas(64) ChiBlock
 {
   Scalar column[6][lanes];
 };
@@ -49,7 +49,7 @@ struct alignas(64) Corners
 template <int dim, int terms, typename Scalar>
 [[gnu::noinline]] void
 fine_positions(const Corners<Scalar> &corners, const Weights<Scalar> *__restrict weights,
-               const Modes<Scalar> *__restrict modes, const int n_blocks, Scalar *__restrict out)
+               const ChiBlock<Scalar> *__restrict chi, const int n_blocks, Scalar *__restrict out)
 {
   constexpr bool is_blended =
     terms == blended || terms == blended_plane || terms == blended_rotation;
@@ -72,10 +72,10 @@ fine_positions(const Corners<Scalar> &corners, const Weights<Scalar> *__restrict
         x[i] = linear(i);
       if constexpr (terms != affine)
       {
-        const auto &mode = modes[block].column;
+        const auto &columns = chi[block].column;
         const Scalar e0 = frame(0), e1 = frame(1), e2 = frame(2);
-        const Scalar w0 = e0 * mode[0][n] + e1 * mode[2][n] + e2 * mode[4][n],
-                     w1 = e0 * mode[1][n] + e1 * mode[3][n] + e2 * mode[5][n];
+        const Scalar w0 = e0 * columns[0][n] + e1 * columns[2][n] + e2 * columns[4][n],
+                     w1 = e0 * columns[1][n] + e1 * columns[3][n] + e2 * columns[5][n];
         if constexpr (is_in_plane)
         {
           x[0] += w0;

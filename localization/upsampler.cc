@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "localization/upsampler.h"
 
-#include "localization/garment_modes.h"
+#include "localization/garment_chi.h"
 #include "localization/upsampler_faults.h"
 #include "meshes/cloth/seams.h"
 #include "meshes/plain/errors.h"
@@ -41,13 +41,11 @@ Upsampler<dim, Scalar>::Upsampler(const meshes::HomogenizedCell &cell,
 {
   if (const auto faults = sheet_faults(cell, fine); !faults.empty())
     throw meshes::BadInput(faults);
-  const meshes::CharacteristicDisplacements chi =
-    options.microscopic
-      ? anchored(cell, options.anchor)
-      : meshes::CharacteristicDisplacements::Zero(cell.mesh.n_vertices(), 6).eval();
-  n_total = fine.mesh.n_vertices();
-  n_space = coarse_rest.n_vertices();
-  aligned = options.path == Path::automatic && is_lattice_of(fine, coarse_rest);
+  const meshes::Chi chi = options.microscopic ? anchored(cell, options.anchor)
+                                              : meshes::Chi::Zero(cell.mesh.n_vertices(), 6).eval();
+  n_total               = fine.mesh.n_vertices();
+  n_space               = coarse_rest.n_vertices();
+  aligned               = options.path == Path::automatic && is_lattice_of(fine, coarse_rest);
   if (aligned)
   {
     n_cells = fine.n1 * fine.n2;
@@ -79,10 +77,8 @@ Upsampler<dim, Scalar>::Upsampler(const meshes::HomogenizedCell &cell,
 {
   if (const auto faults = garment_faults(cell, coarse, fine, options); !faults.empty())
     throw meshes::BadInput(faults);
-  const meshes::CharacteristicDisplacements chi =
-    options.microscopic
-      ? anchored(cell, options.anchor)
-      : meshes::CharacteristicDisplacements::Zero(cell.mesh.n_vertices(), 6).eval();
+  const meshes::Chi chi       = options.microscopic ? anchored(cell, options.anchor)
+                                                    : meshes::Chi::Zero(cell.mesh.n_vertices(), 6).eval();
   n_total                     = fine.n_vertices();
   n_space                     = coarse.n_vertices();
   const Eigen::VectorXi space = meshes::space_of_rest(coarse);
@@ -92,14 +88,14 @@ Upsampler<dim, Scalar>::Upsampler(const meshes::HomogenizedCell &cell,
   for (int v = 0; v < n_total; ++v)
     in_triangle[static_cast<std::size_t>(fine.coarse_triangle(v))].push_back(
       {v, fine.coarse_weights.row(v).transpose()});
-  tabulate(in_triangle, GarmentModes(cell, chi, fine, fade));
+  tabulate(in_triangle, GarmentChi(cell, chi, fine, fade));
   at_rest_vertices.resize(coarse.rest.n_vertices(), dim);
   records.resize(static_cast<std::size_t>(coarse.rest.n_vertices()) * record_size);
 }
 
 template <int dim, typename Scalar>
-void Upsampler<dim, Scalar>::place(const meshes::CharacteristicDisplacements &chi,
-                                   const meshes::Sheet &fine, const int from)
+void Upsampler<dim, Scalar>::place(const meshes::Chi &chi, const meshes::Sheet &fine,
+                                   const int from)
 {
   const meshes::PointLocation location(frames.rest());
   // Points on a coarse edge belong to the triangle at their upper right and below the diagonal, as in
@@ -129,9 +125,9 @@ void Upsampler<dim, Scalar>::place(const meshes::CharacteristicDisplacements &ch
 }
 
 template <int dim, typename Scalar>
-template <typename ModesOf>
+template <typename ChiAt>
 void Upsampler<dim, Scalar>::tabulate(const std::vector<std::vector<Member>> &in_triangle,
-                                      const ModesOf &modes_of)
+                                      const ChiAt &chi_at)
 {
   for (std::size_t t = 0; t < in_triangle.size(); ++t)
   {
@@ -140,7 +136,7 @@ void Upsampler<dim, Scalar>::tabulate(const std::vector<std::vector<Member>> &in
     groups.push_back({static_cast<int>(t), own.size, static_cast<int>(in_triangle[t].size())});
     for (const Member &member : in_triangle[t])
     {
-      own.append(member.weights, modes_of(member.vertex));
+      own.append(member.weights, chi_at(member.vertex));
       target.push_back(member.vertex);
     }
     own.pad();
@@ -148,7 +144,7 @@ void Upsampler<dim, Scalar>::tabulate(const std::vector<std::vector<Member>> &in
   }
   if (!options.microscopic)
     for (VertexTable<Scalar> *table : {&shared, &own})
-      table->modes = std::vector<Modes<Scalar>>();
+      table->chi_blocks = std::vector<ChiBlock<Scalar>>();
 }
 
 template <int dim, typename Scalar>
@@ -174,8 +170,8 @@ std::size_t Upsampler<dim, Scalar>::table_bytes() const
 {
   std::size_t bytes = sizeof(int) * target.size();
   for (const VertexTable<Scalar> *table : {&shared, &own})
-    bytes +=
-      sizeof(Weights<Scalar>) * table->weights.size() + sizeof(Modes<Scalar>) * table->modes.size();
+    bytes += sizeof(Weights<Scalar>) * table->weights.size() +
+             sizeof(ChiBlock<Scalar>) * table->chi_blocks.size();
   return bytes;
 }
 
@@ -228,7 +224,7 @@ void Upsampler<dim, Scalar>::evaluate(const VertexTable<Scalar> &table, const in
       corners.at0[dim + c] = static_cast<Scalar>(frames.last_values()(triangle, c));
   const int block = begin / lanes;
   fine_positions<dim, terms, Scalar>(corners, table.weights.data() + block,
-                                     terms == affine ? nullptr : table.modes.data() + block,
+                                     terms == affine ? nullptr : table.chi_blocks.data() + block,
                                      (count + lanes - 1) / lanes, out);
 }
 

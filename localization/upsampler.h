@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Fine positions from coarse positions (paper Section 2.3, Eqs. 9-12, repaired as in METHOD 3): what
 // runs every frame. Everything that does not change with the motion is done in the constructor:
-// location of the fine vertices, barycentric coordinates, anchored modes; after that a frame is
+// location of the fine vertices, barycentric coordinates, anchored chi; after that a frame is
 // linear in (coarse data) x (constants per vertex), about 36 multiply-adds per vertex in space and
 // 28 in the plane, without branches.
 //
@@ -12,7 +12,7 @@
 //   8 numbers and an index per vertex.
 // A garment (meshes::FineCloth) takes the general path: vertices in space are gathered to the rest vertices
 //   of the panels, so that each panel has strains in its own rest frame and averages over its own triangles
-//   only. The modes turn with the grain of the panel, and fade to zero at its seams (not at free edges): there
+//   only. chi turns with the grain of the panel, and fades to zero at its seams (not at free edges): there
 //   both sides lie on the same coarse edge, and the seam stays closed.
 // Terms that the options leave out have loops of their own without them.
 #pragma once
@@ -42,7 +42,7 @@ public:
   using Fine = Eigen::Matrix<Scalar, Eigen::Dynamic, dim, Eigen::RowMajor>;
 
   /// Places the fine vertices on the coarse mesh.
-  /// @param cell homogenized cell whose modes are superposed; its stiffness is not used
+  /// @param cell homogenized cell whose chi is superposed; its stiffness is not used
   /// @param coarse_rest coarse mesh at rest, in the plane of the sheet
   /// @param fine resolved sheet of that cell
   /// @throws BadInput where the coarse mesh is not sound or does not hold a fine vertex (which is named),
@@ -91,9 +91,9 @@ private:
     Eigen::Vector3d weights;
   };
 
-  void place(const meshes::CharacteristicDisplacements &chi, const meshes::Sheet &fine, int from);
-  template <typename ModesOf>
-  void tabulate(const std::vector<std::vector<Member>> &in_triangle, const ModesOf &modes_of);
+  void place(const meshes::Chi &chi, const meshes::Sheet &fine, int from);
+  template <typename ChiAt>
+  void tabulate(const std::vector<std::vector<Member>> &in_triangle, const ChiAt &chi_at);
   const Positions<dim> &gathered(const Positions<dim> &coarse_current) const;
   void fill_records(const Positions<dim> &coarse_current) const;
   template <int terms>

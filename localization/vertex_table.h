@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What up-sampling keeps of each fine vertex: where it lies in its coarse triangle, and its modes. Private to
+// What up-sampling keeps of each fine vertex: where it lies in its coarse triangle, and its chi_blocks. Private to
 // upsampler.
 #pragma once
 
@@ -16,7 +16,7 @@ template <typename Scalar>
 struct VertexTable
 {
   std::vector<Weights<Scalar>> weights;
-  std::vector<Modes<Scalar>> modes;
+  std::vector<ChiBlock<Scalar>> chi_blocks;
   int size = 0; ///< rows, padding included
 
   /// @param barycentric coordinates in the coarse triangle
@@ -26,13 +26,13 @@ struct VertexTable
     if (size % lanes == 0)
     {
       weights.push_back({});
-      modes.push_back({});
+      chi_blocks.push_back({});
     }
     const int lane               = size++ % lanes;
     weights.back().corner1[lane] = static_cast<Scalar>(barycentric(1));
     weights.back().corner2[lane] = static_cast<Scalar>(barycentric(2));
     for (int k = 0; k < 6; ++k)
-      modes.back().column[k][lane] = static_cast<Scalar>(-chi(k));
+      chi_blocks.back().column[k][lane] = static_cast<Scalar>(-chi(k));
   }
 
   /// Ends a group.

@@ -79,7 +79,7 @@ void AiryUnknowns::find_holes()
     rim_of_edge[at(triangle.edges[at(k)])] = {hole, 0.5 * (ends[0] + ends[1])};
     for (int end = 0; end < 2; ++end)
     {
-      Rim &rim = rim_of_vertex[at(triangle.vertices[at((k + end) % 3)])];
+      RimPoint &rim = rim_of_vertex[at(triangle.vertices[at((k + end) % 3)])];
       if (rim.hole >= 0 && (rim.position - ends[end]).norm() > tolerance)
         throw meshes::BadInput(
           "a hole of the cell meets an image of itself or of another hole at the outline; expected "
@@ -106,7 +106,7 @@ void AiryUnknowns::number_unknowns()
       continue;
     first_unknown[at(v)] = n;
     n += 3;
-    const Home &home = mesh.homes[at(v)];
+    const VertexOrigin &home = mesh.origins[at(v)];
     if (rim_of_vertex[at(home.vertex)].hole < 0 &&
         home.offset.norm() < closeness * mesh.reach[at(home.vertex)])
       centre_of[at(v)] = home.vertex;
@@ -125,7 +125,8 @@ void AiryUnknowns::number_unknowns()
   number = n;
 }
 
-AiryDof AiryUnknowns::on_rim(const Rim &rim, const Eigen::RowVector3d &of_value_and_gradient) const
+AiryDof AiryUnknowns::on_rim(const RimPoint &rim,
+                             const Eigen::RowVector3d &of_value_and_gradient) const
 {
   // phi = A + B.x − q(x), of which the row takes a combination of value and gradient.
   const int first         = first_unknown_of_hole[at(rim.hole)];

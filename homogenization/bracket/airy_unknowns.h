@@ -41,7 +41,7 @@ public:
 
 private:
   /// phi on the rim of a hole: value, d/dx, d/dy at a point.
-  struct Rim
+  struct RimPoint
   {
     int hole = -1;
     Eigen::Vector2d position; ///< from the first vertex of the hole's rim [m]
@@ -49,13 +49,13 @@ private:
 
   void find_holes();
   void number_unknowns();
-  AiryDof on_rim(const Rim &rim, const Eigen::RowVector3d &of_value_and_gradient) const;
+  AiryDof on_rim(const RimPoint &rim, const Eigen::RowVector3d &of_value_and_gradient) const;
 
   const TorusMesh &mesh;
   std::vector<int> first_unknown;   ///< of each vertex: value, d/dx, d/dy; -1 on rims
   std::vector<int> unknown_of_edge; ///< -1 on rims
   std::vector<int> centre_of;       ///< see number_unknowns(); -1 for most vertices
-  std::vector<Rim> rim_of_vertex, rim_of_edge;
+  std::vector<RimPoint> rim_of_vertex, rim_of_edge;
   std::vector<int> first_unknown_of_hole;
 };
 } // namespace homespun::homogenization

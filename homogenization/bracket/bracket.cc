@@ -144,18 +144,18 @@ AdaptiveBracket adaptive_bracket(const TorusMesh &mesh,
 {
   // Squares of edges are far above the smallest numbers.
   constexpr double finest = 1e-100;
-  AdaptiveBracket result{{}, mesh, Ending::tolerance};
+  AdaptiveBracket result{{}, mesh, AdaptiveEnd::tolerance};
   while (true)
   {
     result.bracket = bracket(result.mesh, stiffness_of_material, options.order);
     observe(result.bracket);
-    result.ending = Ending::tolerance;
+    result.ending = AdaptiveEnd::tolerance;
     if (result.bracket.width <= options.tolerance)
       return result;
-    result.ending = result.bracket.width <= 2. * result.bracket.round_off ? Ending::round_off
-                    : relative_resolution(result.mesh) < finest           ? Ending::resolution
-                                                                          : Ending::max_dofs;
-    if (result.ending != Ending::max_dofs)
+    result.ending = result.bracket.width <= 2. * result.bracket.round_off ? AdaptiveEnd::round_off
+                    : relative_resolution(result.mesh) < finest           ? AdaptiveEnd::resolution
+                                                                          : AdaptiveEnd::max_dofs;
+    if (result.ending != AdaptiveEnd::max_dofs)
       return result;
     TorusMesh finer =
       bisected(result.mesh, largest(result.bracket.indicators, options.marked_part));

@@ -24,10 +24,10 @@ struct Bracket
   double round_off = 0.; ///< what was added, relative: the width is never below it
   double excess    = 0.; ///< how far the two energies lie above their minima on this mesh, relative
 
-  Eigen::Matrix3d compliance;              ///< energies of the stresses, nothing added [m/N]
-  Eigen::Matrix3d stiffness;               ///< energies of the displacements, nothing added [N/m]
-  Eigen::Matrix3d stiffness_by_flux;       ///< their mean stresses [N/m]
-  meshes::CharacteristicDisplacements chi; ///< at the vertices of the given mesh [m]
+  Eigen::Matrix3d compliance;        ///< energies of the stresses, nothing added [m/N]
+  Eigen::Matrix3d stiffness;         ///< energies of the displacements, nothing added [N/m]
+  Eigen::Matrix3d stiffness_by_flux; ///< their mean stresses [N/m]
+  meshes::Chi chi;                   ///< at the vertices of the given mesh [m]
   unsigned n_triangles = 0, n_displacement_dofs = 0, n_stress_dofs = 0, iterations = 0;
 
   /// Per triangle, 1/|Y| integral of c^-1 : (sigma − c : eps)^2 over it, summed over three macro
@@ -64,7 +64,7 @@ struct AdaptiveOptions
 };
 
 /// Why an adaptive bracket ended.
-enum class Ending
+enum class AdaptiveEnd
 {
   tolerance,  ///< the width is reached
   max_dofs,   ///< the next mesh would be too large
@@ -76,7 +76,7 @@ struct AdaptiveBracket
 {
   Bracket bracket; ///< on the last mesh
   TorusMesh mesh;
-  Ending ending;
+  AdaptiveEnd ending;
 };
 
 /// Solves, marks and bisects until the width is reached.

@@ -252,10 +252,10 @@ void CompatibleStrain::evaluate()
   round_off = (bars / (mesh.lattice.area() * stiffness.diagonal().array())).maxCoeff();
 }
 
-meshes::CharacteristicDisplacements CompatibleStrain::chi_at_given_vertices() const
+meshes::Chi CompatibleStrain::chi_at_given_vertices() const
 {
   const auto n = static_cast<Eigen::Index>(mesh.vertex_of_original.size());
-  meshes::CharacteristicDisplacements chi(n, 6);
+  meshes::Chi chi(n, 6);
   for (Eigen::Index v = 0; v < n; ++v)
     for (int a = 0; a < 3; ++a)
       for (int c = 0; c < 2; ++c)

@@ -31,7 +31,7 @@ public:
   Eigen::VectorXd unbalanced_tractions(const Eigen::Matrix3d &weights) const;
 
   /// chi at the vertices of the mesh that was glued, shape (n,6) [m].
-  meshes::CharacteristicDisplacements chi_at_given_vertices() const;
+  meshes::Chi chi_at_given_vertices() const;
 
   Eigen::Matrix3d stiffness;         ///< the energies [N/m]
   Eigen::Matrix3d stiffness_by_flux; ///< the mean stresses (Eq. 4) [N/m]

@@ -95,8 +95,8 @@ private:
 
   int add_vertex(const TorusTriangle &triangle, const Eigen::Vector2d &from_first)
   {
-    const Home &home = result.mesh.homes[at(triangle.vertices[0])];
-    result.mesh.homes.push_back({home.vertex, home.offset + from_first});
+    const VertexOrigin &home = result.mesh.origins[at(triangle.vertices[0])];
+    result.mesh.origins.push_back({home.vertex, home.offset + from_first});
     return result.mesh.n_vertices++;
   }
 
@@ -319,12 +319,12 @@ TorusMesh with_only(const TorusMesh &mesh, const std::vector<char> &is_kept)
       for (const int v : mesh.triangles[at(t)].vertices)
         vertex[at(v)] = 0;
   kept.n_vertices = 0;
-  kept.homes.clear();
+  kept.origins.clear();
   for (int v = 0; v < mesh.n_vertices; ++v)
     if (v < n_given || vertex[at(v)] == 0) // those of the given mesh keep their numbers
     {
       vertex[at(v)] = kept.n_vertices++;
-      kept.homes.push_back(mesh.homes[at(v)]);
+      kept.origins.push_back(mesh.origins[at(v)]);
     }
   for (int t = 0; t < mesh.n_triangles(); ++t)
     if (is_kept[at(t)])

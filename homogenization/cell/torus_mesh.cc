@@ -141,7 +141,7 @@ TorusMesh glued(const meshes::TriangleMesh &mesh, const meshes::Lattice &lattice
   torus.vertex_of_original = vertices.of_original;
   torus.anchor             = vertices.of_original[at(meshes::anchor_vertex(mesh, lattice))];
   for (int v = 0; v < vertices.n; ++v)
-    torus.homes.push_back({v, Eigen::Vector2d::Zero()});
+    torus.origins.push_back({v, Eigen::Vector2d::Zero()});
 
   std::map<std::array<int, 2>, int> number_of;
   /// The edge of the torus between two vertices of the mesh, and whether it runs from a to b.
@@ -264,12 +264,12 @@ private:
     fine.edges.push_back({edge.tail, its.midpoint, half + edge.bulge, 0.25 * edge.bulge});
     its.second = fine.n_edges();
     fine.edges.push_back({its.midpoint, edge.head, half - edge.bulge, 0.25 * edge.bulge});
-    const Home &tail = fine.homes[at(edge.tail)], &head = fine.homes[at(edge.head)];
+    const VertexOrigin &tail = fine.origins[at(edge.tail)], &head = fine.origins[at(edge.head)];
     const Eigen::Vector2d from_tail = tail.offset + half + edge.bulge,
                           from_head = head.offset - half + edge.bulge;
-    fine.homes.push_back(from_tail.squaredNorm() <= from_head.squaredNorm()
-                           ? Home{tail.vertex, from_tail}
-                           : Home{head.vertex, from_head});
+    fine.origins.push_back(from_tail.squaredNorm() <= from_head.squaredNorm()
+                             ? VertexOrigin{tail.vertex, from_tail}
+                             : VertexOrigin{head.vertex, from_head});
   }
 
   bool is_split(const int e) const

@@ -51,7 +51,7 @@ struct TorusTriangle
 };
 
 /// Where a vertex lies, seen from the vertex of the given mesh that it descends from.
-struct Home
+struct VertexOrigin
 {
   int vertex;             ///< of the given mesh, as a vertex of the torus
   Eigen::Vector2d offset; ///< from it [m]
@@ -64,7 +64,7 @@ struct TorusMesh
   int n_vertices = 0; ///< those of the given mesh come first
   std::vector<TorusEdge> edges;
   std::vector<TorusTriangle> triangles;
-  std::vector<Home> homes;             ///< of each vertex
+  std::vector<VertexOrigin> origins;   ///< of each vertex
   std::vector<double> reach;           ///< shortest edge at each vertex of the given mesh [m]
   std::vector<int> vertex_of_original; ///< vertex of the torus for each one of the given mesh
   int anchor = 0;                      ///< vertex at the lattice points

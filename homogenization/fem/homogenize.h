@@ -32,12 +32,12 @@ struct HomogenizationSeconds
 
 struct Homogenization
 {
-  meshes::CharacteristicDisplacements chi; ///< (n,6) at the vertices of the given mesh [m]
-  int anchor;                              ///< vertex where chi = 0
-  Eigen::Matrix3d stiffness;               ///< C^H from the energies [N/m]
-  Eigen::Matrix3d stiffness_by_flux;       ///< C^H from Eq. 4, the mean stress [N/m]
-  Eigen::Matrix3d voigt;                   ///< mean of c [N/m]
-  Eigen::Matrix3d reuss;                   ///< inverse of the mean of c^-1 [N/m]
+  meshes::Chi chi;                   ///< (n,6) at the vertices of the given mesh [m]
+  int anchor;                        ///< vertex where chi = 0
+  Eigen::Matrix3d stiffness;         ///< C^H from the energies [N/m]
+  Eigen::Matrix3d stiffness_by_flux; ///< C^H from Eq. 4, the mean stress [N/m]
+  Eigen::Matrix3d voigt;             ///< mean of c [N/m]
+  Eigen::Matrix3d reuss;             ///< inverse of the mean of c^-1 [N/m]
   unsigned long n_dofs;
   std::array<unsigned int, 3>
     iterations; ///< of the conjugate gradients, per load, since the start of this run

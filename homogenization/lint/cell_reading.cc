@@ -118,7 +118,7 @@ CellKeys read_keys(const std::string &prm_file, CellReading &reading)
 }
 } // namespace
 
-CellReading read_cell(const std::string &prm_file)
+CellReading read_unit_cell_with_findings(const std::string &prm_file)
 {
   CellReading reading;
   UnitCell &cell                 = reading.cell;
@@ -209,7 +209,7 @@ CellReading read_cell(const std::string &prm_file)
 
 CellReading inspect_cell(const std::string &prm_file)
 {
-  CellReading reading  = read_cell(prm_file);
+  CellReading reading  = read_unit_cell_with_findings(prm_file);
   const UnitCell &cell = reading.cell;
   if (!reading.has_mesh || !cell.mesh.vertices.allFinite())
     return reading;
@@ -233,7 +233,7 @@ CellReading inspect_cell(const std::string &prm_file)
 
 UnitCell read_unit_cell(const std::string &prm_file)
 {
-  CellReading reading = read_cell(prm_file);
+  CellReading reading = read_unit_cell_with_findings(prm_file);
   std::vector<std::string> faults;
   for (const Finding &finding : reading.findings)
     if (finding.severity == Severity::error)

@@ -25,7 +25,7 @@ struct CellReading
 
 /// Reads a cell; parts that move freely and contrasts that leave no digit are errors here already, because no solver
 /// could answer.
-CellReading read_cell(const std::string &prm_file);
+CellReading read_unit_cell_with_findings(const std::string &prm_file);
 
 /// Reads a cell and adds the findings of the linter, as many as the state of the cell allows.
 CellReading inspect_cell(const std::string &prm_file);

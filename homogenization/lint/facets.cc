@@ -129,8 +129,7 @@ Eigen::Matrix3d frame_of(const Eigen::Vector2d &vector)
 }
 
 /// The strains of the three loads in a triangle, e − eps(chi).
-Eigen::Matrix3d strain_in(const UnitCell &cell, const meshes::CharacteristicDisplacements &chi,
-                          const int t)
+Eigen::Matrix3d strain_in(const UnitCell &cell, const meshes::Chi &chi, const int t)
 {
   const Eigen::RowVector3i corners = cell.mesh.triangles.row(t);
   Eigen::Matrix2d sides;
@@ -154,8 +153,7 @@ std::vector<Facet> facets_of(const UnitCell &cell)
   return Outlines(cell).facets();
 }
 
-std::optional<GeometryEstimate> geometry_estimate(const UnitCell &cell,
-                                                  const meshes::CharacteristicDisplacements &chi)
+std::optional<GeometryEstimate> geometry_estimate(const UnitCell &cell, const meshes::Chi &chi)
 {
   const std::vector<Facet> facets = facets_of(cell);
   if (facets.empty())

@@ -44,6 +44,5 @@ struct GeometryEstimate
 /// linear in each triangle. Nothing without facets.
 /// @param chi at the vertices of the cell
 /// Source: G. Allaire, Conception optimale de structures, 2007, chapter 6 (the shape derivative of an interface).
-std::optional<GeometryEstimate> geometry_estimate(const UnitCell &cell,
-                                                  const meshes::CharacteristicDisplacements &chi);
+std::optional<GeometryEstimate> geometry_estimate(const UnitCell &cell, const meshes::Chi &chi);
 } // namespace homespun::homogenization

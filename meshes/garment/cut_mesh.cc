@@ -80,7 +80,7 @@ double CutMesh::area(const int triangle) const
 
 bool CutMesh::lies_on(const int vertex, const int edge) const
 {
-  for (const Place &place : vertices[static_cast<std::size_t>(vertex)].outline)
+  for (const OutlinePoint &place : vertices[static_cast<std::size_t>(vertex)].outline)
     if (place.edge == edge)
       return true;
   return false;
@@ -88,7 +88,7 @@ bool CutMesh::lies_on(const int vertex, const int edge) const
 
 double CutMesh::part_of(const int vertex, const int edge) const
 {
-  for (const Place &place : vertices[static_cast<std::size_t>(vertex)].outline)
+  for (const OutlinePoint &place : vertices[static_cast<std::size_t>(vertex)].outline)
     if (place.edge == edge)
       return place.part;
   refuse(vertices[static_cast<std::size_t>(vertex)].x);
@@ -97,7 +97,7 @@ double CutMesh::part_of(const int vertex, const int edge) const
 std::vector<int> CutMesh::common_edges(const int a, const int b) const
 {
   std::vector<int> common;
-  for (const Place &place : vertices[static_cast<std::size_t>(a)].outline)
+  for (const OutlinePoint &place : vertices[static_cast<std::size_t>(a)].outline)
     if (lies_on(b, place.edge))
       common.push_back(place.edge);
   return common;
@@ -344,7 +344,7 @@ void CutMesh::slide(const int vertex, const int edge, const double part)
   moved.x =
     points[static_cast<std::size_t>(ends[0])] +
     part * (points[static_cast<std::size_t>(ends[1])] - points[static_cast<std::size_t>(ends[0])]);
-  for (Place &place : moved.outline)
+  for (OutlinePoint &place : moved.outline)
     if (place.edge == edge)
       place.part = part;
 }

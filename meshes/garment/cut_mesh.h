@@ -26,7 +26,7 @@ class CutMesh
 {
 public:
   /// A place on the outline: edge, and part of its length from its first end.
-  struct Place
+  struct OutlinePoint
   {
     int edge;
     double part;
@@ -41,7 +41,7 @@ public:
   {
     Eigen::RowVector2d x;
     int parent; ///< of the triangle in which it was made; −1 where the caller gave it
-    std::vector<Place> outline; ///< where it lies on the outline; empty inside
+    std::vector<OutlinePoint> outline; ///< where it lies on the outline; empty inside
   };
 
   /// @param points corners of the outline [m], near the origin: round-off counts from there

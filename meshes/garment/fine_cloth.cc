@@ -137,8 +137,9 @@ private:
   std::map<std::array<int, 2>, std::vector<int>> buckets;
 };
 
-void collect(const FinePanel &panel, const std::vector<Kept> &kept, const TriangleMesh &cell_mesh,
-             const SeamDistance &seam_distance, const Eigen::RowVector2d &towards, Collected &fine)
+void collect(const FinePanel &panel, const std::vector<KeptTriangle> &kept,
+             const TriangleMesh &cell_mesh, const SeamDistance &seam_distance,
+             const Eigen::RowVector2d &towards, Collected &fine)
 {
   const CutMesh &cut                         = *panel.cut;
   const TriangleMesh &sheet                  = panel.sheet.mesh;

@@ -269,7 +269,7 @@ KeptTriangles kept_triangles(const FinePanel &panel, const Outline outline, cons
   const TriangleMesh &sheet = panel.sheet.mesh;
   const CutMesh &cut        = *panel.cut;
   KeptTriangles result;
-  std::vector<Kept> &kept = result.triangles;
+  std::vector<KeptTriangle> &kept = result.triangles;
   for (const int t : panel.whole)
     kept.push_back({{sheet.triangles(t, 0), sheet.triangles(t, 1), sheet.triangles(t, 2)}, t});
 
@@ -336,7 +336,8 @@ KeptTriangles kept_triangles(const FinePanel &panel, const Outline outline, cons
   return result;
 }
 
-std::vector<std::array<int, 3>> fans_of(const FinePanel &panel, const std::vector<Kept> &kept)
+std::vector<std::array<int, 3>> fans_of(const FinePanel &panel,
+                                        const std::vector<KeptTriangle> &kept)
 {
   const CutMesh &cut = *panel.cut;
   std::vector<std::array<int, 3>> fans_of_corner(kept.size(), {0, 0, 0});

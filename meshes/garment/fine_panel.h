@@ -42,12 +42,12 @@ struct FinePanel
   std::vector<int> sheet_vertex; ///< of the first vertices of `cut`
   std::unique_ptr<CutMesh> cut;  ///< what is near the outline, on both sides of it
 
-  /// The vertex of `cut` of a corner, see Kept; −1: it is away from the outline.
+  /// The vertex of `cut` of a corner, see KeptTriangle; −1: it is away from the outline.
   int cut_vertex_of(int corner) const;
 };
 
 /// A triangle that stays in the fine cloth.
-struct Kept
+struct KeptTriangle
 {
   std::array<int, 3>
     corners;  ///< vertices of the sheet; beyond their number, those of `cut` that were made
@@ -63,7 +63,7 @@ std::vector<FinePanel> fine_panels(const TriangleMesh &cell_mesh, const Lattice 
 /// What stays of a panel.
 struct KeptTriangles
 {
-  std::vector<Kept> triangles;
+  std::vector<KeptTriangle> triangles;
   int n_cut     = 0; ///< triangles of the sheet that the outline crosses
   int n_slivers = 0; ///< pieces left out for being too small
 };
@@ -72,5 +72,6 @@ KeptTriangles kept_triangles(const FinePanel &panel, Outline outline, double cel
 /// Triangles around a vertex of the outline that reach each other without crossing it share a vertex, others
 /// do not: loops that touch and slits come apart.
 /// @return for each triangle and corner the number of its fan around that vertex, from 0
-std::vector<std::array<int, 3>> fans_of(const FinePanel &panel, const std::vector<Kept> &kept);
+std::vector<std::array<int, 3>> fans_of(const FinePanel &panel,
+                                        const std::vector<KeptTriangle> &kept);
 } // namespace homespun::meshes

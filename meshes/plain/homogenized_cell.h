@@ -14,7 +14,7 @@ namespace homespun::meshes
 {
 /// Characteristic displacements, one vertex per row. Column 2 a + c holds component c of chi_a,
 /// a = 0, 1, 2 for the unit macro strains 11, 22, 12 (engineering shear). Shape (n,6) [m].
-using CharacteristicDisplacements = Eigen::Matrix<double, Eigen::Dynamic, 6, Eigen::RowMajor>;
+using Chi = Eigen::Matrix<double, Eigen::Dynamic, 6, Eigen::RowMajor>;
 
 /// A homogenized periodic unit cell. Voigt order 11, 22, 12 with engineering shear.
 ///
@@ -25,7 +25,7 @@ struct HomogenizedCell
 {
   TriangleMesh mesh;
   Lattice lattice;
-  CharacteristicDisplacements chi;                     ///< (n,6) [m]
+  Chi chi;                                             ///< (n,6) [m]
   int anchor                = 0;                       ///< vertex where chi = 0
   Eigen::Matrix3d stiffness = Eigen::Matrix3d::Zero(); ///< C^H [N/m]
   double areal_density      = 0.;                      ///< [kg/m^2]

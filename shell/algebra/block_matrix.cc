@@ -83,7 +83,7 @@ BlockMatrix::BlockMatrix(const std::vector<std::array<int, 2>> &couplings,
   blocks.assign(row.size(), Block::Zero());
 }
 
-BlockMatrix::Place BlockMatrix::place(const int first_vertex, const int second_vertex) const
+BlockMatrix::Slot BlockMatrix::slot(const int first_vertex, const int second_vertex) const
 {
   const int a = place_of[index(first_vertex)], b = place_of[index(second_vertex)];
   const int column = std::min(a, b), below = std::max(a, b);

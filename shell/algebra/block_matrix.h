@@ -27,15 +27,15 @@ public:
   BlockMatrix(const std::vector<std::array<int, 2>> &couplings, const std::vector<bool> &is_held);
 
   /// Where the block of a pair is stored.
-  struct Place
+  struct Slot
   {
     int block       = -1;    ///< −1: nowhere, both vertices are held
     bool transposed = false; ///< what is stored is the block (second, first)
   };
 
-  /// Place of the block (first, second), which may be the same vertex twice.
+  /// Slot of the block (first, second), which may be the same vertex twice.
   /// @throws std::logic_error where the pair was not among the couplings
-  Place place(int first, int second) const;
+  Slot slot(int first, int second) const;
 
   /// Sets all values to zero.
   void clear();
@@ -43,7 +43,7 @@ public:
   /// Adds the block (first, second) at its place; the one across the diagonal is implied. A diagonal
   /// block must be symmetric.
   template <typename Values>
-  void add(const Place &where, const Eigen::MatrixBase<Values> &block)
+  void add(const Slot &where, const Eigen::MatrixBase<Values> &block)
   {
     if (where.block < 0)
       return;
@@ -55,7 +55,7 @@ public:
   }
 
   /// Adds a multiple of the identity.
-  void add_multiple(const Place &where, const double value)
+  void add_multiple(const Slot &where, const double value)
   {
     if (where.block >= 0)
       blocks[static_cast<std::size_t>(where.block)].diagonal().array() += value;

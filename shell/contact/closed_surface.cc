@@ -193,8 +193,8 @@ std::optional<SurfacePoint> ClosedSurface::nearest(const Eigen::Vector3d &point,
   { return nodes[index(node)].box.squaredExteriorDistance(point); };
   while (n_stack > 0)
   {
-    const int current = stack[index(--n_stack)];
-    const Node &node  = nodes[index(current)];
+    const int current    = stack[index(--n_stack)];
+    const TreeNode &node = nodes[index(current)];
     if (!(away2(current) <= best))
       continue;
     if (node.right < 0)
@@ -248,8 +248,8 @@ std::optional<SurfaceEntry> ClosedSurface::first_entry(const Eigen::Vector3d &fr
   int n_stack = 1;
   while (n_stack > 0)
   {
-    const int current = stack[index(--n_stack)];
-    const Node &node  = nodes[index(current)];
+    const int current    = stack[index(--n_stack)];
+    const TreeNode &node = nodes[index(current)];
     // Slabs, over the part of the segment that is still asked for.
     double enter = 0., leave = best;
     for (int i = 0; i < 3 && enter <= leave; ++i)
@@ -300,7 +300,7 @@ std::optional<SurfaceEntry> ClosedSurface::first_entry(const Eigen::Vector3d &fr
 
 std::size_t ClosedSurface::bytes() const
 {
-  return nodes.size() * sizeof(Node) + order.size() * sizeof(int) +
+  return nodes.size() * sizeof(TreeNode) + order.size() * sizeof(int) +
          static_cast<std::size_t>(t.size()) * sizeof(int) +
          static_cast<std::size_t>(x.size() + face_normals.size() + edge_normals.size() +
                                   vertex_normals.size()) *

@@ -56,7 +56,7 @@ public:
   std::size_t bytes() const;
 
 private:
-  struct Node
+  struct TreeNode
   {
     Eigen::AlignedBox3d box;
     int first = 0, n = 0; ///< a leaf: its part of `order`
@@ -74,6 +74,6 @@ private:
   meshes::SpacePoints edge_normals;   ///< (3 m,3) unit, of the edge opposite to corner k
   meshes::SpacePoints vertex_normals; ///< (n,3) unit
   std::vector<int> order;             ///< triangles, leaf by leaf
-  std::vector<Node> nodes;
+  std::vector<TreeNode> nodes;
 };
 } // namespace homespun::shell

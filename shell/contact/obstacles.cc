@@ -239,7 +239,7 @@ public:
   std::size_t bytes() const override
   {
     return obstacle.shape->bytes() + contacts.capacity() * sizeof(HalfSpace) +
-           places.size() * sizeof(BlockMatrix::Place) +
+           places.size() * sizeof(BlockMatrix::Slot) +
            static_cast<std::size_t>(masses.size()) * sizeof(double);
   }
 

@@ -58,21 +58,21 @@ std::vector<bool> marked(const meshes::TriangleMesh &mesh, const std::vector<int
 
 /// The forces at the free vertices: their norm, and the norm at which they count as zero.
 template <int dim>
-struct Residual
+struct FreeForces
 {
   Positions<dim> free_gradient; ///< held rows zero
   double norm = 0., accepted = 0., energy_round_off = 0.;
 };
 
 template <int dim>
-Residual<dim> residual_at(const Membrane &membrane, const std::vector<bool> &is_held,
-                          const Positions<dim> &positions, const double relative_tolerance)
+FreeForces<dim> residual_at(const Membrane &membrane, const std::vector<bool> &is_held,
+                            const Positions<dim> &positions, const double relative_tolerance)
 {
   MembraneGradient<dim> force = membrane_gradient<dim>(membrane, positions);
   for (std::size_t v = 0; v < is_held.size(); ++v)
     if (is_held[v])
       force.gradient.row(static_cast<Eigen::Index>(v)).setZero();
-  Residual<dim> residual;
+  FreeForces<dim> residual;
   residual.norm             = force.gradient.norm();
   residual.accepted         = relative_tolerance * force.magnitude.norm() + force.round_off.norm();
   residual.energy_round_off = force.energy_round_off;
@@ -209,7 +209,7 @@ Equilibrium<dim> MembraneSolver<dim>::solve_equilibrium(const Positions<dim> &st
   result.energy    = membrane_energy<dim>(membrane, start);
   if (!std::isfinite(result.energy))
     throw meshes::BadInput("start positions: their energy is not finite, they lie too far apart");
-  Residual<dim> residual = residual_at<dim>(membrane, is_held, start, options.relative_tolerance);
+  FreeForces<dim> residual = residual_at<dim>(membrane, is_held, start, options.relative_tolerance);
   while (true)
   {
     result.residual_history.push_back(residual.norm);

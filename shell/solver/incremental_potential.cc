@@ -35,7 +35,7 @@ void IncrementalPotential::prepare()
     term->attach(*matrix);
   diagonal.clear();
   for (int i = 0; i < static_cast<int>(m.size()); ++i)
-    diagonal.push_back(matrix->place(i, i));
+    diagonal.push_back(matrix->slot(i, i));
   cholesky.reset();
   preconditioner.reset();
   if (options.solver == LinearSolver::direct ||
@@ -230,7 +230,7 @@ std::size_t IncrementalPotential::bytes() const
   for (const auto &term : all_terms)
     sum += term->bytes();
   if (matrix)
-    sum += matrix->bytes() + diagonal.size() * sizeof(BlockMatrix::Place);
+    sum += matrix->bytes() + diagonal.size() * sizeof(BlockMatrix::Slot);
   if (cholesky)
     sum += cholesky->bytes();
   if (preconditioner)

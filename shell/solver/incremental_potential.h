@@ -142,7 +142,7 @@ private:
   std::unique_ptr<BlockMatrix> matrix;
   std::unique_ptr<BlockCholesky> cholesky;
   std::unique_ptr<IncompleteCholesky> preconditioner;
-  std::vector<BlockMatrix::Place> diagonal;
+  std::vector<BlockMatrix::Slot> diagonal;
   Vectors assembled_gradient;
 };
 } // namespace homespun::shell

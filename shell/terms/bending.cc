@@ -63,10 +63,10 @@ public:
   {
     places.clear();
     for (const auto &pair : pairs)
-      places.push_back(matrix.place(pair[0], pair[1]));
+      places.push_back(matrix.slot(pair[0], pair[1]));
     diagonal_places.clear();
     for (int v = 0; v < static_cast<int>(diagonal.size()); ++v)
-      diagonal_places.push_back(matrix.place(v, v));
+      diagonal_places.push_back(matrix.slot(v, v));
   }
 
   double energy(const Vectors &x) const override
@@ -125,7 +125,7 @@ public:
   }
 
 private:
-  static void add_scalar(const BlockMatrix::Place &where, const double value, BlockMatrix &matrix)
+  static void add_scalar(const BlockMatrix::Slot &where, const double value, BlockMatrix &matrix)
   {
     if (where.block >= 0)
       matrix.blocks[index(where.block)].diagonal().array() += value;
@@ -134,7 +134,7 @@ private:
   std::vector<std::array<int, 2>> pairs; ///< first < second
   std::vector<double> weights;           ///< [N/m]
   Eigen::VectorXd diagonal;              ///< (n) [N/m]
-  std::vector<BlockMatrix::Place> places, diagonal_places;
+  std::vector<BlockMatrix::Slot> places, diagonal_places;
 };
 } // namespace
 

@@ -106,7 +106,7 @@ public:
     for (const auto &v : hinge_vertices)
       for (std::size_t a = 0; a < 4; ++a)
         for (std::size_t b = a; b < 4; ++b)
-          places.push_back(matrix.place(v[a], v[b]));
+          places.push_back(matrix.slot(v[a], v[b]));
   }
 
   double energy(const Vectors &x) const override
@@ -188,7 +188,7 @@ public:
   std::size_t bytes() const override
   {
     return factors.size() *
-           (sizeof(factors[0]) + sizeof(hinge_vertices[0]) + 10 * sizeof(BlockMatrix::Place));
+           (sizeof(factors[0]) + sizeof(hinge_vertices[0]) + 10 * sizeof(BlockMatrix::Slot));
   }
 
 private:
@@ -204,7 +204,7 @@ private:
 
   std::vector<std::array<int, 4>> hinge_vertices; ///< edge, corner of its first triangle, opposite
   std::vector<double> factors;                    ///< per six volumes [N/m^2]
-  std::vector<BlockMatrix::Place> places;         ///< ten per hinge, upper triangle by rows
+  std::vector<BlockMatrix::Slot> places;          ///< ten per hinge, upper triangle by rows
 };
 } // namespace
 

@@ -17,7 +17,7 @@ public:
   {
     places.clear();
     for (int v = 0; v < matrix.n_vertices(); ++v)
-      places.push_back(matrix.place(v, v));
+      places.push_back(matrix.slot(v, v));
   }
 
   double stored_energy(const Vectors &) const override
@@ -34,6 +34,6 @@ public:
   }
 
 protected:
-  std::vector<BlockMatrix::Place> places; ///< (n) of each vertex
+  std::vector<BlockMatrix::Slot> places; ///< (n) of each vertex
 };
 } // namespace homespun::shell

@@ -71,7 +71,7 @@ public:
   {
     places.clear();
     for (int v = 0; v < static_cast<int>(masses.size()); ++v)
-      places.push_back(matrix.place(v, v));
+      places.push_back(matrix.slot(v, v));
   }
   void begin_step(const StepStart &start) override
   {
@@ -121,7 +121,7 @@ public:
   std::size_t bytes() const override
   {
     return static_cast<std::size_t>(masses.size()) *
-           (sizeof(double) + 3 * sizeof(double) + sizeof(BlockMatrix::Place));
+           (sizeof(double) + 3 * sizeof(double) + sizeof(BlockMatrix::Slot));
   }
 
 private:
@@ -129,7 +129,7 @@ private:
   const double rate;
   double factor = 0.; ///< α/h [1/s^2]
   Vectors old;        ///< x_n
-  std::vector<BlockMatrix::Place> places;
+  std::vector<BlockMatrix::Slot> places;
 };
 } // namespace
 

@@ -3,7 +3,7 @@
 
 #include "meshes/plain/errors.h"
 #include "shell/algebra/index.h"
-#include "shell/algebra/triangle_places.h"
+#include "shell/algebra/triangle_slots.h"
 #include "shell/algebra/vertex_matrix.h"
 #include "shell/membrane/discrete_gradient.h"
 
@@ -181,7 +181,7 @@ private:
   double factor = 0.;                       ///< β/h
   std::vector<MembraneStiffness> effective; ///< (1 + β/h) D, or β/h D
   std::vector<Eigen::Vector3d> old_stress;  ///< −β/h D e_n; empty without viscosity
-  std::vector<TrianglePlaces> places;       ///< (m)
+  std::vector<TriangleSlots> places;        ///< (m)
 };
 } // namespace
 

@@ -3,7 +3,7 @@
 
 #include "meshes/plain/errors.h"
 #include "shell/algebra/index.h"
-#include "shell/algebra/triangle_places.h"
+#include "shell/algebra/triangle_slots.h"
 #include "shell/membrane/membrane.h"
 
 #include <Eigen/Geometry>
@@ -87,7 +87,7 @@ protected:
   const Membrane membrane;
   const meshes::TriangleMesh rest;
   std::vector<Eigen::Matrix<double, 9, 9>> stiffness;
-  std::vector<TrianglePlaces> places; ///< (m)
+  std::vector<TriangleSlots> places; ///< (m)
 };
 
 class TriangleWarping : public WarpedTerm

@@ -75,7 +75,7 @@ public:
   {
     return static_cast<std::size_t>(triangles.size()) * sizeof(int) +
            static_cast<std::size_t>(begin.size() + force.size()) * sizeof(double) +
-           resistance.size() * sizeof(Eigen::Matrix3d) + places.size() * sizeof(BlockMatrix::Place);
+           resistance.size() * sizeof(Eigen::Matrix3d) + places.size() * sizeof(BlockMatrix::Slot);
   }
 
 protected:

@@ -104,7 +104,7 @@ struct StepMatrix
     membrane->attach(matrix);
     assemble(Hessian::projected);
     for (int v = 0; v < sheet.mesh.n_vertices(); ++v)
-      matrix.add_multiple(matrix.place(v, v), sheet.masses(v) / (time_step * time_step));
+      matrix.add_multiple(matrix.slot(v, v), sheet.masses(v) / (time_step * time_step));
     right_side = (-9.81 * sheet.masses) * Eigen::RowVector3d(0., 0., 1.);
   }
 

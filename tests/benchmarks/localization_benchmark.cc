@@ -16,7 +16,7 @@ using namespace homespun::localization;
 
 namespace
 {
-/// Smooth periodic modes, zero at the lattice points.
+/// A smooth periodic chi, zero at the lattice points.
 meshes::HomogenizedCell smooth_cell(const int n1, const int n2)
 {
   meshes::HomogenizedCell cell;

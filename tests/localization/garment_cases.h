@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Garments that the localization tests share, their motions and what the modes are at their fine vertices.
+// Garments that the localization tests share, their motions and chi at their fine vertices.
 #pragma once
 
 #include "localization/upsampler.h"
@@ -13,7 +13,7 @@ namespace homespun::tests
 {
 using Space = localization::Positions<3>;
 
-/// A coarse cloth with its fine cloth, of a cell with smooth modes.
+/// A coarse cloth with its fine cloth, of a cell with a smooth chi.
 struct Garment
 {
   meshes::HomogenizedCell cell;

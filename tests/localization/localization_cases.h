@@ -12,7 +12,7 @@
 
 namespace homespun::tests
 {
-/// A cell with smooth periodic modes, zero at its lattice points, different in every column.
+/// A cell with a smooth periodic chi, zero at its lattice points, different in every column.
 inline meshes::HomogenizedCell smooth_cell(const meshes::Lattice &lattice, const int n1,
                                            const int n2)
 {

@@ -10,7 +10,7 @@
 //  1 scale         [u + w*(E) with the best constant of chi*] − T*, all in linear theory: what separation of scales
 //                  and the boundary layers at free and held edges cost, whatever the constant
 //  2 nonlinearity  [u + R w(E)] − [û + R^ ŵ(Ê)], û in equilibrium with the stress of the cell at finite strain, ŵ its
-//                  fluctuation (nonlinear_cell.h): small-strain stiffness and modes in place of those at finite strain
+//                  fluctuation (nonlinear_cell.h): small-strain stiffness and chi in place of those at finite strain
 //  3 coarse-mesh   [u_H + R_H w(<E_H>)] − [u + R w(<E>)]: solving and interpolating on the coarse mesh
 //  4 cell          M − M with chi* and C^H*: the cell's discretization
 //  5 blending      [R w(<E>)] − [R w(E)] at the resolved solution: averaging and blending of the strain

@@ -69,7 +69,7 @@ std::vector<Verdict> checks_of(const UnitCell &cell, const Homogenization &resul
 }
 
 /// C of displacements that are linear in each triangle of the given mesh, 1/|Y| integral (e − eps(chi)):c:(e − eps(chi)).
-Eigen::Matrix3d energies_of(const meshes::CharacteristicDisplacements &chi, const UnitCell &cell)
+Eigen::Matrix3d energies_of(const meshes::Chi &chi, const UnitCell &cell)
 {
   const std::vector<Eigen::Matrix3d> c = cell.stiffness_of_phase();
   Eigen::Matrix3d energy               = Eigen::Matrix3d::Zero();

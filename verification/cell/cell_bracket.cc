@@ -30,19 +30,19 @@ homogenization::TorusMesh torus_of(const homogenization::UnitCell &cell,
   return torus;
 }
 
-std::string text_of(const homogenization::Ending ending, const BracketOptions &options)
+std::string text_of(const homogenization::AdaptiveEnd ending, const BracketOptions &options)
 {
-  using homogenization::Ending;
+  using homogenization::AdaptiveEnd;
   switch (ending)
   {
-  case Ending::tolerance:
+  case AdaptiveEnd::tolerance:
     return "the width that was asked for is reached";
-  case Ending::max_dofs:
+  case AdaptiveEnd::max_dofs:
     return "stopped before a mesh of more than " + std::to_string(options.max_dofs) +
            " DoFs: raise --max-dofs";
-  case Ending::round_off:
+  case AdaptiveEnd::round_off:
     return "stopped at round-off: a finer mesh does not narrow it";
-  case Ending::resolution:
+  case AdaptiveEnd::resolution:
     return "stopped at triangles of 1e-100 of the cell: the singularity is too strong";
   }
   return "";

@@ -98,11 +98,11 @@ void narrow(const UnitCell &cell, const unsigned int order, const ConvergenceSiz
 {
   Series adaptive = width_series("adaptive", order), uniform = width_series("uniform", order);
   homogenization::AdaptiveOptions options;
-  options.order                 = order;
-  options.tolerance             = 0.;
-  options.max_dofs              = sizes.adaptive_dofs;
-  const auto start              = Clock::now();
-  homogenization::Ending ending = homogenization::Ending::round_off;
+  options.order                      = order;
+  options.tolerance                  = 0.;
+  options.max_dofs                   = sizes.adaptive_dofs;
+  const auto start                   = Clock::now();
+  homogenization::AdaptiveEnd ending = homogenization::AdaptiveEnd::round_off;
   result.solves(
     [&]()
     {
@@ -124,7 +124,8 @@ void narrow(const UnitCell &cell, const unsigned int order, const ConvergenceSiz
            }))
     mesh = meshes::refined(mesh, 1);
   // What so few DoFs cannot decide is no claim.
-  if (adaptive.levels.size() >= fewest_uneven_levels || ending != homogenization::Ending::max_dofs)
+  if (adaptive.levels.size() >= fewest_uneven_levels ||
+      ending != homogenization::AdaptiveEnd::max_dofs)
     adaptive.judgement =
       judge_uneven_errors(adaptive.sizes(), adaptive.errors(), about(2. * order, order_tolerance));
   result.add(

@@ -57,7 +57,7 @@ HeldMotion::HeldMotion(const Scene &scene, const SheetPlacement &placement,
 {
   for (const HeldPlace &held : scene.held)
   {
-    Place place{held, Eigen::RowVector3d::Zero(), {}, {}};
+    HeldPart place{held, Eigen::RowVector3d::Zero(), {}, {}};
     for (const int v : held.vertices)
     {
       const int i = v % (scene.n1 + 1), j = v / (scene.n1 + 1);
@@ -91,7 +91,7 @@ HeldMotion::HeldMotion(const Scene &scene, const meshes::ClothMesh &coarse,
   std::vector<std::string> faults;
   for (const HeldPlace &held : scene.held)
   {
-    Place place{held, Eigen::RowVector3d::Zero(), held.vertices, {}};
+    HeldPart place{held, Eigen::RowVector3d::Zero(), held.vertices, {}};
     int n = 0;
     for (int v = 0; v < coarse.n_vertices(); ++v)
       if (holds(place, v, coarse))
@@ -116,7 +116,7 @@ HeldMotion::HeldMotion(const Scene &scene, const meshes::ClothMesh &coarse,
     throw meshes::BadInput(faults);
 }
 
-bool HeldMotion::holds(const Place &place, const Eigen::RowVector2d &f) const
+bool HeldMotion::holds(const HeldPart &place, const Eigen::RowVector2d &f) const
 {
   if (place.held.place == "vertices")
     return std::any_of(place.fractions.begin(), place.fractions.end(),
@@ -130,7 +130,8 @@ bool HeldMotion::holds(const Place &place, const Eigen::RowVector2d &f) const
          (!says("top") || std::abs(f(1) - 1.) < on_edge);
 }
 
-bool HeldMotion::holds(const Place &place, const int vertex, const meshes::ClothMesh &garment) const
+bool HeldMotion::holds(const HeldPart &place, const int vertex,
+                       const meshes::ClothMesh &garment) const
 {
   if (place.held.place == "waist")
     return garment.positions(vertex, 2) >= waist;
@@ -151,7 +152,7 @@ int HeldMotion::place_of_vertex(const int vertex, const meshes::ClothMesh &cloth
 {
   for (int p = static_cast<int>(places.size()) - 1; p >= 0; --p)
   {
-    const Place &place = places[static_cast<std::size_t>(p)];
+    const HeldPart &place = places[static_cast<std::size_t>(p)];
     if (placement ? holds(place, placement->fraction(cloth.rest.vertices.row(vertex)))
                   : holds(place, vertex, cloth))
       return p;
@@ -174,14 +175,14 @@ Eigen::RowVector3d HeldMotion::position(const int vertex, const meshes::ClothMes
   const int p = place_of_vertex(vertex, cloth);
   if (p < 0)
     return cloth.positions.row(vertex);
-  const Place &place = places[static_cast<std::size_t>(p)];
+  const HeldPart &place = places[static_cast<std::size_t>(p)];
   return moved(place.held.motion, cloth.positions.row(vertex), place.centre, time);
 }
 
 bool HeldMotion::moves_after(const double time) const
 {
   return std::any_of(places.begin(), places.end(),
-                     [&](const Place &place) {
+                     [&](const HeldPart &place) {
                        return place.held.motion.kind != Motion::Kind::rest &&
                               time < place.held.motion.seconds;
                      });

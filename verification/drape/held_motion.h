@@ -58,7 +58,7 @@ public:
   std::vector<std::string> idle_places(const meshes::ClothMesh &cloth) const;
 
 private:
-  struct Place
+  struct HeldPart
   {
     HeldPlace held;
     Eigen::RowVector3d centre;                 ///< about which it rotates [m]
@@ -67,11 +67,11 @@ private:
   };
   /// The place that holds a vertex, −1 where none does; later places win.
   int place_of_vertex(int vertex, const meshes::ClothMesh &cloth) const;
-  bool holds(const Place &place, const Eigen::RowVector2d &fraction) const;
-  bool holds(const Place &place, int vertex, const meshes::ClothMesh &garment) const;
+  bool holds(const HeldPart &place, const Eigen::RowVector2d &fraction) const;
+  bool holds(const HeldPart &place, int vertex, const meshes::ClothMesh &garment) const;
 
   std::optional<SheetPlacement> placement;
-  std::vector<Place> places;
+  std::vector<HeldPart> places;
   double waist = 0.; ///< height above which a vertex belongs to the waist [m]
 };
 } // namespace homespun::verification

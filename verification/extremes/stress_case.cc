@@ -38,7 +38,7 @@ Repetition repetition(const StressCase &stress_case, const unsigned int seed)
   const auto refused = [&](const std::string &message)
   {
     one.outcome = "refused: " + message;
-    if (stress_case.ending != Ending::refused)
+    if (stress_case.ending != ExpectedEnd::refused)
       one.problem = "a finite answer was expected";
     else if (message.find(stress_case.names) == std::string::npos)
       one.problem = "the message does not name the fault";
@@ -50,7 +50,7 @@ Repetition repetition(const StressCase &stress_case, const unsigned int seed)
     one.values          = std::move(answer.values);
     const bool finite   = std::isfinite(one.figure) && one.values.allFinite();
     one.outcome         = finite ? "finite" : "not finite";
-    if (!finite || stress_case.ending == Ending::refused)
+    if (!finite || stress_case.ending == ExpectedEnd::refused)
       one.problem = "a number is not finite, or a refusal was expected";
     else if (!(one.figure <= stress_case.limit))
       one.problem = "beyond the limit";
@@ -115,7 +115,7 @@ StressResult run_case(const StressCase &stress_case, const int most_repeats)
 
 std::string limit_text(const StressCase &stress_case)
 {
-  if (stress_case.ending == Ending::refused)
+  if (stress_case.ending == ExpectedEnd::refused)
     return "names `" + stress_case.names + "`";
   return short_text(stress_case.limit) + " " + stress_case.figure_is;
 }
@@ -130,7 +130,7 @@ StressRow keys_of(const StressCase &stress_case)
 
 StressRow stress_row(const StressCase &stress_case, const StressResult &result)
 {
-  const bool is_refused = stress_case.ending == Ending::refused;
+  const bool is_refused = stress_case.ending == ExpectedEnd::refused;
   if (!is_refused && stress_case.derivation.empty())
     throw std::logic_error(stress_case.group + ": " + stress_case.name +
                            ": the limit has no derivation");

@@ -23,7 +23,7 @@ struct StressAnswer
   Eigen::MatrixXd values; ///< all numbers that a user would get; every one must be finite
 };
 
-enum class Ending
+enum class ExpectedEnd
 {
   finite, ///< a finite answer whose figure is within the limit
   refused ///< BadInput or NotConverged, whose message names the fault
@@ -33,10 +33,10 @@ struct StressCase
 {
   std::string group, name;
   std::string expected; ///< in words
-  Ending ending = Ending::finite;
-  double limit  = 0.;    ///< of the figure; finite cases
-  std::string figure_is; ///< what the figure is, with its unit; finite cases
-  std::string names;     ///< what the refusal must contain; refused cases
+  ExpectedEnd ending = ExpectedEnd::finite;
+  double limit       = 0.; ///< of the figure; finite cases
+  std::string figure_is;   ///< what the figure is, with its unit; finite cases
+  std::string names;       ///< what the refusal must contain; refused cases
   bool is_random =
     false; ///< seeds differ; else every repetition must give the same numbers to the last bit
   /// @throws BadInput, NotConverged where it refuses

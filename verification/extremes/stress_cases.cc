@@ -161,8 +161,8 @@ std::vector<StressCase> time_step_cases(const std::vector<SheetStiffness> &stiff
           {"time step",
            short_text(h) + " s; " +
              (disturbance > 0. ? "random velocities of 2 m/s; " : "from rest; ") + stiffness.name,
-           "finite; the energy of the damped sheet never grows", Ending::finite, energy_round_off,
-           of_largest_energy, "", disturbance > 0., [=](const unsigned int seed) {
+           "finite; the energy of the damped sheet never grows", ExpectedEnd::finite,
+           energy_round_off, of_largest_energy, "", disturbance > 0., [=](const unsigned int seed) {
              return hang(stiffness, h, h < 0.05 ? 60 : 30, disturbance, seed);
            }});
   }
@@ -174,7 +174,7 @@ std::vector<StressCase> time_step_cases(const std::vector<SheetStiffness> &stiff
                          const bool settle)
   {
     cases.push_back(
-      {"time step", "20000 steps at rest; " + name, "finite; does not drift", Ending::finite,
+      {"time step", "20000 steps at rest; " + name, "finite; does not drift", ExpectedEnd::finite,
        n_steps_at_rest * std::numeric_limits<double>::epsilon() * side, way_at_rest, "", false,
        [=](unsigned int) { return rest(mesh, first, held, physics, settle); }});
   };
@@ -198,7 +198,7 @@ std::vector<StressCase> stiffness_cases()
       SheetStiffness stiffness = isotropic_sheet(young, 0.3);
       stiffness.areal_density  = density;
       cases.push_back({"stiffness", short_text(young) + " N/m; " + short_text(density) + " kg/m^2",
-                       "finite; the energy of the damped sheet never grows", Ending::finite,
+                       "finite; the energy of the damped sheet never grows", ExpectedEnd::finite,
                        energy_round_off, of_largest_energy, "", true, [=](const unsigned int seed) {
                          return hang(stiffness, 0.005, 50, 2., seed);
                        }});
@@ -218,10 +218,10 @@ std::vector<StressCase> start_cases(const std::vector<SheetStiffness> &stiffness
             {"start",
              std::string(start.name) + (is_free ? "; free; " : "; hung by two corners; ") +
                short_text(1e3 * h) + " ms; " + stiffness.name,
-             "finite; the energy of the damped sheet never grows", Ending::finite, energy_round_off,
-             of_largest_energy, "", start.is_random, [=](const unsigned int seed) {
-               return start_from(start, stiffness, h, is_free, seed);
-             }});
+             "finite; the energy of the damped sheet never grows", ExpectedEnd::finite,
+             energy_round_off, of_largest_energy, "", start.is_random,
+             [=](const unsigned int seed)
+             { return start_from(start, stiffness, h, is_free, seed); }});
   derive(cases, derivations);
   return cases;
 }

@@ -55,6 +55,6 @@ std::vector<StressCase> cell_cases(const std::vector<homogenization::UnitCell> &
                                    const std::vector<Eigen::Matrix3d> &by_all_ranks, int n_ranks,
                                    int most_triangles);
 
-/// A cell with smooth periodic modes of a tenth of its side, zero at its lattice points: for where none is given.
+/// A cell with a smooth periodic chi of a tenth of its side, zero at its lattice points: for where none is given.
 meshes::HomogenizedCell smooth_cell();
 } // namespace homespun::verification

@@ -75,8 +75,8 @@ Limit limit_of(const UnitCell &cell)
 
 void CellGroup::refused(const std::string &what, const std::string &names, const UnitCell &cell)
 {
-  cases.push_back({name, what, "refused; the message names `" + names + "`", Ending::refused, 0.,
-                   "", names, false,
+  cases.push_back({name, what, "refused; the message names `" + names + "`", ExpectedEnd::refused,
+                   0., "", names, false,
                    [cell](unsigned int) -> StressAnswer
                    {
                      refuse_unsound(cell);

@@ -67,8 +67,8 @@ public:
   void finite(const std::string &what, const std::string &expected, const Limit &limit,
               const std::string &figure_is, const Run &run, const int most_repeats = 2)
   {
-    cases.push_back({name, what, "finite; " + expected, Ending::finite, limit.value, figure_is, "",
-                     false, [run](unsigned int) -> StressAnswer { return run(); }, most_repeats,
+    cases.push_back({name, what, "finite; " + expected, ExpectedEnd::finite, limit.value, figure_is,
+                     "", false, [run](unsigned int) -> StressAnswer { return run(); }, most_repeats,
                      limit.derivation});
   }
 

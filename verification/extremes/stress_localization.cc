@@ -82,15 +82,15 @@ StressAnswer uniform(const Sheets &sheets, const Eigen::Matrix<double, 3, 2> &F)
   const Eigen::Matrix2d U             = stretch(F);
   const Eigen::Vector3d strain        = strain_of(U);
   const Eigen::Matrix<double, 3, 2> R = F * U.inverse();
-  const meshes::CharacteristicDisplacements chi =
-    localization::anchored(sheets.cell, localization::Anchor::lattice);
-  double worst = 0.;
+  const meshes::Chi chi = localization::anchored(sheets.cell, localization::Anchor::lattice);
+  double worst          = 0.;
   for (int v = 0; v < sheets.fine.mesh.n_vertices(); ++v)
   {
-    const Eigen::Matrix<double, 1, 6> modes = chi.row(sheets.fine.cell_vertex(v));
-    const Eigen::Vector2d w = -(strain(0) * modes.segment<2>(0) + strain(1) * modes.segment<2>(2) +
-                                strain(2) * modes.segment<2>(4))
-                                 .transpose();
+    const Eigen::Matrix<double, 1, 6> chi_here = chi.row(sheets.fine.cell_vertex(v));
+    const Eigen::Vector2d w =
+      -(strain(0) * chi_here.segment<2>(0) + strain(1) * chi_here.segment<2>(2) +
+        strain(2) * chi_here.segment<2>(4))
+         .transpose();
     const Eigen::Vector3d exact = F * sheets.fine.mesh.vertices.row(v).transpose() + R * w;
     worst                       = std::max(worst, (found.row(v).transpose() - exact).norm());
   }
@@ -116,8 +116,7 @@ StressAnswer violent(const Sheets &sheets, const Positions<3> &coarse)
 {
   const Eigen::MatrixXd fine  = upsampled<double>(sheets, coarse),
                         alone = upsampled<double>(sheets, coarse, false);
-  const meshes::CharacteristicDisplacements chi =
-    localization::anchored(sheets.cell, localization::Anchor::lattice);
+  const meshes::Chi chi       = localization::anchored(sheets.cell, localization::Anchor::lattice);
   double strain = 0., mode = 0.;
   for (int t = 0; t < sheets.coarse.n_triangles(); ++t)
     strain =
@@ -139,7 +138,7 @@ std::vector<StressCase> of_cell(const Shared &sheets, const std::string &name)
   constexpr double round_off = 20. * 20. * std::numeric_limits<double>::epsilon();
   const auto exact           = [&](const std::string &what, const Eigen::Matrix<double, 3, 2> &F)
   {
-    cases.push_back({group, what + of, "finite; exactly F X + R w", Ending::finite, round_off,
+    cases.push_back({group, what + of, "finite; exactly F X + R w", ExpectedEnd::finite, round_off,
                      "largest distance over the cell's side [-]", "", false,
                      [=](unsigned int) { return uniform(*sheets, F); }});
   };
@@ -160,7 +159,7 @@ std::vector<StressCase> of_cell(const Shared &sheets, const std::string &name)
                            const std::function<Positions<3>(unsigned int)> &positions)
   {
     cases.push_back({group, what + of, "finite in float and double; within the bound of the method",
-                     Ending::finite, 1. + 1e-12,
+                     ExpectedEnd::finite, 1. + 1e-12,
                      "largest microscopic displacement over its bound [-]", "", is_random,
                      [=](const unsigned int seed) { return violent(*sheets, positions(seed)); }});
   };
@@ -212,8 +211,8 @@ std::vector<StressCase> of_cell(const Shared &sheets, const std::string &name)
     bounded("scaled by " + short_text(scale), false,
             [=](unsigned int) -> Positions<3> { return scale * flat; });
   cases.push_back({group, "coarse vertex that is not a number" + of,
-                   "refused; the message names `vertex 7`", Ending::refused, 0., "", "vertex 7",
-                   false,
+                   "refused; the message names `vertex 7`", ExpectedEnd::refused, 0., "",
+                   "vertex 7", false,
                    [=](unsigned int) -> StressAnswer
                    {
                      Positions<3> x = flat;

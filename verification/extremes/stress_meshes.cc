@@ -112,14 +112,15 @@ std::vector<StressCase> mesh_cases(const SheetStiffness &stiffness)
 
   const auto refused = [&](const std::string &name, const std::string &names, const ClothMesh &mesh)
   {
-    cases.push_back({"mesh", name, "refused; the message names `" + names + "`", Ending::refused,
-                     0., "", names, false, [=](unsigned int) { return hang(mesh, stiffness); }});
+    cases.push_back({"mesh", name, "refused; the message names `" + names + "`",
+                     ExpectedEnd::refused, 0., "", names, false,
+                     [=](unsigned int) { return hang(mesh, stiffness); }});
   };
   const std::string last = "triangle " + std::to_string(m);
   refused("rest triangle without area", "triangle " + std::to_string(sliver),
           placed(with_sliver(sheet, 0.)));
   cases.push_back({"mesh", "rest triangle without area; straight to the membrane",
-                   "refused; the message names the triangle", Ending::refused, 0., "",
+                   "refused; the message names the triangle", ExpectedEnd::refused, 0., "",
                    "triangle " + std::to_string(sliver), false,
                    [=](unsigned int) -> StressAnswer
                    {
@@ -158,7 +159,7 @@ std::vector<StressCase> mesh_cases(const SheetStiffness &stiffness)
   const auto finite = [&](const std::string &name, const ClothMesh &mesh)
   {
     cases.push_back({"mesh", name, "finite; the energy of the damped sheet never grows",
-                     Ending::finite, energy_round_off,
+                     ExpectedEnd::finite, energy_round_off,
                      "largest growth in a step over the largest energy [-]", "", false,
                      [=](unsigned int) { return hang(mesh, stiffness); }});
   };
@@ -183,7 +184,7 @@ std::vector<StressCase> mesh_cases(const SheetStiffness &stiffness)
   finite("origin at 1e4 m", far_away);
   constexpr int n_steps = 1000;
   cases.push_back({"mesh", "origin at 1e4 m; 1000 steps at rest",
-                   "finite; does not drift beyond its digits", Ending::finite,
+                   "finite; does not drift beyond its digits", ExpectedEnd::finite,
                    n_steps * 0.5 * std::numeric_limits<double>::epsilon() * distance,
                    "largest way of a vertex [m]", "", false,
                    [=](unsigned int) -> StressAnswer

@@ -273,28 +273,28 @@ std::vector<StressCase> motion_cases(const std::vector<SheetStiffness> &stiffnes
       cases.push_back(
         {"motion",
          "free fall of one second; turned at random; " + called(integrator) + stiffness.name,
-         "finite; straight and as the integrator falls", Ending::finite, fall_round_off(stiffness),
-         "largest distance from the exact positions [m]", "", true,
+         "finite; straight and as the integrator falls", ExpectedEnd::finite,
+         fall_round_off(stiffness), "largest distance from the exact positions [m]", "", true,
          [=](const unsigned int seed) { return free_fall(stiffness, integrator, seed); }});
     cases.push_back({"motion", "four clamped edges under gravity; " + stiffness.name,
-                     "finite; holds (free fall would be 4.9 m)", Ending::finite, 0.1,
+                     "finite; holds (free fall would be 4.9 m)", ExpectedEnd::finite, 0.1,
                      "largest sag [m]", "", false,
                      [=](unsigned int) { return clamped(stiffness); }});
     for (const double h : {1e-3, 1e-2, 5e-2})
     {
       cases.push_back(
         {"motion", "hung by one corner; " + short_text(1e3 * h) + " ms; " + stiffness.name,
-         "finite; the energy of the damped sheet never grows", Ending::finite, energy_round_off,
-         "largest growth in a step over the largest energy [-]", "", false, [=](unsigned int) {
-           return hung_by_one_corner(stiffness, h, shell::Integrator::linearly_implicit);
-         }});
+         "finite; the energy of the damped sheet never grows", ExpectedEnd::finite,
+         energy_round_off, "largest growth in a step over the largest energy [-]", "", false,
+         [=](unsigned int)
+         { return hung_by_one_corner(stiffness, h, shell::Integrator::linearly_implicit); }});
       // Beyond 10 ms it takes minutes, and at 10 ms half of one: once.
       if (h < 0.02)
         cases.push_back(
           {"motion",
            "hung by one corner; " + short_text(1e3 * h) + " ms; conserving; " + stiffness.name,
-           "finite; the energy of the damped sheet never grows", Ending::finite, energy_round_off,
-           "largest growth in a step over the largest energy [-]", "", false,
+           "finite; the energy of the damped sheet never grows", ExpectedEnd::finite,
+           energy_round_off, "largest growth in a step over the largest energy [-]", "", false,
            [=](unsigned int)
            { return hung_by_one_corner(stiffness, h, shell::Integrator::conserving); },
            1});
@@ -304,8 +304,8 @@ std::vector<StressCase> motion_cases(const std::vector<SheetStiffness> &stiffnes
                          "pulled at 5 m/s; " + short_text(1e3 * h) + " ms; " + called(integrator) +
                            stiffness.name,
                          "finite; in the frame of the handle never more energy than at the start",
-                         Ending::finite, 1. + 1e-9, "of the energy at the start [-]", "", false,
-                         [=](unsigned int) { return pulled(stiffness, h, integrator); }});
+                         ExpectedEnd::finite, 1. + 1e-9, "of the energy at the start [-]", "",
+                         false, [=](unsigned int) { return pulled(stiffness, h, integrator); }});
     }
   }
   derive(cases, derivations);
@@ -325,19 +325,19 @@ std::vector<StressCase> scene_cases(const SheetStiffness &stiffness, const bool 
            step,
          "finite; but for what other forces do within a step no vertex deeper inside than h^2 times the acceleration by gravity and "
          "wind and a tenth of the contact thickness, nor than half the radius",
-         Ending::finite,
+         ExpectedEnd::finite,
          std::min(0.5 * radius,
                   h * h * (gravity + (has_wind ? wind_acceleration(stiffness) : 0.)) + 1e-4),
          "deepest vertex inside the sphere beyond h times what other forces changed of its velocity in the step [m]",
          "", false, [=](unsigned int) { return draped(stiffness, h, has_wind, with_obstacle); }});
     cases.push_back({"scene", "hung by two corners; bending" + step,
-                     "finite; the energy of the damped sheet never grows", Ending::finite,
+                     "finite; the energy of the damped sheet never grows", ExpectedEnd::finite,
                      energy_round_off, "largest growth in a step over the largest energy [-]", "",
                      true,
                      [=](const unsigned int seed) { return with_bending(stiffness, h, seed); }});
     cases.push_back({"scene", "free sheet in wind of 11 m/s" + step,
                      "finite; seen from the air never more energy than at the start",
-                     Ending::finite, 1. + 1e-9, "of the energy at the start [-]", "", false,
+                     ExpectedEnd::finite, 1. + 1e-9, "of the energy at the start [-]", "", false,
                      [=](unsigned int) { return blown(stiffness, h); }});
   }
   derive(cases, derivations);

@@ -230,7 +230,7 @@ StressCase misuse(const std::string &name, const std::string &names,
   return {"rotation and numbers",
           name,
           "refused; the message names `" + names + "`",
-          Ending::refused,
+          ExpectedEnd::refused,
           0.,
           "",
           names,
@@ -250,8 +250,10 @@ std::vector<StressCase> rotation_cases(const std::vector<SheetStiffness> &stiffn
   const std::string group = "rotation and numbers";
   std::vector<StressCase> cases;
   const auto finite = [&](const std::string &name, const std::string &expected, const double limit,
-                          const std::string &figure_is, const bool is_random, const auto &run) {
-    cases.push_back({group, name, expected, Ending::finite, limit, figure_is, "", is_random, run});
+                          const std::string &figure_is, const bool is_random, const auto &run)
+  {
+    cases.push_back(
+      {group, name, expected, ExpectedEnd::finite, limit, figure_is, "", is_random, run});
   };
   const std::string of_force = "force over stiffness x edge [-]";
 

@@ -127,8 +127,8 @@ std::vector<StressCase> spin_cases(const std::vector<SheetStiffness> &stiffnesse
                              const double limit, const std::string &figure_is, const auto &run)
         {
           // The conserving integrator solves with LU: a second look is enough.
-          cases.push_back({"spin", what + called, expected, Ending::finite, limit, figure_is, "",
-                           spin.disturbance > 0., run,
+          cases.push_back({"spin", what + called, expected, ExpectedEnd::finite, limit, figure_is,
+                           "", spin.disturbance > 0., run,
                            keeps_all ? 2 : std::numeric_limits<int>::max(),
                            what == "keeps; " ? of_what_is_kept : of_turning});
         };

@@ -119,7 +119,7 @@ private:
     table  = std::make_unique<Table<StressRow>>(options.output);
   }
 
-  /// C^H and modes of the given cells.
+  /// C^H and chi of the given cells.
   void homogenize()
   {
     Progress progress(is_root && !options.quiet, static_cast<int>(unit_cells.size()));

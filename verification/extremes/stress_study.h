@@ -14,7 +14,7 @@ namespace homespun::verification
 {
 struct StressStudyOptions
 {
-  std::vector<std::string> cell_files; ///< their C^H and modes; none: built-in ones
+  std::vector<std::string> cell_files; ///< their C^H and chi; none: built-in ones
   int repeats        = 10;
   int most_triangles = 1000000; ///< of the largest cell
   std::string output;

@@ -60,7 +60,7 @@ std::string story_of(const std::string &file)
 }
 
 /// @param pictures folder; empty: none
-int list_cells(const std::string &pictures, Afterwards &afterwards)
+int list_cells(const std::string &pictures, AfterMpi &afterwards)
 {
   if (!is_root(MPI_COMM_WORLD))
     return 0;
@@ -164,7 +164,7 @@ void add_homogenize_command(CLI::App &app, Action &action)
                     { action = [arguments]() { return homogenize(*arguments); }; });
 }
 
-void add_cells_command(CLI::App &app, Action &action, Afterwards &afterwards)
+void add_cells_command(CLI::App &app, Action &action, AfterMpi &afterwards)
 {
   CLI::App *command =
     app.add_subcommand("cells", "List the shipped cells with their parameters; make variants");

@@ -7,7 +7,7 @@
 #include "meshes/files/write_whole.h"
 #include "meshes/plain/errors.h"
 #include "verification/record/child_process.h"
-#include "verification/record/passing_folder.h"
+#include "verification/record/temporary_folder.h"
 
 #include <cmath>
 #include <filesystem>
@@ -234,7 +234,7 @@ std::string make_cell(const CellVariant &variant)
     throw meshes::BadInput(faults);
 
   fs::create_directories(variant.output);
-  const PassingFolder passing(variant.output);
+  const TemporaryFolder passing(variant.output);
   const std::string trial = passing.path + "/" + name;
   const std::string geo   = with_defaults(content_of(source + ".geo"), settings);
   const std::string prm   = with_mesh(content_of(source + ".prm"), name, variant, settings);

@@ -160,7 +160,7 @@ void write_results(const std::vector<CellReading> &readings, const std::string &
   meshes::write_whole(output + "/check.json", text + "\n");
 }
 
-int check(const CheckArguments &arguments, Afterwards &afterwards)
+int check(const CheckArguments &arguments, AfterMpi &afterwards)
 {
   if (!is_root(MPI_COMM_WORLD))
     return 0;
@@ -178,7 +178,7 @@ int check(const CheckArguments &arguments, Afterwards &afterwards)
 } // namespace
 
 void write_pictures(const std::vector<CellReading> &readings, const std::string &folder,
-                    Afterwards &afterwards)
+                    AfterMpi &afterwards)
 {
   write_results(readings, folder);
   afterwards = [folder]()
@@ -205,7 +205,7 @@ CellReading tell_findings(const std::string &file)
   return reading;
 }
 
-void add_check_command(CLI::App &app, Action &action, Afterwards &afterwards)
+void add_check_command(CLI::App &app, Action &action, AfterMpi &afterwards)
 {
   CLI::App *command = app.add_subcommand(
     "check",

@@ -15,5 +15,5 @@ homogenization::CellReading tell_findings(const std::string &file);
 
 /// Writes check.json into a folder and leaves a picture of each cell, as .svg and .png, to be drawn there. First rank.
 void write_pictures(const std::vector<homogenization::CellReading> &readings,
-                    const std::string &folder, Afterwards &afterwards);
+                    const std::string &folder, AfterMpi &afterwards);
 } // namespace homespun::verification

@@ -14,23 +14,23 @@ using Action = std::function<int()>;
 
 /// What is left to do when MPI has ended, on the first rank: the report, which is drawn by several
 /// processes and needs the cores that idle ranks would keep busy, or runs of mpirun. Returns an exit status.
-using Afterwards = std::function<int()>;
+using AfterMpi = std::function<int()>;
 
-void add_check_command(CLI::App &app, Action &action, Afterwards &afterwards);
+void add_check_command(CLI::App &app, Action &action, AfterMpi &afterwards);
 void add_homogenize_command(CLI::App &app, Action &action);
-void add_strain_command(CLI::App &app, Action &action, Afterwards &afterwards,
+void add_strain_command(CLI::App &app, Action &action, AfterMpi &afterwards,
                         const std::string &command_line);
-void add_drape_command(CLI::App &app, Action &action, Afterwards &afterwards,
+void add_drape_command(CLI::App &app, Action &action, AfterMpi &afterwards,
                        const std::string &command_line);
-void add_stress_command(CLI::App &app, Action &action, Afterwards &afterwards,
+void add_stress_command(CLI::App &app, Action &action, AfterMpi &afterwards,
                         const std::string &command_line);
-void add_converge_command(CLI::App &app, Action &action, Afterwards &afterwards,
+void add_converge_command(CLI::App &app, Action &action, AfterMpi &afterwards,
                           const std::string &command_line);
-void add_verify_command(CLI::App &app, Action &action, Afterwards &afterwards,
+void add_verify_command(CLI::App &app, Action &action, AfterMpi &afterwards,
                         const std::string &command_line);
-void add_report_command(CLI::App &app, Action &action, Afterwards &afterwards);
-void add_cells_command(CLI::App &app, Action &action, Afterwards &afterwards);
-void add_scaling_command(CLI::App &app, Action &action, Afterwards &afterwards,
+void add_report_command(CLI::App &app, Action &action, AfterMpi &afterwards);
+void add_cells_command(CLI::App &app, Action &action, AfterMpi &afterwards);
+void add_scaling_command(CLI::App &app, Action &action, AfterMpi &afterwards,
                          const std::string &command_line);
 
 /// Makes report.html from folders of results, with Debian's Python.

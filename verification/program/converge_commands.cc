@@ -19,7 +19,7 @@ struct ConvergeArguments
   StudyEnd end;
 };
 
-int run_converge(ConvergeArguments arguments, Afterwards &afterwards)
+int run_converge(ConvergeArguments arguments, AfterMpi &afterwards)
 {
   ConvergenceStudyOptions &study = arguments.study;
   ArgumentFaults faults;
@@ -34,7 +34,7 @@ int run_converge(ConvergeArguments arguments, Afterwards &afterwards)
 }
 } // namespace
 
-void add_converge_command(CLI::App &app, Action &action, Afterwards &afterwards,
+void add_converge_command(CLI::App &app, Action &action, AfterMpi &afterwards,
                           const std::string &command_line)
 {
   CLI::App *command = app.add_subcommand(

@@ -37,7 +37,7 @@ void check_arguments(const DrapeOptions &study)
   faults.throw_if_any();
 }
 
-int run_drape(DrapeArguments arguments, Afterwards &afterwards)
+int run_drape(DrapeArguments arguments, AfterMpi &afterwards)
 {
   DrapeOptions &study = arguments.study;
   if (arguments.no_frames)
@@ -50,7 +50,7 @@ int run_drape(DrapeArguments arguments, Afterwards &afterwards)
 }
 } // namespace
 
-void add_drape_command(CLI::App &app, Action &action, Afterwards &afterwards,
+void add_drape_command(CLI::App &app, Action &action, AfterMpi &afterwards,
                        const std::string &command_line)
 {
   CLI::App *command = app.add_subcommand(

@@ -47,7 +47,7 @@ int guarded(const homespun::verification::Action &action, const bool tells)
 }
 /// All that happens while MPI runs.
 /// @param afterwards receives what is left to do when it has ended
-int run(int argc, char **argv, homespun::verification::Afterwards &afterwards)
+int run(int argc, char **argv, homespun::verification::AfterMpi &afterwards)
 {
   using namespace homespun::verification;
   dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
@@ -105,7 +105,7 @@ int run(int argc, char **argv, homespun::verification::Afterwards &afterwards)
 
 int main(int argc, char **argv)
 {
-  homespun::verification::Afterwards afterwards;
+  homespun::verification::AfterMpi afterwards;
   const int status = run(argc, argv, afterwards);
   return afterwards
            ? guarded([&]() { return homespun::verification::worse(status, afterwards()); }, true)

@@ -53,7 +53,7 @@ void make_report(const std::vector<std::string> &folders, const std::string &out
     std::printf("Report: %s/report.html\n", output.c_str());
 }
 
-void add_report_command(CLI::App &app, Action &action, Afterwards &afterwards)
+void add_report_command(CLI::App &app, Action &action, AfterMpi &afterwards)
 {
   CLI::App *command =
     app.add_subcommand("report", "Make report.html and the figures again from stored results");

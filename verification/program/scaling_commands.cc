@@ -15,7 +15,7 @@ namespace homespun::verification
 {
 namespace
 {
-int prepare(ScalingOptions options, Afterwards &afterwards)
+int prepare(ScalingOptions options, AfterMpi &afterwards)
 {
   ArgumentFaults faults;
   if (dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD) > 1)
@@ -58,7 +58,7 @@ int prepare(ScalingOptions options, Afterwards &afterwards)
 }
 } // namespace
 
-void add_scaling_command(CLI::App &app, Action &action, Afterwards &afterwards,
+void add_scaling_command(CLI::App &app, Action &action, AfterMpi &afterwards,
                          const std::string &command_line)
 {
   CLI::App *command = app.add_subcommand(

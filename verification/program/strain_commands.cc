@@ -44,7 +44,7 @@ void check_arguments(StrainStudyOptions &study)
   faults.throw_if_any();
 }
 
-int run_strain(StrainArguments arguments, Afterwards &afterwards)
+int run_strain(StrainArguments arguments, AfterMpi &afterwards)
 {
   StrainStudyOptions &study = arguments.study;
   check_arguments(study);
@@ -55,7 +55,7 @@ int run_strain(StrainArguments arguments, Afterwards &afterwards)
 }
 } // namespace
 
-void add_strain_command(CLI::App &app, Action &action, Afterwards &afterwards,
+void add_strain_command(CLI::App &app, Action &action, AfterMpi &afterwards,
                         const std::string &command_line)
 {
   CLI::App *command = app.add_subcommand(

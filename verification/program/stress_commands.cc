@@ -19,7 +19,7 @@ struct StressArguments
   bool quick = false;
 };
 
-int run_stress(StressArguments arguments, Afterwards &afterwards)
+int run_stress(StressArguments arguments, AfterMpi &afterwards)
 {
   StressStudyOptions &study = arguments.study;
   if (arguments.quick)
@@ -34,7 +34,7 @@ int run_stress(StressArguments arguments, Afterwards &afterwards)
 }
 } // namespace
 
-void add_stress_command(CLI::App &app, Action &action, Afterwards &afterwards,
+void add_stress_command(CLI::App &app, Action &action, AfterMpi &afterwards,
                         const std::string &command_line)
 {
   CLI::App *command = app.add_subcommand(
@@ -43,7 +43,7 @@ void add_stress_command(CLI::App &app, Action &action, Afterwards &afterwards,
   const auto arguments     = std::make_shared<StressArguments>();
   arguments->study.command = command_line;
   command->add_option("CELL.prm", arguments->study.cell_files,
-                      "Cells whose stiffness and modes the cases take (default: built-in ones)");
+                      "Cells whose C^H and chi the cases take (default: built-in ones)");
   command->add_flag("--quick", arguments->quick,
                     "Each case twice instead of ten times, cells of at most 1e5 triangles");
   add_folder_options(*command, arguments->study, "out/CELLS/stress, --quick stress-quick");

@@ -46,7 +46,7 @@ void StudyEnd::add_options(CLI::App &command)
 }
 
 int StudyEnd::conclude(const std::vector<Verdict> &verdicts, const std::string &output,
-                       const bool quiet, Afterwards &afterwards) const
+                       const bool quiet, AfterMpi &afterwards) const
 {
   if (is_root(MPI_COMM_WORLD))
   {

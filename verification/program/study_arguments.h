@@ -103,6 +103,6 @@ struct StudyEnd
   /// Prints the verdicts and leaves the report of the output folder to be made, both on the first rank.
   /// @return the exit status: status_of() the verdicts
   int conclude(const std::vector<Verdict> &verdicts, const std::string &output, bool quiet,
-               Afterwards &afterwards) const;
+               AfterMpi &afterwards) const;
 };
 } // namespace homespun::verification

@@ -20,7 +20,7 @@ struct VerifyArguments
   bool no_report = false;
 };
 
-int run_verify(VerifyArguments arguments, Afterwards &afterwards)
+int run_verify(VerifyArguments arguments, AfterMpi &afterwards)
 {
   VerifyOptions &options = arguments.verify;
   ArgumentFaults faults;
@@ -63,7 +63,7 @@ int run_verify(VerifyArguments arguments, Afterwards &afterwards)
 }
 } // namespace
 
-void add_verify_command(CLI::App &app, Action &action, Afterwards &afterwards,
+void add_verify_command(CLI::App &app, Action &action, AfterMpi &afterwards,
                         const std::string &command_line)
 {
   CLI::App *command = app.add_subcommand(

@@ -121,7 +121,7 @@ private:
     double factor; ///< [1/s^2]
     Vector centre; ///< [m]
   };
-  struct State
+  struct Evaluation
   {
     double energy      = 0.; ///< what is minimised; gravity's since the start of the step [J]
     double energy_size = 0.; ///< sum of the absolute values of its terms [J]
@@ -136,10 +136,10 @@ private:
   void put_held(Vector &positions) const;
   void lay_out_matrix();
   template <int n_shapes>
-  State assemble(const Vector &positions, const Inertia &inertia, Vector &residual, Tangent tangent,
-                 double tension);
-  State evaluate(const Vector &positions, const Inertia &inertia, Vector &residual, Tangent tangent,
-                 double tension);
+  Evaluation assemble(const Vector &positions, const Inertia &inertia, Vector &residual,
+                      Tangent tangent, double tension);
+  Evaluation evaluate(const Vector &positions, const Inertia &inertia, Vector &residual,
+                      Tangent tangent, double tension);
   void solve_linearized(Vector &increment, const Vector &forces, double target, ClothStep &step);
   void minimize(Vector &positions, const Inertia &inertia, double tension, ClothStep &step);
   void advance(double dt, unsigned int cuts, ClothStep &step);

@@ -99,9 +99,9 @@ void ClothReference::lay_out_matrix()
 /// Energy, residual and, where asked for, the matrix, whose tangent has `tension` added to its stress
 /// (a fictitious isotropic one, for continuation; neither energy nor residual know of it).
 template <int n_shapes>
-ClothReference::State ClothReference::assemble(const Vector &positions, const Inertia &inertia,
-                                               Vector &residual, const Tangent tangent,
-                                               const double tension)
+ClothReference::Evaluation ClothReference::assemble(const Vector &positions, const Inertia &inertia,
+                                                    Vector &residual, const Tangent tangent,
+                                                    const double tension)
 {
   using NodeVectors                 = Eigen::Matrix<double, n_shapes, 3, Eigen::RowMajor>;
   const ReferenceElement &reference = discretization.nonlinear_quadrature;
@@ -234,7 +234,7 @@ ClothReference::State ClothReference::assemble(const Vector &positions, const In
   }
   const std::vector<double> of_this_rank = sums;
   Utilities::MPI::sum(of_this_rank, discretization.communicator, sums);
-  State state;
+  Evaluation state;
   state.energy      = sums[0];
   state.energy_size = sums[1];
   if (loads.body_force)
@@ -252,9 +252,9 @@ ClothReference::State ClothReference::assemble(const Vector &positions, const In
   return state;
 }
 
-ClothReference::State ClothReference::evaluate(const Vector &positions, const Inertia &inertia,
-                                               Vector &residual, const Tangent tangent,
-                                               const double tension)
+ClothReference::Evaluation ClothReference::evaluate(const Vector &positions, const Inertia &inertia,
+                                                    Vector &residual, const Tangent tangent,
+                                                    const double tension)
 {
   return options.order == 1 ? assemble<3>(positions, inertia, residual, tangent, tension)
                             : assemble<6>(positions, inertia, residual, tangent, tension);

@@ -15,7 +15,7 @@ namespace
 constexpr unsigned int most_linear_iterations = 300;
 } // namespace
 
-bool ClothReference::State::is_converged(const double tolerance) const
+bool ClothReference::Evaluation::is_converged(const double tolerance) const
 {
   // A cloth without loads has forces from rounding only.
   return residual <= std::max(tolerance * force_size, round_off);
@@ -57,8 +57,8 @@ void ClothReference::minimize(Vector &positions, const Inertia &inertia, double 
 {
   Vector residual = solver->owned_vector(), increment = solver->owned_vector();
   Vector trial = positions, unused = solver->owned_vector();
-  load_origin = positions;
-  State state = evaluate(positions, inertia, residual, Tangent::none, 0.);
+  load_origin      = positions;
+  Evaluation state = evaluate(positions, inertia, residual, Tangent::none, 0.);
   std::vector<double> history;
   // Looser ones leave the soft motion along the normal, whose forces are small, to the next step.
   constexpr double largest_forcing = 0.01;
@@ -104,7 +104,7 @@ void ClothReference::minimize(Vector &positions, const Inertia &inertia, double 
 
     const double slope = -(forces * increment);
     double length      = 1.;
-    State next;
+    Evaluation next;
     while (true)
     {
       trial = positions;

@@ -127,9 +127,9 @@ FineReference::Vector FineReference::guess(const double strain) const
 }
 
 template <int n_shapes>
-FineReference::State FineReference::assemble(const Vector &displacement,
-                                             const Eigen::Matrix2d &mean_gradient, Vector &residual,
-                                             const bool with_matrix, const bool projected)
+FineReference::Evaluation
+FineReference::assemble(const Vector &displacement, const Eigen::Matrix2d &mean_gradient,
+                        Vector &residual, const bool with_matrix, const bool projected)
 {
   constexpr int n = 2 * n_shapes;
   const ReferenceElement &reference =
@@ -142,7 +142,7 @@ FineReference::State FineReference::assemble(const Vector &displacement,
   if (with_matrix)
     solver->matrix = 0.;
 
-  State state;
+  Evaluation state;
   std::vector<types::global_dof_index> dofs(n);
   std::vector<double> values(n);
   FullMatrix<double> element_matrix(n, n);
@@ -228,9 +228,10 @@ FineReference::State FineReference::assemble(const Vector &displacement,
   return state;
 }
 
-FineReference::State FineReference::evaluate(const Vector &displacement,
-                                             const Eigen::Matrix2d &mean_gradient, Vector &residual,
-                                             const bool with_matrix, const bool projected)
+FineReference::Evaluation FineReference::evaluate(const Vector &displacement,
+                                                  const Eigen::Matrix2d &mean_gradient,
+                                                  Vector &residual, const bool with_matrix,
+                                                  const bool projected)
 {
   return options.order == 1
            ? assemble<3>(displacement, mean_gradient, residual, with_matrix, projected)
@@ -272,8 +273,8 @@ void FineReference::solve(Vector &displacement, const double strain, const doubl
                               return FieldValue(force(0), force(1), 0.);
                             });
   Vector residual = solver->owned_vector(), increment = solver->owned_vector();
-  Vector trial = solver->owned_vector();
-  State state  = evaluate(displacement, mean_gradient, residual, false, false);
+  Vector trial     = solver->owned_vector();
+  Evaluation state = evaluate(displacement, mean_gradient, residual, false, false);
   std::vector<double> history;
   constexpr unsigned int most_steps = 30;
   for (unsigned int newton = 0; newton <= most_steps; ++newton)
@@ -315,7 +316,7 @@ void FineReference::solve(Vector &displacement, const double strain, const doubl
 
     const double slope = -(forces * increment);
     double length      = 1.;
-    State next;
+    Evaluation next;
     while (true)
     {
       trial = displacement;

@@ -84,7 +84,7 @@ public:
 
 private:
   using Vector = homogenization::ElasticSolver::Vector;
-  struct State
+  struct Evaluation
   {
     double energy           = 0.; ///< [J]
     unsigned int n_inverted = 0;  ///< triangles with det F <= 0
@@ -105,11 +105,11 @@ private:
   Vector guess(double strain) const;
   void solve(Vector &displacement, double strain, double tolerance, ReferenceStep &step);
   unsigned int solve_linearized(Vector &increment, const Vector &forces, double target);
-  State evaluate(const Vector &displacement, const Eigen::Matrix2d &mean_gradient, Vector &residual,
-                 bool with_matrix, bool projected);
+  Evaluation evaluate(const Vector &displacement, const Eigen::Matrix2d &mean_gradient,
+                      Vector &residual, bool with_matrix, bool projected);
   template <int n_shapes>
-  State assemble(const Vector &displacement, const Eigen::Matrix2d &mean_gradient, Vector &residual,
-                 bool with_matrix, bool projected);
+  Evaluation assemble(const Vector &displacement, const Eigen::Matrix2d &mean_gradient,
+                      Vector &residual, bool with_matrix, bool projected);
   meshes::Points positions_of(const Vector &displacement, double strain) const;
 
   const meshes::Sheet &sheet;

@@ -9,9 +9,9 @@
 #include "verification/record/child_process.h"
 #include "verification/record/json_files.h"
 #include "verification/record/number_text.h"
-#include "verification/record/passing_folder.h"
 #include "verification/record/progress.h"
 #include "verification/record/provenance.h"
+#include "verification/record/temporary_folder.h"
 
 #include <Eigen/QR>
 
@@ -57,7 +57,7 @@ ScalingRun run_from(const std::string &file)
 
 ScalingRun measure(const ScalingOptions &options, const int refine, const int ranks)
 {
-  const PassingFolder passing(options.output);
+  const TemporaryFolder passing(options.output);
   const std::string folder = passing.path + "/run", log = passing.path + "/run.log";
   std::vector<std::string> words;
   std::istringstream launcher(options.launcher);

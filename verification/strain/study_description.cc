@@ -127,7 +127,7 @@ std::vector<std::string> notes_on_the_method(const StrainStudyOptions &options,
       "Error budget: parts 1, 9's constant and the reference's own discretization are measured in "
       "linear theory and scaled with strain; parts 2, 3 and 5 at the strain itself, on a homogenized "
       "sheet whose coarse mesh is refined four to sixteen times. Products of parts are in no part: "
-      "they show as misfit, which has no limit. Part 2 takes its stiffness and modes at finite "
+      "they show as misfit, which has no limit. Part 2 takes its stiffness and chi at finite "
       "strain from cell problems over the strains of the sheet, all but 0.5 % at either end of each "
       "component.");
   if (options.run_time && has_sheet(options) && has(options.references, "biot"))

@@ -113,7 +113,7 @@ TEST(exact_bracket, both_solvers_agree_on_an_adaptively_refined_mesh)
     options.tolerance              = 1e-9;
     const AdaptiveBracket adaptive = adaptive_bracket(
       cell.mesh, cell.lattice, cell.stiffness_of_phase(), options, [](const Bracket &) {});
-    EXPECT_EQ(adaptive.ending, Ending::max_dofs);
+    EXPECT_EQ(adaptive.ending, AdaptiveEnd::max_dofs);
     UnitCell fine              = cell;
     fine.mesh                  = unfolded(adaptive.mesh);
     const Homogenization by_cg = tests::solved(fine, order);
@@ -326,7 +326,7 @@ TEST(bound_bracket, brackets_of_cells_with_holes_close_by_adaptivity)
   options.max_dofs  = 40000;
   const AdaptiveBracket narrow =
     adaptive_bracket(cell.mesh, cell.lattice, cell.stiffness, options, [](const Bracket &) {});
-  EXPECT_EQ(narrow.ending, Ending::tolerance);
+  EXPECT_EQ(narrow.ending, AdaptiveEnd::tolerance);
   EXPECT_TRUE(is_ordered(coarse.lower, narrow.bracket.lower));
   EXPECT_TRUE(is_ordered(narrow.bracket.upper, coarse.upper));
 }

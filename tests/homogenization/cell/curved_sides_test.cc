@@ -288,7 +288,7 @@ TEST(order_facets, the_estimate_of_the_geometry_is_the_change_to_the_arcs_to_fir
       const AdaptiveBracket reached =
         adaptive_bracket(glued(cell.mesh, cell.lattice, cell.curved_sides),
                          cell.stiffness_of_phase(), options, [](const Bracket &) {});
-      EXPECT_EQ(reached.ending, Ending::tolerance);
+      EXPECT_EQ(reached.ending, AdaptiveEnd::tolerance);
       return 0.5 * (reached.bracket.lower + reached.bracket.upper);
     };
     const TorusMesh torus = glued(cell.mesh, cell.lattice);

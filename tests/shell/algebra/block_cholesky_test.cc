@@ -33,12 +33,12 @@ BlockMatrix random_matrix(const int n)
   {
     const Eigen::Matrix3d first = Eigen::Matrix3d::NullaryExpr([&] { return random(generator); }),
                           other = Eigen::Matrix3d::NullaryExpr([&] { return random(generator); });
-    matrix.add(matrix.place(pair[0], pair[0]), first.transpose() * first);
-    matrix.add(matrix.place(pair[1], pair[1]), other.transpose() * other);
-    matrix.add(matrix.place(pair[0], pair[1]), first.transpose() * other);
+    matrix.add(matrix.slot(pair[0], pair[0]), first.transpose() * first);
+    matrix.add(matrix.slot(pair[1], pair[1]), other.transpose() * other);
+    matrix.add(matrix.slot(pair[0], pair[1]), first.transpose() * other);
   }
   for (int v = 0; v < mesh.n_vertices(); ++v)
-    matrix.add_multiple(matrix.place(v, v), 0.01);
+    matrix.add_multiple(matrix.slot(v, v), 0.01);
   return matrix;
 }
 } // namespace
@@ -70,7 +70,7 @@ TEST(tripwire_block_cholesky, a_matrix_that_is_not_positive_definite_is_refused_
   for (int v = 21; v < matrix.n_vertices(); v += 7)
     for (const double wrong : {-1e3, std::numeric_limits<double>::quiet_NaN()})
     {
-      BlockMatrix::Block &block = matrix.blocks[static_cast<std::size_t>(matrix.place(v, v).block)];
+      BlockMatrix::Block &block = matrix.blocks[static_cast<std::size_t>(matrix.slot(v, v).block)];
       const BlockMatrix::Block kept = block;
       block(v % 3, v % 3) += wrong;
       EXPECT_FALSE(cholesky.factorize(matrix)) << v << ' ' << wrong;

@@ -17,7 +17,8 @@ using namespace homespun::verification;
 namespace
 {
 /// A case that ends as told, in memory.
-StressCase planted(const double figure, const double number, const Ending ending = Ending::finite)
+StressCase planted(const double figure, const double number,
+                   const ExpectedEnd ending = ExpectedEnd::finite)
 {
   StressCase one;
   one.group      = "planted";
@@ -70,13 +71,13 @@ TEST(tripwire_stress, a_number_that_is_not_finite_fails_and_reaches_no_file)
 
 TEST(tripwire_stress, a_refusal_must_name_the_fault)
 {
-  StressCase one = planted(0., 0., Ending::refused);
+  StressCase one = planted(0., 0., ExpectedEnd::refused);
   EXPECT_EQ(run_case(one, 2).verdict, Outcome::fail); // it did not refuse
   one.run = [](unsigned int) -> StressAnswer { throw meshes::BadInput("triangle 3: has no area"); };
   EXPECT_EQ(run_case(one, 2).verdict, Outcome::pass);
-  one.ending = Ending::finite;
+  one.ending = ExpectedEnd::finite;
   EXPECT_EQ(run_case(one, 2).verdict, Outcome::fail);
-  one     = planted(0., 0., Ending::refused);
+  one     = planted(0., 0., ExpectedEnd::refused);
   one.run = [](unsigned int) -> StressAnswer { throw meshes::BadInput("something is wrong"); };
   EXPECT_EQ(run_case(one, 2).verdict, Outcome::fail);
   one.run = [](unsigned int) -> StressAnswer { throw std::logic_error("triangle 3"); };

@@ -12,20 +12,20 @@
 namespace homespun::verification
 {
 /// A new folder that goes away with all that is in it.
-class PassingFolder
+class TemporaryFolder
 {
 public:
   /// @throws BadInput where a folder cannot be made in `parent`
-  explicit PassingFolder(const std::string &parent)
+  explicit TemporaryFolder(const std::string &parent)
       : path(parent + "/.homespun-XXXXXX")
   {
     if (!mkdtemp(path.data()))
       throw meshes::BadInput(
         parent + ": cannot be written; expected a folder that can: choose another --output");
   }
-  PassingFolder(const PassingFolder &)            = delete;
-  PassingFolder &operator=(const PassingFolder &) = delete;
-  ~PassingFolder()
+  TemporaryFolder(const TemporaryFolder &)            = delete;
+  TemporaryFolder &operator=(const TemporaryFolder &) = delete;
+  ~TemporaryFolder()
   {
     std::error_code ignored;
     std::filesystem::remove_all(path, ignored);

@@ -12,7 +12,7 @@
 namespace homespun::shell
 {
 /// Places of the corners (0,0) (0,1) (0,2) (1,1) (1,2) (2,2) of a triangle.
-using TrianglePlaces = std::array<BlockMatrix::Place, 6>;
+using TriangleSlots = std::array<BlockMatrix::Slot, 6>;
 
 /// Adds the sides of all triangles to the pairs of vertices that are coupled.
 inline void couple_corners(const meshes::Triangles &triangles,
@@ -24,15 +24,15 @@ inline void couple_corners(const meshes::Triangles &triangles,
 }
 
 /// @return (m) of a matrix with these couplings
-inline std::vector<TrianglePlaces> places_of(const meshes::Triangles &triangles,
-                                             const BlockMatrix &matrix)
+inline std::vector<TriangleSlots> places_of(const meshes::Triangles &triangles,
+                                            const BlockMatrix &matrix)
 {
-  std::vector<TrianglePlaces> places(static_cast<std::size_t>(triangles.rows()));
+  std::vector<TriangleSlots> places(static_cast<std::size_t>(triangles.rows()));
   for (Eigen::Index t = 0; t < triangles.rows(); ++t)
     for (int k = 0, b = 0; k < 3; ++k)
       for (int l = k; l < 3; ++l, ++b)
         places[static_cast<std::size_t>(t)][static_cast<std::size_t>(b)] =
-          matrix.place(triangles(t, k), triangles(t, l));
+          matrix.slot(triangles(t, k), triangles(t, l));
   return places;
 }
 } // namespace homespun::shell

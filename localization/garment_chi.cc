@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "localization/garment_modes.h"
+#include "localization/garment_chi.h"
 
 #include <algorithm>
 
@@ -8,7 +8,7 @@ namespace homespun::localization
 namespace
 {
 /// chi of a cell that is turned against the rest frame: w = Q w_cell(Q^T E Q).
-Eigen::Matrix<double, 6, 6> turned_modes(const Eigen::Matrix2d &Q)
+Eigen::Matrix<double, 6, 6> turned_chi(const Eigen::Matrix2d &Q)
 {
   Eigen::Matrix<double, 6, 6> map = Eigen::Matrix<double, 6, 6>::Zero(); // chi row times map
   for (int b = 0; b < 3; ++b)
@@ -34,32 +34,31 @@ double smooth_step(const double s)
 }
 } // namespace
 
-GarmentModes::GarmentModes(const meshes::HomogenizedCell &cell,
-                           const meshes::CharacteristicDisplacements &chi,
-                           const meshes::FineCloth &fine, const double fade)
+GarmentChi::GarmentChi(const meshes::HomogenizedCell &cell, const meshes::Chi &chi,
+                       const meshes::FineCloth &fine, const double fade)
     : cell(cell)
     , chi(chi)
     , fine(fine)
     , fade(fade)
 {
   for (const meshes::Grain &grain : fine.grains)
-    turned.push_back(turned_modes(grain.rotation()));
+    turned.push_back(turned_chi(grain.rotation()));
 }
 
-Eigen::Matrix<double, 1, 6> GarmentModes::operator()(const int v) const
+Eigen::Matrix<double, 1, 6> GarmentChi::operator()(const int v) const
 {
-  Eigen::Matrix<double, 1, 6> modes = Eigen::Matrix<double, 1, 6>::Zero();
+  Eigen::Matrix<double, 1, 6> here = Eigen::Matrix<double, 1, 6>::Zero();
   if (fine.cell_vertex(v) >= 0)
-    modes = chi.row(fine.cell_vertex(v));
+    here = chi.row(fine.cell_vertex(v));
   else
     for (int k = 0; k < 3; ++k)
-      modes += fine.cell_weights(v, k) * chi.row(cell.mesh.triangles(fine.cell_triangle(v), k));
+      here += fine.cell_weights(v, k) * chi.row(cell.mesh.triangles(fine.cell_triangle(v), k));
   const auto panel = static_cast<std::size_t>(fine.panel(v));
   if (fine.grains[panel].angle != 0.)
-    modes = (modes * turned[panel]).eval();
+    here = (here * turned[panel]).eval();
   const double distance = fine.seam_distance(v);
   if (distance < fade)
-    modes *= smooth_step(distance / fade);
-  return modes;
+    here *= smooth_step(distance / fade);
+  return here;
 }
 } // namespace homespun::localization
