@@ -7,8 +7,8 @@
 // F = [x1 − x0, x2 − x0] Dm^-1 (dim x 2), C = F^T F, J = det F (dim = 2) or |f1 × f2| (dim = 3),
 // s = sqrt(tr C + 2 J):  U = (C + J I)/s,  R = (F + cof F)/s  with cof F = dJ/dF, E = U − I. In the
 // plane R is the proper rotation nearest to F, also where a triangle is inverted.
-// Where a triangle is collapsed to a line cof F counts as zero; to a point, U = 0 and R = 0. Both are
-// finite and need no branch.
+// Where a triangle is collapsed to a line cof F counts as zero; to a point, U = 0 and R = 0. Both
+// are finite and need no branch.
 #pragma once
 
 #include "localization/options.h"

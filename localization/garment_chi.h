@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// chi at the fine vertices of a garment: that of its cell, interpolated where an outline cuts a cell,
-// turned with the grain of the panel, and faded to zero at seams. Private to upsampler.
+// chi at the fine vertices of a garment: that of its cell, interpolated where an outline cuts a
+// cell, turned with the grain of the panel, and faded to zero at seams. Private to upsampler.
 #pragma once
 
 #include "meshes/garment/fine_cloth.h"

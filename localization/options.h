@@ -55,8 +55,9 @@ struct UpsamplerOptions
   Anchor anchor    = Anchor::lattice;
   Blend blend      = Blend::continuous;
   Path path        = Path::automatic;
-  /// Of a garment: over which distance from a seam the fluctuation grows from zero to its full size, in
-  /// cell sides sqrt(|Y|), 0 to meshes::seam_reach. With 0 it does not fade, and seams gape.
+  /// Of a garment: over which distance from a seam the fluctuation grows from zero to its full
+  /// size, in cell sides sqrt(|Y|), 0 to meshes::seam_reach. With 0 it does not fade, and seams
+  /// gape.
   double seam_fade = 0.5;
 };
 } // namespace homespun::localization

@@ -15,8 +15,9 @@ namespace homespun::localization
 {
 namespace
 {
-/// A coarse mesh is the sheet's lattice if its vertices agree to this part of the cell size. Far below
-/// image_tolerance: what agrees less well is up-sampled by the general path, right to all digits.
+/// A coarse mesh is the sheet's lattice if its vertices agree to this part of the cell size. Far
+/// below image_tolerance: what agrees less well is up-sampled by the general path, right to all
+/// digits.
 constexpr double aligned_tolerance = 1e-10;
 
 bool is_lattice_of(const meshes::Sheet &sheet, const meshes::TriangleMesh &coarse)
@@ -77,8 +78,8 @@ Upsampler<dim, Scalar>::Upsampler(const meshes::HomogenizedCell &cell,
 {
   if (const auto faults = garment_faults(cell, coarse, fine, options); !faults.empty())
     throw meshes::BadInput(faults);
-  const meshes::Chi chi       = options.microscopic ? anchored(cell, options.anchor)
-                                                    : meshes::Chi::Zero(cell.mesh.n_vertices(), 6).eval();
+  const meshes::Chi none      = meshes::Chi::Zero(cell.mesh.n_vertices(), 6);
+  const meshes::Chi chi       = options.microscopic ? anchored(cell, options.anchor) : none;
   n_total                     = fine.n_vertices();
   n_space                     = coarse.n_vertices();
   const Eigen::VectorXi space = meshes::space_of_rest(coarse);
@@ -98,8 +99,8 @@ void Upsampler<dim, Scalar>::place(const meshes::Chi &chi, const meshes::Sheet &
                                    const int from)
 {
   const meshes::PointLocation location(frames.rest());
-  // Points on a coarse edge belong to the triangle at their upper right and below the diagonal, as in
-  // the order of the sheet; without blending it matters.
+  // Points on a coarse edge belong to the triangle at their upper right and below the diagonal, as
+  // in the order of the sheet; without blending it matters.
   const Eigen::RowVector2d towards =
     1e-5 * Eigen::RowVector2d(2. / 3., 1. / 3.) * fine.lattice.vectors;
   std::vector<std::vector<Member>> in_triangle(
@@ -232,8 +233,8 @@ template <int dim, typename Scalar>
 template <int terms>
 void Upsampler<dim, Scalar>::run(Scalar *const fine_current) const
 {
-  // A run is computed in whole blocks of lanes. What it writes too much lies in the run after it, which
-  // is written later; at the end of the output it goes through a buffer.
+  // A run is computed in whole blocks of lanes. What it writes too much lies in the run after it,
+  // which is written later; at the end of the output it goes through a buffer.
   constexpr int chunk = 8 * lanes;
   Scalar buffer[chunk * dim];
   const int begin_above = (n_below + lanes - 1) / lanes * lanes;

@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: MIT
-// Fine positions from coarse positions (paper Section 2.3, Eqs. 9-12, repaired as in METHOD 3): what
-// runs every frame. Everything that does not change with the motion is done in the constructor:
-// location of the fine vertices, barycentric coordinates, anchored chi; after that a frame is
-// linear in (coarse data) x (constants per vertex), about 36 multiply-adds per vertex in space and
-// 28 in the plane, without branches.
+// Fine positions from coarse positions (paper Section 2.3, Eqs. 9-12, repaired as in METHOD 3):
+// what runs every frame. Everything that does not change with the motion is done in the
+// constructor: location of the fine vertices, barycentric coordinates, anchored chi; after that a
+// frame is linear in (coarse data) x (constants per vertex), about 36 multiply-adds per vertex in
+// space and 28 in the plane, without branches.
 //
-// Aligned path, where the coarse mesh is the lattice of the sheet: all cells share one table, two runs
-//   of consecutive vertices per cell, no index per vertex. The table (8 numbers per vertex of one cell)
-//   stays in the first-level cache, so that the output is all that moves through memory.
+// Aligned path, where the coarse mesh is the lattice of the sheet: all cells share one table, two
+//   runs of consecutive vertices per cell, no index per vertex. The table (8 numbers per vertex of
+//   one cell) stays in the first-level cache, so that the output is all that moves through memory.
 // General path, on any coarse mesh that covers the sheet: vertices grouped by coarse triangle, with
 //   8 numbers and an index per vertex.
-// A garment (meshes::FineCloth) takes the general path: vertices in space are gathered to the rest vertices
-//   of the panels, so that each panel has strains in its own rest frame and averages over its own triangles
-//   only. chi turns with the grain of the panel, and fades to zero at its seams (not at free edges): there
-//   both sides lie on the same coarse edge, and the seam stays closed.
+// A garment (meshes::FineCloth) takes the general path: vertices in space are gathered to the rest
+//   vertices of the panels, so that each panel has strains in its own rest frame and averages over
+//   its own triangles only. chi turns with the grain of the panel, and fades to zero at its seams
+//   (not at free edges): there both sides lie on the same coarse edge, and the seam stays closed.
 // Terms that the options leave out have loops of their own without them.
 #pragma once
 
@@ -37,16 +37,16 @@ template <int dim, typename Scalar = float>
 class Upsampler
 {
 public:
-  /// Fine positions, one vertex per row, components side by side (x y z x y z ...): what vertex buffers
-  /// and files take as it is. Shape (n_fine, dim) [m].
+  /// Fine positions, one vertex per row, components side by side (x y z x y z ...): what vertex
+  /// buffers and files take as it is. Shape (n_fine, dim) [m].
   using Fine = Eigen::Matrix<Scalar, Eigen::Dynamic, dim, Eigen::RowMajor>;
 
   /// Places the fine vertices on the coarse mesh.
   /// @param cell homogenized cell whose chi is superposed; its stiffness is not used
   /// @param coarse_rest coarse mesh at rest, in the plane of the sheet
   /// @param fine resolved sheet of that cell
-  /// @throws BadInput where the coarse mesh is not sound or does not hold a fine vertex (which is named),
-  ///   where cell and sheet do not belong together, or where options contradict each other
+  /// @throws BadInput where the coarse mesh is not sound or does not hold a fine vertex (which is
+  ///   named), where cell and sheet do not belong together, or where options contradict each other
   Upsampler(const meshes::HomogenizedCell &cell, const meshes::TriangleMesh &coarse_rest,
             const meshes::Sheet &fine, const UpsamplerOptions &options = {});
 

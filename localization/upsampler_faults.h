@@ -17,8 +17,8 @@ namespace homespun::localization
 std::vector<std::string> sheet_faults(const meshes::HomogenizedCell &cell,
                                       const meshes::Sheet &sheet);
 
-/// Faults of a coarse cloth, and between it, a cell and the fine cloth made from both; of the vertices the
-/// first three.
+/// Faults of a coarse cloth, and between it, a cell and the fine cloth made from both; of the
+/// vertices the first three.
 std::vector<std::string> garment_faults(const meshes::HomogenizedCell &cell,
                                         const meshes::ClothMesh &coarse,
                                         const meshes::FineCloth &fine,

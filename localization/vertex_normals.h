@@ -9,10 +9,11 @@
 
 namespace homespun::localization
 {
-/// Unit normals at the vertices: the mean over their triangles, weighted by area, n_v ~ sum of e1 x e2.
+/// Unit normals at the vertices: the mean over their triangles, weighted by area, n_v ~ sum of e1 x
+/// e2.
 /// @param positions (n,3) [m]
-/// @param triangles (m,3); with meshes::FineCloth::sewn_triangles() normals are smooth across seams (copy
-///   the row of same_in_space to the others)
+/// @param triangles (m,3); with meshes::FineCloth::sewn_triangles() normals are smooth across seams
+///   (copy the row of same_in_space to the others)
 /// @return (n,3); zero at a vertex whose triangles have no area, or that has none
 template <typename Scalar>
 Eigen::Matrix<Scalar, Eigen::Dynamic, 3, Eigen::RowMajor>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What up-sampling keeps of each fine vertex: where it lies in its coarse triangle, and its chi_blocks. Private to
-// upsampler.
+// What up-sampling keeps of each fine vertex: where it lies in its coarse triangle, and its
+// chi_blocks. Private to upsampler.
 #pragma once
 
 #include "localization/kernel.h"

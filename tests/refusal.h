@@ -8,7 +8,8 @@
 
 namespace homespun::tests
 {
-/// The message of the BadInput or NotConverged that an action throws; empty where it throws neither.
+/// The message of the BadInput or NotConverged that an action throws; empty where it throws
+/// neither.
 template <typename Action>
 std::string refusal(const Action &action)
 {

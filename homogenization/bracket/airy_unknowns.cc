@@ -27,8 +27,8 @@ Eigen::Matrix3d stress_functions_of_means(const Eigen::Vector2d &p)
 }
 } // namespace
 
-/// Written out: GCC 12 with -O3 -march=native was seen, here alone, to leave the second component of
-/// an inlined Vector2d(...).normalized() undivided.
+/// Written out: GCC 12 with -O3 -march=native was seen, here alone, to leave the second component
+/// of an inlined Vector2d(...).normalized() undivided.
 Eigen::Vector2d edge_normal(const TorusEdge &edge)
 {
   const double length = edge.vector.norm();
@@ -74,8 +74,9 @@ void AiryUnknowns::find_holes()
       hole = static_cast<int>(origins.size());
       origins.emplace_back(triangle.corner + shape[at(k)]);
     }
-    const Eigen::Vector2d ends[2]          = {triangle.corner + shape[at(k)] - origins[at(hole)],
-                                              triangle.corner + shape[at((k + 1) % 3)] - origins[at(hole)]};
+    const Eigen::Vector2d &origin          = origins[at(hole)];
+    const Eigen::Vector2d ends[2]          = {triangle.corner + shape[at(k)] - origin,
+                                              triangle.corner + shape[at((k + 1) % 3)] - origin};
     rim_of_edge[at(triangle.edges[at(k)])] = {hole, 0.5 * (ends[0] + ends[1])};
     for (int end = 0; end < 2; ++end)
     {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The unknowns of a periodic stress function on Clough-Tocher triangles, with holes on whose rims it is known up to
-// an affine function: which of them each triangle's twelve degrees of freedom are made of.
+// The unknowns of a periodic stress function on Clough-Tocher triangles, with holes on whose rims
+// it is known up to an affine function: which of them each triangle's twelve degrees of freedom are
+// made of.
 #pragma once
 
 #include "homogenization/cell/torus_mesh.h"
@@ -20,14 +21,16 @@ struct AiryDof
   Eigen::RowVector3d known      = Eigen::RowVector3d::Zero(); ///< per load
 };
 
-/// Value, d/dx, d/dy at the three corners, then the derivative along edge_normal() in the middle of each edge.
+/// Value, d/dx, d/dy at the three corners, then the derivative along edge_normal() in the middle of
+/// each edge.
 using AiryDofs = std::array<AiryDof, 12>;
 
 /// The unit normal of an edge that belongs to its degree of freedom.
 Eigen::Vector2d edge_normal(const TorusEdge &edge);
 
-/// Numbers phi of the three unit mean stresses: value and gradient at each vertex, normal derivative at each edge; on the
-/// rim of a hole phi is minus the mean stress's own stress function plus an affine function of three unknowns.
+/// Numbers phi of the three unit mean stresses: value and gradient at each vertex, normal
+/// derivative at each edge; on the rim of a hole phi is minus the mean stress's own stress function
+/// plus an affine function of three unknowns.
 class AiryUnknowns
 {
 public:

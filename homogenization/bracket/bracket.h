@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Guaranteed brackets on the effective stiffness, C_lower <= C^H <= C_upper as quadratic forms: an
-// admissible displacement bounds the energy from above, an admissible stress bounds it from below, on any
-// mesh and however well either problem is solved. Where the two differ the mesh is refined.
+// admissible displacement bounds the energy from above, an admissible stress bounds it from below,
+// on any mesh and however well either problem is solved. Where the two differ the mesh is refined.
 #pragma once
 
 #include "homogenization/cell/torus_mesh.h"
@@ -31,23 +31,23 @@ struct Bracket
   unsigned n_triangles = 0, n_displacement_dofs = 0, n_stress_dofs = 0, iterations = 0;
 
   /// Per triangle, 1/|Y| integral of c^-1 : (sigma − c : eps)^2 over it, summed over three macro
-  /// strains that are orthonormal in the upper stiffness (Prager and Synge); where c is uncertain with the upper
-  /// c, and sigma : (lower c^-1 − upper c^-1) : sigma more. All are positive; their sum is
-  /// trace(upper^-1 (upper − lower)) but for round-off, hence between one and three widths.
+  /// strains that are orthonormal in the upper stiffness (Prager and Synge); where c is uncertain
+  /// with the upper c, and sigma : (lower c^-1 − upper c^-1) : sigma more. All are positive; their
+  /// sum is trace(upper^-1 (upper − lower)) but for round-off, hence between one and three widths.
   Eigen::VectorXd gaps;
 
-  /// Per triangle, what the mesh should be refined by: the jumps of the tractions of the displacements and of
-  /// the strains along edges of the stresses. The gaps certify, but they do not tell where an error comes from:
-  /// at the corners of a stiff checkerboard both fields are wrong by a factor far away from the
-  /// corner that causes it, and gaps then refine everywhere. What curves leave uncertain is added as it stands in the
-  /// gaps, in parts of the rest of these.
+  /// Per triangle, what the mesh should be refined by: the jumps of the tractions of the
+  /// displacements and of the strains along edges of the stresses. The gaps certify, but they do
+  /// not tell where an error comes from: at the corners of a stiff checkerboard both fields are
+  /// wrong by a factor far away from the corner that causes it, and gaps then refine everywhere.
+  /// What curves leave uncertain is added as it stands in the gaps, in parts of the rest of these.
   Eigen::VectorXd indicators;
 };
 
 /// Brackets C^H on one mesh; where it has curved edges, the C^H of the drawing (drawn_mesh.h).
 /// @param order of the displacement elements, 1 or 2
-/// @throws BadInput, NotConverged as EquilibratedStress and CompatibleStrain; std::logic_error where the lower side
-///   lies above the upper one
+/// @throws BadInput, NotConverged as EquilibratedStress and CompatibleStrain; std::logic_error
+///   where the lower side lies above the upper one
 Bracket bracket(const TorusMesh &given, const std::vector<Eigen::Matrix3d> &stiffness_of_material,
                 unsigned order);
 

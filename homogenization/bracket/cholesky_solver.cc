@@ -55,8 +55,9 @@ CholeskySolver::~CholeskySolver() = default;
 
 CholeskySolver::Solution CholeskySolver::solve(const Eigen::MatrixXd &right_hand_sides) const
 {
-  // Conjugate gradients for all loads abreast: the factors are read once for all of them. r.z is the
-  // square of the distance to the solution in the energy norm, as far as the factors are those of the matrix.
+  // Conjugate gradients for all loads abreast: the factors are read once for all of them. r.z is
+  // the square of the distance to the solution in the energy norm, as far as the factors are those
+  // of the matrix.
   const auto &cholmod        = factorization->of_cholmod;
   const auto matrix          = scaled.selfadjointView<Eigen::Lower>();
   const Eigen::MatrixXd b    = scale.asDiagonal() * right_hand_sides;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Symmetric positive definite systems by sparse Cholesky factorization (CHOLMOD), refined by conjugate
-// gradients until round-off: what the fourth-order systems of brackets ask for, where multigrid stalls.
+// Symmetric positive definite systems by sparse Cholesky factorization (CHOLMOD), refined by
+// conjugate gradients until round-off: what the fourth-order systems of brackets ask for, where
+// multigrid stalls.
 #pragma once
 
 #include <Eigen/Core>

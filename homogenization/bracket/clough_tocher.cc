@@ -33,7 +33,8 @@ CloughTocher::CloughTocher(const std::array<Eigen::Vector2d, 3> &vertices,
   }
   // The derivative along the normal n at the middle of a side A B of the piece A B C, with the
   // barycentric direction (a, b, c) of n, is
-  //   3 [¼ (a b300 + b b210 + c b201) + ½ (a b210 + b b120 + c b111) + ¼ (a b120 + b b030 + c b021)],
+  //   3 [¼ (a b300 + b b210 + c b201) + ½ (a b210 + b b120 + c b111)
+  //      + ¼ (a b120 + b b030 + c b021)],
   // which gives b111, the ordinate over the middle of the side.
   for (std::size_t k = 0; k < 3; ++k)
   {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-// The Hsieh-Clough-Tocher triangle: piecewise cubic on the three triangles that join the sides to the
-// centroid, once continuously differentiable inside and across sides. Its second derivatives are the
-// stresses of the complementary energy (Airy's function) and the curvatures of a plate.
-// Source: R. W. Clough and J. L. Tocher, 1965; ordinates as in G. Farin, Triangular Bernstein-Bezier
-// patches, CAGD 3 (1986).
+// The Hsieh-Clough-Tocher triangle: piecewise cubic on the three triangles that join the sides to
+// the centroid, once continuously differentiable inside and across sides. Its second derivatives
+// are the stresses of the complementary energy (Airy's function) and the curvatures of a plate.
+// Source: R. W. Clough and J. L. Tocher, 1965; ordinates as in G. Farin, Triangular
+// Bernstein-Bezier patches, CAGD 3 (1986).
 #pragma once
 
 #include <Eigen/Core>
@@ -15,15 +15,16 @@ namespace homespun::homogenization
 /// The 12 shape functions of one triangle, by their Bezier ordinates.
 ///
 /// Degrees of freedom, in this order: value, d/dx, d/dy at each vertex; the derivative along the
-/// given normal at the middle of each side (side k joins the vertices k and k + 1). All cubics are in
-/// the space, hence errors O(h^4) in value and O(h^2) in the second derivatives.
+/// given normal at the middle of each side (side k joins the vertices k and k + 1). All cubics are
+/// in the space, hence errors O(h^4) in value and O(h^2) in the second derivatives.
 class CloughTocher
 {
 public:
   using Row = Eigen::Matrix<double, 1, 12>;
 
   /// @param vertices corners, counter-clockwise [m]
-  /// @param normals unit normals of the sides, in whichever of their two directions the neighbour agrees on
+  /// @param normals unit normals of the sides, in whichever of their two directions the neighbour
+  ///   agrees on
   CloughTocher(const std::array<Eigen::Vector2d, 3> &vertices,
                const std::array<Eigen::Vector2d, 3> &normals);
 

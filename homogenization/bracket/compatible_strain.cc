@@ -19,7 +19,8 @@ std::size_t at(const int index)
   return static_cast<std::size_t>(index);
 }
 
-/// The 3 x 2n strain-displacement matrix B at a point. P2 shapes 3, 4, 5 stand on the edges 0, 1, 2.
+/// The 3 x 2n strain-displacement matrix B at a point. P2 shapes 3, 4, 5 stand on the edges 0, 1,
+/// 2.
 template <int n_shapes>
 Eigen::Matrix<double, 3, 2 * n_shapes>
 strain_displacement(const Eigen::Matrix<double, 3, 2> &gradients,

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The cell problems on a glued mesh by a direct solver: the upper side of a bracket on C^H. The same
-// discrete problem as homogenize() solves in parallel, on meshes too deeply graded for its coordinates.
+// The cell problems on a glued mesh by a direct solver: the upper side of a bracket on C^H. The
+// same discrete problem as homogenize() solves in parallel, on meshes too deeply graded for its
+// coordinates.
 #pragma once
 
 #include "homogenization/bracket/equilibrated_stress.h"
@@ -11,8 +12,8 @@
 
 namespace homespun::homogenization
 {
-/// Minimises 1/|Y| integral (e − eps(chi)) : c : (e − eps(chi)) over periodic chi in P1 or P2 for the
-/// three unit macro strains; chi is zero at the anchor.
+/// Minimises 1/|Y| integral (e − eps(chi)) : c : (e − eps(chi)) over periodic chi in P1 or P2 for
+/// the three unit macro strains; chi is zero at the anchor.
 class CompatibleStrain
 {
 public:
@@ -24,9 +25,9 @@ public:
   /// e − eps(chi) at the field points of a triangle under the three unit macro strains.
   FieldOfLoads strain(int triangle) const;
 
-  /// Per triangle, h integral [t].(N1 + N2)^-1.[t] over its edges, half to each side: the jumps of the traction
-  /// t = n.c:(e − eps(chi)), which an exact solution does not have, against the stiffness n.c.n of
-  /// both sides. Only what is wrong nearby shows in them.
+  /// Per triangle, h integral [t].(N1 + N2)^-1.[t] over its edges, half to each side: the jumps of
+  /// the traction t = n.c:(e − eps(chi)), which an exact solution does not have, against the
+  /// stiffness n.c.n of both sides. Only what is wrong nearby shows in them.
   /// @param weights of products of loads, sum over a, b of weights_ab t_a.t_b
   Eigen::VectorXd unbalanced_tractions(const Eigen::Matrix3d &weights) const;
 

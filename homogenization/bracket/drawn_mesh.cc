@@ -18,8 +18,8 @@ namespace homespun::homogenization
 {
 namespace
 {
-/// Uncertain triangles are at least this high, relative to their chord: flatter ones would cost the stresses on them
-/// their digits. That shows in no bracket wider than its square.
+/// Uncertain triangles are at least this high, relative to their chord: flatter ones would cost the
+/// stresses on them their digits. That shows in no bracket wider than its square.
 constexpr double least_height = 1e-4;
 
 /// In the place of a material: a hole.
@@ -62,16 +62,16 @@ public:
   DrawnMesh result;
 
 private:
-  /// How far the curve of an edge rises into a triangle, at its middle, times the length of the edge; negative
-  /// where it rises out of it.
+  /// How far the curve of an edge rises into a triangle, at its middle, times the length of the
+  /// edge; negative where it rises out of it.
   double rise(const TorusTriangle &triangle, const std::size_t k) const
   {
     const TorusEdge &edge = result.mesh.edges[at(triangle.edges[k])];
     return triangle.signs[k] * cross(edge.vector, edge.bulge);
   }
 
-  /// From the middle of an edge to an apex: the control point, or above it, where that is too low, on an isosceles
-  /// triangle that holds it.
+  /// From the middle of an edge to an apex: the control point, or above it, where that is too low,
+  /// on an isosceles triangle that holds it.
   static Eigen::Vector2d to_apex(const TorusEdge &edge)
   {
     const double length = edge.vector.norm();
@@ -232,8 +232,10 @@ private:
     return (shape[1] + shape[2]) / 3.;
   }
 
-  /// Whether each apex lies inside of the triangle, or of its part about the centroid where there are several.
-  /// @throws BadInput where a control point lies outside of the triangle: nobody knows then whose the place is
+  /// Whether each apex lies inside of the triangle, or of its part about the centroid where there
+  /// are several.
+  /// @throws BadInput where a control point lies outside of the triangle: nobody knows then whose
+  ///   the place is
   bool fits(const TorusTriangle &triangle, const std::vector<std::size_t> &arcs) const
   {
     const auto shape                             = triangle.shape(result.mesh.edges);
@@ -259,11 +261,11 @@ private:
             cross(corners[k] - third, control - third) > 0.))
       {
         std::ostringstream text;
-        text
-          << "a curved side at ("
-          << (triangle.corner + corners[k] + 0.5 * triangle.signs[k] * edge.vector).transpose()
-          << ") m leaves the triangle that it bulges into; expected sides that bend by less than half of "
-             "the angles beside them: mesh finer there (Gmsh: Mesh.MeshSizeFromCurvature)";
+        text << "a curved side at ("
+             << (triangle.corner + corners[k] + 0.5 * triangle.signs[k] * edge.vector).transpose()
+             << ") m leaves the triangle that it bulges into; expected sides that bend by less "
+                "than half of "
+                "the angles beside them: mesh finer there (Gmsh: Mesh.MeshSizeFromCurvature)";
         throw meshes::BadInput(text.str());
       }
       all_fit =

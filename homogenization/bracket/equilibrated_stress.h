@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-// The complementary energy of a unit cell: the lower side of a bracket on C^H. Every periodic stress
-// in equilibrium with the mean stress Sigma is Sigma + curl curl phi, i.e.
+// The complementary energy of a unit cell: the lower side of a bracket on C^H. Every periodic
+// stress in equilibrium with the mean stress Sigma is Sigma + curl curl phi, i.e.
 //   sigma_11 = Sigma_11 + phi,22   sigma_22 = Sigma_22 + phi,11   sigma_12 = Sigma_12 − phi,12
-// with periodic phi, once continuously differentiable. The Clough-Tocher triangle makes such phi; whichever it
-// is, its energy bounds the compliance from above, and C^H thereby from below.
+// with periodic phi, once continuously differentiable. The Clough-Tocher triangle makes such phi;
+// whichever it is, its energy bounds the compliance from above, and C^H thereby from below.
 #pragma once
 
 #include "homogenization/bracket/airy_unknowns.h"
@@ -33,14 +33,16 @@ const std::array<FieldPoint, n_field_points> &field_points();
 
 /// Minimises 1/|Y| integral sigma : c^-1 : sigma for the three unit mean stresses.
 ///
-/// Holes are exact: on the rim of a hole phi is −Sigma's own stress function plus an affine function of
-/// three unknowns, so that the stress vanishes in the hole and its traction on the rim.
+/// Holes are exact: on the rim of a hole phi is −Sigma's own stress function plus an affine
+/// function of three unknowns, so that the stress vanishes in the hole and its traction on the rim.
 class EquilibratedStress
 {
 public:
   /// @param stiffness_of_material [N/m]
-  /// @param flat whether vertex 2 of a triangle lies close to its edge 0 (and to that of no other); empty: none does
-  /// @throws BadInput where holes meet across the outline; NotConverged where the matrix is singular
+  /// @param flat whether vertex 2 of a triangle lies close to its edge 0 (and to that of no other);
+  ///   empty: none does
+  /// @throws BadInput where holes meet across the outline; NotConverged where the matrix is
+  ///   singular
   EquilibratedStress(const TorusMesh &mesh,
                      const std::vector<Eigen::Matrix3d> &stiffness_of_material,
                      std::vector<char> flat = {});
@@ -48,9 +50,9 @@ public:
   /// Stress at the field points of a triangle under the three unit mean stresses.
   FieldOfLoads stress(int triangle) const;
 
-  /// Per triangle, h integral [eps_tt]^2 / (s1 + s2) over its edges, half to each side, and over the
-  /// sides of its pieces: the jumps of the strain along the edge, eps = c^-1 : sigma, which an exact solution does
-  /// not have, against the compliance s along the edge on both sides.
+  /// Per triangle, h integral [eps_tt]^2 / (s1 + s2) over its edges, half to each side, and over
+  /// the sides of its pieces: the jumps of the strain along the edge, eps = c^-1 : sigma, which an
+  /// exact solution does not have, against the compliance s along the edge on both sides.
   /// @param weights of products of loads
   Eigen::VectorXd incompatible_strains(const Eigen::Matrix3d &weights) const;
 

@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: MIT
-// Stress functions on triangles that are much flatter than their neighbours, such as those between a chord and its arc:
-// unknowns in which the system of the complementary energy keeps its condition.
+// Stress functions on triangles that are much flatter than their neighbours, such as those between
+// a chord and its arc: unknowns in which the system of the complementary energy keeps its
+// condition.
 #include "homogenization/bracket/equilibrated_stress.h"
 
 namespace homespun::homogenization
 {
 namespace
 {
-/// Degrees of freedom of a flat triangle: at both ends of the long side and in its middle; at the vertex near it and on the
-/// other sides.
+/// Degrees of freedom of a flat triangle: at both ends of the long side and in its middle; at the
+/// vertex near it and on the other sides.
 constexpr std::array<int, 7> long_side = {0, 1, 2, 3, 4, 5, 9};
 constexpr std::array<int, 5> near_side = {6, 7, 8, 10, 11};
 
@@ -18,9 +19,10 @@ std::size_t at(const int index)
 }
 } // namespace
 
-/// On a flat triangle phi(x, y) = a(x) + y b(x) goes on from its long side, x along it and y across, with the
-/// cubic a of the values and slopes at the ends and the quadratic b of the three normal derivatives. Rows: its
-/// degrees of freedom at the near vertex and on the short sides (near_side), of those on the long one (long_side).
+/// On a flat triangle phi(x, y) = a(x) + y b(x) goes on from its long side, x along it and y
+/// across, with the cubic a of the values and slopes at the ends and the quadratic b of the three
+/// normal derivatives. Rows: its degrees of freedom at the near vertex and on the short sides
+/// (near_side), of those on the long one (long_side).
 Eigen::Matrix<double, 5, 7> EquilibratedStress::continued(const int t) const
 {
   const TorusTriangle &triangle  = mesh.triangles[at(t)];
@@ -63,9 +65,9 @@ Eigen::Matrix<double, 5, 7> EquilibratedStress::continued(const int t) const
   return rows;
 }
 
-/// Unknowns in terms of others, in which flat triangles leave the system its condition: what continued() gives becomes
-/// the distance from it. On a triangle of height H that is of order H^2 for smooth phi, and would otherwise be a difference
-/// of values whose energies are H^-3 as large.
+/// Unknowns in terms of others, in which flat triangles leave the system its condition: what
+/// continued() gives becomes the distance from it. On a triangle of height H that is of order H^2
+/// for smooth phi, and would otherwise be a difference of values whose energies are H^-3 as large.
 Eigen::SparseMatrix<double> EquilibratedStress::basis_of_flat_triangles() const
 {
   const auto row_of = [this](const int unknown) { return unknown - (unknown > numbering.pinned); };
@@ -100,7 +102,8 @@ Eigen::SparseMatrix<double> EquilibratedStress::basis_of_flat_triangles() const
   return basis;
 }
 
-/// Turns the stresses and degrees of freedom of a flat triangle to these unknowns, before products of them lose the digits.
+/// Turns the stresses and degrees of freedom of a flat triangle to these unknowns, before products
+/// of them lose the digits.
 void EquilibratedStress::change_basis(const int t, StressRows &B, AiryDofs &dofs) const
 {
   const Eigen::Matrix<double, 5, 7> factors = continued(t);

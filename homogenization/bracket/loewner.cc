@@ -42,8 +42,9 @@ Eigen::Matrix3d raised(const Eigen::Matrix3d &A, const double part)
 
 RoundedInverse inverse_of(const Eigen::Matrix3d &A)
 {
-  // Of forms of three strains, in units of the rounding x weakness: 12 from the factors, 54 from their inverse, 27 from
-  // its square, 27 from the scaling and the last rounding; a rounding is half of epsilon.
+  // Of forms of three strains, in units of the rounding x weakness: 12 from the factors, 54 from
+  // their inverse, 27 from its square, 27 from the scaling and the last rounding; a rounding is
+  // half of epsilon.
   constexpr double roundings  = 64. * std::numeric_limits<double>::epsilon();
   const Eigen::Vector3d scale = scale_of(A);
   const Eigen::LLT<Eigen::Matrix3d> factors(scaled(A, scale));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Abaqus' input deck, as far as it is a mesh: *NODE, *ELEMENT, *ELSET. What would make or move points and elements is
-// refused, all else passed over.
+// Abaqus' input deck, as far as it is a mesh: *NODE, *ELEMENT, *ELSET. What would make or move
+// points and elements is refused, all else passed over.
 #include "homogenization/cell/mesh_formats.h"
 #include "homogenization/cell/parameter_text.h"
 
@@ -220,8 +220,8 @@ private:
       });
   }
 
-  /// The elements of a set and of the sets in it become those of the set `name`. Lines, which cells have no use for, are
-  /// passed over.
+  /// The elements of a set and of the sets in it become those of the set `name`. Lines, which cells
+  /// have no use for, are passed over.
   void put(const std::string &set, const std::string &name, std::set<std::string> &done)
   {
     if (!done.insert(set).second)
@@ -276,7 +276,8 @@ private:
                 "`; expected one set per element, that of its material: remove the other *ELSET");
   }
 
-  /// Only at the end: sets may stand before their elements. A set that others hold stands for them alone.
+  /// Only at the end: sets may stand before their elements. A set that others hold stands for them
+  /// alone.
   void assign_groups()
   {
     std::set<std::string> is_held;

@@ -38,7 +38,8 @@ std::map<std::string, std::vector<double>> group_values(const std::string &file,
   return values;
 }
 
-/// A phase for each angle that the triangles of an orthotropic group have on top of that of the group.
+/// A phase for each angle that the triangles of an orthotropic group have on top of that of the
+/// group.
 void turn_phases(const std::string &file, const std::string &mesh_name,
                  const std::vector<char> &is_orthotropic, CellMeshFile &mesh_file,
                  std::vector<Phase> &phases, Faults &faults)

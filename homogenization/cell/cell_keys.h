@@ -58,8 +58,8 @@ std::optional<meshes::Lattice> lattice_from(const std::string &file, const CellK
                                             double length_unit, const meshes::TriangleMesh &mesh,
                                             Faults &faults);
 
-/// Gives every group of the mesh its phase, an orthotropic one a phase per angle where the mesh has an angle per triangle;
-/// renumbers mesh.material to indices into the phases.
+/// Gives every group of the mesh its phase, an orthotropic one a phase per angle where the mesh has
+/// an angle per triangle; renumbers mesh.material to indices into the phases.
 std::vector<Phase> assign_phases(const std::string &file, const CellKeys &keys,
                                  CellMeshFile &mesh_file, Faults &faults);
 

@@ -62,9 +62,9 @@ void require_flat(const std::string &file, const RawMesh &raw)
   if (high(2) - low(2) > 1e-7 * (high - low).norm())
   {
     std::ostringstream text;
-    text
-      << file << ": the mesh is not flat: z reaches from " << low(2) << " to " << high(2)
-      << " mesh units; expected a cell in the plane of x and y: turn it into that plane, or project it";
+    text << file << ": the mesh is not flat: z reaches from " << low(2) << " to " << high(2)
+         << " mesh units; expected a cell in the plane of x and y: turn it into that plane, or "
+            "project it";
     throw meshes::BadInput(text.str());
   }
 }
@@ -76,8 +76,8 @@ double area(const RawMesh &raw, const int a, const int b, const int c)
   return 0.5 * (u(0) * v(1) - u(1) * v(0));
 }
 
-/// The middles of the sides of a triangle with these corners, which are those of the element in either order;
-/// those of the chords where the element has none.
+/// The middles of the sides of a triangle with these corners, which are those of the element in
+/// either order; those of the chords where the element has none.
 MiddleNodes middles_of(const RawMesh &raw, const RawMesh::Cell &cell,
                        const std::array<int, 3> &corners)
 {

@@ -19,10 +19,10 @@ struct CellMeshFile
   std::vector<CurvedSide> curved_sides;      ///< of six-node triangles, in the file's unit
 };
 
-/// Reads a mesh. Quadrilaterals are cut in two along their shorter diagonal (along the one that lies inside, where they
-/// are not convex); elements are turned counter-clockwise; points that no element has as a corner are left out, the
-/// middle nodes of six-node triangles among them. Text .msh 1, 2 and 4,
-/// .vtk, .vtu, .ucd, .inp (AVS or Abaqus) and .unv are known.
+/// Reads a mesh. Quadrilaterals are cut in two along their shorter diagonal (along the one that
+/// lies inside, where they are not convex); elements are turned counter-clockwise; points that no
+/// element has as a corner are left out, the middle nodes of six-node triangles among them. Text
+/// .msh 1, 2 and 4, .vtk, .vtu, .ucd, .inp (AVS or Abaqus) and .unv are known.
 /// @throws BadInput naming the file, the line, what was found and what was expected
 CellMeshFile read_cell_mesh(const std::string &file);
 } // namespace homespun::homogenization

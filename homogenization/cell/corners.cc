@@ -17,8 +17,9 @@ namespace
 /// Angles that differ by less are the same: coordinates in files have some eight digits.
 constexpr double same_angle = 1e-6;
 
-/// Polynomials per piece of a sector, and the widest piece: exponents are met to 1e-8 in isotropic phases, whose
-/// fields are trigonometric in theta, and to 1e-4 in one ten times stiffer along than across.
+/// Polynomials per piece of a sector, and the widest piece: exponents are met to 1e-8 in isotropic
+/// phases, whose fields are trigonometric in theta, and to 1e-4 in one ten times stiffer along than
+/// across.
 constexpr int degree       = 8;
 constexpr double widest    = M_PI / 4.;
 constexpr double near_unit = 1e-6;
@@ -81,7 +82,8 @@ Eigen::Matrix<double, 3, 2> strain_along(const double x, const double y)
   return B;
 }
 
-/// Values and slopes of the Lagrange polynomials of Chebyshev's nodes at the points of a Gauss rule on (−1, 1).
+/// Values and slopes of the Lagrange polynomials of Chebyshev's nodes at the points of a Gauss rule
+/// on (−1, 1).
 struct Polynomials
 {
   static constexpr int n_points = degree + 4;
@@ -238,7 +240,8 @@ std::vector<double> exponents_of(const Corner &corner)
   std::vector<std::complex<double>> found = {all.begin(), all.end()};
   std::sort(found.begin(), found.end(),
             [](const auto &a, const auto &b) { return std::abs(a) < std::abs(b); });
-  // The first four are the two translations and the two point forces, lambda = 0 with Jordan blocks.
+  // The first four are the two translations and the two point forces, lambda = 0 with Jordan
+  // blocks.
   std::vector<double> exponents;
   for (std::size_t k = 4; k < found.size(); ++k)
     if (found[k].real() > 0. && found[k].real() < 2. - near_unit &&

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Where the fields of a cell problem are singular, and how strongly. At a vertex where phases meet in a corner, or
-// the edge of a hole bends, the displacement is a sum of r^lambda U(theta) with exponents lambda that angles
-// and stiffnesses decide; strains grow like r^(lambda − 1), and on uniformly refined meshes the energy converges
-// with order 2 lambda of the smallest one, whatever the order of the elements (Strang and Fix 1973).
+// Where the fields of a cell problem are singular, and how strongly. At a vertex where phases meet
+// in a corner, or the edge of a hole bends, the displacement is a sum of r^lambda U(theta) with
+// exponents lambda that angles and stiffnesses decide; strains grow like r^(lambda − 1), and on
+// uniformly refined meshes the energy converges with order 2 lambda of the smallest one, whatever
+// the order of the elements (Strang and Fix 1973).
 #pragma once
 
 #include "meshes/plain/lattice.h"
@@ -21,7 +22,8 @@ struct Sector
   Eigen::Matrix3d stiffness; ///< [N/m]
 };
 
-/// The sectors around a vertex, each beginning where the one before ends; no two neighbours have the same stiffness.
+/// The sectors around a vertex, each beginning where the one before ends; no two neighbours have
+/// the same stiffness.
 struct Corner
 {
   std::vector<Sector> sectors;
@@ -30,21 +32,24 @@ struct Corner
 };
 
 /// The corners of a periodic mesh, periodic images once: vertices around which phases of different
-/// stiffness meet otherwise than along one straight line, or where the edge of a hole is not straight. None: the
-/// cell is homogeneous, or a laminate.
+/// stiffness meet otherwise than along one straight line, or where the edge of a hole is not
+/// straight. None: the cell is homogeneous, or a laminate.
 /// @param stiffness_of_material [N/m]
 std::vector<Corner> corners_of(const meshes::TriangleMesh &mesh, const meshes::Lattice &lattice,
                                const std::vector<Eigen::Matrix3d> &stiffness_of_material);
 
-/// The real parts of all exponents with 0 < Re lambda < 2, ascending, without lambda = 1, which every corner has (the
-/// rotation). Found from
-///   integral (B_t V')·c (lambda B_r U + B_t U') − lambda (B_r V)·c (lambda B_r U + B_t U') dtheta = 0 for all V,
-/// B_d the strain of a gradient along d, e_r for B_r and e_theta for B_t, with polynomials of high degree in theta.
-/// Source: the weak form of equilibrium for u = r^lambda U(theta); D. Leguillon and E. Sanchez-Palencia,
-/// Computation of Singular Solutions in Elliptic Problems and Elasticity, 1987, chapter 2.
+/// The real parts of all exponents with 0 < Re lambda < 2, ascending, without lambda = 1, which
+/// every corner has (the rotation). Found from
+///   integral (B_t V')·c (lambda B_r U + B_t U') − lambda (B_r V)·c (lambda B_r U + B_t U') dtheta
+///     = 0 for all V,
+/// B_d the strain of a gradient along d, e_r for B_r and e_theta for B_t, with polynomials of high
+/// degree in theta. Source: the weak form of equilibrium for u = r^lambda U(theta); D. Leguillon
+/// and E. Sanchez-Palencia, Computation of Singular Solutions in Elliptic Problems and Elasticity,
+/// 1987, chapter 2.
 std::vector<double> exponents_of(const Corner &corner);
 
-/// The smallest and the largest exponent below 1 of all corners of a cell, and the smallest above 1.
+/// The smallest and the largest exponent below 1 of all corners of a cell, and the smallest above
+/// 1.
 struct Singularity
 {
   bool exists      = false;

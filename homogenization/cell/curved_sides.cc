@@ -20,8 +20,9 @@ double cross(const Eigen::Vector2d &u, const Eigen::Vector2d &v)
   return u(0) * v(1) - u(1) * v(0);
 }
 
-/// Whether a quadratic polynomial is positive all over a triangle, by its Bezier ordinates (corners 0, 1, 2, then
-/// the sides 01, 12, 20): their least is a lower bound, which quartering the triangle makes exact.
+/// Whether a quadratic polynomial is positive all over a triangle, by its Bezier ordinates (corners
+/// 0, 1, 2, then the sides 01, 12, 20): their least is a lower bound, which quartering the triangle
+/// makes exact.
 bool is_positive(const std::array<double, 6> &b, const int depth)
 {
   if (std::min({b[0], b[1], b[2]}) <= 0.)
@@ -104,7 +105,8 @@ std::vector<CurvedSide> curved_sides_of(const meshes::TriangleMesh &mesh,
           << "triangle " << t << ": the middle node of its side from vertex " << a << " to vertex "
           << b << " lies at " << 0.5 + along
           << " of the side; expected it near the middle, between 0.25 and 0.75, or the side runs "
-             "back on itself: mesh again, or write first-order triangles (Gmsh: Mesh.ElementOrder = 1)";
+             "back on itself: mesh again, or write first-order triangles (Gmsh: Mesh.ElementOrder "
+             "= 1)";
         fault(0, text.str());
       }
       if (std::abs(cross(chord, sagittas[k])) <= straightness * length * length)
@@ -125,11 +127,11 @@ std::vector<CurvedSide> curved_sides_of(const meshes::TriangleMesh &mesh,
       }
     }
     if (is_curved && !is_off && !is_invertible(corners, sagittas))
-      fault(
-        2,
-        "triangle " + std::to_string(t) +
-          " is inverted by its curved sides; expected sides that bend by less than the angles of the "
-          "triangle: mesh finer there (Gmsh: Mesh.MeshSizeFromCurvature, or Mesh.HighOrderOptimize = 1)");
+      fault(2, "triangle " + std::to_string(t) +
+                 " is inverted by its curved sides; expected sides that bend by less than the "
+                 "angles of the "
+                 "triangle: mesh finer there (Gmsh: Mesh.MeshSizeFromCurvature, or "
+                 "Mesh.HighOrderOptimize = 1)");
   }
   if (!faults.empty())
     throw meshes::BadInput(faults);

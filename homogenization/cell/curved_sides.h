@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The sides of six-node triangles: parabolas, which a drawing has where a mesh of straight triangles has chords.
-// Everything but brackets works with the chords.
+// The sides of six-node triangles: parabolas, which a drawing has where a mesh of straight
+// triangles has chords. Everything but brackets works with the chords.
 #pragma once
 
 #include "meshes/plain/triangle_mesh.h"
@@ -28,12 +28,13 @@ using MiddleNodes = std::array<Eigen::Vector2d, 3>;
 /// A middle node within this part of the side's length from the chord makes a straight side.
 constexpr double straightness = 1e-9;
 
-/// The sides that are curved, each once. A side is straight where its middle node lies on the chord.
+/// The sides that are curved, each once. A side is straight where its middle node lies on the
+/// chord.
 /// @param middles of each triangle of the mesh
 /// @param file put before each message
-/// @throws BadInput, naming triangles, where a middle node lies so far from the middle that the side runs back, where
-///   the curved sides invert a triangle (the Jacobian of its quadratic map is not positive everywhere), and where
-///   neighbours curve their common side differently
+/// @throws BadInput, naming triangles, where a middle node lies so far from the middle that the
+///   side runs back, where the curved sides invert a triangle (the Jacobian of its quadratic map is
+///   not positive everywhere), and where neighbours curve their common side differently
 std::vector<CurvedSide> curved_sides_of(const meshes::TriangleMesh &mesh,
                                         const std::vector<MiddleNodes> &middles,
                                         const std::string &file);

@@ -9,7 +9,8 @@
 
 namespace homespun::homogenization
 {
-/// A cell with an error cannot be used; one with a warning can, and the result may not be what was meant.
+/// A cell with an error cannot be used; one with a warning can, and the result may not be what was
+/// meant.
 enum class Severity
 {
   warning,

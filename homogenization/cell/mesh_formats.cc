@@ -5,9 +5,10 @@
 
 namespace homespun::homogenization
 {
-const char *const straight_and_flat =
-  "; expected triangles with 3 and quadrilaterals with 4 corners: mesh the surface alone, with elements of first "
-  "order (Gmsh: -2 -order 1); triangles with 6 nodes, whose sides are curved, are read from .msh alone";
+const char *const straight_and_flat = "; expected triangles with 3 and quadrilaterals with 4 "
+                                      "corners: mesh the surface alone, with elements of first "
+                                      "order (Gmsh: -2 -order 1); triangles with 6 nodes, whose "
+                                      "sides are curved, are read from .msh alone";
 
 void PointNumbers::add(MeshText &text, RawMesh &mesh, const long number,
                        const Eigen::Vector3d &point)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A mesh file as words and lines with their place, for the readers of all text formats: whatever does not fit is
-// refused with file, line, what was found and what was expected.
+// A mesh file as words and lines with their place, for the readers of all text formats: whatever
+// does not fit is refused with file, line, what was found and what was expected.
 #pragma once
 
 #include <string>
@@ -18,7 +18,8 @@ public:
   /// A text that is already at hand, for parts of a file.
   MeshText(std::string file, std::string content);
 
-  /// The rest of the present line, without its end; the cursor moves to the next one. False at the end of the file.
+  /// The rest of the present line, without its end; the cursor moves to the next one. False at the
+  /// end of the file.
   bool line(std::string_view &rest);
 
   /// The next line without moving.

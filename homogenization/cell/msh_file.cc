@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Gmsh's .msh as text: https://gmsh.info/doc/texinfo/gmsh.html#File-formats, and its legacy formats 1 and 2. Triangles
-// may have six nodes: corners, then the middles of the sides.
+// Gmsh's .msh as text: https://gmsh.info/doc/texinfo/gmsh.html#File-formats, and its legacy formats
+// 1 and 2. Triangles may have six nodes: corners, then the middles of the sides.
 #include "homogenization/cell/mesh_formats.h"
 
 #include <cmath>
@@ -67,8 +67,8 @@ private:
     const long binary = text.integer("0 for text");
     text.integer("the size of a number");
     if (binary != 0)
-      text.fail(
-        "is a binary .msh; expected text: save it as ASCII (Gmsh: Mesh.Binary = 0, or gmsh -2 without -bin)");
+      text.fail("is a binary .msh; expected text: save it as ASCII (Gmsh: Mesh.Binary = 0, or gmsh "
+                "-2 without -bin)");
     const bool known = (version >= 2. && version < 3.) || std::abs(version - 4.) < 1e-9 ||
                        std::abs(version - 4.1) < 1e-9;
     if (!known)

@@ -21,7 +21,7 @@ std::vector<std::string> split(const std::string &text, char separator);
 /// Numbers between blanks; nothing where a word is none.
 std::optional<std::vector<double>> numbers(const std::string &text);
 
-/// Parses a file into the declared keys. Lines that are no `set KEY = VALUE`, and unknown keys, become faults
-/// with their line.
+/// Parses a file into the declared keys. Lines that are no `set KEY = VALUE`, and unknown keys,
+/// become faults with their line.
 void parse_parameters(const std::string &file, dealii::ParameterHandler &keys, Faults &faults);
 } // namespace homespun::homogenization

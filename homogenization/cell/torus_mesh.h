@@ -5,8 +5,8 @@
 //
 // Shape stands in the vectors of the edges, not in coordinates: halves and sums of them keep their
 // relative precision however deep the mesh is refined towards a corner, where differences
-// of coordinates end at 1e-16 of the cell. A stress that grows like r^(-0.96), as in a checkerboard of
-// contrast 1000, needs triangles far smaller than that.
+// of coordinates end at 1e-16 of the cell. A stress that grows like r^(-0.96), as in a checkerboard
+// of contrast 1000, needs triangles far smaller than that.
 #pragma once
 
 #include "homogenization/cell/curved_sides.h"
@@ -26,8 +26,9 @@ struct TorusEdge
 {
   int tail, head;         ///< vertices of the torus
   Eigen::Vector2d vector; ///< from tail to head [m]
-  /// From the middle of the edge to the middle of the parabola that the drawing has there, x(t) = tail + t vector +
-  /// 4 t (1 − t) bulge [m]; zero where it is straight, and on edges inside of a phase.
+  /// From the middle of the edge to the middle of the parabola that the drawing has there, x(t) =
+  /// tail + t vector + 4 t (1 − t) bulge [m]; zero where it is straight, and on edges inside of a
+  /// phase.
   Eigen::Vector2d bulge = Eigen::Vector2d::Zero();
 };
 
@@ -89,8 +90,8 @@ struct TorusMesh
   }
 };
 
-/// Glues a periodic mesh. Images are moved onto each other exactly: where the sides of the given mesh
-/// match within the tolerance of match_images() only, its shape changes by that much.
+/// Glues a periodic mesh. Images are moved onto each other exactly: where the sides of the given
+/// mesh match within the tolerance of match_images() only, its shape changes by that much.
 /// The longest edge of each triangle is bisected first.
 /// @param curved_sides of the mesh; those between two materials and on rims are kept
 /// @throws BadInput where the outline is not periodic, or its images are curved differently
@@ -98,14 +99,14 @@ TorusMesh glued(const meshes::TriangleMesh &mesh, const meshes::Lattice &lattice
                 const std::vector<CurvedSide> &curved_sides = {});
 
 /// Bisects all three edges of the marked triangles, and as many more as keep the mesh conforming
-/// (newest-vertex bisection: the angles stay those of at most four shapes per given triangle, and come near to those
-/// where edges are curved). Children inherit the material. A curved edge is bisected at the middle of its parabola,
-/// whose halves have a quarter of its bulge.
+/// (newest-vertex bisection: the angles stay those of at most four shapes per given triangle, and
+/// come near to those where edges are curved). Children inherit the material. A curved edge is
+/// bisected at the middle of its parabola, whose halves have a quarter of its bulge.
 /// @param is_marked (n_triangles)
 TorusMesh bisected(const TorusMesh &mesh, const std::vector<char> &is_marked);
 
-/// The mesh cut open again: the triangles in their order, each where it lies in the plane. Its precision is
-/// that of coordinates.
+/// The mesh cut open again: the triangles in their order, each where it lies in the plane. Its
+/// precision is that of coordinates.
 meshes::TriangleMesh unfolded(const TorusMesh &mesh);
 
 /// The edges with a triangle on one side only: the rims of holes, each as {triangle, edge of it}.

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// I-DEAS universal files: datasets between lines of -1; points 2411, elements 2412, groups 2467 or 2477.
+// I-DEAS universal files: datasets between lines of -1; points 2411, elements 2412, groups 2467 or
+// 2477.
 #include "homogenization/cell/mesh_formats.h"
 #include "homogenization/cell/parameter_text.h"
 
@@ -117,7 +118,8 @@ private:
     }
   }
 
-  /// A group: eight numbers, the last of which counts its members; a name; members of four numbers, type 8 elements.
+  /// A group: eight numbers, the last of which counts its members; a name; members of four numbers,
+  /// type 8 elements.
   void groups()
   {
     while (!ends())

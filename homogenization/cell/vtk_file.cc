@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Legacy VTK as text: https://docs.vtk.org/en/latest/design_documents/VTKFileFormats.html, versions 1 to 5.1.
+// Legacy VTK as text: https://docs.vtk.org/en/latest/design_documents/VTKFileFormats.html, versions
+// 1 to 5.1.
 #include "homogenization/cell/mesh_formats.h"
 #include "homogenization/cell/parameter_text.h"
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// VTK's XML format .vtu: https://docs.vtk.org/en/latest/design_documents/VTKFileFormats.html. Numbers stand in it as text, as
-// base64, or appended at the end, raw or as base64; the latter three may be compressed in blocks by zlib.
+// VTK's XML format .vtu: https://docs.vtk.org/en/latest/design_documents/VTKFileFormats.html.
+// Numbers stand in it as text, as base64, or appended at the end, raw or as base64; the latter
+// three may be compressed in blocks by zlib.
 #include "homogenization/cell/mesh_formats.h"
 #include "homogenization/cell/parameter_text.h"
 
@@ -27,7 +28,8 @@ struct Tag
   }
 };
 
-/// Decodes base64 from `place` on, up to padding, a character that is none of it, or `wanted` bytes.
+/// Decodes base64 from `place` on, up to padding, a character that is none of it, or `wanted`
+/// bytes.
 Bytes decoded(const std::string_view text, std::size_t &place, const std::size_t wanted)
 {
   static const std::string alphabet =
@@ -143,8 +145,8 @@ private:
     if (tag["type"] != "UnstructuredGrid")
       text.fail("holds `" + tag["type"].substr(0, 40) + "`; expected UnstructuredGrid");
     if (tag["byte_order"] == "BigEndian")
-      text.fail(
-        "holds big-endian numbers; expected LittleEndian: write it on a usual processor, or as text");
+      text.fail("holds big-endian numbers; expected LittleEndian: write it on a usual processor, "
+                "or as text");
     header_size   = tag["header_type"] == "UInt64" ? 8 : 4;
     is_compressed = !tag["compressor"].empty();
     if (is_compressed && tag["compressor"] != "vtkZLibDataCompressor")
@@ -178,7 +180,8 @@ private:
         ++place;
     if (!is_compressed)
     {
-      // In base64, length and data are one stream; what was decoded beyond the length belongs to the data.
+      // In base64, length and data are one stream; what was decoded beyond the length belongs to
+      // the data.
       const std::size_t start = place;
       const std::uint64_t n   = header_number(take(header_size), 0);
       if (n > source.size())

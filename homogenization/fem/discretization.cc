@@ -33,8 +33,8 @@ void make_serial(const meshes::TriangleMesh &mesh, Triangulation<2> &triangulati
   triangulation.create_triangulation(points, cells, SubCellData());
 }
 
-/// Ranks to which one of them hands out the parts of the mesh: of so many one holds the whole, and goes through it once for
-/// each of the others.
+/// Ranks to which one of them hands out the parts of the mesh: of so many one holds the whole, and
+/// goes through it once for each of the others.
 constexpr int ranks_per_group = 8;
 
 std::unique_ptr<Triangulation<2>> make_triangulation(const meshes::TriangleMesh &mesh,
@@ -46,7 +46,8 @@ std::unique_ptr<Triangulation<2>> make_triangulation(const meshes::TriangleMesh 
     make_serial(mesh, *serial);
     return serial;
   }
-  // One rank of each group makes the whole triangulation, cuts it, hands out the parts and forgets it.
+  // One rank of each group makes the whole triangulation, cuts it, hands out the parts and forgets
+  // it.
   const auto description =
     TriangulationDescription::Utilities::create_description_from_triangulation_in_groups<2, 2>(
       [&mesh](Triangulation<2> &serial) { make_serial(mesh, serial); },

@@ -39,7 +39,8 @@ using DofTable =
   Eigen::Matrix<dealii::types::global_dof_index, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
 /// P1 or P2 displacements on a mesh. With one rank the triangulation is serial; with more it is
-/// fully distributed, in the parts that METIS makes; while it is made one rank of eight holds the whole.
+/// fully distributed, in the parts that METIS makes; while it is made one rank of eight holds the
+/// whole.
 class Discretization
 {
 public:
@@ -52,7 +53,8 @@ public:
   /// The index in the mesh of the triangle that a cell is.
   static unsigned int triangle_of(const dealii::DoFHandler<2>::active_cell_iterator &cell);
 
-  /// The point of a shape of a cell: a vertex of the triangle, then the midpoints of its edges (P2).
+  /// The point of a shape of a cell: a vertex of the triangle, then the midpoints of its edges
+  /// (P2).
   Eigen::RowVector2d point_of(const dealii::DoFHandler<2>::active_cell_iterator &cell,
                               unsigned int shape) const;
 

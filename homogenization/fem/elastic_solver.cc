@@ -21,8 +21,8 @@ using namespace dealii;
 namespace
 {
 /// The translations and, in the plane, the rotation about the centre, mode after mode, on the owned
-/// DoFs. The rotation is scaled by the size of the mesh so that the modes do not depend on the unit of
-/// length.
+/// DoFs. The rotation is scaled by the size of the mesh so that the modes do not depend on the unit
+/// of length.
 std::vector<double> rigid_body_modes(const Discretization &discretization)
 {
   const IndexSet &owned            = discretization.locally_owned;
@@ -90,10 +90,10 @@ void ElasticSolver::build_preconditioner()
   if (discretization.n_components == 3)
   {
     // Measured on a hanging sheet of 434,283 DoFs, whose plane is 1e4 times as stiff as its normal:
-    // nodes aggregated with all components and the translations as modes take less than half the time of
-    // components aggregated apart; with the rotation as a fourth mode the steps fail. The smoother has
-    // to reach down to the soft normal, hence the wide range of eigenvalues. A W-cycle saves a quarter of the
-    // iterations and costs half as much again.
+    // nodes aggregated with all components and the translations as modes take less than half the
+    // time of components aggregated apart; with the rotation as a fourth mode the steps fail. The
+    // smoother has to reach down to the soft normal, hence the wide range of eigenvalues. A W-cycle
+    // saves a quarter of the iterations and costs half as much again.
     parameters.set("PDE equations", 3);
     parameters.set("smoother: Chebyshev alpha", 20.);
     parameters.set("prec type", "MGV");

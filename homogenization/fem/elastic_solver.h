@@ -37,10 +37,11 @@ public:
     return preconditioner != nullptr;
   }
 
-  /// Conjugate gradients from the given start until the residual r = b − A x has |r| <= tolerance and, with the
-  /// preconditioner M, r . M^-1 r <= energy_tolerance. The latter is about twice the energy of the error: where stiff
-  /// parts lie in soft ones the former is that of the stiff parts, and says nothing of the soft ones.
-  /// A start that meets the first is left as it is: what it misses is round-off.
+  /// Conjugate gradients from the given start until the residual r = b − A x has |r| <= tolerance
+  /// and, with the preconditioner M, r . M^-1 r <= energy_tolerance. The latter is about twice the
+  /// energy of the error: where stiff parts lie in soft ones the former is that of the stiff parts,
+  /// and says nothing of the soft ones. A start that meets the first is left as it is: what it
+  /// misses is round-off.
   /// @param tolerance absolute, in the unit of the right-hand side
   /// @param energy_tolerance absolute [J]
   /// @return number of iterations

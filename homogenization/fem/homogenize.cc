@@ -39,7 +39,8 @@ strain_displacement(const AffineTriangle &triangle,
 
 constexpr unsigned int most_iterations = 2000; ///< of conjugate gradients
 
-/// Of a positive definite matrix. Not by cofactors, whose determinant loses twice the digits of the condition number.
+/// Of a positive definite matrix. Not by cofactors, whose determinant loses twice the digits of the
+/// condition number.
 Eigen::Matrix3d inverse_of(const Eigen::Matrix3d &matrix)
 {
   return matrix.ldlt().solve(Eigen::Matrix3d::Identity());
@@ -161,8 +162,9 @@ private:
   }
 
   /// The tolerance is relative to the element loads before they cancel: in a homogeneous cell what
-  /// is left of them is round-off, and chi is exactly zero. These loads are those of the stiff phases; what is left of the
-  /// energy of the error is held against the soft ones, with the mean of their compliance.
+  /// is left of them is round-off, and chi is exactly zero. These loads are those of the stiff
+  /// phases; what is left of the energy of the error is held against the soft ones, with the mean
+  /// of their compliance.
   void solve()
   {
     const Eigen::Vector3d softest = energies_at_equal_stress();

@@ -19,8 +19,8 @@ struct HomogenizationOptions
   unsigned int order  = 2;     ///< 1 or 2, of the displacement elements
   unsigned int refine = 0;     ///< uniform refinements of the given mesh before the solve
   double tolerance    = 1e-11; ///< of |residual|, relative to the summed size of the element loads
-  std::string
-    checkpoint; ///< folder of the loads that are done (LoadCheckpoint), of this problem alone; empty: none
+  std::string checkpoint; ///< folder of the loads that are done (LoadCheckpoint), of this problem
+                          ///< alone; empty: none
   std::string pieces; ///< path without ending of .pvtu and its pieces (write_pieces()); empty: none
 };
 
@@ -52,7 +52,8 @@ struct Homogenization
 ///   C^H_ab = 1/|Y| integral (e_a − eps(chi_a)) : c : (e_b − eps(chi_b)),
 /// the energy form, which is symmetric, approaches the exact C^H from above and differs from
 /// Eq. 4, 1/|Y| integral e_a : c : (e_b − eps(chi_b)), by what the solver left undone.
-/// Discretization error: O(h^2) for P1, O(h^4) for P2 on smooth solutions; at corners of a phase less.
+/// Discretization error: O(h^2) for P1, O(h^4) for P2 on smooth solutions; at corners of a phase
+/// less.
 ///
 /// @throws NotConverged with the residual history; BadInput where the cell is not periodic;
 ///   std::logic_error where the audit of the constraints fails

@@ -46,8 +46,9 @@ void make_periodic_constraints(const Discretization &discretization, const meshe
                                dealii::AffineConstraints<double> &constraints)
 {
   const meshes::ImageClasses classes = meshes::match_images(points_of(nodes), lattice);
-  const auto matched                 = static_cast<std::size_t>(std::count_if(
-                    classes.size.begin(), classes.size.end(), [](const int size) { return size > 1; }));
+  const auto has_images              = [](const int size) { return size > 1; };
+  const auto matched =
+    static_cast<std::size_t>(std::count_if(classes.size.begin(), classes.size.end(), has_images));
   if (matched < n_outline_nodes(discretization))
     throw meshes::BadInput(
       std::to_string(n_outline_nodes(discretization) - matched) + " of " +

@@ -22,8 +22,8 @@ struct ConstraintAudit
 /// and holds the anchor and its images at zero, which takes out the two translations (periodicity
 /// takes out the rotation). Corners end in one class. Nodes on the rims of holes stay free.
 ///
-/// @param constraints receives the lines; it is reinitialised with the locally relevant DoFs and the
-///   masters of their lines, which may live on another rank, and closed
+/// @param constraints receives the lines; it is reinitialised with the locally relevant DoFs and
+///   the masters of their lines, which may live on another rank, and closed
 /// @param anchor a point of the outline [m]
 /// @param nodes of the boundary, of all ranks, sorted by DoF
 /// @throws BadInput where nodes of the outline are left without an image

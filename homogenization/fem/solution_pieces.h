@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The characteristic displacements on the mesh on which they were solved, for ParaView: a piece from each rank.
+// The characteristic displacements on the mesh on which they were solved, for ParaView: a piece
+// from each rank.
 #pragma once
 
 #include "homogenization/fem/elastic_solver.h"
@@ -9,8 +10,9 @@
 
 namespace homespun::homogenization
 {
-/// Writes NAME-RANK.vtu of the triangles that a rank owns, with chi_11, chi_22, chi_12 [m] at their vertices, material and rank,
-/// and NAME.pvtu, which names the pieces. Midpoints of P2 are left out. All ranks must call this.
+/// Writes NAME-RANK.vtu of the triangles that a rank owns, with chi_11, chi_22, chi_12 [m] at their
+/// vertices, material and rank, and NAME.pvtu, which names the pieces. Midpoints of P2 are left
+/// out. All ranks must call this.
 /// @param name path without ending, in a folder that exists
 /// @param solutions with the ghosts of the rank's triangles
 /// @throws BadInput, on all ranks, where a file cannot be written

@@ -19,15 +19,17 @@ using meshes::TriangleMesh;
 
 namespace
 {
-/// The P1 stiffness of a triangle grows as one over the sine of its smallest angle: eleven times here.
+/// The P1 stiffness of a triangle grows as one over the sine of its smallest angle: eleven times
+/// here.
 constexpr double smallest_angle = 5.; // [deg]
 
 /// Of one kind no more than this many are told one by one.
 constexpr int most_of_a_kind = 3;
 
-/// A thousandth of the tolerance of images, 1e-10 of the cell: coordinates of 16 digits that were made alike agree to
-/// 1e-14, Gmsh's periodic curves and files with 14 digits to 1e-13. What lies between was rounded to few digits or single
-/// precision, or meshed apart and luckily alike, and may fail after the next change.
+/// A thousandth of the tolerance of images, 1e-10 of the cell: coordinates of 16 digits that were
+/// made alike agree to 1e-14, Gmsh's periodic curves and files with 14 digits to 1e-13. What lies
+/// between was rounded to few digits or single precision, or meshed apart and luckily alike, and
+/// may fail after the next change.
 constexpr double nearly = 1e-3;
 
 /// Where something is, in the unit of the mesh file.
@@ -79,9 +81,9 @@ std::vector<Finding> lint_slivers(const TriangleMesh &mesh, const double metres_
   what << n << (n == 1 ? " sliver" : " slivers") << ": triangle " << worst
        << at(place_of(mesh, worst).point, metres_per_unit) << " has an angle of " << least
        << " degrees";
-  remedy
-    << "expected at least " << smallest_angle
-    << ", below which solvers slow down and fields are wrong there: remesh, or merge points that nearly coincide";
+  remedy << "expected at least " << smallest_angle
+         << ", below which solvers slow down and fields are wrong there: remesh, or merge points "
+            "that nearly coincide";
   return {{Severity::warning, "sliver", what.str(), remedy.str(), place_of(mesh, worst)}};
 }
 
@@ -173,9 +175,9 @@ std::vector<Finding> lint_sides(const TriangleMesh &mesh, const Lattice &lattice
        << at(mesh.vertices.row(vertex), metres_per_unit) << " and its image, vertex " << image
        << at(mesh.vertices.row(image), metres_per_unit) << ", are off by "
        << widest / metres_per_unit << ", " << 100. * widest / tolerance << " % of the tolerance";
-  remedy
-    << "expected less than " << nearly * tolerance / metres_per_unit
-    << ": write coordinates in double precision with 16 digits, and mesh opposite sides alike (Gmsh: Periodic Curve)";
+  remedy << "expected less than " << nearly * tolerance / metres_per_unit
+         << ": write coordinates in double precision with 16 digits, and mesh opposite sides alike "
+            "(Gmsh: Periodic Curve)";
   return {{Severity::warning,
            "nearly unmatched",
            what.str(),
@@ -204,11 +206,13 @@ std::vector<Finding> lint_mechanisms(const TriangleMesh &mesh, const Lattice &la
       what << " hangs on a single vertex and turns freely";
     else
       what << " moves freely on the " << part.n_joints << " vertices that hold it";
-    findings.push_back(
-      {Severity::error, part.n_joints == 0 ? "floating part" : "mechanism", what.str(),
-       "expected every part to be connected along edges: join it to the rest so that they share the "
-       "points between them (Gmsh: BooleanFragments), fill the void with a soft phase, or remove the part",
-       part.place});
+    findings.push_back({Severity::error, part.n_joints == 0 ? "floating part" : "mechanism",
+                        what.str(),
+                        "expected every part to be connected along edges: join it to the rest so "
+                        "that they share the "
+                        "points between them (Gmsh: BooleanFragments), fill the void with a soft "
+                        "phase, or remove the part",
+                        part.place});
   }
   if (n_free > most_of_a_kind)
     findings.push_back(
@@ -238,7 +242,8 @@ std::vector<Finding> lint_mechanisms(const TriangleMesh &mesh, const Lattice &la
        "the mesh falls into " + std::to_string(found.parts.size()) +
          " parts that share no edge, more than the " + std::to_string(most_parts) +
          " of which free motions are looked for: whether they hold one another is not known",
-       "expected parts to be connected along edges: widen the bridges, or join parts that lie side by side "
+       "expected parts to be connected along edges: widen the bridges, or join parts that lie side "
+       "by side "
        "(Gmsh: BooleanFragments, or Coherence)",
        found.parts[1].place});
   int n_hinges = 0;
@@ -308,8 +313,8 @@ std::vector<Finding> lint_thin_parts(const UnitCell &cell, const double metres_p
       for (const long end : {its_key / mesh.n_vertices(), its_key % mesh.n_vertices()})
         on_boundary[static_cast<std::size_t>(end)] = 1;
   }
-  // Two triangles side by side whose other boundaries have no vertex in common: both banks of a strip. In a corner they
-  // would have one in common.
+  // Two triangles side by side whose other boundaries have no vertex in common: both banks of a
+  // strip. In a corner they would have one in common.
   struct Thin
   {
     int n = 0, triangle = -1;
@@ -356,10 +361,10 @@ std::vector<Finding> lint_thin_parts(const UnitCell &cell, const double metres_p
            << "` has a single element across in " << thin[p].n
            << (thin[p].n == 1 ? " place" : " places") << ", the first"
            << at(place.point, metres_per_unit);
-      findings.push_back(
-        {Severity::warning, "one element across", what.str(),
-         "expected two or more, because one cannot bend: mesh finer there, or compute with --order 2 or --refine 1",
-         place});
+      findings.push_back({Severity::warning, "one element across", what.str(),
+                          "expected two or more, because one cannot bend: mesh finer there, or "
+                          "compute with --order 2 or --refine 1",
+                          place});
     }
   return findings;
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What hurts later in a cell that can be read: shapes, sides, units, contrast, thin parts, mechanisms. Each finding says what,
-// where and what to do; none of them needs a solution.
+// What hurts later in a cell that can be read: shapes, sides, units, contrast, thin parts,
+// mechanisms. Each finding says what, where and what to do; none of them needs a solution.
 #pragma once
 
 #include "homogenization/cell/finding.h"
@@ -14,8 +14,8 @@ namespace homespun::homogenization
 /// @param metres_per_unit of the mesh file, for places in its own unit
 std::vector<Finding> lint_slivers(const meshes::TriangleMesh &mesh, double metres_per_unit);
 
-/// Vertices that coincide without being one, for meshes whose lattice is not known; else the check of periodicity
-/// tells them.
+/// Vertices that coincide without being one, for meshes whose lattice is not known; else the check
+/// of periodicity tells them.
 std::vector<Finding> lint_coincidence(const meshes::TriangleMesh &mesh, double metres_per_unit);
 
 /// Sides that only just match: needs a lattice that fits.
@@ -37,8 +37,8 @@ std::vector<Finding> lint_phases(const UnitCell &cell, double side);
 /// Contrast beyond double precision: an error where no digit is left.
 std::vector<Finding> lint_contrast(const UnitCell &cell);
 
-/// Outlines that turn by small equal angles, polygons in the place of arcs: needs a mesh with phases, and a lattice that
-/// fits.
+/// Outlines that turn by small equal angles, polygons in the place of arcs: needs a mesh with
+/// phases, and a lattice that fits.
 std::vector<Finding> lint_facets(const UnitCell &cell, double metres_per_unit);
 
 /// Phases with a single element across: needs a mesh with phases, and a lattice that fits.

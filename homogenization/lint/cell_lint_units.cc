@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The part of the linter that looks at numbers, not at shapes: units that were mistaken, and what double precision holds.
+// The part of the linter that looks at numbers, not at shapes: units that were mistaken, and what
+// double precision holds.
 #include "homogenization/lint/cell_lint.h"
 
 #include <Eigen/Eigenvalues>
@@ -22,7 +23,8 @@ constexpr double softest = 0.1, stiffest = 1e8;
 /// Mass per area: from tulle to leather armour [kg/m^2].
 constexpr double lightest = 1e-3, heaviest = 100.;
 
-/// The stiffness in double precision keeps 16 digits: beyond this contrast half of them at most are left for the soft phase.
+/// The stiffness in double precision keeps 16 digits: beyond this contrast half of them at most are
+/// left for the soft phase.
 constexpr double large_contrast = 1e8;
 
 meshes::Place somewhere_in(const UnitCell &cell, const std::size_t phase)
@@ -137,8 +139,9 @@ std::vector<Finding> lint_contrast(const UnitCell &cell)
       stiffest_phase = p;
     }
   }
-  // A stiff part held by a soft one moves as a whole by what the sums of its large forces lose: one rounding per row of
-  // triangles, in parts of the soft stiffness (verification/cell/algebraic_limit.h).
+  // A stiff part held by a soft one moves as a whole by what the sums of its large forces lose: one
+  // rounding per row of triangles, in parts of the soft stiffness
+  // (verification/cell/algebraic_limit.h).
   const double contrast = most / least, rows = std::sqrt(0.5 * cell.mesh.n_triangles());
   const double lost = rows * std::numeric_limits<double>::epsilon() * contrast;
   if (contrast > large_contrast || !(contrast > 0.))
@@ -150,9 +153,9 @@ std::vector<Finding> lint_contrast(const UnitCell &cell)
     const bool is_hopeless = !(lost < 1.);
     if (is_hopeless)
       what << ", so that no digit is left";
-    remedy
-      << "expected at most " << large_contrast
-      << ": make what is nearly void a hole of the mesh, and what is nearly rigid a thousand times as stiff as the rest";
+    remedy << "expected at most " << large_contrast
+           << ": make what is nearly void a hole of the mesh, and what is nearly rigid a thousand "
+              "times as stiff as the rest";
     findings.push_back({is_hopeless ? Severity::error : Severity::warning, "contrast", what.str(),
                         remedy.str(), somewhere_in(cell, softest_phase)});
   }

@@ -45,8 +45,8 @@ bool may_move(const meshes::TriangleMesh &mesh)
   return meshes::boundary_loops(mesh).size() > 1;
 }
 
-/// Pieces side by side: boundary loops other than the outline that reach beyond its box. What lies inside is left to
-/// lint_mechanisms().
+/// Pieces side by side: boundary loops other than the outline that reach beyond its box. What lies
+/// inside is left to lint_mechanisms().
 std::vector<meshes::MeshFault> piece_faults(const meshes::TriangleMesh &mesh,
                                             const std::string &name)
 {
@@ -80,8 +80,8 @@ std::vector<meshes::MeshFault> piece_faults(const meshes::TriangleMesh &mesh,
   return {{text.str(), place}};
 }
 
-/// The path of a file that a cell file names. It stays in the folder of the cell file, links followed, so that a cell
-/// from elsewhere opens nothing but what came with it.
+/// The path of a file that a cell file names. It stays in the folder of the cell file, links
+/// followed, so that a cell from elsewhere opens nothing but what came with it.
 /// @throws BadInput where it leads out of the folder
 std::string file_beside(const std::string &prm_file, const std::string &name)
 {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A cell file read as far as it can be, with all that is wrong: what read_unit_cell() refuses, and what the
-// linter shows.
+// A cell file read as far as it can be, with all that is wrong: what read_unit_cell() refuses, and
+// what the linter shows.
 #pragma once
 
 #include "homogenization/cell/finding.h"
@@ -23,8 +23,8 @@ struct CellReading
   std::vector<Finding> findings;
 };
 
-/// Reads a cell; parts that move freely and contrasts that leave no digit are errors here already, because no solver
-/// could answer.
+/// Reads a cell; parts that move freely and contrasts that leave no digit are errors here already,
+/// because no solver could answer.
 CellReading read_unit_cell_with_findings(const std::string &prm_file);
 
 /// Reads a cell and adds the findings of the linter, as many as the state of the cell allows.

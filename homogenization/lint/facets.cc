@@ -94,7 +94,8 @@ private:
     double turn = 0., curvature = 0.;
   };
 
-  /// How the outline goes on at a vertex that is reached along edge e; none where several outlines meet.
+  /// How the outline goes on at a vertex that is reached along edge e; none where several outlines
+  /// meet.
   Bend bend(const int e, const int vertex, const Eigen::Vector2d &arriving) const
   {
     const std::vector<int> &here = edges_of[at(vertex)];
@@ -252,11 +253,11 @@ std::vector<Finding> lint_facets(const UnitCell &cell, const double metres_per_u
          << ", " << place.point(1) / metres_per_unit
          << ") in the mesh's unit; the arcs through their vertices hold " << 100. * its.area
          << " % of the cell more, which no bracket of this mesh knows of";
-    findings.push_back(
-      {Severity::warning, "faceted", what.str(),
-       "expected curved sides where an arc is meant: triangles with six nodes (Gmsh: Mesh.ElementOrder = 2), whose "
-       "bracket is that of the drawing; a polygon that is meant may stay",
-       place});
+    findings.push_back({Severity::warning, "faceted", what.str(),
+                        "expected curved sides where an arc is meant: triangles with six nodes "
+                        "(Gmsh: Mesh.ElementOrder = 2), whose "
+                        "bracket is that of the drawing; a polygon that is meant may stay",
+                        place});
   }
   return findings;
 }

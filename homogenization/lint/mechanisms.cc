@@ -21,7 +21,8 @@ namespace
 {
 using Shift = Eigen::RowVector2i; ///< in lattice vectors
 
-/// Vertices of the cell with opposite sides glued: x_v = x_representative + offset in lattice vectors.
+/// Vertices of the cell with opposite sides glued: x_v = x_representative + offset in lattice
+/// vectors.
 struct TorusVertices
 {
   std::vector<int> representative;
@@ -88,8 +89,9 @@ public:
     return {root, total};
   }
 
-  /// Joins the sets so that shift(two) = shift(one) + difference; where they are one already, what is left of the
-  /// difference is a lattice vector across which the set is connected with its own image.
+  /// Joins the sets so that shift(two) = shift(one) + difference; where they are one already, what
+  /// is left of the difference is a lattice vector across which the set is connected with its own
+  /// image.
   Shift join(const int one, const int two, const Shift &difference)
   {
     const auto [root1, shift1] = find(one);
@@ -308,7 +310,8 @@ Mechanisms find_mechanisms(const TriangleMesh &mesh, const Lattice &lattice)
   for (std::size_t p = 0; p < found.parts.size(); ++p)
     found.parts[p].n_periods = static_cast<int>(structure.periods[p].size());
 
-  // Vertices where triangles meet in nothing but the vertex: more than two edges there have one triangle.
+  // Vertices where triangles meet in nothing but the vertex: more than two edges there have one
+  // triangle.
   std::map<int, int> n_free_edges;
   for (const auto &[edge, n] : n_sides)
     if (n == 1)

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-// What in a periodic cell can move without being deformed. Triangles that share an edge, directly or across a period,
-// move rigidly together; parts that share only vertices are joined by hinges. An energy of zero means that
-// every part moves rigidly,
+// What in a periodic cell can move without being deformed. Triangles that share an edge, directly
+// or across a period, move rigidly together; parts that share only vertices are joined by hinges.
+// An energy of zero means that every part moves rigidly,
 //
-//     u = t_p + w_p J x in part p,      u(x + n a) = u(x) + e n a across the lattice,      e symmetric,
+//     u = t_p + w_p J x in part p,    u(x + n a) = u(x) + e n a across the lattice,    e symmetric,
 //
-// which is a small linear system, however fine the mesh: a solution beyond the two translations makes the cell problems, and with
-// e other than zero C^H itself, singular.
+// which is a small linear system, however fine the mesh: a solution beyond the two translations
+// makes the cell problems, and with e other than zero C^H itself, singular.
 #pragma once
 
 #include "meshes/plain/lattice.h"
@@ -35,11 +35,13 @@ struct Mechanisms
   std::vector<int> hinges;     ///< vertices, lowest image, where triangles meet only in that vertex
   /// Macro strains that cost no energy, one per column, (3,k) in Voigt order.
   Eigen::Matrix3Xd free_strains;
-  /// Whether free motions were looked for; else parts that nothing touches are known to be free, and no more.
+  /// Whether free motions were looked for; else parts that nothing touches are known to be free,
+  /// and no more.
   bool is_determined = true;
 };
 
-/// Parts up to which their motions are determined: the kernel is that of a dense matrix of three columns per part.
+/// Parts up to which their motions are determined: the kernel is that of a dense matrix of three
+/// columns per part.
 constexpr int most_parts = 300;
 
 /// @param mesh sound by meshes::faults_of(), and periodic: no two of its vertices coincide

@@ -19,8 +19,8 @@ namespace
 {
 /// Twice the area over the square of the longest edge: below it gradients lose half their digits.
 constexpr double no_area = 1e-9;
-/// How near to an edge, as a part of its length, a vertex counts as lying on it: files with six digits
-/// place a point on an edge of a centimetre to 5e-5.
+/// How near to an edge, as a part of its length, a vertex counts as lying on it: files with six
+/// digits place a point on an edge of a centimetre to 5e-5.
 constexpr double on_edge = 1e-4;
 
 template <typename Positions>
@@ -82,7 +82,8 @@ double longest_squared(const Positions &positions, const Triangles &triangles, c
 
 using Edge = std::array<int, 2>;
 
-/// The triangles along each edge in space, lower vertex first: triangle and whether it runs upwards.
+/// The triangles along each edge in space, lower vertex first: triangle and whether it runs
+/// upwards.
 std::map<Edge, std::vector<std::pair<int, bool>>> edges_of(const Triangles &triangles)
 {
   std::map<Edge, std::vector<std::pair<int, bool>>> edges;
@@ -197,8 +198,8 @@ void add_rest_shapes(FaultList &faults, const ClothMesh &cloth)
   }
 }
 
-/// Calls found(vertex, edge, part) where a vertex lies inside an edge, part of its length from its first end.
-/// A sweep along the first axis.
+/// Calls found(vertex, edge, part) where a vertex lies inside an edge, part of its length from its
+/// first end. A sweep along the first axis.
 template <typename Positions, typename Found>
 void vertices_inside_edges(const Positions &positions, std::vector<int> vertices,
                            const std::vector<Edge> &edges, const Found &found)
@@ -211,10 +212,10 @@ void vertices_inside_edges(const Positions &positions, std::vector<int> vertices
   {
     const auto from = positions.row(edge[0]).eval(), along = (positions.row(edge[1]) - from).eval();
     const double length = along.norm(), margin = on_edge * length;
-    const double low  = std::min(from(0), from(0) + along(0)) - margin,
-                 high = std::max(from(0), from(0) + along(0)) + margin;
-    auto place        = std::lower_bound(vertices.begin(), vertices.end(), low,
-                                         [&](const int v, const double x) { return positions(v, 0) < x; });
+    const double low   = std::min(from(0), from(0) + along(0)) - margin,
+                 high  = std::max(from(0), from(0) + along(0)) + margin;
+    const auto is_left = [&](const int v, const double x) { return positions(v, 0) < x; };
+    auto place         = std::lower_bound(vertices.begin(), vertices.end(), low, is_left);
     for (; place != vertices.end() && positions(*place, 0) <= high; ++place)
     {
       const int v = *place;
@@ -328,31 +329,6 @@ std::vector<std::string> cloth_faults(const ClothMesh &cloth, const std::string 
   add_isolated(faults, cloth.positions, cloth.triangles, "vertex");
   add_isolated(faults, cloth.rest.vertices, cloth.rest.triangles, "rest vertex");
   return faults.take();
-}
-
-std::vector<std::string> seam_notes(const ClothMesh &cloth, const std::string &name)
-{
-  FaultList notes(name);
-  const Panels panels = panels_of(cloth);
-  for (const SeamEdge &seam : seam_edges(cloth))
-  {
-    std::array<double, 2> length{};
-    for (std::size_t i = 0; i < 2; ++i)
-    {
-      const Edge ends = rest_ends(cloth, seam.sides[i]);
-      length[i] = (cloth.rest.vertices.row(ends[1]) - cloth.rest.vertices.row(ends[0])).norm();
-    }
-    if (std::abs(length[0] - length[1]) <= 0.01 * std::max(length[0], length[1]))
-      continue;
-    const Edge ends = space_ends(cloth, seam.sides[0]);
-    std::ostringstream text;
-    text << "the seam edge between vertices " << ends[0] << " and " << ends[1] << " is "
-         << length[0] << " m long on panel " << panels.of_triangle(seam.sides[0].triangle)
-         << " and " << length[1] << " m on panel " << panels.of_triangle(seam.sides[1].triangle)
-         << " at rest: the longer side will gather";
-    notes.add("seam edges of unequal length", text.str());
-  }
-  return notes.take();
 }
 
 std::vector<std::string> surface_faults(const Surface &surface, const std::string &name)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A cloth: panels at rest in the plane, sewn together and placed in space. The rest coordinates are what
-// an OBJ file calls `vt`, in metres; along a seam two rest vertices share one vertex in space.
+// A cloth: panels at rest in the plane, sewn together and placed in space. The rest coordinates are
+// what an OBJ file calls `vt`, in metres; along a seam two rest vertices share one vertex in space.
 #pragma once
 
 #include "meshes/plain/triangle_mesh.h"
@@ -12,8 +12,8 @@ namespace homespun::meshes
 /// Points in space, one per row, shape (n,3) [m].
 using SpacePoints = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>;
 
-/// Triangle t has the rest corners rest.triangles.row(t), and the corners triangles.row(t) in space, in
-/// the same order.
+/// Triangle t has the rest corners rest.triangles.row(t), and the corners triangles.row(t) in
+/// space, in the same order.
 struct ClothMesh
 {
   TriangleMesh rest;     ///< all panels in one plane, (n_rest,2) [m]; material is free for phases

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Panels and seams of a cloth: which triangles are one piece at rest, and where two pieces are sewn.
+// Panels and seams of a cloth: which triangles are one piece at rest, and where two pieces are
+// sewn.
 #pragma once
 
 #include "meshes/cloth/cloth_mesh.h"
@@ -11,8 +12,8 @@
 
 namespace homespun::meshes
 {
-/// The panels of a cloth, counted from 0 in the order of their first triangle. Triangles that share a
-/// rest vertex belong to one panel.
+/// The panels of a cloth, counted from 0 in the order of their first triangle. Triangles that share
+/// a rest vertex belong to one panel.
 struct Panels
 {
   int count = 0;
@@ -27,8 +28,8 @@ struct Side
   int triangle, side;
 };
 
-/// An edge in space between two triangles that is no edge at rest: the sides were sewn together. In space
-/// the second triangle runs along it the other way.
+/// An edge in space between two triangles that is no edge at rest: the sides were sewn together. In
+/// space the second triangle runs along it the other way.
 struct SeamEdge
 {
   std::array<Side, 2> sides;

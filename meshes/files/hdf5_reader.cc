@@ -69,7 +69,8 @@ unsigned long long size_of(const Hdf5Reader::Shape &shape)
   return size;
 }
 
-/// A compressed file may hold this many numbers per byte; a file that says more is damaged, or meant to exhaust memory.
+/// A compressed file may hold this many numbers per byte; a file that says more is damaged, or
+/// meant to exhaust memory.
 constexpr double numbers_per_byte = 200.;
 } // namespace
 

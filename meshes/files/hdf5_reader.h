@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// An HDF5 file that somebody else may have made. Sizes are compared before anything is read into memory, and no data
-// comes from another file: links to others, virtual datasets and data kept outside are refused.
+// An HDF5 file that somebody else may have made. Sizes are compared before anything is read into
+// memory, and no data comes from another file: links to others, virtual datasets and data kept
+// outside are refused.
 #pragma once
 
 #include <cstdint>
@@ -27,8 +28,8 @@ public:
 
   /// The shape of a dataset of numbers.
   /// @param expected one entry per axis
-  /// @throws BadInput where it is missing, lies in another file, does not hold numbers, has another shape, or more
-  ///   numbers than a file of this size can hold
+  /// @throws BadInput where it is missing, lies in another file, does not hold numbers, has another
+  ///   shape, or more numbers than a file of this size can hold
   Shape shape_of(const std::string &name, const Shape &expected) const;
 
   /// Reads a dataset of exactly this shape, row-major.

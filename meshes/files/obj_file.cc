@@ -45,7 +45,8 @@ std::vector<std::string_view> words_of(const std::string_view line)
   return words;
 }
 
-/// Whether the whole word is a finite number. Not strtod, which asks the locale for the decimal point.
+/// Whether the whole word is a finite number. Not strtod, which asks the locale for the decimal
+/// point.
 bool read_number(std::string_view word, double &number)
 {
   if (!word.empty() && word.front() == '+')

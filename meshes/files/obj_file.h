@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Wavefront OBJ: what every modelling program writes. Read are `v`, `vt` and `f` with three or four corners;
-// negative indices count from the last vertex so far; o, g, s, vn, usemtl, mtllib and comments are skipped.
+// Wavefront OBJ: what every modelling program writes. Read are `v`, `vt` and `f` with three or four
+// corners; negative indices count from the last vertex so far; o, g, s, vn, usemtl, mtllib and
+// comments are skipped.
 #pragma once
 
 #include "meshes/cloth/cloth_faults.h"
@@ -12,14 +13,15 @@ namespace homespun::meshes
 {
 /// Reads a cloth: v are positions in space in metres, vt the panels at rest.
 ///
-/// A rest vertex is a pair of vt and v that some face uses, in the order of vt: panels that lie on each
-/// other in the plane and share vt come apart. A quadrilateral is cut along the diagonal whose two
-/// triangles are larger at rest. Materials are 0.
+/// A rest vertex is a pair of vt and v that some face uses, in the order of vt: panels that lie on
+/// each other in the plane and share vt come apart. A quadrilateral is cut along the diagonal whose
+/// two triangles are larger at rest. Materials are 0.
 /// @param vt_unit metres per unit of vt [m]
 /// @throws BadInput with the faults of all lines, or else those of cloth_faults()
 ClothMesh read_cloth(const std::string &file, double vt_unit = 1.);
 
-/// Reads a closed surface, an obstacle; vt are not needed. A quadrilateral is cut along its shorter diagonal.
+/// Reads a closed surface, an obstacle; vt are not needed. A quadrilateral is cut along its shorter
+/// diagonal.
 /// @throws BadInput with the faults of all lines, or else those of surface_faults()
 Surface read_surface(const std::string &file);
 

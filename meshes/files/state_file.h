@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// A moving cloth at one moment on disk, from which a run goes on as if it had not been interrupted: HDF5,
-// /positions (n,3) [m], /velocities (n,3) [m/s], /step_seconds [s], attributes `time` [s], `frame` and `run`.
+// A moving cloth at one moment on disk, from which a run goes on as if it had not been interrupted:
+// HDF5, /positions (n,3) [m], /velocities (n,3) [m/s], /step_seconds [s], attributes `time` [s],
+// `frame` and `run`.
 #pragma once
 
 #include "meshes/cloth/cloth_mesh.h"

@@ -116,7 +116,8 @@ void write_vtu(const std::string &file, const FloatPoints &positions, const Tria
   check_values(file, cell_data, triangles.rows(), "triangle");
   const auto n = static_cast<std::size_t>(positions.rows()),
              m = static_cast<std::size_t>(triangles.rows());
-  // Appended raw: each array begins with its number of bytes, and stands at its offset after the `_`.
+  // Appended raw: each array begins with its number of bytes, and stands at its offset after the
+  // `_`.
   std::string head, appended;
   const auto put = [&](const char *const type, const std::string &name,
                        const Eigen::Index components, const auto *const numbers,

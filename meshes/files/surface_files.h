@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Triangles in space for other programs: .ply (Blender, MeshLab), .vtu (ParaView, VTK) with data on
-// the vertices, .pvtu, one made of pieces, and .pvd, the collection that makes an animation of many .vtu. Every file appears whole
-// or not at all, and no number in it is NaN or infinite.
+// the vertices, .pvtu, one made of pieces, and .pvd, the collection that makes an animation of many
+// .vtu. Every file appears whole or not at all, and no number in it is NaN or infinite.
 #pragma once
 
 #include "meshes/plain/triangle_mesh.h"
@@ -26,8 +26,10 @@ struct VertexData
 };
 
 /// Writes binary little-endian PLY with float positions and int faces.
-/// @param scalars each (n,1) becomes a float property of the vertices; a name is made of letters, digits and _
-/// @throws BadInput where a number is not finite, shapes do not match, or the file cannot be written
+/// @param scalars each (n,1) becomes a float property of the vertices; a name is made of letters,
+///   digits and _
+/// @throws BadInput where a number is not finite, shapes do not match, or the file cannot be
+///   written
 void write_ply(const std::string &file, const FloatPoints &positions, const Triangles &triangles,
                const std::vector<VertexData> &scalars = {});
 
@@ -45,8 +47,8 @@ void write_pvtu(const std::string &file, const std::vector<std::string> &pieces,
                 const std::vector<VertexData> &data      = {},
                 const std::vector<VertexData> &cell_data = {});
 
-/// A .pvd file: which .vtu shows which time. It is written whole after each frame, so that a run that
-/// was killed leaves a collection of all frames before.
+/// A .pvd file: which .vtu shows which time. It is written whole after each frame, so that a run
+/// that was killed leaves a collection of all frames before.
 class FrameCollection
 {
 public:

@@ -6,8 +6,8 @@
 
 namespace homespun::meshes
 {
-/// Writes to a file beside it, waits for the disk, and gives it the name: whoever reads sees the old
-/// content or the new, also after a kill.
+/// Writes to a file beside it, waits for the disk, and gives it the name: whoever reads sees the
+/// old content or the new, also after a kill.
 /// @param content bytes, written as they are
 /// @throws BadInput where the folder is absent or not writable, or the disk is full
 void write_whole(const std::string &path, const std::string &content);

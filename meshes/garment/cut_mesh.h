@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// A mesh cut along the outline of a panel, so that the outline becomes edges of the mesh. Every crossing
-// splits one edge, and with it the triangles on both sides: the mesh conforms at every moment, whatever
-// the shape of the outline. Private to fine_cloth.
+// A mesh cut along the outline of a panel, so that the outline becomes edges of the mesh. Every
+// crossing splits one edge, and with it the triangles on both sides: the mesh conforms at every
+// moment, whatever the shape of the outline. Private to fine_cloth.
 #pragma once
 
 #include "meshes/plain/triangle_mesh.h"
@@ -52,11 +52,12 @@ public:
 
   int add_vertex(const Eigen::RowVector2d &x);
 
-  /// @param near edges of the outline that may cross the triangle, or come nearer than the tolerance
+  /// @param near edges of the outline that may cross the triangle, or come nearer than the
+  ///   tolerance
   void add_triangle(const std::array<int, 3> &corners, int parent, std::vector<int> near);
 
-  /// Thrown where the outline cannot become edges of the mesh: it crosses itself, or has details smaller
-  /// than the tolerance.
+  /// Thrown where the outline cannot become edges of the mesh: it crosses itself, or has details
+  /// smaller than the tolerance.
   struct Conflict
   {
     Eigen::RowVector2d x; ///< near there [m]
@@ -88,8 +89,8 @@ public:
   /// Signed area of a triangle [m^2].
   double area(int triangle) const;
 
-  /// For every triangle: 1 inside the panel, 0 outside, −1 where its part of the mesh does not touch
-  /// the outline.
+  /// For every triangle: 1 inside the panel, 0 outside, −1 where its part of the mesh does not
+  /// touch the outline.
   /// @throws Conflict
   std::vector<int> sides_of_outline() const;
 

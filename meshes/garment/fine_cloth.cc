@@ -16,8 +16,8 @@ namespace homespun::meshes
 {
 namespace
 {
-/// Gives both sides of every seam the same points: those of either side, at the same part of the coarse
-/// edge. Points nearer than the tolerance become one.
+/// Gives both sides of every seam the same points: those of either side, at the same part of the
+/// coarse edge. Points nearer than the tolerance become one.
 void match_seams(const std::vector<FinePanel> &panels, const std::vector<SeamEdge> &seams,
                  const ClothMesh &cloth, const Panels &membership, const double tolerance)
 {
@@ -38,8 +38,8 @@ void match_seams(const std::vector<FinePanel> &panels, const std::vector<SeamEdg
       mesh[i]          = panels[at(membership.of_triangle(side.triangle))].cut.get();
       edge[i]          = edge_of_side.at({side.triangle, side.side});
       chain[i]         = mesh[i]->along(edge[i]);
-      length           = std::min(
-                  length, (cloth.rest.vertices.row(ends[1]) - cloth.rest.vertices.row(ends[0])).norm());
+      const auto &rest = cloth.rest.vertices;
+      length           = std::min(length, (rest.row(ends[1]) - rest.row(ends[0])).norm());
     }
     std::reverse(chain[1].begin(), chain[1].end());
     const auto part = [&](const std::size_t i, const std::size_t k)
@@ -196,7 +196,8 @@ void collect(const FinePanel &panel, const std::vector<KeptTriangle> &kept,
     fine.triangles.push_back(corners);
     fine.material.push_back(sheet.material(kept[t].parent));
 
-    // Where the triangle has a side on the outline, that tells which coarse triangle its vertices belong to.
+    // Where the triangle has a side on the outline, that tells which coarse triangle its vertices
+    // belong to.
     const auto put = [&](const std::size_t k, const int edge)
     {
       const Side &side  = panel.outline[at(edge)];

@@ -14,8 +14,8 @@
 
 namespace homespun::meshes
 {
-/// Vertex v is an image of a vertex of the cell, or was made where an outline crosses; in both cases its
-/// place in the coarse cloth is known, on an outline to round-off.
+/// Vertex v is an image of a vertex of the cell, or was made where an outline crosses; in both
+/// cases its place in the coarse cloth is known, on an outline to round-off.
 ///
 /// Slits and loops that touch come apart: a vertex on two sides of one is two vertices here.
 struct FineCloth
@@ -52,10 +52,11 @@ struct FineCloth
 /// Tiles a cell over all panels.
 ///
 /// Work and memory go with the panels' bounding boxes in lattice directions.
-/// @param cell_mesh periodic modulo the lattice, its outline the parallelogram of the lattice (tile())
+/// @param cell_mesh periodic modulo the lattice, its outline the parallelogram of the lattice
+///   (tile())
 /// @param cloth coarse cloth; its outlines are those of the panels
-/// @throws BadInput where the cloth has faults, the number of grains is neither 1 nor that of the panels,
-///   a panel overlaps itself at rest, or the cell cannot be tiled
+/// @throws BadInput where the cloth has faults, the number of grains is neither 1 nor that of the
+///   panels, a panel overlaps itself at rest, or the cell cannot be tiled
 FineCloth fine_cloth(const TriangleMesh &cell_mesh, const Lattice &lattice, const ClothMesh &cloth,
                      const FineClothOptions &options = {});
 } // namespace homespun::meshes

@@ -40,7 +40,7 @@ struct FineClothOptions
 /// Up to which distance seam_distance is known, in cell sides sqrt(|Y|).
 constexpr double seam_reach = 4.;
 
-/// A fine vertex nearer than this to the outline is moved onto it, in cell sides: above the digits of
-/// the usual files, far below any triangle of a cell.
+/// A fine vertex nearer than this to the outline is moved onto it, in cell sides: above the digits
+/// of the usual files, far below any triangle of a cell.
 constexpr double outline_tolerance = 1e-6;
 } // namespace homespun::meshes

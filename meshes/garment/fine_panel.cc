@@ -27,7 +27,8 @@ constexpr double sliver = 1e-12; // of the cell's area
   throw BadInput(text.str());
 }
 
-/// Whether a segment may come into a box: their boxes meet, and the box is not on one side of the line.
+/// Whether a segment may come into a box: their boxes meet, and the box is not on one side of the
+/// line.
 bool may_meet(const Eigen::RowVector2d &from, const Eigen::RowVector2d &to,
               const Eigen::RowVector2d &low, const Eigen::RowVector2d &high)
 {
@@ -83,7 +84,8 @@ void cover(FinePanel &panel, const TriangleMesh &cell_mesh, const Lattice &latti
     low                            = low.cwiseMin(f);
     high                           = high.cwiseMax(f);
   }
-  // At least a thousandth of a cell around the panel, so that its outline has triangles on both sides.
+  // At least a thousandth of a cell around the panel, so that its outline has triangles on both
+  // sides.
   const Eigen::RowVector2d first = (low.array() - 1e-3).floor(),
                            last  = (high.array() + 1e-3).ceil();
   const Eigen::RowVector2d n     = last - first;
@@ -103,7 +105,8 @@ void cover(FinePanel &panel, const TriangleMesh &cell_mesh, const Lattice &latti
     ((panel.sheet.mesh.vertices.rowwise() - panel.sheet.origin) * rotation.transpose()).eval();
 }
 
-/// Sorts the triangles of the sheet: away from the outline inside or outside, or near it; and cuts the last.
+/// Sorts the triangles of the sheet: away from the outline inside or outside, or near it; and cuts
+/// the last.
 /// @param tolerance of the outline [m]
 /// @return how many pieces are slivers
 /// @throws CutMesh::Conflict
@@ -205,9 +208,9 @@ int clip(FinePanel &panel, const Lattice &lattice, const ClothMesh &cloth, const
   return n_slivers;
 }
 
-/// Cuts with a tolerance that suits the panel. Where vertices lie about as far from the outline as the
-/// tolerance, slivers arise, and rounding may not tell the order of crossings; with another tolerance
-/// they lie clearly on it or off it.
+/// Cuts with a tolerance that suits the panel. Where vertices lie about as far from the outline as
+/// the tolerance, slivers arise, and rounding may not tell the order of crossings; with another
+/// tolerance they lie clearly on it or off it.
 void settle(FinePanel &panel, const Lattice &lattice, const ClothMesh &cloth)
 {
   const double unit = outline_tolerance * std::sqrt(lattice.area());
@@ -362,7 +365,8 @@ std::vector<std::array<int, 3>> fans_of(const FinePanel &panel,
             continue;
           const auto &[t, k] = corners[p];
           const auto &[s, l] = corners[q];
-          // Around a vertex, neighbours share the corner after it in one and before it in the other.
+          // Around a vertex, neighbours share the corner after it in one and before it in the
+          // other.
           for (const auto &[here, there] :
                {std::pair<int, int>{kept[t].corners[(k + 1) % 3], kept[s].corners[(l + 2) % 3]},
                 std::pair<int, int>{kept[t].corners[(k + 2) % 3], kept[s].corners[(l + 1) % 3]}})

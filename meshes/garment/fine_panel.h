@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
-// One panel of a fine cloth: the sheet of cells that covers it, cut along its outline. Private to fine_cloth.
+// One panel of a fine cloth: the sheet of cells that covers it, cut along its outline. Private to
+// fine_cloth.
 //
-// Coordinates are local: they count from a lattice point next to the panel, so that no digits are lost where
-// the rest coordinates are large.
+// Coordinates are local: they count from a lattice point next to the panel, so that no digits are
+// lost where the rest coordinates are large.
 #pragma once
 
 #include "meshes/cloth/cloth_mesh.h"
@@ -69,8 +70,8 @@ struct KeptTriangles
 };
 KeptTriangles kept_triangles(const FinePanel &panel, Outline outline, double cell_area);
 
-/// Triangles around a vertex of the outline that reach each other without crossing it share a vertex, others
-/// do not: loops that touch and slits come apart.
+/// Triangles around a vertex of the outline that reach each other without crossing it share a
+/// vertex, others do not: loops that touch and slits come apart.
 /// @return for each triangle and corner the number of its fan around that vertex, from 0
 std::vector<std::array<int, 3>> fans_of(const FinePanel &panel,
                                         const std::vector<KeptTriangle> &kept);

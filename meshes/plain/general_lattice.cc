@@ -10,8 +10,9 @@ namespace homespun::meshes
 {
 namespace
 {
-/// Vertices of the outline that are tried as starts of translations. A lattice vector starts at every vertex, but at one
-/// inside a side only a single one: from eight places around, all pairs of sides are met.
+/// Vertices of the outline that are tried as starts of translations. A lattice vector starts at
+/// every vertex, but at one inside a side only a single one: from eight places around, all pairs of
+/// sides are met.
 constexpr std::size_t n_starts = 8;
 
 /// Translations that are tried in pairs, the shortest of all.
@@ -29,7 +30,8 @@ std::optional<Lattice> lattice_by_matching(const TriangleMesh &mesh)
     enclosed += 0.5 * (at(k)(0) * at(k + 1)(1) - at(k)(1) * at(k + 1)(0));
   const double tolerance = image_tolerance * std::sqrt(std::abs(enclosed));
 
-  // Of two sides that are images, the outline runs along one forwards and along the other backwards.
+  // Of two sides that are images, the outline runs along one forwards and along the other
+  // backwards.
   std::vector<Eigen::RowVector2d> translations;
   for (std::size_t start = 0; start < std::min(n, n_starts); ++start)
   {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The lattice of a cell whose outline is no parallelogram: hexagons with three pairs of sides, wavy or toothed sides.
+// The lattice of a cell whose outline is no parallelogram: hexagons with three pairs of sides, wavy
+// or toothed sides.
 #pragma once
 
 #include "meshes/plain/lattice.h"
@@ -8,8 +9,9 @@
 
 namespace homespun::meshes
 {
-/// Translations that carry a piece of the outline onto another one are tried in pairs, the shortest first, until two span the
-/// enclosed area and match every vertex of the outline: a1 nearest to the x axis, a1 x a2 > 0.
+/// Translations that carry a piece of the outline onto another one are tried in pairs, the shortest
+/// first, until two span the enclosed area and match every vertex of the outline: a1 nearest to the
+/// x axis, a1 x a2 > 0.
 /// @return nothing where there is no such pair
 std::optional<Lattice> lattice_by_matching(const TriangleMesh &mesh);
 } // namespace homespun::meshes

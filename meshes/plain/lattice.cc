@@ -165,8 +165,8 @@ Lattice lattice_of_outline(const TriangleMesh &mesh)
 
 namespace
 {
-/// Two vertices within the tolerance of periodic images, anywhere in the mesh: whoever matches images would take them
-/// for one.
+/// Two vertices within the tolerance of periodic images, anywhere in the mesh: whoever matches
+/// images would take them for one.
 std::vector<MeshFault> coincidence_faults(const TriangleMesh &mesh, const Lattice &lattice,
                                           const std::string &name, const double relative_tolerance)
 {

@@ -59,8 +59,8 @@ Lattice lattice_of_outline(const TriangleMesh &mesh);
 std::vector<int> outline(const TriangleMesh &mesh);
 
 /// The faults that make a cell mesh not periodic: vertices of the outline without an image (with
-/// the nearest candidate and the gap), vertices anywhere that are closer than the tolerance and count as one, an outline
-/// that does not enclose |Y|, triangles that overlap.
+/// the nearest candidate and the gap), vertices anywhere that are closer than the tolerance and
+/// count as one, an outline that does not enclose |Y|, triangles that overlap.
 std::vector<std::string> periodicity_faults(const TriangleMesh &mesh, const Lattice &lattice,
                                             const std::string &name,
                                             double relative_tolerance = image_tolerance);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Which triangle holds a point of the rest plane: a uniform grid over the triangles' boxes, about one
-// triangle per bucket, so that a query costs a handful of them. Used once, at set-up.
+// Which triangle holds a point of the rest plane: a uniform grid over the triangles' boxes, about
+// one triangle per bucket, so that a query costs a handful of them. Used once, at set-up.
 #pragma once
 
 #include "meshes/plain/triangle_mesh.h"

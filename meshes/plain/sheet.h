@@ -43,8 +43,8 @@ struct Sheet
 /// @throws BadInput where the outline is not that parallelogram, or the cell is not periodic
 Sheet tile(const TriangleMesh &cell_mesh, const Lattice &lattice, int n1, int n2);
 
-/// The coarse mesh of a sheet: n1 x n2 parallelograms that span origin to origin + (n1, n2) steps, each cut
-/// into two triangles along the diagonal from its lower-left corner.
+/// The coarse mesh of a sheet: n1 x n2 parallelograms that span origin to origin + (n1, n2) steps,
+/// each cut into two triangles along the diagonal from its lower-left corner.
 ///
 /// Vertex (i, j) has the index j (n1 + 1) + i; parallelogram (i, j) has the triangles
 /// 2 (j n1 + i) below the diagonal and the next above it.

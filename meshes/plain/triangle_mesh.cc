@@ -54,8 +54,8 @@ Eigen::VectorXd signed_areas(const TriangleMesh &mesh)
 
 std::vector<std::array<int, 2>> boundary_edges(const TriangleMesh &mesh)
 {
-  // Where the edges that leave each vertex go, side by side in memory: a hash table of all edges takes ten times as long and as
-  // much, which shows in cells of millions of triangles.
+  // Where the edges that leave each vertex go, side by side in memory: a hash table of all edges
+  // takes ten times as long and as much, which shows in cells of millions of triangles.
   std::vector<std::size_t> first(static_cast<std::size_t>(mesh.n_vertices()) + 1, 0);
   for (int t = 0; t < mesh.n_triangles(); ++t)
     for (int k = 0; k < 3; ++k)
@@ -204,7 +204,8 @@ std::vector<MeshFault> placed_faults_of(const TriangleMesh &mesh, const std::str
   }
 
   std::map<std::array<int, 3>, int> first_with;
-  /// Triangles at an edge: how many, how many of them from the lower vertex to the higher, the first.
+  /// Triangles at an edge: how many, how many of them from the lower vertex to the higher, the
+  /// first.
   struct Sharing
   {
     int n = 0, upwards = 0, first = -1;

@@ -23,8 +23,8 @@ constexpr double allowed_zeros = 0.2;
 /// Below this number of multiply-adds Eigen's blocked product costs more than it saves.
 constexpr double small_product = 4000.;
 
-/// T = A B^T for a panel A (n,depth) and the rows B (3,depth) at b, both with leading dimension `stride`;
-/// T (n,3) with leading dimension n.
+/// T = A B^T for a panel A (n,depth) and the rows B (3,depth) at b, both with leading dimension
+/// `stride`; T (n,3) with leading dimension n.
 void multiply(const double *a, const double *b, const int stride, const int depth, const int n,
               double *__restrict t)
 {
@@ -123,8 +123,8 @@ BlockCholesky::BlockCholesky(const BlockMatrix &matrix)
     const double size = static_cast<double>(rows[index(c)].size()) + 1.;
     multiply_adds += 27. * 0.5 * size * (size - 1.) + 18. * size;
   }
-  // The rows of a column are among those of its parent, so that a chain of columns has the rows of the
-  // last one.
+  // The rows of a column are among those of its parent, so that a chain of columns has the rows of
+  // the last one.
   std::vector<int> node_of(index(n));
   std::size_t n_values = 0;
   for (int c = 0; c < n;)

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-// Sparse Cholesky factorisation L L^T of a BlockMatrix, the linear algebra under every step of a cloth of
-// up to some ten thousand vertices.
+// Sparse Cholesky factorisation L L^T of a BlockMatrix, the linear algebra under every step of a
+// cloth of up to some ten thousand vertices.
 //
-// Left-looking by supernodes (Ng & Peyton 1993): consecutive block columns whose rows agree, or nearly do, are
-// one dense panel, so that the work is products of dense matrices: what one thread reaches stands in the
-// benchmark `factorise`. The structure is laid out once.
+// Left-looking by supernodes (Ng & Peyton 1993): consecutive block columns whose rows agree, or
+// nearly do, are one dense panel, so that the work is products of dense matrices: what one thread
+// reaches stands in the benchmark `factorise`. The structure is laid out once.
 #pragma once
 
 #include "shell/algebra/block_matrix.h"
@@ -19,8 +19,8 @@ public:
   /// Lays out L for matrices of this structure.
   explicit BlockCholesky(const BlockMatrix &matrix);
 
-  /// Factors. @return whether the matrix is positive definite to working precision: every pivot above
-  ///   1e-14 of its diagonal entry
+  /// Factors. @return whether the matrix is positive definite to working precision: every pivot
+  ///   above 1e-14 of its diagonal entry
   bool factorize(const BlockMatrix &matrix);
 
   /// Solves for the free rows; held rows of the result are zero.
@@ -31,7 +31,8 @@ public:
   {
     return values.size();
   }
-  /// Multiplications and additions of one factorisation, two flops each, without those on stored zeros.
+  /// Multiplications and additions of one factorisation, two flops each, without those on stored
+  /// zeros.
   double n_multiply_adds() const
   {
     return multiply_adds;
@@ -39,7 +40,8 @@ public:
   std::size_t bytes() const;
 
 private:
-  /// Consecutive columns with the same rows: a panel of 3 n_rows x 3 n_columns numbers, column by column.
+  /// Consecutive columns with the same rows: a panel of 3 n_rows x 3 n_columns numbers, column by
+  /// column.
   struct Supernode
   {
     int column;        ///< first of its columns

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-// A symmetric sparse matrix of 3 x 3 blocks over the vertices of a cloth. Order and sparsity are laid
-// out once; a step writes values into places that the terms looked up beforehand.
+// A symmetric sparse matrix of 3 x 3 blocks over the vertices of a cloth. Order and sparsity are
+// laid out once; a step writes values into places that the terms looked up beforehand.
 //
-// Free vertices stand in a fill-reducing order (approximate minimum degree), held ones after them. Only
-// columns of free vertices are kept: their diagonal block, then the blocks below it. Blocks in rows of
-// held vertices carry the pull of moving handles; nothing couples two held vertices.
+// Free vertices stand in a fill-reducing order (approximate minimum degree), held ones after them.
+// Only columns of free vertices are kept: their diagonal block, then the blocks below it. Blocks in
+// rows of held vertices carry the pull of moving handles; nothing couples two held vertices.
 #pragma once
 
 #include <Eigen/Core>
@@ -40,8 +40,8 @@ public:
   /// Sets all values to zero.
   void clear();
 
-  /// Adds the block (first, second) at its place; the one across the diagonal is implied. A diagonal
-  /// block must be symmetric.
+  /// Adds the block (first, second) at its place; the one across the diagonal is implied. A
+  /// diagonal block must be symmetric.
   template <typename Values>
   void add(const Slot &where, const Eigen::MatrixBase<Values> &block)
   {
@@ -61,7 +61,8 @@ public:
       blocks[static_cast<std::size_t>(where.block)].diagonal().array() += value;
   }
 
-  /// Matrix times vectors, over the free vertices: held rows of x count as zero, those of y are zero.
+  /// Matrix times vectors, over the free vertices: held rows of x count as zero, those of y are
+  /// zero.
   void multiply(const Vectors &x, Vectors &y) const;
 
   /// y −= (rows of free vertices, columns of held ones) x: what a moving handle pulls.
@@ -89,8 +90,8 @@ public:
   /// Bytes of values and indices.
   std::size_t bytes() const;
 
-  // The storage, for the solvers. Column c holds blocks first[c] ... first[c + 1] − 1 in ascending rows
-  // from the diagonal on; rows and columns are places.
+  // The storage, for the solvers. Column c holds blocks first[c] ... first[c + 1] − 1 in ascending
+  // rows from the diagonal on; rows and columns are places.
   std::vector<int> place_of;  ///< (n) place of a vertex
   std::vector<int> vertex_at; ///< (n) vertex at a place
   std::vector<int> first;     ///< (n_free + 1)

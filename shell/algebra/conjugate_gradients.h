@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Preconditioned conjugate gradients on a BlockMatrix, for cloths whose factorisation would not pay.
+// Preconditioned conjugate gradients on a BlockMatrix, for cloths whose factorisation would not
+// pay.
 #pragma once
 
 #include "shell/algebra/block_matrix.h"
@@ -8,8 +9,9 @@
 
 namespace homespun::shell
 {
-/// Incomplete Cholesky factorisation on the blocks of the matrix itself, without fill (Meijerink & van der
-/// Vorst 1977). A pivot block that loses its sign is replaced by the matrix's own diagonal block.
+/// Incomplete Cholesky factorisation on the blocks of the matrix itself, without fill (Meijerink &
+/// van der Vorst 1977). A pivot block that loses its sign is replaced by the matrix's own diagonal
+/// block.
 class IncompleteCholesky
 {
 public:

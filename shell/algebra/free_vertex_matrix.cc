@@ -21,7 +21,8 @@ FreeVertexMatrix<dim>::FreeVertexMatrix(const meshes::Triangles &triangles,
     if (!is_held[static_cast<std::size_t>(v)])
       free_index[static_cast<std::size_t>(v)] = n_free++;
 
-  // The graph of the vertices is dim^2 times smaller than that of the unknowns, with the same order.
+  // The graph of the vertices is dim^2 times smaller than that of the unknowns, with the same
+  // order.
   std::vector<Eigen::Triplet<double>> edges;
   for (int v = 0; v < n_free; ++v)
     edges.emplace_back(v, v, 1.);
@@ -142,8 +143,8 @@ bool FreeVertexMatrix<dim>::factorize(const double shift)
   factor.factorize(upper);
   if (factor.info() != Eigen::Success)
     return false;
-  // A pivot is positive and no larger than its diagonal entry where the matrix is positive definite;
-  // one that has lost all its digits to cancellation is not trusted.
+  // A pivot is positive and no larger than its diagonal entry where the matrix is positive
+  // definite; one that has lost all its digits to cancellation is not trusted.
   const Eigen::VectorXd pivots = factor.vectorD();
   for (int c = 0; c < n_unknowns(); ++c)
     if (!(pivots(c) > 1e-14 * (upper.valuePtr()[upper.outerIndexPtr()[c + 1] - 1] + shift)) ||

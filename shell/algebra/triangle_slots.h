@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Where a term that acts in each triangle by itself, a membrane or a variant of it, finds its blocks in the
-// matrix of a cloth.
+// Where a term that acts in each triangle by itself, a membrane or a variant of it, finds its
+// blocks in the matrix of a cloth.
 #pragma once
 
 #include "meshes/plain/triangle_mesh.h"

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
-// A sparse matrix of 3 x 3 blocks over the free vertices of a cloth that need not be symmetric, and its LU factorisation:
-// the linear algebra under a conserving step. Forces over a step depend on both ends of it, so that their derivative by
-// one end is not symmetric, and the Cholesky factorisation of the other integrators does not apply.
+// A sparse matrix of 3 x 3 blocks over the free vertices of a cloth that need not be symmetric, and
+// its LU factorisation: the linear algebra under a conserving step. Forces over a step depend on
+// both ends of it, so that their derivative by one end is not symmetric, and the Cholesky
+// factorisation of the other integrators does not apply.
 #pragma once
 
 #include "shell/algebra/block_matrix.h"
@@ -20,7 +21,8 @@ public:
   /// @param is_held (n) vertices that are no unknowns: their rows and columns are dropped
   explicit VertexMatrix(const std::vector<bool> &is_held);
 
-  /// Forgets all values. The same blocks are expected in the same order again: the structure is analysed once.
+  /// Forgets all values. The same blocks are expected in the same order again: the structure is
+  /// analysed once.
   void clear();
 
   void add(int row, int column, const Eigen::Matrix3d &block);

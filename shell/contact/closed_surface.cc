@@ -17,7 +17,8 @@ namespace
 {
 constexpr int leaf_size = 4;
 
-// A crossing may miss both faces of an edge by round-off; faces reach over their edges by this part.
+// A crossing may miss both faces of an edge by round-off; faces reach over their edges by this
+// part.
 constexpr double overlap = 1e-9;
 
 /// Nearest point of a triangle in barycentric coordinates, and whether it lies on the face (0), the

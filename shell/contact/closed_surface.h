@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
-// A closed triangle mesh that answers two questions: how far is a point, on which side (signed distance
-// with its gradient), and where does a segment first enter. The sign comes from the pseudo-normal of
-// the nearest face, edge or vertex, angle-weighted at vertices: Bærentzen and Aanæs, "Signed distance
-// computation using the angle weighted pseudonormal" (IEEE TVCG 2005). A tree of boxes aligned with
-// the axes finds the nearest triangle. Every finite point has an answer, also on an edge or a vertex.
+// A closed triangle mesh that answers two questions: how far is a point, on which side (signed
+// distance with its gradient), and where does a segment first enter. The sign comes from the
+// pseudo-normal of the nearest face, edge or vertex, angle-weighted at vertices: Bærentzen and
+// Aanæs, "Signed distance computation using the angle weighted pseudonormal" (IEEE TVCG 2005). A
+// tree of boxes aligned with the axes finds the nearest triangle. Every finite point has an answer,
+// also on an edge or a vertex.
 #pragma once
 
 #include "meshes/cloth/cloth_mesh.h"
@@ -49,7 +50,8 @@ public:
   nearest(const Eigen::Vector3d &point,
           double within = std::numeric_limits<double>::infinity()) const;
 
-  /// First point where the segment goes through a face against its normal; edges belong to both faces.
+  /// First point where the segment goes through a face against its normal; edges belong to both
+  /// faces.
   std::optional<SurfaceEntry> first_entry(const Eigen::Vector3d &from,
                                           const Eigen::Vector3d &to) const;
 

@@ -76,7 +76,8 @@ public:
   std::optional<SurfaceEntry> first_entry(const Eigen::Vector3d &from,
                                           const Eigen::Vector3d &to) const override
   {
-    // |a + s w|² = r²: w² s² + 2 a·w s + (a² − r²) = 0, the smaller root in a form without cancellation.
+    // |a + s w|² = r²: w² s² + 2 a·w s + (a² − r²) = 0, the smaller root in a form without
+    // cancellation.
     const Eigen::Vector3d a = from - centre, w = to - from;
     const double ww = w.squaredNorm(), aw = a.dot(w), c = a.squaredNorm() - radius * radius,
                  discriminant = aw * aw - ww * c;

@@ -1,14 +1,17 @@
 // SPDX-License-Identifier: MIT
 // Bodies that a cloth cannot enter: planes, spheres, closed meshes, at rest or moved, with Coulomb
 // friction. A penalty per vertex, so that the Hessian is block diagonal, on the distance to a
-// half-space that is chosen once per step: E = ½ k (n·x − b)² is quadratic and positive semi-definite.
+// half-space that is chosen once per step: E = ½ k (n·x − b)² is quadratic and positive
+// semi-definite.
 //
 // Linearly implicit Euler linearises at x_n and would not see what lies within the step. So
-// begin_step() looks ahead and freezes half-spaces, in the frame of the body at the end of the step:
-//  - a vertex touches (it is within the thickness) and x_n + h v_n + h² g would not leave: that of its
-//    nearest point; where it then slides into another face, that of the face too;
-//  - x_n + h v_n would go through the surface or end within the thickness: that of the point of entry
-//    or of the nearest point. A body thinner than the way of one step stops a vertex all the same;
+// begin_step() looks ahead and freezes half-spaces, in the frame of the body at the end of the
+// step:
+//  - a vertex touches (it is within the thickness) and x_n + h v_n + h² g would not leave: that of
+//    its nearest point; where it then slides into another face, that of the face too;
+//  - x_n + h v_n would go through the surface or end within the thickness: that of the point of
+//    entry or of the nearest point. A body thinner than the way of one step stops a vertex all the
+//    same;
 //  - only with h² g it would, and v_n does not lead away: the same half-space, but with a spring of
 //    m/h² that just catches the vertex in free fall. A cloth that hangs beside the body feels at
 //    most some m g.

@@ -16,8 +16,8 @@ namespace
 constexpr double collapsed_to_line  = 1e-14;
 constexpr double rotation_undefined = 1e-28;
 
-/// F = R U in the sheet's own frame: stretches U, rotation R (dim,2) with orthonormal columns, in space
-/// the unit normal n. Of a triangle collapsed to a line n is zero and R = F/s.
+/// F = R U in the sheet's own frame: stretches U, rotation R (dim,2) with orthonormal columns, in
+/// space the unit normal n. Of a triangle collapsed to a line n is zero and R = F/s.
 template <int dim>
 struct Polar
 {
@@ -139,8 +139,8 @@ TurnedHessian turned_hessian(const Polar<dim> &polar, const Eigen::Matrix3d &D,
       (stress(0) + stress(1) -
        polar.p * (stress(0) * polar.U(0) + stress(1) * polar.U(1) + 2. * stress(2) * polar.U(2)));
   }
-  // Positive semi-definite if and only if the Schur complement of D is not negative, a question of one
-  // number: the stiffness κ against turning is raised to where it is zero.
+  // Positive semi-definite if and only if the Schur complement of D is not negative, a question of
+  // one number: the stiffness κ against turning is raised to where it is zero.
   if (compliance)
     kappa = std::max(kappa, 2. * c.dot(q) + q.dot(*compliance * q));
   const Eigen::Vector3d Dc                = D * c;
@@ -163,8 +163,8 @@ TurnedHessian turned_hessian(const Polar<dim> &polar, const Eigen::Matrix3d &D,
   return hessian;
 }
 
-/// Columns of (Z11, Z22, Z12 + Z21, β) by a displacement (along r1, along r2) of a corner whose hat has
-/// the gradient g.
+/// Columns of (Z11, Z22, Z12 + Z21, β) by a displacement (along r1, along r2) of a corner whose hat
+/// has the gradient g.
 Eigen::Matrix<double, 4, 2> turned_strain(const Eigen::RowVector2d &g)
 {
   Eigen::Matrix<double, 4, 2> columns;
@@ -230,15 +230,16 @@ triangle_derivatives(const RestTriangle &rest, const Eigen::Matrix<double, 3, di
                      const MembraneStiffness &stiffness, const Hessian kind,
                      const Eigen::Vector3d &initial_stress)
 {
-  const Polar<dim> polar        = polar_of<dim>(deformation_gradient<dim>(rest, corners));
-  const Eigen::Vector3d stress  = stiffness.D * strain_of(polar) + initial_stress,
-                        turning = turning_of(polar);
-  const TurnedHessian turned    = turned_hessian(
-       polar, stiffness.D, stress, turning, kind == Hessian::projected ? &stiffness.inverse : nullptr);
+  const Polar<dim> polar         = polar_of<dim>(deformation_gradient<dim>(rest, corners));
+  const Eigen::Vector3d stress   = stiffness.D * strain_of(polar) + initial_stress,
+                        turning  = turning_of(polar);
+  const Eigen::Matrix3d *inverse = kind == Hessian::projected ? &stiffness.inverse : nullptr;
+  const TurnedHessian turned     = turned_hessian(polar, stiffness.D, stress, turning, inverse);
   TriangleDerivatives<dim> result;
   result.gradient =
     rest.area * rest.shape_gradients * (polar.R * turned_stress(stress, turning)).transpose();
-  // The blocks of corner 0 are minus the sums of the others: a translation costs nothing, to round-off.
+  // The blocks of corner 0 are minus the sums of the others: a translation costs nothing, to
+  // round-off.
   const Eigen::RowVector2d g1 = rest.shape_gradients.row(1), g2 = rest.shape_gradients.row(2);
   auto &blocks = result.blocks;
   blocks[3]    = rest.area * block_of<dim>(polar, turned, g1, g1);

@@ -7,12 +7,12 @@
 //
 // In closed form, with C = F^T F and the area ratio J,
 //   U = (C + J I) / s,   s = tr U = sqrt(tr C + 2 J).
-// dim = 3: J = |f1 × f2| >= 0, a sheet in space has no sign. Where a triangle is collapsed to a line
-//   the normal is undefined; J has a kink there and we take zero from its subdifferential.
+// dim = 3: J = |f1 × f2| >= 0, a sheet in space has no sign. Where a triangle is collapsed to a
+//   line the normal is undefined; J has a kink there and we take zero from its subdifferential.
 // dim = 2: J = det F with its sign, so that U = R^T F with the rotation R nearest to F, det R = +1.
-//   For det F > 0 this is sqrt(F^T F). Where a triangle is inverted, sqrt(F^T F) would not see it (a
-//   mirrored triangle would be at rest); R^T F has a negative eigenvalue, costs energy and pushes
-//   back, and is smooth through the collapse.
+//   For det F > 0 this is sqrt(F^T F). Where a triangle is inverted, sqrt(F^T F) would not see it
+//   (a mirrored triangle would be at rest); R^T F has a negative eigenvalue, costs energy and
+//   pushes back, and is smooth through the collapse.
 // Where s = 0 (a point; in the plane also a scaled reflection) R is undefined: the value and the
 //   derivatives are those of R frozen at the identity: finite, symmetric, and a way out.
 // All functions are stateless. Not-a-number in gives not-a-number out.
@@ -90,8 +90,8 @@ struct RestTriangle
 /// @param corners (3,2) [m], of positive area
 RestTriangle rest_triangle(const Eigen::Matrix<double, 3, 2> &corners);
 
-/// Deformation gradient of a triangle, F = [x1 − x0, x2 − x0] Dm^-1 (paper Eqs. 10-11, whose printed
-/// Q is the inverse of this).
+/// Deformation gradient of a triangle, F = [x1 − x0, x2 − x0] Dm^-1 (paper Eqs. 10-11, whose
+/// printed Q is the inverse of this).
 /// @param corners (3,dim) current positions [m]
 template <int dim>
 DeformationGradient<dim> deformation_gradient(const RestTriangle &rest,

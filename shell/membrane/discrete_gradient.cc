@@ -18,7 +18,8 @@ Eigen::Matrix2d matrix_of(const Symmetric &a)
   return matrix;
 }
 
-/// X of U X + X U = B as a matrix by which the entries of B are multiplied. With adj U = det U U^-1,
+/// X of U X + X U = B as a matrix by which the entries of B are multiplied. With adj U = det U
+/// U^-1,
 ///   X = (B + adj U B adj U / det U) / (2 tr U);
 /// of a line with the direction t, U = λ t t^T, the component of X across it is zero.
 Eigen::Matrix3d inverse_anticommutator(const Symmetric &U)
@@ -55,7 +56,8 @@ Eigen::Matrix3d anticommutator(const Symmetric &A)
   return matrix;
 }
 
-/// F^T dF, symmetric part in the entries 11, 22 and twice 12, by a displacement of the corner whose hat has the gradient g.
+/// F^T dF, symmetric part in the entries 11, 22 and twice 12, by a displacement of the corner whose
+/// hat has the gradient g.
 Eigen::Matrix3d stretching(const DeformationGradient<3> &F, const Eigen::RowVector2d &g)
 {
   Eigen::Matrix3d rows;
@@ -79,7 +81,8 @@ TriangleStep triangle_step(const RestTriangle &rest, const Eigen::Matrix3d &old_
   const Eigen::Matrix3d to_S = inverse_anticommutator(mean_U);
   const Symmetric S = to_S * (2. * (D * (weights.old * old_strain + weights.now * strain)));
 
-  // dS by dC1 = U1 dU1 + dU1 U1: Ū dS + dS Ū = 2 dT̄ − dŪ S − S dŪ with dT̄ = now D de1 and dŪ = ½ dU1.
+  // dS by dC1 = U1 dU1 + dU1 U1: Ū dS + dS Ū = 2 dT̄ − dŪ S − S dŪ with dT̄ = now D de1 and dŪ = ½
+  // dU1.
   const Eigen::Matrix3d by_U = 2. * weights.now * D * Eigen::Vector3d(1., 1., 2.).asDiagonal(),
                         dS   = to_S * (by_U - 0.5 * anticommutator(S)) * inverse_anticommutator(U) *
                              Eigen::Vector3d(2., 2., 1.).asDiagonal();

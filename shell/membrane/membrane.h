@@ -31,11 +31,13 @@ struct Membrane
 
 /// Prepares the rest state of a membrane, mesh.material being the phase of each triangle.
 /// @param stiffness one symmetric positive definite matrix per phase [N/m]
-/// @throws BadInput with all faults: indices, coordinates or stiffness that are not finite, triangles
-///   without positive area, phases out of range, a stiffness that is not symmetric positive definite
+/// @throws BadInput with all faults: indices, coordinates or stiffness that are not finite,
+///   triangles without positive area, phases out of range, a stiffness that is not symmetric
+///   positive definite
 Membrane membrane(const meshes::TriangleMesh &mesh, const std::vector<Eigen::Matrix3d> &stiffness);
 
-/// The same of a cloth sewn from panels: triangles connect vertices in space, vertices are left empty.
+/// The same of a cloth sewn from panels: triangles connect vertices in space, vertices are left
+/// empty.
 Membrane membrane(const meshes::ClothMesh &cloth, const std::vector<Eigen::Matrix3d> &stiffness);
 
 /// Total energy, sum of area times W [J].

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What a cloth sets against being bent: the stiffness of an orthotropic plate, in its two directions and in
-// the twist.
+// What a cloth sets against being bent: the stiffness of an orthotropic plate, in its two
+// directions and in the twist.
 #pragma once
 
 #include <Eigen/Core>
@@ -15,7 +15,8 @@ struct PlateStiffness
   double D12 = 0.; ///< what bending along 1 asks of moments along 2 [N m]
   double D66 = 0.; ///< twist: M12 = D66 2 κ12 [N m]
 
-  /// D in both directions, D12 = nu D, D66 = D (1 − nu)/2; D = E t³/(12 (1 − nu²)) of a thick sheet.
+  /// D in both directions, D12 = nu D, D66 = D (1 − nu)/2; D = E t³/(12 (1 − nu²)) of a thick
+  /// sheet.
   static PlateStiffness isotropic(double D, double nu);
 
   /// (3,3), Voigt order 11, 22, 12 [N m]

@@ -130,8 +130,9 @@ void Cloth::set_held(Vectors &positions) const
     positions.row(vertex) = target.row(vertex);
 }
 
-/// The velocity of the frame in which a step may not raise the energy: no term does work, and no handle moves there. It moves
-/// with the handles where all go the same way and nothing but they acts from outside; else there may be none.
+/// The velocity of the frame in which a step may not raise the energy: no term does work, and no
+/// handle moves there. It moves with the handles where all go the same way and nothing but they
+/// acts from outside; else there may be none.
 std::optional<Eigen::RowVector3d> Cloth::closed_frame(const double h) const
 {
   const auto is_all = [&](const auto &property)
@@ -168,8 +169,8 @@ bool Cloth::is_alone() const
                                      [](const auto &term) { return term->is_internal(); });
 }
 
-/// Where Newton's method begins: a free cloth where its integrator would take a rigid body with its momenta, so that no part
-/// of them is lost in a line search.
+/// Where Newton's method begins: a free cloth where its integrator would take a rigid body with its
+/// momenta, so that no part of them is lost in a line search.
 Vectors Cloth::start_of_solve(const double h) const
 {
   if (held.empty())
@@ -191,7 +192,8 @@ Vectors Cloth::linear_step(const Vectors &inertial, const double h, StepReport &
   return next;
 }
 
-/// Whether a linearly implicit step raises the energy of a cloth on which nothing does work, or otherwise Φ.
+/// Whether a linearly implicit step raises the energy of a cloth on which nothing does work, or
+/// otherwise Φ.
 bool Cloth::is_overshot(const Vectors &next, const Vectors &inertial, const double h) const
 {
   const auto has_grown = [](const double before, const double after, const double size)
@@ -210,7 +212,8 @@ bool Cloth::is_overshot(const Vectors &next, const Vectors &inertial, const doub
   return has_grown(potential.value(start, inertial, 1. / (h * h)), after, after);
 }
 
-/// The minimum of Φ; of a linearly implicit step that is guarded at least a place that is not overshot.
+/// The minimum of Φ; of a linearly implicit step that is guarded at least a place that is not
+/// overshot.
 Vectors Cloth::minimum(const Vectors &inertial, const double h, StepReport &report)
 {
   Vectors next = start_of_solve(h);
@@ -313,7 +316,8 @@ StepReport Cloth::step(const double h)
         throw meshes::NotConverged(
           std::string(failure.what()) + " (step " + std::to_string(n_step + 1) + ", time " +
             std::to_string(begin) + " s, cut " + std::to_string(options.max_cuts) +
-            " times); try a smaller time step, damping, or look for a coarse triangle that is crushed",
+            " times); try a smaller time step, damping, or look for a coarse triangle that is "
+            "crushed",
           failure.residual_history());
       }
     }

@@ -1,25 +1,28 @@
 // SPDX-License-Identifier: MIT
-// A moving cloth: masses, held vertices, and the terms that a scene adds (term.h). What is absent is never
-// called.
+// A moving cloth: masses, held vertices, and the terms that a scene adds (term.h). What is absent
+// is never called.
 //
 // Three integrators take a step of h:
-// linearly implicit (Baraff & Witkin 1998): one Newton step of the incremental potential Φ of implicit Euler
-//   (incremental_potential.h) with the positive semi-definite Hessian, one assembly and one factorisation, of a
-//   free cloth from where a rigid body with its momenta would be. Should it raise the energy of a cloth on which nothing does
-//   work, or otherwise Φ, Newton's method goes on with a line search.
-// implicit: the minimum of Φ to a tolerance, by Newton's method with line search; the exact Hessian where it is
-//   positive definite, else the projected one.
-// conserving: discrete gradients (conserving_step.h); it takes membrane, viscosity, bending, gravity and damping.
-// A step that fails is cut in two, up to a number of times, and repeated; a state that is not finite stops
-// the run. Nothing is put right after a solve: velocities are (x_{n+1} − x_n)/h, of the conserving integrator twice
-// that less the old ones.
+// linearly implicit (Baraff & Witkin 1998): one Newton step of the incremental potential Φ of
+//   implicit Euler (incremental_potential.h) with the positive semi-definite Hessian, one assembly
+//   and one factorisation, of a free cloth from where a rigid body with its momenta would be.
+//   Should it raise the energy of a cloth on which nothing does work, or otherwise Φ, Newton's
+//   method goes on with a line search.
+// implicit: the minimum of Φ to a tolerance, by Newton's method with line search; the exact Hessian
+//   where it is positive definite, else the projected one.
+// conserving: discrete gradients (conserving_step.h); it takes membrane, viscosity, bending,
+// gravity and damping. A step that fails is cut in two, up to a number of times, and repeated; a
+// state that is not finite stops the run. Nothing is put right after a solve: velocities are
+// (x_{n+1} − x_n)/h, of the conserving integrator twice that less the old ones.
 //
-// What theory gives. Both Euler methods are of first order. They keep the linear momentum; of the angular one implicit Euler
-// loses h Σ m v_n × v_{n+1} in a step, so that a rigid body turns by atan(h ω) instead of h ω and keeps the share
-// cos(atan(h ω)) of its angular momentum. Its energy changes by −½ Σ m |v_{n+1} − v_n|² plus what E(x_{n+1}) exceeds
-// its tangent at x_{n+1} by, taken back to x_n: it falls where the energy is convex along the step, and
-// stored energy and ½ Σ m |v_{n+1} − v_n|² never exceed what there was. The conserving integrator is of second order and
-// keeps both momenta and the energy, of which a dissipation takes its part, to the tolerance of its solve.
+// What theory gives. Both Euler methods are of first order. They keep the linear momentum; of the
+// angular one implicit Euler loses h Σ m v_n × v_{n+1} in a step, so that a rigid body turns by
+// atan(h ω) instead of h ω and keeps the share cos(atan(h ω)) of its angular momentum. Its energy
+// changes by −½ Σ m |v_{n+1} − v_n|² plus what E(x_{n+1}) exceeds its tangent at x_{n+1} by, taken
+// back to x_n: it falls where the energy is convex along the step, and stored energy and ½ Σ m
+// |v_{n+1} − v_n|² never exceed what there was. The conserving integrator is of second order and
+// keeps both momenta and the energy, of which a dissipation takes its part, to the tolerance of its
+// solve.
 #pragma once
 
 #include "shell/solver/conserving_step.h"
@@ -53,8 +56,9 @@ struct StepReport : SolveCounts
   int guarded = 0; ///< linearly implicit steps that went on with a line search
   /// By how much the energy of a closed cloth grew, summed over the parts of the step [J].
   double energy_gained = 0.;
-  /// Sum over the parts of the step of |change of angular momentum| of a cloth on which nothing acts from outside: the
-  /// error of first order of both Euler methods, of the conserving one what its solve leaves [kg m²/s].
+  /// Sum over the parts of the step of |change of angular momentum| of a cloth on which nothing
+  /// acts from outside: the error of first order of both Euler methods, of the conserving one what
+  /// its solve leaves [kg m²/s].
   double spin_lost = 0.;
 };
 
@@ -72,8 +76,8 @@ public:
   /// @param positions (n,3) at the beginning, velocities are zero [m]
   /// @param masses (n) [kg]
   /// @param held_vertices those that are moved by prescribe() or stay
-  /// @throws BadInput where sizes do not match, a number is not finite, a mass not positive, a held vertex
-  ///   does not exist
+  /// @throws BadInput where sizes do not match, a number is not finite, a mass not positive, a held
+  ///   vertex does not exist
   Cloth(const Vectors &positions, const Eigen::VectorXd &masses,
         const std::vector<int> &held_vertices, const ClothOptions &options = {});
 
@@ -85,14 +89,16 @@ public:
 
   /// One time step.
   /// @param h > 0 [s]
-  /// @throws BadInput for another h; NotConverged where cutting does not help, with the step, the vertex and
-  ///   what to try. The state is then that before the step.
+  /// @throws BadInput for another h; NotConverged where cutting does not help, with the step, the
+  ///   vertex and what to try. The state is then that before the step.
   StepReport step(double h);
 
-  /// Static equilibrium of the stored energy under the prescribed positions: pseudo-transient continuation
-  /// (implicit Euler steps without memory of the velocity, whose length grows as the residual falls:
-  /// Kelley & Keyes 1998), then Newton's method with the exact Hessian. Velocities become zero.
-  /// @param relative_tolerance of |gradient| over the sum of the absolute forces at the vertices [-]
+  /// Static equilibrium of the stored energy under the prescribed positions: pseudo-transient
+  /// continuation (implicit Euler steps without memory of the velocity, whose length grows as the
+  /// residual falls: Kelley & Keyes 1998), then Newton's method with the exact Hessian. Velocities
+  /// become zero.
+  /// @param relative_tolerance of |gradient| over the sum of the absolute forces at the vertices
+  ///   [-]
   /// @throws NotConverged with the residual history
   ClothEquilibrium solve_equilibrium(double relative_tolerance = 1e-8, int max_iterations = 400);
 

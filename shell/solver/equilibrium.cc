@@ -150,8 +150,8 @@ Positions<dim> MembraneSolver<dim>::linear_equilibrium(const Positions<dim> &pre
                                ": its prescribed position is not finite");
       displacement.row(row) = prescribed.row(row) - membrane.vertices.row(row);
     }
-  // K u, element by element, so that the coupling of held to free vertices needs no matrix; the second
-  // pass refines the first, which matters at high stiffness contrast.
+  // K u, element by element, so that the coupling of held to free vertices needs no matrix; the
+  // second pass refines the first, which matters at high stiffness contrast.
   for (int pass = 0; pass < 2; ++pass)
   {
     Positions<dim> force = Positions<dim>::Zero(prescribed.rows(), dim);
@@ -188,8 +188,8 @@ Positions<dim> MembraneSolver<dim>::newton_step(const Positions<dim> &positions,
   ++projected_steps;
   matrix.clear();
   add_membrane_hessian<dim>(membrane, positions, Hessian::projected, matrix);
-  // In the projected Hessian directions without stiffness remain, such as those out of the plane of a
-  // flat sheet: the shift leaves them at rest where no force acts along them.
+  // In the projected Hessian directions without stiffness remain, such as those out of the plane of
+  // a flat sheet: the shift leaves them at rest where no force acts along them.
   double shift = 0.;
   while (!matrix.factorize(shift) && shift < 1e6 * matrix.mean_diagonal())
     shift = std::max(10. * shift, 1e-10 * matrix.mean_diagonal());

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Static equilibrium of the coarse cloth under prescribed positions: grad W = 0 at every vertex that
-// is not held, with the corotational energy of METHOD 2, and its small-strain linear form.
+// Static equilibrium of the coarse cloth under prescribed positions: grad W = 0 at every vertex
+// that is not held, with the corotational energy of METHOD 2, and its small-strain linear form.
 #pragma once
 
 #include "meshes/plain/triangle_mesh.h"
@@ -45,8 +45,8 @@ public:
   /// @param rest mesh at rest, rest.material being the phase of each triangle
   /// @param stiffness_of_phase symmetric positive definite [N/m]
   /// @param held_vertices whose positions are prescribed, in any order
-  /// @throws BadInput as membrane() does, and where no vertex is held, a held vertex does not exist, or
-  ///   a vertex hangs on no held one
+  /// @throws BadInput as membrane() does, and where no vertex is held, a held vertex does not
+  ///   exist, or a vertex hangs on no held one
   MembraneSolver(const meshes::TriangleMesh &rest, std::vector<Eigen::Matrix3d> stiffness_of_phase,
                  const std::vector<int> &held_vertices);
 
@@ -63,9 +63,9 @@ public:
     return linear_equilibrium(prescribed);
   }
 
-  /// Equilibrium at finite strain by Newton's method with a line search on the energy. A step uses the
-  /// exact Hessian where it is positive definite, else the projected one (with the smallest shift
-  /// that makes it so).
+  /// Equilibrium at finite strain by Newton's method with a line search on the energy. A step uses
+  /// the exact Hessian where it is positive definite, else the projected one (with the smallest
+  /// shift that makes it so).
   /// @param start (n,dim) [m] first guess; its held rows are the prescribed positions
   /// @return positions of a stationary point at or below the energy of the start
   /// @throws BadInput where the start is not finite; NotConverged with the residual history
@@ -75,8 +75,9 @@ public:
   /// The membrane at rest, for its energy, gradient and Hessian.
   const Membrane &rest_membrane() const;
 
-  /// Free vertices' matrix with the exact Hessian at the given positions, factored: one assembly and
-  /// one numeric factorisation of a Newton step, for benchmarks. @return whether it is positive definite
+  /// Free vertices' matrix with the exact Hessian at the given positions, factored: one assembly
+  /// and one numeric factorisation of a Newton step, for benchmarks. @return whether it is positive
+  /// definite
   bool factorize_at(const Positions<dim> &positions) const;
 
 private:

@@ -164,7 +164,8 @@ void IncrementalPotential::minimize(const Vectors &inertial, const double h,
   const double inverse_square = 1. / (h * h);
   const bool descends         = has_energy();
   double potential            = value(positions, inertial, inverse_square);
-  // Conjugate gradients would not notice an indefinite matrix in time, hence no exact Hessian for them.
+  // Conjugate gradients would not notice an indefinite matrix in time, hence no exact Hessian for
+  // them.
   bool try_exact = is_direct();
   Vectors step, trial;
   std::vector<double> history;
@@ -197,7 +198,8 @@ void IncrementalPotential::minimize(const Vectors &inertial, const double h,
     if (!solved)
       throw meshes::NotConverged("the step's matrix is not positive definite", history);
     const double slope = -forces.cwiseProduct(step).sum();
-    // What the potential changes by when every position moves by one rounding, and round-off of its sum.
+    // What the potential changes by when every position moves by one rounding, and round-off of its
+    // sum.
     const double slack = std::numeric_limits<double>::epsilon() *
                            std::sqrt(static_cast<double>(m.size())) *
                            positions.cwiseAbs().maxCoeff() * residual.size +

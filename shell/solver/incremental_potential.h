@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
-// What a time step of a cloth minimises, and the matrix in which its Hessian is assembled and solved:
+// What a time step of a cloth minimises, and the matrix in which its Hessian is assembled and
+// solved:
 //   Φ(x) = Σ m s/2 |x − x̂|² + Σ_terms E(x),   x̂ = x_n + h v_n,   s = 1/h²;
-// with s = 0 the sum of the terms alone, whose minimum is an equilibrium. Held vertices are no unknowns.
+// with s = 0 the sum of the terms alone, whose minimum is an equilibrium. Held vertices are no
+// unknowns.
 #pragma once
 
 #include "shell/algebra/block_cholesky.h"
@@ -26,9 +28,9 @@ enum class LinearSolver
 struct SolverOptions
 {
   LinearSolver solver = LinearSolver::automatic;
-  /// Free vertices. The direct solver was the faster one at 441, 2,601 and 25,281 vertices (benchmark `step`,
-  /// h = 10 ms: 0.7, 7, 200 ms against 1.8, 27, 1400 ms); with 145,161 it takes 2.6 s and 0.7 GB. Memory,
-  /// some 5 kB per vertex, sets the limit.
+  /// Free vertices. The direct solver was the faster one at 441, 2,601 and 25,281 vertices
+  /// (benchmark `step`, h = 10 ms: 0.7, 7, 200 ms against 1.8, 27, 1400 ms); with 145,161 it takes
+  /// 2.6 s and 0.7 GB. Memory, some 5 kB per vertex, sets the limit.
   int direct_limit        = 200000;
   double newton_tolerance = 1e-8; ///< |gradient of Φ| over the size of the forces it is made of [-]
   int max_newton_iterations = 40;
@@ -75,8 +77,8 @@ public:
   /// Sum of the terms' stored energies [J].
   double stored_energy(const Vectors &positions) const;
 
-  /// Norms over the free vertices: of the gradient, of the forces before they cancel, and of what one
-  /// rounding of the positions changes [N].
+  /// Norms over the free vertices: of the gradient, of the forces before they cancel, and of what
+  /// one rounding of the positions changes [N].
   struct Residual
   {
     double norm = 0., size = 0., round_off = 0.;
@@ -101,8 +103,8 @@ public:
   /// @return false where the matrix is not positive definite
   bool solve(const Vectors &right_side, Vectors &result, SolveCounts &counts);
 
-  /// One Newton step of Φ from x_n with the projected Hessian, the held vertices going where they are told:
-  /// where linearly implicit Euler ends.
+  /// One Newton step of Φ from x_n with the projected Hessian, the held vertices going where they
+  /// are told: where linearly implicit Euler ends.
   /// @param positions x_n (n,3) [m]
   /// @param velocities v_n (n,3) [m/s]
   /// @param held_displacement (n,3), its rows of held vertices are what they move by [m]
@@ -111,12 +113,12 @@ public:
   Vectors linear_step(const Vectors &positions, const Vectors &velocities,
                       const Vectors &held_displacement, double h, SolveCounts &counts);
 
-  /// Newton's method with line search on Φ. An iteration uses the exact Hessian where it is positive
-  /// definite, else the projected one; after such a one the next does without the attempt, unless the
-  /// step was a full one.
+  /// Newton's method with line search on Φ. An iteration uses the exact Hessian where it is
+  /// positive definite, else the projected one; after such a one the next does without the attempt,
+  /// unless the step was a full one.
   /// @param positions start and result, whose held rows are prescribed
-  /// @param is_enough whether positions short of the minimum will do where the line search or the iterations end, at a kink of
-  ///   the energy or at round-off; it is counted
+  /// @param is_enough whether positions short of the minimum will do where the line search or the
+  ///   iterations end, at a kink of the energy or at round-off; it is counted
   /// @throws NotConverged with the residual history
   void minimize(const Vectors &inertial, double h,
                 const std::function<bool(const Vectors &)> &is_enough, Vectors &positions,

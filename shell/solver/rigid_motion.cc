@@ -37,7 +37,8 @@ Eigen::RowVector3d spin_of(const Eigen::VectorXd &masses, const Vectors &positio
   }
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(inertia);
   Eigen::Vector3d spin = eigen.eigenvectors().transpose() * angular_momentum.transpose();
-  // Below round-off of the largest moment of inertia the body is a line, which cannot spin about itself.
+  // Below round-off of the largest moment of inertia the body is a line, which cannot spin about
+  // itself.
   const double smallest = 16. * std::numeric_limits<double>::epsilon() * eigen.eigenvalues()(2);
   for (int k = 0; k < 3; ++k)
     spin(k) = eigen.eigenvalues()(k) > smallest ? spin(k) / eigen.eigenvalues()(k) : 0.;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// A cloth that is curved where it is without moments: a cubic energy over the hinges of hinges.h (Garg et
-// al., "Cubic shells", SCA 2007), which turns the flat rest shape of bending.h into a curved one.
+// A cloth that is curved where it is without moments: a cubic energy over the hinges of hinges.h
+// (Garg et al., "Cubic shells", SCA 2007), which turns the flat rest shape of bending.h into a
+// curved one.
 #pragma once
 
 #include "meshes/cloth/cloth_mesh.h"

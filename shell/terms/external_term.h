@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What terms share that press on the vertices from outside, wind and contact: they couple no two vertices,
-// store no energy and may bring some into the cloth.
+// What terms share that press on the vertices from outside, wind and contact: they couple no two
+// vertices, store no energy and may bring some into the cloth.
 #pragma once
 
 #include "shell/terms/term.h"

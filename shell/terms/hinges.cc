@@ -14,8 +14,8 @@ namespace homespun::shell
 {
 namespace
 {
-// Singular values of G are 1 on regular meshes and above 0.3 where vertices are displaced by a quarter
-// of the mesh width; they vanish where six points lie on a conic.
+// Singular values of G are 1 on regular meshes and above 0.3 where vertices are displaced by a
+// quarter of the mesh width; they vanish where six points lie on a conic.
 constexpr double smallest_singular_value = 0.2;
 
 Eigen::Matrix<double, 3, 2> rest_corners(const meshes::ClothMesh &mesh, const int t)
@@ -80,9 +80,9 @@ std::vector<std::string> faults_of(const meshes::ClothMesh &mesh,
     if (!(signed_area(corners) > 1e-14 * longest))
     {
       std::ostringstream text;
-      text
-        << name << " has area " << signed_area(corners)
-        << " m^2 at rest; expected a counter-clockwise triangle of positive area: remove or turn it";
+      text << name << " has area " << signed_area(corners)
+           << " m^2 at rest; expected a counter-clockwise triangle of positive area: remove or "
+              "turn it";
       fault(text.str());
     }
     if (mesh.rest.material(t) < 0 || mesh.rest.material(t) >= static_cast<int>(stiffness.size()))

@@ -1,17 +1,19 @@
 // SPDX-License-Identifier: MIT
-// The hinges of a cloth: what its triangles say about curvature, measured once at rest. bending.h and
-// curved_rest.h make energies of it.
+// The hinges of a cloth: what its triangles say about curvature, measured once at rest. bending.h
+// and curved_rest.h make energies of it.
 //
-// The jump of slope across a hinge is the vector K x of Bergou et al., "A quadratic bending model for
-// inextensible surfaces" (SGP 2006): K from the cotangents of its two triangles unfolded, |K x| =
-// 2 |e| sin(theta/2) where they keep their lengths. Per area, k = K x / (A0 + A1) is a curvature in
-// space [1/m].
-// A constant curvature κ of the cloth gives hinge i of a triangle k_i = g_i·κ. The hinges of a triangle,
-// three or fewer, are its patch, with the stiffness A (G D^-1 G^T)^-1 (bending.h says why).
+// The jump of slope across a hinge is the vector K x of Bergou et al., "A quadratic bending model
+// for inextensible surfaces" (SGP 2006): K from the cotangents of its two triangles unfolded, |K x|
+// = 2 |e| sin(theta/2) where they keep their lengths. Per area, k = K x / (A0 + A1) is a curvature
+// in space [1/m].
+// A constant curvature κ of the cloth gives hinge i of a triangle k_i = g_i·κ. The hinges of a
+// triangle, three or fewer, are its patch, with the stiffness A (G D^-1 G^T)^-1 (bending.h says
+// why).
 //
-// Only sides of the rest triangles enter, each pair unfolded about its edge: panels sewn together may
-// lie anywhere and turned in the rest plane; directions 1 and 2 are those of each triangle's own panel.
-// Six points on a conic determine no quadric: singular values of G are kept above a fifth.
+// Only sides of the rest triangles enter, each pair unfolded about its edge: panels sewn together
+// may lie anywhere and turned in the rest plane; directions 1 and 2 are those of each triangle's
+// own panel. Six points on a conic determine no quadric: singular values of G are kept above a
+// fifth.
 #pragma once
 
 #include "meshes/cloth/cloth_mesh.h"
@@ -50,8 +52,8 @@ struct Hinges
 
 /// Measures the hinges of a cloth at rest.
 /// @param stiffness one per phase of mesh.rest [N m], positive definite
-/// @throws BadInput with all faults: stiffness, phases, indices, rest triangles without area, edges of
-///   more than two triangles or of two that traverse it the same way
+/// @throws BadInput with all faults: stiffness, phases, indices, rest triangles without area, edges
+///   of more than two triangles or of two that traverse it the same way
 Hinges hinges_of(const meshes::ClothMesh &mesh, const std::vector<PlateStiffness> &stiffness);
 
 /// The four vertices of a hinge in the order of its weights.

@@ -14,8 +14,8 @@ namespace homespun::shell
 std::unique_ptr<Term> gravity_term(const Eigen::VectorXd &masses,
                                    const Eigen::RowVector3d &acceleration);
 
-/// Damping in proportion to the mass, f = −α m v: E = Σ α m |x − x_n|² / (2h). A free cloth slows down by
-/// 1/(1 + α h) per step.
+/// Damping in proportion to the mass, f = −α m v: E = Σ α m |x − x_n|² / (2h). A free cloth slows
+/// down by 1/(1 + α h) per step.
 /// @param rate α [1/s]
 std::unique_ptr<Term> mass_damping_term(const Eigen::VectorXd &masses, double rate);
 } // namespace homespun::shell

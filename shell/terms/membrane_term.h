@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-// The membrane of a moving cloth: the exact corotational energy of METHOD 2, with an optional viscosity
-// in the rate of strain.
+// The membrane of a moving cloth: the exact corotational energy of METHOD 2, with an optional
+// viscosity in the rate of strain.
 //
 //   E = Σ_triangles A ( ½ e·D·e + β/(2h) (e − e_n)·D·(e − e_n) ),   e = U − I in Voigt form,
 //
-// e_n being the strain when the step begins. The viscous part depends on strains alone, so that it damps no
-// rigid motion and keeps both momenta, unlike a damping by the stiffness matrix.
+// e_n being the strain when the step begins. The viscous part depends on strains alone, so that it
+// damps no rigid motion and keeps both momenta, unlike a damping by the stiffness matrix.
 #pragma once
 
 #include "meshes/cloth/cloth_mesh.h"
@@ -16,7 +16,8 @@
 
 namespace homespun::shell
 {
-/// @param stiffness one symmetric positive definite matrix (3,3) per phase, cloth.rest.material [N/m]
+/// @param stiffness one symmetric positive definite matrix (3,3) per phase, cloth.rest.material
+///   [N/m]
 /// @param viscosity β: stress D·de/dt times this [s]
 /// @throws BadInput as membrane() does, and where the viscosity is negative
 std::unique_ptr<Term> membrane_term(const meshes::ClothMesh &cloth,

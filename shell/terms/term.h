@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 // What a moving cloth is made of. Each physical effect is a term that a scene adds or leaves out: a
-// function of the positions with a gradient and a Hessian. The cloth (cloth.h) sums the terms that are
-// there; of one that is not, nothing is called, allocated or coupled.
+// function of the positions with a gradient and a Hessian. The cloth (cloth.h) sums the terms that
+// are there; of one that is not, nothing is called, allocated or coupled.
 //
 // A time step minimises  Σ m/(2 h²) |x − x_n − h v_n|² + Σ_terms E(x)  (implicit Euler), takes one
 // Newton step of it (linearly implicit Euler), or asks for discrete gradients (conserving_step.h).
-// What a term freezes over the step (the direction of friction, the wind's relative speed) it freezes
-// in begin_step(), so that E is a function of x alone.
+// What a term freezes over the step (the direction of friction, the wind's relative speed) it
+// freezes in begin_step(), so that E is a function of x alone.
 #pragma once
 
 #include "shell/algebra/block_matrix.h"
@@ -39,8 +39,8 @@ public:
   /// As a scene file and a report call it.
   virtual std::string name() const = 0;
 
-  /// Appends the pairs of different vertices that the Hessian couples, in any order, repeated or not.
-  /// Default: none, the Hessian is block diagonal.
+  /// Appends the pairs of different vertices that the Hessian couples, in any order, repeated or
+  /// not. Default: none, the Hessian is block diagonal.
   virtual void couple(std::vector<std::array<int, 2>> & /*pairs*/) const
   {
   }
@@ -65,22 +65,22 @@ public:
   virtual void add_derivatives(const Vectors &positions, Hessian kind, Vectors &gradient,
                                BlockMatrix &matrix) const = 0;
 
-  /// The part of E that the cloth or a field (gravity) stores and gives back [J]: what an energy balance
-  /// counts. Zero of a dissipation and of a load that does work. Default: E itself.
+  /// The part of E that the cloth or a field (gravity) stores and gives back [J]: what an energy
+  /// balance counts. Zero of a dissipation and of a load that does work. Default: E itself.
   virtual double stored_energy(const Vectors &positions) const
   {
     return energy(positions);
   }
 
-  /// Whether the gradient is one: false of forces that have no energy, for which energy() is zero and
-  /// nothing can be minimised.
+  /// Whether the gradient is one: false of forces that have no energy, for which energy() is zero
+  /// and nothing can be minimised.
   virtual bool has_energy() const
   {
     return true;
   }
 
-  /// Whether the term may bring energy into the cloth beyond what stored_energy() gives back: wind, a
-  /// moving obstacle. Where none does and no handle moves, a step may not raise the energy.
+  /// Whether the term may bring energy into the cloth beyond what stored_energy() gives back: wind,
+  /// a moving obstacle. Where none does and no handle moves, a step may not raise the energy.
   virtual bool does_work() const
   {
     return false;
@@ -98,9 +98,9 @@ public:
     return false;
   }
 
-  /// Adds a discrete gradient g of the step from x_n to x, and its derivative by x. The work g·(x − x_n) is the
-  /// change of the stored energy, of a dissipation it is not negative. Of an internal term g sums to zero and has no
-  /// torque about the mean positions (x_n + x)/2.
+  /// Adds a discrete gradient g of the step from x_n to x, and its derivative by x. The work g·(x −
+  /// x_n) is the change of the stored energy, of a dissipation it is not negative. Of an internal
+  /// term g sums to zero and has no torque about the mean positions (x_n + x)/2.
   /// @param old x_n (n,3) [m]
   virtual void add_discrete_gradient(const Vectors & /*old*/, const Vectors & /*positions*/,
                                      Vectors & /*gradient*/, VertexMatrix & /*jacobian*/) const

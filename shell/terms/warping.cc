@@ -241,8 +241,8 @@ public:
         X.head<2>() += rest.vertices.row(j);
         moment += masses(j) * (start.positions.row(j) - c).transpose() * X;
         at_rest += masses(j) * X.transpose() * X;
-        // The ellipse of a vertex: as wide as a disc of its share of the area, whose mean square radius
-        // is that of its ring over the ring's size.
+        // The ellipse of a vertex: as wide as a disc of its share of the area, whose mean square
+        // radius is that of its ring over the ring's size.
         // The first time no rotations are known.
         const double share =
           is_first ? 0. : 0.25 * masses(j) * X.squaredNorm() / static_cast<double>(ring[i].size());

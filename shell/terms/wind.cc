@@ -14,7 +14,8 @@ namespace homespun::shell
 {
 namespace
 {
-// Twice the area over the squared sides below which a triangle counts as collapsed: round-off is 1e-16.
+// Twice the area over the squared sides below which a triangle counts as collapsed: round-off is
+// 1e-16.
 constexpr double collapsed = 1e-14;
 
 /// Area times unit normal [m^2]; zero where the triangle is collapsed.

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
-// The moving cloth (shell/solver/cloth.h), part by part and step by step: a sheet of 20 cm that hangs from its upper
-// edge, with 800, 5,000 and 50,000 triangles, and the resolved sheet of 380 x 380 x 2. One thread, but for
-// step_on_all_cores: as many independent cloths as there are cores.
+// The moving cloth (shell/solver/cloth.h), part by part and step by step: a sheet of 20 cm that
+// hangs from its upper edge, with 800, 5,000 and 50,000 triangles, and the resolved sheet of 380 x
+// 380 x 2. One thread, but for step_on_all_cores: as many independent cloths as there are cores.
 //
-// Counters. flops: of the formulas written without waste, a root or a division counting as one; of_peak:
-// of the multiply-adds that one thread reaches in registers. bytes: what must be read and written if nothing is
-// moved twice; of_copy: of a copy of as many bytes, in the same cache. factorisations: per step.
+// Counters. flops: of the formulas written without waste, a root or a division counting as one;
+// of_peak: of the multiply-adds that one thread reaches in registers. bytes: what must be read and
+// written if nothing is moved twice; of_copy: of a copy of as many bytes, in the same cache.
+// factorisations: per step.
 #include "meshes/cloth/cloth_mesh.h"
 #include "shell/algebra/free_vertex_matrix.h"
 #include "shell/solver/cloth.h"
@@ -28,9 +29,9 @@ namespace
 {
 constexpr double time_step = 0.01, density = 0.2, side = 0.2;
 
-/// Flops of one triangle. Strain: F 12 multiply-adds, C 9, J 9, U 6. Force besides: stress 9, P 24, corners
-/// 18. Derivatives besides: derivative of the strain 36, D times it 54, its square 63, turning 42,
-/// blocks 216.
+/// Flops of one triangle. Strain: F 12 multiply-adds, C 9, J 9, U 6. Force besides: stress 9, P 24,
+/// corners 18. Derivatives besides: derivative of the strain 36, D times it 54, its square 63,
+/// turning 42, blocks 216.
 constexpr double strain_flops = 2. * 36., force_flops = strain_flops + 2. * 51.,
                  derivative_flops = force_flops + 2. * 411.;
 
@@ -194,7 +195,8 @@ void assemble_membrane(benchmark::State &state)
   fractions.report(derivative_flops * step.sheet.mesh.n_triangles(), bytes);
 }
 
-/// Bending's Hessian is a number per pair of vertices, added to the three places of a block's diagonal.
+/// Bending's Hessian is a number per pair of vertices, added to the three places of a block's
+/// diagonal.
 void assemble_bending(benchmark::State &state)
 {
   const Hanging sheet(static_cast<int>(state.range(0)));
@@ -355,7 +357,8 @@ HOMESPUN_STEP(direct, LinearSolver::direct, false)
   ->Iterations(1)
   ->Unit(benchmark::kMillisecond);
 
-/// Conjugate gradients on the resolved sheet take minutes: only where HOMESPUN_LONG_BENCHMARKS is set.
+/// Conjugate gradients on the resolved sheet take minutes: only where HOMESPUN_LONG_BENCHMARKS is
+/// set.
 const bool added = []
 {
   if (std::getenv("HOMESPUN_LONG_BENCHMARKS"))

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Homogenization of larger and larger cells, one rank, everything but reading the mesh: time per DoF,
-// iterations, and iterations against the contrast of the phases.
+// Homogenization of larger and larger cells, one rank, everything but reading the mesh: time per
+// DoF, iterations, and iterations against the contrast of the phases.
 #include "tests/homogenization/cell/cells.h"
 
 #include <deal.II/base/mpi.h>

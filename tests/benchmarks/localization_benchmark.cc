@@ -89,7 +89,8 @@ void upsample(benchmark::State &state, const UpsamplerOptions &options,
   state.counters["B/s"]    = rate(bytes);
 }
 
-/// The same sheet as a garment of one panel, turned by 20° against the cells: outlines cut, one gather.
+/// The same sheet as a garment of one panel, turned by 20° against the cells: outlines cut, one
+/// gather.
 void upsample_garment(benchmark::State &state)
 {
   const meshes::HomogenizedCell cell = smooth_cell(18, 20);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// What one thread of this machine can do, measured on the spot, and fractions of it as counters. Google
-// Benchmark prints a rate with "/s"; a fraction has no unit, so the seconds of the loop are taken here.
+// What one thread of this machine can do, measured on the spot, and fractions of it as counters.
+// Google Benchmark prints a rate with "/s"; a fraction has no unit, so the seconds of the loop are
+// taken here.
 #pragma once
 
 #include <benchmark/benchmark.h>
@@ -85,8 +86,8 @@ public:
   }
 
   /// @param flops of one iteration; zero: not told
-  /// @param bytes that one iteration reads and writes at least; zero: not told. Compared with a copy that
-  ///   reads and writes as many, which stays in the same cache.
+  /// @param bytes that one iteration reads and writes at least; zero: not told. Compared with a
+  ///   copy that reads and writes as many, which stays in the same cache.
   /// @param times how often an iteration does that
   void report(const double flops, const double bytes, const double times = 1.) const
   {

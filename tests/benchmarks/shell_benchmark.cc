@@ -33,8 +33,8 @@ struct Strip
     }
   }
 
-  /// The strip, its upper edge moved out by strain times length and the rest following evenly, with a
-  /// wave in space so that no direction is without stiffness.
+  /// The strip, its upper edge moved out by strain times length and the rest following evenly, with
+  /// a wave in space so that no direction is without stiffness.
   template <int dim>
   Positions<dim> pulled(const double strain) const
   {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// homespun in another program: a cloth that hangs at its highest vertices moves under gravity, and is
-// up-sampled after every step.
+// homespun in another program: a cloth that hangs at its highest vertices moves under gravity, and
+// is up-sampled after every step.
 //   consumer CELL.h5 CLOTH.obj OUTPUT.ply
 #include "localization/upsampler.h"
 #include "meshes/files/cell_file.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Writes a cell file without homogenization: stripes of equal width across axis 1, 1 cm wide, whose
-// characteristic displacements and stiffness are those of the laminate in closed form. D is the stiffness
-// of a phase, <.> the mean over the cell:
+// characteristic displacements and stiffness are those of the laminate in closed form. D is the
+// stiffness of a phase, <.> the mean over the cell:
 //   C11 = 1/<1/D11>,  C12 = C11 <D12/D11>,  C22 = <D22 − D12²/D11> + C12²/C11,  C33 = 1/<1/D33>,
 //   chi_11' = 1 − C11/D11,  chi_22' = (D12 − C12)/D11,  chi_12' = 1 − C33/D33 (component 2).
 #include "meshes/files/cell_file.h"

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// A sound cell.h5, a checkpoint at the same time, whose datasets and attributes are replaced, as the bytes say, by others of any kind, shape and content.
-// HDF5 itself is not under test: what it is handed is always a well-formed file.
+// A sound cell.h5, a checkpoint at the same time, whose datasets and attributes are replaced, as
+// the bytes say, by others of any kind, shape and content. HDF5 itself is not under test: what it
+// is handed is always a well-formed file.
 #include "meshes/files/cell_file.h"
 #include "meshes/files/state_file.h"
 #include "tests/fuzz/input_file.h"
@@ -106,7 +107,8 @@ hid_t some_space(Bytes &bytes)
                    : H5Screate_simple(static_cast<int>(rank), shape.data(), nullptr);
 }
 
-/// As many bytes as a space of a type needs, up to a megabyte; nothing beyond, and nothing for texts of any length.
+/// As many bytes as a space of a type needs, up to a megabyte; nothing beyond, and nothing for
+/// texts of any length.
 std::vector<std::uint8_t> some_content(Bytes &bytes, const hid_t type, const hid_t space)
 {
   const auto n = static_cast<double>(H5Sget_simple_extent_npoints(space)) *

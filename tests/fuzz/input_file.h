@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Fuzzing of what homespun parses itself: any bytes are read or refused by BadInput, with nothing else between.
+// Fuzzing of what homespun parses itself: any bytes are read or refused by BadInput, with nothing
+// else between.
 #pragma once
 
 #include "meshes/plain/errors.h"

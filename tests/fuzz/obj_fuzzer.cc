@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// An OBJ as a cloth and as a closed surface. What was read is finite, its indices exist, and it is written and read again
-// without a change.
+// An OBJ as a cloth and as a closed surface. What was read is finite, its indices exist, and it is
+// written and read again without a change.
 #include "meshes/files/obj_file.h"
 #include "tests/fuzz/input_file.h"
 

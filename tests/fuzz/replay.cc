@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Hands each file of a folder to a fuzz target: what was once found stays mended, with every compiler.
+// Hands each file of a folder to a fuzz target: what was once found stays mended, with every
+// compiler.
 #include "tests/fuzz/input_file.h"
 
 #include <algorithm>

@@ -147,8 +147,8 @@ TEST(bound_garment, float_and_double_agree_to_the_digits_of_a_float)
   EXPECT_FALSE(upsampler.is_aligned());
   Upsampler<3>::Fine fine;
   upsampler.upsample(current, fine);
-  // In halves of a last digit (2^-24 of the largest coordinate): one for the corners, one for each of the
-  // four additions where no fused multiply-add is, and less than one for weights and chi.
+  // In halves of a last digit (2^-24 of the largest coordinate): one for the corners, one for each
+  // of the four additions where no fused multiply-add is, and less than one for weights and chi.
   EXPECT_LT((fine.cast<double>() - garment.upsampled(current)).cwiseAbs().maxCoeff(),
             6. * std::ldexp(1., -24) * current.cwiseAbs().maxCoeff());
 }

@@ -29,7 +29,8 @@ TEST(invariant_garment, seams_stay_closed_to_round_off_whatever_the_motion)
 
 TEST(invariant_garment, one_panel_sewn_to_itself_is_a_closed_tube)
 {
-  // 13 columns that do not fit the cells; the first and the last column of vertices are one in space.
+  // 13 columns that do not fit the cells; the first and the last column of vertices are one in
+  // space.
   constexpr int columns = 13, rows = 4;
   const meshes::TriangleMesh flat = meshes::coarse_sheet(
     {0.001, 0.002}, Eigen::Vector2d(0.0091, 0.0087).asDiagonal(), columns, rows);

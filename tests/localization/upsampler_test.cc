@@ -85,8 +85,8 @@ TEST(exact_upsampler, a_uniform_strain_gives_the_affine_motion_and_its_fluctuati
 
 TEST(exact_upsampler, stripes_stretched_across_follow_the_laminate_exactly)
 {
-  // Half hard (10), half soft (1): under a strain e across the stripes the soft half takes 20/11 e and
-  // the hard half 2/11 e, so chi_22 is a saw tooth with slopes −9/11 and 9/11.
+  // Half hard (10), half soft (1): under a strain e across the stripes the soft half takes 20/11 e
+  // and the hard half 2/11 e, so chi_22 is a saw tooth with slopes −9/11 and 9/11.
   meshes::HomogenizedCell cell;
   cell.lattice = tests::square_lattice(1.);
   cell.mesh    = tests::parallelogram(cell.lattice, 4, 4);

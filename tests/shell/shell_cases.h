@@ -13,7 +13,8 @@
 
 namespace homespun::tests
 {
-/// Symmetric positive definite with all couplings; ratio 1e4 between its stiffest and softest strain.
+/// Symmetric positive definite with all couplings; ratio 1e4 between its stiffest and softest
+/// strain.
 inline Eigen::Matrix3d anisotropic()
 {
   const Eigen::Matrix3d Q = (Eigen::AngleAxisd(0.5, Eigen::Vector3d::UnitX()) *

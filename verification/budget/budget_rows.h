@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
-// An error budget as numbers: norms of its parts over the sheet, its interior, its boundary layer and its corners.
-// Plain arithmetic on fields, held against synthetic budgets.
+// An error budget as numbers: norms of its parts over the sheet, its interior, its boundary layer
+// and its corners. Plain arithmetic on fields, held against synthetic budgets.
 //
 //   mean, rms, max  of |p| over the vertices of a region
-//   share           Σ p·t / |t|  over  Σ |t|, t the measured total at the vertex: the part of the total that p makes up;
-//                   negative where it compensates others; the shares of a sum are the sum of the shares
+//   share           Σ p·t / |t|  over  Σ |t|, t the measured total at the vertex: the part of the
+//                   total that p makes up; negative where it compensates others; the shares of a
+//                   sum are the sum of the shares
 //   effectivity     mean |sum of the parts| / mean |total|
 //   misfit          mean |sum of the parts − total| / mean |total|
 #pragma once
@@ -21,8 +22,9 @@ namespace homespun::verification
 /// all, interior, boundary, corner.
 const std::vector<std::string> &budget_regions();
 
-/// The region of each vertex as an index into budget_regions(), 1 to 3: `boundary` within two cells of an edge (one
-/// where the sheet has fewer than eight cells on a side), `corner` within that distance of two edges.
+/// The region of each vertex as an index into budget_regions(), 1 to 3: `boundary` within two cells
+/// of an edge (one where the sheet has fewer than eight cells on a side), `corner` within that
+/// distance of two edges.
 std::vector<int> regions_of(const meshes::Sheet &sheet, bool is_periodic);
 
 /// Norms of one part in one region.
@@ -35,7 +37,8 @@ struct PartNorms
 PartNorms norms_of(const meshes::Points &part, const meshes::Points &total,
                    const std::vector<int> &regions, int region);
 
-/// Rows of budget.csv: every part, then `sum`, `total` and `misfit` = sum − total, in every region that has vertices.
+/// Rows of budget.csv: every part, then `sum`, `total` and `misfit` = sum − total, in every region
+/// that has vertices.
 /// @param side sqrt(|Y|) [m]
 /// @param level names the rows: cell, load, strain, reference
 std::vector<BudgetRow> budget_rows(const BudgetRow &level, const ErrorBudget &budget,

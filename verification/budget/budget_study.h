@@ -22,8 +22,8 @@ struct UpsampledLevel
   meshes::Points upsampled;   ///< by `localized`, (n_fine,2), double precision [m]
 };
 
-/// Goes along with a strain study: begin_load(), then measure() at each strain of one law, `biot` or
-/// the study's first. Solves with deal.II on all ranks, measures on the first.
+/// Goes along with a strain study: begin_load(), then measure() at each strain of one law, `biot`
+/// or the study's first. Solves with deal.II on all ranks, measures on the first.
 class BudgetStudy
 {
 public:
@@ -32,19 +32,21 @@ public:
   BudgetStudy(const std::vector<std::string> &references, Table<BudgetRow> *table,
               MPI_Comm communicator);
 
-  /// Whether the budget of a level is asked for and not yet in the table, as the first rank sees it.
+  /// Whether the budget of a level is asked for and not yet in the table, as the first rank sees
+  /// it.
   bool row_is_missing(const std::string &cell, const std::string &load, Law law,
                       double strain) const;
 
   /// The same, told to every rank.
   bool is_missing(const std::string &cell, const std::string &load, Law law, double strain) const;
 
-  /// Whether the budget of any level of a load is asked for and not yet in the table, told to every rank.
+  /// Whether the budget of any level of a load is asked for and not yet in the table, told to every
+  /// rank.
   bool is_missing(const std::string &cell, const std::string &load,
                   const std::vector<double> &strains) const;
 
-  /// Solves the linear references, P1 and P2, and at the first load of a cell homogenizes it in the further ways that the
-  /// budget compares. `reference` is left without levels.
+  /// Solves the linear references, P1 and P2, and at the first load of a cell homogenizes it in the
+  /// further ways that the budget compares. `reference` is left without levels.
   /// @param cell to be kept by the caller while its loads last
   /// @throws NotConverged on every rank
   void begin_load(const homogenization::UnitCell &cell, const meshes::HomogenizedCell &given,

@@ -47,8 +47,8 @@ Points upsampled(const meshes::HomogenizedCell &cell, const meshes::TriangleMesh
   return fine;
 }
 
-/// The constants c (3,2) of w for which E · c comes nearest to a field, in least squares. Directions of strain that the
-/// sheet hardly knows are left alone.
+/// The constants c (3,2) of w for which E · c comes nearest to a field, in least squares.
+/// Directions of strain that the sheet hardly knows are left alone.
 Eigen::Matrix<double, 3, 2> best_constant(const LocalState &state, const Points &field)
 {
   Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> solver;
@@ -153,8 +153,8 @@ ErrorBudget LoadBudget::measure(const Law law, const SolvedLevel &level)
   return budget;
 }
 
-/// What the homogenized sheet moves by from a mesh half as fine. It stands beside the sum: where that mesh finds no
-/// equilibrium it is not a number, and the other parts stay.
+/// What the homogenized sheet moves by from a mesh half as fine. It stands beside the sum: where
+/// that mesh finds no equilibrium it is not a number, and the other parts stay.
 Points LoadBudget::resolution(const Law law, const double strain, const Points &with_exact)
 {
   if (load.is_periodic()) // the affine motion is exact on any mesh
@@ -175,7 +175,8 @@ Points LoadBudget::resolution(const Law law, const double strain, const Points &
   }
 }
 
-/// Part 2: the homogenized sheet and its localization by the small-strain theory, against both at finite strain.
+/// Part 2: the homogenized sheet and its localization by the small-strain theory, against both at
+/// finite strain.
 Points LoadBudget::nonlinearity(const Law law, const shell::Positions<2> &u,
                                 const Points &with_exact, ErrorBudget &budget) const
 {

@@ -1,42 +1,51 @@
 // SPDX-License-Identifier: MIT
-// Error budget (METHOD 5): the distance of the up-sampled sheet from the resolved one, split into parts, each a field at
-// the fine vertices and a difference of solutions.
+// Error budget (METHOD 5): the distance of the up-sampled sheet from the resolved one, split into
+// parts, each a field at the fine vertices and a difference of solutions.
 //
-// Solutions. M: the method (given coarse mesh H, cell and C^H from P1 on the given cell mesh h). T: the resolved
-// reference, P1 on the same mesh h. *: P2 on the cell mesh h. u_H, u: homogenized sheet on the coarse mesh, and
-// on one refined so far that it counts as resolved. E, R: its strain U − I and rotation; <.>: their means over each
-// coarse triangle, averaged to the coarse vertices, linear in between (what the method does). w(E) = −chi : E.
+// Solutions. M: the method (given coarse mesh H, cell and C^H from P1 on the given cell mesh h). T:
+// the resolved reference, P1 on the same mesh h. *: P2 on the cell mesh h. u_H, u: homogenized
+// sheet on the coarse mesh, and on one refined so far that it counts as resolved. E, R: its strain
+// U − I and rotation; <.>: their means over each coarse triangle, averaged to the coarse vertices,
+// linear in between (what the method does). w(E) = −chi : E.
 //
-//  1 scale         [u + w*(E) with the best constant of chi*] − T*, all in linear theory: what separation of scales
-//                  and the boundary layers at free and held edges cost, whatever the constant
-//  2 nonlinearity  [u + R w(E)] − [û + R^ ŵ(Ê)], û in equilibrium with the stress of the cell at finite strain, ŵ its
-//                  fluctuation (nonlinear_cell.h): small-strain stiffness and chi in place of those at finite strain
-//  3 coarse-mesh   [u_H + R_H w(<E_H>)] − [u + R w(<E>)]: solving and interpolating on the coarse mesh
+//  1 scale         [u + w*(E) with the best constant of chi*] − T*, all in linear theory: what
+//                  separation of scales and the boundary layers at free and held edges cost,
+//                  whatever the constant
+//  2 nonlinearity  [u + R w(E)] − [û + R^ ŵ(Ê)], û in equilibrium with the stress of the cell at
+//                  finite strain, ŵ its fluctuation (nonlinear_cell.h): small-strain stiffness and
+//                  chi in place of those at finite strain
+//  3 coarse-mesh   [u_H + R_H w(<E_H>)] − [u + R w(<E>)]: solving and interpolating on the coarse
+//                  mesh
 //  4 cell          M − M with chi* and C^H*: the cell's discretization
-//  5 blending      [R w(<E>)] − [R w(E)] at the resolved solution: averaging and blending of the strain
+//  5 blending      [R w(<E>)] − [R w(E)] at the resolved solution: averaging and blending of the
+//                  strain
 //  6 time-step     0: the loads are static
 //  7 solver        [M − M with tight tolerances] − [T − T with a tight tolerance]
 //  8 precision     [M in float] − M
-//  9 convention    [R w(E)] with chi anchored at the lattice − the same with its best constant, at the resolved solution. The
-//                  best constant (per unit strain) is the one of part 1: it brings u + w* nearest to T* in least squares.
-//                  So 1 and 9 share what linear theory leaves: 9 is its projection on L (E c), 1 the rest, and a boundary
-//                  layer that looks like a constant counts as 9. The rotation lift needs no part: for a frame
-//                  indifferent law it is exact in an infinite cloth
+//  9 convention    [R w(E)] with chi anchored at the lattice − the same with its best constant, at
+//                  the resolved solution. The best constant (per unit strain) is the one of part 1:
+//                  it brings u + w* nearest to T* in least squares. So 1 and 9 share what linear
+//                  theory leaves: 9 is its projection on L (E c), 1 the rest, and a boundary layer
+//                  that looks like a constant counts as 9. The rotation lift needs no part: for a
+//                  frame indifferent law it is exact in an infinite cloth
 // and, because T shares the mesh of the cell,
-//    reference     T* − T: the reference's own discretization. By linear theory, and taken to change with strain as part 4
-//                  does, so that what both have in common, most of them, cancels at any strain
+//    reference     T* − T: the reference's own discretization. By linear theory, and taken to
+//                  change with strain as part 4 does, so that what both have in common, most of
+//                  them, cancels at any strain
 //
-// With these  M − T = 1 + 2 + 3 + 4 + 5 + 7 + 9 + reference + products of parts.  Part 8 stands beside the sum: M is
-// computed in double.
+// With these  M − T = 1 + 2 + 3 + 4 + 5 + 7 + 9 + reference + products of parts.
+// Part 8 stands beside the sum: M is computed in double.
 //
-// Part 4 drops out of the sum but for what it leaves of `reference` in linear theory: that it is right is tested there, where
-// `reference` comes out as the measured T* − T.
-// What the sum tests: the parts of linear theory are links of one chain from M to T, so at small strain they add up for
-// any u, and the sum tests only that the method (Upsampler, LightweightCloth) does what the parts say of it. At 10 % it
-// tests part 2, whose cell problem shares nothing with the reference. That a link is called by its right name is tested by
-// its order: 2 in strain for part 2; 2 in H for part 3, which `resolution` is read off,
-//    resolution    [u + R w(E)] − the same with u on a mesh half as fine: three times what u lacks if u converges with order
-//                  two, and as much as it lacks if corners leave it order one; beside the sum;
+// Part 4 drops out of the sum but for what it leaves of `reference` in linear theory: that it is
+// right is tested there, where `reference` comes out as the measured T* − T.
+// What the sum tests: the parts of linear theory are links of one chain from M to T, so at small
+// strain they add up for any u, and the sum tests only that the method (Upsampler,
+// LightweightCloth) does what the parts say of it. At 10 % it tests part 2, whose cell problem
+// shares nothing with the reference. That a link is called by its right name is tested by its
+// order: 2 in strain for part 2; 2 in H for part 3, which `resolution` is read off,
+//    resolution    [u + R w(E)] − the same with u on a mesh half as fine: three times what u lacks
+//                  if u converges with order two, and as much as it lacks if corners leave it order
+//                  one; beside the sum;
 // and for part 1 by the study of scale separation (converge).
 #pragma once
 
@@ -84,7 +93,8 @@ struct SolvedLevel
   const meshes::Points &tight_reference; ///< T with a tight tolerance
 };
 
-/// The budget of one sheet under one load. Linear theory is solved once, what depends on strain per level.
+/// The budget of one sheet under one load. Linear theory is solved once, what depends on strain per
+/// level.
 class LoadBudget
 {
 public:
@@ -106,14 +116,15 @@ private:
   const meshes::Sheet &sheet;
   const Load load;
   HomogenizedSheet coarse, coarse_best, coarse_tight, resolved, half_resolved;
-  meshes::Points scale; ///< per unit strain [m]
-  meshes::Points
-    cell_and_reference; ///< what part 4 and `reference` leave of each other in linear theory, the same
+  meshes::Points scale;              ///< per unit strain [m]
+  meshes::Points cell_and_reference; ///< what part 4 and `reference` leave of each other in linear
+                                     ///< theory, the same
   Eigen::Matrix<double, 3, 2> constant; ///< of w, per unit strain [m]
   shell::Positions<2> last_displacement,
     last_half_displacement; ///< of the resolved sheets, per strain
 };
 
-/// 16 where the sheet is small, else what brings the refined mesh to about 160 quads per side, at least 4; even.
+/// 16 where the sheet is small, else what brings the refined mesh to about 160 quads per side, at
+/// least 4; even.
 int budget_refinement(const meshes::Sheet &sheet);
 } // namespace homespun::verification

@@ -26,8 +26,8 @@ Verdict at_most(const std::string &claim, const double value, const double limit
           kind};
 }
 
-/// What a bound on an energy of C^H may miss by, relative: round-off at this size and contrast, the sums over all
-/// triangles, and lattice images that lie apart.
+/// What a bound on an energy of C^H may miss by, relative: round-off at this size and contrast, the
+/// sums over all triangles, and lattice images that lie apart.
 double limit_of_bounds(const UnitCell &cell, const Homogenization &result)
 {
   const auto n_triangles = static_cast<double>(result.n_dofs); // with P1; fewer with P2
@@ -37,7 +37,8 @@ double limit_of_bounds(const UnitCell &cell, const Homogenization &result)
 }
 
 const std::string source_of_bounds =
-  "theory: 0; beside it round-off at this size and contrast, of the sums over all triangles, and the share of the area "
+  "theory: 0; beside it round-off at this size and contrast, of the sums over all triangles, and "
+  "the share of the area "
   "between lattice images that lie apart, four sides of the largest gap";
 
 std::vector<Verdict> checks_of(const UnitCell &cell, const Homogenization &result)
@@ -49,10 +50,11 @@ std::vector<Verdict> checks_of(const UnitCell &cell, const Homogenization &resul
     size = larger(size, std::abs(result.stiffness(k)));
     gap  = larger(gap, std::abs(result.stiffness(k) - result.stiffness_by_flux(k)));
   }
-  // The solver leaves 1e-9 of the displacements in the energy norm of the soft phases, as its preconditioner measures
-  // them; that norm may be the root of the condition too small, and conjugate gradients that fall by 1e-11 in up to
-  // 130 iterations show a root of at most ten. In the mean stress it counts with the stiffness of the stiff phases:
-  // by Cauchy and Schwarz with the root of Voigt's energy.
+  // The solver leaves 1e-9 of the displacements in the energy norm of the soft phases, as its
+  // preconditioner measures them; that norm may be the root of the condition too small, and
+  // conjugate gradients that fall by 1e-11 in up to 130 iterations show a root of at most ten. In
+  // the mean stress it counts with the stiffness of the stiff phases: by Cauchy and Schwarz with
+  // the root of Voigt's energy.
   const double leverage =
     std::sqrt(result.voigt.diagonal().maxCoeff() / result.stiffness.diagonal().maxCoeff());
   const double limit = limit_of_bounds(cell, result);
@@ -60,7 +62,8 @@ std::vector<Verdict> checks_of(const UnitCell &cell, const Homogenization &resul
     at_most(
       "Hill-Mandel: energy form and mean stress of C^H agree (relative gap)", gap / size,
       1e-8 * std::max(1., leverage),
-      "the solver leaves 1e-9 of the displacements by its preconditioner, whose root of the condition is at "
+      "the solver leaves 1e-9 of the displacements by its preconditioner, whose root of the "
+      "condition is at "
       "most ten; in the mean stress this counts with the root of Voigt's energy over that of C^H"),
     at_most("C^H <= Voigt bound (relative violation)",
             order_violation(result.stiffness, result.voigt), limit, source_of_bounds),
@@ -68,7 +71,8 @@ std::vector<Verdict> checks_of(const UnitCell &cell, const Homogenization &resul
             order_violation(result.reuss, result.stiffness), limit, source_of_bounds)};
 }
 
-/// C of displacements that are linear in each triangle of the given mesh, 1/|Y| integral (e − eps(chi)):c:(e − eps(chi)).
+/// C of displacements that are linear in each triangle of the given mesh, 1/|Y| integral (e −
+/// eps(chi)):c:(e − eps(chi)).
 Eigen::Matrix3d energies_of(const meshes::Chi &chi, const UnitCell &cell)
 {
   const std::vector<Eigen::Matrix3d> c = cell.stiffness_of_phase();
@@ -96,8 +100,8 @@ Eigen::Matrix3d energies_of(const meshes::Chi &chi, const UnitCell &cell)
   return energy / cell.lattice.area();
 }
 
-/// What chi must be that was taken from the last mesh of an adaptive bracket and is handed on at the vertices of the
-/// given one.
+/// What chi must be that was taken from the last mesh of an adaptive bracket and is handed on at
+/// the vertices of the given one.
 std::vector<Verdict> checks_of_sampled_chi(const UnitCell &cell, const Homogenization &result,
                                            const homogenization::Bracket &bracket)
 {
@@ -121,19 +125,22 @@ std::vector<Verdict> checks_of_sampled_chi(const UnitCell &cell, const Homogeniz
       "chi of the last mesh is zero at the anchor and the same at lattice images (relative to the "
       "largest)",
       size > 0. ? fault / size : fault, 1e-12,
-      "by definition 0; values are copied, and the anchor's is subtracted, with a rounding of 2e-16 of the coordinates' "
+      "by definition 0; values are copied, and the anchor's is subtracted, with a rounding of "
+      "2e-16 of the coordinates' "
       "size each"),
-    at_most(
-      "chi of the last mesh is admissible on the given one: its energies lie above C_lower (relative "
-      "violation)",
-      order_violation(bracket.lower, energies), limit, source_of_bounds),
-    // No theorem: on a mesh that is much too coarse for them exact displacements may cost more than none.
-    at_most(
-      "chi of the last mesh is better on the given one than no displacements: its energies lie below Voigt's "
-      "(relative violation)",
-      order_violation(energies, result.voigt), limit,
-      "what better means, and round-off; where it fails the given mesh is too coarse for --tolerance",
-      Kind::input)};
+    at_most("chi of the last mesh is admissible on the given one: its energies lie above C_lower "
+            "(relative "
+            "violation)",
+            order_violation(bracket.lower, energies), limit, source_of_bounds),
+    // No theorem: on a mesh that is much too coarse for them exact displacements may cost more than
+    // none.
+    at_most("chi of the last mesh is better on the given one than no displacements: its energies "
+            "lie below Voigt's "
+            "(relative violation)",
+            order_violation(energies, result.voigt), limit,
+            "what better means, and round-off; where it fails the given mesh is too coarse for "
+            "--tolerance",
+            Kind::input)};
 }
 } // namespace
 

@@ -24,8 +24,8 @@ struct AssessedCell
   /// would exceed the limit of DoFs.
   std::optional<Eigen::Matrix3d> uncertainty;
   std::vector<Verdict> checks;
-  /// Nothing where nobody asked for it. After adaptivity `result` holds the C^H, chi, DoFs and iterations of the
-  /// last mesh.
+  /// Nothing where nobody asked for it. After adaptivity `result` holds the C^H, chi, DoFs and
+  /// iterations of the last mesh.
   std::optional<CellBracket> bracket;
   /// Largest resident memory of each rank since the program began [bytes]; on the first rank alone.
   std::vector<double> peak_memory_of_rank;
@@ -41,8 +41,8 @@ AssessedCell assess(const homogenization::UnitCell &cell,
                     const homogenization::HomogenizationOptions &options,
                     unsigned long max_dofs_of_estimate, MPI_Comm communicator);
 
-/// Brackets the C^H of an assessed cell and adds the verdicts; an adaptive bracket replaces C^H and chi by its
-/// better ones. To be called on one rank.
+/// Brackets the C^H of an assessed cell and adds the verdicts; an adaptive bracket replaces C^H and
+/// chi by its better ones. To be called on one rank.
 /// @param report is told of each step, one line
 void add_bracket(const homogenization::UnitCell &cell, const BracketOptions &options,
                  const std::function<void(const std::string &)> &report, AssessedCell &assessed);

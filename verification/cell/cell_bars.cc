@@ -16,8 +16,8 @@ using homogenization::UnitCell;
 
 namespace
 {
-/// How far an entry of a compliance between the inverses of both sides may be from that of C^H [m/N]: with D their
-/// difference |S_ij − S^H_ij| <= sqrt(D_ii D_jj).
+/// How far an entry of a compliance between the inverses of both sides may be from that of C^H
+/// [m/N]: with D their difference |S_ij − S^H_ij| <= sqrt(D_ii D_jj).
 Eigen::Matrix3d compliance_bars(const homogenization::Bracket &found)
 {
   const homogenization::RoundedInverse most  = homogenization::inverse_of(found.lower),
@@ -79,11 +79,13 @@ std::string geometry_text(const UnitCell &cell, const Homogenization &result)
   if (!estimate)
     return "";
   char line[400];
-  std::snprintf(
-    line, sizeof(line),
-    "geometry (an estimate, in no bar): the mesh is faceted; arcs through the vertices of %d sides would "
-    "change energies by %.2g. If arcs are meant, mesh with six-node triangles (Gmsh: Mesh.ElementOrder = 2)\n",
-    estimate->n_facets, energy_difference(result.stiffness + estimate->change, result.stiffness));
+  std::snprintf(line, sizeof(line),
+                "geometry (an estimate, in no bar): the mesh is faceted; arcs through the vertices "
+                "of %d sides would "
+                "change energies by %.2g. If arcs are meant, mesh with six-node triangles (Gmsh: "
+                "Mesh.ElementOrder = 2)\n",
+                estimate->n_facets,
+                energy_difference(result.stiffness + estimate->change, result.stiffness));
   return line;
 }
 } // namespace homespun::verification

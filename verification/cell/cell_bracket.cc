@@ -17,7 +17,8 @@ using homogenization::Bracket;
 
 namespace
 {
-/// The mesh of a cell on the torus, as often refined as the cell problems; that of a drawing on its curves.
+/// The mesh of a cell on the torus, as often refined as the cell problems; that of a drawing on its
+/// curves.
 homogenization::TorusMesh torus_of(const homogenization::UnitCell &cell,
                                    const meshes::TriangleMesh &refined, const unsigned times)
 {
@@ -144,14 +145,15 @@ std::vector<Verdict> checks_of(const CellBracket &bracket, const BracketOptions 
   at_most("C_lower <= C_upper (relative violation of the worst energy)",
           order_violation(found.lower, found.upper), 0.,
           "theory; both sides carry their round-off on the outside", Kind::program);
-  // Images may lie 1e-7 of the cell apart, which the bracket's mesh mends and the other one does not. That C lies
-  // above C_lower follows from both.
-  at_most(
-    "Direct and multigrid solvers agree on C^H of the given mesh (largest relative difference of an energy)",
-    energy_difference(*bracket.on_given_mesh, stiffness), 1e-6,
-    "one discrete problem; images that lie 1e-7 of the cell apart are taken, and on four sides move its area by 4e-7, the "
-    "energies by up to twice that",
-    Kind::program);
+  // Images may lie 1e-7 of the cell apart, which the bracket's mesh mends and the other one does
+  // not. That C lies above C_lower follows from both.
+  at_most("Direct and multigrid solvers agree on C^H of the given mesh (largest relative "
+          "difference of an energy)",
+          energy_difference(*bracket.on_given_mesh, stiffness), 1e-6,
+          "one discrete problem; images that lie 1e-7 of the cell apart are taken, and on four "
+          "sides move its area by 4e-7, the "
+          "energies by up to twice that",
+          Kind::program);
   if (checks.back().outcome == Outcome::fail && checks.back().value <= round_off)
   {
     std::ostringstream text;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The bracket of a cell as the program makes it: on the mesh as given, or adaptively to a width; its history
-// and its verdicts.
+// The bracket of a cell as the program makes it: on the mesh as given, or adaptively to a width;
+// its history and its verdicts.
 #pragma once
 
 #include "homogenization/bracket/bracket.h"
@@ -45,17 +45,19 @@ struct CellBracket
 CellBracket bracket_of(const homogenization::UnitCell &cell, const BracketOptions &options,
                        const std::function<void(const std::string &)> &report);
 
-/// C_lower <= C_upper, C inside, agreement of both solvers on the given mesh, and the width that was asked for;
-/// none where a bracket was neither made nor asked for.
+/// C_lower <= C_upper, C inside, agreement of both solvers on the given mesh, and the width that
+/// was asked for; none where a bracket was neither made nor asked for.
 /// @param stiffness C^H of the cell problems on the given mesh [N/m]
-/// @param round_off algebraic_limit() of the cell: solvers that differ by more than 1e-6 and less than this are INCONCLUSIVE
+/// @param round_off algebraic_limit() of the cell: solvers that differ by more than 1e-6 and less
+///   than this are INCONCLUSIVE
 std::vector<Verdict> checks_of(const CellBracket &bracket, const BracketOptions &options,
                                const Eigen::Matrix3d &stiffness, double round_off);
 
-/// Whose C^H a bracket holds: `mesh`, of straight triangles, or `drawing`, where phases have curved sides.
+/// Whose C^H a bracket holds: `mesh`, of straight triangles, or `drawing`, where phases have curved
+/// sides.
 const char *name_of_subject(const homogenization::Bracket &bracket);
 
-/// How far an entry C_ij of either side can be from that of C^H: with D = upper − lower, which is not
-/// negative, |C_ij − C^H_ij| <= sqrt(D_ii D_jj) [N/m].
+/// How far an entry C_ij of either side can be from that of C^H: with D = upper − lower, which is
+/// not negative, |C_ij − C^H_ij| <= sqrt(D_ii D_jj) [N/m].
 Eigen::Matrix3d bars_of(const homogenization::Bracket &bracket);
 } // namespace homespun::verification

@@ -24,17 +24,20 @@ struct CellStudyOptions
   bool quiet      = false;
 };
 
-/// Homogenizes a cell on all ranks, brackets C^H on the first one (direct solvers: the answer knows nothing of
-/// the number of ranks), and writes what write_cell_results() writes. The folder is one run.
-/// @return checks on every rank; of other ranks than the first without those of the bracket, but with a failed
-///   one where the first rank has one
+/// Homogenizes a cell on all ranks, brackets C^H on the first one (direct solvers: the answer knows
+/// nothing of the number of ranks), and writes what write_cell_results() writes. The folder is one
+/// run.
+/// @return checks on every rank; of other ranks than the first without those of the bracket, but
+///   with a failed one where the first rank has one
 /// @throws BadInput, NotConverged
 AssessedCell run_cell_study(const homogenization::UnitCell &cell, const CellStudyOptions &options,
                             MPI_Comm communicator);
 
-/// Homogenizes a cell with P1 on its given mesh, the discretization of the fine reference, so that a study shows
-/// the error of the method and not of two meshes; brackets C^H there on the first rank.
-/// @param verdicts the checks are added to them, named after the cell; those of the bracket on the first rank alone
+/// Homogenizes a cell with P1 on its given mesh, the discretization of the fine reference, so that
+/// a study shows the error of the method and not of two meshes; brackets C^H there on the first
+/// rank.
+/// @param verdicts the checks are added to them, named after the cell; those of the bracket on the
+///   first rank alone
 /// @throws BadInput, NotConverged
 AssessedCell assess_for_study(const homogenization::UnitCell &cell, MPI_Comm communicator,
                               std::vector<Verdict> &verdicts);

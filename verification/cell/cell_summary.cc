@@ -88,11 +88,11 @@ std::string summary(const UnitCell &cell, const AssessedCell &assessed)
   }
   if (is_of_drawing(assessed))
   {
-    std::snprintf(
-      line, sizeof(line),
-      "C of the straight triangles, which the files and all other studies hold, differs from it by %.2g of an "
-      "energy\n",
-      energy_difference(result.stiffness, stiffness));
+    std::snprintf(line, sizeof(line),
+                  "C of the straight triangles, which the files and all other studies hold, "
+                  "differs from it by %.2g of an "
+                  "energy\n",
+                  energy_difference(result.stiffness, stiffness));
     text << line;
   }
   text << geometry_text(cell, result);

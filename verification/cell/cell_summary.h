@@ -8,7 +8,7 @@
 
 namespace homespun::verification
 {
-/// C^H and its engineering moduli as a table, with as many digits as the bracket justifies, or without one
-/// the error bar.
+/// C^H and its engineering moduli as a table, with as many digits as the bracket justifies, or
+/// without one the error bar.
 std::string summary(const homogenization::UnitCell &cell, const AssessedCell &assessed);
 } // namespace homespun::verification

@@ -15,7 +15,8 @@ namespace
 /// Of L^-1 (A − B) L^-T with B = L L^T, ascending.
 Eigen::Vector3d relative_eigenvalues(const Eigen::Matrix3d &A, const Eigen::Matrix3d &B)
 {
-  // Neither a factorization nor an iteration for eigenvalues is sure to hand on what is not a number.
+  // Neither a factorization nor an iteration for eigenvalues is sure to hand on what is not a
+  // number.
   const Eigen::LLT<Eigen::Matrix3d> factors(B);
   if (!A.allFinite() || !B.allFinite() || factors.info() != Eigen::Success)
     return Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());

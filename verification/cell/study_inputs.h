@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// By what the inputs of a study are recognised, so that rows of different inputs never stand in one table.
+// By what the inputs of a study are recognised, so that rows of different inputs never stand in one
+// table.
 #pragma once
 
 #include "homogenization/cell/unit_cell.h"
@@ -13,7 +14,8 @@ namespace homespun::verification
 /// @throws BadInput where two cells share one, or one holds a comma, a quote or a line break
 void check_names(const std::vector<homogenization::UnitCell> &cells);
 
-/// A hash of a cell's mesh, with its curved sides, and lattice, and of stiffness and mass per area of its phases.
+/// A hash of a cell's mesh, with its curved sides, and lattice, and of stiffness and mass per area
+/// of its phases.
 std::string fingerprint(const homogenization::UnitCell &cell);
 
 /// A hash of a text.

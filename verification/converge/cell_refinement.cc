@@ -18,8 +18,8 @@ using homogenization::UnitCell;
 
 namespace
 {
-/// Relative changes of C^H below this are round-off and what solvers leave, whose residuals of 1e-11 enter an
-/// energy squared.
+/// Relative changes of C^H below this are round-off and what solvers leave, whose residuals of
+/// 1e-11 enter an energy squared.
 constexpr double stiffness_floor = 1e-10;
 
 /// A laminate differs from its closed form by the digits of its mesh's coordinates as well.
@@ -47,8 +47,8 @@ Series series_of(const RefinementLadder &ladder, const std::string &quantity,
   return series;
 }
 
-/// A measured difference of two C^H beside what round-off may make of it: of all levels the one that comes nearest to
-/// its limit, or goes farthest beyond.
+/// A measured difference of two C^H beside what round-off may make of it: of all levels the one
+/// that comes nearest to its limit, or goes farthest beyond.
 struct Difference
 {
   double value = 0., limit = 0.;
@@ -60,8 +60,8 @@ struct Difference
   }
 };
 
-/// Within the limit is PASS, as long as the limit is one: where round-off takes more of an energy than this, a C^H
-/// within its limit is known to no digit worth the name.
+/// Within the limit is PASS, as long as the limit is one: where round-off takes more of an energy
+/// than this, a C^H within its limit is known to no digit worth the name.
 Outcome outcome_of(const Difference &difference)
 {
   constexpr double vacuous = 1e-6;
@@ -103,7 +103,8 @@ Verdict nested(const std::vector<RefinementLadder> &ladders, const RoundOff &rou
     "energy)",
     violation.limit > 0. ? outcome_of(violation) : Outcome::inconclusive, violation.value,
     "<= " + number(violation.limit),
-    "the least energy of a larger space is not larger; the limit is what round-off and solvers leave at this size and "
+    "the least energy of a larger space is not larger; the limit is what round-off and solvers "
+    "leave at this size and "
     "contrast"};
 }
 
@@ -121,7 +122,8 @@ Verdict is_laminate(const UnitCell &cell, const std::vector<RefinementLadder> &l
     "C^H is the closed form of the laminate on every level and for both orders; the cell has no "
     "corners (largest relative difference of an energy)",
     outcome_of(distance), distance.value, "<= " + number(distance.limit),
-    "P1 holds the fields of a laminate; the limit is round-off at this size and contrast, and the digits of the "
+    "P1 holds the fields of a laminate; the limit is round-off at this size and contrast, and the "
+    "digits of the "
     "coordinates"};
 }
 
@@ -134,7 +136,8 @@ Verdict changes_with_the_mesh(const std::vector<RefinementLadder> &ladders,
     for (const RefinedCell &level : ladder.levels)
       change = larger(change, energy_difference(level.stiffness, finest.stiffness));
   const double noise = round_off.of(finest, stiffness_floor);
-  // Corners that are a rounding of coordinates, or between phases that hardly differ, change it by less.
+  // Corners that are a rounding of coordinates, or between phases that hardly differ, change it by
+  // less.
   constexpr double weak = 1e-4;
   const bool is_strong  = singularity.exists && singularity.strongest < 1. - weak;
   const Outcome outcome = change > noise       ? Outcome::pass
@@ -157,7 +160,8 @@ Verdict limits_agree(const Series &p1, const Series &p2)
     "Richardson limits of P1 and P2 agree (their distance over the sum of both error bars)",
     Outcome::inconclusive, std::numeric_limits<double>::quiet_NaN(),
     "<= 1 where both orders have settled",
-    "one C^H has one limit; both bars are the grid convergence indices of this run, safety factor 1.25"};
+    "one C^H has one limit; both bars are the grid convergence indices of this run, safety factor "
+    "1.25"};
   if (p1.has_error_bar() && p2.has_error_bar())
   {
     verdict.value = std::abs(p1.richardson->limit - p2.richardson->limit) /
@@ -223,12 +227,12 @@ void judge_refinements(const UnitCell &cell, const std::vector<RefinementLadder>
     trace.judgement = judge_values(trace.sizes(), trace.values(), limit, floor);
     trace.extrapolate(floor, 2. * ladder.order, *trace.judgement);
     traces.push_back(trace);
-    result.add(
-      trace,
-      {exponents + (ladder.order == 1 ? ", with P1 at most 2; P1" : "; P2"),
-       "exponents of the corners, from angles and stiffnesses; +- 0.1, the change from level to level that counts as "
-       "settled"});
-    // Entries are no energies each: reported, and with a limit only where they follow a power of h as the trace does.
+    result.add(trace, {exponents + (ladder.order == 1 ? ", with P1 at most 2; P1" : "; P2"),
+                       "exponents of the corners, from angles and stiffnesses; +- 0.1, the change "
+                       "from level to level that counts as "
+                       "settled"});
+    // Entries are no energies each: reported, and with a limit only where they follow a power of h
+    // as the trace does.
     for (const auto &[name, function] : entries)
     {
       Series entry = series_of(ladder, name, function);

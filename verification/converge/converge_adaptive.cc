@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The width of the bracket on C^H against DoFs, on adaptive and on uniform meshes. It is direct solvers'
-// work, done on the first rank.
+// The width of the bracket on C^H against DoFs, on adaptive and on uniform meshes. It is direct
+// solvers' work, done on the first rank.
 #include "homogenization/bracket/bracket.h"
 #include "homogenization/cell/corners.h"
 #include "meshes/plain/refine.h"
@@ -50,36 +50,38 @@ Verdict closes_at_once(const UnitCell &cell, const unsigned int order)
                                                   cell.stiffness_of_phase(), order);
   // Two round-offs wider than this would hold brackets that are plainly open.
   constexpr double vacuous = 1e-6;
-  return {
-    "P" + std::to_string(order) +
-      ": the cell is a laminate; its bracket closes to round-off on the given mesh (relative width)",
-    !(bracket.width <= 2. * bracket.round_off) ? Outcome::fail
-    : bracket.width <= vacuous                 ? Outcome::pass
-                                               : Outcome::inconclusive,
-    bracket.width, "<= " + short_text(2. * bracket.round_off),
-    "both spaces hold the fields of a laminate: what is left is the bound of the evaluation's round-off, once as it is "
-    "added on the outside and once as it may have been lost"};
+  return {"P" + std::to_string(order) +
+            ": the cell is a laminate; its bracket closes to round-off on the given mesh (relative "
+            "width)",
+          !(bracket.width <= 2. * bracket.round_off) ? Outcome::fail
+          : bracket.width <= vacuous                 ? Outcome::pass
+                                                     : Outcome::inconclusive,
+          bracket.width, "<= " + short_text(2. * bracket.round_off),
+          "both spaces hold the fields of a laminate: what is left is the bound of the "
+          "evaluation's round-off, once as it is "
+          "added on the outside and once as it may have been lost"};
 }
 
 /// How far an order in DoFs^-1/2 may be from 2p: as asked for, +- 0.2 in DoFs.
 constexpr double order_tolerance = 0.4;
 
-/// Adaptive width over the uniform one with at least as many DoFs, at the finest of two uniform meshes or more that
-/// allows it.
+/// Adaptive width over the uniform one with at least as many DoFs, at the finest of two uniform
+/// meshes or more that allows it.
 Verdict is_narrower(const Series &adaptive, const Series &uniform)
 {
   Verdict verdict = {
     "P" + std::to_string(adaptive.order) +
       ": the adaptive bracket is narrower than the uniform one with at least as many DoFs (ratio)",
     Outcome::inconclusive, std::nan(""), "< 1",
-    "what narrower means; open as long as the uniform width falls with nearly the order of the elements, because "
+    "what narrower means; open as long as the uniform width falls with nearly the order of the "
+    "elements, because "
     "corners do not show yet"};
   const ConvergenceLevel &finest = uniform.levels.back();
   for (const ConvergenceLevel &level : adaptive.levels)
     if (level.n_dofs <= finest.n_dofs)
       verdict.value = *level.error / *finest.error; // the last one is the largest such mesh
-  // Before the corners show, halving every triangle may be as good: the uniform width then falls with nearly the order
-  // of the elements.
+  // Before the corners show, halving every triangle may be as good: the uniform width then falls
+  // with nearly the order of the elements.
   const ConvergenceLevel &before = uniform.levels[uniform.levels.size() - 2];
   const double order_of_uniform =
     2. * std::log(*before.error / *finest.error) /

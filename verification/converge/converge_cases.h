@@ -1,20 +1,23 @@
 // SPDX-License-Identifier: MIT
-// The convergence studies, each a list of cases. What every case must show is written beside it, before any
-// number is known.
+// The convergence studies, each a list of cases. What every case must show is written beside it,
+// before any number is known.
 //
-// mesh          uniform refinement of the cell, P1 and P2: cell_refinement.h. C^H falls in the Loewner order (nested
-//               spaces). A laminate has its closed form on every level. At corners the energy converges with
-//               twice their exponents, which are computed; the limits of P1 and P2 agree.
-// adaptive      the bracket on C^H with meshes refined where it is wide: relative width ~ DoFs^-1 with P1 and DoFs^-2
-//               with P2, as on smooth solutions (order 2p in DoFs^-1/2); in the limit narrower than on uniform meshes. A
-//               laminate's bracket closes to round-off at once.
-// scale         cells per sheet. What `affine` lacks is a fluctuation of the size of a cell: order 1 per
-//               sheet side. `localized` has at least that order, and at most 2.
-// coarse        coarse triangles per cell side at a fixed sheet. The energy falls (nested). Where a clamped
-//               edge meets a free one the exponent lies above ½: orders between 1 and 2.
-// strain        periodic loads under biot: the linear characteristic displacements err by strain squared, `affine`
-//               by strain.
-// time          the coarse cloth swings down from one edge, linearly implicit and implicit Euler: order 1.
+// mesh          uniform refinement of the cell, P1 and P2: cell_refinement.h. C^H falls in the
+//               Loewner order (nested spaces). A laminate has its closed form on every level. At
+//               corners the energy converges with twice their exponents, which are computed; the
+//               limits of P1 and P2 agree.
+// adaptive      the bracket on C^H with meshes refined where it is wide: relative width ~ DoFs^-1
+//               with P1 and DoFs^-2 with P2, as on smooth solutions (order 2p in DoFs^-1/2); in the
+//               limit narrower than on uniform meshes. A laminate's bracket closes to round-off at
+//               once.
+// scale         cells per sheet. What `affine` lacks is a fluctuation of the size of a cell: order
+//               1 per sheet side. `localized` has at least that order, and at most 2.
+// coarse        coarse triangles per cell side at a fixed sheet. The energy falls (nested). Where a
+//               clamped edge meets a free one the exponent lies above ½: orders between 1 and 2.
+// strain        periodic loads under biot: the linear characteristic displacements err by strain
+//               squared, `affine` by strain.
+// time          the coarse cloth swings down from one edge, linearly implicit and implicit Euler:
+//               order 1.
 // manufactured  manufactured_cases.h: L2 order p + 1, H1 order p; steps in time order 1.
 #pragma once
 

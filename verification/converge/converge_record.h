@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// What a convergence study measures and how it reaches the disk: series of a quantity over levels as rows of
-// converge.csv, the claims about them in claims.csv, and the cases that are complete in cases.csv, so that a
-// study that was cut short is taken up again.
+// What a convergence study measures and how it reaches the disk: series of a quantity over levels
+// as rows of converge.csv, the claims about them in claims.csv, and the cases that are complete in
+// cases.csv, so that a study that was cut short is taken up again.
 #pragma once
 
 #include "meshes/plain/errors.h"
@@ -34,8 +34,8 @@ struct Series
   std::optional<OrderJudgement> judgement; ///< none: reported, not judged
   std::optional<Richardson> richardson;
 
-  /// Sets the Richardson limit and the errors as distances from it; the error bar only where the order has
-  /// settled, else it would be that of an order that is not there.
+  /// Sets the Richardson limit and the errors as distances from it; the error bar only where the
+  /// order has settled, else it would be that of an order that is not there.
   /// @param floor, highest_order as extrapolated() @param judged the same values
   void extrapolate(double floor, double highest_order, const OrderJudgement &judged);
 
@@ -62,7 +62,8 @@ struct ConvergenceResult
   /// What that is: a failure, unless theory knows of loads that have no equilibrium.
   Outcome outcome_of_unfinished = Outcome::fail;
 
-  /// Runs one level. Where its solver does not converge the levels before it are kept, and the ladder ends.
+  /// Runs one level. Where its solver does not converge the levels before it are kept, and the
+  /// ladder ends.
   /// @return whether it was solved
   template <typename Level>
   bool solves(Level &&level)
@@ -97,8 +98,8 @@ struct ConvergenceCase
 class ConvergenceRecord
 {
 public:
-  /// Takes up the tables of a folder: rows and claims of complete cases are kept; what others left is dropped,
-  /// because they run again.
+  /// Takes up the tables of a folder: rows and claims of complete cases are kept; what others left
+  /// is dropped, because they run again.
   explicit ConvergenceRecord(const std::string &folder);
 
   bool is_complete(const ConvergenceCase &one) const;

@@ -79,10 +79,10 @@ ConvergenceResult add_cells(const UnitCell &cell, const meshes::HomogenizedCell 
     return result;
   per_sheet[0].judgement =
     judge_errors(per_sheet[0].sizes(), per_sheet[0].errors(), about(1., 0.15));
-  per_sheet[1].judgement = judge_errors(per_sheet[1].sizes(), per_sheet[1].errors(), {0.85, 2.15});
-  const std::string edges =
-    "; +- 0.15, because cells at the edge are 4/n of all: where these err by up to twice as much as the others the last "
-    "halving, at n = 32, shows log2((1 + 4/16) / (1 + 4/32)) = 0.15 more";
+  per_sheet[1].judgement  = judge_errors(per_sheet[1].sizes(), per_sheet[1].errors(), {0.85, 2.15});
+  const std::string edges = "; +- 0.15, because cells at the edge are 4/n of all: where these err "
+                            "by up to twice as much as the others the last "
+                            "halving, at n = 32, shows log2((1 + 4/16) / (1 + 4/32)) = 0.15 more";
   result.add(per_sheet[0],
              {"affine lacks a fluctuation of the size of a cell: order 1 in sheet sides",
               "two-scale expansion: the fluctuation has the size of a cell" + edges});
@@ -94,9 +94,10 @@ ConvergenceResult add_cells(const UnitCell &cell, const meshes::HomogenizedCell 
   result.add(per_cell[1]);
   result.add(per_fluctuation[1]);
   const double ratio = *per_fluctuation[1].levels.back().error;
-  result.verdicts.push_back(
-    {"localized is closer to the linear reference than affine on the largest sheet (ratio of errors)",
-     ratio < 1. ? Outcome::pass : Outcome::fail, ratio, "< 1", "what closer means", Kind::method});
+  result.verdicts.push_back({"localized is closer to the linear reference than affine on the "
+                             "largest sheet (ratio of errors)",
+                             ratio < 1. ? Outcome::pass : Outcome::fail, ratio, "< 1",
+                             "what closer means", Kind::method});
   return result;
 }
 
@@ -189,7 +190,8 @@ ConvergenceResult refine_coarse_mesh(const UnitCell &cell,
     {"the energy falls when the coarse mesh is refined; the meshes are nested (largest "
      "relative rise)",
      rise <= 1e-10 ? Outcome::pass : Outcome::fail, rise, "<= 1e-10",
-     "the least energy of a larger space is not larger; 1e-10 is the round-off of sums over up to 1e5 triangles (2e-16 "
+     "the least energy of a larger space is not larger; 1e-10 is the round-off of sums over up to "
+     "1e5 triangles (2e-16 "
      "each) and of stretches of 1 % (4e-14)"});
   const double floor      = 1e-11 * std::abs(*energy.levels.back().value);
   const OrderLimit limits = {0.9, 2.1};

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// homespun converge: every number that a study of this program rests on, on a ladder of at least four levels,
-// with its observed order held against the order that theory says.
+// homespun converge: every number that a study of this program rests on, on a ladder of at least
+// four levels, with its observed order held against the order that theory says.
 #pragma once
 
 #include "verification/record/run_folder.h"
@@ -24,10 +24,11 @@ struct ConvergenceStudyOptions
   bool quiet      = false;
 };
 
-/// Runs the studies and writes, into the output folder, converge.csv (a row per level of every series),
-/// claims.csv, cases.csv, verdicts.json and study.json. What a case needs is on the disk when it is complete, and
-/// complete cases of the same run are not run again. A case whose solver does not converge FAILs with the reason
-/// (INCONCLUSIVE where its load may have no equilibrium), keeps the levels that were solved, and is run again.
+/// Runs the studies and writes, into the output folder, converge.csv (a row per level of every
+/// series), claims.csv, cases.csv, verdicts.json and study.json. What a case needs is on the disk
+/// when it is complete, and complete cases of the same run are not run again. A case whose solver
+/// does not converge FAILs with the reason (INCONCLUSIVE where its load may have no equilibrium),
+/// keeps the levels that were solved, and is run again.
 /// @throws BadInput
 std::vector<Verdict> run_convergence_study(const ConvergenceStudyOptions &options,
                                            MPI_Comm communicator);

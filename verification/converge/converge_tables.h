@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The tables of `homespun converge`: series over levels, the claims about them, and the cases that are complete.
+// The tables of `homespun converge`: series over levels, the claims about them, and the cases that
+// are complete.
 #pragma once
 
 #include "verification/record/table.h"

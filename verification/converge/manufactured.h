@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
-// Manufactured solutions: a smooth motion is chosen, and the body force that makes it an equilibrium or a
-// motion is computed from it,
+// Manufactured solutions: a smooth motion is chosen, and the body force that makes it an
+// equilibrium or a motion is computed from it,
 //   f = −Div P(F)                 statics,    P = dW/dF,  (Div P)_i = dP_ij/dX_j
 //   f = rho x'' − Div P(F)        dynamics    per rest area
-// so that a solver's distance from it has the order of its elements and nothing else (Roache, J. Fluids
-// Eng. 124, 2002).
+// so that a solver's distance from it has the order of its elements and nothing else (Roache, J.
+// Fluids Eng. 124, 2002).
 //
-// The energies are written here once more, from their formulas alone: P by complex steps, which are exact to
-// round-off, Div P by central differences of fourth order. Nothing is shared with the laws that the solvers
-// use, neither stress nor tangent.
+// The energies are written here once more, from their formulas alone: P by complex steps, which are
+// exact to round-off, Div P by central differences of fourth order. Nothing is shared with the laws
+// that the solvers use, neither stress nor tangent.
 #pragma once
 
 #include "verification/reference/laws.h"
@@ -30,15 +30,16 @@ struct EnergyAndStress
   Eigen::Matrix<double, 3, 2> stress; ///< P [N/m]
 };
 
-/// W and P from the formula of the law. biot: U = (C + sqrt(det C) I) / sqrt(tr C + 2 sqrt(det C)) with
-/// C = F^T F. linear: the in-plane part of F.
+/// W and P from the formula of the law. biot: U = (C + sqrt(det C) I) / sqrt(tr C + 2 sqrt(det C))
+/// with C = F^T F. linear: the in-plane part of F.
 /// @param stiffness (3,3) [N/m], Voigt 11, 22, 12 with engineering shear
 EnergyAndStress energy_and_stress(Law law, const Eigen::Matrix3d &stiffness,
                                   const Eigen::Matrix<double, 3, 2> &F);
 
 /// −Div P of a motion, per rest area [N/m^2].
 /// @param gradient F of the motion; in the plane its third row is zero
-/// @param step of the central differences [m], some thousandth of the length on which the motion varies
+/// @param step of the central differences [m], some thousandth of the length on which the motion
+///   varies
 Eigen::Vector3d equilibrium_force(Law law, const Eigen::Matrix3d &stiffness,
                                   const GradientField &gradient,
                                   const Eigen::RowVector2d &rest_point, double step);

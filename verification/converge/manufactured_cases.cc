@@ -17,10 +17,9 @@ namespace homespun::verification
 {
 namespace
 {
-constexpr double side            = 0.1; ///< of the sheet [m]
+constexpr double side            = manufactured_side;
 constexpr double density         = 0.2; ///< [kg/m^2]
 constexpr double difference_step = 2e-3 * side;
-constexpr double tolerance       = 1e-12; ///< of the residual of all solvers
 
 /// A case whose levels are mesh widths, with the orders of its elements.
 ManufacturedCase of_elements(const std::string &name, const unsigned int order)
@@ -49,8 +48,8 @@ Eigen::Matrix3d without_contraction()
   return Eigen::Vector3d(1500., 600., 270.).asDiagonal();
 }
 
-/// An irregular mesh, always the same one, refined until there are n divisions along a side: were it drawn
-/// anew on each level, chance would blur the orders.
+/// An irregular mesh, always the same one, refined until there are n divisions along a side: were
+/// it drawn anew on each level, chance would blur the orders.
 meshes::TriangleMesh irregular_mesh(const int n)
 {
   constexpr int n_coarsest = 6;
@@ -70,7 +69,8 @@ struct Wave
 /// A displacement in the plane, in proportion to the strain.
 using PlaneField = Wave (*)(const Eigen::RowVector2d &point, double strain);
 
-/// Periodic with the sheet, of no symmetry; strains of up to 0.7 times `strain` beside the mean one.
+/// Periodic with the sheet, of no symmetry; strains of up to 0.7 times `strain` beside the mean
+/// one.
 Wave periodic_wave(const Eigen::RowVector2d &point, const double strain)
 {
   const double k = 2. * M_PI / side, x = k * point(0), y = k * point(1);
@@ -163,8 +163,8 @@ ManufacturedCase plane_case(const std::string &load_name, const Law law, const u
   return result;
 }
 
-/// A sheet in space: stretched in its plane, and a bump of a height with a shift inside the sheet. Its rim
-/// stays.
+/// A sheet in space: stretched in its plane, and a bump of a height with a shift inside the sheet.
+/// Its rim stays.
 Wave bulging(const Eigen::RowVector2d &point, const double height)
 {
   const double x = point(0) / side, y = point(1) / side;
@@ -236,7 +236,8 @@ ClothReference cloth_reference(const int n, const Law law, const unsigned int or
   return ClothReference(irregular_mesh(n), {anisotropic()}, {density}, options, communicator);
 }
 
-/// @throws NotConverged where a step is not reached, or was cut: then it is not the scheme that was asked for
+/// @throws NotConverged where a step is not reached, or was cut: then it is not the scheme that was
+///   asked for
 void take_steps(ClothReference &cloth, const int n_steps, const double dt)
 {
   for (int k = 0; k < n_steps; ++k)
@@ -268,7 +269,8 @@ ManufacturedCase static_case(const Law law, const unsigned int order)
   return result;
 }
 
-/// Four steps of implicit Euler on a motion whose force contains the scheme's own difference quotient,
+/// Four steps of implicit Euler on a motion whose force contains the scheme's own difference
+/// quotient,
 ///   f_n = rho (x_n − 2 x_(n−1) + x_(n−2)) / h² − Div P(x_n),   x_(−1) = x_0,
 /// so that the steps are exact and what remains is the error of the elements.
 ManufacturedCase stepping_case(const Law law, const unsigned int order, const bool consistent)
@@ -304,8 +306,9 @@ ManufacturedCase stepping_case(const Law law, const unsigned int order, const bo
   return result;
 }
 
-/// A motion that is affine at any time, which P1 contains: Div P = 0, f = rho x'', and only the time steps
-/// err. The sheet is turned out of its plane while it is stretched; its rim follows exactly, its inside lags.
+/// A motion that is affine at any time, which P1 contains: Div P = 0, f = rho x'', and only the
+/// time steps err. The sheet is turned out of its plane while it is stretched; its rim follows
+/// exactly, its inside lags.
 ManufacturedCase time_case(const Law law)
 {
   constexpr double turn = 4e-3, end = 2.4e-3; // [s]; the inside lags most in the midst of the turn
@@ -368,61 +371,5 @@ const std::vector<ManufacturedCase> &manufactured_cases()
     return cases;
   }();
   return all;
-}
-
-ManufacturedLadder climb(const ManufacturedCase &manufactured, const MPI_Comm communicator)
-{
-  ManufacturedLadder ladder;
-  Eigen::MatrixXd finest;
-  try
-  {
-    for (const int size : manufactured.sizes)
-    {
-      const ManufacturedSolution solution = manufactured.solve(size, tolerance, communicator);
-      ladder.h.push_back(manufactured.extent / size);
-      ladder.L2.push_back(solution.error.L2 / (side * side));
-      ladder.H1.push_back(solution.error.H1 / side);
-      ladder.n_dofs.push_back(solution.n_dofs);
-      finest = solution.positions;
-    }
-    // Where the last step of Newton's method jumps below both tolerances the iterates are the same, and nothing is
-    // measured: then the one before is asked for.
-    for (double loosening = 100.; loosening <= 1e8 && !(ladder.algebraic_error > 0.);
-         loosening *= 100.)
-    {
-      const Eigen::MatrixXd loose =
-        manufactured.solve(manufactured.sizes.back(), loosening * tolerance, communicator)
-          .positions;
-      const double difference =
-        std::sqrt((loose - finest).squaredNorm() / static_cast<double>(finest.rows())) / side;
-      if (difference > 0.)
-        ladder.algebraic_error = difference;
-    }
-  }
-  catch (const meshes::NotConverged &failure)
-  {
-    ladder.unfinished = failure.what();
-  }
-  return ladder;
-}
-
-ManufacturedClaims judge(const ManufacturedCase &manufactured, const ManufacturedLadder &ladder)
-{
-  ManufacturedClaims claims;
-  claims.L2              = judge_errors(ladder.h, ladder.L2, manufactured.L2);
-  claims.algebraic_share = ladder.L2.empty() ? std::numeric_limits<double>::quiet_NaN()
-                                             : ladder.algebraic_error / ladder.L2.back();
-  if (manufactured.has_H1)
-    claims.H1 = judge_errors(ladder.h, ladder.H1, manufactured.H1);
-  if (!(claims.algebraic_share <= largest_algebraic_share))
-    for (OrderJudgement *claim : {&claims.L2, &claims.H1})
-      if (claim->outcome == Outcome::pass)
-      {
-        claim->outcome = Outcome::inconclusive;
-        claim->why     = std::isnan(claims.algebraic_share)
-                           ? "the algebraic error could not be measured"
-                           : "the algebraic error is no hundred times below the smallest L2 error";
-      }
-  return claims;
 }
 } // namespace homespun::verification

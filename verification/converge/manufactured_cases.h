@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Every solver held against motions that it must reproduce with the order of its elements or of its time
-// step: the references in the plane (periodic and clamped) and the reference in space (statics, steps).
+// Every solver held against motions that it must reproduce with the order of its elements or of its
+// time step: the references in the plane (periodic and clamped) and the reference in space
+// (statics, steps).
 #pragma once
 
 #include "verification/record/convergence.h"
@@ -16,6 +17,12 @@
 
 namespace homespun::verification
 {
+/// Side of every sheet [m].
+constexpr double manufactured_side = 0.1;
+
+/// Of the residual of all solvers.
+constexpr double manufactured_tolerance = 1e-12;
+
 /// A solution on one level.
 struct ManufacturedSolution
 {
@@ -44,9 +51,9 @@ struct ManufacturedLadder
 {
   std::vector<double> h, L2, H1; ///< errors relative to the side of the sheet [-]
   std::vector<unsigned long> n_dofs;
-  /// Root mean square over the vertices, relative to the side, of what a hundred times the solver's tolerance
-  /// changes on the finest level, or the first power of a hundred that changes anything: an upper estimate of the
-  /// algebraic error. Not a number where none does.
+  /// Root mean square over the vertices, relative to the side, of what a hundred times the solver's
+  /// tolerance changes on the finest level, or the first power of a hundred that changes anything:
+  /// an upper estimate of the algebraic error. Not a number where none does.
   double algebraic_error = std::numeric_limits<double>::quiet_NaN();
   std::string unfinished; ///< why the levels end early; empty where all are solved
 };
@@ -60,8 +67,9 @@ ManufacturedLadder climb(const ManufacturedCase &manufactured, MPI_Comm communic
 /// Largest algebraic error, over the smallest L2 error, at which orders are those of the elements.
 constexpr double largest_algebraic_share = 0.01;
 
-/// The claims of a ladder: L2 order, H1 order, and the algebraic error at least 100 times below the smallest L2
-/// error; without the last nothing follows from the orders, and what would PASS is INCONCLUSIVE.
+/// The claims of a ladder: L2 order, H1 order, and the algebraic error at least 100 times below the
+/// smallest L2 error; without the last nothing follows from the orders, and what would PASS is
+/// INCONCLUSIVE.
 struct ManufacturedClaims
 {
   OrderJudgement L2, H1;

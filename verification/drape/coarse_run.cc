@@ -13,8 +13,8 @@ namespace homespun::verification
 {
 namespace
 {
-/// A cloth ten thousand times its size away from where it began has blown up: pictures and curves of it
-/// would show nothing else.
+/// A cloth ten thousand times its size away from where it began has blown up: pictures and curves
+/// of it would show nothing else.
 void check_reach(const shell::Vectors &positions, const shell::Vectors &start, const double time)
 {
   constexpr double reach = 1e4;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The coarse cloth of a scene over all its frames, up-sampled every step; and what each term that the scene
-// leaves out would have cost.
+// The coarse cloth of a scene over all its frames, up-sampled every step; and what each term that
+// the scene leaves out would have cost.
 #pragma once
 
 #include "verification/drape/drape_output.h"
@@ -31,12 +31,14 @@ struct CoarseRun
   }
 };
 
-/// Runs it and writes its frames and its rows of motion.csv. Takes seconds, and is computed again when a
-/// study is resumed. A cloth that does not converge ends the run, with the reason in `failure`.
+/// Runs it and writes its frames and its rows of motion.csv. Takes seconds, and is computed again
+/// when a study is resumed. A cloth that does not converge ends the run, with the reason in
+/// `failure`.
 CoarseRun run_coarse(const DrapedCell &draped, const std::string &variant,
                      const DrapeSchedule &schedule, DrapeOutput &output, Progress &progress);
 
-/// Writes terms.csv: median time per step with its spread, and memory, as the scene is and with each term that it
-/// does not have forced upon it at zero strength. A time of steps that do not converge stays empty.
+/// Writes terms.csv: median time per step with its spread, and memory, as the scene is and with
+/// each term that it does not have forced upon it at zero strength. A time of steps that do not
+/// converge stays empty.
 void measure_term_costs(const DrapedCell &draped, DrapeOutput &output, Progress &progress);
 } // namespace homespun::verification

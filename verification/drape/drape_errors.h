@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// How far the up-sampled cloth is from a full-resolution one at a frame, and how far that one may itself be
-// from the limit of fine meshes.
+// How far the up-sampled cloth is from a full-resolution one at a frame, and how far that one may
+// itself be from the limit of fine meshes.
 #pragma once
 
 #include "verification/drape/coarse_run.h"
@@ -17,8 +17,8 @@
 
 namespace homespun::verification
 {
-/// Discretization error of a reference on a small sheet, per frame. It goes with the local strain, as the
-/// fluctuation does, and is carried over to the full sheet by the ratio of the two.
+/// Discretization error of a reference on a small sheet, per frame. It goes with the local strain,
+/// as the fluctuation does, and is carried over to the full sheet by the ratio of the two.
 struct DrapeErrorBar
 {
   std::vector<double> difference;  ///< mean |P1 − P2| [m]
@@ -28,8 +28,8 @@ struct DrapeErrorBar
   double at(std::size_t frame, double fluctuation_there) const;
 };
 
-/// Runs the scene on a small sheet with P1 and P2. Ends at the first frame that one of them, or the coarse cloth
-/// there, does not reach.
+/// Runs the scene on a small sheet with P1 and P2. Ends at the first frame that one of them, or the
+/// coarse cloth there, does not reach.
 /// @param law of the reference
 /// @param n_cells of the small sheet, per side
 DrapeErrorBar drape_error_bar(const DrapedCell &draped, Law law, int n_cells,
@@ -46,14 +46,15 @@ public:
 
   /// Writes a row of drape.csv for each coarse run and method at a frame.
   /// @param positions of the reference at the vertices that up-sampling gives (n_fine,3) [m]
-  /// @return the distance of each vertex of the method from the reference (n_fine,1) [m], named `error`; nothing
-  ///   where it was not asked for or did not come so far
+  /// @return the distance of each vertex of the method from the reference (n_fine,1) [m], named
+  ///   `error`; nothing where it was not asked for or did not come so far
   /// @throws NotConverged where up-sampled positions are not finite
   std::vector<meshes::VertexData> compare(const std::string &reference, int frame,
                                           const meshes::SpacePoints &positions,
                                           const DrapeErrorBar &bar, DrapeOutput &output) const;
 
-  /// Whether the rows of a frame are on the disk: those that compare() writes, and that of the reference's motion.
+  /// Whether the rows of a frame are on the disk: those that compare() writes, and that of the
+  /// reference's motion.
   bool has_rows(const std::string &reference, int frame, const DrapeOutput &output) const;
 
 private:

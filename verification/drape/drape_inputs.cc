@@ -85,10 +85,10 @@ void check_references(const DrapeOptions &options, const Scene &scene)
   if (scene.integration == TimeIntegration::conserving)
     for (const std::string &variant : options.variants)
       if (variant != "corotational")
-        faults.push_back(
-          "--variants " + variant + ": scene `" + scene.name +
-          "` has the key `Integrator` = conserving, which asks for a membrane with an energy; expected "
-          "corotational alone, or another integrator");
+        faults.push_back("--variants " + variant + ": scene `" + scene.name +
+                         "` has the key `Integrator` = conserving, which asks for a membrane with "
+                         "an energy; expected "
+                         "corotational alone, or another integrator");
   if (!faults.empty())
     throw meshes::BadInput(faults);
 }
@@ -116,7 +116,8 @@ void check_cloth(const DrapeOptions &options, const Scene &scene,
                        "a part of the cloth: remove it");
     if (!faults.empty())
       throw meshes::BadInput(faults);
-    // A garment's cells are cut along its panels alone: not each of its vertices is one of the fine cloth.
+    // A garment's cells are cut along its panels alone: not each of its vertices is one of the fine
+    // cloth.
     if (fine_too && !scene.is_sheet() &&
         std::any_of(scene.held.begin(), scene.held.end(),
                     [](const HeldPlace &held) { return held.place == "vertices"; }))

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// What a scene run is made of, known before any file is written: the scene with what the options put in its place,
-// what cannot be asked for, and the description by which a run is recognised when it is resumed.
+// What a scene run is made of, known before any file is written: the scene with what the options
+// put in its place, what cannot be asked for, and the description by which a run is recognised when
+// it is resumed.
 #pragma once
 
 #include "homogenization/cell/unit_cell.h"
@@ -24,8 +25,8 @@ Scene scene_of(const DrapeOptions &options);
 /// @throws BadInput where a reference lacks a term or a place, or a static scene has a motion
 void check_references(const DrapeOptions &options, const Scene &scene);
 
-/// @throws BadInput where the cloth cannot be made of a cell, a held vertex does not exist, or a place holds
-///   nothing
+/// @throws BadInput where the cloth cannot be made of a cell, a held vertex does not exist, or a
+///   place holds nothing
 void check_cloth(const DrapeOptions &options, const Scene &scene,
                  const std::vector<homogenization::UnitCell> &cells);
 

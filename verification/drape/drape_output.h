@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What a scene run leaves on the disk as it goes on: the tables drape.csv (errors), motion.csv (motion and
-// energies) and terms.csv (what absent terms would cost), and the frames.
+// What a scene run leaves on the disk as it goes on: the tables drape.csv (errors), motion.csv
+// (motion and energies) and terms.csv (what absent terms would cost), and the frames.
 #pragma once
 
 #include "meshes/files/surface_files.h"
@@ -73,8 +73,8 @@ public:
   void list_earlier_frames(const std::string &run, int n,
                            meshes::FrameCollection &collection) const;
 
-  /// Largest mean error of `localized` over time, in cell sides, of each cell against each reference; from
-  /// the table, so that a resumed run speaks of all its frames. Ready lines.
+  /// Largest mean error of `localized` over time, in cell sides, of each cell against each
+  /// reference; from the table, so that a resumed run speaks of all its frames. Ready lines.
   std::vector<std::string> worst_errors() const;
 
   const std::string folder;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// How the time of a scene goes on: frames, and the steps between two of them. A frame is a whole number of steps
-// and a run a whole number of frames; what a duration has beyond that is not run.
+// How the time of a scene goes on: frames, and the steps between two of them. A frame is a whole
+// number of steps and a run a whole number of frames; what a duration has beyond that is not run.
 #pragma once
 
 #include "verification/drape/scene.h"

@@ -218,7 +218,8 @@ private:
                 motion.elastic      = elastic;
                 motion.gravity      = gravity_energy(scene, masses, fine->positions());
                 motion.step_seconds = median(seconds);
-                // The error belongs to method and reference, and stands with the frame that comes once for both.
+                // The error belongs to method and reference, and stands with the frame that comes
+                // once for both.
                 std::vector<meshes::VertexData> data = draped.fine_data();
                 for (meshes::VertexData &error :
                      comparison->compare(reference, frame, positions, bar, *output))
@@ -252,8 +253,8 @@ private:
             {"dofs", fine->n_dofs()}};
   }
 
-  /// The state from which a reference goes on; nothing where it begins anew, as it does where a table has lost rows
-  /// of the frames before.
+  /// The state from which a reference goes on; nothing where it begins anew, as it does where a
+  /// table has lost rows of the frames before.
   /// @param comparison on the first rank
   std::optional<meshes::ClothState> state_to_resume(const std::string &name,
                                                     const std::string &reference,

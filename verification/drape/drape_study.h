@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// A scene run: the coarse cloth with the effective stiffness of each cell, up-sampled every step; beside it
-// the full-resolution cloth, in the same code or by finite elements; the error of every vertex over time.
+// A scene run: the coarse cloth with the effective stiffness of each cell, up-sampled every step;
+// beside it the full-resolution cloth, in the same code or by finite elements; the error of every
+// vertex over time.
 #pragma once
 
 #include "verification/drape/drape_options.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// One cell in one scene: the coarse cloth with its effective material, the fine cloth with its phases, and
-// the ways between them.
+// One cell in one scene: the coarse cloth with its effective material, the fine cloth with its
+// phases, and the ways between them.
 #pragma once
 
 #include "homogenization/cell/unit_cell.h"
@@ -21,8 +21,8 @@ namespace homespun::verification
 using Upsampler3f = localization::Upsampler<3, float>;
 using Upsampler3d = localization::Upsampler<3, double>;
 
-/// The scene on a smaller or larger sheet: translations of handles go with its size, held vertices are those at the
-/// same places. A garment has no cells per side and stays as it is.
+/// The scene on a smaller or larger sheet: translations of handles go with its size, held vertices
+/// are those at the same places. A garment has no cells per side and stays as it is.
 /// @throws BadInput where a held vertex is none of the other sheet, or of the given one
 Scene scaled(const Scene &scene, int n_cells);
 

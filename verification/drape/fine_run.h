@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The full-resolution cloth of a scene, in two codes behind one face: by finite elements (deal.II), and by
-// the shell's own code with a stiffness per triangle, the naive simulation at its best.
+// The full-resolution cloth of a scene, in two codes behind one face: by finite elements (deal.II),
+// and by the shell's own code with a stiffness per triangle, the naive simulation at its best.
 #pragma once
 
 #include "meshes/files/state_file.h"

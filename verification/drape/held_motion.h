@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Where the held places of a scene are at a time: the same rule for the vertices of a coarse or fine cloth
-// and for the nodes of a finite-element reference.
+// Where the held places of a scene are at a time: the same rule for the vertices of a coarse or
+// fine cloth and for the nodes of a finite-element reference.
 #pragma once
 
 #include "meshes/cloth/cloth_mesh.h"
@@ -27,8 +27,9 @@ struct SheetPlacement
 SheetPlacement placement_of(const Scene &scene, const Eigen::RowVector2d &origin,
                             const Eigen::Matrix2d &sides);
 
-/// The held places of a scene on one cloth. Coarse and fine cloth hold the same places and turn them about the same
-/// centres: `vertices ...` are vertices of the coarse cloth, and of the fine one those at the same points.
+/// The held places of a scene on one cloth. Coarse and fine cloth hold the same places and turn
+/// them about the same centres: `vertices ...` are vertices of the coarse cloth, and of the fine
+/// one those at the same points.
 class HeldMotion
 {
 public:
@@ -37,7 +38,8 @@ public:
              const Eigen::Matrix2d &sides);
 
   /// Of a garment, by its vertices in space.
-  /// @param fine_of_coarse fine vertex at each coarse one, −1 where there is none; empty: of the coarse cloth
+  /// @param fine_of_coarse fine vertex at each coarse one, −1 where there is none; empty: of the
+  ///   coarse cloth
   /// @throws BadInput where a held vertex is no vertex of the fine cloth
   HeldMotion(const Scene &scene, const meshes::ClothMesh &coarse,
              const std::vector<int> &fine_of_coarse = {});

@@ -25,8 +25,9 @@ struct Motion
   double seconds = 0.;          ///< from the beginning on, evenly accelerated and braked
 };
 
-/// A place that is held: `left`, `right`, `bottom`, `top` edge or a corner such as `top left` of a sheet;
-/// `waist`, the vertices of a garment that begin highest; `vertices 0 1 2` of the coarse cloth.
+/// A place that is held: `left`, `right`, `bottom`, `top` edge or a corner such as `top left` of a
+/// sheet; `waist`, the vertices of a garment that begin highest; `vertices 0 1 2` of the coarse
+/// cloth.
 struct HeldPlace
 {
   std::string place;

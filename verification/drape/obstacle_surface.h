@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The bodies of a scene as triangles, for pictures: what the cloth falls on is seen beside it. The contact
-// itself knows exact planes and spheres (shell/contact/obstacles.h).
+// The bodies of a scene as triangles, for pictures: what the cloth falls on is seen beside it. The
+// contact itself knows exact planes and spheres (shell/contact/obstacles.h).
 #pragma once
 
 #include "meshes/files/obj_file.h"

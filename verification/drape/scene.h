@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// A scene as the user describes it: which cloth of which cells, which terms act on it, what is held and how
-// it moves, how time goes on. Read from a .prm file; all faults are reported at once. A term that is not
-// listed does not exist in the run, and a key that belongs to it is a fault.
+// A scene as the user describes it: which cloth of which cells, which terms act on it, what is held
+// and how it moves, how time goes on. Read from a .prm file; all faults are reported at once. A
+// term that is not listed does not exist in the run, and a key that belongs to it is a fault.
 #pragma once
 
 #include "shell/solver/cloth.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The cloth of a scene in the shell's code, coarse or at full resolution: composed from the terms that the
-// scene lists and no others.
+// The cloth of a scene in the shell's code, coarse or at full resolution: composed from the terms
+// that the scene lists and no others.
 #pragma once
 
 #include "shell/solver/cloth.h"
@@ -48,7 +48,8 @@ public:
   /// Equilibrium with the handles where they are at a time.
   void solve_equilibrium(double time);
 
-  /// What the membrane and the plate store [J]; not a number where the forces of the membrane have no energy.
+  /// What the membrane and the plate store [J]; not a number where the forces of the membrane have
+  /// no energy.
   double elastic_energy() const;
 
   shell::Cloth &cloth()
@@ -69,8 +70,8 @@ private:
   std::unique_ptr<shell::Cloth> moving;
 };
 
-/// Terms whose cost can be measured: those that the scene has, and those that can be forced on it at zero strength.
-/// Friction needs obstacles to act on.
+/// Terms whose cost can be measured: those that the scene has, and those that can be forced on it
+/// at zero strength. Friction needs obstacles to act on.
 std::vector<std::string> terms_with_a_cost(const Scene &scene);
 
 /// Potential of the weight, −Σ m g·x [J]; not a number in a scene without gravity.

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The keys of a scene file with their defaults and documentation; scene.h says what is made of them.
+// The keys of a scene file with their defaults and documentation; scene.h says what is made of
+// them.
 #pragma once
 
 #include <deal.II/base/parameter_handler.h>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// A stress case as data: what is done, how it must end, the one figure that is measured and its limit; and
-// what became of it. Running never throws: a failure is a row of the table, not the end of the program.
+// A stress case as data: what is done, how it must end, the one figure that is measured and its
+// limit; and what became of it. Running never throws: a failure is a row of the table, not the end
+// of the program.
 #pragma once
 
 #include "verification/extremes/stress_tables.h"
@@ -55,8 +56,8 @@ using Derivations = std::map<std::string, std::string>;
 void derive(std::vector<StressCase> &cases, const Derivations &derivations);
 
 /// Growth of energy that round-off explains, over the largest energy: the cloth's own slack
-/// (shell/solver/cloth.cc), 1e-12 of the energy before and of what is stored, in up to five parts of a
-/// step that was cut.
+/// (shell/solver/cloth.cc), 1e-12 of the energy before and of what is stored, in up to five parts
+/// of a step that was cut.
 constexpr double energy_round_off = 1e-11;
 
 /// Where that comes from.

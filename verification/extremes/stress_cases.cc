@@ -115,7 +115,8 @@ const std::vector<Start> starts = {
   {"every second triangle inverted", false,
    [](const meshes::ClothMesh &mesh, unsigned int)
    {
-     // Three colours of vertices, all triangles upon one: those above the diagonals come to lie upside down.
+     // Three colours of vertices, all triangles upon one: those above the diagonals come to lie
+     // upside down.
      const Eigen::Matrix3d corners =
        (Eigen::Matrix3d() << 0., 0., 0., 1., 0., 0., 0., 0., 1.).finished();
      Vectors x(mesh.n_vertices(), 3);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What the stress cases of unit cells share: the phases of built-in cells, what a C^H is held against, and a group
-// of cases.
+// What the stress cases of unit cells share: the phases of built-in cells, what a C^H is held
+// against, and a group of cases.
 #pragma once
 
 #include "verification/extremes/stress_case.h"

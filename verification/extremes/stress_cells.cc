@@ -124,8 +124,8 @@ UnitCell without_phase(const UnitCell &cell, const int phase)
 
 UnitCell capped_stripes(const int n, const Phase &lower, const Phase &upper, const double height)
 {
-  // The lower triangle (a, b, c) of a rectangle in the lower layer becomes three about a point above the middle
-  // of its edge ab, of which one is obtuse.
+  // The lower triangle (a, b, c) of a rectangle in the lower layer becomes three about a point
+  // above the middle of its edge ab, of which one is obtuse.
   UnitCell cell                    = stripe_cell(n, lower, upper);
   meshes::TriangleMesh &mesh       = cell.mesh;
   const int t                      = 2 * (n * (n / 4) + n / 2);
@@ -145,7 +145,8 @@ UnitCell capped_stripes(const int n, const Phase &lower, const Phase &upper, con
 
 namespace
 {
-/// The lattice vectors by which a triangle is moved so that its middle lies in the parallelogram that begins at a point.
+/// The lattice vectors by which a triangle is moved so that its middle lies in the parallelogram
+/// that begins at a point.
 Eigen::RowVector2i move_into(const UnitCell &cell, const int t, const Eigen::RowVector2d &origin)
 {
   Eigen::RowVector2d middle = Eigen::RowVector2d::Zero();

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Up-sampling of violent coarse motions. A uniform strain has a closed form at any size; for others the bound
-// of the method: a fine vertex is no further from its place in the coarse triangles than the largest lift times
-// the largest strain times the largest characteristic displacement.
+// Up-sampling of violent coarse motions. A uniform strain has a closed form at any size; for others
+// the bound of the method: a fine vertex is no further from its place in the coarse triangles than
+// the largest lift times the largest strain times the largest characteristic displacement.
 #include "localization/upsampler.h"
 #include "meshes/plain/sheet.h"
 #include "verification/extremes/stress_cases.h"

@@ -66,9 +66,10 @@ const Derivations derivations = {
 constexpr double fall_step    = 0.01; ///< [s]
 constexpr int n_steps_of_fall = 100;
 
-/// Round-off of a fall. Step k solves (M + h² K) dx = ... for dx = h v_k, v_k = g h k; its round-off is epsilon times the
-/// condition number, 1 + h² omega² with omega² <= 18 lambda_max(D) / (rho a²) for linear triangles of altitude a and
-/// lumped mass, times dx. As a velocity error all later steps carry it on: the sum of h v_k (N - k) is g h² N³/6.
+/// Round-off of a fall. Step k solves (M + h² K) dx = ... for dx = h v_k, v_k = g h k; its
+/// round-off is epsilon times the condition number, 1 + h² omega² with omega² <= 18 lambda_max(D) /
+/// (rho a²) for linear triangles of altitude a and lumped mass, times dx. As a velocity error all
+/// later steps carry it on: the sum of h v_k (N - k) is g h² N³/6.
 double fall_round_off(const SheetStiffness &stiffness)
 {
   const meshes::TriangleMesh mesh = irregular_sheet(n, 0.2);
@@ -89,8 +90,8 @@ double fall_round_off(const SheetStiffness &stiffness)
          std::pow(n_steps_of_fall, 3) / 6.;
 }
 
-/// Largest distance from where the integrator takes a body in free fall: both Euler methods to x0 + h² g k (k + 1)/2, the
-/// conserving one to x0 + g t²/2.
+/// Largest distance from where the integrator takes a body in free fall: both Euler methods to x0 +
+/// h² g k (k + 1)/2, the conserving one to x0 + g t²/2.
 StressAnswer free_fall(const SheetStiffness &stiffness, const shell::Integrator integrator,
                        const unsigned int seed)
 {
@@ -137,8 +138,8 @@ StressAnswer hung_by_one_corner(const SheetStiffness &stiffness, const double h,
   return {growth, state_of(cloth)};
 }
 
-/// One edge suddenly moves away at 5 m/s. In its frame nothing does work: the energy there never exceeds
-/// that of the flow that comes at it.
+/// One edge suddenly moves away at 5 m/s. In its frame nothing does work: the energy there never
+/// exceeds that of the flow that comes at it.
 StressAnswer pulled(const SheetStiffness &stiffness, const double h,
                     const shell::Integrator integrator)
 {
@@ -159,8 +160,8 @@ StressAnswer pulled(const SheetStiffness &stiffness, const double h,
       cloth.prescribe(v, mesh.positions.row(v) + k * h * velocity);
     cloth.step(h);
     const Vectors relative = cloth.velocities().rowwise() - velocity;
-    most                   = std::max(most, cloth.stored_energy() +
-                                              0.5 * cloth.masses().dot(relative.rowwise().squaredNorm()));
+    const double kinetic   = 0.5 * cloth.masses().dot(relative.rowwise().squaredNorm());
+    most                   = std::max(most, cloth.stored_energy() + kinetic);
   }
   return {most / at_start, state_of(cloth)};
 }
@@ -181,8 +182,9 @@ double wind_acceleration(const SheetStiffness &stiffness)
 
 constexpr double radius = 0.06; ///< of the sphere [m]
 
-/// A sheet with bending falls on a sphere, wind from the side: how deep a vertex is inside. What other forces than gravity
-/// and wind do to it within a step is seen one step late: the way that they carry it in the step is not counted.
+/// A sheet with bending falls on a sphere, wind from the side: how deep a vertex is inside. What
+/// other forces than gravity and wind do to it within a step is seen one step late: the way that
+/// they carry it in the step is not counted.
 StressAnswer draped(const SheetStiffness &stiffness, const double h, const bool has_wind,
                     const bool with_obstacle)
 {
@@ -246,8 +248,8 @@ StressAnswer blown(const SheetStiffness &stiffness, const double h)
   {
     cloth.step(h);
     const Vectors relative = cloth.velocities().rowwise() - wind;
-    most                   = std::max(most, cloth.stored_energy() +
-                                              0.5 * cloth.masses().dot(relative.rowwise().squaredNorm()));
+    const double kinetic   = 0.5 * cloth.masses().dot(relative.rowwise().squaredNorm());
+    most                   = std::max(most, cloth.stored_energy() + kinetic);
   }
   return {most / at_start, state_of(cloth)};
 }
@@ -323,12 +325,14 @@ std::vector<StressCase> scene_cases(const SheetStiffness &stiffness, const bool 
         {"scene",
          std::string("falls on a sphere; bending and friction") + (has_wind ? " and wind" : "") +
            step,
-         "finite; but for what other forces do within a step no vertex deeper inside than h^2 times the acceleration by gravity and "
+         "finite; but for what other forces do within a step no vertex deeper inside than h^2 "
+         "times the acceleration by gravity and "
          "wind and a tenth of the contact thickness, nor than half the radius",
          ExpectedEnd::finite,
          std::min(0.5 * radius,
                   h * h * (gravity + (has_wind ? wind_acceleration(stiffness) : 0.)) + 1e-4),
-         "deepest vertex inside the sphere beyond h times what other forces changed of its velocity in the step [m]",
+         "deepest vertex inside the sphere beyond h times what other forces changed of its "
+         "velocity in the step [m]",
          "", false, [=](unsigned int) { return draped(stiffness, h, has_wind, with_obstacle); }});
     cases.push_back({"scene", "hung by two corners; bending" + step,
                      "finite; the energy of the damped sheet never grows", ExpectedEnd::finite,

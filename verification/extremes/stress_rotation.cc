@@ -64,7 +64,8 @@ Eigen::Matrix<double, 3, 2> rest_corners()
   return corners;
 }
 
-/// The force on the corners is nothing where a triangle is turned by 180° about any axis, or mirrored.
+/// The force on the corners is nothing where a triangle is turned by 180° about any axis, or
+/// mirrored.
 StressAnswer without_force(const SheetStiffness &stiffness, const bool is_mirrored,
                            const unsigned int seed)
 {
@@ -106,7 +107,8 @@ Eigen::Matrix<double, 9, 9> matrix_of(const shell::TriangleDerivatives<3> &deriv
   return H;
 }
 
-/// A deformation gradient of a rank: the projected Hessian may have no negative eigenvalue, whatever it is.
+/// A deformation gradient of a rank: the projected Hessian may have no negative eigenvalue,
+/// whatever it is.
 StressAnswer of_rank(const SheetStiffness &stiffness, const int rank, const unsigned int seed)
 {
   const Vectors random            = random_vectors(4, seed);
@@ -176,8 +178,9 @@ StressAnswer forces_before_the_first_step(const SheetStiffness &stiffness)
   return {(force - weight).cwiseAbs().maxCoeff() / (stiffness.D.norm() * 0.2), values};
 }
 
-/// A strip of 5 x 20 cm whose upper end turns about the long axis; then it settles. Its energy in the end,
-/// over that of the helicoid with the same ends, which is one of the shapes it might have taken.
+/// A strip of 5 x 20 cm whose upper end turns about the long axis; then it settles. Its energy in
+/// the end, over that of the helicoid with the same ends, which is one of the shapes it might have
+/// taken.
 StressAnswer twisted(const SheetStiffness &stiffness, const double turns, const int n_steps)
 {
   constexpr int n1 = 4, n2 = 16;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The sheet that stress cases torment: small, irregular, of some stiffness, and what is measured on it.
+// The sheet that stress cases torment: small, irregular, of some stiffness, and what is measured on
+// it.
 #pragma once
 
 #include "meshes/cloth/cloth_mesh.h"
@@ -24,8 +25,9 @@ struct SheetStiffness
 /// E t = young, plane stress.
 SheetStiffness isotropic_sheet(double young, double poisson);
 
-/// What the cases take where no cell is given: isotropic (1000 N/m, 0.3), a laminate (C11, C12, C22, C66 of
-/// the stripe cell, 2840, 300, 999, 350 N/m), one whose eigenvalues are 10,000, 30 and 1 N/m, off its axes.
+/// What the cases take where no cell is given: isotropic (1000 N/m, 0.3), a laminate (C11, C12,
+/// C22, C66 of the stripe cell, 2840, 300, 999, 350 N/m), one whose eigenvalues are 10,000, 30 and
+/// 1 N/m, off its axes.
 std::vector<SheetStiffness> built_in_stiffnesses();
 
 /// n x n x 2 triangles; inner vertices moved by up to a quarter of the mesh width, always the same.
@@ -59,8 +61,8 @@ shell::Cloth sheet_cloth(const meshes::ClothMesh &mesh, const SheetStiffness &st
 /// Positions and velocities side by side (n,6): what a user gets.
 Eigen::MatrixXd state_of(const shell::Cloth &cloth);
 
-/// Takes steps. The growth of kinetic and stored energy, the largest within one step, over the largest energy met [-]; zero
-/// where there is none.
+/// Takes steps. The growth of kinetic and stored energy, the largest within one step, over the
+/// largest energy met [-]; zero where there is none.
 double largest_energy_growth(shell::Cloth &cloth, double h, int n_steps);
 
 /// Independent numbers between −1 and 1.

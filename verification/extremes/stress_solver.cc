@@ -15,7 +15,8 @@ using homogenization::isotropic;
 
 namespace
 {
-/// Rectangles per side: as many DoFs with P1 as with P2, more than the preconditioner factorizes at once.
+/// Rectangles per side: as many DoFs with P1 as with P2, more than the preconditioner factorizes at
+/// once.
 constexpr int rows_of(const unsigned int order)
 {
   return order == 1 ? 48 : 24;

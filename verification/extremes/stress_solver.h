@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The cell problem on one rank, apart from deal.II; what the conjugate gradients of the cell problem cost against contrast, Poisson's ratio, anisotropy, the
-// quality of slivers and the size of the mesh: numbers without a limit, as a table.
+// The cell problem on one rank, apart from deal.II; what the conjugate gradients of the cell
+// problem cost against contrast, Poisson's ratio, anisotropy, the quality of slivers and the size
+// of the mesh: numbers without a limit, as a table.
 #pragma once
 
 #include "verification/extremes/stress_cells.h"

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
-// A free sheet that spins, and what theory promises of each integrator. Both Euler methods keep the linear momentum and let the
-// energy fall; of the angular momentum they lose a share in each step. The conserving one keeps all three.
-// Whether a sheet turns at all is judged by its motion, (x_{n+1} − x_n)/h: of a rigid body with the angular velocity ω implicit
-// Euler leaves the share 1/sqrt(1 + (h ω)²) of its angular momentum in it, the midpoint rule 1/(1 + (h ω/2)²).
+// A free sheet that spins, and what theory promises of each integrator. Both Euler methods keep the
+// linear momentum and let the energy fall; of the angular momentum they lose a share in each step.
+// The conserving one keeps all three. Whether a sheet turns at all is judged by its motion,
+// (x_{n+1} − x_n)/h: of a rigid body with the angular velocity ω implicit Euler leaves the share
+// 1/sqrt(1 + (h ω)²) of its angular momentum in it, the midpoint rule 1/(1 + (h ω/2)²).
 #include "shell/solver/rigid_motion.h"
 #include "verification/extremes/stress_cases.h"
 #include "verification/record/fields.h"
@@ -22,14 +23,16 @@ namespace
 {
 constexpr int n = 8; ///< cells per side of the sheet
 
-const char *const of_what_is_kept =
-  "theory: both Euler methods keep the linear momentum and let the energy fall, the conserving one keeps the "
-  "energy and both momenta to its solve, which ends at 1e-8 of the forces and once more by Newton's method, "
-  "which squares that; requirement: ten digits over all steps";
-const char *const of_turning =
-  "theory gives the share of the angular momentum in the motion of a step, 1/sqrt(1 + (h omega)^2) of "
-  "implicit Euler and 1/(1 + (h omega/2)^2) of the midpoint rule for a rigid body; requirement: no step has "
-  "less than half of it, where a sheet that freezes has none";
+const char *const of_what_is_kept = "theory: both Euler methods keep the linear momentum and let "
+                                    "the energy fall, the conserving one keeps the "
+                                    "energy and both momenta to its solve, which ends at 1e-8 of "
+                                    "the forces and once more by Newton's method, "
+                                    "which squares that; requirement: ten digits over all steps";
+const char *const of_turning = "theory gives the share of the angular momentum in the motion of a "
+                               "step, 1/sqrt(1 + (h omega)^2) of "
+                               "implicit Euler and 1/(1 + (h omega/2)^2) of the midpoint rule for "
+                               "a rigid body; requirement: no step has "
+                               "less than half of it, where a sheet that freezes has none";
 
 struct Spin
 {
@@ -87,7 +90,8 @@ StressAnswer keep(Cloth cloth, const Spin &spin, const bool and_spin, const int 
   return {worst, state_of(cloth)};
 }
 
-/// The share of the angular momentum that theory leaves in the motion over that which is seen, the largest of all steps.
+/// The share of the angular momentum that theory leaves in the motion over that which is seen, the
+/// largest of all steps.
 StressAnswer turn(Cloth cloth, const Spin &spin, const Integrator integrator, const int n_steps)
 {
   const Eigen::VectorXd &m = cloth.masses();

@@ -23,8 +23,8 @@ struct StressStudyOptions
   bool quiet      = false;
 };
 
-/// Runs all cases and writes, into the output folder, stress.csv and solver.csv row by row, verdicts.json
-/// and study.json. Cases and measurements that have a row there are not run again.
+/// Runs all cases and writes, into the output folder, stress.csv and solver.csv row by row,
+/// verdicts.json and study.json. Cases and measurements that have a row there are not run again.
 /// Cells are homogenized with P1 by all ranks; the cases run on the first rank, on one thread.
 /// @throws BadInput, NotConverged of the cells, BadInput of the folder; what a case throws is its
 /// outcome

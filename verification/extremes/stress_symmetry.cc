@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Stress cases of a cell that is another description of the same cloth: cut elsewhere, moved, repeated, turned,
-// mirrored, in other units.
+// Stress cases of a cell that is another description of the same cloth: cut elsewhere, moved,
+// repeated, turned, mirrored, in other units.
 #include "verification/extremes/stress_cell_group.h"
 #include "verification/record/number_text.h"
 
@@ -10,7 +10,8 @@ namespace homespun::verification
 {
 namespace
 {
-/// The same cloth from another place of the sheet. A hole must lie inside of the cell: what cuts one is refused.
+/// The same cloth from another place of the sheet. A hole must lie inside of the cell: what cuts
+/// one is refused.
 void cut_elsewhere(CellGroup &group, const std::string &what, const UnitCell &moved,
                    const Eigen::RowVector2d &origin, const UnitCell &original,
                    const Eigen::Matrix2d &Q)

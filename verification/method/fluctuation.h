@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The fluctuation of a resolved sheet: what it does beside the motion of the homogenized sheet. It is what
-// up-sampling has to restore, and by its size an error of up-sampling is judged.
+// The fluctuation of a resolved sheet: what it does beside the motion of the homogenized sheet. It
+// is what up-sampling has to restore, and by its size an error of up-sampling is judged.
 #pragma once
 
 #include "verification/method/homogenized_sheet.h"
@@ -19,10 +19,11 @@ struct Fluctuation
 
 /// Fluctuations of one sheet under one load, from strain to strain.
 ///
-/// The homogenized sheet has the stiffness C^H in every triangle, the same edges held, and quads a quarter of
-/// a cell wide, so that its own discretization counts little; how much, `bar` says. Its law is `linear` for
-/// the reference of that law and `biot` for all others: those approach each other as strain squared,
-/// and C^H has no other. In an infinite cloth it is the affine motion, exactly.
+/// The homogenized sheet has the stiffness C^H in every triangle, the same edges held, and quads a
+/// quarter of a cell wide, so that its own discretization counts little; how much, `bar` says. Its
+/// law is `linear` for the reference of that law and `biot` for all others: those approach each
+/// other as strain squared, and C^H has no other. In an infinite cloth it is the affine motion,
+/// exactly.
 class FluctuationMeasure
 {
 public:

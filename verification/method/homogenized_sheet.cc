@@ -161,8 +161,9 @@ shell::Positions<2> HomogenizedSheet::solve(const NonlinearLocalization &excess,
     const shell::Positions<2> move = matrix.solve(gradient);
     positions -= move;
     history.push_back(move.norm());
-    // Relative to what the excess moves at all; where it moves nothing, to what the load does; and no finer than rounded
-    // gradients allow, which are differences of positions over 1/n of the sheet.
+    // Relative to what the excess moves at all; where it moves nothing, to what the load does; and
+    // no finer than rounded gradients allow, which are differences of positions over 1/n of the
+    // sheet.
     const double round_off =
       4. * std::numeric_limits<double>::epsilon() * std::max(n1, n2) * mesh.vertices.norm();
     if (history.back() <= std::max({1e-6 * (positions - start).norm(),
@@ -249,7 +250,8 @@ LocalState HomogenizedSheet::at_fine_vertices(const Law law, const shell::Positi
   const std::vector<Eigen::Matrix2d> F = gradients(positions);
   std::vector<Eigen::Matrix2d> mean(static_cast<std::size_t>(coarser.mesh.n_triangles()),
                                     Eigen::Matrix2d::Zero());
-  // A quad on the diagonal of its coarse quad has one triangle on either side, others have both on one.
+  // A quad on the diagonal of its coarse quad has one triangle on either side, others have both on
+  // one.
   for (int j = 0; j < n2; ++j)
     for (int i = 0; i < n1; ++i)
       for (int upper = 0; upper < 2; ++upper)

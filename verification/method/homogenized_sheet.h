@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The homogenized sheet on a coarse mesh of any fineness, and what localization reads off it at the fine
-// vertices: position, strain and lift, each of which an error budget turns apart from the others.
+// The homogenized sheet on a coarse mesh of any fineness, and what localization reads off it at the
+// fine vertices: position, strain and lift, each of which an error budget turns apart from the
+// others.
 #pragma once
 
 #include "localization/coarse_frames.h"
@@ -51,8 +52,9 @@ public:
                             const shell::EquilibriumOptions &options = {},
                             int *iterations                          = nullptr) const;
 
-  /// Equilibrium with the stress C e + S'(e), S' the excess over the linear theory: Newton's method with the
-  /// Hessian of the corotational energy at `start`, which converges linearly since S' is small.
+  /// Equilibrium with the stress C e + S'(e), S' the excess over the linear theory: Newton's method
+  /// with the Hessian of the corotational energy at `start`, which converges linearly since S' is
+  /// small.
   /// @throws NotConverged
   shell::Positions<2> solve(const NonlinearLocalization &excess,
                             const shell::Positions<2> &start) const;
@@ -61,11 +63,13 @@ public:
   Eigen::Matrix<double, Eigen::Dynamic, 3> strains(Law law,
                                                    const shell::Positions<2> &positions) const;
 
-  /// Positions, strain and lift at the fine vertices: averaged to the coarse vertices, linear in between.
+  /// Positions, strain and lift at the fine vertices: averaged to the coarse vertices, linear in
+  /// between.
   LocalState at_fine_vertices(Law law, const shell::Positions<2> &positions) const;
 
-  /// The same, but with strain and lift of the mean deformation gradient over each triangle of a coarser mesh,
-  /// averaged to its vertices and linear there, as if that mesh carried this solution.
+  /// The same, but with strain and lift of the mean deformation gradient over each triangle of a
+  /// coarser mesh, averaged to its vertices and linear there, as if that mesh carried this
+  /// solution.
   /// @param coarser whose quads are each cut into r x r of this sheet
   LocalState at_fine_vertices(Law law, const shell::Positions<2> &positions,
                               const HomogenizedSheet &coarser) const;

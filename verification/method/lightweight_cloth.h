@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The method under test, as a game would run it: the coarse cloth in equilibrium under the load, and
-// the fine positions up-sampled from it; with the variants that a report holds beside the default.
+// The method under test, as a game would run it: the coarse cloth in equilibrium under the load,
+// and the fine positions up-sampled from it; with the variants that a report holds beside the
+// default.
 #pragma once
 
 #include "localization/upsampler.h"
@@ -32,7 +33,8 @@ public:
   /// The options against a law: the linear one takes the linear strain and no lift.
   localization::UpsamplerOptions options(Law law) const;
 
-  /// Whether the method differs from `localized` under a law: a lift has no meaning in linear theory.
+  /// Whether the method differs from `localized` under a law: a lift has no meaning in linear
+  /// theory.
   bool has_meaning(Law law) const;
 
   const std::string name;

@@ -146,15 +146,15 @@ void add_homogenize_command(CLI::App &app, Action &action)
       ->check(CLI::Range(100u, 20000000u))
       ->capture_default_str();
   command
-    ->add_flag(
-      "!--no-bars", arguments->study.bars,
-      "Neither bracket nor the finer solve of the error bar: the cell problems alone, for large meshes")
+    ->add_flag("!--no-bars", arguments->study.bars,
+               "Neither bracket nor the finer solve of the error bar: the cell problems alone, for "
+               "large meshes")
     ->excludes(tolerance)
     ->excludes(max_dofs);
   command
-    ->add_flag(
-      "--pieces", arguments->study.pieces,
-      "Also characteristic-displacements-refined.pvtu: on the mesh of the solve, a piece from each rank")
+    ->add_flag("--pieces", arguments->study.pieces,
+               "Also characteristic-displacements-refined.pvtu: on the mesh of the solve, a piece "
+               "from each rank")
     ->excludes(tolerance);
   add_folder_options(*command, arguments->study, "out/NAME/homogenize");
   command->footer("Example:\n  homespun homogenize meshes/cells/layered.prm\n"
@@ -177,8 +177,8 @@ void add_cells_command(CLI::App &app, Action &action, AfterMpi &afterwards)
       if (command->get_subcommands().empty())
         action = [&afterwards, pictures]() { return list_cells(*pictures, afterwards); };
     });
-  command->footer(
-    "Example:\n  homespun cells\n  homespun cells --pictures out/cells\n  homespun cells make twill --set yarn_width=0.4");
+  command->footer("Example:\n  homespun cells\n  homespun cells --pictures out/cells\n  homespun "
+                  "cells make twill --set yarn_width=0.4");
 
   CLI::App *make_command = command->add_subcommand(
     "make", "Copy a shipped cell, change parameters of its Gmsh source, mesh and check it");

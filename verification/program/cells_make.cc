@@ -187,8 +187,8 @@ std::vector<CellParameter> cell_parameters(const std::string &geo_file)
   if (begin != std::string::npos && end != std::string::npos)
   {
     const std::string list = text.substr(begin, end - begin);
-    const std::regex entry(
-      R"re((\w+)\s*=\s*\{\s*([^,]+),\s*Min\s+([^,]+),\s*Max\s+([^,]+),\s*(Step\s+1\s*,)?\s*Name\s+"Parameters/([^"]*)"\s*\})re");
+    const std::regex entry(R"re((\w+)\s*=\s*\{\s*([^,]+),\s*Min\s+([^,]+),\s*Max\s+([^,]+),\s*)re"
+                           R"re((Step\s+1\s*,)?\s*Name\s+"Parameters/([^"]*)"\s*\})re");
     for (std::sregex_iterator found(list.begin(), list.end(), entry);
          found != std::sregex_iterator(); ++found)
       parameters.push_back({(*found)[1], std::stod((*found)[2]), std::stod((*found)[3]),

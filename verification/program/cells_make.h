@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Variants of the shipped cells: the parameters of a cell's Gmsh source, and a copy of the cell with some of them
-// changed, meshed by Gmsh.
+// Variants of the shipped cells: the parameters of a cell's Gmsh source, and a copy of the cell
+// with some of them changed, meshed by Gmsh.
 #pragma once
 
 #include <string>
@@ -8,7 +8,8 @@
 
 namespace homespun::verification
 {
-/// A parameter of a .geo file: `name = { value, Min least, Max most, Name "Parameters/text" }` in its DefineConstant.
+/// A parameter of a .geo file: `name = { value, Min least, Max most, Name "Parameters/text" }` in
+/// its DefineConstant.
 struct CellParameter
 {
   std::string name;
@@ -33,10 +34,12 @@ struct CellVariant
   std::string output = ".";          ///< folder, made where it is missing
 };
 
-/// Writes NAME.geo (whose defaults are the values asked for), NAME.msh (made from it by Gmsh) and NAME.prm into the
-/// output folder. All three are written after the new cell has been found sound, or none.
+/// Writes NAME.geo (whose defaults are the values asked for), NAME.msh (made from it by Gmsh) and
+/// NAME.prm into the output folder. All three are written after the new cell has been found sound,
+/// or none.
 /// @return the .prm file
-/// @throws BadInput with one message per fault: a cell or parameter that does not exist, a value that is no number or
-///   out of range, files that exist already, Gmsh missing or failing, a cell that is not sound
+/// @throws BadInput with one message per fault: a cell or parameter that does not exist, a value
+///   that is no number or out of range, files that exist already, Gmsh missing or failing, a cell
+///   that is not sound
 std::string make_cell(const CellVariant &variant);
 } // namespace homespun::verification

@@ -10,10 +10,12 @@
 
 namespace homespun::verification
 {
-/// Reads a cell and prints what it is, its warnings, and on the error stream its errors. First rank.
+/// Reads a cell and prints what it is, its warnings, and on the error stream its errors. First
+/// rank.
 homogenization::CellReading tell_findings(const std::string &file);
 
-/// Writes check.json into a folder and leaves a picture of each cell, as .svg and .png, to be drawn there. First rank.
+/// Writes check.json into a folder and leaves a picture of each cell, as .svg and .png, to be drawn
+/// there. First rank.
 void write_pictures(const std::vector<homogenization::CellReading> &readings,
                     const std::string &folder, AfterMpi &afterwards);
 } // namespace homespun::verification

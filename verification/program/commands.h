@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The commands of the program. Each adds itself to the command line and, when chosen, leaves what is
-// to be run; the exit status is what that returns.
+// The commands of the program. Each adds itself to the command line and, when chosen, leaves what
+// is to be run; the exit status is what that returns.
 #pragma once
 
 #include <CLI/App.hpp>
@@ -13,7 +13,8 @@ namespace homespun::verification
 using Action = std::function<int()>;
 
 /// What is left to do when MPI has ended, on the first rank: the report, which is drawn by several
-/// processes and needs the cores that idle ranks would keep busy, or runs of mpirun. Returns an exit status.
+/// processes and needs the cores that idle ranks would keep busy, or runs of mpirun. Returns an
+/// exit status.
 using AfterMpi = std::function<int()>;
 
 void add_check_command(CLI::App &app, Action &action, AfterMpi &afterwards);

@@ -6,8 +6,9 @@
 
 namespace homespun::verification
 {
-/// The folder share/homespun/INSTALLED of the prefix in which the running program is installed, and for a
-/// program that runs in its build tree the folder IN_SOURCES of the sources. The prefix is found from the
-/// program itself, so that an installed tree may be moved and never reads the sources.
+/// The folder share/homespun/INSTALLED of the prefix in which the running program is installed, and
+/// for a program that runs in its build tree the folder IN_SOURCES of the sources. The prefix is
+/// found from the program itself, so that an installed tree may be moved and never reads the
+/// sources.
 std::string data_folder(const std::string &installed, const std::string &in_sources);
 } // namespace homespun::verification

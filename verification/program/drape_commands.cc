@@ -86,8 +86,10 @@ void add_drape_command(CLI::App &app, Action &action, AfterMpi &afterwards,
   add_folder_options(*command, study, "out/SCENE/drape, --quick drape-quick");
   arguments->end.add_options(*command);
   command->footer(
-    "References: shell is this program's own cloth with a stiffness per triangle, the naive way at its\n"
-    "best; biot and green are finite elements (deal.II), on all ranks, for sheets under gravity that are\n"
+    "References: shell is this program's own cloth with a stiffness per triangle, the naive way at "
+    "its\n"
+    "best; biot and green are finite elements (deal.II), on all ranks, for sheets under gravity "
+    "that are\n"
     "held by edges, corners or vertices.\n"
     "Examples:\n  homespun drape meshes/scenes/hang.prm\n"
     "  mpirun -n 2 homespun drape meshes/scenes/pull.prm --references biot\n"

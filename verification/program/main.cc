@@ -67,11 +67,13 @@ int run(int argc, char **argv, homespun::verification::AfterMpi &afterwards)
     "homespun");
   app.set_version_flag("--version", version_text());
   app.require_subcommand(1);
-  app.footer(
-    "Exit status, the worst in this order: 2 bad input; 3 a solver did not converge where it had to; "
-    "1 a claim failed;\n4 a claim is open; 0 all claims hold. Claims are of the program, of the input, "
-    "or of the method.\n`homespun COMMAND --help` teaches a command; `mpirun -n N homespun ...` works for "
-    "every command that solves.");
+  app.footer("Exit status, the worst in this order: 2 bad input; 3 a solver did not converge where "
+             "it had to; "
+             "1 a claim failed;\n4 a claim is open; 0 all claims hold. Claims are of the program, "
+             "of the input, "
+             "or of the method.\n`homespun COMMAND --help` teaches a command; `mpirun -n N "
+             "homespun ...` works for "
+             "every command that solves.");
   Action action;
   add_check_command(app, action, afterwards);
   add_homogenize_command(app, action);
@@ -95,8 +97,8 @@ int run(int argc, char **argv, homespun::verification::AfterMpi &afterwards)
     return is_fault ? 2 : 0;
   }
   const int status = guarded(action, is_root);
-  // A launcher ends all ranks when one of them ends with another status than zero, and the first one may have a
-  // report to make yet: what the claims come to is its word alone.
+  // A launcher ends all ranks when one of them ends with another status than zero, and the first
+  // one may have a report to make yet: what the claims come to is its word alone.
   const bool is_of_claims =
     status == exit_status::claim_failed || status == exit_status::claim_open;
   return is_of_claims && !is_root ? exit_status::good : status;

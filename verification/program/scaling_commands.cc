@@ -19,9 +19,9 @@ int prepare(ScalingOptions options, AfterMpi &afterwards)
 {
   ArgumentFaults faults;
   if (dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD) > 1)
-    faults.add(
-      "scaling starts its ranks itself; expected it without mpirun: use --ranks, and --launcher for another way "
-      "to start them");
+    faults.add("scaling starts its ranks itself; expected it without mpirun: use --ranks, and "
+               "--launcher for another way "
+               "to start them");
   const auto check_list =
     [&](const char *name, const std::vector<int> &values, const int least, const int most)
   {
@@ -86,11 +86,13 @@ void add_scaling_command(CLI::App &app, Action &action, AfterMpi &afterwards,
       "times are not modelled")
     ->check(CLI::Range(1, 100000000));
   add_folder_options(*command, *options, "out/NAME/scaling");
-  command->footer(
-    "Rows of one mesh are strong scaling; four times the ranks on a mesh refined once more is weak scaling. More ranks than\n"
-    "cores share them, and their times say nothing. verification/SCALING.md tells what the figures mean.\n"
-    "Example:\n  homespun scaling meshes/cells/three-stiffness.prm\n"
-    "  homespun scaling mycell.prm --refine 4,5,6 --ranks 16,64,256 --launcher \"srun -n {ranks}\"");
+  command->footer("Rows of one mesh are strong scaling; four times the ranks on a mesh refined "
+                  "once more is weak scaling. More ranks than\n"
+                  "cores share them, and their times say nothing. verification/SCALING.md tells "
+                  "what the figures mean.\n"
+                  "Example:\n  homespun scaling meshes/cells/three-stiffness.prm\n"
+                  "  homespun scaling mycell.prm --refine 4,5,6 --ranks 16,64,256 --launcher "
+                  "\"srun -n {ranks}\"");
   command->callback(
     [&action, &afterwards, options]()
     { action = [&afterwards, options]() { return prepare(*options, afterwards); }; });

@@ -37,9 +37,9 @@ int run_stress(StressArguments arguments, AfterMpi &afterwards)
 void add_stress_command(CLI::App &app, Action &action, AfterMpi &afterwards,
                         const std::string &command_line)
 {
-  CLI::App *command = app.add_subcommand(
-    "stress",
-    "What should break a cell or a cloth: each case must end in a finite answer or a named refusal");
+  CLI::App *command =
+    app.add_subcommand("stress", "What should break a cell or a cloth: each case must end in a "
+                                 "finite answer or a named refusal");
   const auto arguments     = std::make_shared<StressArguments>();
   arguments->study.command = command_line;
   command->add_option("CELL.prm", arguments->study.cell_files,

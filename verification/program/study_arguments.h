@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// What the commands that run a study share: lists on the command line, faults of names collected over
-// all options, and the end of a command: verdicts on the terminal, the report, the exit status.
+// What the commands that run a study share: lists on the command line, faults of names collected
+// over all options, and the end of a command: verdicts on the terminal, the report, the exit
+// status.
 #pragma once
 
 #include "meshes/plain/errors.h"
@@ -100,7 +101,8 @@ struct StudyEnd
   /// Adds --no-report.
   void add_options(CLI::App &command);
 
-  /// Prints the verdicts and leaves the report of the output folder to be made, both on the first rank.
+  /// Prints the verdicts and leaves the report of the output folder to be made, both on the first
+  /// rank.
   /// @return the exit status: status_of() the verdicts
   int conclude(const std::vector<Verdict> &verdicts, const std::string &output, bool quiet,
                AfterMpi &afterwards) const;

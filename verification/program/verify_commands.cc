@@ -48,7 +48,8 @@ int run_verify(VerifyArguments arguments, AfterMpi &afterwards)
       print(result.verdicts);
     if (!arguments.no_report)
     {
-      // The first folder holds the claims of all parts, those too of a part that did not run to its end.
+      // The first folder holds the claims of all parts, those too of a part that did not run to its
+      // end.
       std::vector<std::string> folders = {options.output};
       folders.insert(folders.end(), result.folders.begin(), result.folders.end());
       afterwards = [folders, output = options.output, quiet = options.quiet]()
@@ -78,9 +79,12 @@ void add_verify_command(CLI::App &app, Action &action, AfterMpi &afterwards,
   command->add_flag("--quick", options.quick, "Small sizes everywhere: minutes");
   command->add_flag("--no-report", arguments->no_report, "Leave out report.html");
   command->footer(
-    "Parts: homogenize (brackets of C^H), strain (error against strain, budget, run time, range of validity),\n"
-    "converge (observed orders), stress (stability), drape (hang and pull in motion against biot).\n"
-    "The first line says PASS, or FAIL with the first claim that failed; each part has a folder of its own.\n"
+    "Parts: homogenize (brackets of C^H), strain (error against strain, budget, run time, range of "
+    "validity),\n"
+    "converge (observed orders), stress (stability), drape (hang and pull in motion against "
+    "biot).\n"
+    "The first line says PASS, or FAIL with the first claim that failed; each part has a folder of "
+    "its own.\n"
     "Taken up again, cells are homogenized again; all else keeps what is there.\n"
     "Example:\n  homespun verify mycell.prm --quick\n  mpirun -n 2 homespun verify mycell.prm");
   command->callback(

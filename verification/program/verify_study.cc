@@ -67,8 +67,8 @@ private:
     return all;
   }
 
-  /// All that a study refuses of a cell is asked before anything runs: hours of work must not end at the last one's
-  /// fault.
+  /// All that a study refuses of a cell is asked before anything runs: hours of work must not end
+  /// at the last one's fault.
   void read_cells()
   {
     std::vector<std::string> faults;
@@ -184,7 +184,8 @@ private:
     study.variants   = {"corotational"};
     study.methods    = {"affine", "localized", "localized-affine-lift"};
     study.references = {"biot"};
-    // The reference takes seconds per step at the paper's size, and minutes to hours over all steps.
+    // The reference takes seconds per step at the paper's size, and minutes to hours over all
+    // steps.
     study.n_cells              = options.quick ? 4 : 8;
     study.n_cells_of_error_bar = options.quick ? 0 : 4;
     if (options.quick)

@@ -34,9 +34,10 @@ struct Verification
 const std::vector<std::string> &verify_parts();
 
 /// Runs the parts one after the other, each into a folder of its own below the output, and writes
-/// verdicts.json with all claims. A part whose solver does not converge is a claim that failed, the others
-/// still run, and the exit status says so.
-/// @throws BadInput where a cell cannot be read or makes no sheet, or two share a name, before anything runs
+/// verdicts.json with all claims. A part whose solver does not converge is a claim that failed, the
+/// others still run, and the exit status says so.
+/// @throws BadInput where a cell cannot be read or makes no sheet, or two share a name, before
+///   anything runs
 Verification verify(const VerifyOptions &options, MPI_Comm communicator);
 
 /// The outcome in one line: FAIL with the first claim that failed, INCONCLUSIVE where

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Other programs that homespun runs: Python for the report, Gmsh for cells, mpirun for its own ranks.
+// Other programs that homespun runs: Python for the report, Gmsh for cells, mpirun for its own
+// ranks.
 #pragma once
 
 #include <string>
@@ -7,12 +8,13 @@
 
 namespace homespun::verification
 {
-/// Runs a program, found by its name as a shell would, without a shell, on all cores (mpirun binds a rank to one, and a child
-/// inherits that), and without the variables that MPI gives a rank, by which a program with MPI would take itself for one of
-/// ours.
+/// Runs a program, found by its name as a shell would, without a shell, on all cores (mpirun binds
+/// a rank to one, and a child inherits that), and without the variables that MPI gives a rank, by
+/// which a program with MPI would take itself for one of ours.
 /// @param log receives what it prints; empty: it prints where homespun prints
 /// @param variables "NAME=value" that it gets beside ours
-/// @return its exit status, as a shell tells it: 127 where it could not be run, 128 and the signal where it was killed by one
+/// @return its exit status, as a shell tells it: 127 where it could not be run, 128 and the signal
+///   where it was killed by one
 int run_child(const std::vector<std::string> &words, const std::string &log = "",
               const std::vector<std::string> &variables = {});
 

@@ -64,8 +64,8 @@ double slope_of(const std::vector<double> &h, const std::vector<double> &errors,
   return covariance / variance;
 }
 
-/// How far orders may still go in the direction of their last change: a change that falls by a common
-/// factor adds up to a geometric sum, else it may go on for as many levels as there are.
+/// How far orders may still go in the direction of their last change: a change that falls by a
+/// common factor adds up to a geometric sum, else it may go on for as many levels as there are.
 double reach_of(const std::vector<double> &orders)
 {
   const std::size_t n = orders.size();
@@ -95,8 +95,8 @@ Outcome below(const std::vector<double> &orders, const OrderLimit &limit, std::s
   return Outcome::fail;
 }
 
-/// The same of a last one above the limit. Orders that rise there have terms that cancel, which ends on
-/// finer levels; a plateau does not.
+/// The same of a last one above the limit. Orders that rise there have terms that cancel, which
+/// ends on finer levels; a plateau does not.
 Outcome above(const std::vector<double> &orders, const OrderLimit &limit, std::string &why)
 {
   const std::size_t n = orders.size();
@@ -276,7 +276,8 @@ Richardson extrapolated(const std::vector<double> &h, const std::vector<double> 
     result.why = "the values follow no power of h";
     return result;
   }
-  // 100 halvings end between two neighbouring numbers, never on p = 0, where the ratio is not defined.
+  // 100 halvings end between two neighbouring numbers, never on p = 0, where the ratio is not
+  // defined.
   for (int k = 0; k < 100; ++k)
   {
     const double middle = 0.5 * (lower + upper) + (lower + upper == 0. ? 1e-3 : 0.);

@@ -69,7 +69,8 @@ bool read_field(const std::string &field, std::optional<Value> &value)
   return read_field(field, value.emplace());
 }
 
-/// What a field of this domain should have been, where it is not: "a number above zero"; else empty.
+/// What a field of this domain should have been, where it is not: "a number above zero"; else
+/// empty.
 std::string fault_of(const std::string &field, Domain domain);
 
 /// The fields of a line of a CSV file.

@@ -19,8 +19,9 @@ inline std::string short_text(const double value)
   return text;
 }
 
-/// "2.12 +- 0.02": the value rounded to the place of the bar's first digit, and the bar with what that rounding did
-/// to the value added, rounded up to one digit: what is printed never claims more than what is known.
+/// "2.12 +- 0.02": the value rounded to the place of the bar's first digit, and the bar with what
+/// that rounding did to the value added, rounded up to one digit: what is printed never claims more
+/// than what is known.
 /// @param bar on the value, in its unit; not negative
 inline std::string with_bar(const double value, const double bar)
 {

@@ -54,8 +54,8 @@ void on_root(const MPI_Comm communicator, Work &&work)
     throw meshes::BadInput("the first rank failed");
 }
 
-/// Verdicts of work on the first rank: the worst outcome there becomes one of every rank, so that all end
-/// with the same status. All ranks must call this.
+/// Verdicts of work on the first rank: the worst outcome there becomes one of every rank, so that
+/// all end with the same status. All ranks must call this.
 inline void share_failure(std::vector<Verdict> &verdicts, const MPI_Comm communicator)
 {
   int status = status_of(verdicts);

@@ -8,7 +8,8 @@
 
 namespace homespun::verification
 {
-/// The revision of the sources; of sources that were changed since, with a checksum of the program itself.
+/// The revision of the sources; of sources that were changed since, with a checksum of the program
+/// itself.
 std::string revision();
 
 /// Versions of homespun and of every library, compiler, flags, host, processor, date (UTC), ranks.

@@ -88,8 +88,8 @@ std::optional<ordered_json> description_in(const std::string &folder)
   return json;
 }
 
-/// What lies in a folder and is of no run, told by the list of a run that ended, and by the kinds of
-/// files that runs write where one did not.
+/// What lies in a folder and is of no run, told by the list of a run that ended, and by the kinds
+/// of files that runs write where one did not.
 std::vector<std::string> foreign_files(const std::string &folder,
                                        const std::optional<ordered_json> &earlier)
 {

@@ -27,14 +27,14 @@ struct RunDescription
   nlohmann::ordered_json inputs; ///< all that the results depend on, but for the revision
 };
 
-/// The folder of a run, locked as long as this lives; the lock goes with the process, however that ends.
-/// On the first rank alone.
+/// The folder of a run, locked as long as this lives; the lock goes with the process, however that
+/// ends. On the first rank alone.
 class RunFolder
 {
 public:
   /// Makes the folder, or takes up the run in it, or removes that and begins anew.
-  /// @throws BadInput, with nothing touched, where the folder belongs to a process that runs, holds what
-  ///   no run wrote, or holds another run and `earlier` says to keep it
+  /// @throws BadInput, with nothing touched, where the folder belongs to a process that runs, holds
+  ///   what no run wrote, or holds another run and `earlier` says to keep it
   RunFolder(std::string path, const RunDescription &description, Earlier earlier);
   RunFolder(const RunFolder &)            = delete;
   RunFolder &operator=(const RunFolder &) = delete;
@@ -52,8 +52,8 @@ public:
     return line;
   }
 
-  /// Lists every file with its size and checksum in run.json, and says that the run came to its end:
-  /// pages take only what is listed, unchanged.
+  /// Lists every file with its size and checksum in run.json, and says that the run came to its
+  /// end: pages take only what is listed, unchanged.
   void finish();
 
   const std::string path;
@@ -73,11 +73,12 @@ std::unique_ptr<RunFolder> open_run_folder(const std::string &path,
                                            const RunDescription &description, Earlier earlier,
                                            bool quiet);
 
-/// Lists the page and the figures of a finished run, after they were made; what it listed of its results stays.
-/// Does nothing where the folder holds no run.
+/// Lists the page and the figures of a finished run, after they were made; what it listed of its
+/// results stays. Does nothing where the folder holds no run.
 void list_report(const std::string &path);
 
-/// The name of a place of the command's own: out/NAMES/COMMAND, with -quick where the sizes are small.
+/// The name of a place of the command's own: out/NAMES/COMMAND, with -quick where the sizes are
+/// small.
 /// @param names of the cells or of the scene, joined by + up to three
 std::string default_folder(const std::string &command, const std::vector<std::string> &names,
                            bool is_quick);

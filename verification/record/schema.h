@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The tables as the report reads them: their columns once, from the structs that the program writes.
+// The tables as the report reads them: their columns once, from the structs that the program
+// writes.
 #pragma once
 
 #include "verification/record/table.h"

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Times of repeated work, by their median: the one figure that neither a cold start nor a busy machine decides.
+// Times of repeated work, by their median: the one figure that neither a cold start nor a busy
+// machine decides.
 #pragma once
 
 #include <algorithm>
@@ -20,7 +21,8 @@ inline double median(std::vector<double> values)
   return n % 2 == 1 ? values[n / 2] : 0.5 * (values[n / 2 - 1] + values[n / 2]);
 }
 
-/// Half of the distance between the medians of the lower and the upper half; not a number of less than two.
+/// Half of the distance between the medians of the lower and the upper half; not a number of less
+/// than two.
 inline double half_of_interquartile_range(std::vector<double> values)
 {
   std::sort(values.begin(), values.end());

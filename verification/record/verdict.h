@@ -31,9 +31,9 @@ std::string name_of(Kind kind);
 
 /// A claim, the measured figure, what it had to be, where that limit comes from, and the outcome.
 ///
-/// A limit is known before the figure: from theory, from round-off, or from an error bar of the same
-/// run; `derivation` says which and how. A number that was chosen because figures lay below it is no
-/// limit, and what it would judge is a note.
+/// A limit is known before the figure: from theory, from round-off, or from an error bar of the
+/// same run; `derivation` says which and how. A number that was chosen because figures lay below it
+/// is no limit, and what it would judge is a note.
 struct Verdict
 {
   std::string claim;
@@ -44,8 +44,8 @@ struct Verdict
   Kind kind              = Kind::program;
 };
 
-/// The larger of a maximum so far and one value more. Once one of them was not a number it stays so, where
-/// std::max would drop it and a check would pass.
+/// The larger of a maximum so far and one value more. Once one of them was not a number it stays
+/// so, where std::max would drop it and a check would pass.
 inline double larger(const double so_far, const double next)
 {
   return std::isnan(so_far) || next <= so_far ? so_far : next;
@@ -67,8 +67,8 @@ constexpr int not_converged = 3;
 constexpr int claim_open    = 4;
 } // namespace exit_status
 
-/// The worse of two exit statuses, in this order: bad input, a solver that did not converge, a claim
-/// that failed, a claim that is open, good.
+/// The worse of two exit statuses, in this order: bad input, a solver that did not converge, a
+/// claim that failed, a claim that is open, good.
 int worse(int one, int other);
 
 /// What verdicts amount to: claim_failed, claim_open or good.

@@ -31,9 +31,10 @@ meshes::TriangleMesh checked(const meshes::TriangleMesh &rest,
   return meshes::refined(rest, static_cast<int>(options.refine));
 }
 
-/// Integrals of N_i N_j over a triangle of area 1, shapes as deal.II numbers them: vertices, then the
-/// midpoints of the edges (0,1), (1,2), (2,0). Lumped: row sums for P1; for P2, whose row sums vanish at
-/// the vertices, the diagonal scaled to the whole mass (Hinton, Rock, Zienkiewicz 1976): 1/19 and 16/57.
+/// Integrals of N_i N_j over a triangle of area 1, shapes as deal.II numbers them: vertices, then
+/// the midpoints of the edges (0,1), (1,2), (2,0). Lumped: row sums for P1; for P2, whose row sums
+/// vanish at the vertices, the diagonal scaled to the whole mass (Hinton, Rock, Zienkiewicz 1976):
+/// 1/19 and 16/57.
 Eigen::MatrixXd mass_of_unit_triangle(const unsigned int order, const bool consistent)
 {
   Eigen::MatrixXd mass;
@@ -86,8 +87,8 @@ ClothReference::ClothReference(const meshes::TriangleMesh &rest,
   lay_out();
 }
 
-/// Elements and nodes. A rank computes all triangles that touch one of its nodes, its neighbours' too:
-/// each row of the matrix is then complete without sending any.
+/// Elements and nodes. A rank computes all triangles that touch one of its nodes, its neighbours'
+/// too: each row of the matrix is then complete without sending any.
 void ClothReference::lay_out()
 {
   const IndexSet &relevant = discretization.locally_relevant;
@@ -188,7 +189,8 @@ void ClothReference::resume(const meshes::SpacePoints &positions,
   positions_at_vertices = at_vertices(position);
 }
 
-/// Takes up what is held at a time, and the body force; the matrix is laid out anew where that has changed.
+/// Takes up what is held at a time, and the body force; the matrix is laid out anew where that has
+/// changed.
 void ClothReference::hold(const double new_time)
 {
   const std::size_t n = node_points.size();

@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: MIT
-// The resolved cloth in motion that an up-sampled one is held against: every triangle of a flat rest
-// mesh with its own stiffness and density, three displacement components, no bending. With W the law's
-// energy per rest area and M the mass matrix the positions x minimise
-//   implicit Euler  W(x) − g·M x + ½ (1/h² + alpha/h) |x − x_n − v_n / (1/h + alpha)|²_M,   v = (x − x_n)/h
+// The resolved cloth in motion that an up-sampled one is held against: every triangle of a flat
+// rest mesh with its own stiffness and density, three displacement components, no bending. With W
+// the law's energy per rest area and M the mass matrix the positions x minimise
+//   implicit Euler  W(x) − g·M x + ½ (1/h² + alpha/h) |x − x_n − v_n / (1/h + alpha)|²_M,
+//                   v = (x − x_n)/h
 //   statics         W(x) − g·M x
 // over the nodes that are not held. Newton's method with line search on these energies, conjugate
 // gradients with multigrid kept between steps.
 //
-// Gravity acts on the mass as it is discretised, M g. With lumped mass free fall is exact, and for P1
-// M g is the consistent load; for P2 it is not, so that P2 shows its third order with the consistent
-// mass only.
+// Gravity acts on the mass as it is discretised, M g. With lumped mass free fall is exact, and for
+// P1 M g is the consistent load; for P2 it is not, so that P2 shows its third order with the
+// consistent mass only.
 #pragma once
 
 #include "homogenization/fem/elastic_solver.h"
@@ -54,9 +55,9 @@ struct ClothStep
 class ClothReference
 {
 public:
-  /// The position [m] of a held point at a time [s], or nothing where the cloth is free. Asked at every
-  /// node of the discretisation (P2: midpoints too), on several ranks with the same answer. What is
-  /// held may change in time.
+  /// The position [m] of a held point at a time [s], or nothing where the cloth is free. Asked at
+  /// every node of the discretisation (P2: midpoints too), on several ranks with the same answer.
+  /// What is held may change in time.
   using Held = std::function<std::optional<Eigen::RowVector3d>(const Eigen::RowVector2d &rest_point,
                                                                double time)>;
   /// Position [m] of a rest point.
@@ -74,22 +75,24 @@ public:
   /// @throws BadInput where a position or a load is not finite or the damping negative
   void start(const Placement &initial_position, const Held &held, const ClothLoads &loads);
 
-  /// Takes up a run where it was left: to be called after start(). P1 on the mesh as given, whose vertices
-  /// are all nodes.
+  /// Takes up a run where it was left: to be called after start(). P1 on the mesh as given, whose
+  /// vertices are all nodes.
   /// @param positions, velocities (n,3) at the vertices of `rest` [m], [m/s]
-  /// @throws BadInput for another discretization, and where sizes do not match or a number is not finite
+  /// @throws BadInput for another discretization, and where sizes do not match or a number is not
+  ///   finite
   void resume(const meshes::SpacePoints &positions, const meshes::SpacePoints &velocities,
               double time);
 
-  /// One step of implicit Euler. A step that does not converge is cut in two, up to six times; where
-  /// that fails too, the cloth is left where it was before the step.
+  /// One step of implicit Euler. A step that does not converge is cut in two, up to six times;
+  /// where that fails too, the cloth is left where it was before the step.
   /// @param dt positive [s]
   ClothStep step(double dt);
 
-  /// Static equilibrium under the loads with the held points where they are at a time, from the present
-  /// positions; afterwards the cloth is at rest at that time. Pseudo-transient continuation: Newton's
-  /// method with a fictitious tension in its tangent, which falls to zero with the residual (a flat
-  /// sheet without stress has no stiffness along its normal). Equilibrium needs a sheet in tension.
+  /// Static equilibrium under the loads with the held points where they are at a time, from the
+  /// present positions; afterwards the cloth is at rest at that time. Pseudo-transient
+  /// continuation: Newton's method with a fictitious tension in its tangent, which falls to zero
+  /// with the residual (a flat sheet without stress has no stiffness along its normal). Equilibrium
+  /// needs a sheet in tension.
   ClothStep solve_equilibrium(double time);
 
   /// (n,3) at the vertices of `rest`, on every rank [m].

@@ -96,8 +96,8 @@ void ClothReference::lay_out_matrix()
     }
 }
 
-/// Energy, residual and, where asked for, the matrix, whose tangent has `tension` added to its stress
-/// (a fictitious isotropic one, for continuation; neither energy nor residual know of it).
+/// Energy, residual and, where asked for, the matrix, whose tangent has `tension` added to its
+/// stress (a fictitious isotropic one, for continuation; neither energy nor residual know of it).
 template <int n_shapes>
 ClothReference::Evaluation ClothReference::assemble(const Vector &positions, const Inertia &inertia,
                                                     Vector &residual, const Tangent tangent,

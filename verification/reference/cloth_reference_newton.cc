@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// How one step, or an equilibrium, of the resolved cloth is solved: Newton's method with line search, inexact
-// linear solves, a multigrid hierarchy that is kept.
+// How one step, or an equilibrium, of the resolved cloth is solved: Newton's method with line
+// search, inexact linear solves, a multigrid hierarchy that is kept.
 #include "meshes/plain/errors.h"
 #include "verification/reference/cloth_reference.h"
 

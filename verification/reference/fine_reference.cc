@@ -33,7 +33,8 @@ std::string note_of_round_off(const ReferenceStep &step)
   if (!step.is_at_round_off || !(step.relative_residual > 1e-6))
     return {};
   return "the reference is accepted at round-off: " + short_text(step.relative_residual) +
-         " of its forces are left, those of the stiff phases; expected 1e-6 at most: a smaller contrast, or a larger strain";
+         " of its forces are left, those of the stiff phases; expected 1e-6 at most: a smaller "
+         "contrast, or a larger strain";
 }
 
 FineReference::FineReference(const meshes::Sheet &sheet,
@@ -124,118 +125,6 @@ FineReference::Vector FineReference::guess(const double strain) const
     displacement.add(strain / s0 * (s1 - strain) / (s1 - s0), levels[0].displacement);
   }
   return displacement;
-}
-
-template <int n_shapes>
-FineReference::Evaluation
-FineReference::assemble(const Vector &displacement, const Eigen::Matrix2d &mean_gradient,
-                        Vector &residual, const bool with_matrix, const bool projected)
-{
-  constexpr int n = 2 * n_shapes;
-  const ReferenceElement &reference =
-    law == Law::linear ? discretization.stiffness_quadrature : discretization.nonlinear_quadrature;
-  IndexSet ghosts = constraints.get_local_lines();
-  ghosts.add_indices(discretization.locally_relevant);
-  Vector ghosted(discretization.locally_owned, ghosts, discretization.communicator);
-  ghosted  = displacement;
-  residual = 0.;
-  if (with_matrix)
-    solver->matrix = 0.;
-
-  Evaluation state;
-  std::vector<types::global_dof_index> dofs(n);
-  std::vector<double> values(n);
-  FullMatrix<double> element_matrix(n, n);
-  dealii::Vector<double> element_residual(n);
-  for (const auto &cell : discretization.dof_handler.active_cell_iterators())
-  {
-    if (!cell->is_locally_owned())
-      continue;
-    const unsigned int t = Discretization::triangle_of(cell);
-    const AffineTriangle triangle(discretization.mesh, t);
-    const Eigen::Matrix3d &C =
-      stiffness_of_phase[static_cast<std::size_t>(discretization.mesh.material(t))];
-    cell->get_dof_indices(dofs);
-    ghosted.extract_subvector_to(dofs, values);
-
-    const double rounded = std::numeric_limits<double>::epsilon() * C.cwiseAbs().maxCoeff();
-    bool is_inverted     = false;
-    Eigen::Matrix<double, n, n> K = Eigen::Matrix<double, n, n>::Zero();
-    Eigen::Matrix<double, n, 1> f = Eigen::Matrix<double, n, 1>::Zero();
-    for (std::size_t q = 0; q < reference.weights.size(); ++q)
-    {
-      // D maps the displacements of the nodes to the entries F11, F12, F21, F22 of grad u.
-      Eigen::Matrix<double, 4, n> D = Eigen::Matrix<double, 4, n>::Zero();
-      Eigen::Matrix2d F             = mean_gradient;
-      double size_of_terms = F.norm(), slopes = 0.; // of the sum that F is, and |grad v|^2
-      for (int i = 0; i < n_shapes; ++i)
-      {
-        const Eigen::Vector2d g =
-          triangle.inverse_transpose * reference.gradients[q][static_cast<std::size_t>(i)];
-        D.template block<2, 1>(0, 2 * i)     = g;
-        D.template block<2, 1>(2, 2 * i + 1) = g;
-        F.row(0) += values[static_cast<std::size_t>(2 * i)] * g.transpose();
-        F.row(1) += values[static_cast<std::size_t>(2 * i + 1)] * g.transpose();
-        size_of_terms += std::hypot(values[static_cast<std::size_t>(2 * i)],
-                                    values[static_cast<std::size_t>(2 * i + 1)]) *
-                         g.norm();
-        slopes += g.squaredNorm();
-      }
-      const double weight = reference.weights[q] * triangle.determinant;
-      if (!(F.determinant() > 0.))
-      {
-        is_inverted = true;
-        if (law == Law::green)
-          state.energy = std::numeric_limits<double>::infinity();
-      }
-      state.round_off += slopes * std::pow(weight * rounded * size_of_terms, 2);
-      const Response local = response(law, C, F);
-      state.energy += weight * local.energy;
-      state.energy_round_off +=
-        weight * local.stress.norm() * std::numeric_limits<double>::epsilon() * size_of_terms;
-      f.noalias() += weight * D.transpose() * local.stress;
-      if (with_matrix)
-        K.noalias() +=
-          weight * D.transpose() * (projected ? positive_part(local.tangent) : local.tangent) * D;
-    }
-    state.n_inverted += is_inverted;
-    state.force_size += f.squaredNorm();
-    for (unsigned int i = 0; i < n; ++i)
-      element_residual(i) = f(static_cast<Eigen::Index>(i));
-    constraints.distribute_local_to_global(element_residual, dofs, residual);
-    if (with_matrix)
-    {
-      for (unsigned int i = 0; i < n; ++i)
-        for (unsigned int j = 0; j < n; ++j)
-          element_matrix(i, j) = K(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
-      constraints.distribute_local_to_global(element_matrix, dofs, solver->matrix);
-    }
-  }
-  residual.compress(VectorOperation::add);
-  if (with_matrix)
-    solver->matrix.compress(VectorOperation::add);
-  state.energy           = Utilities::MPI::sum(state.energy, discretization.communicator);
-  state.energy_round_off = Utilities::MPI::sum(state.energy_round_off, discretization.communicator);
-  if (body_force)
-  {
-    residual.add(-1., body_load);
-    state.energy -= body_load * displacement;
-  }
-  state.n_inverted = Utilities::MPI::sum(state.n_inverted, discretization.communicator);
-  state.force_size = std::sqrt(Utilities::MPI::sum(state.force_size, discretization.communicator));
-  state.round_off  = std::sqrt(Utilities::MPI::sum(state.round_off, discretization.communicator));
-  state.residual   = residual.l2_norm();
-  return state;
-}
-
-FineReference::Evaluation FineReference::evaluate(const Vector &displacement,
-                                                  const Eigen::Matrix2d &mean_gradient,
-                                                  Vector &residual, const bool with_matrix,
-                                                  const bool projected)
-{
-  return options.order == 1
-           ? assemble<3>(displacement, mean_gradient, residual, with_matrix, projected)
-           : assemble<6>(displacement, mean_gradient, residual, with_matrix, projected);
 }
 
 /// Conjugate gradients with the multigrid hierarchy of an earlier matrix, as long as that serves.

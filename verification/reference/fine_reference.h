@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The resolved solution that an up-sampled cloth is held against: every triangle of the sheet, or of
-// one cell of an infinite cloth, with its own stiffness. Newton's method with line search, load
+// The resolved solution that an up-sampled cloth is held against: every triangle of the sheet, or
+// of one cell of an infinite cloth, with its own stiffness. Newton's method with line search, load
 // stepping with warm start, multigrid kept between steps.
 #pragma once
 
@@ -36,7 +36,8 @@ struct ReferenceStep
   double seconds          = 0.; ///< wall time of this level, slowest rank
 };
 
-/// What a reader has to know of a level that ended at round-off: empty unless it left more than a millionth of the forces.
+/// What a reader has to know of a level that ended at round-off: empty unless it left more than a
+/// millionth of the forces.
 std::string note_of_round_off(const ReferenceStep &step);
 
 struct ReferenceOptions
@@ -56,8 +57,8 @@ public:
   FineReference(const meshes::Sheet &sheet, std::vector<Eigen::Matrix3d> stiffness_of_phase,
                 const ReferenceOptions &options, MPI_Comm communicator);
 
-  /// Force per rest area [N/m^2] at a rest point and a strain. The loads of a study have none; a solution
-  /// that is prescribed (manufactured.h) needs one.
+  /// Force per rest area [N/m^2] at a rest point and a strain. The loads of a study have none; a
+  /// solution that is prescribed (manufactured.h) needs one.
   using BodyForce =
     std::function<Eigen::RowVector2d(const Eigen::RowVector2d &rest_point, double strain)>;
 
@@ -66,17 +67,18 @@ public:
   void start(const Load &load, Law law, BodyForce body_force = {});
 
   /// Solves at a strain, from the levels solved before: u(s) is extrapolated, u/s linear in s. A
-  /// step that does not converge is cut in two, up to three times; after that the level counts as not
-  /// reached, and the ones solved before stay. Under green a state with an inverted triangle
-  /// (det F <= 0) has infinite energy, because that law would reward it; under biot it is allowed (its
-  /// energy is that of the coarse cloth, smooth through the collapse) and counted.
+  /// step that does not converge is cut in two, up to three times; after that the level counts as
+  /// not reached, and the ones solved before stay. Under green a state with an inverted triangle
+  /// (det F <= 0) has infinite energy, because that law would reward it; under biot it is allowed
+  /// (its energy is that of the coarse cloth, smooth through the collapse) and counted.
   ReferenceStep advance(double strain);
 
-  /// How far the level solved last is from a known displacement, in the interior of the elements too; of
-  /// periodic loads from a known fluctuation, up to a constant.
+  /// How far the level solved last is from a known displacement, in the interior of the elements
+  /// too; of periodic loads from a known fluctuation, up to a constant.
   FieldDistance distance_from(const KnownField &known) const;
 
-  /// The last level once more from where it stands, to a smaller tolerance; later levels start from the result.
+  /// The last level once more from where it stands, to a smaller tolerance; later levels start from
+  /// the result.
   /// @param tolerance of |residual| relative to the size of the element forces
   ReferenceStep tighten(double tolerance);
 

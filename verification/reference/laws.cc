@@ -55,7 +55,8 @@ Response biot_response(const Eigen::Matrix3d &C, const Eigen::Matrix2d &F)
   const double U12 = c * F(0, 1) + s * F(1, 1);
   const Eigen::Vector3d strain(U11 - 1., U22 - 1., 2. * U12);
 
-  // The strain depends on F directly (L) and through the angle of the rotation (h, with dtheta = t.dF).
+  // The strain depends on F directly (L) and through the angle of the rotation (h, with dtheta =
+  // t.dF).
   StrainDerivative L, L_angle;
   L << c, 0., s, 0., //
     0., -s, 0., c,   //

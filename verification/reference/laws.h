@@ -36,9 +36,9 @@ struct Response
 /// The response of a law at a deformation gradient.
 ///
 /// biot: with a = F11 + F22, b = F21 − F12, r = |(a, b)| the rotation of the polar decomposition is
-/// R = (a, −b; b, a)/r and U = R^T F. Where det F > 0 this U is sqrt(F^T F); where det F < 0 it has a
-/// negative principal stretch, which costs energy, as in the coarse cloth. For r = 0 the energy is
-/// infinite, which makes a line search step back.
+/// R = (a, −b; b, a)/r and U = R^T F. Where det F > 0 this U is sqrt(F^T F); where det F < 0 it has
+/// a negative principal stretch, which costs energy, as in the coarse cloth. For r = 0 the energy
+/// is infinite, which makes a line search step back.
 /// @param C membrane stiffness (3,3) [N/m], Voigt 11, 22, 12 with engineering shear
 /// @param F deformation gradient (2,2)
 Response response(Law law, const Eigen::Matrix3d &C, const Eigen::Matrix2d &F);

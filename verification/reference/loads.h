@@ -15,13 +15,13 @@ namespace homespun::verification
 /// A load by its name:
 /// - periodic-11, periodic-22: infinite cloth under F = I + strain along axis 1 or 2
 /// - periodic-12: infinite cloth under simple shear, F = (1, strain; 0, 1)
-/// - strip-1, strip-2: the two edges normal to axis 1 or 2 clamped, the far one moved outwards along
-///   that axis by strain times length, the other two edges free
+/// - strip-1, strip-2: the two edges normal to axis 1 or 2 clamped, the far one moved outwards
+///   along that axis by strain times length, the other two edges free
 /// - shear-frame: the two edges normal to axis 2 clamped, the upper moved along axis 1 by strain
 ///   times length, sides free
 /// The axes of periodic loads are x and y. Those of sheets are the sides of the sheet: on a lattice
-/// that is not rectangular the clamped edges are those that a2 (strip-1) or a1 joins, and move along a1
-/// or a2.
+/// that is not rectangular the clamped edges are those that a2 (strip-1) or a1 joins, and move
+/// along a1 or a2.
 class Load
 {
 public:

@@ -166,7 +166,8 @@ CellState NonlinearCell::solve(const Eigen::Vector3d &strain) const
     {
       const meshes::Points trial = state.fluctuation + length * spread(step);
       const Assembled next       = assemble(U, trial, false, false);
-      // Close to the answer the energy changes by less than its rounding, and the step is Newton's own.
+      // Close to the answer the energy changes by less than its rounding, and the step is Newton's
+      // own.
       if (size < std::max(1e-7 * now.force_size, 10. * now.round_off) ||
           next.energy <= now.energy + 1e-4 * length * slope + rounding * std::abs(now.energy) +
                            now.energy_round_off)

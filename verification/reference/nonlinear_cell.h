@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT
-// The cell problem at finite strain, and a table of its answers over the strains that occur in a sheet: what an
-// infinite cloth under the stretch U does beyond the linear theory of homogenization. Eigen alone, written apart
-// from the resolved reference, which it must equal on one cell.
+// The cell problem at finite strain, and a table of its answers over the strains that occur in a
+// sheet: what an infinite cloth under the stretch U does beyond the linear theory of
+// homogenization. Eigen alone, written apart from the resolved reference, which it must equal on
+// one cell.
 //
 //   find periodic w, zero at the anchor, that makes  1/|Y| integral W(U + grad w)  stationary;
-//   S(e) = derivative of that minimum by e = (U11 − 1, U22 − 1, 2 U12), the mean stress (Hill-Mandel).
+//   S(e) = derivative of that minimum by e = (U11 − 1, U22 − 1, 2 U12), the mean stress
+//     (Hill-Mandel).
 // For small strain S = C^H e and w = −(e11 chi_11 + e22 chi_22 + gamma12 chi_12).
 #pragma once
 
@@ -64,12 +66,14 @@ private:
   int n_unknowns = 0;
 };
 
-/// What the linear theory misses, S(e) − C^H e and w(e) + chi : e, as polynomials of degree three fitted to cell
-/// problems at points of the box that holds a given share of the strains; beyond the box the value at its edge.
+/// What the linear theory misses, S(e) − C^H e and w(e) + chi : e, as polynomials of degree three
+/// fitted to cell problems at points of the box that holds a given share of the strains; beyond the
+/// box the value at its edge.
 class NonlinearLocalization
 {
 public:
-  /// @param strains (m,3) that occur, of which the box leaves out `outside` at either end of each component
+  /// @param strains (m,3) that occur, of which the box leaves out `outside` at either end of each
+  ///   component
   /// @throws NotConverged where a cell problem has no answer
   NonlinearLocalization(const NonlinearCell &nonlinear, const meshes::HomogenizedCell &cell,
                         const Eigen::Matrix<double, Eigen::Dynamic, 3> &strains,
@@ -81,8 +85,8 @@ public:
   /// w(e) + chi : e at a vertex of the cell [m].
   Eigen::RowVector2d excess_fluctuation(int cell_vertex, const Eigen::Vector3d &strain) const;
 
-  /// Largest misfit of the polynomials at cell problems that they were not fitted to, over the size of what
-  /// they stand for: of the stress, of the fluctuation [-].
+  /// Largest misfit of the polynomials at cell problems that they were not fitted to, over the size
+  /// of what they stand for: of the stress, of the fluctuation [-].
   double misfit() const
   {
     return largest_misfit;

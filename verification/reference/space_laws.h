@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 // The membrane laws of the moving cloth's reference, for a sheet in space: functions of the metric
-// F^T F alone, with F the 3x2 derivative of the position by the rest position. Written apart from the
-// coarse cloth's element, which works with the closed form of U: here the matrix square root is
+// F^T F alone, with F the 3x2 derivative of the position by the rest position. Written apart from
+// the coarse cloth's element, which works with the closed form of U: here the matrix square root is
 // differentiated in its own eigenvectors.
 //
 // With E = ½ (F^T F − I) in Voigt order, S = dW/dE and H = d²W/dE², every such law has
 //   P = F S    and    dF : dP = dE · H · dE + tr(dF S dF^T),    dE = sym(F^T dF).
 // green: S = C E, H = C. biot: from U U = F^T F, in the frame of the principal stretches l1, l2,
-//   dU_ij = 2 dE_ij / (l_i + l_j),    d²U_ij = −2 (dU dU)_ij / (l_i + l_j)   along a straight path of E,
+//   dU_ij = 2 dE_ij / (l_i + l_j),   d²U_ij = −2 (dU dU)_ij / (l_i + l_j)   along straight E,
 // and W = ½ (U − I):C:(U − I) follows by the chain rule. No difference l1 − l2 is divided by.
 #pragma once
 

@@ -117,8 +117,8 @@ ScalingRun median(std::vector<ScalingRun> runs)
   return runs[runs.size() / 2];
 }
 
-/// Nonnegative x, y with x a + y b = 1 in the least squares of all rows, and the largest misfit; nothing where the rows
-/// do not determine both, or leave no misfit to see.
+/// Nonnegative x, y with x a + y b = 1 in the least squares of all rows, and the largest misfit;
+/// nothing where the rows do not determine both, or leave no misfit to see.
 std::optional<TwoTerms> fit(const std::vector<Eigen::RowVector2d> &rows)
 {
   Eigen::MatrixX2d matrix(static_cast<long>(rows.size()), 2);
@@ -188,11 +188,13 @@ std::vector<Verdict> verdicts_of(const std::vector<ScalingRun> &runs)
   }
   // One run compared with itself says nothing.
   if (several_ranks)
-    judge(
-      "C^H of a mesh is the same on all numbers of ranks (largest difference in parts of the largest entry)",
-      difference, 1e-10,
-      "the solver leaves 1e-9 of the displacements, which enter an energy squared; sums in another order differ by about "
-      "2e-16 times the root of the number of triangles: 1e-12 at 1e7; a hundred times that was asked for beforehand");
+    judge("C^H of a mesh is the same on all numbers of ranks (largest difference in parts of the "
+          "largest entry)",
+          difference, 1e-10,
+          "the solver leaves 1e-9 of the displacements, which enter an energy squared; sums in "
+          "another order differ by about "
+          "2e-16 times the root of the number of triangles: 1e-12 at 1e7; a hundred times that was "
+          "asked for beforehand");
   // On the finest mesh, from each number of ranks to the next.
   auto entry  = repeats.lower_bound({repeats.rbegin()->first.first, 0});
   double rise = 0., before = median(entry->second).largest_rank;
@@ -204,9 +206,9 @@ std::vector<Verdict> verdicts_of(const std::vector<ScalingRun> &runs)
     before             = bytes;
   }
   if (has_next)
-    judge(
-      "On the finest mesh the largest rank needs less memory on more ranks (ratio from one number to the next)",
-      rise, 1., "what less means");
+    judge("On the finest mesh the largest rank needs less memory on more ranks (ratio from one "
+          "number to the next)",
+          rise, 1., "what less means");
   return verdicts;
 }
 

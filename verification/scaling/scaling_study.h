@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// How time and memory of the cell problems grow with the mesh and fall with the ranks, on the machine at hand.
+// How time and memory of the cell problems grow with the mesh and fall with the ranks, on the
+// machine at hand.
 #pragma once
 
 #include "verification/record/run_folder.h"
@@ -21,34 +22,36 @@ struct ScalingOptions
   int repeats                  = 3;
   /// What runs a program on several ranks; {ranks} stands for their number.
   std::string launcher = "mpirun --oversubscribe -n {ranks}";
-  int cores =
-    0; ///< that ranks can have to themselves; with more ranks times are not modelled. 0: those of this machine
+  int cores = 0; ///< that ranks can have to themselves; with more ranks times are not modelled. 0:
+                 ///< those of this machine
   std::string output;
   std::string command;
   Earlier earlier = Earlier::keep_work;
   bool quiet      = false;
 };
 
-/// What does not fall with the number of ranks, what falls as one over it, and the largest relative misfit of the least squares.
+/// What does not fall with the number of ranks, what falls as one over it, and the largest relative
+/// misfit of the least squares.
 struct TwoTerms
 {
   double fixed = 0., shared = 0., misfit = 0.;
 };
 
-/// The memory of the largest rank as a + b n/p [bytes], n DoFs on p ranks. Nothing below three pairs of mesh and ranks, or
-/// where all have the same n/p: two terms need a third row to show their misfit.
+/// The memory of the largest rank as a + b n/p [bytes], n DoFs on p ranks. Nothing below three
+/// pairs of mesh and ranks, or where all have the same n/p: two terms need a third row to show
+/// their misfit.
 std::optional<TwoTerms> memory_model_of(const std::vector<ScalingRun> &runs);
 
-/// The time as n (s + w/p) [s], from the runs on at most `cores` ranks. Nothing below three pairs of mesh and ranks, or with one
-/// number of ranks alone, which does not tell what is serial.
+/// The time as n (s + w/p) [s], from the runs on at most `cores` ranks. Nothing below three pairs
+/// of mesh and ranks, or with one number of ranks alone, which does not tell what is serial.
 std::optional<TwoTerms> time_model_of(const std::vector<ScalingRun> &runs, int cores);
 
-/// C^H does not depend on the ranks, and the memory of a rank on the finest mesh falls with their number; each where
-/// there is more than one to compare.
+/// C^H does not depend on the ranks, and the memory of a rank on the finest mesh falls with their
+/// number; each where there is more than one to compare.
 std::vector<Verdict> verdicts_of(const std::vector<ScalingRun> &runs);
 
-/// What is told of the runs and not judged: by how much the iterations differ between meshes and ranks, which
-/// theory bounds and does not number.
+/// What is told of the runs and not judged: by how much the iterations differ between meshes and
+/// ranks, which theory bounds and does not number.
 std::vector<std::string> notes_of(const std::vector<ScalingRun> &runs);
 
 /// A table for the terminal: medians of the repeats, with the least and the largest.
@@ -60,8 +63,8 @@ struct ScalingResult
   std::vector<Verdict> verdicts;
 };
 
-/// Runs what is asked for, each in a process of its own, and writes scaling.csv row by row, then scaling.json and
-/// verdicts.json. To be called where MPI is not running.
+/// Runs what is asked for, each in a process of its own, and writes scaling.csv row by row, then
+/// scaling.json and verdicts.json. To be called where MPI is not running.
 /// @throws BadInput where the cell cannot be read, or the launcher cannot be run; NotConverged
 ScalingResult run_scaling_study(const ScalingOptions &options);
 } // namespace homespun::verification

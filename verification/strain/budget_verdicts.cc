@@ -127,7 +127,8 @@ void judge_slope(const std::vector<BudgetRow> &rows, const BudgetRow &of_case,
                       derivation_of_slope_two, Kind::program});
 }
 
-/// The case of each cell and load, against biot or the last reference of the study; its strains, ascending.
+/// The case of each cell and load, against biot or the last reference of the study; its strains,
+/// ascending.
 std::vector<std::pair<BudgetRow, std::vector<double>>>
 cases_of(const std::vector<StrainRow> &strain_rows)
 {

@@ -11,19 +11,20 @@
 
 namespace homespun::verification
 {
-/// Judges, for every cell and load among the rows of strain.csv and at the levels nearest to 1 % and 10 %:
-/// - effectivity within [0.8, 1.25]; INCONCLUSIVE where the reference was not reached or a part not found; where the total is
-///   zero to what the solvers leave, whether the sum is as well
+/// Judges, for every cell and load among the rows of strain.csv and at the levels nearest to 1 %
+/// and 10 %:
+/// - effectivity within [0.8, 1.25]; INCONCLUSIVE where the reference was not reached or a part not
+///   found; where the total is zero to what the solvers leave, whether the sum is as well
 /// - part 7 at most 1 % of the total
-/// and over the levels up to 2 %, where the study has three of them: the mean of part 2 grows as strain squared, slope
-/// 2 +- 0.1, or is zero to what the solvers leave at each.
+/// and over the levels up to 2 %, where the study has three of them: the mean of part 2 grows as
+/// strain squared, slope 2 +- 0.1, or is zero to what the solvers leave at each.
 /// @param strains that the study was asked for: what they cannot decide is no claim
 std::vector<Verdict> budget_verdicts(const std::vector<StrainRow> &strain_rows,
                                      const std::vector<BudgetRow> &budget_rows,
                                      const std::vector<double> &strains);
 
-/// What the sum of the parts misses at the same levels, vertex by vertex, and how far the homogenized sheet that counts as
-/// resolved is so: figures without a limit. Ready sentences.
+/// What the sum of the parts misses at the same levels, vertex by vertex, and how far the
+/// homogenized sheet that counts as resolved is so: figures without a limit. Ready sentences.
 std::vector<std::string> budget_notes(const std::vector<StrainRow> &strain_rows,
                                       const std::vector<BudgetRow> &budget_rows);
 } // namespace homespun::verification

@@ -33,12 +33,12 @@ struct DiscretizationDistance
 /// The error bar of the P1 reference of one cell and load.
 ///
 /// Measured on a small sheet with P1, P2 and refined P2: the linear law, which all laws approach at
-/// small strain, and each nonlinear law at `large_strain`. In between, and beyond, the bar per strain
-/// runs linearly in strain, never below half of the smaller of the two. A law that is not reached at
-/// `large_strain` keeps its small-strain bar; a bar that cannot be measured at all is not a number,
-/// and empty in the results. To carry over to the full
-/// sheet it is multiplied by the ratio of |P1 − P2|, linear law, at full size and on the small sheet,
-/// both measured. Of periodic loads the cell itself is measured and nothing carries over.
+/// small strain, and each nonlinear law at `large_strain`. In between, and beyond, the bar per
+/// strain runs linearly in strain, never below half of the smaller of the two. A law that is not
+/// reached at `large_strain` keeps its small-strain bar; a bar that cannot be measured at all is
+/// not a number, and empty in the results. To carry over to the full
+/// sheet it is multiplied by the ratio of |P1 − P2|, linear law, at full size and on the small
+/// sheet, both measured. Of periodic loads the cell itself is measured and nothing carries over.
 class ReferenceUncertainty
 {
 public:
@@ -46,8 +46,8 @@ public:
 
   /// @param n_cells of the full sheet per side
   /// @param n_small of the small sheet per side
-  /// @param table receives what was measured, and gives back what it holds already; on the first rank,
-  ///   elsewhere null
+  /// @param table receives what was measured, and gives back what it holds already; on the first
+  ///   rank, elsewhere null
   ReferenceUncertainty(const homogenization::UnitCell &cell, const Load &load,
                        const std::vector<Law> &laws, int n_cells, int n_small,
                        Table<UncertaintyRow> *table, MPI_Comm communicator,

@@ -40,7 +40,8 @@ struct Timed
   std::string note;
 };
 
-/// The paper's warped cloth brought to rest: implicit steps so long that inertia plays no part, each from rest.
+/// The paper's warped cloth brought to rest: implicit steps so long that inertia plays no part,
+/// each from rest.
 shell::Positions<2> warped_equilibrium(const meshes::TriangleMesh &coarse,
                                        const meshes::HomogenizedCell &cell,
                                        const shell::Positions<2> &start,
@@ -240,7 +241,8 @@ private:
     upsampled(way, method, coarse, [&]() { return coarse.solve(Law::biot, start); });
   }
 
-  /// Solves a coarse cloth and up-samples it: timed in single precision, held against the best in double.
+  /// Solves a coarse cloth and up-samples it: timed in single precision, held against the best in
+  /// double.
   template <typename Solve>
   void upsampled(const std::string &way, const std::string &method, const HomogenizedSheet &coarse,
                  const Solve &solve)

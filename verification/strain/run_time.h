@@ -1,16 +1,22 @@
 // SPDX-License-Identifier: MIT
-// Error against run time: every way to the positions of a sheet under one load at one strain, from the resolved solution
-// to the coarsest cloth, with the time that each takes and its distance from the best solution there is.
+// Error against run time: every way to the positions of a sheet under one load at one strain, from
+// the resolved solution to the coarsest cloth, with the time that each takes and its distance from
+// the best solution there is.
 //
 //   fine-p1, fine-p2       deal.II, every triangle of the sheet, law biot; all ranks
-//   fine-corotational      the cloth's own element at full resolution, direct solver; one rank, as all that follow
-//   affine-Q, localized-Q  coarse cloth of Q x Q quads, Q = 5, 10, 20, 40, coarse motion alone or localized
-//   voigt, reuss           one quad per cell, localized, with the Voigt or Reuss stiffness in place of C^H; Reuss not with holes
-//   nodal-warping          one quad per cell, localized, with the paper's warped stiffness (shell/terms/warping.h)
+//   fine-corotational      the cloth's own element at full resolution, direct solver; one rank, as
+//                          all that follow
+//   affine-Q, localized-Q  coarse cloth of Q x Q quads, Q = 5, 10, 20, 40, coarse motion alone or
+//                          localized
+//   voigt, reuss           one quad per cell, localized, with the Voigt or Reuss stiffness in place
+//                          of C^H; Reuss not with holes
+//   nodal-warping          one quad per cell, localized, with the paper's warped stiffness
+//                          (shell/terms/warping.h)
 //
-// Every run begins with the affine motion that agrees with what is prescribed; there is no warm start from a smaller
-// strain. A time holds the equilibrium and, of coarse cloths, up-sampling in single precision; not what is done once per
-// sheet: numbering, location of vertices, symbolic factorisation. Errors are those of double precision.
+// Every run begins with the affine motion that agrees with what is prescribed; there is no warm
+// start from a smaller strain. A time holds the equilibrium and, of coarse cloths, up-sampling in
+// single precision; not what is done once per sheet: numbering, location of vertices, symbolic
+// factorisation. Errors are those of double precision.
 #pragma once
 
 #include "homogenization/cell/unit_cell.h"
@@ -52,8 +58,9 @@ std::string run_time_study(const homogenization::UnitCell &cell,
                            MPI_Comm communicator,
                            const std::function<void(const std::string &)> &tell);
 
-/// The error bar of P2 on the given mesh, law biot [m]: |P2 − refined P2| measured on the small sheet, carried over by
-/// the ratio of |P1 − P2| at full size and there (linear law), per strain. NaN where a row is missing.
+/// The error bar of P2 on the given mesh, law biot [m]: |P2 − refined P2| measured on the small
+/// sheet, carried over by the ratio of |P1 − P2| at full size and there (linear law), per strain.
+/// NaN where a row is missing.
 /// @param rows of uncertainty.csv
 double bar_of_p2(const std::vector<UncertaintyRow> &rows, const std::string &cell,
                  const std::string &load, int n_cells, double strain);

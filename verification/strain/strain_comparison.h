@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What a strain study compares at one level: every method against the resolved sheet, vertex by vertex.
+// What a strain study compares at one level: every method against the resolved sheet, vertex by
+// vertex.
 #pragma once
 
 #include "meshes/plain/sheet.h"
@@ -38,8 +39,9 @@ bool has_biot(const StrainStudyOptions &options);
 /// The level nearest to 10 %: it is pictured, and its run times are measured.
 double pictured_strain(const StrainStudyOptions &options);
 
-/// Moves the coarse cloth to a level, up-samples it by every method, and writes the errors whose row is not there,
-/// the times, the picture if this is the level for one, and a note on the anchor at the compared strain. First rank.
+/// Moves the coarse cloth to a level, up-samples it by every method, and writes the errors whose
+/// row is not there, the times, the picture if this is the level for one, and a note on the anchor
+/// at the compared strain. First rank.
 /// @return the coarse cloth, and the fine positions of `localized`
 /// @throws NotConverged where the coarse cloth finds no equilibrium, or positions are not finite
 UpsampledLevel compare_methods(const StrainStudyOptions &options, const StrainLevel &level,

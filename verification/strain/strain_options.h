@@ -27,7 +27,8 @@ struct StrainStudyOptions
   bool quiet      = false;
 };
 
-/// The whole study: nine strains from 0.1 to 20 %, every load, reference and method, the paper's size.
+/// The whole study: nine strains from 0.1 to 20 %, every load, reference and method, the paper's
+/// size.
 StrainStudyOptions default_strain_study();
 
 /// 4 x 4 cells at 0.1, 1 and 10 %: seconds.

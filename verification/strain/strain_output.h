@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// What a strain study leaves on the disk as it goes on: the tables strain.csv (errors), steps.csv (times),
-// uncertainty.csv, notes.csv, budget.csv and runtime.csv, and at its end validity.csv. First rank alone.
+// What a strain study leaves on the disk as it goes on: the tables strain.csv (errors), steps.csv
+// (times), uncertainty.csv, notes.csv, budget.csv and runtime.csv, and at its end validity.csv.
+// First rank alone.
 #pragma once
 
 #include "meshes/plain/sheet.h"
@@ -47,7 +48,8 @@ public:
   /// @param tell receives each note as it is written
   StrainOutput(const StrainStudyOptions &options, std::function<void(const std::string &)> tell);
 
-  /// Whether a level has a row of every method that has a meaning for its law, or is known to have no equilibrium.
+  /// Whether a level has a row of every method that has a meaning for its law, or is known to have
+  /// no equilibrium.
   bool is_complete(const StrainLevel &level) const;
 
   bool has_errors(const StrainLevel &level, const std::string &method) const;

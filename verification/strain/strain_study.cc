@@ -37,24 +37,6 @@ using homogenization::UnitCell;
 
 namespace
 {
-/// All that the numbers of a study depend on.
-nlohmann::ordered_json inputs_of(const StrainStudyOptions &options,
-                                 const std::vector<UnitCell> &cells)
-{
-  nlohmann::ordered_json inputs = {
-    {"cells per side", options.n_cells},
-    {"cells per side of the error bar", options.n_cells_of_error_bar},
-    {"strains", options.strains},
-    {"loads", options.loads},
-    {"references", options.references},
-    {"methods", options.methods},
-    {"budget", options.budget},
-    {"run time", options.run_time}};
-  for (const UnitCell &cell : cells)
-    inputs["cell " + cell.name] = fingerprint(cell);
-  return inputs;
-}
-
 class StrainStudy
 {
 public:
@@ -91,8 +73,8 @@ private:
   /// Tables live on the first rank alone.
   void open_tables()
   {
-    folder = open_run_folder(options.output, {"strain", inputs_of(options, cells)}, options.earlier,
-                             options.quiet);
+    folder = open_run_folder(options.output, {"strain", strain_inputs(options, cells)},
+                             options.earlier, options.quiet);
     output = std::make_unique<StrainOutput>(options, [this](const std::string &line)
                                             { progress.note(line); });
   }
@@ -131,7 +113,8 @@ private:
       study_run_time(cell, homogenized, {assessed.result.voigt, assessed.result.reuss}, *full);
   }
 
-  /// Every way to the positions under one load, in which the coarse mesh matters most, at the pictured strain.
+  /// Every way to the positions under one load, in which the coarse mesh matters most, at the
+  /// pictured strain.
   void study_run_time(const UnitCell &cell, const meshes::HomogenizedCell &homogenized,
                       const StiffnessBounds &bounds, const meshes::Sheet &sheet)
   {
@@ -277,7 +260,8 @@ private:
     return answer == 1;
   }
 
-  /// @return whether reference and coarse cloth found an equilibrium, so that the next level may start from it
+  /// @return whether reference and coarse cloth found an equilibrium, so that the next level may
+  ///   start from it
   bool study_strain(const UnitCell &cell, const meshes::Sheet &sheet, const Load &load,
                     const Law law, const double strain, FineReference &reference,
                     MethodOnSheet &method, const double uncertainty, const bool has_budget)

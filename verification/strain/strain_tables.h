@@ -120,8 +120,8 @@ struct NoteRow
   }
 };
 
-/// uncertainty.csv: distances between discretizations of one reference, means over the vertices. Not a
-/// number where one of them was not reached or not asked for.
+/// uncertainty.csv: distances between discretizations of one reference, means over the vertices.
+/// Not a number where one of them was not reached or not asked for.
 struct UncertaintyRow
 {
   static constexpr const char *file   = "uncertainty.csv";
@@ -195,8 +195,8 @@ struct RunTimeRow
 ///   =  the crossing was found
 ///   >  the limit is kept at every level; `largest` is the largest level
 ///   -  it is exceeded at the smallest level, `largest` is empty and `note` says by how much
-/// `lower` and `upper` are where the error with the reference's error bar added, and taken off, meets
-/// the limit.
+/// `lower` and `upper` are where the error with the reference's error bar added, and taken off,
+/// meets the limit.
 struct ValidityRow
 {
   static constexpr const char *file   = "validity.csv";

@@ -107,8 +107,8 @@ std::vector<Verdict> periodic_verdict(const std::vector<StrainRow> &rows, const 
   if (std::abs(slope - 2.) <= 0.1)
     return verdict(claim, Outcome::pass, slope, "2 +- 0.1");
 
-  // Theory speaks of strains that are small against what the cell bears, which a weave, soft in shear, does not at 1 %; where its
-  // symmetry leaves no quadratic term, the error falls faster.
+  // Theory speaks of strains that are small against what the cell bears, which a weave, soft in
+  // shear, does not at 1 %; where its symmetry leaves no quadratic term, the error falls faster.
   strains.clear();
   errors.clear();
   for (const auto &[strain, error] : levels)
@@ -177,7 +177,8 @@ Verdict verdict_of_smallest(const std::string &claim, const std::vector<double> 
             derivation_of_slope_two,
             Kind::program};
   }
-  // a e + b e² has slopes that rise from one to two; beyond, other powers are in play, unless the first is near one.
+  // a e + b e² has slopes that rise from one to two; beyond, other powers are in play, unless the
+  // first is near one.
   if (first < 1.9 && first < second && (second <= 2.1 || first < 1.5))
     return {claim, Outcome::fail, first, limit, derivation_of_slope_two, Kind::program};
   return {claim,

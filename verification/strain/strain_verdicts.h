@@ -20,20 +20,23 @@ extern const char *const derivation_of_slope_two;
 /// Least-squares slope of log y against log x, for positive values.
 double log_slope(const std::vector<double> &x, const std::vector<double> &y);
 
-/// The claim by the three smallest levels of at least three. Where the slopes between them differ by more than the limit of the
-/// claim it is open; but not where they fall towards one as those of a first order beside a second do.
+/// The claim by the three smallest levels of at least three. Where the slopes between them differ
+/// by more than the limit of the claim it is open; but not where they fall towards one as those of
+/// a first order beside a second do.
 /// @param strains ascending
 Verdict verdict_of_smallest(const std::string &claim, const std::vector<double> &strains,
                             const std::vector<double> &errors);
 
 /// Judges, for every cell and load among the rows of strain.csv:
-/// - every reference: an equilibrium is found at every level. FAIL where it is found at none, open where
-///   some are missing, because a load whose limit was not shown may have one beyond
-/// - periodic loads, reference biot, where the study has three levels from 1e-4 to 0.1: the localized error falls as strain
-///   squared, slope 2 +- 0.1; or is zero at each (`solved_to`); or as strain squared or faster at the three smallest levels,
-///   where their two slopes agree (verdict_of_smallest()); FAIL where an error is not a number
-/// - sheet loads, reference biot, where the study has a level within a factor 1.5 of 1 %: localized is closer to the reference
-///   than affine, by more than the reference's error bar; INCONCLUSIVE within the bar
+/// - every reference: an equilibrium is found at every level. FAIL where it is found at none, open
+///   where some are missing, because a load whose limit was not shown may have one beyond
+/// - periodic loads, reference biot, where the study has three levels from 1e-4 to 0.1: the
+///   localized error falls as strain squared, slope 2 +- 0.1; or is zero at each (`solved_to`); or
+///   as strain squared or faster at the three smallest levels, where their two slopes agree
+///   (verdict_of_smallest()); FAIL where an error is not a number
+/// - sheet loads, reference biot, where the study has a level within a factor 1.5 of 1 %: localized
+///   is closer to the reference than affine, by more than the reference's error bar; INCONCLUSIVE
+///   within the bar
 /// @param strains that the study was asked for: what they cannot decide is no claim
 std::vector<Verdict> strain_verdicts(const std::vector<StrainRow> &rows,
                                      const std::vector<double> &strains);

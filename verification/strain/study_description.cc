@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "verification/strain/study_description.h"
 
+#include "verification/cell/study_inputs.h"
 #include "verification/method/lightweight_cloth.h"
 #include "verification/record/provenance.h"
 #include "verification/reference/laws.h"
@@ -125,10 +126,12 @@ std::vector<std::string> notes_on_the_method(const StrainStudyOptions &options,
   if (options.budget)
     notes.emplace_back(
       "Error budget: parts 1, 9's constant and the reference's own discretization are measured in "
-      "linear theory and scaled with strain; parts 2, 3 and 5 at the strain itself, on a homogenized "
+      "linear theory and scaled with strain; parts 2, 3 and 5 at the strain itself, on a "
+      "homogenized "
       "sheet whose coarse mesh is refined four to sixteen times. Products of parts are in no part: "
       "they show as misfit, which has no limit. Part 2 takes its stiffness and chi at finite "
-      "strain from cell problems over the strains of the sheet, all but 0.5 % at either end of each "
+      "strain from cell problems over the strains of the sheet, all but 0.5 % at either end of "
+      "each "
       "component.");
   if (options.run_time && has_sheet(options) && has(options.references, "biot"))
     notes.emplace_back(
@@ -159,5 +162,22 @@ nlohmann::ordered_json describe(const StrainStudyOptions &options, const StudyRe
           {"left_out", what_was_left_out(options)},
           {"notes", notes},
           {"provenance", provenance(cost.ranks)}};
+}
+
+nlohmann::ordered_json strain_inputs(const StrainStudyOptions &options,
+                                     const std::vector<homogenization::UnitCell> &cells)
+{
+  nlohmann::ordered_json inputs = {
+    {"cells per side", options.n_cells},
+    {"cells per side of the error bar", options.n_cells_of_error_bar},
+    {"strains", options.strains},
+    {"loads", options.loads},
+    {"references", options.references},
+    {"methods", options.methods},
+    {"budget", options.budget},
+    {"run time", options.run_time}};
+  for (const homogenization::UnitCell &cell : cells)
+    inputs["cell " + cell.name] = fingerprint(cell);
+  return inputs;
 }
 } // namespace homespun::verification

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
-// What a strain study says of itself: how it was made, what it left out and why, how its numbers came to be. Every
-// sentence follows from what ran.
+// What a strain study says of itself: how it was made, what it left out and why, how its numbers
+// came to be. Every sentence follows from what ran.
 #pragma once
 
+#include "homogenization/cell/unit_cell.h"
 #include "verification/strain/strain_options.h"
 #include "verification/strain/strain_tables.h"
 
@@ -33,4 +34,8 @@ struct StudyRecord
 /// study.json.
 nlohmann::ordered_json describe(const StrainStudyOptions &options, const StudyRecord &record,
                                 const StudyCost &cost);
+
+/// All that the numbers of a study depend on.
+nlohmann::ordered_json strain_inputs(const StrainStudyOptions &options,
+                                     const std::vector<homogenization::UnitCell> &cells);
 } // namespace homespun::verification

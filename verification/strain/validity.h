@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The range of validity: the largest strain up to which the up-sampled position stays within a limit of the reference,
-// read off the rows of strain.csv. log error is taken linear in log strain between the levels of the ladder, and the
-// limit counts as kept up to the first crossing.
+// The range of validity: the largest strain up to which the up-sampled position stays within a
+// limit of the reference, read off the rows of strain.csv. log error is taken linear in log strain
+// between the levels of the ladder, and the limit counts as kept up to the first crossing.
 #pragma once
 
 #include "verification/strain/strain_tables.h"
@@ -23,7 +23,8 @@ struct Crossing
 Crossing crossing(const std::vector<double> &strains, const std::vector<double> &errors,
                   double limit);
 
-/// Rows of validity.csv from those of strain.csv: method `localized`, every reference, limits of 1, 5 and 10 % of the mean
-/// fluctuation of the reference and 1 and 5 % of the cell side. Levels that were not reached end the ladder.
+/// Rows of validity.csv from those of strain.csv: method `localized`, every reference, limits of 1,
+/// 5 and 10 % of the mean fluctuation of the reference and 1 and 5 % of the cell side. Levels that
+/// were not reached end the ladder.
 std::vector<ValidityRow> validity_rows(const std::vector<StrainRow> &rows);
 } // namespace homespun::verification

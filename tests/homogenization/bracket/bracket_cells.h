@@ -68,7 +68,8 @@ inline int odd_pattern(const double f1, const double f2)
   return (i > 1 && i < 5 && j > 2 && j < 5) || (i == 4 && j > 4) ? 1 : 0;
 }
 
-/// The phase with area bulk modulus K and shear modulus G: E = 4 K G / (K + G), nu = (K − G)/(K + G).
+/// The phase with area bulk modulus K and shear modulus G: E = 4 K G / (K + G), nu = (K − G)/(K +
+/// G).
 inline Eigen::Matrix3d of_bulk_and_shear(const double K, const double G)
 {
   return isotropic_stiffness(4. * K * G / (K + G), (K - G) / (K + G));

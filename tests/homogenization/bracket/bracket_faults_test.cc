@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Faults planted into the bracket, by spoiling the glued mesh on which it is solved (pairs tied to the wrong
-// partner), or through cells on which right code gives what wrong code would give (signs): each must be noticed
-// by one of the checks of bracket_test.cc. The right mesh passes all of them.
+// Faults planted into the bracket, by spoiling the glued mesh on which it is solved (pairs tied to
+// the wrong partner), or through cells on which right code gives what wrong code would give
+// (signs): each must be noticed by one of the checks of bracket_test.cc. The right mesh passes all
+// of them.
 #include "homogenization/bracket/bracket.h"
 #include "tests/homogenization/bracket/bracket_cells.h"
 
@@ -77,7 +78,8 @@ HillFault hill_fault(const Fault &fault)
   return {violation(b.lower, exact), violation(exact, b.upper)};
 }
 
-/// Two edges with the same vector, seen by triangles on the same side, whose other ends are not shared.
+/// Two edges with the same vector, seen by triangles on the same side, whose other ends are not
+/// shared.
 struct Twins
 {
   std::size_t triangles[2];
@@ -160,8 +162,8 @@ TEST(tripwire_bracket, a_triangle_of_the_wrong_phase_is_noticed_by_hills_value_a
 TEST(tripwire_bracket,
      the_wrong_sign_of_the_mixed_derivative_of_phi_is_noticed_by_the_loewner_order)
 {
-  // sigma_12 = Sigma_12 + phi,12 has, with P = diag(1, 1, −1), the energy of P c P under P Sigma: compliance
-  // P S(P c P) P. Symmetric cells and the shift of the compliance pass it.
+  // sigma_12 = Sigma_12 + phi,12 has, with P = diag(1, 1, −1), the energy of P c P under P Sigma:
+  // compliance P S(P c P) P. Symmetric cells and the shift of the compliance pass it.
   const Eigen::Matrix3d P       = Eigen::Vector3d(1., 1., -1.).asDiagonal();
   const tests::BracketCell cell = odd_cell(tests::contrasting(100.));
   std::vector<Eigen::Matrix3d> seen;

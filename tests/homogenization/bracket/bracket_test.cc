@@ -170,10 +170,10 @@ TEST(bound_bracket, hills_exact_stiffness_lies_inside_in_every_geometry)
 
 TEST(exact_bracket, the_shift_of_cherkaev_lurie_and_milton_shifts_the_compliance_to_round_off)
 {
-  // 1/K + lambda and 1/G − lambda in every phase add lambda det(sigma) to twice the energy density of
-  // the stress. det(curl curl phi) integrates to zero for every periodic phi whose gradient is continuous: the
-  // compliance of any admissible stress shifts by the same constants. A stress that is not in
-  // equilibrium, by an edge's normal the wrong way round or a lost pair, does not.
+  // 1/K + lambda and 1/G − lambda in every phase add lambda det(sigma) to twice the energy density
+  // of the stress. det(curl curl phi) integrates to zero for every periodic phi whose gradient is
+  // continuous: the compliance of any admissible stress shifts by the same constants. A stress that
+  // is not in equilibrium, by an edge's normal the wrong way round or a lost pair, does not.
   const double lambda = 0.3, K[2] = {0.8, 30.}, G[2] = {0.5, 2.};
   Eigen::Matrix3d shift = Eigen::Matrix3d::Zero();
   shift(0, 1) = shift(1, 0) = 0.5 * lambda;

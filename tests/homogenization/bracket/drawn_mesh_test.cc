@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Brackets of drawings: phases whose sides are parabolas. The drawing is held against what it is the limit of,
-// uniformly refined meshes on the parabolas, whose own brackets hold their own polygons.
+// Brackets of drawings: phases whose sides are parabolas. The drawing is held against what it is
+// the limit of, uniformly refined meshes on the parabolas, whose own brackets hold their own
+// polygons.
 #include "homogenization/bracket/drawn_mesh.h"
 #include "homogenization/bracket/loewner.h"
 #include "tests/homogenization/bracket/bracket_cells.h"
@@ -30,8 +31,8 @@ struct DrawnCell
   }
 };
 
-/// n x n squares, cut so that the sides of an octagon of half the cell's width fit, moved onto a disc: the sides of
-/// the octagon have their middle nodes on the circle.
+/// n x n squares, cut so that the sides of an octagon of half the cell's width fit, moved onto a
+/// disc: the sides of the octagon have their middle nodes on the circle.
 DrawnCell disc(const int n, const double radius, const std::vector<Eigen::Matrix3d> &stiffness)
 {
   DrawnCell drawing{tests::bracket_cell(tests::square_lattice(1.), n, n, stiffness,
@@ -53,7 +54,8 @@ DrawnCell disc(const int n, const double radius, const std::vector<Eigen::Matrix
   const Eigen::RowVector2d middle(0.5, 0.5);
   const auto onto_circle = [&](const Eigen::RowVector2d &x) -> Eigen::RowVector2d
   { return middle + radius * (x - middle).normalized(); };
-  // Squares about the middle become circles, that of the interface one of the radius, and the outline stays.
+  // Squares about the middle become circles, that of the interface one of the radius, and the
+  // outline stays.
   for (int v = 0; v < mesh.n_vertices(); ++v)
   {
     const Eigen::RowVector2d x = mesh.vertices.row(v) - middle;
@@ -114,7 +116,8 @@ TorusMesh halved(TorusMesh mesh, const int times)
   return mesh;
 }
 
-/// By how much lower <= upper fails for the worst strain, relative to upper; negative where there is room.
+/// By how much lower <= upper fails for the worst strain, relative to upper; negative where there
+/// is room.
 double excess(const Eigen::Matrix3d &lower, const Eigen::Matrix3d &upper)
 {
   using Exact = Eigen::Matrix<long double, 3, 3>;
@@ -207,7 +210,8 @@ TEST(exact_drawn_mesh, what_is_uncertain_holds_the_slivers_and_nothing_is_lost)
     EXPECT_FALSE(both.mesh.is_drawn());
     EXPECT_EQ(both.mesh.n_vertices - both.mesh.n_edges() + both.mesh.n_triangles(), 0);
     EXPECT_NEAR(area_of(both.mesh, 0) + area_of(both.mesh, 1) + area_of(both.mesh, 2), 1., 1e-14);
-    // Inscribed below the drawing, circumscribed above it; the sliver takes 2/3 of what is uncertain.
+    // Inscribed below the drawing, circumscribed above it; the sliver takes 2/3 of what is
+    // uncertain.
     const double sure = area_of(both.mesh, 1), unsure = area_of(both.mesh, 2);
     EXPECT_LT(sure, drawn_area(mesh, 1));
     EXPECT_NEAR(sure + 2. / 3. * unsure, drawn_area(mesh, 1), 1e-13);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The two sides of a bracket as quadratic forms, against long double arithmetic: what round-off takes from the soft
-// directions must be in what is declared.
+// The two sides of a bracket as quadratic forms, against long double arithmetic: what round-off
+// takes from the soft directions must be in what is declared.
 #include "homogenization/bracket/loewner.h"
 #include "tests/homogenization/bracket/bracket_cells.h"
 
@@ -28,7 +28,8 @@ Eigen::Vector2d gaps(const Exact &A, const Exact &B)
   return {static_cast<double>(all(0)), static_cast<double>(all(2))};
 }
 
-/// C^H of equal layers of isotropic phases that are stacked along (−1, 1): Backus' averages, turned by 45 degrees.
+/// C^H of equal layers of isotropic phases that are stacked along (−1, 1): Backus' averages, turned
+/// by 45 degrees.
 Exact diagonal_laminate(const std::vector<Eigen::Matrix3d> &layers)
 {
   using Number    = long double;

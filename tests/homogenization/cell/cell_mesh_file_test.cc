@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// One cell in every format: what Gmsh and VTK wrote of data/halves.geo holds the same areas by group.
+// One cell in every format: what Gmsh and VTK wrote of data/halves.geo holds the same areas by
+// group.
 #include "homogenization/cell/cell_mesh_file.h"
 #include "meshes/plain/lattice.h"
 #include "tests/refusal.h"
@@ -196,9 +197,9 @@ TEST(exact_cell_mesh_file, a_point_that_no_element_uses_may_lie_anywhere)
 TEST(exact_cell_mesh_file, a_file_without_groups_is_group_zero)
 {
   const Folder folder;
-  const std::string vtk =
-    "# vtk DataFile Version 2.0\nx\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 3 double\n0 0 0 1 0 0 0 1 0\n"
-    "CELLS 1 4\n3 0 1 2\nCELL_TYPES 1\n5\n";
+  const std::string vtk = "# vtk DataFile Version 2.0\nx\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS "
+                          "3 double\n0 0 0 1 0 0 0 1 0\n"
+                          "CELLS 1 4\n3 0 1 2\nCELL_TYPES 1\n5\n";
   EXPECT_EQ(read_cell_mesh(folder.file("cell.vtk", vtk)).mesh.material(0), 0);
 }
 
@@ -243,10 +244,10 @@ TEST(tripwire_cell_mesh_file, what_cannot_be_a_cell_is_refused_with_what_to_do)
   says("d.ucd", "999999999 1 0 0 0\n", "at most what the rest of the file can hold");
   says("a.msh", "$MeshFormat\n4.1 1 8\n", "binary .msh; expected text");
   says("b.msh", "$MeshFormat\n3.0 0 8\n$EndMeshFormat\n", "expected 2, 4.0 or 4.1");
-  says(
-    "c.msh",
-    "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n0\n$EndNodes\n$Elements\n1\n1 10 2 0 0 1 2 3 4 5 6 7 8 9\n$EndElements\n",
-    "-order 1");
+  says("c.msh",
+       "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n0\n$EndNodes\n$Elements\n1\n1 10 2 0 0 1 2 3 "
+       "4 5 6 7 8 9\n$EndElements\n",
+       "-order 1");
   says("a.vtk", "# vtk DataFile Version 3.0\nx\nBINARY\n", "expected ASCII");
   says("a.inp", "*NODE\n1, 0, 0\n*ELEMENT, TYPE=C3D8\n", "Abaqus' type `C3D8`");
   says("b.inp", "*NODE, SYSTEM=C\n1, 1, 90\n", "cylindrical or spherical coordinates");

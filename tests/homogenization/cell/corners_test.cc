@@ -32,7 +32,8 @@ Corner quarter(const double contrast)
 
 TEST(exact_corners, a_free_wedge_has_the_exponents_of_williams)
 {
-  // sin(lambda a) = −+ lambda sin(a); M. L. Williams, J. Appl. Mech. 19, 1952. Crack and right angle.
+  // sin(lambda a) = −+ lambda sin(a); M. L. Williams, J. Appl. Mech. 19, 1952. Crack and right
+  // angle.
   const Eigen::Matrix3d c = tests::isotropic_stiffness(3., 0.2);
   const auto right_angle  = exponents_of(free_wedge(1.5 * M_PI, c));
   ASSERT_GE(right_angle.size(), 2u);
@@ -64,7 +65,8 @@ TEST(exact_corners, a_stiff_and_a_soft_inclusion_tend_to_a_clamped_and_to_a_free
 
 TEST(exact_corners, a_stiff_square_in_a_soft_plane_has_the_roots_of_its_determinant)
 {
-  // Zeros of the 8 x 8 determinant of Muskhelishvili's potentials in both sectors, plane stress, nu = 0.3, E 100 : 1.
+  // Zeros of the 8 x 8 determinant of Muskhelishvili's potentials in both sectors, plane stress, nu
+  // = 0.3, E 100 : 1.
   const Corner corner = {{{0., 0.5 * M_PI, tests::isotropic_stiffness(100., 0.3)},
                           {0.5 * M_PI, 2. * M_PI, tests::isotropic_stiffness(1., 0.3)}},
                          true};
@@ -78,7 +80,8 @@ TEST(exact_corners, a_stiff_square_in_a_soft_plane_has_the_roots_of_its_determin
 
 TEST(exact_corners, an_interface_that_bends_by_what_images_may_be_off_is_straight)
 {
-  // Vertices of the middle of stripes go up and down; an angle of 1e-4 is a corner, what a part of 1e-8 of the side makes none.
+  // Vertices of the middle of stripes go up and down; an angle of 1e-4 is a corner, what a part of
+  // 1e-8 of the side makes none.
   for (const auto &[shift, has_corners] : {std::pair{1e-8, false}, std::pair{1e-4, true}})
   {
     tests::BracketCell cell = tests::stripes(4, 4, 10.);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Six-node triangles: what is read of them, what is refused, what the shipped cells draw with them; and polygons that
-// stand for arcs where there are none.
+// Six-node triangles: what is read of them, what is refused, what the shipped cells draw with them;
+// and polygons that stand for arcs where there are none.
 #include "homogenization/bracket/bracket.h"
 #include "homogenization/cell/cell_mesh_file.h"
 #include "homogenization/lint/cell_lint.h"
@@ -21,7 +21,8 @@ using namespace homespun::homogenization;
 
 namespace
 {
-/// The unit square in two triangles of different groups, their common side curved by `bulge` across the diagonal.
+/// The unit square in two triangles of different groups, their common side curved by `bulge` across
+/// the diagonal.
 struct Square
 {
   Eigen::Vector2d diagonal = {0.5, 0.5}; ///< middle node
@@ -55,9 +56,9 @@ struct Square
   {
     std::ostringstream text;
     text.precision(17);
-    text
-      << "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$Entities\n0 0 2 0\n1 0 0 0 1 1 0 1 1 0\n2 0 0 0 1 1 0 1 2 0\n"
-         "$EndEntities\n$Nodes\n1 10 1 10\n2 1 0 10\n";
+    text << "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$Entities\n0 0 2 0\n1 0 0 0 1 1 0 1 1 0\n2 0 0 "
+            "0 1 1 0 1 2 0\n"
+            "$EndEntities\n$Nodes\n1 10 1 10\n2 1 0 10\n";
     for (int k = 1; k <= 10; ++k)
       text << k << "\n";
     for (const Eigen::Vector2d &x : points())
@@ -93,8 +94,8 @@ void says(const Square &square, const std::vector<std::string> &parts)
     EXPECT_NE(message.find(part), std::string::npos) << part << " in: " << message;
 }
 
-/// A regular polygon of n sides about the middle of a square cell, in a fan, within rings out to the outline; n a multiple
-/// of 8.
+/// A regular polygon of n sides about the middle of a square cell, in a fan, within rings out to
+/// the outline; n a multiple of 8.
 UnitCell polygon(const int n, const double radius, const double contrast)
 {
   constexpr int n_rings = 5;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The library of cells: shapes that finite elements like, and stiffnesses with the symmetry of the drawing.
+// The library of cells: shapes that finite elements like, and stiffnesses with the symmetry of the
+// drawing.
 #include "homogenization/bracket/bracket.h"
 #include "homogenization/lint/cell_reading.h"
 #include "tests/homogenization/cell/cells.h"
@@ -113,7 +114,8 @@ TEST(exact_shipped_cells, a_checkerboard_of_one_bulk_modulus_obeys_duality)
   EXPECT_GT(std::abs(E_axes / E_diagonal - 1.), 0.02); // or the product would say little
 }
 
-// Two solvers that share nothing: conjugate gradients, whose residual is that of the stiff dots, and factorization.
+// Two solvers that share nothing: conjugate gradients, whose residual is that of the stiff dots,
+// and factorization.
 TEST(exact_shipped_cells, stiff_dots_in_a_soft_ground_are_solved_for_the_ground)
 {
   UnitCell cell = shipped("random-dots");

@@ -231,7 +231,8 @@ TEST(order_homogenize, equal_shear_moduli_converge_to_hills_exact_value_from_abo
   EXPECT_LT(errors.back(), 1e-3);
 }
 
-// At 1e8 the soft phases hold a part of 1e-8 of the energy, to be solved as exactly: half as many digits more.
+// At 1e8 the soft phases hold a part of 1e-8 of the energy, to be solved as exactly: half as many
+// digits more.
 TEST(invariant_homogenize, iterations_hardly_grow_with_contrast)
 {
   std::vector<unsigned int> iterations;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Faults of the constitutive law, planted into the cell that is solved: the closed form of the laminate, to
-// which the suite holds C^H (exact_homogenize), must notice each. All of them pass symmetry, Hill-Mandel and
-// the Voigt and Reuss bounds of the cell that was solved.
+// Faults of the constitutive law, planted into the cell that is solved: the closed form of the
+// laminate, to which the suite holds C^H (exact_homogenize), must notice each. All of them pass
+// symmetry, Hill-Mandel and the Voigt and Reuss bounds of the cell that was solved.
 #include "tests/homogenization/cell/cells.h"
 
 #include <gtest/gtest.h>

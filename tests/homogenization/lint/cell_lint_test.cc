@@ -75,7 +75,8 @@ TEST(exact_mechanisms, an_island_floats_and_one_on_a_vertex_turns_and_one_on_two
     find_mechanisms(frame_with([](int i, int j) { return i == 1 && j == 1; }), lattice);
   EXPECT_EQ(turning.parts.size(), 1u) << "a square in the corner of the frame shares edges with it";
 
-  // A chain of two squares from the frame, joined corner to corner: the first one shares edges with the frame.
+  // A chain of two squares from the frame, joined corner to corner: the first one shares edges with
+  // the frame.
   const Mechanisms chain = find_mechanisms(
     frame_with([](int i, int j) { return (i == 1 && j == 1) || (i == 2 && j == 2); }), lattice);
   ASSERT_EQ(chain.parts.size(), 2u);
@@ -85,8 +86,8 @@ TEST(exact_mechanisms, an_island_floats_and_one_on_a_vertex_turns_and_one_on_two
 
   const Mechanisms diagonal =
     find_mechanisms(frame_with([](int i, int j) { return i == j; }), lattice);
-  // Squares 2..5 hang in a row between two that share edges with the frame: five hinges for four squares, 12 motions
-  // against 10 equations; on one line the middle ones may still leave it.
+  // Squares 2..5 hang in a row between two that share edges with the frame: five hinges for four
+  // squares, 12 motions against 10 equations; on one line the middle ones may still leave it.
   EXPECT_EQ(diagonal.parts.size(), 5u);
   EXPECT_EQ(n_free(diagonal), 4);
 }
@@ -104,8 +105,8 @@ TEST(exact_mechanisms, squares_of_a_checkerboard_turn_against_each_other)
 
 TEST(exact_mechanisms, turned_squares_shrink_alike_in_both_directions)
 {
-  // Two squares of half diagonal r, turned by phi and -phi, on a lattice of 4 r cos 45 cos phi: the known auxetic
-  // mechanism, whose strain is isotropic.
+  // Two squares of half diagonal r, turned by phi and -phi, on a lattice of 4 r cos 45 cos phi: the
+  // known auxetic mechanism, whose strain is isotropic.
   const double r = 0.003, phi = 0.3, side = 4. * r * std::sqrt(0.5) * std::cos(phi);
   meshes::TriangleMesh mesh;
   mesh.vertices.resize(7, 2);

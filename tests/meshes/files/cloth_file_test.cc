@@ -267,8 +267,8 @@ TEST(tripwire_cloth_faults, t_junctions_are_named_in_a_panel_and_on_a_seam_where
       c.rest.vertices.array() += place;
     };
     EXPECT_TRUE(faults_after(shifted).empty());
-    // Within panel 0: triangles 0 and 1 become one square cut along the other diagonal, its edge to the
-    // next square split on one side only.
+    // Within panel 0: triangles 0 and 1 become one square cut along the other diagonal, its edge to
+    // the next square split on one side only.
     const auto in_panel = faults_after(
       [&](ClothMesh &c)
       {

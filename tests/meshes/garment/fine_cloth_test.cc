@@ -33,8 +33,8 @@ double missing_area(const FineCloth &fine, const ClothMesh &cloth)
   return std::abs(signed_areas(fine.rest).sum() - area) / area;
 }
 
-/// How far the vertices are from what is said of them: images of cell vertices, points of triangles of
-/// the cell, points of coarse triangles.
+/// How far the vertices are from what is said of them: images of cell vertices, points of triangles
+/// of the cell, points of coarse triangles.
 void expect_vertices_where_they_are_said(const FineCloth &fine, const ClothMesh &cloth,
                                          const TriangleMesh &cell, const double cell_side)
 {
@@ -276,7 +276,8 @@ TEST(exact_fine_cloth, left_out_triangles_leave_only_those_of_the_cell_and_their
 
 TEST(exact_fine_cloth, a_slit_without_width_stays_open)
 {
-  // A square with a cut from its middle to its right side: two rows of rest vertices at the same place.
+  // A square with a cut from its middle to its right side: two rows of rest vertices at the same
+  // place.
   const Lattice lattice   = tests::square_lattice(0.01);
   const TriangleMesh cell = shaken_cell(lattice, 5, 4);
   TriangleMesh coarse = coarse_sheet({0.0013, 0.0021}, 0.01 * Eigen::Matrix2d::Identity(), 4, 4);

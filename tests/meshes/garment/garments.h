@@ -18,8 +18,9 @@ inline Eigen::Matrix2d turn(const double angle)
   return Eigen::Rotation2Dd(angle).toRotationMatrix();
 }
 
-/// Two panels of 6 x 5 and 4 x 5 squares of about 1 cm, sewn along a curved side. Flat, they fit together
-/// at the points `flat` of the vertices in space; at rest the second is turned and lies elsewhere.
+/// Two panels of 6 x 5 and 4 x 5 squares of about 1 cm, sewn along a curved side. Flat, they fit
+/// together at the points `flat` of the vertices in space; at rest the second is turned and lies
+/// elsewhere.
 struct TwoPanels
 {
   static constexpr double angle = 0.7; ///< of the second panel's rest frame [rad]

@@ -87,7 +87,8 @@ TEST(tripwire_lattice, two_vertices_of_the_outline_within_the_tolerance_are_name
 
 TEST(tripwire_lattice, two_vertices_inside_within_the_tolerance_are_named)
 {
-  // Both ends of the short edge would be one vertex to whoever matches images: corners, sheets, tables of chi.
+  // Both ends of the short edge would be one vertex to whoever matches images: corners, sheets,
+  // tables of chi.
   const Lattice lattice = tests::square_lattice(1.);
   for (const double gap : {5e-8, 2e-7})
   {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The factorisation of a block matrix against the product with it, on meshes whose panels are narrow and wide,
-// and what it refuses.
+// The factorisation of a block matrix against the product with it, on meshes whose panels are
+// narrow and wide, and what it refuses.
 #include "shell/algebra/block_cholesky.h"
 #include "tests/meshes/plain/shapes.h"
 

@@ -14,7 +14,8 @@ using namespace homespun::shell;
 
 namespace
 {
-/// How often the surface winds around a point: sum of solid angles (Van Oosterom and Strackee 1983).
+/// How often the surface winds around a point: sum of solid angles (Van Oosterom and Strackee
+/// 1983).
 double winding_number(const tests::Solid &solid, const Eigen::Vector3d &p)
 {
   double sum = 0.;

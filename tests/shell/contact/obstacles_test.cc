@@ -235,7 +235,8 @@ TEST(bound_obstacles, a_vertex_beside_a_wall_is_not_pulled_to_it)
 
 TEST(bound_obstacles, a_vertex_that_slides_into_a_corner_stays_out_of_both_walls)
 {
-  // An L: the floor is the top of a box, the wall the side of another; joined as one closed surface.
+  // An L: the floor is the top of a box, the wall the side of another; joined as one closed
+  // surface.
   tests::Solid base = tests::box({0.5, 0.5, 0.01}), wall = tests::box({0.001, 0.4, 0.2});
   wall.vertices.rowwise() += Eigen::RowVector3d(0.3, 0., 0.3);
   base.vertices.conservativeResize(16, 3);

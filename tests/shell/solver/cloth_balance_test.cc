@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What a cloth must keep: forces without sum and torque; and of momenta and energy what the theory of each integrator
-// promises.
+// What a cloth must keep: forces without sum and torque; and of momenta and energy what the theory
+// of each integrator promises.
 #include "shell/terms/bending.h"
 #include "shell/terms/warping.h"
 #include "tests/shell/solver/cloth_cases.h"
@@ -107,8 +107,8 @@ TEST(exact_cloth, viscosity_alone_is_what_it_adds_to_the_membrane)
 
 namespace
 {
-/// Sheets that spin and fly. The second one is a weave: its weak shear lets the spin become stretch; in a step of 20 ms it
-/// turns by a fifth of a radian.
+/// Sheets that spin and fly. The second one is a weave: its weak shear lets the spin become
+/// stretch; in a step of 20 ms it turns by a fifth of a radian.
 struct Flight
 {
   Eigen::Matrix3d D;
@@ -165,8 +165,9 @@ TEST(invariant_cloth, a_free_sheet_keeps_the_momenta_that_its_integrator_keeps_a
 
 namespace
 {
-/// How far the angular momentum that a step loses is from what implicit Euler itself loses: with v = (x_{n+1} − x_n)/h and
-/// internal forces without torque, L_{n+1} = L_n − h Σ m v_n × v_{n+1}. Largest over the steps, relative to L.
+/// How far the angular momentum that a step loses is from what implicit Euler itself loses: with v
+/// = (x_{n+1} − x_n)/h and internal forces without torque, L_{n+1} = L_n − h Σ m v_n × v_{n+1}.
+/// Largest over the steps, relative to L.
 double unexplained_spin(Cloth &cloth, const double h, const int n_steps)
 {
   const double L = cloth.angular_momentum().norm();
@@ -209,7 +210,8 @@ TEST(exact_cloth, the_spin_that_implicit_euler_loses_is_that_of_its_theory_and_n
 
 TEST(exact_cloth, the_energy_of_implicit_euler_changes_as_its_theory_says)
 {
-  // −½ Σ m |v_{n+1} − v_n|² + E(x_{n+1}) − E(x_n) − dE(x_{n+1})·(x_{n+1} − x_n), which may have any sign.
+  // −½ Σ m |v_{n+1} − v_n|² + E(x_{n+1}) − E(x_n) − dE(x_{n+1})·(x_{n+1} − x_n), which may have any
+  // sign.
   const meshes::ClothMesh mesh = lying_sheet(6);
   ClothOptions options;
   options.integrator       = Integrator::implicit;

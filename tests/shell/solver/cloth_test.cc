@@ -59,7 +59,8 @@ TEST(bound_cloth, a_sheet_clamped_on_four_sides_holds_and_the_warped_nodes_of_th
 
 TEST(exact_cloth, a_hanging_strip_stretches_under_its_own_weight)
 {
-  // nu = 0, one dimension: u(s) = rho g (L s − s²/2)/E below the held edge, E e = tension, linear in U.
+  // nu = 0, one dimension: u(s) = rho g (L s − s²/2)/E below the held edge, E e = tension, linear
+  // in U.
   const int n       = 8;
   const double side = 0.2, young = 50., density = 0.2;
   meshes::ClothMesh mesh = lying_sheet(n);

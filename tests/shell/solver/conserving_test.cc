@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The conserving integrator: what its forces do over a step, what it keeps, what it refuses; and that forces which are nearly
-// right are noticed.
+// The conserving integrator: what its forces do over a step, what it keeps, what it refuses; and
+// that forces which are nearly right are noticed.
 #include "meshes/plain/errors.h"
 #include "shell/algebra/vertex_matrix.h"
 #include "shell/contact/obstacles.h"
@@ -214,7 +214,8 @@ TEST(invariant_conserving, an_undamped_sheet_keeps_its_energy_however_long_the_s
       double gained = 0.;
       for (int k = 0; k < 100; ++k)
         gained += cloth.step(h).energy_gained;
-      // A hundred steps, each solved to a hundred-thousandth of the tolerance by its last iteration.
+      // A hundred steps, each solved to a hundred-thousandth of the tolerance by its last
+      // iteration.
       EXPECT_NEAR(cloth.kinetic_energy() + cloth.stored_energy(), energy, 1e-9 * energy) << h;
       EXPECT_LT(gained, 1e-9 * energy) << h;
       if (!is_held)

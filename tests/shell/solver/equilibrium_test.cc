@@ -71,8 +71,8 @@ TEST(exact_equilibrium, patch_test_an_affine_boundary_gives_an_affine_inside)
 TEST(exact_equilibrium, a_strip_free_to_contract_shrinks_by_its_poisson_ratio)
 {
   // Uniaxial tension of a square of one stiffness, edges sliding: U = diag(1 − nu e, 1 + e) and the
-  // energy ½ E h e² per area, linear in stretch. Sliding edges: hold one vertex below and move the others
-  // to where the closed form has them.
+  // energy ½ E h e² per area, linear in stretch. Sliding edges: hold one vertex below and move the
+  // others to where the closed form has them.
   const int n       = 5;
   const double side = 0.01, nu = 0.3, strain = 0.15, young = 2.;
   const meshes::TriangleMesh mesh = tests::irregular_sheet(n, side);

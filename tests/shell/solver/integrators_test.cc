@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The integrators on a motion that is known: a free sheet in its relative equilibrium turns by ω t without changing its
-// shape. Isotropic; and with stiffnesses of 1e4 to 1.
+// The integrators on a motion that is known: a free sheet in its relative equilibrium turns by ω t
+// without changing its shape. Isotropic; and with stiffnesses of 1e4 to 1.
 #include "tests/shell/solver/relative_equilibrium.h"
 
 #include <Eigen/Geometry>
@@ -41,7 +41,8 @@ Vectors turned(const Vectors &x, const double angle)
   return x * Eigen::AngleAxisd(angle, Eigen::Vector3d::UnitZ()).toRotationMatrix().transpose();
 }
 
-/// Σ m (x0 × x1) and Σ m x0·x1: sine and cosine of the turn between two states, times the moment of inertia.
+/// Σ m (x0 × x1) and Σ m x0·x1: sine and cosine of the turn between two states, times the moment of
+/// inertia.
 Eigen::Vector2d turn_between(const Eigen::VectorXd &m, const Vectors &x0, const Vectors &x1)
 {
   return {
@@ -81,7 +82,8 @@ Turning turning(const Sheet &sheet, const Integrator integrator, const double an
   {
     const Vectors x = cloth.positions(), v = cloth.velocities();
     const double inertia = m.dot(x.rowwise().squaredNorm()), spin = cloth.angular_momentum()(2);
-    // The midpoint rule turns a rigid body by 2 atan(h ω/2); implicit Euler to where x + h v points.
+    // The midpoint rule turns a rigid body by 2 atan(h ω/2); implicit Euler to where x + h v
+    // points.
     const double euler =
                    std::atan2(h * spin, inertia + h * m.dot(x.cwiseProduct(v).rowwise().sum())),
                  theory        = integrator == Integrator::conserving
@@ -89,7 +91,8 @@ Turning turning(const Sheet &sheet, const Integrator integrator, const double an
                                    : euler;
     const StepReport report    = cloth.step(h);
     const Eigen::Vector2d turn = turn_between(m, x, cloth.positions());
-    // What theory leaves of a rigid body's angular momentum in its motion is sin of the turn over the turn h ω.
+    // What theory leaves of a rigid body's angular momentum in its motion is sin of the turn over
+    // the turn h ω.
     const double seen = turn(0) / h / spin, share = std::sin(theory) / (h * spin / inertia);
     if (k == 0)
       result.seen = seen;
@@ -165,8 +168,8 @@ TEST(bound_integrators, no_step_turns_by_less_than_half_of_what_theory_gives)
 
 TEST(exact_integrators, a_stiff_sheet_turns_as_theory_says_of_a_rigid_body)
 {
-  // Strains of 1e-4: what they change the turn by is of their order. One Newton step begins beside that with the stretch by which
-  // x + h v is too far out, (h ω)²/2.
+  // Strains of 1e-4: what they change the turn by is of their order. One Newton step begins beside
+  // that with the stretch by which x + h v is too far out, (h ω)²/2.
   for (const auto &[integrator, name] : integrators)
     for (const double angle : {0.01, 0.1, 0.3})
     {

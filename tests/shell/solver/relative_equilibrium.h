@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A free sheet that turns without changing its shape: the exact motion against which integrators are held.
+// A free sheet that turns without changing its shape: the exact motion against which integrators
+// are held.
 #pragma once
 
 #include "tests/shell/solver/cloth_cases.h"
@@ -8,16 +9,16 @@
 
 namespace homespun::tests
 {
-/// A sheet in its plane whose forces hold it together as it turns about axis 3 with the angular velocity ω: a stationary point of
-/// E(x) − ½ ω² Σ m |x|². Its exact motion is x(t) = R(ω t) x(0).
+/// A sheet in its plane whose forces hold it together as it turns about axis 3 with the angular
+/// velocity ω: a stationary point of E(x) − ½ ω² Σ m |x|². Its exact motion is x(t) = R(ω t) x(0).
 struct RelativeEquilibrium
 {
   shell::Vectors positions, velocities; ///< (n,3)
   double largest_strain = 0.;           ///< of all triangles [-]
 };
 
-/// Newton's method in the plane, the angular velocity raised in eight parts; of the rotations, under which all stays the
-/// same, each iteration takes the least.
+/// Newton's method in the plane, the angular velocity raised in eight parts; of the rotations,
+/// under which all stays the same, each iteration takes the least.
 inline RelativeEquilibrium relative_equilibrium(const meshes::ClothMesh &mesh,
                                                 const Eigen::Matrix3d &D,
                                                 const Eigen::VectorXd &masses, const double omega)

@@ -320,7 +320,8 @@ TEST(order_bending, a_cantilever_strip_bends_like_a_beam)
           Eigen::MatrixXd(all(free, free)).ldlt().solve(Eigen::VectorXd(force(free)));
         // Work of the load is what the mean deflection of the tip is.
         const double deflection = z.dot(Eigen::VectorXd(force(free))) / load;
-        // The first hinge stands for the half cell before it: clamped in the middle of the first cell.
+        // The first hinge stands for the half cell before it: clamped in the middle of the first
+        // cell.
         const double free_length = length - 0.5 * h;
         const double beam = load * std::pow(free_length, 3) / (3. * D.D11 * (1. - nu * nu) * width);
         widths.push_back(h);

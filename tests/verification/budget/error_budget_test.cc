@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The error budget on sheets whose budget theory knows: an infinite cloth errs by geometric nonlinearity alone, a
-// homogeneous one by its coarse mesh alone; and a method with a planted bug is not explained by parts that are right.
+// The error budget on sheets whose budget theory knows: an infinite cloth errs by geometric
+// nonlinearity alone, a homogeneous one by its coarse mesh alone; and a method with a planted bug
+// is not explained by parts that are right.
 #include "homogenization/fem/homogenize.h"
 #include "homogenization/lint/cell_reading.h"
 #include "verification/budget/budget_rows.h"
@@ -122,8 +123,8 @@ TEST(exact_error_budget, a_homogeneous_sheet_errs_by_its_coarse_mesh_alone)
   EXPECT_NEAR(coarse / mean(budget.total), 1., 0.1);
   for (const char *part : {"nonlinearity", "cell", "blending", "solver", "convention"})
     EXPECT_LT(mean(budget.parts.at(part)), 1e-6 * coarse) << part;
-  // The resolved sheet and the reference have meshes of their own; with eightfold refinement an error of order two is
-  // down to 1/64, at the corners of the frame less.
+  // The resolved sheet and the reference have meshes of their own; with eightfold refinement an
+  // error of order two is down to 1/64, at the corners of the frame less.
   EXPECT_LT(mean(budget.parts.at("scale")), 0.1 * coarse);
 }
 
@@ -155,7 +156,8 @@ TEST(exact_error_budget, the_parts_of_a_sheet_add_up)
   }
 }
 
-// The part `cell` is measured at each strain, and `reference` follows it: they cancel in the sum, which would not notice.
+// The part `cell` is measured at each strain, and `reference` follows it: they cancel in the sum,
+// which would not notice.
 TEST(exact_error_budget,
      the_part_of_the_reference_is_measured_where_the_law_is_linear_or_the_strain_small)
 {

@@ -133,7 +133,8 @@ TEST(exact_cell_checks, every_check_says_where_its_limit_comes_from)
 
 TEST(bound_cell_checks, stripes_attain_their_bounds_to_less_than_nine_digits)
 {
-  // Nine digits were the limit for any cell; that of round-off is tighter where the contrast is moderate.
+  // Nine digits were the limit for any cell; that of round-off is tighter where the contrast is
+  // moderate.
   const UnitCell cell = stripe_cell(4, homogenization::isotropic("soft", 1e6, 0.3, 1e-3, 100.),
                                     homogenization::isotropic("hard", 1e8, 0.3, 1e-3, 100.));
   const AssessedCell assessed = assess(cell, {}, 0, MPI_COMM_SELF);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The claims about uniform refinement on made-up ladders: what theory says passes, planted faults do not.
+// The claims about uniform refinement on made-up ladders: what theory says passes, planted faults
+// do not.
 #include "homogenization/cell/laminate.h"
 #include "verification/converge/cell_refinement.h"
 #include "verification/extremes/stress_cells.h"
@@ -123,7 +124,8 @@ TEST(exact_cell_refinement, limits_of_orders_are_sharp)
 
 TEST(exact_cell_refinement, weak_corners_of_a_polygon_do_not_fail_a_sound_cell)
 {
-  // A stiff 24-gon: 0.893 and 0.959 below 1, the next 1.194. Orders drift from above towards 2 x 0.893.
+  // A stiff 24-gon: 0.893 and 0.959 below 1, the next 1.194. Orders drift from above towards 2 x
+  // 0.893.
   const homogenization::Singularity polygon = {true, 0.893, 0.959, 1.194};
   const OrderLimit limit                    = order_of_energy(polygon, 2);
   EXPECT_GT(limit.highest, 2. * 1.194);
@@ -152,8 +154,8 @@ TEST(exact_cell_refinement, a_laminate_is_held_against_its_closed_form)
 
 TEST(exact_cell_refinement, a_laminate_of_high_contrast_may_lose_what_round_off_takes_and_no_more)
 {
-  // 226 rows of triangles on the finest level, contrast 1.9e10: a stiff stripe moves by 1e-3 of the soft one's stretch,
-  // the energy by 9e-7; on coarser levels by less.
+  // 226 rows of triangles on the finest level, contrast 1.9e10: a stiff stripe moves by 1e-3 of the
+  // soft one's stretch, the energy by 9e-7; on coarser levels by less.
   const UnitCell cell =
     stripe_cell(4, soft, homogenization::isotropic("rigid", 1e16, 0.3, 1e-3, 100.));
   const Eigen::Matrix3d exact =
@@ -175,7 +177,8 @@ TEST(exact_cell_refinement, a_laminate_of_high_contrast_may_lose_what_round_off_
 
 TEST(tripwire_cell_refinement, characteristic_displacements_lost_at_corners_are_noticed)
 {
-  // chi = 0 gives Voigt's mean on every level: it falls in the Loewner order, and it is the same everywhere.
+  // chi = 0 gives Voigt's mean on every level: it falls in the Loewner order, and it is the same
+  // everywhere.
   const auto lost = ladders_of([](unsigned, double) { return 0.7; });
   EXPECT_EQ(claim(judged(inclusion(), lost), "changes with mesh").outcome, Outcome::fail);
 }
@@ -216,7 +219,8 @@ TEST(tripwire_cell_refinement, a_rise_from_level_to_level_is_noticed)
 
 TEST(exact_cell_refinement, what_round_off_may_hide_is_inconclusive)
 {
-  // 23 rows on the coarsest level and 716 on the finest, contrast 1.9e13: round-off takes 1e-4 to 10 % of an energy.
+  // 23 rows on the coarsest level and 716 on the finest, contrast 1.9e13: round-off takes 1e-4 to
+  // 10 % of an energy.
   const Phase rigid      = homogenization::isotropic("rigid", 1e19, 0.3, 1e-3, 100.);
   const UnitCell stripes = stripe_cell(4, soft, rigid);
   auto exact             = ladders_of([](unsigned, double) { return 0.; });
@@ -228,7 +232,8 @@ TEST(exact_cell_refinement, what_round_off_may_hide_is_inconclusive)
         (1. + 1e-5) * homogenization::laminate_stiffness(stripes.stiffness_of_phase(), {0.5, 0.5});
     }
   EXPECT_EQ(claim(judged(stripes, exact), "closed form").outcome, Outcome::inconclusive);
-  // A stiffness that does not change at strong corners has lost them, unless round-off is larger than any change.
+  // A stiffness that does not change at strong corners has lost them, unless round-off is larger
+  // than any change.
   const auto still         = ladders_of([](unsigned, const double h) { return 1e-7 * h; });
   const auto with_contrast = [&](const double modulus)
   { return inclusion_cell(8, soft, homogenization::isotropic("hard", modulus, 0.3, 1e-3, 100.)); };

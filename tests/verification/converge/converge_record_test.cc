@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What a convergence study leaves on the disk is what it takes up; and its sizes can decide what it claims.
+// What a convergence study leaves on the disk is what it takes up; and its sizes can decide what it
+// claims.
 #include "verification/converge/converge_cases.h"
 
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The cells of the stress cases, what is done to them, and that a wrong turn, a lost mirror or one triangle of the
-// wrong phase is seen by the measure and the limit of these cases.
+// The cells of the stress cases, what is done to them, and that a wrong turn, a lost mirror or one
+// triangle of the wrong phase is seen by the measure and the limit of these cases.
 #include "meshes/plain/errors.h"
 #include "tests/refusal.h"
 #include "verification/extremes/stress_cases.h"

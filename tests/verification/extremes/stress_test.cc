@@ -162,7 +162,8 @@ TEST(tripwire_stress, energy_that_a_handle_brings_in_is_seen)
 
 namespace
 {
-/// The forces of a membrane of half the stiffness whose energy it states: stretching gains energy from nowhere.
+/// The forces of a membrane of half the stiffness whose energy it states: stretching gains energy
+/// from nowhere.
 class ForcesOfAnother : public shell::Term
 {
 public:
@@ -236,7 +237,8 @@ TEST(tripwire_stress, energy_that_forces_bring_in_which_are_not_its_gradient_is_
   const SheetStiffness sheet   = built_in_stiffnesses()[0];
   for (const bool is_wrong : {false, true})
   {
-    // This one solves for the forces as they are: the others would look for a lower energy, find none and refuse.
+    // This one solves for the forces as they are: the others would look for a lower energy, find
+    // none and refuse.
     shell::ClothOptions options;
     options.integrator = shell::Integrator::conserving;
     shell::Cloth cloth(mesh.positions, shell::lumped_masses(mesh, {sheet.areal_density}), {},

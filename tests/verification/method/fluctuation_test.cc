@@ -41,7 +41,8 @@ TEST(exact_fluctuation, in_an_infinite_cloth_it_is_the_distance_from_the_affine_
   EXPECT_NEAR(found.bar, 0., 1e-15);
 }
 
-// A sheet of one stiffness does not fluctuate; what is found is the discretization of the measure, which its bar covers.
+// A sheet of one stiffness does not fluctuate; what is found is the discretization of the measure,
+// which its bar covers.
 TEST(bound_fluctuation, a_homogeneous_sheet_has_none_beyond_its_bar)
 {
   const Striped striped;
@@ -59,18 +60,19 @@ TEST(bound_fluctuation, a_homogeneous_sheet_has_none_beyond_its_bar)
   }
 }
 
-// Stripes pulled across: with the mean of chi in place of the corner as its zero nothing is gained, so another anchor must do
-// much worse than the corner.
+// Stripes pulled across: with the mean of chi in place of the corner as its zero nothing is gained,
+// so another anchor must do much worse than the corner.
 TEST(tripwire_fluctuation, another_place_of_the_cut_changes_the_error_and_is_told)
 {
   const Striped striped;
   const Load load("strip-2");
   const HomogenizedSheet coarse(striped.homogenized.stiffness, striped.sheet, load, 4, 4);
-  const shell::Positions<2> solved = coarse.solve(Law::biot, coarse.prescribed(0.01));
-  const LocalState state           = coarse.at_fine_vertices(Law::biot, solved);
-  const meshes::Points reference   = localized(state, striped.homogenized, striped.sheet);
-  const AnchorChoice choice        = errors_of_other_anchors(striped.homogenized, coarse.mesh,
-                                                             striped.sheet, Law::biot, solved, reference);
+  const shell::Positions<2> solved     = coarse.solve(Law::biot, coarse.prescribed(0.01));
+  const LocalState state               = coarse.at_fine_vertices(Law::biot, solved);
+  const meshes::Points reference       = localized(state, striped.homogenized, striped.sheet);
+  const meshes::HomogenizedCell &whole = striped.homogenized;
+  const AnchorChoice choice =
+    errors_of_other_anchors(whole, coarse.mesh, striped.sheet, Law::biot, solved, reference);
   EXPECT_LT(choice.smallest, 0.05 * choice.largest);
   EXPECT_GT(choice.largest, 0.1 * 0.01 * 0.01); // a tenth of strain x cell side
   EXPECT_NE(note_of_anchor(choice, 1e-6, 2e-5, 1e-7).find("where the cell is cut"),

@@ -28,8 +28,8 @@ TEST(tripwire_verify, without_a_claim_that_holds_nothing_passes)
 
 TEST(tripwire_verify, one_claim_that_failed_is_on_the_first_line_with_its_figure_and_limit)
 {
-  EXPECT_EQ(
-    outcome_line({holds, fails, open, fails2}),
-    "FAIL (program): strain: the parts add up: 1.5 (0.8 to 1.25); 2 of 4 claims failed, 1 cannot be "
-    "judged");
+  EXPECT_EQ(outcome_line({holds, fails, open, fails2}),
+            "FAIL (program): strain: the parts add up: 1.5 (0.8 to 1.25); 2 of 4 claims failed, 1 "
+            "cannot be "
+            "judged");
 }

@@ -31,7 +31,8 @@ inline Eigen::Matrix3d anisotropic()
   return C;
 }
 
-/// n1 x n2 squares of two triangles each, over a width and a height [m], inner vertices moved about.
+/// n1 x n2 squares of two triangles each, over a width and a height [m], inner vertices moved
+/// about.
 inline meshes::TriangleMesh rectangle(const double width, const double height, const int n1,
                                       const int n2, const double irregular = 0.)
 {

@@ -57,8 +57,8 @@ TEST(order_cloth_reference, a_strip_under_its_own_weight_is_as_long_as_the_close
               2., 0.15);
 }
 
-/// A strip without contraction between two lines, tensioned by a stretch, sagging under its weight. In
-/// equilibrium of a string of stiffness E whose law is biot (tension E (stretch − 1), along the
+/// A strip without contraction between two lines, tensioned by a stretch, sagging under its weight.
+/// In equilibrium of a string of stiffness E whose law is biot (tension E (stretch − 1), along the
 /// string), with H the horizontal tension and V(X) = rho g (X − L/2) the vertical one:
 ///   N = sqrt(H² + V²),  dx/dX = (1 + N/E) H/N,  dz/dX = (1 + N/E) V/N:   the elastic catenary,
 ///   x = H X/E + H/w asinh(V/H),  z = V²/(2 E w) + sqrt(H² + V²)/w   from the middle, w = rho g.
@@ -121,9 +121,8 @@ std::vector<double> catenary_errors(const unsigned int order, const bool consist
     for (int v = 0; v < mesh.n_vertices(); ++v)
     {
       const Eigen::RowVector2d at = exact.at(mesh.vertices(v, 0));
-      off                         = std::max(
-                                off,
-                                (cloth.positions().row(v) - Eigen::RowVector3d(at(0), mesh.vertices(v, 1), at(1))).norm());
+      const Eigen::RowVector3d there(at(0), mesh.vertices(v, 1), at(1));
+      off = std::max(off, (cloth.positions().row(v) - there).norm());
     }
     errors.push_back(off);
   }
@@ -133,17 +132,19 @@ std::vector<double> catenary_errors(const unsigned int order, const bool consist
 
 TEST(order_cloth_reference, a_sagging_strip_approaches_the_elastic_catenary)
 {
-  // P1 only: with tension along the strip alone nothing smooths across it, and P2, whose triangles break
-  // that symmetry, shows no more than order 2 here. The membrane below is in tension both ways.
+  // P1 only: with tension along the strip alone nothing smooths across it, and P2, whose triangles
+  // break that symmetry, shows no more than order 2 here. The membrane below is in tension both
+  // ways.
   for (const bool consistent : {false, true})
     EXPECT_NEAR(last_order(catenary_errors(1, consistent, {8, 16, 32, 64})), 2., 0.1);
 }
 
 namespace
 {
-/// A square held at its rim and stretched in all directions, under a weight that is small against its
-/// tension: S (w_XX + w_YY) = rho g with w = 0 at the rim, S the second Piola-Kirchhoff tension.
-/// Distance of the deflections from the series in the vertices of the coarsest mesh, relative.
+/// A square held at its rim and stretched in all directions, under a weight that is small against
+/// its tension: S (w_XX + w_YY) = rho g with w = 0 at the rim, S the second Piola-Kirchhoff
+/// tension. Distance of the deflections from the series in the vertices of the coarsest mesh,
+/// relative.
 std::vector<double> membrane_errors(const Law law, const unsigned int order, const bool consistent,
                                     const std::vector<unsigned int> &levels)
 {
@@ -214,7 +215,8 @@ TEST(order_cloth_reference,
 
 namespace
 {
-/// Height of the middle of a membrane that swings up and down in its lowest mode, after a given time.
+/// Height of the middle of a membrane that swings up and down in its lowest mode, after a given
+/// time.
 double height_after(const double time, const int n_steps)
 {
   const double side = 0.2, stretch = 1.1;
@@ -243,9 +245,10 @@ double height_after(const double time, const int n_steps)
 TEST(order_cloth_reference,
      a_membrane_swings_with_its_lowest_frequency_damped_at_first_order_in_time)
 {
-  // The sine is an eigenvector of the lumped P1 equations on this mesh: S times the five-point stencil
-  // against rho h². omega² = 8 S sin²(pi/16) / (rho h²). Each step of implicit Euler multiplies the complex
-  // amplitude by 1/(1 − i omega dt); after time t the height is the real part, starting at rest.
+  // The sine is an eigenvector of the lumped P1 equations on this mesh: S times the five-point
+  // stencil against rho h². omega² = 8 S sin²(pi/16) / (rho h²). Each step of implicit Euler
+  // multiplies the complex amplitude by 1/(1 − i omega dt); after time t the height is the real
+  // part, starting at rest.
   const double S = 60. / 0.7 * 0.1 / 1.1, h = 0.2 / 8;
   const double omega = std::sqrt(8. * S * std::pow(std::sin(M_PI / 16.), 2) / (0.2 * h * h));
   const double time  = 1. / omega;

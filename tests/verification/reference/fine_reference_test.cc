@@ -145,8 +145,8 @@ TEST(invariant_fine_reference, a_level_does_not_depend_on_the_levels_before_it)
 TEST(exact_fine_reference,
      a_weave_has_its_equilibrium_at_small_strain_though_round_off_hides_the_tolerance)
 {
-  // Yarns 1e4 times as stiff as their shear: at a strain of 1e-6 the forces of shear are 1e-10 of those that rounded
-  // gradients make in the yarns.
+  // Yarns 1e4 times as stiff as their shear: at a strain of 1e-6 the forces of shear are 1e-10 of
+  // those that rounded gradients make in the yarns.
   const std::vector<homogenization::Phase> yarns = {{"warp", 1e9, 1e6, 0.3, 1e5, 0., 5e-4, 400.},
                                                     {"weft", 1e9, 1e6, 0.3, 1e5, 90., 5e-4, 400.}};
   const UnitCell cell =
@@ -165,7 +165,8 @@ TEST(exact_fine_reference,
     const ReferenceStep biot = reference.advance(1e-6);
     ASSERT_TRUE(linear.reached) << name << ": " << linear.why;
     ASSERT_TRUE(biot.reached) << name << ": " << biot.why;
-    // Both laws agree in the limit: to the strain against what the shear bears, 1e-6 x 1e4, of the motion.
+    // Both laws agree in the limit: to the strain against what the shear bears, 1e-6 x 1e4, of the
+    // motion.
     const double distance = (biot.positions - linear.positions).rowwise().norm().maxCoeff();
     EXPECT_LT(distance, 1e-2 * 1e-6 * 0.01 * n) << name;
   }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The arithmetic of the error budget, run times and the range of validity on synthetic data: what is planted
-// must be found, and what is right must pass.
+// The arithmetic of the error budget, run times and the range of validity on synthetic data: what
+// is planted must be found, and what is right must pass.
 #include "verification/budget/budget_rows.h"
 #include "verification/budget/budget_tables.h"
 #include "verification/record/timing.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The static sag of a sheet clamped on four sides: the shell's equilibrium held against the finite-element
-// reference of the same homogenized sheet, two codes that share nothing.
+// The static sag of a sheet clamped on four sides: the shell's equilibrium held against the
+// finite-element reference of the same homogenized sheet, two codes that share nothing.
 #include "meshes/plain/sheet.h"
 #include "shell/solver/cloth.h"
 #include "shell/terms/inertial_terms.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A small linear experiment with known outcome: stripes of contrast 10, 20 x 20 cells of 12 x 12 x 2
-// triangles, mean error of the up-sampled sheet per (strain x cell side).
+// A small linear experiment with known outcome: stripes of contrast 10, 20 x 20 cells of 12 x 12 x
+// 2 triangles, mean error of the up-sampled sheet per (strain x cell side).
 #include "tests/homogenization/cell/cells.h"
 #include "verification/method/lightweight_cloth.h"
 #include "verification/reference/fine_reference.h"

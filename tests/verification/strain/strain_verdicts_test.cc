@@ -99,7 +99,8 @@ TEST(tripwire_verdicts, a_term_of_first_order_fails_at_any_size_that_shows)
 
 TEST(tripwire_verdicts, an_order_that_overshoots_two_is_open_until_smaller_strains_settle_it)
 {
-  // satin pulled along its yarns, measured: quadratic below 1e-4, straightening at 1e-3, another equilibrium at 1 %.
+  // satin pulled along its yarns, measured: quadratic below 1e-4, straightening at 1e-3, another
+  // equilibrium at 1 %.
   const std::vector<std::pair<double, double>> measured = {
     {1e-6, 9.24e-13}, {1e-5, 9.22e-11}, {1e-4, 8.91e-9}, {1e-3, 6.73e-7}, {1e-2, 1.31e-3}};
   const auto outcome = [&](const std::size_t first)
