@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Fine positions from coarse positions (paper Section 2.3, Eqs. 9-12, repaired as
 // localization/README.md says): what runs every frame. Everything that does not change with the motion
-// is done in the constructor: location of the fine vertices, barycentric coordinates, anchored modes; after that a frame is
-// linear in (coarse data) x (constants per vertex), about 36 multiply-adds per vertex in space and
-// 28 in the plane, without branches.
+// is done in the constructor: location of the fine vertices, barycentric coordinates, anchored modes;
+// after that a frame is linear in (coarse data) x (constants per vertex), about 36 multiply-adds per
+// vertex in space and 28 in the plane, without branches.
 //
 // Aligned path, where the coarse mesh is the lattice of the sheet: all cells share one table, two runs
 //   of consecutive vertices per cell, no index per vertex. The table (8 numbers per vertex of one cell)
