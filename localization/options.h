@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The choices of localization (METHOD 3), each with what it means. The defaults are the method; the
-// others are there so that a report can show what each choice costs.
+// The choices of localization (localization/README.md), each with what it means. The defaults are
+// the method; the others are there so that a report can show what each choice costs.
 #pragma once
 
 #include <Eigen/Core>

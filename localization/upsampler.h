@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Fine positions from coarse positions (paper Section 2.3, Eqs. 9-12, repaired as in METHOD 3):
-// what runs every frame. Everything that does not change with the motion is done in the
+// Fine positions from coarse positions (paper Section 2.3, Eqs. 9-12, repaired as README.md here
+// says): what runs every frame. Everything that does not change with the motion is done in the
 // constructor: location of the fine vertices, barycentric coordinates, anchored chi; after that a
 // frame is linear in (coarse data) x (constants per vertex), about 36 multiply-adds per vertex in
 // space and 28 in the plane, without branches.

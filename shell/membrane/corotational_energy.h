@@ -2,8 +2,9 @@
 // The exact corotational energy of a membrane triangle,
 //   W = ½ e·D·e per rest area,  e = (U11 − 1, U22 − 1, 2 U12),  U = sqrt(F^T F),
 // with any symmetric positive definite stiffness D [N/m] (Voigt 11, 22, 12, engineering shear), and
-// its exact gradient and Hessian: METHOD 2 in place of paper Eqs. 5-8, whose warped forces are no
-// gradient. W is what a corotational element approximates and equals the reference law `biot`.
+// its exact gradient and Hessian: in place of paper Eqs. 5-8, whose warped forces are no gradient
+// (shell/README.md). W is what a corotational element approximates and equals the reference law
+// `biot`.
 //
 // In closed form, with C = F^T F and the area ratio J,
 //   U = (C + J I) / s,   s = tr U = sqrt(tr C + 2 J).
@@ -47,7 +48,7 @@ enum class Hessian
 template <int dim>
 Eigen::Vector3d biot_strain(const DeformationGradient<dim> &F);
 
-/// Energy W = ½ e·D·e per rest area (METHOD 2).
+/// Energy W = ½ e·D·e per rest area.
 /// @param F (dim,2) [-]
 /// @param D (3,3) symmetric positive definite [N/m]
 /// @return [J/m^2]

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Static equilibrium of the coarse cloth under prescribed positions: grad W = 0 at every vertex
-// that is not held, with the corotational energy of METHOD 2, and its small-strain linear form.
+// that is not held, with the energy of corotational_energy.h, and its small-strain linear form.
 #pragma once
 
 #include "meshes/plain/triangle_mesh.h"

@@ -4,7 +4,7 @@
 //
 // Triangle warping: f_e = −R_e K_e (R_e^T x − X) with the rotation R_e of the triangle frozen over
 //   a step (Müller et al. 2002 per element).
-// Nodal warping: paper Eqs. 5-8 with the misprints repaired (METHOD 2),
+// Nodal warping: paper Eqs. 5-8 with the misprints repaired (shell/README.md lists them),
 //   f_i = −R_i Σ_j k_ij (R_i^T x_j − X_j), j = i included, R_i = U diag(1, 1, det(U W^T)) W^T of
 //   A_i = (Σ_j m_j (x_j − c)(X_j − C)^T + Σ_j A_j + w z Z^T) A_qq^-1,
 //   A_j = (m_j/4) R_j diag(a², b², 0), w = ½ trace of the in-plane rest moment.

@@ -12,7 +12,7 @@ using namespace homespun::shell;
 
 namespace
 {
-/// The laminate of soft and hard stripes, E = 1 and 10, nu = 0.3 (METHOD 1).
+/// The laminate of soft and hard stripes, E = 1 and 10, nu = 0.3 (homogenization/README.md).
 Eigen::Matrix3d stripes()
 {
   Eigen::Matrix3d stiffness;

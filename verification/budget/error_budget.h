@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Error budget (METHOD 5): the distance of the up-sampled sheet from the resolved one, split into
-// parts, each a field at the fine vertices and a difference of solutions.
+// Error budget (verification/README.md): the distance of the up-sampled sheet from the resolved
+// one, split into parts, each a field at the fine vertices and a difference of solutions.
 //
 // Solutions. M: the method (given coarse mesh H, cell and C^H from P1 on the given cell mesh h). T:
 // the resolved reference, P1 on the same mesh h. *: P2 on the cell mesh h. u_H, u: homogenized
@@ -69,7 +69,7 @@ struct BudgetCells
   std::vector<Eigen::Matrix3d> stiffness_of_phase;
 };
 
-/// The names of the parts in the order of METHOD 5, then `reference` and `resolution`.
+/// The names of the parts in the order of the list above, then `reference` and `resolution`.
 const std::vector<std::string> &budget_parts();
 
 /// Parts of the error at one strain, fields (n,2) at the fine vertices [m].
