@@ -9,6 +9,7 @@ file(CONFIGURE OUTPUT ${OUTPUT} CONTENT [=[// Written by the build.
 #pragma once
 #define HOMESPUN_VERSION "@VERSION@"
 #define HOMESPUN_GIT_REVISION "@revision@"
+#define HOMESPUN_CLI11_VERSION "@CLI11@"
 #define HOMESPUN_BUILD_FLAGS "@FLAGS@"
 #define HOMESPUN_PYTHON "@PYTHON@"
 #define HOMESPUN_SOURCE_DIR "@SOURCE_DIR@"

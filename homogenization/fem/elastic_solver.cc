@@ -8,6 +8,7 @@
 #include <deal.II/lac/sparsity_tools.h>
 #include <deal.II/lac/trilinos_sparsity_pattern.h>
 
+#include <Epetra_CrsMatrix.h>
 #include <Epetra_MultiVector.h>
 #include <Teuchos_ParameterList.hpp>
 
@@ -152,5 +153,19 @@ unsigned int ElasticSolver::solve(Vector &solution, const Vector &right_hand_sid
   if (!is_by_residual)
     text << " and " << 0.5 * product << " J";
   throw meshes::NotConverged(text.str(), history);
+}
+
+ElasticSolver::MatrixRow ElasticSolver::matrix_row(const int row) const
+{
+  MatrixRow stored;
+  int *columns = nullptr;
+  matrix.trilinos_matrix().ExtractMyRowView(row, stored.n, stored.values, columns);
+  stored.columns = columns;
+  return stored;
+}
+
+int ElasticSolver::local_column(const int dof) const
+{
+  return matrix.trilinos_matrix().LCID(dof);
 }
 } // namespace homespun::homogenization

@@ -51,6 +51,20 @@ public:
                      unsigned int max_iterations = 2000,
                      double energy_tolerance     = std::numeric_limits<double>::infinity());
 
+  /// What is stored of a row of the matrix that this rank owns.
+  struct MatrixRow
+  {
+    double *values     = nullptr; ///< (n), which an assembly may add to
+    const int *columns = nullptr; ///< (n) local numbers, see local_column()
+    int n              = 0;
+  };
+
+  /// @param row counted from the first that this rank owns
+  MatrixRow matrix_row(int row) const;
+
+  /// The number that a DoF has among the columns of this rank's rows.
+  int local_column(int dof) const;
+
   dealii::TrilinosWrappers::SparseMatrix matrix;
 
 private:

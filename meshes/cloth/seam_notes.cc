@@ -19,12 +19,12 @@ std::vector<std::string> seam_notes(const ClothMesh &cloth, const std::string &n
     std::array<double, 2> length{};
     for (std::size_t i = 0; i < 2; ++i)
     {
-      const Edge ends = rest_ends(cloth, seam.sides[i]);
+      const std::array<int, 2> ends = rest_ends(cloth, seam.sides[i]);
       length[i] = (cloth.rest.vertices.row(ends[1]) - cloth.rest.vertices.row(ends[0])).norm();
     }
     if (std::abs(length[0] - length[1]) <= 0.01 * std::max(length[0], length[1]))
       continue;
-    const Edge ends = space_ends(cloth, seam.sides[0]);
+    const std::array<int, 2> ends = space_ends(cloth, seam.sides[0]);
     std::ostringstream text;
     text << "the seam edge between vertices " << ends[0] << " and " << ends[1] << " is "
          << length[0] << " m long on panel " << panels.of_triangle(seam.sides[0].triangle)

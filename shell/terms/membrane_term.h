@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The membrane of a moving cloth: the exact corotational energy of METHOD 2, with an optional
+// The membrane of a moving cloth: the exact energy of corotational_energy.h, with an optional
 // viscosity in the rate of strain.
 //
 //   E = Σ_triangles A ( ½ e·D·e + β/(2h) (e − e_n)·D·(e − e_n) ),   e = U − I in Voigt form,

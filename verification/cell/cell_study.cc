@@ -2,6 +2,7 @@
 #include "verification/cell/cell_study.h"
 
 #include "homogenization/fem/solution_pieces.h"
+#include "verification/cell/cell_files.h"
 #include "verification/cell/study_inputs.h"
 #include "verification/record/on_root.h"
 #include "verification/record/progress.h"

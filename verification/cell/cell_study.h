@@ -3,7 +3,6 @@
 #pragma once
 
 #include "verification/cell/assessed_cell.h"
-#include "verification/cell/cell_files.h"
 #include "verification/record/run_folder.h"
 
 #include <mpi.h>

@@ -6,10 +6,10 @@
 #include "verification/drape/drape_output.h"
 #include "verification/drape/drape_schedule.h"
 #include "verification/drape/draped_cell.h"
+#include "verification/record/json_files.h"
 #include "verification/record/progress.h"
 #include "verification/record/timing.h"
 
-#include <nlohmann/json.hpp>
 
 #include <string>
 #include <vector>

@@ -7,8 +7,8 @@
 #include "homogenization/cell/unit_cell.h"
 #include "verification/drape/drape_options.h"
 #include "verification/drape/drape_schedule.h"
+#include "verification/record/json_files.h"
 
-#include <nlohmann/json.hpp>
 
 #include <string>
 #include <vector>

@@ -3,6 +3,7 @@
 #include "homogenization/lint/cell_reading.h"
 #include "meshes/plain/errors.h"
 #include "verification/cell/cell_study.h"
+#include "verification/cell/cell_summary.h"
 #include "verification/program/cells_make.h"
 #include "verification/program/check_command.h"
 #include "verification/program/commands.h"

@@ -8,9 +8,9 @@
 #include "meshes/plain/errors.h"
 #include "verification/program/commands.h"
 #include "verification/program/report_script.h"
+#include "verification/record/json_files.h"
 #include "verification/record/on_root.h"
 
-#include <nlohmann/json.hpp>
 
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>

@@ -6,7 +6,6 @@
 
 #include <deal.II/base/config.h>
 
-#include <CLI/Version.hpp>
 #include <Eigen/Core>
 #include <H5public.h>
 
@@ -92,7 +91,7 @@ std::string version_text()
   std::string text;
   for (const char *key : {"homespun", "git", "dealii", "trilinos", "hdf5", "eigen"})
     text += std::string(key) + " " + all[key].get<std::string>() + "\n";
-  return text + "CLI11 " + CLI11_VERSION + "\nnlohmann-json " +
+  return text + "CLI11 " + HOMESPUN_CLI11_VERSION + "\nnlohmann-json " +
          dotted(NLOHMANN_JSON_VERSION_MAJOR, NLOHMANN_JSON_VERSION_MINOR,
                 NLOHMANN_JSON_VERSION_PATCH) +
          "\ncompiler " + all["compiler"].get<std::string>() + "\nflags " +

@@ -4,8 +4,6 @@
 
 #include <deal.II/base/mpi.h>
 
-#include <Epetra_CrsMatrix.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -63,33 +61,32 @@ void ClothReference::lay_out_matrix()
   solver                = std::make_unique<ElasticSolver>(discretization, constraints);
   preconditioner_is_old = true;
 
-  const Epetra_CrsMatrix &matrix = solver->matrix.trilinos_matrix();
   row_values.resize(discretization.locally_owned.n_elements());
   const std::size_t n_shapes = elements.empty() ? 0 : elements.front().nodes.size();
   block_offset.assign(elements.size() * n_shapes * n_shapes, -1);
-  int n_entries = 0, *columns = nullptr;
   for (std::size_t row = 0; row < row_values.size(); ++row)
-    matrix.ExtractMyRowView(static_cast<int>(row), n_entries, row_values[row], columns);
+    row_values[row] = solver->matrix_row(static_cast<int>(row)).values;
+  ElasticSolver::MatrixRow stored;
   std::size_t k = 0;
   for (const Element &element : elements)
     for (const int i : element.nodes)
     {
       const int row = owned_row[static_cast<std::size_t>(i)];
-      double *unused;
       if (row >= 0)
-        matrix.ExtractMyRowView(row, n_entries, unused, columns);
+        stored = solver->matrix_row(row);
       for (const int j : element.nodes)
       {
         if (row >= 0 && !is_held[static_cast<std::size_t>(i)] &&
             !is_held[static_cast<std::size_t>(j)])
         {
           const int dof   = static_cast<int>(node_dofs[static_cast<std::size_t>(j)]);
-          const int *from = std::find(columns, columns + n_entries, matrix.LCID(dof));
-          if (from + 2 >= columns + n_entries || from[1] != matrix.LCID(dof + 1) ||
-              from[2] != matrix.LCID(dof + 2))
+          const int *end  = stored.columns + stored.n,
+                    *from = std::find(stored.columns, end, solver->local_column(dof));
+          if (from + 2 >= end || from[1] != solver->local_column(dof + 1) ||
+              from[2] != solver->local_column(dof + 2))
             throw std::logic_error("the components of DoF " + std::to_string(dof) +
                                    " do not follow one another in the matrix");
-          block_offset[k] = static_cast<int>(from - columns);
+          block_offset[k] = static_cast<int>(from - stored.columns);
         }
         ++k;
       }

@@ -11,7 +11,6 @@
 #include "verification/strain/strain_tables.h"
 
 #include <Eigen/Core>
-#include <nlohmann/json.hpp>
 
 #include <functional>
 #include <memory>

@@ -5,6 +5,7 @@
 #include "meshes/plain/errors.h"
 #include "verification/budget/budget_study.h"
 #include "verification/budget/budget_tables.h"
+#include "verification/cell/cell_files.h"
 #include "verification/cell/cell_study.h"
 #include "verification/cell/study_inputs.h"
 #include "verification/record/json_files.h"

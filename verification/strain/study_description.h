@@ -4,10 +4,10 @@
 #pragma once
 
 #include "homogenization/cell/unit_cell.h"
+#include "verification/record/json_files.h"
 #include "verification/strain/strain_options.h"
 #include "verification/strain/strain_tables.h"
 
-#include <nlohmann/json.hpp>
 
 #include <string>
 #include <vector>

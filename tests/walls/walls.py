@@ -1,0 +1,233 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: MIT
+"""The walls of the house: which room may include which, and what may stand where.
+
+A wing is a sub-folder such as shell/solver, or localization, which has none; a room is a header
+with its source. walls.py [ROOT] prints each violation with its place and ends with 1, or with 0.
+"""
+import pathlib
+import re
+import sys
+
+MESHES = {"meshes/plain", "meshes/files", "meshes/cloth", "meshes/garment"}
+CELLS = {"homogenization/cell", "homogenization/lint", "homogenization/fem"}
+SHELL = {"shell/algebra", "shell/membrane", "shell/terms", "shell/solver"}
+
+# What the headers and sources of a wing may include beside their own.
+MAY_INCLUDE = {
+    "meshes/plain": set(),
+    "meshes/cloth": {"meshes/plain"},
+    "meshes/files": {"meshes/plain", "meshes/cloth"},
+    "meshes/garment": {"meshes/plain", "meshes/cloth"},
+    "homogenization/cell": {"meshes/plain"},
+    "homogenization/lint": {"meshes/plain", "homogenization/cell"},
+    "homogenization/fem": {"meshes/plain", "meshes/files", "homogenization/cell"},
+    "homogenization/bracket": {"meshes/plain", "homogenization/cell"},
+    "shell/algebra": {"meshes/plain"},
+    "shell/membrane": {"meshes/plain", "meshes/cloth", "shell/algebra"},
+    "shell/terms": {"meshes/plain", "meshes/cloth", "shell/algebra", "shell/membrane"},
+    "shell/solver": {"meshes/plain", "shell/algebra", "shell/membrane", "shell/terms"},
+    "shell/contact": {"meshes/plain", "meshes/cloth", "shell/algebra", "shell/terms"},
+    "localization": {"meshes/plain", "meshes/cloth", "meshes/garment"},
+    "verification/record": {"meshes/plain", "meshes/files"},
+    "verification/reference": {"meshes/plain", "meshes/cloth", "homogenization/fem",
+                               "verification/record"},
+    "verification/cell": {"meshes/plain", "meshes/files", "homogenization/bracket",
+                          "verification/record"} | CELLS,
+    "verification/method": {"meshes/plain", "localization", "shell/algebra", "shell/membrane",
+                            "shell/solver", "verification/record", "verification/reference"},
+    "verification/budget": {"meshes/plain", "localization", "verification/record",
+                            "verification/reference", "verification/method"} | CELLS,
+    "verification/strain": {"verification/record", "verification/reference", "verification/cell",
+                            "verification/method", "verification/budget", "localization"}
+    | MESHES | CELLS | SHELL,
+    "verification/converge": {"verification/record", "verification/reference", "verification/cell",
+                              "verification/method", "homogenization/bracket"}
+    | MESHES | CELLS | SHELL,
+    "verification/drape": {"verification/record", "verification/reference", "verification/cell",
+                           "verification/method", "localization", "shell/contact"}
+    | MESHES | CELLS | SHELL,
+    "verification/extremes": {"verification/record", "verification/cell", "localization",
+                              "shell/contact"} | MESHES | CELLS | SHELL,
+    "verification/scaling": {"meshes/plain", "meshes/files", "verification/record",
+                             "verification/cell"} | CELLS,
+    "verification/program": {"verification/record", "verification/cell", "verification/method",
+                             "verification/budget", "verification/strain",
+                             "verification/converge", "verification/drape",
+                             "verification/extremes", "verification/scaling",
+                             "meshes/plain", "meshes/files"} | CELLS,
+}
+FOLDERS = sorted({wing.split("/")[0] for wing in MAY_INCLUDE})
+
+# What may be included where: a pattern of the include, the places, why.
+PLACES = [
+    (r"<deal\.II/(?!base/)", {"homogenization/fem", "verification/reference"},
+     "finite elements of deal.II are used where finite elements are"),
+    (r"<deal\.II/", {"homogenization/cell", "homogenization/fem"} |
+     {wing for wing in MAY_INCLUDE if wing.startswith("verification/")},
+     "the rest of the house builds without deal.II"),
+    (r"<Epetra", {"homogenization/fem/elastic_solver.cc"}, "Epetra is used in one file"),
+    (r"<CLI/", {"verification/program"}, "the command line is read in program/"),
+    (r"<nlohmann/", {"verification/record"}, "JSON is written and read in record/"),
+]
+MOST_FILES = 40
+MOST_LINES = 400
+MOST_COLUMNS = 100
+OTHER_NOTES = r"METHOD [0-9]|FRONTIER|DESIGN"  # documents that are not part of the repository
+
+
+def wing_of(path):
+    """The wing of a file, or None where it stands in none."""
+    parts = path.split("/")
+    wing = parts[0] if parts[0] == "localization" else "/".join(parts[:2])
+    return wing if wing in MAY_INCLUDE and len(parts) == wing.count("/") + 2 else None
+
+
+def room_of(path):
+    return path.rsplit(".", 1)[0]
+
+
+class House:
+    """The sources below a folder: {path: text}."""
+
+    def __init__(self, root):
+        self.root = pathlib.Path(root)
+        self.tests = self._sources("tests")
+        self.product = {path: text for folder in FOLDERS
+                        for path, text in self._sources(folder).items()}
+        if not self.product:
+            raise SystemExit(f"{root}: no sources in {', '.join(FOLDERS)}; nothing to check")
+
+    def _sources(self, folder):
+        found = sorted(p for p in (self.root / folder).rglob("*") if p.suffix in (".h", ".cc"))
+        return {p.relative_to(self.root).as_posix(): p.read_text(encoding="utf-8") for p in found}
+
+    def includes(self):
+        """(file, what stands between the quotes or brackets, brackets included)."""
+        for path, text in self.product.items():
+            for name in re.findall(r'^\s*#\s*include\s*("[^"]+"|<[^>]+>)', text, re.M):
+                yield path, name
+
+    def own_includes(self):
+        for path, name in self.includes():
+            target = name.strip('"')
+            if name[0] == '"' and target.split("/")[0] in FOLDERS and "build_info" not in target:
+                yield path, target
+
+
+def arrows(house):
+    """Files in no wing, and includes that the table does not allow."""
+    for path in house.product:
+        if wing_of(path) is None:
+            yield f"{path}: stands in no wing; expected one of those in walls.py"
+    for path, target in house.own_includes():
+        here, there = wing_of(path), wing_of(target)
+        if here and here != there and there not in MAY_INCLUDE[here]:
+            yield f"{path}: includes {target}, which {here} may not"
+
+
+def unused_arrows(house):
+    """Arrows between wings of one folder that the table allows and nobody uses."""
+    used = {(wing_of(path), wing_of(target)) for path, target in house.own_includes()}
+    for here, allowed in MAY_INCLUDE.items():
+        for there in sorted(allowed):
+            if here.split("/")[0] == there.split("/")[0] and (here, there) not in used:
+                yield f"walls.py: {here} may include {there} and does not; close that door"
+
+
+def circles(house):
+    """Rooms that reach themselves."""
+    graph = {}
+    for path, target in house.own_includes():
+        if room_of(path) != room_of(target):
+            graph.setdefault(room_of(path), set()).add(room_of(target))
+    state = {}
+
+    def visit(room, way):
+        state[room] = "open"
+        for other in sorted(graph.get(room, ())):
+            if state.get(other) == "open":
+                yield "circle: " + " -> ".join(way[way.index(other):] + [other])
+            elif other not in state:
+                yield from visit(other, way + [other])
+        state[room] = "done"
+
+    for room in sorted(graph):
+        if room not in state:
+            yield from visit(room, [room])
+
+
+def places(house):
+    """Libraries outside of their rooms."""
+    for path, name in house.includes():
+        for pattern, where, why in PLACES:
+            if re.match(pattern, name) and path not in where and wing_of(path) not in where:
+                yield f"{path}: includes {name}; {why}"
+
+
+def rows(house):
+    """Columns of tables by their number."""
+    for path, text in house.product.items():
+        if not path.startswith("verification/record/"):
+            for found in re.finditer(r"\brow\[\d+\]", text):
+                line = text.count("\n", 0, found.start()) + 1
+                yield f"{path}:{line}: {found[0]}; columns have names"
+
+
+def test_headers(house):
+    """Headers that only tests include, unless a README lists them as public."""
+    used = {target for path, target in house.own_includes() if room_of(path) != room_of(target)}
+    for path in house.product:
+        if not path.endswith(".h") or path in used:
+            continue
+        readme = house.root / path.split("/")[0] / "README.md"
+        text = readme.read_text(encoding="utf-8") if readme.exists() else ""
+        listed = " ".join(re.findall(r"^Public: (.*)$", text, re.M))
+        if f"`{pathlib.Path(path).name}`" not in listed:
+            yield (f"{path}: no product file includes it, and no line 'Public: ...' of the "
+                   "folder's README.md lists it")
+
+
+def sizes(house):
+    """Folders and files that hold too much."""
+    n_files = {}
+    for path in [*house.product, *house.tests]:
+        folder = path.rsplit("/", 1)[0]
+        n_files[folder] = n_files.get(folder, 0) + 1
+    for folder, n in n_files.items():
+        if n > MOST_FILES:
+            yield f"{folder}: {n} source files; at most {MOST_FILES}: give it rooms"
+    for path, text in house.product.items():
+        n = text.count("\n")
+        if n > MOST_LINES:
+            yield f"{path}: {n} lines; at most {MOST_LINES}: give its second idea a file"
+
+
+def texts(house):
+    """Lines that are too long, and mentions of documents that a reader does not have."""
+    for path, text in {**house.product, **house.tests}.items():
+        for number, line in enumerate(text.split("\n"), 1):
+            if len(line) > MOST_COLUMNS:
+                yield f"{path}:{number}: {len(line)} columns; at most {MOST_COLUMNS}"
+            if re.search(OTHER_NOTES, line):
+                yield f"{path}:{number}: names a document that is not part of the repository"
+
+
+RULES = [arrows, unused_arrows, circles, places, rows, test_headers, sizes, texts]
+
+
+def violations(root, rules=None):
+    house = House(root)
+    return [text for rule in rules or RULES for text in rule(house)]
+
+
+def main():
+    root = sys.argv[1] if len(sys.argv) > 1 else pathlib.Path(__file__).resolve().parents[2]
+    found = violations(root)
+    for text in found:
+        print(text)
+    return 1 if found else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,116 @@
+# SPDX-License-Identifier: MIT
+"""The house keeps its walls, and each rule of walls.py notices a violation planted in a copy."""
+import pathlib
+import shutil
+import tempfile
+import unittest
+
+import walls
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+
+
+class House(unittest.TestCase):
+    def test_no_wall_is_broken(self):
+        self.assertEqual(walls.violations(ROOT), [])
+
+
+class Planted(unittest.TestCase):
+    def setUp(self):
+        self.root = pathlib.Path(tempfile.mkdtemp(prefix="homespun-walls-"))
+        self.addCleanup(shutil.rmtree, self.root)
+        for folder in walls.FOLDERS:
+            shutil.copytree(ROOT / folder, self.root / folder,
+                            ignore=lambda folder, names: [
+                                name for name in names if "." in name and
+                                not name.endswith((".h", ".cc", "README.md"))])
+
+    def expect(self, rule, says):
+        found = walls.violations(self.root, [rule])
+        self.assertTrue(any(says in text for text in found), f"{says!r} is not among {found}")
+
+    def append(self, path, text):
+        with open(self.root / path, "a", encoding="utf-8") as file:
+            file.write(text)
+
+    def include(self, path, name):
+        whole = self.root / path
+        whole.write_text(f"#include {name}\n" + whole.read_text(encoding="utf-8"), encoding="utf-8")
+
+    def test_the_copy_is_sound(self):
+        self.assertEqual(walls.violations(self.root), [])
+
+    def test_an_empty_house_is_no_house(self):
+        with self.assertRaises(SystemExit):
+            walls.violations(self.root / "meshes")
+
+    def test_arrow_between_folders(self):
+        for path, name in [("meshes/plain/sheet.cc", "shell/terms/term.h"),
+                           ("shell/solver/cloth.cc", "localization/options.h"),
+                           ("localization/upsampler.cc", "shell/terms/term.h"),
+                           ("homogenization/fem/homogenize.cc", "verification/reference/laws.h")]:
+            self.include(path, f'"{name}"')
+            self.expect(walls.arrows, f"{path}: includes {name}")
+
+    def test_arrow_between_wings(self):
+        for path, name in [("shell/terms/wind.cc", "shell/solver/cloth.h"),
+                           ("meshes/plain/sheet.cc", "meshes/files/write_whole.h"),
+                           ("homogenization/bracket/bracket.cc", "homogenization/fem/homogenize.h"),
+                           ("verification/converge/converge_cell.cc",
+                            "verification/extremes/stress_sheet.h"),
+                           ("verification/record/verdict.cc", "verification/cell/cell_bars.h")]:
+            self.include(path, f'"{name}"')
+            self.expect(walls.arrows, f"{path}: includes {name}")
+
+    def test_file_in_no_wing(self):
+        (self.root / "shell" / "loose.cc").write_text("", encoding="utf-8")
+        self.expect(walls.arrows, "shell/loose.cc: stands in no wing")
+
+    def test_door_that_nobody_uses(self):
+        for path in (self.root / "verification" / "budget").iterdir():
+            text = path.read_text(encoding="utf-8")
+            text = text.replace('"verification/method/', '"meshes/plain/')
+            path.write_text(text, encoding="utf-8")
+        self.expect(walls.unused_arrows, "verification/budget may include verification/method")
+
+    def test_circle(self):
+        self.include("meshes/plain/triangle_mesh.h", '"meshes/plain/lattice.h"')
+        self.expect(walls.circles, "circle: meshes/plain/")
+
+    def test_library_in_another_room(self):
+        for path, name in [("verification/strain/strain_study.cc", "<deal.II/fe/fe_system.h>"),
+                           ("shell/solver/cloth.cc", "<deal.II/base/mpi.h>"),
+                           ("verification/reference/fine_reference.cc", "<Epetra_CrsMatrix.h>"),
+                           ("verification/strain/strain_study.cc", "<CLI/App.hpp>"),
+                           ("verification/drape/drape_study.cc", "<nlohmann/json.hpp>")]:
+            self.include(path, name)
+            self.expect(walls.places, f"{path}: includes {name}")
+
+    def test_column_by_number(self):
+        self.append("verification/strain/validity.cc", "double x = row[3];\n")
+        self.expect(walls.rows, "row[3]; columns have names")
+
+    def test_header_that_only_tests_include(self):
+        (self.root / "shell" / "terms" / "unused.h").write_text("", encoding="utf-8")
+        self.expect(walls.test_headers, "shell/terms/unused.h: no product file includes it")
+
+    def test_folder_of_too_many_files(self):
+        for k in range(walls.MOST_FILES):
+            (self.root / "meshes" / "cloth" / f"more{k}.cc").write_text("", encoding="utf-8")
+        self.expect(walls.sizes, "meshes/cloth: ")
+
+    def test_file_of_too_many_lines(self):
+        self.append("shell/solver/cloth.cc", "\n" * walls.MOST_LINES)
+        self.expect(walls.sizes, "shell/solver/cloth.cc: ")
+
+    def test_long_line(self):
+        self.append("shell/solver/cloth.cc", "//" + "x" * walls.MOST_COLUMNS + "\n")
+        self.expect(walls.texts, "columns; at most 100")
+
+    def test_document_that_a_reader_has_not(self):
+        self.append("shell/solver/cloth.cc", "// see " + "METHOD" + " 3\n")
+        self.expect(walls.texts, "not part of the repository")
+
+
+if __name__ == "__main__":
+    unittest.main()
