@@ -36,8 +36,10 @@ MAY_INCLUDE = {
                           "verification/record"} | CELLS,
     "verification/method": {"meshes/plain", "localization", "shell/algebra", "shell/membrane",
                             "shell/solver", "verification/record", "verification/reference"},
-    "verification/budget": {"meshes/plain", "localization", "verification/record",
-                            "verification/reference", "verification/method"} | CELLS,
+    "verification/budget": {"meshes/plain", "localization", "shell/solver",
+                            "homogenization/bracket", "verification/record",
+                            "verification/reference", "verification/cell",
+                            "verification/method"} | CELLS,
     "verification/strain": {"verification/record", "verification/reference", "verification/cell",
                             "verification/method", "verification/budget", "localization"}
     | MESHES | CELLS | SHELL,

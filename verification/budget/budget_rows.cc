@@ -29,6 +29,21 @@ std::vector<int> regions_of(const meshes::Sheet &sheet, const bool is_periodic)
   return regions;
 }
 
+std::vector<double> judged_strains(const std::vector<double> &strains)
+{
+  std::vector<double> judged;
+  for (const double wanted : {0.01, 0.1})
+  {
+    const auto distance = [&](const double strain) { return std::abs(std::log(strain / wanted)); };
+    const auto nearest =
+      std::min_element(strains.begin(), strains.end(),
+                       [&](const double a, const double b) { return distance(a) < distance(b); });
+    if (nearest != strains.end() && distance(*nearest) < std::log(1.5))
+      judged.push_back(*nearest);
+  }
+  return judged;
+}
+
 PartNorms norms_of(const meshes::Points &part, const meshes::Points &total,
                    const std::vector<int> &regions, const int region)
 {
@@ -56,14 +71,21 @@ PartNorms norms_of(const meshes::Points &part, const meshes::Points &total,
 std::vector<BudgetRow> budget_rows(const BudgetRow &level, const ErrorBudget &budget,
                                    const std::vector<int> &regions, const double side)
 {
-  const meshes::Points sum = budget.sum(), misfit = sum - budget.total;
+  const meshes::Points sum = budget.sum(), unexplained = budget.total - sum;
   std::vector<std::pair<std::string, const meshes::Points *>> fields;
   for (const std::string &name : budget_parts())
-    fields.emplace_back(name, &budget.parts.at(name));
+    if (const auto part = budget.parts.find(name); part != budget.parts.end())
+      fields.emplace_back(name, &part->second);
   fields.emplace_back("sum", &sum);
-  fields.emplace_back("misfit", &misfit);
+  fields.emplace_back("unexplained", &unexplained);
   fields.emplace_back("total", &budget.total); // last: where it is there, so are all others
   std::vector<BudgetRow> rows;
+  BudgetRow bar = level;
+  bar.part      = "unexplained-bar";
+  bar.region    = budget_regions().front();
+  bar.mean      = budget.bar();
+  bar.per_cell  = bar.mean / side;
+  rows.push_back(bar);
   for (const auto &[name, field] : fields)
     for (int region = 3; region >= 0; --region)
     {

@@ -6,8 +6,7 @@
 //   share           Σ p·t / |t|  over  Σ |t|, t the measured total at the vertex: the part of the
 //                   total that p makes up; negative where it compensates others; the shares of a
 //                   sum are the sum of the shares
-//   effectivity     mean |sum of the parts| / mean |total|
-//   misfit          mean |sum of the parts − total| / mean |total|
+//   unexplained     total − sum of the parts, vertex by vertex
 #pragma once
 
 #include "meshes/plain/sheet.h"
@@ -27,6 +26,10 @@ const std::vector<std::string> &budget_regions();
 /// distance of two edges.
 std::vector<int> regions_of(const meshes::Sheet &sheet, bool is_periodic);
 
+/// The levels of a study at which budgets are judged: those nearest to 1 % and to 10 %, within a
+/// factor of 1.5.
+std::vector<double> judged_strains(const std::vector<double> &strains);
+
 /// Norms of one part in one region.
 struct PartNorms
 {
@@ -37,8 +40,9 @@ struct PartNorms
 PartNorms norms_of(const meshes::Points &part, const meshes::Points &total,
                    const std::vector<int> &regions, int region);
 
-/// Rows of budget.csv: every part, then `sum`, `total` and `misfit` = sum − total, in every region
-/// that has vertices.
+/// Rows of budget.csv: every part that was measured, then `sum`, `unexplained` = total − sum and
+/// `total`, in every region that has vertices, and `unexplained-bar`, how large the mean of
+/// `unexplained` may be.
 /// @param side sqrt(|Y|) [m]
 /// @param level names the rows: cell, load, strain, reference
 std::vector<BudgetRow> budget_rows(const BudgetRow &level, const ErrorBudget &budget,

@@ -3,6 +3,8 @@
 
 #include "homogenization/fem/homogenize.h"
 #include "meshes/plain/errors.h"
+#include "verification/budget/second_code.h"
+#include "verification/cell/energy_order.h"
 #include "verification/record/number_text.h"
 #include "verification/record/on_root.h"
 
@@ -11,12 +13,15 @@
 
 namespace homespun::verification
 {
-BudgetStudy::BudgetStudy(const std::vector<std::string> &references, Table<BudgetRow> *const table,
-                         const MPI_Comm communicator)
+BudgetStudy::BudgetStudy(const std::vector<std::string> &references,
+                         const std::vector<double> &strains, Table<BudgetRow> *const table,
+                         Table<SecondCodeRow> *const second, const MPI_Comm communicator)
     : law_of_budget(std::find(references.begin(), references.end(), "biot") != references.end()
                       ? Law::biot
                       : law_of(references.front()))
     , table(table)
+    , second(second)
+    , judged(judged_strains(strains))
     , communicator(communicator)
 {
 }
@@ -64,33 +69,37 @@ void BudgetStudy::begin_cell(const homogenization::UnitCell &new_cell,
   of_load.reset();
   load_name.clear();
   cell = &new_cell;
-}
-
-void BudgetStudy::begin_load(const homogenization::UnitCell &new_cell,
-                             const meshes::HomogenizedCell &given, const meshes::Sheet &sheet,
-                             const Load &load, FineReference &reference)
-{
-  if (cell != &new_cell)
-    begin_cell(new_cell, given);
-  constexpr double strain  = 0.01; // any: the law is linear
-  const auto linear_answer = [&](FineReference &of)
-  {
-    of.start(load, Law::linear);
-    const ReferenceStep step = of.advance(strain);
-    if (!step.reached)
-      throw meshes::NotConverged("error budget: the linear reference: " + step.why, {});
-    return step.positions;
-  };
-  ReferenceOptions p2;
-  p2.order = 2;
-  FineReference best(sheet, cells.stiffness_of_phase, p2, communicator);
-  const meshes::Points linear_best = linear_answer(best), linear = linear_answer(reference);
   on_root(communicator,
           [&]()
           {
-            regions = regions_of(sheet, load.is_periodic());
-            of_load = std::make_unique<LoadBudget>(cells, sheet, load, linear, linear_best, strain,
-                                                   budget_refinement(sheet));
+            SecondCodeRow row = {cell->name, "-", 1., "linear", "p2-cell"};
+            const Eigen::Matrix3d other =
+              second_p2_stiffness(cells.given, cells.stiffness_of_phase);
+            row.distance = energy_difference(cells.best.stiffness, other);
+            second->append_if_missing(row);
+          });
+}
+
+void BudgetStudy::begin_load(const homogenization::UnitCell &new_cell,
+                             const meshes::HomogenizedCell &given, const meshes::Sheet &new_sheet,
+                             const Load &load)
+{
+  if (cell != &new_cell)
+    begin_cell(new_cell, given);
+  sheet = &new_sheet;
+  ReferenceOptions with_p2;
+  with_p2.order = 2;
+  p2 = std::make_unique<FineReference>(*sheet, cells.stiffness_of_phase, with_p2, communicator);
+  p2->start(load, law_of_budget);
+  constexpr double strain = 0.01; // any: the law is linear
+  on_root(communicator,
+          [&]()
+          {
+            regions = regions_of(*sheet, load.is_periodic());
+            of_load = std::make_unique<LoadBudget>(
+              cells, *sheet, load,
+              second_linear_sheet(cells.given, cells.stiffness_of_phase, *sheet, load, strain),
+              strain, budget_refinement(*sheet));
           });
   load_name = load.name;
 }
@@ -100,6 +109,8 @@ std::string BudgetStudy::measure(const Law law, const double strain,
                                  const UpsampledLevel &solved)
 {
   const ReferenceStep tight = reference.tighten(1e-11);
+  const bool is_judged      = std::find(judged.begin(), judged.end(), strain) != judged.end();
+  const ReferenceStep of_p2 = is_judged ? p2->advance(strain) : ReferenceStep();
   std::string fault;
   on_root(communicator,
           [&]()
@@ -108,12 +119,39 @@ std::string BudgetStudy::measure(const Law law, const double strain,
             if (!tight.reached)
               fault = "the reference does not converge to 1e-11; " + tight.why;
             else
-              fault = measure_on_root(law, strain, positions, tight.positions, solved);
+            {
+              if (is_judged && law == Law::biot)
+                hold_against_second_code(strain, tight.positions);
+              fault = measure_on_root(law, strain, positions, tight.positions,
+                                      of_p2.reached ? &of_p2.positions : nullptr, solved);
+            }
+            if (fault.empty() && is_judged && !of_p2.reached)
+              fault = "the part `reference` is not known: P2 is not reached; " + of_p2.why;
             if (fault.empty() && !note_of_round_off(tight).empty())
               fault =
                 "the part `solver` lacks what the reference's solver leaves, which is at round-off";
           });
   return fault;
+}
+
+/// One level of each load: the first that is judged.
+void BudgetStudy::hold_against_second_code(const double strain, const meshes::Points &tight)
+{
+  if (strain != judged.front())
+    return;
+  SecondCodeRow row = {cell->name, load_name, strain, name_of(Law::biot), "sheet"};
+  try
+  {
+    const meshes::Points other = second_corotational_sheet(cells.given, cells.stiffness_of_phase,
+                                                           *sheet, Load(load_name), strain, tight);
+    row.distance =
+      (tight - other).rowwise().norm().mean() / (strain * std::sqrt(cell->lattice.area()));
+  }
+  catch (const meshes::NotConverged &failure)
+  {
+    row.fault = failure.what();
+  }
+  second->append_if_missing(row);
 }
 
 std::string BudgetStudy::measure_on_root(const Law law, const double strain,
@@ -122,8 +160,8 @@ std::string BudgetStudy::measure_on_root(const Law law, const double strain,
 {
   try
   {
-    const ErrorBudget budget =
-      of_load->measure(law, {strain, solved.coarse, solved.upsampled, positions, tight});
+    const ErrorBudget budget = of_load->measure(
+      law, {strain, solved.coarse, solved.upsampled, positions, tight, p2_positions});
     for (const BudgetRow &row : budget_rows({cell->name, load_name, strain, name_of(law)}, budget,
                                             regions, std::sqrt(cell->lattice.area())))
       table->append_if_missing(row);

@@ -27,10 +27,10 @@ struct UpsampledLevel
 class BudgetStudy
 {
 public:
-  /// @param references of the study
-  /// @param table budget.csv on the first rank, elsewhere null
-  BudgetStudy(const std::vector<std::string> &references, Table<BudgetRow> *table,
-              MPI_Comm communicator);
+  /// @param references, strains of the study
+  /// @param table, second budget.csv and second-code.csv on the first rank, elsewhere null
+  BudgetStudy(const std::vector<std::string> &references, const std::vector<double> &strains,
+              Table<BudgetRow> *table, Table<SecondCodeRow> *second, MPI_Comm communicator);
 
   /// Whether the budget of a level is asked for and not yet in the table, as the first rank sees
   /// it.
@@ -45,12 +45,12 @@ public:
   bool is_missing(const std::string &cell, const std::string &load,
                   const std::vector<double> &strains) const;
 
-  /// Solves the linear references, P1 and P2, and at the first load of a cell homogenizes it in the
-  /// further ways that the budget compares. `reference` is left without levels.
-  /// @param cell to be kept by the caller while its loads last
+  /// Solves the sheet in linear theory by the second code, lays out the P2 reference, and at the
+  /// first load of a cell homogenizes it in the further ways that the budget compares.
+  /// @param cell, sheet to be kept by the caller while its loads last
   /// @throws NotConverged on every rank
   void begin_load(const homogenization::UnitCell &cell, const meshes::HomogenizedCell &given,
-                  const meshes::Sheet &sheet, const Load &load, FineReference &reference);
+                  const meshes::Sheet &sheet, const Load &load);
 
   /// Measures the parts at a level that `reference` has just reached, and writes their rows.
   /// @param positions of that level
@@ -64,13 +64,19 @@ public:
 private:
   void begin_cell(const homogenization::UnitCell &cell, const meshes::HomogenizedCell &given);
   std::string measure_on_root(Law law, double strain, const meshes::Points &positions,
-                              const meshes::Points &tight, const UpsampledLevel &solved);
+                              const meshes::Points &tight, const meshes::Points *p2,
+                              const UpsampledLevel &solved);
+  void hold_against_second_code(double strain, const meshes::Points &tight);
 
   Table<BudgetRow> *const table;
+  Table<SecondCodeRow> *const second;
+  const std::vector<double> judged; ///< strains
   const MPI_Comm communicator;
   const homogenization::UnitCell *cell = nullptr;
   BudgetCells cells;
   std::unique_ptr<LoadBudget> of_load; ///< first rank
+  std::unique_ptr<FineReference> p2;   ///< every rank
+  const meshes::Sheet *sheet = nullptr;
   std::vector<int> regions;
   std::string load_name;
 };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The rows of budget.csv.
+// The rows of budget.csv and second-code.csv.
 #pragma once
 
 #include "verification/record/table.h"
@@ -36,6 +36,35 @@ struct BudgetRow
     column("max_m", &BudgetRow::max, Domain::not_negative);
     column("mean_per_cell", &BudgetRow::per_cell, Domain::not_negative);
     column("share", &BudgetRow::share, Domain::real);
+  }
+};
+
+/// second-code.csv: what two codes that solve one discrete problem differ by. `what`:
+///   sheet    the reference and the second code's sheet, at one level of a load
+///   p2-cell  C^H of P2 by both solvers; `load` and `reference` say nothing there
+struct SecondCodeRow
+{
+  static constexpr const char *file   = "second-code.csv";
+  static constexpr std::size_t n_keys = 5;
+  static constexpr double none        = std::numeric_limits<double>::quiet_NaN();
+
+  std::string cell, load;
+  double strain = 0.;
+  std::string reference, what = {};
+  double distance =
+    none; ///< sheet: mean over the vertices, per strain and cell side; cell: energies
+  std::string fault = {}; ///< why there is no distance
+
+  template <typename Column>
+  static void columns(Column &&column)
+  {
+    column("cell", &SecondCodeRow::cell, Domain::name);
+    column("load", &SecondCodeRow::load, Domain::name);
+    column("strain", &SecondCodeRow::strain, Domain::positive);
+    column("reference", &SecondCodeRow::reference, Domain::name);
+    column("what", &SecondCodeRow::what, Domain::name);
+    column("distance", &SecondCodeRow::distance, Domain::not_negative);
+    column("fault", &SecondCodeRow::fault, Domain::text);
   }
 };
 } // namespace homespun::verification

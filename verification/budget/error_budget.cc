@@ -21,13 +21,28 @@ const std::vector<std::string> &budget_parts()
   return names;
 }
 
+bool is_in_sum(const std::string &part)
+{
+  return part != "cell" && part != "reference" && part != "precision" && part != "resolution";
+}
+
 Points ErrorBudget::sum() const
 {
   Points result = Points::Zero(total.rows(), 2);
   for (const auto &[name, field] : parts)
-    if (name != "precision" && name != "resolution")
+    if (is_in_sum(name))
       result += field;
   return result;
+}
+
+double ErrorBudget::bar() const
+{
+  const auto mean = [&](const char *part) { return parts.at(part).rowwise().norm().mean(); };
+  double linear   = 0.;
+  for (const char *part : {"scale", "coarse-mesh", "blending", "convention"})
+    linear += mean(part);
+  return change_of_response * linear +
+         (misfit_of_localization + change_of_response) * mean("nonlinearity");
 }
 
 int budget_refinement(const meshes::Sheet &sheet)
@@ -72,8 +87,7 @@ Points from_constant(const LocalState &state, const Eigen::Matrix<double, 3, 2> 
 } // namespace
 
 LoadBudget::LoadBudget(const BudgetCells &cells, const meshes::Sheet &sheet, const Load &load,
-                       const Points &linear, const Points &linear_best, const double linear_strain,
-                       const int refinement)
+                       const Points &second, const double linear_strain, const int refinement)
     : cells(cells)
     , sheet(sheet)
     , load(load)
@@ -86,23 +100,11 @@ LoadBudget::LoadBudget(const BudgetCells &cells, const meshes::Sheet &sheet, con
                     load.is_periodic() ? 1 : sheet.n1 * refinement / 2,
                     load.is_periodic() ? 1 : sheet.n2 * refinement / 2)
 {
-  const HomogenizedSheet resolved_best(cells.best.stiffness, sheet, load,
-                                       load.is_periodic() ? 1 : sheet.n1 * refinement,
-                                       load.is_periodic() ? 1 : sheet.n2 * refinement);
-  const LocalState state = resolved_best.at_fine_vertices(
-    Law::linear, resolved_best.solve(Law::linear, resolved_best.prescribed(linear_strain)));
-  const Points error = localized(state, cells.best, sheet) - linear_best;
+  const LocalState state = resolved.at_fine_vertices(
+    Law::linear, resolved.solve(Law::linear, resolved.prescribed(linear_strain)));
+  const Points error = localized(state, cells.given, sheet) - second;
   constant           = best_constant(state, error);
   scale              = (error - from_constant(state, constant)) / linear_strain;
-
-  const auto method = [&](const meshes::HomogenizedCell &cell, const HomogenizedSheet &homogenized)
-  {
-    return upsampled(cell, coarse.mesh, sheet, Law::linear,
-                     homogenized.solve(Law::linear, homogenized.prescribed(linear_strain)));
-  };
-  cell_and_reference =
-    (linear_best - linear + method(cells.given, coarse) - method(cells.best, coarse_best)) /
-    linear_strain;
 }
 
 ErrorBudget LoadBudget::measure(const Law law, const SolvedLevel &level)
@@ -127,6 +129,9 @@ ErrorBudget LoadBudget::measure(const Law law, const SolvedLevel &level)
   budget.parts["convention"] = from_constant(exact, constant);
   budget.parts["nonlinearity"] =
     law == Law::linear ? zero : nonlinearity(law, u, with_exact, budget);
+  const double response = (with_exact - exact.positions).rowwise().norm().mean();
+  if (response > 0.)
+    budget.change_of_response = budget.parts["nonlinearity"].rowwise().norm().mean() / response;
   budget.parts["coarse-mesh"] =
     localized(coarse.at_fine_vertices(law, level.coarse), cells.given, sheet) - with_averaged;
   budget.parts["blending"]   = with_averaged - with_exact;
@@ -135,7 +140,8 @@ ErrorBudget LoadBudget::measure(const Law law, const SolvedLevel &level)
   const shell::Positions<2> u_best =
     coarse_best.solve(law, coarse_best.with_held(level.coarse, strain));
   budget.parts["cell"] = level.upsampled - upsampled(cells.best, coarse.mesh, sheet, law, u_best);
-  budget.parts["reference"] = strain * cell_and_reference - budget.parts["cell"];
+  if (level.p2_reference != nullptr)
+    budget.parts["reference"] = *level.p2_reference - level.reference;
 
   shell::EquilibriumOptions tight;
   tight.relative_tolerance          = 1e-13;

@@ -25,6 +25,8 @@ int main(int argc, char **argv)
   add_to_schema<NoteRow>(schema);
   add_to_schema<UncertaintyRow>(schema);
   add_to_schema<BudgetRow>(schema);
+  add_to_schema<SecondCodeRow>(schema);
+  add_to_schema<SecondCodeRow>(schema);
   add_to_schema<RunTimeRow>(schema);
   add_to_schema<ValidityRow>(schema);
   add_to_schema<ConvergeRow>(schema);

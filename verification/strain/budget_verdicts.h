@@ -2,6 +2,7 @@
 // The claims of an error budget, judged from its rows and those of the errors that it splits.
 #pragma once
 
+#include "verification/budget/budget_rows.h"
 #include "verification/budget/budget_tables.h"
 #include "verification/record/verdict.h"
 #include "verification/strain/strain_tables.h"
@@ -13,8 +14,9 @@ namespace homespun::verification
 {
 /// Judges, for every cell and load among the rows of strain.csv and at the levels nearest to 1 %
 /// and 10 %:
-/// - effectivity within [0.8, 1.25]; INCONCLUSIVE where the reference was not reached or a part not
-///   found; where the total is zero to what the solvers leave, whether the sum is as well
+/// - what the parts leave of the error, within the bar of their sum; INCONCLUSIVE where that bar is
+///   above a fifth of the error, the reference was not reached or a part not found; where the total
+///   is zero to what the solvers leave, whether the sum is as well
 /// - part 7 at most 1 % of the total
 /// and over the levels up to 2 %, where the study has three of them: the mean of part 2 grows as
 /// strain squared, slope 2 +- 0.1, or is zero to what the solvers leave at each.
@@ -23,8 +25,11 @@ std::vector<Verdict> budget_verdicts(const std::vector<StrainRow> &strain_rows,
                                      const std::vector<BudgetRow> &budget_rows,
                                      const std::vector<double> &strains);
 
-/// What the sum of the parts misses at the same levels, vertex by vertex, and how far the
-/// homogenized sheet that counts as resolved is so: figures without a limit. Ready sentences.
+/// Judges each row of second-code.csv: two codes that solve one discrete problem agree.
+std::vector<Verdict> second_code_verdicts(const std::vector<SecondCodeRow> &rows);
+
+/// At the judged levels: parts that are larger than the error and cancel, and how far the
+/// homogenized sheet that counts as resolved is so. Ready sentences.
 std::vector<std::string> budget_notes(const std::vector<StrainRow> &strain_rows,
                                       const std::vector<BudgetRow> &budget_rows);
 } // namespace homespun::verification

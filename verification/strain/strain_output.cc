@@ -30,6 +30,7 @@ StrainOutput::StrainOutput(const StrainStudyOptions &options,
                            std::function<void(const std::string &)> tell)
     : uncertainty(options.output)
     , budget(table_if<BudgetRow>(options.budget, options.output))
+    , second(table_if<SecondCodeRow>(options.budget, options.output))
     , run_time(table_if<RunTimeRow>(options.run_time, options.output))
     , folder(options.output)
     , methods(options.methods)

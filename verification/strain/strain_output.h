@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What a strain study leaves on the disk as it goes on: the tables strain.csv (errors), steps.csv
-// (times), uncertainty.csv, notes.csv, budget.csv and runtime.csv, and at its end validity.csv.
-// First rank alone.
+// (times), uncertainty.csv, notes.csv, budget.csv, second-code.csv and runtime.csv, and at its end
+// validity.csv. First rank alone.
 #pragma once
 
 #include "meshes/plain/sheet.h"
@@ -84,8 +84,9 @@ public:
   }
 
   Table<UncertaintyRow> uncertainty;
-  std::unique_ptr<Table<BudgetRow>> budget;    ///< none where it is left out
-  std::unique_ptr<Table<RunTimeRow>> run_time; ///< none where it is left out
+  std::unique_ptr<Table<BudgetRow>> budget;     ///< none where it is left out
+  std::unique_ptr<Table<SecondCodeRow>> second; ///< with the budget
+  std::unique_ptr<Table<RunTimeRow>> run_time;  ///< none where it is left out
 
 private:
   const std::string folder;

@@ -63,8 +63,9 @@ public:
                    1); // refuses cells that make no sheet, before any file
     on_root(communicator, [&]() { open_tables(); });
     if (options.budget)
-      budget = std::make_unique<BudgetStudy>(options.references,
-                                             output ? output->budget.get() : nullptr, communicator);
+      budget = std::make_unique<BudgetStudy>(options.references, options.strains,
+                                             output ? output->budget.get() : nullptr,
+                                             output ? output->second.get() : nullptr, communicator);
     for (const UnitCell &cell : cells)
       study_cell(cell);
     return conclude();
@@ -174,7 +175,7 @@ private:
                                                   ReferenceOptions(), communicator);
     MethodOnSheet method  = {homogenized, LightweightCloth(homogenized, sheet, load),
                              FluctuationMeasure(homogenized.stiffness, sheet, load)};
-    const bool has_budget = begin_budget(cell, homogenized, sheet, load, *reference);
+    const bool has_budget = begin_budget(cell, homogenized, sheet, load);
     for (std::size_t k = 0; k < laws.size(); ++k)
     {
       const std::vector<double> missing = missing_strains(cell, load, laws[k]);
@@ -206,14 +207,15 @@ private:
   /// What the budget of a load asks for beside the study, if any level of it is missing.
   /// @return whether levels can be measured, on every rank
   bool begin_budget(const UnitCell &cell, const meshes::HomogenizedCell &homogenized,
-                    const meshes::Sheet &sheet, const Load &load, FineReference &reference)
+                    const meshes::Sheet &sheet, const Load &load)
   {
     if (!budget || !budget->is_missing(cell.name, load.name, options.strains))
       return false;
-    progress.begin(cell.name + ", " + load.name + ": linear references of the error budget");
+    progress.begin(cell.name + ", " + load.name +
+                   ": the sheet by a second code, for the error budget");
     try
     {
-      budget->begin_load(cell, homogenized, sheet, load, reference);
+      budget->begin_load(cell, homogenized, sheet, load);
       return true;
     }
     catch (const meshes::NotConverged &failure)
@@ -352,6 +354,7 @@ private:
               {
                 const std::vector<BudgetRow> &rows = output->budget->rows();
                 add(budget_verdicts(output->strain_rows(), rows, options.strains));
+                add(second_code_verdicts(output->second->rows()));
                 for (const std::string &note : budget_notes(output->strain_rows(), rows))
                   notes.push_back(note);
               }

@@ -14,13 +14,15 @@ class Budget(InFolder):
     def test_a_study_writes_budget_run_times_and_validity_and_judges_the_budget(self):
         result = run(*STUDY, "--output", self.folder)
         self.assertEqual(result.returncode, 0, result.stderr)
-        self.assertIn("add up", result.stdout)
+        self.assertIn("what the parts leave", result.stdout)
 
         budget = rows_of(self.folder / "budget.csv")
         whole = [row for row in budget if row["region"] == "all"]
-        self.assertEqual(len(whole), 2 * 2 * 14)  # loads, strains; eleven parts, sum, misfit, total
+        # loads, strains; eleven parts, sum, unexplained and its bar, total
+        self.assertEqual(len(whole), 2 * 2 * 15)
         for row in budget:
-            for key in ("mean_m", "rms_m", "max_m", "mean_per_cell", "share"):
+            is_bar = row["part"] == "unexplained-bar"
+            for key in ("mean_m", "mean_per_cell") if is_bar else ("mean_m", "rms_m", "max_m", "mean_per_cell", "share"):
                 self.assertTrue(math.isfinite(float(row[key])), row)
         total = {(row["load"], row["strain"]): float(row["mean_m"]) for row in whole if row["part"] == "total"}
         for row in rows_of(self.folder / "strain.csv"):
@@ -38,7 +40,7 @@ class Budget(InFolder):
         validity = rows_of(self.folder / "validity.csv")
         self.assertEqual(len(validity), 2 * 5)
         self.assertEqual({row["relation"] for row in validity} - {"=", ">", "-"}, set())
-        claims = [v for v in json.loads((self.folder / "verdicts.json").read_text())["verdicts"] if "add up" in v["claim"]]
+        claims = [v for v in json.loads((self.folder / "verdicts.json").read_text())["verdicts"] if "the parts leave" in v["claim"]]
         self.assertEqual(len(claims), 4)
         self.assertEqual({v["verdict"] for v in claims}, {"PASS"})
 

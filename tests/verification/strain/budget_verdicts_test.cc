@@ -42,11 +42,12 @@ ErrorBudget known_budget(const double strain)
                                : name == "solver" || name == "resolution" ? 1e-9 * strain
                                                                           : size,
                                turn);
-    if (name != "precision" && name != "resolution")
+    if (is_in_sum(name))
       budget.total += budget.parts[name];
     size *= 0.8;
     turn += 1.;
   }
+  budget.change_of_response = 0.1 * strain;
   return budget;
 }
 
@@ -104,13 +105,13 @@ const Verdict &verdict_with(const std::vector<Verdict> &verdicts, const std::str
 const std::vector<double> strains = {0.001, 0.005, 0.01, 0.1};
 } // namespace
 
-TEST(exact_budget, parts_that_make_up_the_total_have_effectivity_one)
+TEST(exact_budget, parts_that_make_up_the_total_leave_nothing)
 {
   const auto verdicts = judged(strains, ladder(strains));
   EXPECT_EQ(verdicts.size(), 5u); // two levels, two claims each, and the slope
   for (const Verdict &verdict : verdicts)
     EXPECT_EQ(verdict.outcome, Outcome::pass) << verdict.claim;
-  EXPECT_NEAR(verdict_with(verdicts, "add up").value, 1., 1e-5);
+  EXPECT_LT(verdict_with(verdicts, "the parts leave").value, 1e-12);
   EXPECT_NEAR(verdict_with(verdicts, "slope").value, 2., 1e-4);
 }
 
@@ -119,7 +120,7 @@ TEST(exact_budget, the_shares_of_the_parts_are_the_share_of_their_sum)
   const ErrorBudget budget = known_budget(0.01);
   double shares            = 0.;
   for (const std::string &name : budget_parts())
-    if (name != "precision" && name != "resolution")
+    if (is_in_sum(name))
       shares += norms_of(budget.parts.at(name), budget.total, all_interior, 0).share;
   EXPECT_NEAR(shares, 1., 1e-12);
   EXPECT_NEAR(norms_of(budget.total, budget.total, all_interior, 0).share, 1., 1e-14);
@@ -140,15 +141,14 @@ TEST(exact_budget, regions_are_averaged_apart)
   EXPECT_DOUBLE_EQ(norms_of(part, total, regions, 0).max, 2.);
 }
 
-TEST(tripwire_budget, an_error_planted_in_one_part_moves_the_effectivity_out_of_range)
+TEST(tripwire_budget, a_part_wrong_by_half_is_noticed)
 {
-  for (const char *part : {"scale", "coarse-mesh", "cell"})
-    for (const double factor : {-2., 4.})
-    {
-      const auto verdicts = judged(strains, ladder(strains, part, factor));
-      EXPECT_EQ(verdict_with(verdicts, "add up").outcome, Outcome::fail)
+  for (const char *part : {"scale", "coarse-mesh", "blending", "convention"})
+    for (const double factor : {-1., 0., 0.5, 1.5})
+      EXPECT_EQ(
+        verdict_with(judged(strains, ladder(strains, part, factor)), "the parts leave").outcome,
+        Outcome::fail)
         << part << " times " << factor;
-    }
 }
 
 TEST(tripwire_budget, a_sum_as_long_as_the_error_that_points_elsewhere_is_noticed)
@@ -161,10 +161,47 @@ TEST(tripwire_budget, a_sum_as_long_as_the_error_that_points_elsewhere_is_notice
       field *= -1.;
     add_level(strain, budget, rows);
   }
-  EXPECT_EQ(verdict_with(judged(strains, rows), "add up").outcome, Outcome::pass); // lengths alone
-  const auto notes = budget_notes(strain_rows(strains), rows);
-  ASSERT_EQ(notes.size(), 2u); // 1 % and 10 %
-  EXPECT_NE(notes[0].find("misses 2e+02 %"), std::string::npos) << notes[0];
+  EXPECT_EQ(verdict_with(judged(strains, rows), "the parts leave").outcome, Outcome::fail);
+}
+
+TEST(exact_budget, a_bar_above_a_fifth_of_the_error_decides_nothing)
+{
+  ErrorBudget budget        = known_budget(0.01);
+  budget.change_of_response = 0.3;
+  budget.total *= 1.1;
+  std::vector<BudgetRow> rows;
+  add_level(0.01, budget, rows);
+  EXPECT_EQ(verdict_with(judged({0.01}, rows), "the parts leave").outcome, Outcome::inconclusive);
+}
+
+TEST(exact_budget, parts_larger_than_the_error_are_named)
+{
+  ErrorBudget budget = known_budget(0.01);
+  budget.parts["scale"] += 10. * budget.total;
+  budget.parts["convention"] -= 10. * budget.total;
+  std::vector<BudgetRow> rows;
+  add_level(0.01, budget, rows);
+  const auto notes = budget_notes(strain_rows({0.01}), rows);
+  ASSERT_EQ(notes.size(), 2u);
+  EXPECT_NE(notes[0].find("larger than the error"), std::string::npos) << notes[0];
+  EXPECT_NE(notes[0].find("scale ("), std::string::npos) << notes[0];
+  EXPECT_NE(notes[0].find("convention ("), std::string::npos) << notes[0];
+}
+
+TEST(tripwire_second_code, two_codes_that_differ_are_noticed)
+{
+  const auto outcome = [](const char *what, const double distance)
+  {
+    SecondCodeRow row = {"cell", "strip-2", 0.01, "biot", what};
+    row.distance      = distance;
+    return second_code_verdicts({row}).at(0).outcome;
+  };
+  for (const char *what : {"sheet", "p2-cell"})
+  {
+    EXPECT_EQ(outcome(what, 1e-9), Outcome::pass);
+    EXPECT_EQ(outcome(what, 1e-3), Outcome::fail);
+    EXPECT_EQ(outcome(what, std::numeric_limits<double>::quiet_NaN()), Outcome::inconclusive);
+  }
 }
 
 TEST(tripwire_budget, a_homogenized_sheet_that_is_not_resolved_is_told)
