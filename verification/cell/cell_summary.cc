@@ -2,6 +2,7 @@
 #include "verification/cell/cell_summary.h"
 
 #include "verification/cell/cell_bars.h"
+#include "verification/cell/energy_order.h"
 #include "verification/record/number_text.h"
 
 #include <Eigen/LU>

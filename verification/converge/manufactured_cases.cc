@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "verification/converge/manufactured_cases.h"
 
+#include "meshes/cloth/irregular_sheet.h"
 #include "meshes/plain/errors.h"
 #include "meshes/plain/refine.h"
 #include "meshes/plain/sheet.h"
@@ -56,7 +57,7 @@ meshes::TriangleMesh irregular_mesh(const int n)
   int refinements          = 0;
   while (n_coarsest << refinements < n)
     ++refinements;
-  return meshes::refined(irregular_sheet(n_coarsest, side), refinements);
+  return meshes::refined(meshes::irregular_sheet(n_coarsest, side), refinements);
 }
 
 /// A field with its derivatives by the rest point.

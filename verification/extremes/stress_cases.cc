@@ -36,7 +36,7 @@ StressAnswer hang(const SheetStiffness &stiffness, const double h, const int n_s
 {
   const meshes::ClothMesh mesh = hanging_mesh(n);
   Cloth cloth                  = sheet_cloth(mesh, stiffness, upper_corners(n));
-  Vectors velocities           = disturbance * random_vectors(mesh.n_vertices(), seed);
+  Vectors velocities           = disturbance * meshes::random_vectors(mesh.n_vertices(), seed);
   for (const int v : upper_corners(n))
     velocities.row(v).setZero();
   cloth.set_state(mesh.positions, velocities, 0.);
@@ -73,7 +73,7 @@ Vectors scaled(const meshes::ClothMesh &mesh, const Eigen::Vector3d &factors)
 const std::vector<Start> starts = {
   {"random vertices", true,
    [](const meshes::ClothMesh &mesh, const unsigned int seed) -> Vectors
-   { return 0.2 * random_vectors(mesh.n_vertices(), seed); }},
+   { return 0.2 * meshes::random_vectors(mesh.n_vertices(), seed); }},
   {"flattened to another plane", false,
    [](const meshes::ClothMesh &mesh, unsigned int) -> Vectors
    {

@@ -199,7 +199,7 @@ std::vector<StressCase> of_cell(const Shared &sheets, const std::string &name)
           });
   bounded("random coarse vertices", true,
           [=](const unsigned int seed) -> Positions<3>
-          { return n_cells * sheets->side * random_vectors(flat.rows(), seed); });
+          { return n_cells * sheets->side * meshes::random_vectors(flat.rows(), seed); });
   bounded("one coarse vertex at 1e6 m", true,
           [=](const unsigned int seed)
           {

@@ -107,7 +107,7 @@ TriangleMesh with_sliver(TriangleMesh mesh, const double height)
 std::vector<StressCase> mesh_cases(const SheetStiffness &stiffness)
 {
   std::vector<StressCase> cases;
-  const TriangleMesh sheet = irregular_sheet(n, 0.2);
+  const TriangleMesh sheet = meshes::irregular_sheet(n, 0.2);
   const int m = sheet.n_triangles(), v = sheet.n_vertices(), sliver = 2 * (n - 1) * n + 1;
 
   const auto refused = [&](const std::string &name, const std::string &names, const ClothMesh &mesh)

@@ -72,7 +72,7 @@ constexpr int n_steps_of_fall = 100;
 /// later steps carry it on: the sum of h v_k (N - k) is g h² N³/6.
 double fall_round_off(const SheetStiffness &stiffness)
 {
-  const meshes::TriangleMesh mesh = irregular_sheet(n, 0.2);
+  const meshes::TriangleMesh mesh = meshes::irregular_sheet(n, 0.2);
   const Eigen::VectorXd areas     = meshes::signed_areas(mesh);
   double altitude                 = std::numeric_limits<double>::infinity();
   for (int t = 0; t < mesh.n_triangles(); ++t)
@@ -98,7 +98,7 @@ StressAnswer free_fall(const SheetStiffness &stiffness, const shell::Integrator 
   constexpr double h         = fall_step;
   constexpr int n_steps      = n_steps_of_fall;
   meshes::ClothMesh mesh     = hanging_mesh(n);
-  const Eigen::Vector3d axis = random_vectors(1, seed).row(0).normalized();
+  const Eigen::Vector3d axis = meshes::random_vectors(1, seed).row(0).normalized();
   mesh.positions =
     mesh.positions * Eigen::AngleAxisd(0.3 + seed, axis).toRotationMatrix().transpose();
   SheetPhysics physics       = undamped(true);
@@ -224,7 +224,7 @@ StressAnswer with_bending(const SheetStiffness &stiffness, const double h, const
   const meshes::ClothMesh mesh = hanging_mesh(n);
   Cloth cloth                  = sheet_cloth(mesh, stiffness, upper_corners(n));
   cloth.add(shell::bending_term(mesh, {plate()}));
-  Vectors velocities = random_vectors(mesh.n_vertices(), seed);
+  Vectors velocities = meshes::random_vectors(mesh.n_vertices(), seed);
   for (const int v : upper_corners(n))
     velocities.row(v).setZero();
   cloth.set_state(mesh.positions, velocities, 0.);

@@ -69,7 +69,7 @@ Eigen::Matrix<double, 3, 2> rest_corners()
 StressAnswer without_force(const SheetStiffness &stiffness, const bool is_mirrored,
                            const unsigned int seed)
 {
-  const Eigen::Vector3d axis = random_vectors(1, seed).row(0).normalized();
+  const Eigen::Vector3d axis = meshes::random_vectors(1, seed).row(0).normalized();
   Eigen::Matrix3d Q          = Eigen::AngleAxisd(M_PI, axis).toRotationMatrix();
   if (is_mirrored)
     Q = Eigen::Matrix3d::Identity() - 2. * axis * axis.transpose();
@@ -111,7 +111,7 @@ Eigen::Matrix<double, 9, 9> matrix_of(const shell::TriangleDerivatives<3> &deriv
 /// whatever it is.
 StressAnswer of_rank(const SheetStiffness &stiffness, const int rank, const unsigned int seed)
 {
-  const Vectors random            = random_vectors(4, seed);
+  const Vectors random            = meshes::random_vectors(4, seed);
   shell::DeformationGradient<3> F = shell::DeformationGradient<3>::Zero();
   for (int k = 0; k < rank; ++k)
     F += 1.5 * random.row(k).transpose() * random.row(2 + k).head<2>();
@@ -131,7 +131,7 @@ StressAnswer of_rank(const SheetStiffness &stiffness, const int rank, const unsi
 /// P(QF) = Q P(F), at any size of F.
 StressAnswer scaled(const SheetStiffness &stiffness, const double scale, const unsigned int seed)
 {
-  const Vectors random            = random_vectors(3, seed);
+  const Vectors random            = meshes::random_vectors(3, seed);
   shell::DeformationGradient<3> F = scale * random.leftCols<2>();
   const Eigen::Matrix3d Q = Eigen::AngleAxisd(2.5, random.col(2).normalized()).toRotationMatrix();
   const shell::DeformationGradient<3> P      = shell::energy_gradient<3>(F, stiffness.D),

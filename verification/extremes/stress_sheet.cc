@@ -33,28 +33,18 @@ std::vector<SheetStiffness> built_in_stiffnesses()
           {"anisotropic 1e4", 0.5 * (skewed + skewed.transpose())}};
 }
 
-meshes::TriangleMesh irregular_sheet(const int n, const double side)
-{
-  meshes::TriangleMesh mesh =
-    meshes::coarse_sheet({0., 0.}, side / n * Eigen::Matrix2d::Identity(), n, n);
-  const shell::Vectors shift = 0.25 * side / n * random_vectors(mesh.n_vertices(), 7);
-  for (int j = 1; j < n; ++j)
-    for (int i = 1; i < n; ++i)
-      mesh.vertices.row(j * (n + 1) + i) += shift.row(j * (n + 1) + i).head<2>();
-  return mesh;
-}
-
 meshes::ClothMesh hanging_mesh(const int n, const double side)
 {
   Eigen::Matrix<double, 3, 2> placement;
   placement << 1., 0., 0., 0., 0., 1.;
-  return meshes::placed_sheet(irregular_sheet(n, side), placement, Eigen::RowVector3d::Zero());
+  return meshes::placed_sheet(meshes::irregular_sheet(n, side), placement,
+                              Eigen::RowVector3d::Zero());
 }
 
 meshes::ClothMesh lying_mesh(const int n, const double side)
 {
-  return meshes::placed_sheet(irregular_sheet(n, side), Eigen::Matrix<double, 3, 2>::Identity(),
-                              Eigen::RowVector3d::Zero());
+  return meshes::placed_sheet(meshes::irregular_sheet(n, side),
+                              Eigen::Matrix<double, 3, 2>::Identity(), Eigen::RowVector3d::Zero());
 }
 
 std::vector<int> outline_of(const int n)
@@ -106,17 +96,6 @@ double largest_energy_growth(shell::Cloth &cloth, const double h, const int n_st
     before  = after;
   }
   return growth > 0. ? growth / largest : 0.;
-}
-
-shell::Vectors random_vectors(const Eigen::Index n, const unsigned int seed)
-{
-  // Without std::uniform_real_distribution, whose numbers differ between libraries.
-  std::mt19937 generator(seed);
-  shell::Vectors vectors(n, 3);
-  for (Eigen::Index i = 0; i < n; ++i)
-    for (int c = 0; c < 3; ++c)
-      vectors(i, c) = static_cast<double>(generator()) / 2147483647.5 - 1.;
-  return vectors;
 }
 
 shell::Vectors spinning(const shell::Vectors &positions, const Eigen::VectorXd &masses,

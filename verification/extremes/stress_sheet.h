@@ -4,6 +4,7 @@
 #pragma once
 
 #include "meshes/cloth/cloth_mesh.h"
+#include "meshes/cloth/irregular_sheet.h"
 #include "shell/solver/cloth.h"
 #include "verification/extremes/stress_case.h"
 
@@ -29,9 +30,6 @@ SheetStiffness isotropic_sheet(double young, double poisson);
 /// C22, C66 of the stripe cell, 2840, 300, 999, 350 N/m), one whose eigenvalues are 10,000, 30 and
 /// 1 N/m, off its axes.
 std::vector<SheetStiffness> built_in_stiffnesses();
-
-/// n x n x 2 triangles; inner vertices moved by up to a quarter of the mesh width, always the same.
-meshes::TriangleMesh irregular_sheet(int n, double side);
 
 /// A square sheet in the xz plane, upper edge at z = side: as it would hang. Vertex j (n + 1) + i.
 meshes::ClothMesh hanging_mesh(int n, double side = 0.2);
@@ -64,9 +62,6 @@ Eigen::MatrixXd state_of(const shell::Cloth &cloth);
 /// Takes steps. The growth of kinetic and stored energy, the largest within one step, over the
 /// largest energy met [-]; zero where there is none.
 double largest_energy_growth(shell::Cloth &cloth, double h, int n_steps);
-
-/// Independent numbers between −1 and 1.
-shell::Vectors random_vectors(Eigen::Index n, unsigned int seed);
 
 /// Velocities of a rigid rotation about the centre of mass [m/s].
 shell::Vectors spinning(const shell::Vectors &positions, const Eigen::VectorXd &masses,

@@ -67,7 +67,7 @@ Cloth spinning_cloth(const SheetStiffness &stiffness, const Spin &spin, const In
   physics.options.integrator = integrator;
   Cloth cloth                = sheet_cloth(mesh, stiffness, {}, physics);
   Vectors velocities         = spinning(mesh.positions, cloth.masses(), spin.angular_velocity) +
-                       spin.disturbance * random_vectors(mesh.n_vertices(), seed);
+                       spin.disturbance * meshes::random_vectors(mesh.n_vertices(), seed);
   velocities.rowwise() += Eigen::RowVector3d(0.3, 0.1, -0.2);
   cloth.set_state(mesh.positions, velocities, 0.);
   return cloth;

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "meshes/cloth/irregular_sheet.h"
 #include "meshes/plain/refine.h"
 #include "meshes/plain/sheet.h"
 #include "verification/converge/manufactured.h"
@@ -146,8 +147,8 @@ OrderJudgement judged_with(
   std::vector<double> h, errors;
   for (const int refinements : {1, 2, 3, 4})
   {
-    const meshes::Sheet sheet =
-      meshes::tile(meshes::refined(irregular_sheet(6, 1.), refinements), meshes::Lattice(), 1, 1);
+    const meshes::Sheet sheet = meshes::tile(
+      meshes::refined(meshes::irregular_sheet(6, 1.), refinements), meshes::Lattice(), 1, 1);
     FineReference reference(sheet, {anisotropic()}, ReferenceOptions(), MPI_COMM_SELF);
     reference.start(load, Law::biot,
                     [&](const Eigen::RowVector2d &X, double)
