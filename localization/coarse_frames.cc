@@ -122,8 +122,8 @@ CoarseFrames<dim>::CoarseFrames(const meshes::TriangleMesh &coarse_rest,
     throw meshes::BadInput(faults);
   if (dim == 3 && options.strain == Strain::linear)
     throw meshes::BadInput(
-      "up-sampling: the linear strain sym(F − I) exists in the plane only; in space "
-      "use Strain::biot");
+      "up-sampling: the linear strain sym(F − I) exists in the plane only; in space use "
+      "Strain::biot");
   const auto m = static_cast<std::size_t>(mesh.n_triangles());
   corners.resize(3 * m);
   inverse_rest.resize(4 * m);

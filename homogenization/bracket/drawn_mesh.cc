@@ -264,8 +264,8 @@ private:
         text << "a curved side at ("
              << (triangle.corner + corners[k] + 0.5 * triangle.signs[k] * edge.vector).transpose()
              << ") m leaves the triangle that it bulges into; expected sides that bend by less "
-                "than half of "
-                "the angles beside them: mesh finer there (Gmsh: Mesh.MeshSizeFromCurvature)";
+                "than half of the angles beside them: mesh finer there (Gmsh: "
+                "Mesh.MeshSizeFromCurvature)";
         throw meshes::BadInput(text.str());
       }
       all_fit =

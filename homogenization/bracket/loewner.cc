@@ -51,8 +51,8 @@ RoundedInverse inverse_of(const Eigen::Matrix3d &A)
   const double round_off = roundings * weakness(A);
   if (!A.allFinite() || factors.info() != Eigen::Success || !(round_off < 0.1))
     throw meshes::NotConverged(
-      "a side of the bracket is not positive beyond round-off: the contrast of the "
-      "phases leaves it no digit; expected a lower contrast",
+      "a side of the bracket is not positive beyond round-off: the contrast of the phases leaves "
+      "it no digit; expected a lower contrast",
       {});
   const Eigen::Matrix3d root = factors.matrixL().solve(Eigen::Matrix3d(scale.asDiagonal()));
   return {root.transpose() * root, round_off};

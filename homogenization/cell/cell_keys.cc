@@ -48,8 +48,8 @@ void turn_phases(const std::string &file, const std::string &mesh_name,
   {
     faults.push_back(
       file + ": the mesh " + mesh_name +
-      " has cell data `angle`, and no group is in key `Orthotropic`; expected the group "
-      "that the angles are for: add it there, or leave the data out");
+      " has cell data `angle`, and no group is in key `Orthotropic`; expected the group that the "
+      "angles are for: add it there, or leave the data out");
     return;
   }
   const std::vector<Phase> groups = std::move(phases);
@@ -116,8 +116,8 @@ std::optional<meshes::Lattice> lattice_from(const std::string &file, const CellK
   {
     faults.push_back(
       file + ": key `Lattice vectors`: found `" + keys.lattice +
-      "`, with the second vector to the right of the first; expected it to the left: "
-      "exchange the two");
+      "`, with the second vector to the right of the first; expected it to the left: exchange the "
+      "two");
     return std::nullopt;
   }
   return lattice;

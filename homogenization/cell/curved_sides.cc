@@ -129,8 +129,7 @@ std::vector<CurvedSide> curved_sides_of(const meshes::TriangleMesh &mesh,
     if (is_curved && !is_off && !is_invertible(corners, sagittas))
       fault(2, "triangle " + std::to_string(t) +
                  " is inverted by its curved sides; expected sides that bend by less than the "
-                 "angles of the "
-                 "triangle: mesh finer there (Gmsh: Mesh.MeshSizeFromCurvature, or "
+                 "angles of the triangle: mesh finer there (Gmsh: Mesh.MeshSizeFromCurvature, or "
                  "Mesh.HighOrderOptimize = 1)");
   }
   if (!faults.empty())

@@ -114,8 +114,8 @@ void curve(TorusMesh &torus, const std::vector<CurvedSide> &curved_sides, const 
       throw meshes::BadInput(
         "the side of the outline from vertex " + std::to_string(side.a) + " to vertex " +
         std::to_string(side.b) +
-        " is curved otherwise than its periodic image; expected the same curve: "
-        "mesh opposite sides alike");
+        " is curved otherwise than its periodic image; expected the same curve: mesh opposite "
+        "sides alike");
   std::vector<int> material(torus.edges.size(), -1);
   std::vector<char> is_inside(torus.edges.size(), 0);
   for (const TorusTriangle &triangle : torus.triangles)

@@ -209,9 +209,8 @@ std::vector<Finding> lint_mechanisms(const TriangleMesh &mesh, const Lattice &la
     findings.push_back({Severity::error, part.n_joints == 0 ? "floating part" : "mechanism",
                         what.str(),
                         "expected every part to be connected along edges: join it to the rest so "
-                        "that they share the "
-                        "points between them (Gmsh: BooleanFragments), fill the void with a soft "
-                        "phase, or remove the part",
+                        "that they share the points between them (Gmsh: BooleanFragments), fill "
+                        "the void with a soft phase, or remove the part",
                         part.place});
   }
   if (n_free > most_of_a_kind)
@@ -242,9 +241,8 @@ std::vector<Finding> lint_mechanisms(const TriangleMesh &mesh, const Lattice &la
        "the mesh falls into " + std::to_string(found.parts.size()) +
          " parts that share no edge, more than the " + std::to_string(most_parts) +
          " of which free motions are looked for: whether they hold one another is not known",
-       "expected parts to be connected along edges: widen the bridges, or join parts that lie side "
-       "by side "
-       "(Gmsh: BooleanFragments, or Coherence)",
+       "expected parts to be connected along edges: widen the bridges, or join parts that lie "
+       "side by side (Gmsh: BooleanFragments, or Coherence)",
        found.parts[1].place});
   int n_hinges = 0;
   for (const int vertex : found.hinges)

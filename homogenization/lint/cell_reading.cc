@@ -92,8 +92,8 @@ std::string file_beside(const std::string &prm_file, const std::string &name)
   if (std::filesystem::path(name).is_absolute() || within.empty() || *within.begin() == "..")
     throw meshes::BadInput(
       prm_file + ": key `Mesh`: found `" + name +
-      "`, which lies outside of the folder of the cell file; expected a file in it or below: "
-      "copy the mesh there");
+      "`, which lies outside of the folder of the cell file; expected a file in it or below: copy "
+      "the mesh there");
   return path.string();
 }
 

@@ -255,8 +255,8 @@ std::vector<Finding> lint_facets(const UnitCell &cell, const double metres_per_u
          << " % of the cell more, which no bracket of this mesh knows of";
     findings.push_back({Severity::warning, "faceted", what.str(),
                         "expected curved sides where an arc is meant: triangles with six nodes "
-                        "(Gmsh: Mesh.ElementOrder = 2), whose "
-                        "bracket is that of the drawing; a polygon that is meant may stay",
+                        "(Gmsh: Mesh.ElementOrder = 2), whose bracket is that of the drawing; a "
+                        "polygon that is meant may stay",
                         place});
   }
   return findings;

@@ -253,8 +253,8 @@ void add_junctions(FaultList &faults, const ClothMesh &cloth)
                    "rest vertex " + std::to_string(v) + " at " + at(cloth.rest.vertices, v) +
                      " lies inside the edge between rest vertices " + std::to_string(edge[0]) +
                      " and " + std::to_string(edge[1]) + " of panel " + std::to_string(panel) +
-                     " (a T-junction); expected triangles that share whole edges: "
-                     "split the triangle of that edge there");
+                     " (a T-junction); expected triangles that share whole edges: split the "
+                     "triangle of that edge there");
         for (const int end : edge)
           told.insert({space(v), space(end)});
       });
@@ -285,8 +285,8 @@ void add_junctions(FaultList &faults, const ClothMesh &cloth)
                  "vertex " + std::to_string(v) + " at " + at(cloth.positions, v) +
                    " lies inside the edge between vertices " + std::to_string(edge[0]) + " and " +
                    std::to_string(edge[1]) +
-                   " in space (a T-junction in a seam); expected sides of a seam that "
-                   "share all vertices: split the triangle of that edge there");
+                   " in space (a T-junction in a seam); expected sides of a seam that share all "
+                   "vertices: split the triangle of that edge there");
     });
 }
 } // namespace
@@ -373,8 +373,8 @@ std::vector<std::string> surface_faults(const Surface &surface, const std::strin
                  "the edge between vertices " + std::to_string(edge[0]) + " and " +
                    std::to_string(edge[1]) + " near " + at(x, edge[0]) + " belongs to triangle " +
                    std::to_string(owners[0].first) +
-                   " only; expected a closed surface: fill the hole, or merge vertices "
-                   "that coincide");
+                   " only; expected a closed surface: fill the hole, or merge vertices that "
+                   "coincide");
   add_isolated(faults, x, triangles, "vertex");
   if (faults.empty() && !(volume > 0.))
     faults.add("surfaces inside out",

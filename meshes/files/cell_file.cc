@@ -76,8 +76,8 @@ void write_cell(const HomogenizedCell &cell, const std::string &path)
   file.attribute("/chi", "anchor", cell.anchor);
   file.attribute(
     "/chi", "convention",
-    "w = -(E11 chi_11 + E22 chi_22 + gamma12 chi_12), engineering shear; axes: vertex, "
-    "component, load (11, 22, 12)");
+    "w = -(E11 chi_11 + E22 chi_22 + gamma12 chi_12), engineering shear; axes: vertex, component, "
+    "load (11, 22, 12)");
   const Eigen::Matrix<double, 3, 3, Eigen::RowMajor> stiffness = cell.stiffness;
   file.write("/C", {3, 3}, stiffness.data(), "N/m");
   file.attribute("/C", "convention", "Voigt 11, 22, 12 with engineering shear");

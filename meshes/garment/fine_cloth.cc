@@ -360,8 +360,8 @@ FineCloth fine_cloth(const TriangleMesh &cell_mesh, const Lattice &lattice, cons
   }
   if (collected.triangles.empty())
     throw BadInput(
-      "fine cloth: no triangle of the cell lies wholly inside a panel; expected panels "
-      "larger than the cell's triangles: is vt in metres? or clip the outline");
+      "fine cloth: no triangle of the cell lies wholly inside a panel; expected panels larger "
+      "than the cell's triangles: is vt in metres? or clip the outline");
   fine.rest.vertices = stacked<2>(collected.x);
   fine.rest.triangles.resize(static_cast<Eigen::Index>(collected.triangles.size()), 3);
   for (std::size_t t = 0; t < collected.triangles.size(); ++t)

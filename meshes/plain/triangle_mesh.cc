@@ -241,8 +241,8 @@ std::vector<MeshFault> placed_faults_of(const TriangleMesh &mesh, const std::str
         faults.add("edges with both triangles on one side",
                    its_name + " has triangles " + std::to_string(edge.first) + " and " +
                      std::to_string(t) +
-                     " on the same side; expected one on each: the mesh folds "
-                     "over itself there, untangle it",
+                     " on the same side; expected one on each: the mesh folds over itself there, "
+                     "untangle it",
                    place_of_edge);
     }
   }

@@ -274,8 +274,8 @@ void Contact::begin_step(const StepStart &start)
   if (!moving && parameters.stiffness == 0.)
     throw meshes::BadInput(
       "obstacle " + obstacle.name +
-      ": stiffness is 0, a multiple of m/h^2; an equilibrium has no time step h: "
-      "give a stiffness in N/m");
+      ": stiffness is 0, a multiple of m/h^2; an equilibrium has no time step h: give a stiffness "
+      "in N/m");
   const auto displaced = [this](const double time) -> Eigen::Vector3d
   { return obstacle.displacement ? obstacle.displacement(time) : Eigen::Vector3d::Zero(); };
   const Eigen::Vector3d before = displaced(start.time),

@@ -77,9 +77,9 @@ void Cloth::add(std::unique_ptr<Term> term)
   if (options.integrator == Integrator::conserving && !term->has_discrete_gradient())
     throw meshes::BadInput(
       "the conserving integrator cannot take the term `" + term->name() +
-      "`: what it does to energy and momenta over a step has no discrete gradient; "
-      "expected membrane, viscosity, bending, gravity and damping alone: take the "
-      "linearly implicit or the implicit one");
+      "`: what it does to energy and momenta over a step has no discrete gradient; expected "
+      "membrane, viscosity, bending, gravity and damping alone: take the linearly implicit or the "
+      "implicit one");
   potential.add(std::move(term));
   conserving.reset();
   stored.reset();

@@ -20,8 +20,8 @@ std::vector<bool> marked(const meshes::TriangleMesh &mesh, const std::vector<int
 {
   if (held_vertices.empty())
     throw meshes::BadInput(
-      "held vertices: none is given; expected at least one, else the cloth can "
-      "move away without any force");
+      "held vertices: none is given; expected at least one, else the cloth can move away without "
+      "any force");
   std::vector<bool> is_held(static_cast<std::size_t>(mesh.n_vertices()), false);
   for (const int v : held_vertices)
   {
@@ -136,9 +136,8 @@ Positions<dim> MembraneSolver<dim>::linear_equilibrium(const Positions<dim> &pre
     add_membrane_hessian<dim>(membrane, membrane.vertices, Hessian::exact, *made);
     if (!made->factorize())
       throw meshes::BadInput(
-        "held vertices: they leave a rigid motion of the sheet or of a part of "
-        "it free, so that the linear problem has no unique answer; hold at "
-        "least two vertices of every part");
+        "held vertices: they leave a rigid motion of the sheet or of a part of it free, so that "
+        "the linear problem has no unique answer; hold at least two vertices of every part");
     linear_matrix = std::move(made);
   }
   Positions<dim> displacement = Positions<dim>::Zero(prescribed.rows(), dim);

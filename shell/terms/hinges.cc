@@ -110,8 +110,8 @@ void find_neighbours(const meshes::ClothMesh &mesh, Hinges &hinges)
         faults.push_back(
           name(a, b) + "is traversed the same way by triangles " +
           std::to_string(other->second[0]) + " and " + std::to_string(t) +
-          "; expected two triangles that traverse it in opposite ways: turn a panel, or "
-          "sew two panels only");
+          "; expected two triangles that traverse it in opposite ways: turn a panel, or sew two "
+          "panels only");
     }
   if (!faults.empty())
     throw meshes::BadInput(faults);

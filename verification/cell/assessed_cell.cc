@@ -38,8 +38,7 @@ double limit_of_bounds(const UnitCell &cell, const Homogenization &result)
 
 const std::string source_of_bounds =
   "theory: 0; beside it round-off at this size and contrast, of the sums over all triangles, and "
-  "the share of the area "
-  "between lattice images that lie apart, four sides of the largest gap";
+  "the share of the area between lattice images that lie apart, four sides of the largest gap";
 
 std::vector<Verdict> checks_of(const UnitCell &cell, const Homogenization &result)
 {
@@ -63,8 +62,8 @@ std::vector<Verdict> checks_of(const UnitCell &cell, const Homogenization &resul
       "Hill-Mandel: energy form and mean stress of C^H agree (relative gap)", gap / size,
       1e-8 * std::max(1., leverage),
       "the solver leaves 1e-9 of the displacements by its preconditioner, whose root of the "
-      "condition is at "
-      "most ten; in the mean stress this counts with the root of Voigt's energy over that of C^H"),
+      "condition is at most ten; in the mean stress this counts with the root of Voigt's energy "
+      "over that of C^H"),
     at_most("C^H <= Voigt bound (relative violation)",
             order_violation(result.stiffness, result.voigt), limit, source_of_bounds),
     at_most("C^H >= Reuss bound (relative violation)",
@@ -126,17 +125,14 @@ std::vector<Verdict> checks_of_sampled_chi(const UnitCell &cell, const Homogeniz
       "largest)",
       size > 0. ? fault / size : fault, 1e-12,
       "by definition 0; values are copied, and the anchor's is subtracted, with a rounding of "
-      "2e-16 of the coordinates' "
-      "size each"),
+      "2e-16 of the coordinates' size each"),
     at_most("chi of the last mesh is admissible on the given one: its energies lie above C_lower "
-            "(relative "
-            "violation)",
+            "(relative violation)",
             order_violation(bracket.lower, energies), limit, source_of_bounds),
     // No theorem: on a mesh that is much too coarse for them exact displacements may cost more than
     // none.
     at_most("chi of the last mesh is better on the given one than no displacements: its energies "
-            "lie below Voigt's "
-            "(relative violation)",
+            "lie below Voigt's (relative violation)",
             order_violation(energies, result.voigt), limit,
             "what better means, and round-off; where it fails the given mesh is too coarse for "
             "--tolerance",

@@ -80,10 +80,9 @@ std::string geometry_text(const UnitCell &cell, const Homogenization &result)
     return "";
   char line[400];
   std::snprintf(line, sizeof(line),
-                "geometry (an estimate, in no bar): the mesh is faceted; arcs through the vertices "
-                "of %d sides would "
-                "change energies by %.2g. If arcs are meant, mesh with six-node triangles (Gmsh: "
-                "Mesh.ElementOrder = 2)\n",
+                "geometry (an estimate, in no bar): the mesh is faceted; arcs through the "
+                "vertices of %d sides would change energies by %.2g. If arcs are meant, mesh with "
+                "six-node triangles (Gmsh: Mesh.ElementOrder = 2)\n",
                 estimate->n_facets,
                 energy_difference(result.stiffness + estimate->change, result.stiffness));
   return line;

@@ -151,8 +151,7 @@ std::vector<Verdict> checks_of(const CellBracket &bracket, const BracketOptions 
           "difference of an energy)",
           energy_difference(*bracket.on_given_mesh, stiffness), 1e-6,
           "one discrete problem; images that lie 1e-7 of the cell apart are taken, and on four "
-          "sides move its area by 4e-7, the "
-          "energies by up to twice that",
+          "sides move its area by 4e-7, the energies by up to twice that",
           Kind::program);
   if (checks.back().outcome == Outcome::fail && checks.back().value <= round_off)
   {

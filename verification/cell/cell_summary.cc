@@ -91,8 +91,7 @@ std::string summary(const UnitCell &cell, const AssessedCell &assessed)
   {
     std::snprintf(line, sizeof(line),
                   "C of the straight triangles, which the files and all other studies hold, "
-                  "differs from it by %.2g of an "
-                  "energy\n",
+                  "differs from it by %.2g of an energy\n",
                   energy_difference(result.stiffness, stiffness));
     text << line;
   }

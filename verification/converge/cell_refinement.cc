@@ -104,8 +104,7 @@ Verdict nested(const std::vector<RefinementLadder> &ladders, const RoundOff &rou
     violation.limit > 0. ? outcome_of(violation) : Outcome::inconclusive, violation.value,
     "<= " + number(violation.limit),
     "the least energy of a larger space is not larger; the limit is what round-off and solvers "
-    "leave at this size and "
-    "contrast"};
+    "leave at this size and contrast"};
 }
 
 Verdict is_laminate(const UnitCell &cell, const std::vector<RefinementLadder> &ladders,
@@ -123,8 +122,7 @@ Verdict is_laminate(const UnitCell &cell, const std::vector<RefinementLadder> &l
     "corners (largest relative difference of an energy)",
     outcome_of(distance), distance.value, "<= " + number(distance.limit),
     "P1 holds the fields of a laminate; the limit is round-off at this size and contrast, and the "
-    "digits of the "
-    "coordinates"};
+    "digits of the coordinates"};
 }
 
 Verdict changes_with_the_mesh(const std::vector<RefinementLadder> &ladders,
@@ -229,8 +227,7 @@ void judge_refinements(const UnitCell &cell, const std::vector<RefinementLadder>
     traces.push_back(trace);
     result.add(trace, {exponents + (ladder.order == 1 ? ", with P1 at most 2; P1" : "; P2"),
                        "exponents of the corners, from angles and stiffnesses; +- 0.1, the change "
-                       "from level to level that counts as "
-                       "settled"});
+                       "from level to level that counts as settled"});
     // Entries are no energies each: reported, and with a limit only where they follow a power of h
     // as the trace does.
     for (const auto &[name, function] : entries)

@@ -58,8 +58,8 @@ Verdict closes_at_once(const UnitCell &cell, const unsigned int order)
                                                      : Outcome::inconclusive,
           bracket.width, "<= " + short_text(2. * bracket.round_off),
           "both spaces hold the fields of a laminate: what is left is the bound of the "
-          "evaluation's round-off, once as it is "
-          "added on the outside and once as it may have been lost"};
+          "evaluation's round-off, once as it is added on the outside and once as it may have "
+          "been lost"};
 }
 
 /// How far an order in DoFs^-1/2 may be from 2p: as asked for, +- 0.2 in DoFs.
@@ -74,8 +74,7 @@ Verdict is_narrower(const Series &adaptive, const Series &uniform)
       ": the adaptive bracket is narrower than the uniform one with at least as many DoFs (ratio)",
     Outcome::inconclusive, std::nan(""), "< 1",
     "what narrower means; open as long as the uniform width falls with nearly the order of the "
-    "elements, because "
-    "corners do not show yet"};
+    "elements, because corners do not show yet"};
   const ConvergenceLevel &finest = uniform.levels.back();
   for (const ConvergenceLevel &level : adaptive.levels)
     if (level.n_dofs <= finest.n_dofs)

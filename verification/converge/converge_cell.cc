@@ -111,8 +111,8 @@ ConvergenceResult climb_strains(const UnitCell &cell, const meshes::HomogenizedC
     if (largest < 1e-10)
     {
       result.verdicts.push_back({what + ": zero to round-off at every level; only in a laminate "
-                                        "can the law be linear in a load (largest "
-                                        "error per strain and cell side)",
+                                        "can the law be linear in a load (largest error per "
+                                        "strain and cell side)",
                                  is_laminate ? Outcome::pass : Outcome::fail, largest,
                                  is_laminate ? "< 1e-10" : "not zero: the cell has corners",
                                  "the reference stops where 1e-11 of the element forces are left; "
@@ -187,8 +187,7 @@ std::vector<ConvergenceCase> manufactured_study_cases(const MPI_Comm communicato
                                                               : Outcome::inconclusive,
             claims.algebraic_share, "<= 0.01",
             "1 % of the smallest error changes an order from one level to the next by at most "
-            "log2(1.01 / 0.99) = 0.03, "
-            "less than a third of its tolerance"});
+            "log2(1.01 / 0.99) = 0.03, less than a third of its tolerance"});
          return result;
        }});
   return cases;

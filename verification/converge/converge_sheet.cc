@@ -81,8 +81,8 @@ ConvergenceResult add_cells(const UnitCell &cell, const meshes::HomogenizedCell 
     judge_errors(per_sheet[0].sizes(), per_sheet[0].errors(), about(1., 0.15));
   per_sheet[1].judgement  = judge_errors(per_sheet[1].sizes(), per_sheet[1].errors(), {0.85, 2.15});
   const std::string edges = "; +- 0.15, because cells at the edge are 4/n of all: where these err "
-                            "by up to twice as much as the others the last "
-                            "halving, at n = 32, shows log2((1 + 4/16) / (1 + 4/32)) = 0.15 more";
+                            "by up to twice as much as the others the last halving, at n = 32, "
+                            "shows log2((1 + 4/16) / (1 + 4/32)) = 0.15 more";
   result.add(per_sheet[0],
              {"affine lacks a fluctuation of the size of a cell: order 1 in sheet sides",
               "two-scale expansion: the fluctuation has the size of a cell" + edges});
@@ -191,8 +191,7 @@ ConvergenceResult refine_coarse_mesh(const UnitCell &cell,
      "relative rise)",
      rise <= 1e-10 ? Outcome::pass : Outcome::fail, rise, "<= 1e-10",
      "the least energy of a larger space is not larger; 1e-10 is the round-off of sums over up to "
-     "1e5 triangles (2e-16 "
-     "each) and of stretches of 1 % (4e-14)"});
+     "1e5 triangles (2e-16 each) and of stretches of 1 % (4e-14)"});
   const double floor      = 1e-11 * std::abs(*energy.levels.back().value);
   const OrderLimit limits = {0.9, 2.1};
   energy.judgement        = judge_values(energy.sizes(), energy.values(), limits, floor);
@@ -200,8 +199,8 @@ ConvergenceResult refine_coarse_mesh(const UnitCell &cell,
   motion.judgement = judge_errors(motion.sizes(), motion.errors(), limits);
   const std::string why =
     "P1 has order 2 in energy; where a clamped edge meets a free one the solution behaves as "
-    "r^lambda with lambda between 1/2 and 1, which leaves order 2 lambda; +- 0.1, the "
-    "change from level to level that counts as settled";
+    "r^lambda with lambda between 1/2 and 1, which leaves order 2 lambda; +- 0.1, the change from "
+    "level to level that counts as settled";
   result.add(energy, {"the energy of the coarse sheet converges with order 1 to 2 in H", why});
   result.add(motion, {"the coarse motion converges with order 1 to 2 in H", why});
   result.add(localized);

@@ -93,29 +93,24 @@ nlohmann::ordered_json notes(const ConvergenceStudyOptions &options)
 {
   nlohmann::ordered_json list = {
     "An order is judged on the three finest levels of at least four. PASS: it lies within the "
-    "limits and has settled "
-    "(the last two differ by no more than 0.1). FAIL: the last one lies below the limits and does "
-    "not rise, or it has "
-    "settled above. Everything else is INCONCLUSIVE.",
+    "limits and has settled (the last two differ by no more than 0.1). FAIL: the last one lies "
+    "below the limits and does not rise, or it has settled above. Everything else is INCONCLUSIVE.",
     "Where the exact value is not known, errors are distances from the Richardson limit of the "
-    "last three levels, "
-    "and the error bar is the grid convergence index with the safety factor 1.25."};
+    "last three levels, and the error bar is the grid convergence index with the safety factor "
+    "1.25."};
   const auto add = [&](const std::string &study, const std::string &note)
   {
     if (has(options, study))
       list.push_back(study + ": " + note);
   };
   add("mesh", "h is the square root of the mean area of a triangle over the cell side. Where "
-              "phases meet in corners "
-              "the order is at least twice the exponent of the strongest one and at most twice the "
-              "smallest exponent above 1 (with "
-              "P1 at most 2), all computed from angles and stiffnesses: finer meshes come nearer "
-              "to the first. C^H falls from "
-              "level to level. An error bar is given only where the order has settled.");
+              "phases meet in corners the order is at least twice the exponent of the strongest "
+              "one and at most twice the smallest exponent above 1 (with P1 at most 2), all "
+              "computed from angles and stiffnesses: finer meshes come nearer to the first. C^H "
+              "falls from level to level. An error bar is given only where the order has settled.");
   add("adaptive", "h is one over the square root of the DoFs of the displacements. Adaptive meshes "
-                  "do not grow evenly: "
-                  "the order is fitted to the last five levels and to the last three, and both "
-                  "must lie within the limit.");
+                  "do not grow evenly: the order is fitted to the last five levels and to the "
+                  "last three, and both must lie within the limit.");
   add("manufactured",
       "smooth motions with strains of some ten per cent, body forces from energies written apart "
       "from the solvers' laws; irregular meshes, refined uniformly.");
@@ -228,8 +223,8 @@ private:
       result.verdicts.push_back(
         {"all levels are solved", result.outcome_of_unfinished,
          std::numeric_limits<double>::quiet_NaN(), result.unfinished,
-         "every solver reaches its tolerance; a load may end at a limit point, "
-         "which leaves this open"});
+         "every solver reaches its tolerance; a load may end at a limit point, which leaves this "
+         "open"});
       unfinished.push_back(one.cell + ", " + one.study + ", " + one.name + ": " +
                            result.unfinished);
       progress.note(unfinished.back());

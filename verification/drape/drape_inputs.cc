@@ -87,8 +87,7 @@ void check_references(const DrapeOptions &options, const Scene &scene)
       if (variant != "corotational")
         faults.push_back("--variants " + variant + ": scene `" + scene.name +
                          "` has the key `Integrator` = conserving, which asks for a membrane with "
-                         "an energy; expected "
-                         "corotational alone, or another integrator");
+                         "an energy; expected corotational alone, or another integrator");
   if (!faults.empty())
     throw meshes::BadInput(faults);
 }

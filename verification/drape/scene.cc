@@ -33,8 +33,8 @@ public:
   {
     if (!std::filesystem::is_regular_file(file))
       throw meshes::BadInput(file +
-                             ": no such file; expected a scene file (.prm): the shipped ones "
-                             "are in meshes/scenes");
+                             ": no such file; expected a scene file (.prm): the shipped ones are "
+                             "in meshes/scenes");
     dealii::ParameterHandler handler;
     std::map<std::string, std::string> term_of;
     keys.declare(handler, term_of);

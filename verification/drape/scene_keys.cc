@@ -26,9 +26,8 @@ void SceneKeys::declare(dealii::ParameterHandler &keys, std::map<std::string, st
       "Height of a smooth bump out of the plane of the sheet at the beginning [m].");
   add("Integrator", integrator,
       "`linearly implicit` or `implicit` (Euler: of first order, a spin is damped), `conserving` "
-      "(of second "
-      "order; keeps momenta and energy; no wind, no obstacles), or `static` (an equilibrium at "
-      "each frame).");
+      "(of second order; keeps momenta and energy; no wind, no obstacles), or `static` (an "
+      "equilibrium at each frame).");
   add("Time step", time_step, "[s], positive.");
   add("Duration", duration, "[s], positive.");
   add("Frame interval", frame_interval, "Time between frames [s], a multiple of the time step.");

@@ -63,8 +63,7 @@ constexpr double energy_round_off = 1e-11;
 /// Where that comes from.
 inline const char *const of_energy =
   "theory: nothing brings energy into the sheet, and damping takes some; round-off: 1e-12 of the "
-  "energy before and of "
-  "what is stored, in up to five parts of a step that was cut";
+  "energy before and of what is stored, in up to five parts of a step that was cut";
 
 struct StressResult
 {

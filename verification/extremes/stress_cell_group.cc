@@ -68,9 +68,9 @@ Eigen::Matrix2d turn(const double angle)
 Limit limit_of(const UnitCell &cell)
 {
   return {algebraic_limit(cell, std::sqrt(0.5 * cell.mesh.n_triangles())),
-          "round-off: 1e-11 for sums over up to 1e5 triangles; (rows x 2.2e-16 x contrast)^2 for a "
-          "stiff part that a "
-          "soft one holds; 16 x 2.2e-16 x anisotropy of a phase, whose entries are rounded"};
+          "round-off: 1e-11 for sums over up to 1e5 triangles; (rows x 2.2e-16 x contrast)^2 for "
+          "a stiff part that a soft one holds; 16 x 2.2e-16 x anisotropy of a phase, whose "
+          "entries are rounded"};
 }
 
 void CellGroup::refused(const std::string &what, const std::string &names, const UnitCell &cell)

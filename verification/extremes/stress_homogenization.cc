@@ -221,8 +221,7 @@ void size_cases(const int most_triangles, std::vector<StressCase> &cases)
     "two triangles", "is the mean of both: nothing can move",
     {1e-14,
      "round-off: twelve roundings of each entry, of which the softest direction keeps one part in "
-     "3.7: "
-     "12 x 3.7 x 2.2e-16"},
+     "3.7: 12 x 3.7 x 2.2e-16"},
     "largest relative energy difference to Voigt's mean [-]",
     []() -> StressAnswer
     {

@@ -223,12 +223,10 @@ std::vector<StressCase> of_cell(const Shared &sheets, const std::string &name)
     cases,
     {{"largest distance over the cell's side [-]",
       "theory: a uniform strain is up-sampled exactly; round-off: twenty roundings of positions "
-      "up to twenty "
-      "cell sides away"},
+      "up to twenty cell sides away"},
      {"largest microscopic displacement over its bound [-]",
       "theory: lift x sum of |strains| x largest mode, and 1e-14 of the largest coordinate, whose "
-      "digits the "
-      "difference of two positions loses; round-off of the bound itself: 1e-12 of it"}});
+      "digits the difference of two positions loses; round-off of the bound itself: 1e-12 of it"}});
   return cases;
 }
 } // namespace

@@ -202,8 +202,7 @@ std::vector<StressCase> mesh_cases(const SheetStiffness &stiffness)
     {{"largest growth in a step over the largest energy [-]", of_energy},
      {"largest way of a vertex [m]",
       "theory: a sheet at rest stays; round-off: half a unit in the last place of 1e4 m, 1e-12 m, "
-      "in each "
-      "of 1000 steps"}});
+      "in each of 1000 steps"}});
   return cases;
 }
 } // namespace homespun::verification

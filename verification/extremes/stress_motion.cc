@@ -40,16 +40,14 @@ SheetPhysics undamped(const bool has_gravity)
 const Derivations derivations = {
   {"largest distance from the exact positions [m]",
    "theory: implicit Euler falls by g h^2 k (k + 1) / 2; round-off: 2.2e-16 x (1 + h^2 18 "
-   "lambda_max(D) / (rho a^2)), the "
-   "condition of a step, x g h^2 N^3 / 6, its velocity errors carried on over N steps"},
+   "lambda_max(D) / (rho a^2)), the condition of a step, x g h^2 N^3 / 6, its velocity errors "
+   "carried on over N steps"},
   {"largest relative change of momenta or growth of energy in 200 steps [-]",
    "theory: nothing acts on the sheet from outside; requirement: ten digits, ten times what 200 "
-   "sums over 3 x 81 terms may "
-   "round, 200 x 243 x 2.2e-16"},
+   "sums over 3 x 81 terms may round, 200 x 243 x 2.2e-16"},
   {"largest energy that a step took away over the largest energy [-]",
    "theory: implicit Euler takes (omega h)^2 of the energy of a spin in a step, and putting the "
-   "spin right gives no more "
-   "than that back"},
+   "spin right gives no more than that back"},
   {"largest sag [m]",
    "requirement: it holds; half of the side of the sheet, where free fall would be 4.9 m"},
   {"largest growth in a step over the largest energy [-]", of_energy},
@@ -59,9 +57,8 @@ const Derivations derivations = {
   {"deepest vertex inside the sphere beyond h times what other forces changed of its velocity in "
    "the step [m]",
    "theory: contact is seen where a step begins, and in it gravity and wind carry a vertex by h^2 "
-   "times what they "
-   "accelerate; requirement: beside that a tenth of the contact thickness, 1e-4 m, and never half "
-   "of the radius"}};
+   "times what they accelerate; requirement: beside that a tenth of the contact thickness, 1e-4 "
+   "m, and never half of the radius"}};
 
 constexpr double fall_step    = 0.01; ///< [s]
 constexpr int n_steps_of_fall = 100;
@@ -326,8 +323,8 @@ std::vector<StressCase> scene_cases(const SheetStiffness &stiffness, const bool 
          std::string("falls on a sphere; bending and friction") + (has_wind ? " and wind" : "") +
            step,
          "finite; but for what other forces do within a step no vertex deeper inside than h^2 "
-         "times the acceleration by gravity and "
-         "wind and a tenth of the contact thickness, nor than half the radius",
+         "times the acceleration by gravity and wind and a tenth of the contact thickness, nor "
+         "than half the radius",
          ExpectedEnd::finite,
          std::min(0.5 * radius,
                   h * h * (gravity + (has_wind ? wind_acceleration(stiffness) : 0.)) + 1e-4),

@@ -33,19 +33,16 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 const Derivations derivations = {
   {"force over stiffness x edge [-]",
    "theory: a turned or mirrored triangle is not strained; round-off: ten roundings of a strain, "
-   "four for area and "
-   "gradients: 40 x 2.2e-16"},
+   "four for area and gradients: 40 x 2.2e-16"},
   {"energy after a small step down the gradient over that before [-]",
    "theory: a small step down the gradient lowers the energy to first order; round-off of the two "
    "energies: below 1e-12"},
   {"minus the smallest over the largest eigenvalue [-]",
    "theory: the projected Hessian has no negative eigenvalue; round-off: five roundings for each "
-   "of its 81 entries, "
-   "5 x 81 x 2.2e-16"},
+   "of its 81 entries, 5 x 81 x 2.2e-16"},
   {"largest |P(QF) − Q P(F)| over the largest P [-]",
    "theory: the energy does not see a rotation; round-off: four roundings times the condition of "
-   "F, up to a thousand: "
-   "4000 x 2.2e-16"},
+   "F, up to a thousand: 4000 x 2.2e-16"},
   {"force over stiffness x side [-]; or way in 50 steps [m]",
    "theory: half a turn changes signs, which rounds nothing; round-off: five roundings of a "
    "strain"},
@@ -53,8 +50,7 @@ const Derivations derivations = {
    "theory: the helicoid has the same ends, and what settles among all shapes has no more energy"},
   {"force beside gravity over stiffness x side [-]",
    "theory: a sheet that has not moved is not strained; round-off: ten roundings of a strain, "
-   "four for area and "
-   "gradients: 40 x 2.2e-16"},
+   "four for area and gradients: 40 x 2.2e-16"},
   {"largest growth in a step over the largest energy [-]", of_energy}};
 
 Eigen::Matrix<double, 3, 2> rest_corners()

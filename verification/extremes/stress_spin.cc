@@ -24,15 +24,15 @@ namespace
 constexpr int n = 8; ///< cells per side of the sheet
 
 const char *const of_what_is_kept = "theory: both Euler methods keep the linear momentum and let "
-                                    "the energy fall, the conserving one keeps the "
-                                    "energy and both momenta to its solve, which ends at 1e-8 of "
-                                    "the forces and once more by Newton's method, "
-                                    "which squares that; requirement: ten digits over all steps";
+                                    "the energy fall, the conserving one keeps the energy and "
+                                    "both momenta to its solve, which ends at 1e-8 of the forces "
+                                    "and once more by Newton's method, which squares that; "
+                                    "requirement: ten digits over all steps";
 const char *const of_turning = "theory gives the share of the angular momentum in the motion of a "
-                               "step, 1/sqrt(1 + (h omega)^2) of "
-                               "implicit Euler and 1/(1 + (h omega/2)^2) of the midpoint rule for "
-                               "a rigid body; requirement: no step has "
-                               "less than half of it, where a sheet that freezes has none";
+                               "step, 1/sqrt(1 + (h omega)^2) of implicit Euler and 1/(1 + (h "
+                               "omega/2)^2) of the midpoint rule for a rigid body; requirement: "
+                               "no step has less than half of it, where a sheet that freezes has "
+                               "none";
 
 struct Spin
 {

@@ -51,27 +51,21 @@ nlohmann::ordered_json notes(const bool has_cells)
 {
   nlohmann::ordered_json all = {
     "A case is repeated with different seeds where it has random numbers; else every repetition "
-    "must give the same "
-    "numbers to the last bit. Cells are homogenized twice, those of 100,000 triangles and more "
-    "once.",
+    "must give the same numbers to the last bit. Cells are homogenized twice, those of 100,000 "
+    "triangles and more once.",
     "C^H of a cell is held against the closed form of a laminate, against a factorized solve, or "
-    "against itself "
-    "moved, by the relative energy of the worst macro strain.",
+    "against itself moved, by the relative energy of the worst macro strain.",
     "Of a free sheet that spins each integrator is asked for what its theory gives: both Euler "
-    "methods for "
-    "their linear momentum and a falling energy, the conserving one for both momenta and the "
-    "energy. That a "
-    "sheet turns is judged by (x_new − x_old)/h: half of what a rigid body would turn by is asked "
-    "for.",
+    "methods for their linear momentum and a falling energy, the conserving one for both momenta "
+    "and the energy. That a sheet turns is judged by (x_new − x_old)/h: half of what a rigid body "
+    "would turn by is asked for.",
     "The figure of a case is the largest of its repetitions; the time is that of all of them.",
     "Each limit stands in stress.csv with where it comes from: theory, round-off, or a "
-    "requirement. Iterations and times "
-    "of the solver have none: they are reported."};
+    "requirement. Iterations and times of the solver have none: they are reported."};
   if (!has_cells)
     all.push_back(
       "No cell was given: the cloths are sheets of three built-in stiffnesses, and up-sampling "
-      "takes a cell "
-      "of smooth modes.");
+      "takes a cell of smooth modes.");
   return all;
 }
 

@@ -53,9 +53,9 @@ std::string note_of_anchor(const AnchorChoice &choice, const double localized, c
   char text[400];
   std::snprintf(
     text, sizeof(text),
-    "where the cell is cut from the cloth decides: as drawn, chi is zero at the corners "
-    "of the cell and the up-sampled error is %.3g %% of the affine one; with chi zero at "
-    "other points of the same cell it is %.3g to %.3g %%",
+    "where the cell is cut from the cloth decides: as drawn, chi is zero at the corners of the "
+    "cell and the up-sampled error is %.3g %% of the affine one; with chi zero at other points of "
+    "the same cell it is %.3g to %.3g %%",
     100. * localized / affine, 100. * choice.smallest / affine, 100. * choice.largest / affine);
   return text;
 }

@@ -171,8 +171,8 @@ shell::Positions<2> HomogenizedSheet::solve(const NonlinearLocalization &excess,
       return positions;
   }
   throw meshes::NotConverged(
-    "homogenized sheet: the excess over the linear theory is too large for "
-    "Newton's method with the Hessian without it",
+    "homogenized sheet: the excess over the linear theory is too large for Newton's method with "
+    "the Hessian without it",
     history);
 }
 

@@ -134,16 +134,16 @@ void add_homogenize_command(CLI::App &app, Action &action)
     command
       ->add_option(
         "--tolerance", arguments->study.bracket.tolerance,
-        "Refine adaptively until the bracket C_lower <= C^H <= C_upper has this relative "
-        "width, the largest v.(C_upper - C_lower).v / v.C_upper.v; without it the bracket is "
-        "that of the given mesh")
+        "Refine adaptively until the bracket C_lower <= C^H <= C_upper has this relative width, "
+        "the largest v.(C_upper - C_lower).v / v.C_upper.v; without it the bracket is that of the "
+        "given mesh")
       ->check(CLI::Range(1e-12, 1.));
   CLI::Option *max_dofs =
     command
       ->add_option(
         "--max-dofs", arguments->study.bracket.max_dofs,
-        "DoFs up to which a bracket is made, of the larger of its two problems; adaptivity "
-        "stops before")
+        "DoFs up to which a bracket is made, of the larger of its two problems; adaptivity stops "
+        "before")
       ->check(CLI::Range(100u, 20000000u))
       ->capture_default_str();
   command

@@ -68,12 +68,9 @@ int run(int argc, char **argv, homespun::verification::AfterMpi &afterwards)
   app.set_version_flag("--version", version_text());
   app.require_subcommand(1);
   app.footer("Exit status, the worst in this order: 2 bad input; 3 a solver did not converge where "
-             "it had to; "
-             "1 a claim failed;\n4 a claim is open; 0 all claims hold. Claims are of the program, "
-             "of the input, "
-             "or of the method.\n`homespun COMMAND --help` teaches a command; `mpirun -n N "
-             "homespun ...` works for "
-             "every command that solves.");
+             "it had to; 1 a claim failed;\n4 a claim is open; 0 all claims hold. Claims are of "
+             "the program, of the input, or of the method.\n`homespun COMMAND --help` teaches a "
+             "command; `mpirun -n N homespun ...` works for every command that solves.");
   Action action;
   add_check_command(app, action, afterwards);
   add_homogenize_command(app, action);

@@ -34,8 +34,8 @@ int run_report_script(const std::string &name, const std::vector<std::string> &a
   if (status == 127)
     throw meshes::BadInput(
       std::string(HOMESPUN_PYTHON) + " " + script +
-      ": cannot be run; expected Debian's Python with numpy, h5py, matplotlib and "
-      "jinja2: ./bootstrap installs them");
+      ": cannot be run; expected Debian's Python with numpy, h5py, matplotlib and jinja2: "
+      "./bootstrap installs them");
   if (const std::string killed = text_of_signal(status); !killed.empty())
     throw meshes::BadInput(name + " did not end: " + killed);
   return status;

@@ -20,8 +20,7 @@ int prepare(ScalingOptions options, AfterMpi &afterwards)
   ArgumentFaults faults;
   if (dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD) > 1)
     faults.add("scaling starts its ranks itself; expected it without mpirun: use --ranks, and "
-               "--launcher for another way "
-               "to start them");
+               "--launcher for another way to start them");
   const auto check_list =
     [&](const char *name, const std::vector<int> &values, const int least, const int most)
   {
@@ -82,8 +81,8 @@ void add_scaling_command(CLI::App &app, Action &action, AfterMpi &afterwards,
   command
     ->add_option(
       "--cores", options->cores,
-      "Cores that ranks can have to themselves (default: of this machine); with more ranks "
-      "times are not modelled")
+      "Cores that ranks can have to themselves (default: of this machine); with more ranks times "
+      "are not modelled")
     ->check(CLI::Range(1, 100000000));
   add_folder_options(*command, *options, "out/NAME/scaling");
   command->footer("Rows of one mesh are strong scaling; four times the ranks on a mesh refined "

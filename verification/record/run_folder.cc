@@ -232,13 +232,13 @@ RunFolder::RunFolder(std::string path_of_folder, const RunDescription &descripti
       if (earlier == Earlier::keep_work && work > work_worth_keeping)
         throw BadInput(
           what + ", " + text_of_duration(work) +
-          " of work; expected an empty folder or the same run: --overwrite removes it, "
-          "another --output keeps both");
+          " of work; expected an empty folder or the same run: --overwrite removes it, another "
+          "--output keeps both");
       if (!foreign.empty())
         throw BadInput(
           path + ": holds " + foreign.front() +
-          ", which the run there did not write; expected nothing of others in a folder "
-          "that is begun anew: move it away, or choose another --output");
+          ", which the run there did not write; expected nothing of others in a folder that is "
+          "begun anew: move it away, or choose another --output");
       remove_all_in(path);
       line = path + ": the earlier run was replaced (" +
              (is_same ? std::string("the same one, begun anew") : difference(*found, json)) + ")";

@@ -79,9 +79,8 @@ void judge_level(const std::vector<BudgetRow> &rows, const BudgetRow &level,
      unexplained,
      "<= " + short_text(bar) +
        (bar > widest_bar ? "; a bar above a fifth of the error decides nothing" : ""),
-     "the bar of the same level: parts of linear theory are known as far as the "
-     "cell responds linearly, and by how much it does not is measured; beside it "
-     "what the solvers leave",
+     "the bar of the same level: parts of linear theory are known as far as the cell responds "
+     "linearly, and by how much it does not is measured; beside it what the solvers leave",
      Kind::program});
   const double solver = mean_of(rows, level, "solver") / total;
   verdicts.push_back({what + "what the solvers leave undone, over the measured error",

@@ -79,10 +79,10 @@ std::string note_of_fluctuation(const std::vector<StepRow> &steps)
   char text[400];
   std::snprintf(
     text, sizeof(text),
-    "Fluctuation: reference minus the homogenized sheet (C^H in every triangle, quads a "
-    "quarter of a cell wide; law linear beside the linear reference, biot beside all "
-    "others). Its mean changes by at most %.2g %% from a homogenized sheet half as fine; "
-    "these sheets took %.3g s, the references %.3g s.",
+    "Fluctuation: reference minus the homogenized sheet (C^H in every triangle, quads a quarter "
+    "of a cell wide; law linear beside the linear reference, biot beside all others). Its mean "
+    "changes by at most %.2g %% from a homogenized sheet half as fine; these sheets took %.3g s, "
+    "the references %.3g s.",
     100. * largest_change, seconds, seconds_fine);
   return text;
 }
@@ -111,9 +111,9 @@ std::vector<std::string> notes_on_the_method(const StrainStudyOptions &options,
     char text[300];
     std::snprintf(
       text, sizeof(text),
-      "In the infinite cloth the localized error lies below the reference's error bar at "
-      "some levels, down to %.2g of it: there it says that method and reference agree on "
-      "this mesh, and nothing of the limit of fine meshes.",
+      "In the infinite cloth the localized error lies below the reference's error bar at some "
+      "levels, down to %.2g of it: there it says that method and reference agree on this mesh, "
+      "and nothing of the limit of fine meshes.",
       smallest_bar);
     notes.emplace_back(text);
   }
@@ -129,13 +129,12 @@ std::vector<std::string> notes_on_the_method(const StrainStudyOptions &options,
       "constant of part 9 are measured in linear theory, against the sheet of a second code, and "
       "scaled with strain; parts 2, 3 and 5 at the strain itself, on a homogenized sheet whose "
       "coarse mesh is refined four to sixteen times. What they leave of the error is "
-      "`unexplained`; "
-      "its bar is how much the response of the cell has changed at that strain. The sum tests that "
-      "the method does what its parts say of it, and the reference against the second code; both "
-      "share the mesh, the stiffness of the phases and the load. Part 4 and `reference` stand "
-      "beside the sum: they hit method and reference alike, which share the mesh of the cell. Part "
-      "2 takes its stiffness and chi at finite strain from cell problems over the strains of the "
-      "sheet, all but 0.5 % at either end of each component.");
+      "`unexplained`; its bar is how much the response of the cell has changed at that strain. "
+      "The sum tests that the method does what its parts say of it, and the reference against the "
+      "second code; both share the mesh, the stiffness of the phases and the load. Part 4 and "
+      "`reference` stand beside the sum: they hit method and reference alike, which share the "
+      "mesh of the cell. Part 2 takes its stiffness and chi at finite strain from cell problems "
+      "over the strains of the sheet, all but 0.5 % at either end of each component.");
   if (options.run_time && has_sheet(options) && has(options.references, "biot"))
     notes.emplace_back(
       "Run times: every run begins with the affine motion that agrees with what is prescribed; "
