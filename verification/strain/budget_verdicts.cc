@@ -30,6 +30,16 @@ double mean_of(const std::vector<BudgetRow> &rows, const BudgetRow &level, const
   return std::numeric_limits<double>::quiet_NaN();
 }
 
+/// The error bar of the reference at a level, per cell side; NaN where there is none.
+double bar_of(const std::vector<StrainRow> &rows, const BudgetRow &level)
+{
+  for (const StrainRow &row : rows)
+    if (row.cell == level.cell && row.load == level.load && row.strain == level.strain &&
+        row.reference == level.reference && row.mean > 0.)
+      return row.uncertainty / row.mean * row.per_cell;
+  return std::numeric_limits<double>::quiet_NaN();
+}
+
 std::string title_of(const BudgetRow &level)
 {
   return level.cell + ", " + level.load + " at " + short_text(100. * level.strain) + " %: ";
@@ -49,8 +59,9 @@ double solved_to_of(const BudgetRow &level, const double total)
   return solved_to * level.strain / total;
 }
 
+/// @param bar_of_reference per cell side; not a number where there is none
 void judge_level(const std::vector<BudgetRow> &rows, const BudgetRow &level,
-                 std::vector<Verdict> &verdicts)
+                 const double bar_of_reference, std::vector<Verdict> &verdicts)
 {
   const std::string what = title_of(level);
   const double total = mean_of(rows, level, "total"), sum = mean_of(rows, level, "sum");
@@ -82,6 +93,14 @@ void judge_level(const std::vector<BudgetRow> &rows, const BudgetRow &level,
      "the bar of the same level: parts of linear theory are known as far as the cell responds "
      "linearly, and by how much it does not is measured; beside it what the solvers leave",
      Kind::program});
+  const double covered = mean_of(rows, level, "reference") / bar_of_reference;
+  if (std::isfinite(bar_of_reference))
+    verdicts.push_back({what + "the error bar of the reference covers its distance from P2 on the "
+                               "same mesh (distance over bar)",
+                        outcome_of(covered, covered <= 1.), covered, "<= 1",
+                        "what an error bar is: this one was measured on a small sheet and at other "
+                        "strains, and carried",
+                        Kind::program});
   const double solver = mean_of(rows, level, "solver") / total;
   verdicts.push_back({what + "what the solvers leave undone, over the measured error",
                       outcome_of(solver, solver <= 0.01), solver, "<= 0.01",
@@ -192,8 +211,8 @@ std::vector<Verdict> budget_verdicts(const std::vector<StrainRow> &strain_rows,
                                      const std::vector<double> &strains)
 {
   std::vector<Verdict> verdicts;
-  at_judged_levels(strain_rows,
-                   [&](const BudgetRow &level) { judge_level(budget_rows, level, verdicts); });
+  at_judged_levels(strain_rows, [&](const BudgetRow &level)
+                   { judge_level(budget_rows, level, bar_of(strain_rows, level), verdicts); });
   for (const auto &[of_case, its_strains] : cases_of(strain_rows))
     judge_slope(budget_rows, of_case, strains, verdicts);
   return verdicts;

@@ -17,6 +17,7 @@ namespace homespun::verification
 /// - what the parts leave of the error, within the bar of their sum; INCONCLUSIVE where that bar is
 ///   above a fifth of the error, the reference was not reached or a part not found; where the total
 ///   is zero to what the solvers leave, whether the sum is as well
+/// - the error bar of the reference covers its distance from P2 on the same mesh
 /// - part 7 at most 1 % of the total
 /// and over the levels up to 2 %, where the study has three of them: the mean of part 2 grows as
 /// strain squared, slope 2 +- 0.1, or is zero to what the solvers leave at each.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "verification/strain/reference_uncertainty.h"
 
+#include "homogenization/cell/corners.h"
 #include "verification/reference/fine_reference.h"
 
 #include <algorithm>
@@ -16,6 +17,18 @@ double mean_distance(const meshes::Points &a, const meshes::Points &b)
   return (a - b).rowwise().norm().mean();
 }
 } // namespace
+
+double DiscretizationDistance::uncertainty(const double order) const
+{
+  return 1.25 * (p1_to_refined + p2_to_refined / (std::pow(2., order) - 1.));
+}
+
+double order_of_p2(const homogenization::UnitCell &cell, const Load &load)
+{
+  const homogenization::Singularity corners = homogenization::singularity_of(
+    homogenization::corners_of(cell.mesh, cell.lattice, cell.stiffness_of_phase()));
+  return std::min(corners.exists ? 2. * corners.strongest : 3., load.is_periodic() ? 3. : 1.);
+}
 
 DiscretizationDistance ReferenceUncertainty::measure(const int n, const Law law,
                                                      const double strain, const bool with_refined)
@@ -53,6 +66,7 @@ ReferenceUncertainty::ReferenceUncertainty(const homogenization::UnitCell &cell,
     , load(load)
     , communicator(communicator)
     , side(std::sqrt(cell.lattice.area()))
+    , order(order_of_p2(cell, load))
 {
   const int n_full     = load.is_periodic() ? 1 : n_cells;
   const int n_measured = load.is_periodic() ? 1 : std::min(n_small, n_cells);
@@ -94,7 +108,7 @@ ReferenceUncertainty::ReferenceUncertainty(const homogenization::UnitCell &cell,
       {
         row.p1_to_refined = measured.p1_to_refined * unit;
         row.p2_to_refined = measured.p2_to_refined * unit;
-        row.bar           = measured.uncertainty();
+        row.bar           = measured.uncertainty(order);
       }
     }
     if (table)
@@ -104,7 +118,7 @@ ReferenceUncertainty::ReferenceUncertainty(const homogenization::UnitCell &cell,
 
   const DiscretizationDistance small = distance(n_measured, Law::linear, small_strain, true);
   const double unknown               = std::numeric_limits<double>::quiet_NaN();
-  linear_bar                         = small.reached ? small.uncertainty() : unknown;
+  linear_bar                         = small.reached ? small.uncertainty(order) : unknown;
   if (n_full != n_measured)
   {
     const DiscretizationDistance full = distance(n_full, Law::linear, small_strain, false);
@@ -114,7 +128,7 @@ ReferenceUncertainty::ReferenceUncertainty(const homogenization::UnitCell &cell,
     if (law != Law::linear)
     {
       const DiscretizationDistance large = distance(n_measured, law, large_strain, true);
-      large_bars.emplace_back(law, large.reached ? large.uncertainty() : linear_bar);
+      large_bars.emplace_back(law, large.reached ? large.uncertainty(order) : linear_bar);
     }
 }
 

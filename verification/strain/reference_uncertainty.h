@@ -22,13 +22,17 @@ struct DiscretizationDistance
   double p1_to_p2 = 0., p1_to_refined = 0., p2_to_refined = 0.;
   bool reached = false; ///< false where one of them found no equilibrium
 
-  /// |P1 − refined P2| + |P2 − refined P2|: the distance to the best solution, and how far that one
-  /// may still be from the limit.
-  double uncertainty() const
-  {
-    return p1_to_refined + p2_to_refined;
-  }
+  /// 1.25 (|P1 − refined P2| + |P2 − refined P2| / (2^q − 1)): the distance to the best solution,
+  /// and by Richardson how far that one is from the limit; 1.25 as in the grid convergence index
+  /// (record/convergence.h).
+  /// @param order q of P2 on uniformly refined meshes
+  double uncertainty(double order) const;
 };
+
+/// The order in which P2 displacements converge on uniformly refined meshes of a sheet, in the
+/// mean: twice the exponent of the strongest corner of the cell, at most 3; of sheets with clamped
+/// and free edges at most 1, because where these meet the exponent lies above ½.
+double order_of_p2(const homogenization::UnitCell &cell, const Load &load);
 
 /// The error bar of the P1 reference of one cell and load.
 ///
@@ -64,6 +68,7 @@ private:
   const MPI_Comm communicator;
   double carry_over = 1.;
   double side       = 0.; ///< sqrt(|Y|) [m]
+  double order      = 1.; ///< order_of_p2()
   double linear_bar = 0.; ///< per strain and side
   std::vector<std::pair<Law, double>> large_bars;
 };
