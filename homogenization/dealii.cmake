@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
-# homespun::dealii: deal.II as a target with keywords, which deal.II 9.4 itself does not offer. Read after
-# find_package(deal.II), by homespun and by whoever uses its component homogenization, hence imported in both.
+# homespun::dealii: deal.II as a target with keywords, which deal.II 9.4 itself does not offer. Read
+# after find_package(deal.II), by homespun and by whoever uses its component homogenization, hence
+# imported in both.
 #   HOMESPUN_DEALII_FLAVOUR  RELEASE, or DEBUG for the build of deal.II with assertions
 if(NOT TARGET homespun::dealii)
   include(${DEAL_II_TARGET_CONFIG})

@@ -108,11 +108,6 @@ int make(const CellVariant &variant)
 }
 } // namespace
 
-std::string cells_folder()
-{
-  return data_folder("cells", "meshes/cells");
-}
-
 void add_homogenize_command(CLI::App &app, Action &action)
 {
   CLI::App *command = app.add_subcommand(

@@ -6,6 +6,7 @@
 #include "homogenization/lint/cell_reading.h"
 #include "meshes/files/write_whole.h"
 #include "meshes/plain/errors.h"
+#include "verification/program/data_folder.h"
 #include "verification/record/child_process.h"
 #include "verification/record/temporary_folder.h"
 

@@ -37,7 +37,4 @@ void add_scaling_command(CLI::App &app, Action &action, AfterMpi &afterwards,
 /// Makes report.html from folders of results, with Debian's Python.
 /// @throws BadInput where the results cannot be read or drawn
 void make_report(const std::vector<std::string> &folders, const std::string &output, bool quiet);
-
-/// The folder of the shipped cells: where they were installed with the program, or in the sources.
-std::string cells_folder();
 } // namespace homespun::verification

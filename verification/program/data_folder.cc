@@ -15,4 +15,9 @@ std::string data_folder(const std::string &installed, const std::string &in_sour
   return fs::is_directory(data) ? (data / installed).string()
                                 : std::string(HOMESPUN_SOURCE_DIR) + "/" + in_sources;
 }
+
+std::string cells_folder()
+{
+  return data_folder("cells", "meshes/cells");
+}
 } // namespace homespun::verification

@@ -11,4 +11,7 @@ namespace homespun::verification
 /// found from the program itself, so that an installed tree may be moved and never reads the
 /// sources.
 std::string data_folder(const std::string &installed, const std::string &in_sources);
+
+/// The folder of the shipped cells: where they were installed with the program, or in the sources.
+std::string cells_folder();
 } // namespace homespun::verification

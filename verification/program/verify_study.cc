@@ -11,6 +11,7 @@
 #include "verification/drape/drape_study.h"
 #include "verification/extremes/stress_study.h"
 #include "verification/program/commands.h"
+#include "verification/program/data_folder.h"
 #include "verification/record/json_files.h"
 #include "verification/record/on_root.h"
 #include "verification/strain/strain_study.h"
