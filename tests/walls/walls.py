@@ -3,7 +3,8 @@
 """The walls of the house: which room may include which, and what may stand where.
 
 A wing is a sub-folder such as shell/solver, or localization, which has none; a room is a header
-with its source. walls.py [ROOT] prints each violation with its place and ends with 1, or with 0.
+with its source. walls.py [ROOT] prints each violation with its place and ends with 1, or with 0;
+walls.py --dot [ROOT] prints the wings and their arrows for graphviz: walls.py --dot | dot -Tsvg
 """
 import pathlib
 import re
@@ -223,8 +224,27 @@ def violations(root, rules=None):
     return [text for rule in rules or RULES for text in rule(house)]
 
 
+def picture(house):
+    """The wings for graphviz, an arrow from who includes to what, with the number of includes."""
+    counts = {}
+    for path, target in house.own_includes():
+        arrow = wing_of(path), wing_of(target)
+        if arrow[0] != arrow[1]:
+            counts[arrow] = counts.get(arrow, 0) + 1
+    lines = ["digraph house {", "rankdir=BT; node [shape=box];"]
+    for folder in FOLDERS:
+        wings = " ".join(f'"{wing}";' for wing in MAY_INCLUDE if wing.split("/")[0] == folder)
+        lines.append(f'subgraph "cluster_{folder}" {{ label="{folder}"; {wings} }}')
+    lines += [f'"{here}" -> "{there}" [label={n}];' for (here, there), n in sorted(counts.items())]
+    return "\n".join([*lines, "}"])
+
+
 def main():
-    root = sys.argv[1] if len(sys.argv) > 1 else pathlib.Path(__file__).resolve().parents[2]
+    arguments = [argument for argument in sys.argv[1:] if argument != "--dot"]
+    root = arguments[0] if arguments else pathlib.Path(__file__).resolve().parents[2]
+    if "--dot" in sys.argv:
+        print(picture(House(root)))
+        return 0
     found = violations(root)
     for text in found:
         print(text)
