@@ -19,10 +19,10 @@ import numpy
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), os.pardir, "report"))
 
 # pylint: disable=wrong-import-position
-from runs import read_run  # noqa: E402
-from schema import NoSchema  # noqa: E402
-from stored import BadResults, check_verdicts, read_csv, read_json  # noqa: E402
-from tables import relative_width  # noqa: E402
+from read.cell_results import relative_width  # noqa: E402
+from read.runs import read_run  # noqa: E402
+from read.schema import NoSchema  # noqa: E402
+from read.stored import BadResults, check_verdicts, read_csv, read_json  # noqa: E402
 
 STRAIN, REFERENCE = 0.01, "biot"
 SCENE = "pull"

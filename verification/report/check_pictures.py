@@ -15,7 +15,7 @@ import textwrap
 import h5py
 import numpy
 
-import style
+from figures import style
 
 style.use()  # before anything draws
 

@@ -16,16 +16,16 @@ import shutil
 import sys
 import tempfile
 
-import style
+from figures import style
 
 style.use()  # before anything draws
 
 # pylint: disable=wrong-import-position
-from contents import page_contents  # noqa: E402
-from gallery import Gallery  # noqa: E402
-from page import render  # noqa: E402
-from page_size import fitted  # noqa: E402
-from results import BadResults, read_results  # noqa: E402
+from page.contents import page_contents  # noqa: E402
+from page.gallery import Gallery  # noqa: E402
+from page.page import render  # noqa: E402
+from page.page_size import fitted  # noqa: E402
+from read.results import BadResults, read_results  # noqa: E402
 
 
 def write_report(folders, output):
