@@ -1,8 +1,10 @@
 # SPDX-License-Identifier: MIT
-"""A browser for the tests of pages: it opens a page beside a script, and what the script sends comes back.
+"""A browser for the tests of pages: it opens a page beside a script, and what the script sends
+comes back.
 
-The script runs in a page that holds the page under test in a frame; it waits for what it needs and calls `send(value)`.
-Nothing depends on how long the browser takes: a busy machine is waited for up to SECONDS.
+The script runs in a page that holds the page under test in a frame; it waits for what it needs and
+calls `send(value)`. Nothing depends on how long the browser takes: a busy machine is waited for up
+to SECONDS.
 """
 import contextlib
 import functools
@@ -35,7 +37,9 @@ const when = (ready, then) => {{
 
 
 class Handler(http.server.SimpleHTTPRequestHandler):
-    """Serves a folder and, as `beside.html`, the page with the script; puts what is sent into `answers`."""
+    """Serves a folder and, as `beside.html`, the page with the script; puts what is sent into
+    `answers`.
+    """
 
     def __init__(self, *args, beside, answers, **kwargs):
         self.beside, self.answers = beside, answers
@@ -72,16 +76,33 @@ def served(folder, beside, answers):
 
 
 def ask(folder, address, script, width=1300, seconds=SECONDS):
-    """(what the script beside the page sends, the browser's messages); the address is relative to the folder."""
+    """(what the script beside the page sends, the browser's messages); the address is relative to
+    the folder.
+    """
     beside = BESIDE.format(width=width, address=address, script=script).encode()
     answers = queue.Queue()
-    with served(folder, beside, answers) as server, tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as profile:
+    with served(folder, beside, answers) as server, tempfile.TemporaryDirectory(
+        ignore_cleanup_errors=True
+    ) as profile:
         log = os.path.join(profile, "messages")
-        command = [CHROMIUM, "--headless", "--no-sandbox", "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader",
-                   "--enable-logging=stderr", "--no-first-run", "--no-proxy-server", "--window-size=1400,8000", "--remote-debugging-port=0",
-                   f"--user-data-dir={profile}", f"{server}/beside.html"]
-        with open(log, "w", encoding="utf-8") as messages, \
-                subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=messages, start_new_session=True) as browser:
+        command = [
+            CHROMIUM,
+            "--headless",
+            "--no-sandbox",
+            "--use-gl=angle",
+            "--use-angle=swiftshader",
+            "--enable-unsafe-swiftshader",
+            "--enable-logging=stderr",
+            "--no-first-run",
+            "--no-proxy-server",
+            "--window-size=1400,8000",
+            "--remote-debugging-port=0",
+            f"--user-data-dir={profile}",
+            f"{server}/beside.html",
+        ]
+        with open(log, "w", encoding="utf-8") as messages, subprocess.Popen(
+            command, stdout=subprocess.DEVNULL, stderr=messages, start_new_session=True
+        ) as browser:
             try:
                 answer = answers.get(timeout=seconds)
             except queue.Empty:
@@ -91,5 +112,7 @@ def ask(folder, address, script, width=1300, seconds=SECONDS):
         with open(log, encoding="utf-8", errors="replace") as messages:
             text = messages.read()
     if answer is None:
-        raise AssertionError(f"the page did not answer within {seconds} s; the browser says:\n{text[-3000:]}")
+        raise AssertionError(
+            f"the page did not answer within {seconds} s; the browser says:\n{text[-3000:]}"
+        )
     return answer, text

@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: MIT
-"""Made-up results as a run writes them, for the tests of the report: tables of the schema, run.json with the files as they are."""
+"""Made-up results as a run writes them, for the tests of the report: tables of the schema, run.json
+with the files as they are.
+"""
 import csv
 import io
 import json
@@ -15,7 +17,13 @@ def field_of(value):
     """A value as a field; what is not known is empty."""
     if value is None or (isinstance(value, float) and math.isnan(value)):
         return ""
-    return str(value).lower() if isinstance(value, bool) else repr(float(value)) if isinstance(value, float) else str(value)
+    return (
+        str(value).lower()
+        if isinstance(value, bool)
+        else repr(float(value))
+        if isinstance(value, float)
+        else str(value)
+    )
 
 
 def table_text(file, rows):
@@ -40,9 +48,25 @@ def write_table(folder, file, rows):
         stream.write(table_text(file, rows))
 
 
-def verdict(claim, outcome, value=None, limit="", kind="program", derivation="theory says so", command="homespun strain"):
+def verdict(
+    claim,
+    outcome,
+    value=None,
+    limit="",
+    kind="program",
+    derivation="theory says so",
+    command="homespun strain",
+):
     """A claim as verdicts.json lists it."""
-    return {"claim": claim, "kind": kind, "verdict": outcome, "value": value, "limit": limit, "derivation": derivation, "command": command}
+    return {
+        "claim": claim,
+        "kind": kind,
+        "verdict": outcome,
+        "value": value,
+        "limit": limit,
+        "derivation": derivation,
+        "command": command,
+    }
 
 
 def write_verdicts(folder, verdicts):
@@ -54,8 +78,14 @@ def files_of(folder):
     """Names of all files below a folder, but for runs that have a folder of their own in it."""
     found = []
     for place, folders, names in os.walk(folder):
-        folders[:] = [name for name in folders if not os.path.isfile(os.path.join(place, name, "run.json"))]
-        found += [os.path.relpath(os.path.join(place, name), folder) for name in names if name != "run.json"]
+        folders[:] = [
+            name for name in folders if not os.path.isfile(os.path.join(place, name, "run.json"))
+        ]
+        found += [
+            os.path.relpath(os.path.join(place, name), folder)
+            for name in names
+            if name != "run.json"
+        ]
     return sorted(found)
 
 
@@ -69,12 +99,26 @@ def write_run(folder, command="strain", revision="abc1234", finished=True, **oth
 
     @param others keys that replace those of run.json
     """
-    run = {"format": 1, "command": command, "revision": revision, "inputs": {"strains": [0.01, 0.1]},
-           "fingerprint": f"{zlib.crc32(f'{command} {revision} {os.path.basename(folder)}'.encode()):016x}", "seconds": 3.5, "began": 1.8e9,
-           "finished": finished}
+    run = {
+        "format": 1,
+        "command": command,
+        "revision": revision,
+        "inputs": {"strains": [0.01, 0.1]},
+        "fingerprint": (
+            f"{zlib.crc32(f'{command} {revision} {os.path.basename(folder)}'.encode()):016x}"
+        ),
+        "seconds": 3.5,
+        "began": 1.8e9,
+        "finished": finished,
+    }
     if finished:
-        run["files"] = {name: {"bytes": os.path.getsize(os.path.join(folder, name)), "crc32": checksum(os.path.join(folder, name))}
-                        for name in files_of(folder)}
+        run["files"] = {
+            name: {
+                "bytes": os.path.getsize(os.path.join(folder, name)),
+                "crc32": checksum(os.path.join(folder, name)),
+            }
+            for name in files_of(folder)
+        }
     with open(os.path.join(folder, "run.json"), "w", encoding="utf-8") as file:
         json.dump({**run, **others}, file, indent=2)
 

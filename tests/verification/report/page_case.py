@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: MIT
-"""What the tests of pages share: making a report of a folder, reading it, breaking results, and refusals."""
+"""What the tests of pages share: making a report of a folder, reading it, breaking results, and
+refusals.
+"""
 import contextlib
 import csv
 import io
@@ -7,10 +9,20 @@ import os
 import shutil
 import tempfile
 import unittest
+from unittest import mock
 
 import report_path  # noqa: F401
 import report
+from figures import animation, cloth
 from made_up_run import list_again, write_table
+
+
+def draw_small_cloth(add_cleanup):
+    """Cloth in motion in few pixels until the cleanup: seconds instead of minutes."""
+    for module, name in ((cloth, "PIXELS"), (animation, "MOVING_PIXELS")):
+        small = mock.patch.object(module, name, 60)
+        small.start()
+        add_cleanup(small.stop)
 
 
 class PageTest(unittest.TestCase):
@@ -35,7 +47,8 @@ class PageTest(unittest.TestCase):
     def edit(self, name, change, listed=True):
         """Changes a file of the results.
 
-        @param listed whether as if the run had written it so; else run.json tells that it was changed
+        @param listed whether as if the run had written it so; else run.json tells that it was
+            changed
         """
         path = os.path.join(self.folder, name)
         with open(path, encoding="utf-8") as file:
@@ -48,7 +61,8 @@ class PageTest(unittest.TestCase):
     def edit_table(self, name, change):
         """Changes the rows of a table, dictionaries of texts, as if the run had written it so.
 
-        @param change takes the rows; what it returns, or the same rows where it returns nothing, is written
+        @param change takes the rows; what it returns, or the same rows where it returns nothing, is
+            written
         """
         path = os.path.join(self.folder, name)
         with open(path, encoding="utf-8", newline="") as file:

@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: MIT
-"""Puts the report on the path of modules, as if its program had been started. Tests import this first."""
+"""Puts the report on the path of modules, as if its program had been started. Tests import this
+first.
+"""
 import pathlib
 import sys
 

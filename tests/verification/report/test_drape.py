@@ -5,45 +5,70 @@ import os
 import re
 import shutil
 import unittest
-from unittest import mock
 
 import numpy
 from PIL import Image
 
 import report_path  # noqa: F401
-from figures import cloth
 from made_up_drape import REFERENCES, VARIANTS, write_drape, write_vtu
 from made_up_run import list_again
 from made_up_study import write_results, write_stress
-from page_case import PageTest
+from page_case import PageTest, draw_small_cloth
 from read import vtu
 
 
 class DrapePageTest(PageTest):
     def setUp(self):
         super().setUp()
-        small = mock.patch.multiple(cloth, PIXELS=60, MOVING_PIXELS=60)  # seconds instead of minutes
-        small.start()
-        self.addCleanup(small.stop)
+        draw_small_cloth(self.addCleanup)
 
     def test_complete_scene_makes_every_section_figure_and_link(self):
         write_drape(self.folder)
         self.assertEqual(self.run_report(), (0, ""))
         page = self.page()
-        sections = ("verdicts", "drape-short", "scene-1", "scene-1-1", "scene-1-1-error", "scene-1-1-motion", "scene-1-1-time",
-                    "scene-1-terms", "scene-1-parameters", "scene-1-frames", "left-out", "provenance")
+        sections = (
+            "verdicts",
+            "drape-short",
+            "scene-1",
+            "scene-1-1",
+            "scene-1-1-error",
+            "scene-1-1-motion",
+            "scene-1-1-time",
+            "scene-1-terms",
+            "scene-1-parameters",
+            "scene-1-frames",
+            "left-out",
+            "provenance",
+        )
         places = [page.index(f'id="{key}"') for key in sections]
         self.assertEqual(places, sorted(places))
-        self.assertLess(page.index("homespun drape swing.prm"), places[0])  # the command before the verdicts
+        # The command before the verdicts.
+        self.assertLess(page.index("homespun drape swing.prm"), places[0])
         figures = set(os.listdir(os.path.join(self.output, "figures")))
         for name in ("cloth", "error-time", "height", "energies", "step"):
-            self.assertLessEqual({f"swing-layered-{name}.pdf", f"swing-layered-{name}.svg"}, figures)
+            self.assertLessEqual(
+                {f"swing-layered-{name}.pdf", f"swing-layered-{name}.svg"}, figures
+            )
             self.assertIn(f'id="swing-layered-{name}"', page)
-        with Image.open(os.path.join(self.output, "figures", "swing-layered-motion.webp")) as moving:
+        with Image.open(
+            os.path.join(self.output, "figures", "swing-layered-motion.webp")
+        ) as moving:
             self.assertEqual((moving.n_frames, moving.info["loop"]), (4, 0))
-        for text in ("1.10 ms and its up-sampling 90.0 µs on 1 thread", "<b>1090 times</b> as long",
-                     "the uncertainty of the reference is 10.0 µm", "the uncertainty of the reference is not known",
-                     "let go &lt;level&gt;", "the scene does not ask for it", "1.10 ms ± 20.0 µs", "+13.6 %", "+23.5 %", "solver/tolerance", "1e-08", "printed-nodal-warping moves more than three times", "abc1234"):
+        for text in (
+            "1.10 ms and its up-sampling 90.0 µs on 1 thread",
+            "<b>1090 times</b> as long",
+            "the uncertainty of the reference is 10.0 µm",
+            "the uncertainty of the reference is not known",
+            "let go &lt;level&gt;",
+            "the scene does not ask for it",
+            "1.10 ms ± 20.0 µs",
+            "+13.6 %",
+            "+23.5 %",
+            "solver/tolerance",
+            "1e-08",
+            "printed-nodal-warping moves more than three times",
+            "abc1234",
+        ):
             self.assertIn(text, page)
         links = re.findall(r'href="(?!figures/)([^"#][^"]*)"', page)
         self.assertEqual(len(links), 2 * len(VARIANTS) + len(REFERENCES))
@@ -52,25 +77,43 @@ class DrapePageTest(PageTest):
         self.assertFalse(re.search(r'src="(?!data:)', page), "the page must stand alone")
         self.assertLess(os.path.getsize(os.path.join(self.output, "report.html")), 8e6)
 
-    def test_scene_without_references_frames_and_terms_is_reported_and_what_is_absent_is_named(self):
+    def test_scene_without_references_frames_and_terms_is_reported_and_what_is_absent_is_named(
+        self,
+    ):
         write_drape(self.folder, variants=VARIANTS[:1], references=())
         shutil.rmtree(os.path.join(self.folder, "layered-corotational"))
         self.remove("terms.csv")
         self.assertEqual(self.run_report(), (0, ""))
         page = self.page()
-        for text in ("No reference was asked for", "Left out: pictures of layered", "Left out: error of layered",
-                     "Left out: what absent terms would have cost", "fine.pvd does not exist", "drape.csv does not exist",
-                     "Left out: links to frames"):
+        for text in (
+            "No reference was asked for",
+            "Left out: pictures of layered",
+            "Left out: error of layered",
+            "Left out: what absent terms would have cost",
+            "fine.pvd does not exist",
+            "drape.csv does not exist",
+            "Left out: links to frames",
+        ):
             self.assertIn(text, page)
 
     def test_scene_of_which_only_the_description_is_left_is_reported(self):
         write_drape(self.folder, variants=VARIANTS[:1], references=REFERENCES[:1])
         self.remove("drape.csv", "motion.csv", "terms.csv", "verdicts.json")
-        self.edit("drape.json", lambda text: json.dumps({"scene": "swing", "cells": [{"cell": "<layered>"}]}))
+        self.edit(
+            "drape.json",
+            lambda text: json.dumps({"scene": "swing", "cells": [{"cell": "<layered>"}]}),
+        )
         self.assertEqual(self.run_report(), (0, ""))
         page = self.page()
-        for text in ("drape.json lists no run", "Left out: height and energies", "Left out: time per step",
-                     "Left out: terms of the solver", "Left out: parameters", "Left out: provenance", "Left out: verdicts"):
+        for text in (
+            "drape.json lists no run",
+            "Left out: height and energies",
+            "Left out: time per step",
+            "Left out: terms of the solver",
+            "Left out: parameters",
+            "Left out: provenance",
+            "Left out: verdicts",
+        ):
             self.assertIn(text, page)
 
     def test_frames_without_material_error_or_reference_are_drawn(self):
@@ -123,9 +166,20 @@ class DrapePageTest(PageTest):
 
     def test_files_outside_of_the_folder_are_not_opened(self):
         for path, old, new, message in (
-                ("layered-corotational/fine.pvd", 'file="fine/0003.vtu"', 'file="../../secret.vtu"', "names `../../secret.vtu`"),
-                ("drape.json", '"folder": "layered-corotational"', '"folder": "/etc"', "folder `/etc`"),
-                ("drape.json", '"folder": "layered-corotational"', '"folder": "../elsewhere"', "folder `../elsewhere`")):
+            (
+                "layered-corotational/fine.pvd",
+                'file="fine/0003.vtu"',
+                'file="../../secret.vtu"',
+                "names `../../secret.vtu`",
+            ),
+            ("drape.json", '"folder": "layered-corotational"', '"folder": "/etc"', "folder `/etc`"),
+            (
+                "drape.json",
+                '"folder": "layered-corotational"',
+                '"folder": "../elsewhere"',
+                "folder `../elsewhere`",
+            ),
+        ):
             with self.subTest(new):
                 shutil.rmtree(self.folder, ignore_errors=True)
                 write_drape(self.folder, variants=VARIANTS[:1], references=())
@@ -138,16 +192,26 @@ class DrapePageTest(PageTest):
         self.edit_table("motion.csv", lambda rows: rows[1].update(frame="one"))
         self.edit_table("terms.csv", lambda rows: rows[1].update(present="perhaps"))
         self.edit("layered-shell/fine.pvd", lambda text: text[:100])
-        self.assert_refused("drape.csv, line 3: found 12 fields, expected 13", "`frame` is `one`",
-                            "`present` is `perhaps`", "fine.pvd: not a readable .pvd")
+        self.assert_refused(
+            "drape.csv, line 3: found 12 fields, expected 13",
+            "`frame` is `one`",
+            "`present` is `perhaps`",
+            "fine.pvd: not a readable .pvd",
+        )
 
     def test_description_with_keys_of_the_wrong_type_is_refused(self):
-        for old, new, message in (('"scene": "swing"', '"scene": 3', "key `scene` is `3`"),
-                                  ('"present": true', '"present": 1', "term `membrane` has `present` = `1`"),
-                                  ('"time_step_s": 0.001', '"time_step_s": "1 ms"', "key `time_step_s` is `1 ms`"),
-                                  ('[2839.91, 299.7, 0.0]', '[2839.91]', "key `C` is not a 3 x 3 matrix"),
-                                  ('"variant": "corotational", ', '', "runs[0] has `variant` = `None`"),
-                                  ('"seconds_per_step": 1.3', '"seconds_per_step": "long"', "`seconds_per_step` = `long`")):
+        for old, new, message in (
+            ('"scene": "swing"', '"scene": 3', "key `scene` is `3`"),
+            ('"present": true', '"present": 1', "term `membrane` has `present` = `1`"),
+            ('"time_step_s": 0.001', '"time_step_s": "1 ms"', "key `time_step_s` is `1 ms`"),
+            ('[2839.91, 299.7, 0.0]', '[2839.91]', "key `C` is not a 3 x 3 matrix"),
+            ('"variant": "corotational", ', '', "runs[0] has `variant` = `None`"),
+            (
+                '"seconds_per_step": 1.3',
+                '"seconds_per_step": "long"',
+                "`seconds_per_step` = `long`",
+            ),
+        ):
             with self.subTest(message):
                 write_drape(self.folder, variants=VARIANTS[:1], references=REFERENCES[:1], frames=2)
                 self.edit("drape.json", lambda text, old=old, new=new: text.replace(old, new, 1))

@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: MIT
-"""Tests of what every page must be: whole, small, alone, with its numbers; and of what stands in its plots and views."""
+"""Tests of what every page must be: whole, small, alone, with its numbers; and of what stands in
+its plots and views.
+"""
 import csv
 import glob
 import math
@@ -15,12 +17,12 @@ from matplotlib import pyplot
 import report_path  # noqa: F401
 import browser
 import page_checks
-from figures import cloth, plot_data, view_data
+from figures import plot_data, view_data
 from figures.decimation import area_of, decimate
 from made_up_drape import write_drape
 from made_up_study import square_mesh, write_results
 from page import gallery, page_size, scripts
-from page_case import PageTest
+from page_case import PageTest, draw_small_cloth
 
 HAS_CHART = os.path.isfile(scripts.CHART)
 ACTIONS = os.path.join(os.path.dirname(os.path.abspath(__file__)), "page_actions.js")
@@ -28,15 +30,14 @@ ACTIONS = os.path.join(os.path.dirname(os.path.abspath(__file__)), "page_actions
 
 class WholePageTest(PageTest):
     """One page of a strain study and a scene; it is made once, and each test looks at it."""
+
     text = None
 
     @classmethod
     def setUpClass(cls):
         case = cls("made")
         PageTest.setUp(case)
-        small = mock.patch.multiple(cloth, PIXELS=60, MOVING_PIXELS=60)  # seconds instead of minutes
-        small.start()
-        cls.addClassCleanup(small.stop)
+        draw_small_cloth(cls.addClassCleanup)
         cls.addClassCleanup(case.doCleanups)
         write_results(case.folder)
         scene = os.path.join(case.place, "scene")
@@ -58,7 +59,10 @@ class WholePageTest(PageTest):
 
     def test_nothing_is_fetched(self):
         self.assertEqual(page_checks.fetched(self.text), [])
-        self.assertEqual(page_checks.fetched('<link href="https://a/b.css"><a href="https://c">c</a>'), ["https://a/b.css"])
+        self.assertEqual(
+            page_checks.fetched('<link href="https://a/b.css"><a href="https://c">c</a>'),
+            ["https://a/b.css"],
+        )
 
     def test_page_is_below_its_limit(self):
         self.assertLess(len(self.text.encode()), page_checks.LIMIT_BYTES)
@@ -90,9 +94,19 @@ class WholePageTest(PageTest):
             self.assertEqual(page_checks.nameless_numbers(path), [], path)
 
     def test_error_that_is_round_off_is_zero_in_the_csv_file(self):
-        with open(os.path.join(self.made_in, "figures", "stripes-error-strain.csv"), encoding="utf-8", newline="") as file:
-            rows = [row for row in csv.DictReader(file) if row["panel"] == "periodic-22" and "localized" in row["series"]]
-        self.assertEqual([(row["note"], float(row["y"])) for row in rows], [(plot_data.ROUND_OFF_NOTE, 0.)] * 3)
+        with open(
+            os.path.join(self.made_in, "figures", "stripes-error-strain.csv"),
+            encoding="utf-8",
+            newline="",
+        ) as file:
+            rows = [
+                row
+                for row in csv.DictReader(file)
+                if row["panel"] == "periodic-22" and "localized" in row["series"]
+            ]
+        self.assertEqual(
+            [(row["note"], float(row["y"])) for row in rows], [(plot_data.ROUND_OFF_NOTE, 0.0)] * 3
+        )
 
     def test_views_hold_positions_within_their_bits(self):
         views = page_checks.data_of(self.text, "view-data")
@@ -112,12 +126,13 @@ class WholePageTest(PageTest):
         self.assertFalse(re.findall(r"CONSOLE.*(?:Error|error).*", messages))
         self.assertEqual(found["theme"], "dark")
         self.assertEqual(found["plots"], len(page_checks.data_of(self.text, "plot-data")))
-        self.assertEqual([corners for corners in found["corners"] if corners], [str(3 * 72)])  # corners of all triangles
+        # Corners of all triangles.
+        self.assertEqual([corners for corners in found["corners"] if corners], [str(3 * 72)])
 
     @unittest.skipUnless(browser.CHROMIUM and HAS_CHART, "needs chromium and libjs-chart.js")
     def test_page_does_not_scroll_sideways_on_a_phone(self):
-        script = """when((page) => page.querySelector(".plot canvas"), ({ documentElement: its }) => setTimeout(() => send(
-          [its.scrollWidth, its.clientWidth]), 1000));"""
+        script = """when((page) => page.querySelector(".plot canvas"), ({ documentElement: its }) =>
+          setTimeout(() => send([its.scrollWidth, its.clientWidth]), 1000));"""
         (needed, shown), _ = browser.ask(self.made_in, "report.html", script, width=390)
         self.assertGreater(shown, 300)
         self.assertEqual(needed, shown)
@@ -129,87 +144,125 @@ class WholePageTest(PageTest):
         self.assertEqual(found["faults"], [])
         self.assertIn("up-sampled − reference × 10 (exaggerated)", found["sliders"])
         self.assertEqual((found["hidden"], found["axis"]), (["affine against biot"], "linear"))
-        self.assertEqual(found["beside_the_pointer"], ["localized against biot", "strain: 1 %", "mean error: 8 × 10⁻⁵ cell sides"])
-        with open(os.path.join(self.made_in, "figures", "stripes-error-strain.csv"), encoding="utf-8", newline="") as file:
+        self.assertEqual(
+            found["beside_the_pointer"],
+            ["localized against biot", "strain: 1 %", "mean error: 8 × 10⁻⁵ cell sides"],
+        )
+        with open(
+            os.path.join(self.made_in, "figures", "stripes-error-strain.csv"),
+            encoding="utf-8",
+            newline="",
+        ) as file:
             stored = list(csv.reader(file))
         saved = list(csv.reader(found["csv"].splitlines()))
         self.assertEqual([row[:4] for row in saved], [row[:4] for row in stored])
-        self.assertEqual([float(row[6]) for row in saved[1:]], [float(row[6]) for row in stored[1:]])
+        self.assertEqual(
+            [float(row[6]) for row in saved[1:]], [float(row[6]) for row in stored[1:]]
+        )
 
 
 class PageSizeTest(unittest.TestCase):
     def test_the_largest_pictures_go_beside_a_page_that_is_too_large(self):
         def figure(name, length):
-            return f'<figure id="{name}">\n<img src="data:image/webp;base64,{"A" * length}" alt=""></figure>'
-        page = figure("small", 100) + figure("moves", 3000) + figure("large", 2000) + page_size.PLACE
+            return (
+                f'<figure id="{name}">\n<img src="data:image/webp;base64,{"A" * length}"'
+                ' alt=""></figure>'
+            )
+
+        page = (
+            figure("small", 100) + figure("moves", 3000) + figure("large", 2000) + page_size.PLACE
+        )
         with mock.patch.object(page_size, "LIMIT_BYTES", 1000):
             text = page_size.fitted(page, {"moves"})
         self.assertLess(len(text), 1000)
         self.assertIn('<img src="figures/moves.webp" alt=', text)
         self.assertIn('<img src="figures/large.svg" alt=', text)
-        self.assertIn("2 pictures lie beside the page in figures/, because with them it would exceed 8 MB: large, moves.", text)
+        self.assertIn(
+            (
+                "2 pictures lie beside the page in figures/, because with them it would exceed 8"
+                " MB: large, moves."
+            ),
+            text,
+        )
         self.assertEqual(page_size.fitted(page), page.replace(page_size.PLACE, ""))
 
     def test_an_svg_in_percent_encoding_is_the_same_picture(self):
-        svg = '<svg id="unused"><!-- a --><path id="p" d="M 1.23456 2 %\nL 3 4"/><use href="#p" style="fill: #ffffff"/></svg>'
+        svg = (
+            '<svg id="unused"><!-- a --><path id="p" d="M 1.23456 2 %\nL 3 4"/><use href="#p"'
+            ' style="fill: #ffffff"/></svg>'
+        )
         address = gallery.svg_address(gallery.short_svg(svg))
         self.assertFalse(set(address) & set('"&#'))
-        self.assertEqual(urllib.parse.unquote(address.split(",", 1)[1]),
-                         "<svg><path id='p' d='M 1.2 2 % L 3 4'/><use href='#p' style='fill:#ffffff'/></svg>")
+        self.assertEqual(
+            urllib.parse.unquote(address.split(",", 1)[1]),
+            "<svg><path id='p' d='M 1.2 2 % L 3 4'/><use href='#p' style='fill:#ffffff'/></svg>",
+        )
 
 
 class PlotDataTest(unittest.TestCase):
     def test_curves_bands_and_bars_are_read_back(self):
         figure, (one, two) = pyplot.subplots(1, 2)
         self.addCleanup(pyplot.close, figure)
-        one.plot([1., 2.], [3., numpy.nan], "--s", color="#0072B2", label="a")
-        one.plot([1., 2.], [1., 1.], label="_guide")
+        one.plot([1.0, 2.0], [3.0, numpy.nan], "--s", color="#0072B2", label="a")
+        one.plot([1.0, 2.0], [1.0, 1.0], label="_guide")
         one.set(xscale="log", xlabel="strain [%]", ylabel="error [m]")
-        plot_data.band(one, [1., 2.], [5., 6.], 0.1, "grey")
-        two.barh(0., 9., left=1., label="time")
+        plot_data.band(one, [1.0, 2.0], [5.0, 6.0], 0.1, "grey")
+        two.barh(0.0, 9.0, left=1.0, label="time")
         a, guide, grey = plot_data.panels_of(figure)[0]["curves"]
-        self.assertEqual((a["label"], a["points"], a["colour"], a["marker"]), ("a", [[1., 3.], [2., None]], "#0072b2", "s"))
-        self.assertEqual((guide["label"], grey["points"]), ("", [[1., 5.], [2., 6.]]))
+        self.assertEqual(
+            (a["label"], a["points"], a["colour"], a["marker"]),
+            ("a", [[1.0, 3.0], [2.0, None]], "#0072b2", "s"),
+        )
+        self.assertEqual((guide["label"], grey["points"]), ("", [[1.0, 5.0], [2.0, 6.0]]))
         self.assertEqual(plot_data.panels_of(figure)[0]["x"]["log"], True)
         rows = plot_data.rows_of(figure)
         self.assertEqual([row[1] for row in rows], ["a", "grey", "grey", "time"])
-        self.assertEqual(rows[-1][4], 10.)  # where the bar ends, not how long it is
+        self.assertEqual(rows[-1][4], 10.0)  # where the bar ends, not how long it is
 
     def test_a_line_that_is_drawn_as_steps_is_refused(self):
         figure, axes = pyplot.subplots()
         self.addCleanup(pyplot.close, figure)
-        axes.step([1., 2.], [2., 1.], where="post", label="front")
-        with self.assertRaisesRegex(ValueError, "curve `front` is drawn with `steps-post`, expected `default`"):
+        axes.step([1.0, 2.0], [2.0, 1.0], where="post", label="front")
+        with self.assertRaisesRegex(
+            ValueError, "curve `front` is drawn with `steps-post`, expected `default`"
+        ):
             plot_data.panels_of(figure)
 
     def test_a_figure_with_words_at_its_axis_stays_a_picture(self):
         figure, axes = pyplot.subplots()
         self.addCleanup(pyplot.close, figure)
-        axes.plot([0., 1.], [1., 2.], label="a")
-        axes.set_xticks([0., 1.], ["one", "two"])
+        axes.plot([0.0, 1.0], [1.0, 2.0], label="a")
+        axes.set_xticks([0.0, 1.0], ["one", "two"])
         self.assertIsNone(plot_data.panels_of(figure))
 
 
 class DecimationTest(unittest.TestCase):
     def test_few_vertices_cover_the_same_area_and_are_vertices_of_the_mesh(self):
-        points, triangles, _ = square_mesh(60, 1.)
+        points, triangles, _ = square_mesh(60, 1.0)
         few = decimate(points, triangles, 500)
         self.assertLessEqual(len(few.vertices), 500)
         self.assertGreater(len(few.vertices), 200)
         kept = points[few.vertices]
-        self.assertAlmostEqual(area_of(kept, few.triangles), 1., delta=0.02)
-        numpy.testing.assert_allclose([kept.min(axis=0), kept.max(axis=0)], [[0., 0.], [1., 1.]], atol=1e-12)
+        self.assertAlmostEqual(area_of(kept, few.triangles), 1.0, delta=0.02)
+        numpy.testing.assert_allclose(
+            [kept.min(axis=0), kept.max(axis=0)], [[0.0, 0.0], [1.0, 1.0]], atol=1e-12
+        )
 
     def test_a_small_mesh_stays_as_it_is(self):
-        points, triangles, _ = square_mesh(3, 1.)
+        points, triangles, _ = square_mesh(3, 1.0)
         few = decimate(points, triangles, 16)
         numpy.testing.assert_array_equal(few.triangles, triangles)
 
     def test_packing_keeps_a_small_difference_beside_a_large_place(self):
-        places = numpy.random.default_rng(1).uniform(-1., 1., (2, 50, 3))
-        arrays = {"place": places, "small": 1e-7 * places, "triangles": numpy.arange(60).reshape(20, 3), "still": numpy.zeros((1, 4, 2))}
+        places = numpy.random.default_rng(1).uniform(-1.0, 1.0, (2, 50, 3))
+        arrays = {
+            "place": places,
+            "small": 1e-7 * places,
+            "triangles": numpy.arange(60).reshape(20, 3),
+            "still": numpy.zeros((1, 4, 2)),
+        }
         back = view_data.unpacked(view_data.packed(arrays))
-        numpy.testing.assert_allclose(back["place"], places, atol=2. / 65000)
+        numpy.testing.assert_allclose(back["place"], places, atol=2.0 / 65000)
         numpy.testing.assert_allclose(back["small"], 1e-7 * places, atol=2e-7 / 65000)
         numpy.testing.assert_array_equal(back["triangles"], arrays["triangles"])
         numpy.testing.assert_array_equal(back["still"], arrays["still"])

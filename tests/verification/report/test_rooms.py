@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: MIT
-"""Tests that the rooms of the report know each other in one direction: page uses figures and read, figures uses read."""
+"""Tests that the rooms of the report know each other in one direction: page uses figures and read,
+figures uses read.
+"""
 import ast
 import os
 import pathlib
@@ -22,7 +24,8 @@ def imported(path):
 
 
 def wrong_arrows(folder):
-    """Imports of rooms by rooms that may not use them, and those that hide their room behind dots."""
+    """Imports of rooms by rooms that may not use them, and those that hide their room behind dots.
+    """
     faults = []
     for room, allowed in MAY_USE.items():
         for path in sorted((folder / room).rglob("*.py")):
@@ -44,18 +47,33 @@ class RoomsTest(unittest.TestCase):
             self.assertLessEqual(len(files), MOST_FILES, room)
 
     def test_a_planted_arrow_is_found(self):
-        planted = {"read/one.py": "from figures import style\n", "read/two.py": "import os, page.tables\n",
-                   "figures/three.py": "import read.vtu\n\ndef late():\n    from page.tables import length\n",
-                   "read/four.py": "from ..page import tables\n",
-                   "page/five.py": "from figures import style\nimport read.vtu\nfrom page import tables\nimport pageant\n"}
+        planted = {
+            "read/one.py": "from figures import style\n",
+            "read/two.py": "import os, page.tables\n",
+            "figures/three.py": (
+                "import read.vtu\n\ndef late():\n    from page.tables import length\n"
+            ),
+            "read/four.py": "from ..page import tables\n",
+            "page/five.py": (
+                "from figures import style\nimport read.vtu\nfrom page import tables\nimport"
+                " pageant\n"
+            ),
+        }
         with tempfile.TemporaryDirectory() as name:
             folder = pathlib.Path(name)
             for place, text in planted.items():
                 path = folder / place
                 path.parent.mkdir(exist_ok=True)
                 path.write_text(text, encoding="utf-8")
-            self.assertEqual(wrong_arrows(folder), ["read/four.py:1: ..page", "read/one.py:1: figures",
-                                                    "read/two.py:1: page.tables", "figures/three.py:4: page.tables"])
+            self.assertEqual(
+                wrong_arrows(folder),
+                [
+                    "read/four.py:1: ..page",
+                    "read/one.py:1: figures",
+                    "read/two.py:1: page.tables",
+                    "figures/three.py:4: page.tables",
+                ],
+            )
 
 
 if __name__ == "__main__":

@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: MIT
-"""Tests that a page shows one run, or says of which runs it is made: /usr/bin/python3 -m unittest discover -s tests/verification/report"""
+"""Tests that a page shows one run, or says of which runs it is made: /usr/bin/python3 -m unittest
+discover -s tests/verification/report
+"""
 import json
 import os
 import unittest
@@ -75,8 +77,13 @@ class OneRunTest(PageTest):
         write_results(other)
         found = results.read_results([self.folder])
         self.assertEqual(list(found.cells), ["stripes"])
-        self.assertFalse([item for item in found.missing if os.sep + "again" in item["what"] + item["why"]])
-        os.rename(os.path.join(other, "stripes", "homogenize.json"), os.path.join(other, "homogenize.json"))
+        self.assertFalse(
+            [item for item in found.missing if os.sep + "again" in item["what"] + item["why"]]
+        )
+        os.rename(
+            os.path.join(other, "stripes", "homogenize.json"),
+            os.path.join(other, "homogenize.json"),
+        )
         self.assertEqual(list(results.read_results([self.folder]).cells), ["stripes"])
 
     def test_a_run_that_did_not_end_shows_its_tables_and_says_so(self):
@@ -91,8 +98,11 @@ class OneRunTest(PageTest):
         self.assertIn("only its tables are known to be whole", page)
 
     def test_a_damaged_description_of_a_run_is_refused(self):
-        for others, words in (({"format": 2}, "has format 2, expected 1"), ({"revision": None}, "key `revision` is `None`"),
-                              ({"files": 3}, "key `files` is `3`")):
+        for others, words in (
+            ({"format": 2}, "has format 2, expected 1"),
+            ({"revision": None}, "key `revision` is `None`"),
+            ({"files": 3}, "key `files` is `3`"),
+        ):
             write_run(self.folder, **others)
             self.assert_refused("run.json", *words.split(" is "))
 
@@ -112,7 +122,11 @@ class SchemaTest(PageTest):
         with mock.patch.dict(os.environ, HOMESPUN_SCHEMA=os.path.join(self.place, "nowhere.json")):
             self.assert_refused("schema.json is missing", "build homespun, or set HOMESPUN_SCHEMA")
         path = os.path.join(self.place, "schema.json")
-        for text in ("{", "[1]", '{"strain.csv": {"keys": 1, "columns": [{"name": "a", "domain": "odd"}]}}'):
+        for text in (
+            "{",
+            "[1]",
+            '{"strain.csv": {"keys": 1, "columns": [{"name": "a", "domain": "odd"}]}}',
+        ):
             with open(path, "w", encoding="utf-8") as file:
                 file.write(text)
             schema.read.cache_clear()
@@ -120,15 +134,24 @@ class SchemaTest(PageTest):
                 self.assert_refused("is not the schema.json of this version")
 
     def test_fields_are_what_their_domains_say(self):
-        for domain, good, bad in (("name", ("a",), ("",)), ("text", ("", "a"), ()), ("real", ("", "-1e-3", "0"), ("nan", "inf", "x")),
-                                  ("not negative", ("", "0", "2"), ("-1",)), ("positive", ("1e-9",), ("", "0", "-1", "inf")),
-                                  ("needed not negative", ("0", "1"), ("", "-1")), ("flag", ("true", "false"), ("", "1")),
-                                  ("outcome", ("", "PASS", "FAIL", "INCONCLUSIVE"), ("open",))):
+        for domain, good, bad in (
+            ("name", ("a",), ("",)),
+            ("text", ("", "a"), ()),
+            ("real", ("", "-1e-3", "0"), ("nan", "inf", "x")),
+            ("not negative", ("", "0", "2"), ("-1",)),
+            ("positive", ("1e-9",), ("", "0", "-1", "inf")),
+            ("needed not negative", ("0", "1"), ("", "-1")),
+            ("flag", ("true", "false"), ("", "1")),
+            ("outcome", ("", "PASS", "FAIL", "INCONCLUSIVE"), ("open",)),
+        ):
             column = schema.Column("x", domain)
             self.assertEqual([column.read(field)[1] for field in good], [""] * len(good), domain)
             self.assertTrue(all(column.read(field)[1] for field in bad), domain)
         self.assertEqual(schema.Column("x", "real").read("-0.1"), (-0.1, ""))
-        self.assertEqual([schema.Column("x", "flag").read(field)[0] for field in ("true", "false")], [True, False])
+        self.assertEqual(
+            [schema.Column("x", "flag").read(field)[0] for field in ("true", "false")],
+            [True, False],
+        )
 
 
 if __name__ == "__main__":

@@ -37,9 +37,16 @@ class StressPageTest(PageTest):
         for name in ("stress-margins", "stress-solver-iterations", "stress-solver-seconds"):
             self.assertIn(f'id="{name}"', page)
             self.assertTrue(os.path.isfile(os.path.join(self.output, "figures", name + ".pdf")))
-            self.assertEqual(page_checks.nameless_numbers(os.path.join(self.output, "figures", name + ".csv")), [])
-        with open(os.path.join(self.output, "figures", "stress-margins.csv"), encoding="utf-8", newline="") as file:
-            self.assertEqual([row["case"] for row in csv.DictReader(file)][:2], ["contrast 1e12", "sliver, 1e-6"])
+            self.assertEqual(
+                page_checks.nameless_numbers(os.path.join(self.output, "figures", name + ".csv")),
+                [],
+            )
+        with open(
+            os.path.join(self.output, "figures", "stress-margins.csv"), encoding="utf-8", newline=""
+        ) as file:
+            self.assertEqual(
+                [row["case"] for row in csv.DictReader(file)][:2], ["contrast 1e12", "sliver, 1e-6"]
+            )
         self.assertIn("conjugate gradients did not reach 1e-11", page)
         self.assertIn("−0.990", page)
 
@@ -59,17 +66,34 @@ class StressPageTest(PageTest):
 class MarginTest(unittest.TestCase):
     @staticmethod
     def row(figure, limit, verdict="PASS", case="a case"):
-        return {"group": "cell contrast", "case": case, "figure": figure, "limit": limit, "verdict": verdict}
+        return {
+            "group": "cell contrast",
+            "case": case,
+            "figure": figure,
+            "limit": limit,
+            "verdict": verdict,
+        }
 
     def test_a_margin_is_figure_over_limit_and_a_refusal_has_none(self):
-        self.assertEqual(margin(self.row(2e-10, "1e-10 relative difference [-]")), 2.)
-        self.assertEqual(margin(self.row(0., "1e-10 [-]")), 0.)
-        for row in (self.row(math.nan, "names `vertex 7`"), self.row(math.nan, "1e-10 [-]"), self.row(math.inf, "1 [-]"), self.row(1., "")):
+        self.assertEqual(margin(self.row(2e-10, "1e-10 relative difference [-]")), 2.0)
+        self.assertEqual(margin(self.row(0.0, "1e-10 [-]")), 0.0)
+        for row in (
+            self.row(math.nan, "names `vertex 7`"),
+            self.row(math.nan, "1e-10 [-]"),
+            self.row(math.inf, "1 [-]"),
+            self.row(1.0, ""),
+        ):
             self.assertTrue(math.isnan(margin(row)), row)
 
     def test_failed_cases_stand_right_of_the_limit_and_are_named(self):
-        figure = margin_figure([self.row(2e-10, "1e-10 [-]", "FAIL", "contrast 1e12"), self.row(0., "1 [-]"),
-                                self.row(0.5, "1 [-]", case="holds"), self.row(math.nan, "names `x`")])
+        figure = margin_figure(
+            [
+                self.row(2e-10, "1e-10 [-]", "FAIL", "contrast 1e12"),
+                self.row(0.0, "1 [-]"),
+                self.row(0.5, "1 [-]", case="holds"),
+                self.row(math.nan, "names `x`"),
+            ]
+        )
         self.addCleanup(pyplot.close, figure)
         texts = [text.get_text() for text in figure.axes[0].texts]
         self.assertIn("contrast 1e12", texts)
@@ -77,15 +101,46 @@ class MarginTest(unittest.TestCase):
         counts = [text.get_text() for text in figure.axes[0].child_axes[0].get_yticklabels()]
         self.assertEqual(counts, ["3/4, 1 refused"])
         crosses = [line for line in figure.axes[0].lines if line.get_marker() == "X"]
-        self.assertEqual([list(line.get_xdata()) for line in crosses if len(line.get_xdata())], [[2.]])
+        self.assertEqual(
+            [list(line.get_xdata()) for line in crosses if len(line.get_xdata())], [[2.0]]
+        )
 
     def test_the_file_of_margins_names_each_case_and_holds_its_own_numbers(self):
-        rows = [self.row(0., "1e-10 [-]", case="zero"), self.row(math.nan, "names `x`", case="refused"), self.row(2e-10, "1e-10 [-]", "FAIL")]
+        rows = [
+            self.row(0.0, "1e-10 [-]", case="zero"),
+            self.row(math.nan, "names `x`", case="refused"),
+            self.row(2e-10, "1e-10 [-]", "FAIL"),
+        ]
         header, table = margin_table(rows)
-        self.assertEqual([dict(zip(header, row)) for row in table], [
-            {"group": "cell contrast", "case": "zero", "verdict": "PASS", "figure": 0., "limit": "1e-10 [-]", "figure_over_limit": 0.},
-            {"group": "cell contrast", "case": "refused", "verdict": "PASS", "figure": "", "limit": "names `x`", "figure_over_limit": ""},
-            {"group": "cell contrast", "case": "a case", "verdict": "FAIL", "figure": 2e-10, "limit": "1e-10 [-]", "figure_over_limit": 2.}])
+        self.assertEqual(
+            [dict(zip(header, row)) for row in table],
+            [
+                {
+                    "group": "cell contrast",
+                    "case": "zero",
+                    "verdict": "PASS",
+                    "figure": 0.0,
+                    "limit": "1e-10 [-]",
+                    "figure_over_limit": 0.0,
+                },
+                {
+                    "group": "cell contrast",
+                    "case": "refused",
+                    "verdict": "PASS",
+                    "figure": "",
+                    "limit": "names `x`",
+                    "figure_over_limit": "",
+                },
+                {
+                    "group": "cell contrast",
+                    "case": "a case",
+                    "verdict": "FAIL",
+                    "figure": 2e-10,
+                    "limit": "1e-10 [-]",
+                    "figure_over_limit": 2.0,
+                },
+            ],
+        )
 
     def test_nothing_but_refusals_makes_no_picture(self):
         self.assertIsNone(margin_figure([self.row(math.nan, "names `x`")]))

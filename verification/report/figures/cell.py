@@ -7,7 +7,7 @@ from matplotlib.patches import Patch
 
 from figures import style
 
-CM = 100.  # lengths are drawn in centimetres
+CM = 100.0  # lengths are drawn in centimetres
 LOADS = ("11", "22", "12")
 
 
@@ -17,16 +17,16 @@ def phase_stiffness(phase):
         return float(numpy.trace(numpy.array(phase["C"], dtype=float)))
     except (KeyError, TypeError, ValueError):
         try:
-            return float(phase["E1"]) * float(phase.get("thickness", 1.))
+            return float(phase["E1"]) * float(phase.get("thickness", 1.0))
         except (KeyError, TypeError, ValueError):
-            return 0.
+            return 0.0
 
 
 def phase_legend(cell, material=None):
     """(material number, colour, label) of each phase, softest first.
 
-    The phases of cell.json stand in the order of the material numbers; where their count differs from
-    what the mesh holds, the numbers are all that is known.
+    The phases of cell.json stand in the order of the material numbers; where their count differs
+    from what the mesh holds, the numbers are all that is known.
     """
     numbers = [int(k) for k in numpy.unique(cell.material if material is None else material)]
     phases = cell.phases or []
@@ -44,8 +44,13 @@ def cell_axes(axes, points):
     """Centimetres on both axes, equal scales, a frame close to the points."""
     low, high = CM * points.min(axis=0), CM * points.max(axis=0)
     pad = 0.06 * (high - low).max()
-    axes.set(xlim=(low[0] - pad, high[0] + pad), ylim=(low[1] - pad, high[1] + pad), aspect="equal",
-             xlabel="axis 1 [cm]", ylabel="axis 2 [cm]")
+    axes.set(
+        xlim=(low[0] - pad, high[0] + pad),
+        ylim=(low[1] - pad, high[1] + pad),
+        aspect="equal",
+        xlabel="axis 1 [cm]",
+        ylabel="axis 2 [cm]",
+    )
     axes.grid(False)
 
 
@@ -54,27 +59,55 @@ def phase_figure(cell):
     figure, axes = pyplot.subplots(figsize=(5.6, 4.1), layout="constrained")
     legend = phase_legend(cell)
     colour = {number: value for number, value, _ in legend}
-    axes.add_collection(PolyCollection(CM * cell.vertices[cell.triangles],
-                                       facecolors=[colour[int(k)] for k in cell.material],
-                                       edgecolors="#55555599", linewidths=0.25))
+    axes.add_collection(
+        PolyCollection(
+            CM * cell.vertices[cell.triangles],
+            facecolors=[colour[int(k)] for k in cell.material],
+            edgecolors="#55555599",
+            linewidths=0.25,
+        )
+    )
     cell_axes(axes, cell.vertices)
     corner = cell.vertices[numpy.argmin(cell.vertices.sum(axis=1))]
     for name, vector in zip(("$a_1$", "$a_2$"), cell.lattice):
-        axes.annotate("", CM * (corner + vector), CM * corner, annotation_clip=False, zorder=6,
-                      arrowprops={"arrowstyle": "-|>", "color": style.BLACK, "lw": 1.1,
-                                  "shrinkA": 0, "shrinkB": 0})
-        axes.annotate(name, CM * (corner + 1.02 * vector), annotation_clip=False, fontsize=10, zorder=7,
-                      xytext=(5, 4), textcoords="offset points")
-    figure.legend(handles=[Patch(facecolor=value, edgecolor="#555555", label=label)
-                           for _, value, label in legend], loc="upper left", bbox_to_anchor=(1., 0.95))
+        axes.annotate(
+            "",
+            CM * (corner + vector),
+            CM * corner,
+            annotation_clip=False,
+            zorder=6,
+            arrowprops={
+                "arrowstyle": "-|>",
+                "color": style.BLACK,
+                "lw": 1.1,
+                "shrinkA": 0,
+                "shrinkB": 0,
+            },
+        )
+        axes.annotate(
+            name,
+            CM * (corner + 1.02 * vector),
+            annotation_clip=False,
+            fontsize=10,
+            zorder=7,
+            xytext=(5, 4),
+            textcoords="offset points",
+        )
+    figure.legend(
+        handles=[
+            Patch(facecolor=value, edgecolor="#555555", label=label) for _, value, label in legend
+        ],
+        loc="upper left",
+        bbox_to_anchor=(1.0, 0.95),
+    )
     return figure
 
 
 def characteristic_figure(cell):
     """chi_11, chi_22, chi_12: the cell displaced by chi, exaggerated, coloured by |chi|.
 
-    Each panel has its own exaggeration, chosen so that the largest displacement is a tenth of the cell;
-    the outline of the resting cell is drawn behind.
+    Each panel has its own exaggeration, chosen so that the largest displacement is a tenth of the
+    cell; the outline of the resting cell is drawn behind.
     """
     figure, grid = pyplot.subplots(1, 3, figsize=(9.6, 3.7), layout="constrained")
     size = cell.side
@@ -84,24 +117,39 @@ def characteristic_figure(cell):
         length = numpy.linalg.norm(chi, axis=1)
         largest = length.max()
         vanishes = largest < style.ROUND_OFF * size
-        factor = 1. if vanishes else 0.1 * size / largest
+        factor = 1.0 if vanishes else 0.1 * size / largest
         moved = cell.vertices + factor * chi
         face = length[cell.triangles].mean(axis=1)
         for points, line in ((cell.vertices, (0, (3, 2))), (moved, "-")):
-            axes.add_collection(LineCollection(CM * points[outline], colors="#777777", linewidths=0.8,
-                                               linestyles=[line]))
-        mesh = PolyCollection(CM * moved[cell.triangles], array=CM * face, cmap="viridis",
-                              edgecolors="#FFFFFF60", linewidths=0.3, rasterized=True)
-        mesh.set_clim(0., CM * largest if not vanishes else 1.)
+            axes.add_collection(
+                LineCollection(
+                    CM * points[outline], colors="#777777", linewidths=0.8, linestyles=[line]
+                )
+            )
+        mesh = PolyCollection(
+            CM * moved[cell.triangles],
+            array=CM * face,
+            cmap="viridis",
+            edgecolors="#FFFFFF60",
+            linewidths=0.3,
+            rasterized=True,
+        )
+        mesh.set_clim(0.0, CM * largest if not vanishes else 1.0)
         axes.add_collection(mesh)
-        axes.add_collection(LineCollection(CM * moved[phase_edges(cell)], colors="white", linewidths=0.9))
+        axes.add_collection(
+            LineCollection(CM * moved[phase_edges(cell)], colors="white", linewidths=0.9)
+        )
         cell_axes(axes, numpy.vstack([cell.vertices, moved]))
-        axes.set_title(f"$\\chi_{{{LOADS[a]}}}$" + (": zero" if vanishes
-                       else f", drawn {style.three(float(factor))} times"), loc="left")
+        axes.set_title(
+            f"$\\chi_{{{LOADS[a]}}}$"
+            + (": zero" if vanishes else f", drawn {style.three(float(factor))} times"),
+            loc="left",
+        )
         if axes is not grid[0]:
             axes.set_ylabel("")
-        figure.colorbar(mesh, ax=axes, location="bottom", shrink=0.9, pad=0.02,
-                        label="|χ| [cm per unit strain]")
+        figure.colorbar(
+            mesh, ax=axes, location="bottom", shrink=0.9, pad=0.02, label="|χ| [cm per unit strain]"
+        )
     return figure
 
 

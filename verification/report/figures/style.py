@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: MIT
 """How the figures and the numbers look: one place for fonts, colours, names and rounding.
 
-Colours are those of Okabe and Ito (2008), which readers with any colour vision tell apart; phases of a
-cell go from light to dark with stiffness, so that they survive a black-and-white print.
+Colours are those of Okabe and Ito (2008), which readers with any colour vision tell apart; phases
+of a cell go from light to dark with stiffness, so that they survive a black-and-white print.
 """
 import math
 
@@ -12,7 +12,15 @@ from matplotlib import colors, ticker
 matplotlib.use("Agg")  # no display on a compute node
 
 BLACK, ORANGE, SKY, GREEN, YELLOW, BLUE, VERMILLION, PURPLE = (
-    "#000000", "#E69F00", "#56B4E9", "#009E73", "#F0E442", "#0072B2", "#D55E00", "#CC79A7")
+    "#000000",
+    "#E69F00",
+    "#56B4E9",
+    "#009E73",
+    "#F0E442",
+    "#0072B2",
+    "#D55E00",
+    "#CC79A7",
+)
 
 METHOD_COLOURS = {
     "affine": VERMILLION,
@@ -99,8 +107,9 @@ def ordered_methods(methods):
 
 def ordered_references(references):
     references = set(references)
-    return ([r for r in REFERENCE_STYLES if r in references]
-            + sorted(references.difference(REFERENCE_STYLES)))
+    return [r for r in REFERENCE_STYLES if r in references] + sorted(
+        references.difference(REFERENCE_STYLES)
+    )
 
 
 def phase_colours(stiffnesses):
@@ -117,7 +126,8 @@ def log_axes(axes):
     """Logarithmic on both axes, strain or time in plain numbers where that is short."""
     axes.set(xscale="log", yscale="log")
     axes.xaxis.set_minor_formatter(ticker.NullFormatter())
-    axes.yaxis.set_minor_locator(ticker.NullLocator())  # ten decades of minor ticks are only grey and slow
+    # Ten decades of minor ticks are only grey and slow.
+    axes.yaxis.set_minor_locator(ticker.NullLocator())
 
 
 def three(value):
@@ -130,7 +140,7 @@ def three(value):
         return "0"
     if math.isinf(value):
         return "∞" if value > 0 else "−∞"
-    if isinstance(value, int) and abs(value) < 10 ** 9:
+    if isinstance(value, int) and abs(value) < 10**9:
         return f"{value:,}".replace(",", "\u202f").replace("-", "−")
     value = float(f"{value:.2e}")
     exponent = math.floor(math.log10(abs(value)))
@@ -149,7 +159,7 @@ def seconds(value):
     """A time in the unit that suits it."""
     if value is None or math.isnan(value):
         return "–"
-    for limit, factor, unit in ((1e-3, 1e6, "µs"), (1., 1e3, "ms"), (120., 1., "s")):
+    for limit, factor, unit in ((1e-3, 1e6, "µs"), (1.0, 1e3, "ms"), (120.0, 1.0, "s")):
         if value < limit:
             return f"{three(float(value * factor))} {unit}"
     return f"{three(float(value / 60.))} min"

@@ -1,30 +1,24 @@
 # SPDX-License-Identifier: MIT
-"""What stands in the report, in its order: draws the figures, fills the tables, words the sentences."""
-import math
-import os
-from concurrent.futures import ProcessPoolExecutor
+"""What stands in the report, in its order: draws the figures, fills the tables, words the
+sentences.
+"""
 
-from figures import style
-from figures.cell import characteristic_figure, phase_figure, phase_legend
-from figures.cloth import MOVING_BYTES, workers
-from figures.run_time import error_time_figure, run_time_figure, step_figure
-from figures.sheet import sheet_figure
-from figures.stiffness import bracket_figure, polar_figure
-from figures.strain import error_figure
-from figures.style import percent, seconds, three
-from figures.vertex_tables import cell_table, chi_table
-from figures.view_data import sheet_table, sheet_view
+from figures.animation import MOVING_BYTES
+from figures.cloth import workers
+from figures.style import seconds, three
 from page import tables
-from page.budget_contents import budget_contents
+from page.cell_contents import contents_of_cells
 from page.comparison import comparison_contents
 from page.converge_contents import convergence_contents
 from page.drape_contents import drape_contents
-from page.gallery import file_name
-from page.run_contents import run_rows, run_sentences, verdict_contents, verdict_groups, verdict_sentence
+from page.run_contents import (
+    run_rows,
+    run_sentences,
+    verdict_contents,
+    verdict_groups,
+    verdict_sentence,
+)
 from page.stress_contents import stress_contents
-from read.cell_results import grouped, read_fields
-from read.results import BadResults, cell_side
-from read.verdicts import MARKS, WORDS
 
 HEADINGS = {
     "verdicts": "Verdicts",
@@ -45,8 +39,8 @@ HEADINGS = {
     "checks": "Checks of the homogenization",
     "provenance": "Provenance",
 }
-COMMON = ("verdicts", "notes", "left-out", "provenance")  # headings of every page; the others are those of `homespun strain`
-MAIN_METHODS = ("affine", "localized")
+# Headings of every page; the others are those of `homespun strain`.
+COMMON = ("verdicts", "notes", "left-out", "provenance")
 
 
 def page_contents(results, gallery, output):
@@ -56,18 +50,29 @@ def page_contents(results, gallery, output):
     @param output folder of the page, for links to frames
     @throws BadResults where a stored sheet or frame cannot be read
     """
-    stress = [{**stress_contents(s, gallery), "id": f"stress-{i}"} for i, s in enumerate(results.stress, 1)]
-    convergence = [{**convergence_contents(c, gallery), "id": f"converge-{i}"}
-                   for i, c in enumerate(results.convergence, 1)]
+    stress = [
+        {**stress_contents(s, gallery), "id": f"stress-{i}"}
+        for i, s in enumerate(results.stress, 1)
+    ]
+    convergence = [
+        {**convergence_contents(c, gallery), "id": f"converge-{i}"}
+        for i, c in enumerate(results.convergence, 1)
+    ]
     drapes = contents_of_drapes(results, gallery, output)
     scenes = [d["scene"] for d in drapes]
     for d, drape in zip(drapes, results.drapes):  # one scene may have been run into two folders
-        d["name"] = d["scene"] if scenes.count(d["scene"]) == 1 else f"{d['scene']} ({drape.folder})"
+        d["name"] = (
+            d["scene"] if scenes.count(d["scene"]) == 1 else f"{d['scene']} ({drape.folder})"
+        )
     lists_all = any(study.lists_all for study in results.studies)
     strain_shown = bool(results.cells) or not (drapes or stress or convergence or lists_all)
     comparison = comparison_contents(results, gallery)
     several = len(results.studies) > 1
-    notes = [f"{study.name}: {note}" if several else str(note) for study in results.studies for note in study.info.get("notes") or []]
+    notes = [
+        f"{study.name}: {note}" if several else str(note)
+        for study in results.studies
+        for note in study.info.get("notes") or []
+    ]
     headings = headings_of(drapes, stress, convergence, strain_shown, comparison, notes)
     cells = contents_of_cells(results, gallery)
     reasons = {key: [] for key in ("verdicts", "short", "strain", "uncertainty")}
@@ -77,16 +82,29 @@ def page_contents(results, gallery, output):
     reasons["strain"] += [item for item in results.missing if item["what"] == "time per load step"]
     short = [s for s in (tables.in_short(results, name) for name in results.cells) if s]
     if not short:
-        reasons["short"] = [{"what": "the summary of errors", "why": "it needs rows of `affine` and "
-                             "`localized` in strain.csv"}]
+        reasons["short"] = [
+            {
+                "what": "the summary of errors",
+                "why": "it needs rows of `affine` and `localized` in strain.csv",
+            }
+        ]
     commands = list(dict.fromkeys(c for c in map(command_of, results.studies) if c))
     of_one_verify = len({study.place for study in results.studies}) == 1
-    verdicts = [verdict_contents(v, commands, study.name if several and not (study.lists_all and of_one_verify) else "")
-                for study, v in results.claims()]
+    verdicts = [
+        verdict_contents(
+            v, commands, study.name if several and not (study.lists_all and of_one_verify) else ""
+        )
+        for study, v in results.claims()
+    ]
     unreached = tables.unreached_notes(results.unreached())
     return {
-        "title": "homespun: " + ", ".join([d["scene"] for d in drapes] + ["stress"] * bool(stress)
-                                        + ["convergence"] * bool(convergence) + list(results.cells)),
+        "title": "homespun: "
+        + ", ".join(
+            [d["scene"] for d in drapes]
+            + ["stress"] * bool(stress)
+            + ["convergence"] * bool(convergence)
+            + list(results.cells)
+        ),
         "lead": lead(bool(drapes), bool(stress), bool(convergence), strain_shown),
         "comparison": comparison,
         "drapes": drapes,
@@ -108,8 +126,11 @@ def page_contents(results, gallery, output):
         "steps": tables.step_rows(results.steps),
         "fluctuation": tables.fluctuation_sentence(results.steps),
         "uncertainty": tables.uncertainty_rows(results.uncertainty),
-        "all_left_out": [item for s in results.studies for item in s.info.get("left_out") or []]
-        + unreached + results.missing,
+        "all_left_out": (
+            [item for s in results.studies for item in s.info.get("left_out") or []]
+            + unreached
+            + results.missing
+        ),
         "reasons": reasons,
         "provenance": provenance(results),
     }
@@ -119,22 +140,40 @@ def contents_of_drapes(results, gallery, output):
     """The scenes one after the other; frames are rendered by all cores."""
     if not results.drapes:
         return []
-    limit = min(MOVING_BYTES, 2 * MOVING_BYTES // max(1, sum(len(drape.cells) for drape in results.drapes)))
+    limit = min(
+        MOVING_BYTES, 2 * MOVING_BYTES // max(1, sum(len(drape.cells) for drape in results.drapes))
+    )
     with workers() as pool:
-        return [{**drape_contents(drape, gallery, output, limit, pool, len(results.drapes)), "id": f"scene-{i}"}
-                for i, drape in enumerate(results.drapes, 1)]
+        return [
+            {
+                **drape_contents(drape, gallery, output, limit, pool, len(results.drapes)),
+                "id": f"scene-{i}",
+            }
+            for i, drape in enumerate(results.drapes, 1)
+        ]
 
 
 def headings_of(drapes, stress, convergence, strain_shown, comparison, notes):
     """id -> heading of the sections that this page has, in their order."""
-    headings = {key: HEADINGS[key] for key in ("verdicts", "comparison") if key == "verdicts" or comparison}
+    headings = {
+        key: HEADINGS[key] for key in ("verdicts", "comparison") if key == "verdicts" or comparison
+    }
     if drapes:
         headings["drape-short"] = "In short: cloth in motion" if strain_shown else "In short"
     headings.update((d["id"], f"Drape: {d['name']}") for d in drapes)
-    headings.update((s["id"], "Stress cases" + (f": {s['name']}" if len(stress) > 1 else "")) for s in stress)
-    headings.update((c["id"], "Convergence" + (f": {c['name']}" if len(convergence) > 1 else "")) for c in convergence)
+    headings.update(
+        (s["id"], "Stress cases" + (f": {s['name']}" if len(stress) > 1 else "")) for s in stress
+    )
+    headings.update(
+        (c["id"], "Convergence" + (f": {c['name']}" if len(convergence) > 1 else ""))
+        for c in convergence
+    )
     hidden = {key for key, shown in (("comparison", comparison), ("notes", notes)) if not shown}
-    headings.update((key, text) for key, text in HEADINGS.items() if (strain_shown or key in COMMON) and key not in hidden)
+    headings.update(
+        (key, text)
+        for key, text in HEADINGS.items()
+        if (strain_shown or key in COMMON) and key not in hidden
+    )
     return headings
 
 
@@ -142,18 +181,27 @@ def lead(drape, stress, convergence, strain):
     """What the page is about."""
     sentences = []
     if strain:
-        sentences.append("How far an up-sampled cloth is from the resolved one: a coarse sheet with homogenized "
-                         "stiffness, its fine mesh restored by characteristic displacements, held against fine-scale "
-                         "finite elements, vertex by vertex.")
+        sentences.append(
+            "How far an up-sampled cloth is from the resolved one: a coarse sheet with homogenized"
+            " stiffness, its fine mesh restored by characteristic displacements, held against"
+            " fine-scale finite elements, vertex by vertex."
+        )
     if drape:
-        sentences.append("Cloth in motion: a coarse cloth with homogenized stiffness is run through time, up-sampled, and "
-                         "held against a cloth that is resolved by fine-scale finite elements, vertex by vertex.")
+        sentences.append(
+            "Cloth in motion: a coarse cloth with homogenized stiffness is run through time,"
+            " up-sampled, and held against a cloth that is resolved by fine-scale finite elements,"
+            " vertex by vertex."
+        )
     if stress:
-        sentences.append("Numerical stability: stiff, degenerate and extreme cases, each of which must end in a finite "
-                         "answer or in a refusal that names the fault.")
+        sentences.append(
+            "Numerical stability: stiff, degenerate and extreme cases, each of which must end in a"
+            " finite answer or in a refusal that names the fault."
+        )
     if convergence:
-        sentences.append("Convergence: observed orders in mesh width, cells per sheet, coarse mesh, strain and time step, "
-                         "held against the orders that theory says.")
+        sentences.append(
+            "Convergence: observed orders in mesh width, cells per sheet, coarse mesh, strain and"
+            " time step, held against the orders that theory says."
+        )
     return " ".join(sentences)
 
 
@@ -166,15 +214,20 @@ def summary(results):
         if info.get("cells_per_side") is not None:
             parts.append(f"{info['cells_per_side']} × {info['cells_per_side']} cells")
         if rows and len(results.studies) == 1:
-            parts.append(f"{int(max(r['coarse_triangles'] for r in rows)):,} coarse and "
-                         f"{int(max(r['fine_triangles'] for r in rows)):,} fine triangles")
+            parts.append(
+                f"{int(max(r['coarse_triangles'] for r in rows)):,} coarse and "
+                f"{int(max(r['fine_triangles'] for r in rows)):,} fine triangles"
+            )
         if info.get("ranks") is not None:
             parts.append(f"{info['ranks']} rank{'s' if info['ranks'] != 1 else ''}")
         if info.get("seconds_total") is not None:
             what = "since it was taken up again" if info.get("resumed") else "in all"
             parts.append(f"{seconds(float(info['seconds_total']))} {what}")
         if info.get("peak_memory_bytes") is not None:
-            parts.append(f"{three(info['peak_memory_bytes'] / 2. ** 30)} GiB of memory at most" + (" since then" if info.get("resumed") else ""))
+            parts.append(
+                f"{three(info['peak_memory_bytes'] / 2. ** 30)} GiB of memory at most"
+                + (" since then" if info.get("resumed") else "")
+            )
         if parts:
             name = f"{study.name}: " if len(results.studies) > 1 else ""
             sentences.append(name + ", ".join(parts) + ".")
@@ -187,129 +240,20 @@ def command_of(study):
     return study.info.get("command") or (named.pop() if len(named) == 1 else None)
 
 
-def check_contents(check):
-    verdict = check.get("verdict") if check.get("verdict") in MARKS else "INCONCLUSIVE"
-    return {"name": check.get("name", "?"), "value": tables.shown(check.get("value")),
-            "limit": tables.shown(check.get("limit", "")), "derivation": str(check.get("derivation") or ""),
-            "verdict": verdict, "mark": MARKS[verdict], "word": WORDS[verdict]}
-
-
 def provenance(results):
     """(name, [(key, value)]) of each study, and of cells homogenized on their own."""
-    blocks = [(study.folder, study.info["provenance"]) for study in results.studies
-              if study.info.get("provenance")]
+    blocks = [
+        (study.folder, study.info["provenance"])
+        for study in results.studies
+        if study.info.get("provenance")
+    ]
     if not blocks:
-        blocks = [(cell.name, cell.homogenize["provenance"]) for cell in results.cells.values()
-                  if (cell.homogenize or {}).get("provenance")]
-    return [(name, list(value.items()) if isinstance(value, dict) else [("provenance", value)])
-            for name, value in blocks]
-
-
-def contents_of_cells(results, gallery):
-    """Cells share nothing, so that each is drawn by a process of its own."""
-    names = list(results.cells)
-    files = {file_name(name) for name in names}
-    if len(names) < 2 or len(files) < len(names):  # names that differ in odd characters only: one gallery
-        return [cell_contents(results, name, gallery) for name in names]
-    with ProcessPoolExecutor(max_workers=min(len(names), os.cpu_count() or 1)) as pool:
-        return list(pool.map(cell_contents, [results] * len(names), names, [gallery] * len(names)))
-
-
-def cell_contents(results, name, gallery):
-    """Figures and tables of one cell; what has no data is None or empty."""
-    cell = results.cells[name]
-    rows, side = results.reached(name), cell_side(results, name)
-    steps = [row for row in results.steps if row["cell"] == name]
-    contents = {"name": name, "file": cell.file, "error": None, "error_share": None, "variants": None,
-                "run_time": None, "steps": None, "polar": None, "bracket": None, "phases_picture": None, "chi": None,
-                "error_time": None, "sheets": []}
-    methods = style.ordered_methods(row["method"] for row in rows)
-    reference = tables.main_reference(rows)
-    if rows:
-        draw_strain(contents, rows, methods, reference, side, gallery)
-    if figure := run_time_figure(rows, reference):
-        contents["run_time"] = gallery.add(
-            figure, f"{name}-run-time", f"{name}: run time against strain. Solid: full resolution ({reference}); "
-            "dashed: coarse solve and up-sampling.")
-    if figure := step_figure(steps):
-        contents["steps"] = gallery.add(
-            figure, f"{name}-load-step", f"{name}: the parts of one load step; the number is full resolution "
-            "over coarse solve and up-sampling.")
-    if cell.stiffness() is not None:
-        contents["polar"] = gallery.add(
-            polar_figure(cell), f"{name}-directional-modulus", f"{name}: modulus of uniaxial tension along "
-            "each direction, between the bounds of Voigt and Reuss.")
-    if figure := bracket_figure(cell):
-        contents["bracket"] = gallery.add(
-            figure, f"{name}-bracket", f"{name}: the guaranteed bracket on the effective stiffness of the meshed cell against "
-            "degrees of freedom.")
-    if cell.vertices is not None:
-        contents["phases_picture"] = gallery.add(
-            phase_figure(cell), f"{name}-cell", f"{name}: the unit cell, {len(cell.triangles):,} triangles, "
-            f"{len(cell.vertices):,} vertices, coloured by phase, light is soft; arrows are lattice vectors.", table=cell_table(cell))
-        contents["chi"] = gallery.add(
-            characteristic_figure(cell), f"{name}-characteristic-displacements",
-            f"{name}: characteristic displacements, exaggerated so that the largest is a tenth of the cell "
-            "side. White lines: edges of the phases; dashed: the cell at rest.", as_image=True, table=chi_table(cell))
-    sheets = sum(len(one.field_files) for one in results.cells.values())
-    for path in cell.field_files:
-        contents["sheets"].append(sheet_picture(cell, path, side, gallery, sheets))
-    strains = tables.nearest_strains([row for row in rows if row["reference"] == reference])
-    if figure := error_time_figure(rows, methods, reference, strains, side):
-        contents["error_time"] = gallery.add(
-            figure, f"{name}-error-time", f"{name}: mean error against run time; lower left is better. "
-            "Full resolution stands at its own uncertainty, where that is known.")
-    contents.update(budget_contents(results, name, side, strains, gallery))
-    contents["round_off"] = tables.round_off_sentences(rows)
-    contents["error_tables"] = tables.error_tables(rows, methods)
-    contents["stiffness"] = tables.stiffness_table(cell)
-    contents["phases"] = tables.phase_rows(cell)
-    contents["checks"] = [check_contents(c) for c in (cell.homogenize or {}).get("checks") or []
-                          if isinstance(c, dict)]
-    return contents
-
-
-def draw_strain(contents, rows, methods, reference, side, gallery):
-    """The three error figures of one cell."""
-    name = contents["name"]
-    main = [method for method in MAIN_METHODS if method in methods] or methods
-    references = style.ordered_references(row["reference"] for row in rows)
-    floor = (f" Triangles at the lower edge: below {style.ROUND_OFF_TEXT}, zero to round-off.")
-    figure, at_floor = error_figure(rows, main, references, side)
-    contents["error"] = gallery.add(
-        figure, f"{name}-error-strain", f"{name}: mean error per vertex, in cell sides, against strain. "
-        "Grey: an error in this area is not larger than the reference's own uncertainty (the largest of the laws "
-        "shown)." + (floor if at_floor else ""))
-    figure, at_floor = error_figure(rows, main, references, side, "error_mean_per_fluctuation")
-    contents["error_share"] = gallery.add(
-        figure, f"{name}-error-strain-fluctuation", f"{name}: the same in percent of the measured fluctuation, the mean over "
-        "the fine vertices of |reference − homogenized sheet resolved on a fine mesh|." + (floor if at_floor else ""))
-    variants = [method for method in methods if method not in MAIN_METHODS]
-    if variants:
-        shown = [method for method in methods if method != "affine"]
-        figure, at_floor = error_figure(rows, shown, [reference], side)
-        contents["variants"] = gallery.add(
-            figure, f"{name}-variants", f"{name}: variants of localization (lift, anchor, blending) against "
-            f"{reference}." + (floor if at_floor else ""))
-
-
-def sheet_picture(cell, path, side, gallery, sheets):
-    """Picture of one stored sheet, with its numbers in the caption, and what the page needs to turn it.
-
-    @param sheets how many the page shows
-    """
-    faults = []
-    sheet = read_fields(path, faults)
-    if sheet is None:
-        raise BadResults(faults)
-    sheet["material"] = grouped(cell, sheet["material"])
-    size = side or math.sqrt(float(abs(sheet["rest"].ptp(axis=0).prod())))
-    figure, numbers = sheet_figure(cell, sheet, size)
-    caption = (f"{cell.name}, {sheet['load']} at {percent(sheet['strain'])} strain, {len(sheet['triangles']):,} "
-               f"triangles: {sheet['method']} against {sheet['reference_law']}. Mean error "
-               f"{tables.length(numbers['error_mean'])}, largest {tables.length(numbers['error_max'])}; the "
-               f"coarse mesh alone: {tables.length(numbers['affine_mean'])}. Colour bars end at the 99.5th "
-               "percentile. True scale, not exaggerated. Below: the framed cells. The CSV file holds the vertices of the view in space.")
-    colours = {number: colour for number, colour, _ in phase_legend(cell, sheet["material"])}
-    view, few = sheet_view(sheet, colours, sheets)
-    return gallery.add(figure, f"{cell.name}-sheet-{sheet['load']}", caption, as_image=True, table=sheet_table(sheet, few), view=view)
+        blocks = [
+            (cell.name, cell.homogenize["provenance"])
+            for cell in results.cells.values()
+            if (cell.homogenize or {}).get("provenance")
+        ]
+    return [
+        (name, list(value.items()) if isinstance(value, dict) else [("provenance", value)])
+        for name, value in blocks
+    ]

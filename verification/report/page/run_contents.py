@@ -9,30 +9,57 @@ from read.versions import tags
 
 
 def run_sentences(results):
-    """What a reader must know before any figure: of which runs the page is made, and which did not end."""
+    """What a reader must know before any figure: of which runs the page is made, and which did not
+    end.
+    """
     runs = [study.run for study in results.studies]
     sentences = []
     places = list(dict.fromkeys(run.place for run in runs))
     if len(places) > 1:
         heads = [next(run for run in runs if run.place == place) for place in places]
         names = tags(places)
-        sentences.append(f"This page sets {len(heads)} runs side by side: " + "; ".join(
-            f"{names[run.place]} ({run.command}, revision {run.revision}, run {run.fingerprint})" for run in heads) + ".")
+        sentences.append(
+            f"This page sets {len(heads)} runs side by side: "
+            + "; ".join(
+                f"{names[run.place]} ({run.command}, revision {run.revision}, run"
+                f" {run.fingerprint})"
+                for run in heads
+            )
+            + "."
+        )
         if len({run.revision for run in heads}) > 1:
-            sentences.append("They were made by different revisions of homespun, so that a difference between them may come from the program.")
+            sentences.append(
+                "They were made by different revisions of homespun, so that a difference between"
+                " them may come from the program."
+            )
     elif len(runs) > 1:
         whole = next(run.whole for run in runs if run.whole)
-        sentences.append(f"One run of `homespun verify` (revision {whole.revision}, run {whole.fingerprint}) with its "
-                         f"parts {', '.join(run.name for run in runs if run.whole)}.")
-    sentences += [f"The run in {run.folder} did not come to its end: the tables it wrote so far are shown. Begun again, it goes on."
-                  for run in runs if not run.finished]
+        sentences.append(
+            f"One run of `homespun verify` (revision {whole.revision}, run {whole.fingerprint})"
+            f" with its parts {', '.join(run.name for run in runs if run.whole)}."
+        )
+    sentences += [
+        f"The run in {run.folder} did not come to its end: the tables it wrote so far are shown."
+        " Begun again, it goes on."
+        for run in runs
+        if not run.finished
+    ]
     return sentences
 
 
 def run_rows(results):
     """Folder, command, revision, fingerprint, whether it ended, and time of each run, as text."""
-    return [[run.folder, run.command, run.revision, run.fingerprint, "yes" if run.finished else "no", seconds(run.seconds)]
-            for run in (study.run for study in results.studies)]
+    return [
+        [
+            run.folder,
+            run.command,
+            run.revision,
+            run.fingerprint,
+            "yes" if run.finished else "no",
+            seconds(run.seconds),
+        ]
+        for run in (study.run for study in results.studies)
+    ]
 
 
 def verdict_contents(verdict, commands, study):
@@ -41,20 +68,30 @@ def verdict_contents(verdict, commands, study):
     @param study name of its folder, where there are several
     """
     value = verdict.get("value")
-    return {"claim": f"{study}: {verdict['claim']}" if study else verdict["claim"], "kind": verdict["kind"],
-            "verdict": verdict["verdict"], "mark": MARKS[verdict["verdict"]], "word": WORDS[verdict["verdict"]],
-            "value": "–" if value is None else tables.shown(value), "limit": tables.shown(verdict.get("limit", "")),
-            "derivation": verdict["derivation"],
-            "command": "" if verdict.get("command") in commands else verdict.get("command", "")}
+    return {
+        "claim": f"{study}: {verdict['claim']}" if study else verdict["claim"],
+        "kind": verdict["kind"],
+        "verdict": verdict["verdict"],
+        "mark": MARKS[verdict["verdict"]],
+        "word": WORDS[verdict["verdict"]],
+        "value": "–" if value is None else tables.shown(value),
+        "limit": tables.shown(verdict.get("limit", "")),
+        "derivation": verdict["derivation"],
+        "command": "" if verdict.get("command") in commands else verdict.get("command", ""),
+    }
 
 
 def verdict_groups(verdicts):
-    """[{"kind", "heading", "sentence", "verdicts"}]; in each group what failed comes first, then what is open."""
+    """[{"kind", "heading", "sentence", "verdicts"}]; in each group what failed comes first, then
+    what is open.
+    """
     groups = []
     for kind, heading in KINDS.items():
         some = sorted((v for v in verdicts if v["kind"] == kind), key=lambda v: ORDER[v["verdict"]])
         if some:
-            groups.append({"kind": kind, "heading": heading, "sentence": counted(some), "verdicts": some})
+            groups.append(
+                {"kind": kind, "heading": heading, "sentence": counted(some), "verdicts": some}
+            )
     return groups
 
 
@@ -66,4 +103,6 @@ def counted(verdicts):
 def verdict_sentence(verdicts):
     """Counts of all claims, then of each kind."""
     groups = verdict_groups(verdicts)
-    return counted(verdicts) + ": " + "; ".join(f"{g['kind']}: {g['sentence']}" for g in groups) + "."
+    return (
+        counted(verdicts) + ": " + "; ".join(f"{g['kind']}: {g['sentence']}" for g in groups) + "."
+    )

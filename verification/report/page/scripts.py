@@ -1,11 +1,14 @@
 # SPDX-License-Identifier: MIT
-"""The JavaScript of the page: our own files, and the plotting library from Debian's package, all in the page itself."""
+"""The JavaScript of the page: our own files, and the plotting library from Debian's package, all in
+the page itself.
+"""
 import os
 
 from markupsafe import Markup
 
 HERE = os.path.dirname(os.path.abspath(__file__))
-CHART = "/usr/share/javascript/chart.js/chart.min.js"  # Chart.js, of Debian's package libjs-chart.js
+# Chart.js, of Debian's package libjs-chart.js.
+CHART = "/usr/share/javascript/chart.js/chart.min.js"
 PACKAGE = "libjs-chart.js"
 CHART_LICENCE = "/*! Chart.js, https://www.chartjs.org, (c) Chart.js contributors, MIT License */"
 
@@ -17,7 +20,9 @@ def own(name):
 
 def without_source_map(text):
     """A browser would look for the map beside the page."""
-    return "\n".join(line for line in text.splitlines() if not line.startswith("//# sourceMappingURL="))
+    return "\n".join(
+        line for line in text.splitlines() if not line.startswith("//# sourceMappingURL=")
+    )
 
 
 def scripts(plots, views):
@@ -30,10 +35,16 @@ def scripts(plots, views):
     if plots:
         try:
             with open(CHART, encoding="utf-8") as file:
-                texts += [CHART_LICENCE + "\n" + without_source_map(file.read()), own("plot_style.js"), own("plot.js")]
+                texts += [
+                    CHART_LICENCE + "\n" + without_source_map(file.read()),
+                    own("plot_style.js"),
+                    own("plot.js"),
+                ]
         except OSError:
-            missing = (f"Plots are pictures only, because {CHART} could not be read when this page was made: "
-                       f"`apt-get install {PACKAGE}`, or ./bootstrap, brings it.")
+            missing = (
+                f"Plots are pictures only, because {CHART} could not be read when this page was"
+                f" made: `apt-get install {PACKAGE}`, or ./bootstrap, brings it."
+            )
     if views:
         texts += [own("view_scene.js"), own("view.js")]
     return [Markup(text.replace("</script", "<\\/script")) for text in texts], missing

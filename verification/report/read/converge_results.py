@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: MIT
-"""Reads converge.csv, the series of `homespun converge`: a quantity over levels, with its observed orders."""
+"""Reads converge.csv, the series of `homespun converge`: a quantity over levels, with its observed
+orders.
+"""
 import math
 from dataclasses import dataclass, field
 
@@ -16,6 +18,7 @@ STUDIES = ("mesh", "adaptive", "scale", "coarse", "strain", "time", "manufacture
 @dataclass
 class Series:
     """A quantity over levels, coarse to fine; rows of converge.csv."""
+
     cell: str
     study: str
     case: str
@@ -51,8 +54,9 @@ class Series:
         return self.study in BAND_TOLERANCES
 
     def expected(self):
-        """The orders that theory allows: one, or the ends of a band without their tolerance; nothing where the series is
-        not judged."""
+        """The orders that theory allows: one, or the ends of a band without their tolerance;
+        nothing where the series is not judged.
+        """
         low, high = self.order_lowest, self.order_highest
         if math.isnan(low):
             return []
@@ -65,6 +69,7 @@ class Series:
 @dataclass
 class Convergence:
     """The series of one folder."""
+
     folder: str
     name: str
     series: list = field(default_factory=list)
@@ -77,13 +82,17 @@ class Convergence:
 
 
 def read_convergence(folder, name, path, faults, missing):
-    """@return Convergence, whose series are in the order of the file and whose levels run from coarse to fine"""
+    """@return Convergence, whose series are in the order of the file and whose levels run from
+    coarse to fine
+    """
     rows = read_csv(path, faults, missing, AGAIN)
     result = {}
     for row in rows:
         if row["study"] not in STUDIES:
-            faults.append(f"{path}, line {row['line']}: `study` is `{row['study']}`, expected one of "
-                          f"{', '.join(STUDIES)}. {AGAIN}")
+            faults.append(
+                f"{path}, line {row['line']}: `study` is `{row['study']}`, expected one of "
+                f"{', '.join(STUDIES)}. {AGAIN}"
+            )
         if any(math.isnan(row[key]) for key in ("order_p", "level")):
             continue  # a fault already
         key = tuple(row[k] for k in KEYS[:-1])

@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: MIT
-"""Reads what `homespun drape` writes: one scene, its cells, each with its runs of the coarse cloth and references."""
+"""Reads what `homespun drape` writes: one scene, its cells, each with its runs of the coarse cloth
+and references.
+"""
 import math
 import os
 from dataclasses import dataclass, field
@@ -10,13 +12,28 @@ from read.stored import is_stiffness, lies_within, read_csv, read_json
 from read.vtu import BadFrame, read_pvd
 
 AGAIN = "Run `homespun drape` again."
-NUMBERS = {"frames", "steps", "cut_steps", "seconds_per_coarse_step", "seconds_per_upsampling", "threads", "ranks",
-           "dofs", "seconds_per_step", "cell_side_m", "areal_density"}  # of cells, runs and references in drape.json
+NUMBERS = {
+    "frames",
+    "steps",
+    "cut_steps",
+    "seconds_per_coarse_step",
+    "seconds_per_upsampling",
+    "threads",
+    "ranks",
+    # Of cells, runs and references in drape.json.
+    "dofs",
+    "seconds_per_step",
+    "cell_side_m",
+    "areal_density",
+}
 
 
 @dataclass
 class DrapedCell:
-    """One cell in a scene. `runs` and `references` are objects of drape.json; rows are those of this cell."""
+    """One cell in a scene. `runs` and `references` are objects of drape.json; rows are those of
+    this cell.
+    """
+
     name: str
     info: dict = field(default_factory=dict)
     runs: list = field(default_factory=list)
@@ -24,13 +41,15 @@ class DrapedCell:
     errors: list = field(default_factory=list)
     motion: list = field(default_factory=list)
     terms: list = field(default_factory=list)
-    frames: dict = field(default_factory=dict)  # (variant or reference, "coarse" or "fine") -> [(time, path)]
-    lists: list = field(default_factory=list)   # paths of the .pvd files that exist
+    # (variant or reference, "coarse" or "fine") -> [(time, path)].
+    frames: dict = field(default_factory=dict)
+    lists: list = field(default_factory=list)  # paths of the .pvd files that exist
 
 
 @dataclass
 class Drape:
     """One scene."""
+
     folder: str
     info: dict
     cells: list = field(default_factory=list)
@@ -54,7 +73,7 @@ class Drape:
                     array = numpy.array(value, dtype=float).reshape(-1)
                 except (TypeError, ValueError):
                     continue
-                array = numpy.array([0., 0., -abs(array[0])]) if array.size == 1 else array
+                array = numpy.array([0.0, 0.0, -abs(array[0])]) if array.size == 1 else array
                 if array.shape == (3,) and numpy.isfinite(array).all():
                     return array
         return None
@@ -62,8 +81,8 @@ class Drape:
     def up(self):
         """Unit vector against gravity; the third axis where there is none."""
         gravity = self.gravity()
-        size = 0. if gravity is None else float(numpy.linalg.norm(gravity))
-        return -gravity / size if size > 0. else numpy.array([0., 0., 1.])
+        size = 0.0 if gravity is None else float(numpy.linalg.norm(gravity))
+        return -gravity / size if size > 0.0 else numpy.array([0.0, 0.0, 1.0])
 
 
 def flat(parameters, prefix=""):
@@ -80,7 +99,9 @@ def is_number(value):
 
 
 def check_list(value, key, needed, where, faults):
-    """The list of objects under a key, each with its needed texts; [] where it is absent or damaged."""
+    """The list of objects under a key, each with its needed texts; [] where it is absent or
+    damaged.
+    """
     items = value.get(key)
     if items is None:
         return []
@@ -90,11 +111,16 @@ def check_list(value, key, needed, where, faults):
     for i, item in enumerate(items):
         for name in needed:
             if not isinstance(item.get(name), str) or not item[name]:
-                faults.append(f"{where}: {key}[{i}] has `{name}` = `{item.get(name)}`, expected a text. {AGAIN}")
+                faults.append(
+                    f"{where}: {key}[{i}] has `{name}` = `{item.get(name)}`, expected a text."
+                    f" {AGAIN}"
+                )
                 return []
         for name, number in item.items():
             if name in NUMBERS and number is not None and not is_number(number):
-                faults.append(f"{where}: {key}[{i}] has `{name}` = `{number}`, expected a number. {AGAIN}")
+                faults.append(
+                    f"{where}: {key}[{i}] has `{name}` = `{number}`, expected a number. {AGAIN}"
+                )
                 return []
     return items
 
@@ -103,24 +129,41 @@ def check_scene(value, path, faults):
     """drape.json with the types the report relies on, or None."""
     before = len(faults)
     if not isinstance(value.get("scene"), str) or not value["scene"]:
-        faults.append(f"{path}: key `scene` is `{value.get('scene')}`, expected the name of the scene. {AGAIN}")
-    kinds = {"story": str, "command": str, "integrator": str, "provenance": dict, "parameters": dict}
+        faults.append(
+            f"{path}: key `scene` is `{value.get('scene')}`, expected the name of the scene."
+            f" {AGAIN}"
+        )
+    kinds = {
+        "story": str,
+        "command": str,
+        "integrator": str,
+        "provenance": dict,
+        "parameters": dict,
+    }
     for key, kind in kinds.items():
         if value.get(key) is not None and not isinstance(value[key], kind):
-            faults.append(f"{path}: key `{key}` is a {type(value[key]).__name__}, expected "
-                          f"{'a text' if kind is str else 'an object'}. {AGAIN}")
+            faults.append(
+                f"{path}: key `{key}` is a {type(value[key]).__name__}, expected "
+                f"{'a text' if kind is str else 'an object'}. {AGAIN}"
+            )
     for key in ("time_step_s", "duration_s", "coarse_triangles", "fine_triangles", "fine_vertices"):
         number = value.get(key)
         if number is not None and not (is_number(number) and number > 0):
-            faults.append(f"{path}: key `{key}` is `{number}`, expected a number above zero. {AGAIN}")
+            faults.append(
+                f"{path}: key `{key}` is `{number}`, expected a number above zero. {AGAIN}"
+            )
     for term in check_list(value, "terms", ("name",), path, faults):
         if not isinstance(term.get("present"), bool):
-            faults.append(f"{path}: term `{term['name']}` has `present` = `{term.get('present')}`, expected true or "
-                          f"false. {AGAIN}")
+            faults.append(
+                f"{path}: term `{term['name']}` has `present` = `{term.get('present')}`, expected"
+                f" true or false. {AGAIN}"
+            )
     for cell in check_list(value, "cells", ("cell",), path, faults):
         where = f"{path}: cell `{cell['cell']}`"
         phases = cell.get("phases")
-        if phases is not None and not (isinstance(phases, list) and all(isinstance(name, str) for name in phases)):
+        if phases is not None and not (
+            isinstance(phases, list) and all(isinstance(name, str) for name in phases)
+        ):
             faults.append(f"{where}: key `phases` is not a list of names. {AGAIN}")
         check_list(cell, "runs", ("variant", "folder"), where, faults)
         check_list(cell, "references", ("reference", "folder"), where, faults)
@@ -146,9 +189,14 @@ def read_drape(run, path_of, faults, missing):
         drape.obstacles = path_of("obstacles.vtu", f"{drape.scene}: bodies")
     cells = {}
     for item in info.get("cells") or []:
-        cells[item["cell"]] = DrapedCell(item["cell"], item, item.get("runs") or [], item.get("references") or [])
-    for name, target, consequence in (("drape.csv", "errors", "error against time"), ("motion.csv", "motion", "height and energies"),
-                                      ("terms.csv", "terms", "what absent terms would have cost")):
+        cells[item["cell"]] = DrapedCell(
+            item["cell"], item, item.get("runs") or [], item.get("references") or []
+        )
+    for name, target, consequence in (
+        ("drape.csv", "errors", "error against time"),
+        ("motion.csv", "motion", "height and energies"),
+        ("terms.csv", "terms", "what absent terms would have cost"),
+    ):
         if file := path_of(name, f"{drape.scene}: {consequence}"):
             for row in read_csv(file, faults, missing, AGAIN):
                 getattr(cells.setdefault(row["cell"], DrapedCell(row["cell"])), target).append(row)
@@ -160,19 +208,28 @@ def read_drape(run, path_of, faults, missing):
 
 def read_frame_lists(run, drape, cell, path_of, faults):
     """Finds the frames of all runs and references of a cell, those that were not changed since."""
-    wanted = [(one["variant"], one["folder"], kind) for one in cell.runs for kind in ("coarse", "fine")]
-    wanted += [(reference["reference"], reference["folder"], "fine") for reference in cell.references]
+    wanted = [
+        (one["variant"], one["folder"], kind) for one in cell.runs for kind in ("coarse", "fine")
+    ]
+    wanted += [
+        (reference["reference"], reference["folder"], "fine") for reference in cell.references
+    ]
     for name, folder, kind in wanted:
         what = f"{drape.scene}, {cell.name}: {kind} frames of {name}"
         path = os.path.join(drape.folder, folder, kind + ".pvd")
         if not lies_within(path, drape.folder):
-            faults.append(f"{drape.scene}, {cell.name}: folder `{folder}` of {name} lies outside of {drape.folder}; expected one "
-                          f"in it. {AGAIN}")
+            faults.append(
+                f"{drape.scene}, {cell.name}: folder `{folder}` of {name} lies outside of"
+                f" {drape.folder}; expected one in it. {AGAIN}"
+            )
             continue
         if not (path := path_of(os.path.join(folder, kind + ".pvd"), what)):
             continue
         try:
-            frames = [(time, path_of(os.path.relpath(frame, run.folder), what)) for time, frame in read_pvd(path)]
+            frames = [
+                (time, path_of(os.path.relpath(frame, run.folder), what))
+                for time, frame in read_pvd(path)
+            ]
             if frames := [(time, frame) for time, frame in frames if frame]:
                 cell.frames[name, kind] = frames
                 cell.lists.append(path)

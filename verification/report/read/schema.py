@@ -1,10 +1,11 @@
 # SPDX-License-Identifier: MIT
-"""The tables that the program writes, as its build says them in schema.json: columns in their order, what each may hold,
-and how many of the first ones name a row.
+"""The tables that the program writes, as its build says them in schema.json: columns in their
+order, what each may hold, and how many of the first ones name a row.
 
     {FILE: {"keys": 5, "columns": [{"name": "strain", "domain": "positive"}, ...]}, ...}
 
-The program hands on where the file lies in HOMESPUN_SCHEMA; an installed report has it beside report.py.
+The program hands on where the file lies in HOMESPUN_SCHEMA; an installed report has it beside
+report.py.
 """
 import functools
 import json
@@ -18,9 +19,9 @@ TEXTS = {"name", "text", "outcome"}
 # What a number of each domain must be: in words, whether the field may be empty, and a test.
 NUMBERS = {
     "real": ("a number, or nothing", True, lambda value: True),
-    "not negative": ("a number, zero or above, or nothing", True, lambda value: value >= 0.),
-    "positive": ("a number above zero", False, lambda value: value > 0.),
-    "needed not negative": ("a number, zero or above", False, lambda value: value >= 0.),
+    "not negative": ("a number, zero or above, or nothing", True, lambda value: value >= 0.0),
+    "positive": ("a number above zero", False, lambda value: value > 0.0),
+    "needed not negative": ("a number, zero or above", False, lambda value: value >= 0.0),
 }
 
 
@@ -62,6 +63,7 @@ def number_of(field, words, may_be_empty, is_right):
 @dataclass(frozen=True)
 class Table:
     """One kind of file: its columns, of which the first `keys` name a row."""
+
     columns: tuple
     keys: int
 
@@ -71,7 +73,7 @@ class Table:
 
     @property
     def key_names(self):
-        return self.names[:self.keys]
+        return self.names[: self.keys]
 
 
 def place():
@@ -92,7 +94,10 @@ def table(file):
     """@throws NoSchema where the program writes no such file"""
     known = tables()
     if file not in known:
-        raise NoSchema(f"{place()}: does not know {file}, as one of another version: build homespun, or set HOMESPUN_SCHEMA")
+        raise NoSchema(
+            f"{place()}: does not know {file}, as one of another version: build homespun, or set"
+            " HOMESPUN_SCHEMA"
+        )
     return known[file]
 
 
@@ -101,12 +106,23 @@ def read(path):
     try:
         with open(path, encoding="utf-8") as file:
             value = json.load(file)
-        return {name: Table(tuple(Column(column["name"], known(column["domain"])) for column in one["columns"]), one["keys"])
-                for name, one in value.items()}
+        return {
+            name: Table(
+                tuple(Column(column["name"], known(column["domain"])) for column in one["columns"]),
+                one["keys"],
+            )
+            for name, one in value.items()
+        }
     except OSError as error:
-        raise NoSchema(f"schema.json is missing ({path}: {error.strerror}): build homespun, or set HOMESPUN_SCHEMA") from error
+        raise NoSchema(
+            f"schema.json is missing ({path}: {error.strerror}): build homespun, or set"
+            " HOMESPUN_SCHEMA"
+        ) from error
     except (ValueError, KeyError, TypeError, AttributeError) as error:
-        raise NoSchema(f"{path}: is not the schema.json of this version ({error}): build homespun, or set HOMESPUN_SCHEMA") from error
+        raise NoSchema(
+            f"{path}: is not the schema.json of this version ({error}): build homespun, or set"
+            " HOMESPUN_SCHEMA"
+        ) from error
 
 
 def known(domain):
