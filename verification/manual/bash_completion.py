@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: MIT
 """Completion of the command line in bash: commands, then their options, else files."""
 
-TEMPLATE = """# Completion of homespun in bash; zsh reads it after `autoload bashcompinit && bashcompinit`.
+TEMPLATE = """\
+# Completion of homespun in bash; zsh reads it after `autoload bashcompinit && bashcompinit`.
 _homespun()
 {{
   local word="${{COMP_WORDS[COMP_CWORD]}}" command="homespun" options="" commands="" n
@@ -31,5 +32,7 @@ def bash_completion(program):
     cases = "\n".join(
         f'    "{" ".join(command.words)}")\n'
         f'      options="{" ".join(command.options())}"\n'
-        f'      commands="{" ".join(below.words[-1] for below in command.commands)}" ;;' for command in commands)
+        f'      commands="{" ".join(below.words[-1] for below in command.commands)}" ;;'
+        for command in commands
+    )
     return TEMPLATE.format(known=known, cases=cases)

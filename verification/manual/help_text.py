@@ -10,6 +10,7 @@ COLUMN = 30  # where CLI11 begins the text of an entry
 @dataclasses.dataclass
 class Command:
     """One command, or the program itself; entries are pairs of name and text as printed."""
+
     words: tuple  # ("homespun", "check")
     summary: str
     usage: str
@@ -19,7 +20,11 @@ class Command:
 
     def options(self):
         """All spellings of all options: -h, --help, ..."""
-        return [spelling for name, _ in self.entries["Options:"] for spelling in name.split()[0].split(",")]
+        return [
+            spelling
+            for name, _ in self.entries["Options:"]
+            for spelling in name.split()[0].split(",")
+        ]
 
     def walk(self):
         """This command and all below it."""
@@ -35,7 +40,7 @@ def entries_of(lines):
         following = lines[number + 1] if number + 1 < len(lines) else ""
         if line.startswith(" " * COLUMN):
             pairs[-1][1] = (pairs[-1][1] + " " + line.strip()).strip()
-        elif line[COLUMN - 1:COLUMN] == " " and not following.startswith(" " * COLUMN):
+        elif line[COLUMN - 1 : COLUMN] == " " and not following.startswith(" " * COLUMN):
             pairs.append([line[:COLUMN].strip(), line[COLUMN:].strip()])
         else:
             pairs.append([line.strip(), ""])
@@ -57,13 +62,21 @@ def parse(words, text):
         else:
             footer.append(block)
     if not entries["Options:"]:
-        raise ValueError(f"`{' '.join(words)} --help` lists no options; expected the form of CLI11:\n{text}")
-    return Command(words, summary.strip(), usage.strip(), entries, "\n\n".join(footer).strip("\n"), [])
+        raise ValueError(
+            f"`{' '.join(words)} --help` lists no options; expected the form of CLI11:\n{text}"
+        )
+    return Command(
+        words, summary.strip(), usage.strip(), entries, "\n\n".join(footer).strip("\n"), []
+    )
 
 
 def read(program, words=("homespun",)):
     """Asks the program, command by command."""
-    result = subprocess.run([program, *words[1:], "--help"], capture_output=True, text=True, timeout=300, check=True)
+    result = subprocess.run(
+        [program, *words[1:], "--help"], capture_output=True, text=True, timeout=300, check=True
+    )
     command = parse(words, result.stdout)
-    command.commands = [read(program, (*words, name)) for name, _ in command.entries["Subcommands:"]]
+    command.commands = [
+        read(program, (*words, name)) for name, _ in command.entries["Subcommands:"]
+    ]
     return command

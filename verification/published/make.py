@@ -1,16 +1,29 @@
 # SPDX-License-Identifier: MIT
-"""Makes the runs that README's figures come from, and the tables of them: HOMESPUN SOURCES OUTPUT [CELL...]
+"""Makes the runs that README's figures come from, and the tables of them: HOMESPUN SOURCES OUTPUT
+[CELL...]
 
-The two cells of the paper and chevron at the paper's size, the others with 8 x 8 cells, because their meshes are finer. What
-is there of the same revision is taken up. Hours on two cores; CELL... makes those alone.
+The two cells of the paper and chevron at the paper's size, the others with 8 x 8 cells, because
+their meshes are finer. What is there of the same revision is taken up. Hours on two cores; CELL...
+makes those alone.
 """
 import pathlib
 import subprocess
 import sys
 
 AT_PAPER_SIZE = ("layered", "three-stiffness", "chevron")
-COMPARED = ["--strains", "0.01", "--loads", "strip-1,strip-2,shear-frame", "--references", "biot", "--methods",
-            "affine,localized,localized-mean-anchor", "--no-budget", "--no-runtime", "--no-report"]
+COMPARED = [
+    "--strains",
+    "0.01",
+    "--loads",
+    "strip-1,strip-2,shear-frame",
+    "--references",
+    "biot",
+    "--methods",
+    "affine,localized,localized-mean-anchor",
+    "--no-budget",
+    "--no-runtime",
+    "--no-report",
+]
 ENDED = (0, 1, 4)  # a claim that failed or is open is a result
 
 
@@ -28,11 +41,19 @@ def main(homespun, sources, output, *names):
         if names and cell.stem not in names:
             continue
         size = 20 if cell.stem in AT_PAPER_SIZE else 8
-        for command, options in (("strain", ["--cells", size, *COMPARED]), ("homogenize", ["--quiet"])):
+        for command, options in (
+            ("strain", ["--cells", size, *COMPARED]),
+            ("homogenize", ["--quiet"]),
+        ):
             folders.append(output / cell.stem / command)
             run(homespun, command, cell, *options, "--output", folders[-1])
-    run(sys.executable, "-B", sources / "verification" / "published" / "published.py", sources / "verification" / "published",
-        *folders)
+    run(
+        sys.executable,
+        "-B",
+        sources / "verification" / "published" / "published.py",
+        sources / "verification" / "published",
+        *folders
+    )
 
 
 if __name__ == "__main__":

@@ -4,9 +4,10 @@
 
     published.py OUTPUT DIR [DIR...]
 
-Of runs of `homespun strain` errors.csv, times.csv and budget.csv, of `drape` pull.csv, of `homogenize` brackets.csv, of
-`converge` orders.csv, of all with claims claims.csv. Each row ends with the run and the revision that its figures are of.
-A run that did not end, or whose files were changed since, is refused. Exit status: 0, or 2 with one message per fault.
+Of runs of `homespun strain` errors.csv, times.csv and budget.csv, of `drape` pull.csv, of
+`homogenize` brackets.csv, of `converge` orders.csv, of all with claims claims.csv. Each row ends
+with the run and the revision that its figures are of. A run that did not end, or whose files were
+changed since, is refused. Exit status: 0, or 2 with one message per fault.
 """
 import csv
 import math
@@ -19,144 +20,211 @@ import numpy
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), os.pardir, "report"))
 
 # pylint: disable=wrong-import-position
-from runs import read_run  # noqa: E402
-from schema import NoSchema  # noqa: E402
-from stored import BadResults, check_verdicts, read_csv, read_json  # noqa: E402
-from tables import relative_width  # noqa: E402
+from read.cell_results import relative_width  # noqa: E402
+from read.runs import read_run  # noqa: E402
+from read.schema import NoSchema  # noqa: E402
+from read.stored import BadResults  # noqa: E402
+from run_files import Results  # noqa: E402
 
 STRAIN, REFERENCE = 0.01, "biot"
 SCENE = "pull"
 SHEETS = ("strip-1", "strip-2", "shear-frame")
 KEYS = {  # columns that name a row of each file, for README's marks
-    "errors.csv": ("cell", "load"), "pull.csv": ("cell",), "brackets.csv": ("cell",), "claims.csv": ("command", "of"),
-    "orders.csv": ("cell", "study", "case", "quantity", "elements"), "times.csv": ("cell",), "budget.csv": ("cell", "load", "strain")}
-
-
-class Results:
-    """The files of one run, each read once; what it cannot give is a fault."""
-
-    def __init__(self, run):
-        self.run = run
-
-    def path(self, name):
-        path, why = self.run.take(name)
-        if path is None:
-            raise BadResults([why])
-        return path
-
-    def table(self, name):
-        faults, missing = [], []
-        rows = read_csv(self.path(name), faults, missing)
-        if faults:
-            raise BadResults(faults)
-        return rows
-
-    def json(self, name):
-        faults = []
-        value = read_json(self.path(name), faults)
-        if faults:
-            raise BadResults(faults)
-        return value
-
-    def verdicts(self):
-        faults = []
-        verdicts = check_verdicts(self.json("verdicts.json"), self.path("verdicts.json"), faults)
-        if faults:
-            raise BadResults(faults)
-        return verdicts
+    "errors.csv": ("cell", "load"),
+    "pull.csv": ("cell",),
+    "brackets.csv": ("cell",),
+    "claims.csv": ("command", "of"),
+    "orders.csv": ("cell", "study", "case", "quantity", "elements"),
+    "times.csv": ("cell",),
+    "budget.csv": ("cell", "load", "strain"),
+}
 
 
 def errors(results):
-    """Mean errors of the sheets at 1 % strain against biot, in 1/1000 of strain x cell side; shares in percent.
+    """Mean errors of the sheets at 1 % strain against biot, in 1/1000 of strain x cell side; shares
+    in percent.
 
-    Share of the affine error left: localized / affine. Share of the fluctuation left: localized / mean
-    |reference − homogenized sheet resolved on a fine mesh|.
+    Share of the affine error left: localized / affine. Share of the fluctuation left: localized /
+    mean |reference − homogenized sheet resolved on a fine mesh|.
     """
-    rows = [row for row in results.table("strain.csv") if row["reference"] == REFERENCE and row["load"] in SHEETS
-            and math.isclose(row["strain"], STRAIN, rel_tol=1e-6)]
+    rows = [
+        row
+        for row in results.table("strain.csv")
+        if row["reference"] == REFERENCE
+        and row["load"] in SHEETS
+        and math.isclose(row["strain"], STRAIN, rel_tol=1e-6)
+    ]
     for cell, load in dict.fromkeys((row["cell"], row["load"]) for row in rows):
         some = {row["method"]: row for row in rows if (row["cell"], row["load"]) == (cell, load)}
         if not {"affine", "localized"} <= some.keys():
             continue
         affine, localized = some["affine"], some["localized"]
-        per = {name: 1000. * row["error_mean_per_cell"] / row["strain"] for name, row in some.items()}
+        per = {
+            name: 1000.0 * row["error_mean_per_cell"] / row["strain"] for name, row in some.items()
+        }
         side = affine["error_mean_m"] / affine["error_mean_per_cell"]
-        yield {"cell": cell, "load": load, "cells_per_side": affine["cells"], "affine": per["affine"], "localized": per["localized"],
-               "reference_bar": 1000. * localized["reference_uncertainty_m"] / side / localized["strain"],
-               "share_of_affine_left": 100. * per["localized"] / per["affine"],
-               "share_of_fluctuation_left": 100. * localized["error_mean_per_fluctuation"],
-               "mean_anchor": per.get("localized-mean-anchor", math.nan), "affine_lift": per.get("localized-affine-lift", math.nan)}
+        yield {
+            "cell": cell,
+            "load": load,
+            "cells_per_side": affine["cells"],
+            "affine": per["affine"],
+            "localized": per["localized"],
+            "reference_bar": (
+                1000.0 * localized["reference_uncertainty_m"] / side / localized["strain"]
+            ),
+            "share_of_affine_left": 100.0 * per["localized"] / per["affine"],
+            "share_of_fluctuation_left": 100.0 * localized["error_mean_per_fluctuation"],
+            "mean_anchor": per.get("localized-mean-anchor", math.nan),
+            "affine_lift": per.get("localized-affine-lift", math.nan),
+        }
 
 
 def times(results):
-    """Medians of one load step over strains and sheet loads [ms, s], and their ratio from the smallest to the largest load."""
-    rows = [row for row in results.table("steps.csv") if row["load"] in SHEETS and row["reference"] == REFERENCE]
+    """Medians of one load step over strains and sheet loads [ms, s], and their ratio from the
+    smallest to the largest load.
+    """
+    rows = [
+        row
+        for row in results.table("steps.csv")
+        if row["load"] in SHEETS and row["reference"] == REFERENCE
+    ]
     for cell in dict.fromkeys(row["cell"] for row in rows):
         by_load = {}
         for row in rows:
             if row["cell"] == cell:
                 by_load.setdefault(row["load"], []).append(row)
-        middle = [{key: median(row[key] for row in some) for key in ("seconds_coarse_solve", "seconds_upsample", "seconds_fine_step")}
-                  for some in by_load.values()]
-        ratios = [m["seconds_fine_step"] / (m["seconds_coarse_solve"] + m["seconds_upsample"]) for m in middle]
+        middle = [
+            {
+                key: median(row[key] for row in some)
+                for key in ("seconds_coarse_solve", "seconds_upsample", "seconds_fine_step")
+            }
+            for some in by_load.values()
+        ]
+        ratios = [
+            m["seconds_fine_step"] / (m["seconds_coarse_solve"] + m["seconds_upsample"])
+            for m in middle
+        ]
         fine = [m["seconds_fine_step"] for m in middle]
-        yield {"cell": cell, "coarse_ms": 1e3 * median(m["seconds_coarse_solve"] for m in middle),
-               "upsampling_ms": 1e3 * median(m["seconds_upsample"] for m in middle), "fine_s_least": min(fine), "fine_s_most": max(fine),
-               "ratio_least": min(ratios), "ratio_most": max(ratios), "ranks": rows[0]["ranks"]}
+        yield {
+            "cell": cell,
+            "coarse_ms": 1e3 * median(m["seconds_coarse_solve"] for m in middle),
+            "upsampling_ms": 1e3 * median(m["seconds_upsample"] for m in middle),
+            "fine_s_least": min(fine),
+            "fine_s_most": max(fine),
+            "ratio_least": min(ratios),
+            "ratio_most": max(ratios),
+            "ranks": rows[0]["ranks"],
+        }
 
 
 def budget(results):
-    """Effectivity |sum| / |measured|, and misfit in percent of the measured error, of each level."""
+    """Effectivity |sum| / |measured|, and misfit in percent of the measured error, of each level.
+    """
     if not results.run.holds("budget.csv"):
         return
     levels = {}
     for row in results.table("budget.csv"):
         if row["region"] == "all" and row["reference"] == REFERENCE:
-            levels.setdefault((row["cell"], row["load"], row["strain"]), {})[row["part"]] = row["mean_m"]
+            levels.setdefault((row["cell"], row["load"], row["strain"]), {})[row["part"]] = row[
+                "mean_m"
+            ]
     for (cell, load, strain), parts in levels.items():
-        if parts.get("total", 0.) > 0. and {"sum", "misfit"} <= parts.keys():
-            yield {"cell": cell, "load": load, "strain": strain, "effectivity": parts["sum"] / parts["total"],
-                   "misfit": 100. * parts["misfit"] / parts["total"]}
+        if parts.get("total", 0.0) > 0.0 and {"sum", "misfit"} <= parts.keys():
+            yield {
+                "cell": cell,
+                "load": load,
+                "strain": strain,
+                "effectivity": parts["sum"] / parts["total"],
+                "misfit": 100.0 * parts["misfit"] / parts["total"],
+            }
 
 
 def pull(results):
-    """Mean errors of the scene `pull` at its last compared frame, in 1/1000 of a cell side, ± the reference's error bar.
+    """Mean errors of the scene `pull` at its last compared frame, in 1/1000 of a cell side, ± the
+    reference's error bar.
 
-    The paper's nodal warping may not get as far: it stands with its own last frame, and with the exact membrane there.
+    The paper's nodal warping may not get as far: it stands with its own last frame, and with the
+    exact membrane there.
     """
-    rows = [row for row in results.table("drape.csv") if row["reference"] == REFERENCE and row["scene"] == SCENE
-            and row["error_mean_per_cell"] >= 0.]
+    rows = [
+        row
+        for row in results.table("drape.csv")
+        if row["reference"] == REFERENCE
+        and row["scene"] == SCENE
+        and row["error_mean_per_cell"] >= 0.0
+    ]
 
     def at(cell, variant, method, time):
-        return next((1000. * row["error_mean_per_cell"] for row in rows if (row["cell"], row["variant"], row["method"], row["time_s"])
-                     == (cell, variant, method, time)), math.nan)
+        return next(
+            (
+                1000.0 * row["error_mean_per_cell"]
+                for row in rows
+                if (row["cell"], row["variant"], row["method"], row["time_s"])
+                == (cell, variant, method, time)
+            ),
+            math.nan,
+        )
+
     for cell in dict.fromkeys(row["cell"] for row in rows):
-        last = {variant: max((row["time_s"] for row in rows if (row["cell"], row["variant"]) == (cell, variant)), default=math.nan)
-                for variant in ("corotational", "nodal-warping")}
+        last = {
+            variant: max(
+                (row["time_s"] for row in rows if (row["cell"], row["variant"]) == (cell, variant)),
+                default=math.nan,
+            )
+            for variant in ("corotational", "nodal-warping")
+        }
         end, early = last["corotational"], last["nodal-warping"]
-        row = next((row for row in rows if (row["cell"], row["variant"], row["method"], row["time_s"])
-                    == (cell, "corotational", "localized", end)), None)
+        row = next(
+            (
+                row
+                for row in rows
+                if (row["cell"], row["variant"], row["method"], row["time_s"])
+                == (cell, "corotational", "localized", end)
+            ),
+            None,
+        )
         if row is None:
             continue
-        yield {"cell": cell, "time_s": end, "affine": at(cell, "corotational", "affine", end),
-               "localized": at(cell, "corotational", "localized", end),
-               "reference_bar": at(cell, "corotational", "localized", end) * row["reference_uncertainty_m"] / row["error_mean_m"],
-               "affine_lift": at(cell, "corotational", "localized-affine-lift", end),
-               "mean_anchor": at(cell, "corotational", "localized-mean-anchor", end), "nodal_time_s": early,
-               "nodal_localized": at(cell, "nodal-warping", "localized", early), "exact_there": at(cell, "corotational", "localized", early)}
+        yield {
+            "cell": cell,
+            "time_s": end,
+            "affine": at(cell, "corotational", "affine", end),
+            "localized": at(cell, "corotational", "localized", end),
+            "reference_bar": (
+                at(cell, "corotational", "localized", end)
+                * row["reference_uncertainty_m"]
+                / row["error_mean_m"]
+            ),
+            "affine_lift": at(cell, "corotational", "localized-affine-lift", end),
+            "mean_anchor": at(cell, "corotational", "localized-mean-anchor", end),
+            "nodal_time_s": early,
+            "nodal_localized": at(cell, "nodal-warping", "localized", early),
+            "exact_there": at(cell, "corotational", "localized", early),
+        }
 
 
 def brackets(results):
-    """Relative width of the bracket on C^H of the meshed cell: on the given mesh, and on the last one."""
+    """Relative width of the bracket on C^H of the meshed cell: on the given mesh, and on the last
+    one.
+    """
     for name in results.run.names("*homogenize.json"):
         value = results.json(name)
         bracket, history = value.get("bracket") or {}, value.get("history") or []
         if value.get("C_lower") is None:
             continue
-        width = relative_width(numpy.array(value["C_lower"], dtype=float), numpy.array(value["C_upper"], dtype=float))
-        yield {"cell": value["cell"], "width": width, "width_given": history[0]["width"] if history else math.nan,
-               "meshes": len(history), "triangles": bracket.get("triangles", math.nan), "dofs": bracket.get("dofs", math.nan),
-               "stress_dofs": bracket.get("stress_dofs", math.nan), "seconds": history[-1]["seconds"] if history else math.nan}
+        width = relative_width(
+            numpy.array(value["C_lower"], dtype=float), numpy.array(value["C_upper"], dtype=float)
+        )
+        yield {
+            "cell": value["cell"],
+            "width": width,
+            "width_given": history[0]["width"] if history else math.nan,
+            "meshes": len(history),
+            "triangles": bracket.get("triangles", math.nan),
+            "dofs": bracket.get("dofs", math.nan),
+            "stress_dofs": bracket.get("stress_dofs", math.nan),
+            "seconds": history[-1]["seconds"] if history else math.nan,
+        }
 
 
 def orders(results):
@@ -164,40 +232,72 @@ def orders(results):
     series = {}
     for row in results.table("converge.csv"):
         if row["judgement"]:
-            series.setdefault((row["cell"], row["study"], row["case"], row["quantity"], f"P{row['order_p']:g}"), []).append(row)
+            series.setdefault(
+                (row["cell"], row["study"], row["case"], row["quantity"], f"P{row['order_p']:g}"),
+                [],
+            ).append(row)
     for key, rows in series.items():
         last = rows[-1]
-        yield {**dict(zip(KEYS["orders.csv"], key)), "order": last["order"], "lowest": last["order_lowest"],
-               "highest": last["order_highest"], "levels": len(rows), "judgement": last["judgement"]}
+        yield {
+            **dict(zip(KEYS["orders.csv"], key)),
+            "order": last["order"],
+            "lowest": last["order_lowest"],
+            "highest": last["order_highest"],
+            "levels": len(rows),
+            "judgement": last["judgement"],
+        }
 
 
 def named(run):
-    """("strain --quick", "dots") of out/dots/strain-quick; of a folder of another name that name."""
+    """("strain --quick", "dots") of out/dots/strain-quick; of a folder of another name that name.
+    """
     quick = f"{run.command}-quick"
     if run.name not in (run.command, quick):
         return run.command, run.name
-    return run.command + " --quick" * (run.name == quick), os.path.basename(os.path.dirname(os.path.abspath(run.folder)))
+    return run.command + " --quick" * (run.name == quick), os.path.basename(
+        os.path.dirname(os.path.abspath(run.folder))
+    )
 
 
 def claims(results):
-    """How many claims of each kind hold, fail and are open, and the exit status they amount to: 1 one failed, 4 one is open, 0."""
+    """How many claims of each kind hold, fail and are open, and the exit status they amount to: 1
+    one failed, 4 one is open, 0.
+    """
     if not results.run.holds("verdicts.json"):
         return
     verdicts = results.verdicts()
-    count = {(kind, outcome): sum((v["kind"], v["verdict"]) == (kind, outcome) for v in verdicts)
-             for kind in ("program", "input", "method") for outcome in ("PASS", "FAIL", "INCONCLUSIVE")}
+    count = {
+        (kind, outcome): sum((v["kind"], v["verdict"]) == (kind, outcome) for v in verdicts)
+        for kind in ("program", "input", "method")
+        for outcome in ("PASS", "FAIL", "INCONCLUSIVE")
+    }
 
     def of(outcome):
         return sum(number for (_, one), number in count.items() if one == outcome)
+
     command, of_what = named(results.run)
-    row = {"command": command, "of": of_what, "claims": len(verdicts), "hold": of("PASS"), "fail": of("FAIL"), "open": of("INCONCLUSIVE"),
-           "exit_status": 1 if of("FAIL") else 4 if of("INCONCLUSIVE") else 0}
+    row = {
+        "command": command,
+        "of": of_what,
+        "claims": len(verdicts),
+        "hold": of("PASS"),
+        "fail": of("FAIL"),
+        "open": of("INCONCLUSIVE"),
+        "exit_status": 1 if of("FAIL") else 4 if of("INCONCLUSIVE") else 0,
+    }
     words = {"PASS": "hold", "FAIL": "fail", "INCONCLUSIVE": "open"}
-    yield {**row, **{f"{kind}_{words[outcome]}": number for (kind, outcome), number in count.items()}}
+    yield {
+        **row,
+        **{f"{kind}_{words[outcome]}": number for (kind, outcome), number in count.items()},
+    }
 
 
-TABLES = {"strain": {"errors.csv": errors, "times.csv": times, "budget.csv": budget}, "drape": {"pull.csv": pull},
-          "homogenize": {"brackets.csv": brackets}, "converge": {"orders.csv": orders}}
+TABLES = {
+    "strain": {"errors.csv": errors, "times.csv": times, "budget.csv": budget},
+    "drape": {"pull.csv": pull},
+    "homogenize": {"brackets.csv": brackets},
+    "converge": {"orders.csv": orders},
+}
 
 
 def field(value):
@@ -222,13 +322,20 @@ def rows_of(folders):
             continue
         for name, make in {**TABLES.get(run.command, {}), "claims.csv": claims}.items():
             try:
-                tables.setdefault(name, []).extend({**row, "run": run.fingerprint, "revision": run.revision} for row in make(Results(run)))
+                tables.setdefault(name, []).extend(
+                    {**row, "run": run.fingerprint, "revision": run.revision}
+                    for row in make(Results(run))
+                )
             except BadResults as error:
                 faults += error.faults
     for name, rows in tables.items():
         keys = [tuple(field(row[key]) for key in KEYS[name]) for row in rows]
-        faults += [f"{name}: two runs have a row {'/'.join(key)}; expected one of each. Give the folder of one of them alone."
-                   for key in dict.fromkeys(keys) if keys.count(key) > 1]
+        faults += [
+            f"{name}: two runs have a row {'/'.join(key)}; expected one of each. Give the folder of"
+            " one of them alone."
+            for key in dict.fromkeys(keys)
+            if keys.count(key) > 1
+        ]
     if faults:
         raise BadResults(faults)
     return {name: rows for name, rows in tables.items() if rows}
@@ -259,7 +366,13 @@ def main(arguments):
             print(f"error: {fault}", file=sys.stderr)
         return 2
     except OSError as error:
-        print(f"error: {error.filename or arguments[0]}: {error.strerror or error}; expected a folder that can be written", file=sys.stderr)
+        print(
+            (
+                f"error: {error.filename or arguments[0]}: {error.strerror or error}; expected a"
+                " folder that can be written"
+            ),
+            file=sys.stderr,
+        )
         return 2
     return 0
 

@@ -1,6 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: MIT
-"""Makes report.html, one self-contained page, and the figures as PDF, SVG and CSV from stored results.
+"""Makes report.html, one self-contained page, and the figures as PDF, SVG and CSV from stored
+results.
 
     report.py DIR [DIR...] --output FOLDER
 
@@ -16,16 +17,16 @@ import shutil
 import sys
 import tempfile
 
-import style
+from figures import style
 
 style.use()  # before anything draws
 
 # pylint: disable=wrong-import-position
-from contents import page_contents  # noqa: E402
-from gallery import Gallery  # noqa: E402
-from page import render  # noqa: E402
-from page_size import fitted  # noqa: E402
-from results import BadResults, read_results  # noqa: E402
+from page.contents import page_contents  # noqa: E402
+from page.gallery import Gallery  # noqa: E402
+from page.page import render  # noqa: E402
+from page.page_size import fitted  # noqa: E402
+from read.results import BadResults, read_results  # noqa: E402
 
 
 def write_report(folders, output):
@@ -42,12 +43,16 @@ def write_report(folders, output):
         os.makedirs(output, exist_ok=True)
         workplace = tempfile.mkdtemp(prefix=".report-", dir=output)
     except OSError as error:
-        raise BadResults([f"{output}: cannot be written ({error}). Give another --output."]) from error
+        raise BadResults(
+            [f"{output}: cannot be written ({error}). Give another --output."]
+        ) from error
     try:
         sheets = sum(len(cell.field_files) for cell in results.cells.values())
         gallery = Gallery(os.path.join(workplace, "figures"), sheets)
         html = render(page_contents(results, gallery, output))
-        html = fitted(html, {name[:-5] for name in os.listdir(gallery.folder) if name.endswith(".webp")})
+        html = fitted(
+            html, {name[:-5] for name in os.listdir(gallery.folder) if name.endswith(".webp")}
+        )
         with open(os.path.join(workplace, "report.html"), "w", encoding="utf-8") as file:
             file.write(html)
         os.makedirs(os.path.join(output, "figures"), exist_ok=True)
@@ -66,7 +71,9 @@ def write_report(folders, output):
 
 
 def comes_of_a_full_disk(error):
-    """Whether a write to a full disk is where an exception began; libraries that draw fail again while they clean up."""
+    """Whether a write to a full disk is where an exception began; libraries that draw fail again
+    while they clean up.
+    """
     while error is not None:
         if isinstance(error, OSError) and error.errno in (errno.ENOSPC, errno.EDQUOT):
             return True
@@ -75,11 +82,24 @@ def comes_of_a_full_disk(error):
 
 
 def main(arguments=None):
-    parser = argparse.ArgumentParser(prog="homespun report", description=__doc__.splitlines()[0])
-    parser.add_argument("folders", nargs="+", metavar="DIR", help="output folder of `homespun strain`, `homogenize`, "
-                        "`drape`, `stress`, `converge` or `verify`; of several the page compares cells and versions")
-    parser.add_argument("--output", required=True, metavar="FOLDER", help="where report.html and figures/ go")
-    parser.add_argument("--quiet", action="store_true", help="say nothing unless something is wrong")
+    parser = argparse.ArgumentParser(
+        prog="homespun report", description=__doc__.split("\n\n", maxsplit=1)[0]
+    )
+    parser.add_argument(
+        "folders",
+        nargs="+",
+        metavar="DIR",
+        help=(
+            "output folder of `homespun strain`, `homogenize`, `drape`, `stress`, `converge` or"
+            " `verify`; of several the page compares cells and versions"
+        ),
+    )
+    parser.add_argument(
+        "--output", required=True, metavar="FOLDER", help="where report.html and figures/ go"
+    )
+    parser.add_argument(
+        "--quiet", action="store_true", help="say nothing unless something is wrong"
+    )
     options = parser.parse_args(arguments)
     try:
         path = write_report(options.folders, options.output)
@@ -90,7 +110,10 @@ def main(arguments=None):
     except Exception as error:  # pylint: disable=broad-exception-caught
         if not comes_of_a_full_disk(error):
             raise
-        print(f"homespun report: {options.output}: cannot be written: is the disk full?", file=sys.stderr)
+        print(
+            f"homespun report: {options.output}: cannot be written: is the disk full?",
+            file=sys.stderr,
+        )
         return 2
     if not options.quiet:
         print(f"{path} ({os.path.getsize(path) / 1e6:.1f} MB)")

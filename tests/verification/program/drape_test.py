@@ -13,7 +13,7 @@ import numpy
 from cli import CELLS, PROGRAM, InFolder, cut, rows_of, run
 
 sys.path.append(str(CELLS.parents[1] / "verification" / "report"))
-from vtu import read_vtu  # noqa: E402
+from read.vtu import read_vtu  # noqa: E402
 
 SCENES = CELLS.parent / "scenes"
 TRIANGLE = "v 0 0 1\nv 0.1 0 0\nv 0 0.1 0\nvt 0 0\nvt 0.1 0\nvt 0 0.1\nf 1/1 2/2 3/3\n"

@@ -9,15 +9,16 @@ from unittest import mock
 
 ROOT = pathlib.Path(__file__).resolve().parents[3]
 PUBLISHED = ROOT / "verification" / "published"
-sys.path[:0] = [str(PUBLISHED), str(ROOT / "verification" / "report")]
+sys.path[:0] = [str(PUBLISHED), str(ROOT / "tests" / "verification" / "report")]
 
 # pylint: disable=wrong-import-position
+import report_path  # noqa: E402, F401
 import published  # noqa: E402
 from made_up_drape import write_drape  # noqa: E402
 from made_up_run import verdict, write_run, write_table, write_verdicts  # noqa: E402
 from made_up_study import write_results, write_stress  # noqa: E402
+from read.stored import BadResults  # noqa: E402
 from readme_numbers import faults_of, is_printed_as, read_tables  # noqa: E402
-from stored import BadResults  # noqa: E402
 
 TABLES = {"errors.csv": [{"cell": "layered", "load": "strip-1", "affine": "51.27", "localized": "49.71", "bar": "1.44"},
                          {"cell": "layered", "load": "strip-2", "affine": "204.9", "localized": "8.8123", "bar": ""}]}

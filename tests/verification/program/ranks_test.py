@@ -14,7 +14,7 @@ import numpy
 from cli import CELLS, PATIENCE, PROGRAM, InFolder, cut, rows_of, run
 
 sys.path.append(str(CELLS.parents[1] / "verification" / "report"))
-from vtu import read_vtu  # noqa: E402
+from read.vtu import read_vtu  # noqa: E402
 
 
 class Ranks(InFolder):

@@ -1,0 +1,267 @@
+# SPDX-License-Identifier: MIT
+"""Tests of budget, run time and range of validity: /usr/bin/python3 -m unittest discover -s
+tests/verification/report
+"""
+import math
+import os
+import unittest
+
+from matplotlib import pyplot
+
+import report_path  # noqa: F401
+import page_checks
+from figures import budget, plot_data
+from made_up_run import list_again, write_table
+from made_up_study import write_results
+from page import budget_contents
+from page_case import PageTest
+from read import budget_results
+
+WAYS = (
+    ("fine-p2", 10.0, 1e-5),
+    ("fine-p1", 2.0, 1e-4),
+    ("fine-corotational", 4.0, 1e-4),
+    ("affine-5", 1e-4, 0.2),
+    ("localized-5", 2e-4, 0.03),
+    ("localized-10", 1e-3, 0.008),
+    ("voigt", 1e-3, 0.1),
+    ("reuss", 1e-3, math.nan),
+)
+
+
+def way(name, time, error, bar=1e-7):
+    return {
+        "way": name,
+        "seconds": time,
+        "error_mean_per_cell": error,
+        "reference_uncertainty_m": bar,
+    }
+
+
+def write_budget(folder):
+    """A budget whose two parts make up the total, run times, and a range of validity."""
+    shares = {
+        "scale": 0.7,
+        "nonlinearity": 0.4,
+        "blending": -0.1,
+        "sum": 1.0,
+        "total": 1.0,
+        "misfit": 0.0,
+    }
+    level = {"cell": "stripes", "load": "shear-frame", "reference": "biot"}
+    write_table(
+        folder,
+        "budget.csv",
+        [
+            {
+                **level,
+                "strain": strain,
+                "part": part,
+                "region": region,
+                "mean_m": abs(share) * 1e-4,
+                "rms_m": abs(share) * 2e-4,
+                "max_m": abs(share) * 3e-4,
+                "mean_per_cell": abs(share) * 1e-2,
+                "share": share,
+            }
+            for strain in (0.01, 0.1)
+            for region in ("all", "interior", "corner")
+            for part in (*budget_results.PARTS, "sum", "misfit", "total")
+            for share in [shares.get(part, 0.0)]
+        ],
+    )
+    write_table(
+        folder,
+        "runtime.csv",
+        [
+            {
+                **level,
+                "strain": 0.1,
+                "way": name,
+                "triangles": 8,
+                "error_mean_m": error * 0.01,
+                "error_mean_per_cell": error,
+                "reference_uncertainty_m": 1e-7,
+                "seconds": time,
+                "runs": 5,
+                "ranks": 1,
+                "threads": 1,
+                "note": "a note, with a comma",
+            }
+            for name, time, error in WAYS
+        ],
+    )
+    validity = [
+        (
+            "fluctuation",
+            0.01,
+            "-",
+            None,
+            None,
+            None,
+            "at strain 0.001 the error is already 3 % of the fluctuation",
+        ),
+        ("fluctuation", 0.1, "=", 0.0312, 0.0301, 0.0324, ""),
+        ("cell side", 0.05, ">", 0.2, 0.2, 0.2, ""),
+    ]
+    names = (
+        "measure",
+        "limit",
+        "relation",
+        "largest_strain",
+        "largest_strain_lower",
+        "largest_strain_upper",
+        "note",
+    )
+    write_table(folder, "validity.csv", [{**level, **dict(zip(names, row))} for row in validity])
+    if os.path.isfile(os.path.join(folder, "run.json")):
+        list_again(folder)
+
+
+class Budget(unittest.TestCase):
+    def test_the_front_is_what_no_other_way_beats(self):
+        front = [w["way"] for w in budget_results.pareto_front([way(*w) for w in WAYS])]
+        self.assertEqual(front, ["affine-5", "localized-5", "localized-10", "fine-p1", "fine-p2"])
+
+    def test_of_ways_that_take_the_same_time_the_better_one_is_on_the_front(self):
+        front = budget_results.pareto_front(
+            [way("a", 1.0, 2.0), way("b", 1.0, 1.0), way("c", 2.0, 1.0)]
+        )
+        self.assertEqual([w["way"] for w in front], ["b"])
+
+    def test_the_fastest_way_to_an_error_is_named_once_at_its_tightest_limit(self):
+        sentence = budget_contents.fastest_sentence(
+            [way(*w) for w in WAYS], 0.01, "shear-frame", 0.1
+        )
+        self.assertIn("within 5 % of the cell side localized-5", sentence)
+        self.assertIn("within 1 % of the cell side localized-10", sentence)
+        self.assertIn("within 0.05 % of the cell side fine-p1", sentence)
+        self.assertEqual(sentence.count("localized-10"), 1)
+        self.assertNotIn("voigt", sentence)
+
+    def test_a_way_whose_error_bar_crosses_a_limit_is_not_said_to_keep_it(self):
+        ways = [way(*w, bar=3e-5) for w in WAYS]  # 0.003 cell sides
+        sentence = budget_contents.fastest_sentence(ways, 0.01, "shear-frame", 0.1)
+        self.assertNotIn("localized-10", sentence)  # 0.008 + 0.003 is above 1 %
+        self.assertIn("within 0.5 % of the cell side fine-p1", sentence)
+        self.assertIn("within 0.05 % of the cell side fine-p2", sentence)
+
+    def test_the_interactive_plot_of_the_ways_has_the_corners_of_the_front_and_the_error_bar(self):
+        figure = budget.way_figure([way(*w, bar=3e-7) for w in WAYS[:5]], 0.01)
+        self.addCleanup(pyplot.close, figure)
+        (panel,) = plot_data.panels_of(figure)
+        (front,) = [curve for curve in panel["curves"] if len(curve["points"]) > 2]
+        self.assertEqual(
+            front["points"],
+            [
+                [1e-4, 0.2],
+                [2e-4, 0.2],
+                [2e-4, 0.03],
+                [2.0, 0.03],
+                [2.0, 1e-4],
+                [10.0, 1e-4],
+                [10.0, 1e-5],
+                [30.0, 1e-5],
+            ],
+        )
+        (grey,) = [curve for curve in panel["curves"] if curve.get("fill")]
+        self.assertEqual(
+            (grey["label"], grey["points"]),
+            ("error bar of the best reference", [[5e-5, 3e-5], [30.0, 3e-5]]),
+        )
+        self.assertIn(
+            "error bar of the best reference", [row[1] for row in plot_data.rows_of(figure)]
+        )
+
+    def test_of_several_reference_laws_one_counts(self):
+        def row(reference, mean):
+            return {
+                "load": "strip-1",
+                "strain": 0.1,
+                "region": "all",
+                "part": "total",
+                "reference": reference,
+                "mean_m": mean,
+            }
+
+        table = budget_results.levels([row("linear", 1.0), row("biot", 2.0), row("linear", 3.0)])
+        self.assertEqual(table[("strip-1", 0.1)]["all"]["total"]["mean_m"], 2.0)
+
+    def test_effectivity_is_the_sum_over_the_total(self):
+        parts = {"sum": {"mean_m": 3.0}, "total": {"mean_m": 2.0}}
+        self.assertEqual(budget_results.effectivity(parts), 1.5)
+        self.assertTrue(
+            math.isnan(
+                budget_results.effectivity({"sum": {"mean_m": 3.0}, "total": {"mean_m": 0.0}})
+            )
+        )
+
+    def test_validity_tells_a_crossing_from_an_open_end(self):
+        def text(relation, strain=math.nan, low=math.nan, high=math.nan):
+            return budget_contents.validity_text(
+                {
+                    "relation": relation,
+                    "largest_strain": strain,
+                    "largest_strain_lower": low,
+                    "largest_strain_upper": high,
+                }
+            )
+
+        self.assertEqual(text("=", 0.0312, 0.0301, 0.0324), "3.1 % (3 to 3.2)")
+        self.assertEqual(text("=", 0.0312, 0.0312, 0.0312), "3.1 %")
+        self.assertEqual(text(">", 0.2, 0.2, 0.2), "> 20 %")
+        self.assertEqual(text(">", 0.2, 0.05, 0.2), "> 20 % (from 5 %)")
+        self.assertEqual(text(">", 0.2), "> 20 % (not resolved)")
+        self.assertEqual(text("-"), "–")
+        self.assertEqual(text("-", high=0.003), "– (up to 0.3 %)")
+
+
+class BudgetReport(PageTest):
+    def setUp(self):
+        super().setUp()
+        write_results(self.folder)
+        write_budget(self.folder)
+
+    def test_the_three_tables_make_their_figures_and_tables(self):
+        self.assertEqual(self.run_report(), (0, ""))
+        page = self.page()
+        for name in ("budget", "ways"):
+            self.assertIn(f'id="stripes-{name}"', page)
+            self.assertEqual(
+                page_checks.nameless_numbers(
+                    os.path.join(self.output, "figures", f"stripes-{name}.csv")
+                ),
+                [],
+            )
+        for text in (
+            (
+                "Fastest way to a given mean error, error bar of the best solution included, under"
+                " shear-frame"
+            ),
+            "1 scale separation",
+            "3.1 % (3 to 3.2)",
+            "already 3 % of the fluctuation",
+            "a note, with a comma",
+        ):
+            self.assertIn(text, page)
+
+    def test_what_was_left_out_is_said(self):
+        self.remove("budget.csv", "runtime.csv", "validity.csv")
+        self.assertEqual(self.run_report(), (0, ""))
+        for text in (
+            "budget.csv does not exist",
+            "Left out: error budget of stripes",
+            "Left out: range of validity of stripes",
+        ):
+            self.assertIn(text, self.page())
+        # Of what the run did not make.
+        for text in ("Each part is a field at the fine vertices", "read off the strain ladder"):
+            self.assertNotIn(text, self.page())
+
+    def test_a_share_may_be_negative_an_error_not(self):
+        self.edit_table("budget.csv", lambda rows: rows[0].update(mean_m="-0.0001"))
+        self.assert_refused("budget.csv", "mean_m", "-0.0001")
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,220 @@
+# SPDX-License-Identifier: MIT
+"""Tests of the comparison of several cells and of several versions of one."""
+import os
+import unittest
+
+import report_path  # noqa: F401
+from made_up_run import verdict, write_run, write_verdicts
+from made_up_study import write_results
+from page.comparison import claims_side_by_side, key_of
+from page_case import PageTest
+from read import results, runs, versions
+from read.results import read_results
+
+
+class ComparisonTest(PageTest):
+    def write(self, *parts, changes=(), revision="abc1234"):
+        """A result folder, with strings of its files replaced."""
+        folder = os.path.join(self.place, *parts)
+        write_results(folder)
+        for name, old, new in changes:
+            path = os.path.join(folder, name)
+            with open(path, encoding="utf-8") as file:
+                text = file.read()
+            with open(path, "w", encoding="utf-8") as file:
+                file.write(text.replace(old, new))
+        # Its picture takes seconds.
+        os.remove(os.path.join(folder, "stripes", "fields-shear-frame.h5"))
+        write_run(folder, revision=revision)
+        return folder
+
+    def homogenized(self, *parts):
+        """A run of `homespun homogenize`, whose cell lies in the folder itself."""
+        folder = os.path.join(self.place, *parts)
+        os.makedirs(os.path.dirname(folder), exist_ok=True)
+        os.rename(os.path.join(self.write("made", *parts), "stripes"), folder)
+        write_run(folder, "homogenize")
+        return folder
+
+    def verified(self, *parts):
+        """The folder of a `verify`, whose parts are there."""
+        folder = os.path.join(self.place, *parts)
+        write_verdicts(folder, [])
+        write_run(folder, "verify")
+        return folder
+
+    def test_two_versions_of_a_cell_stand_side_by_side(self):
+        claim = [("verdicts.json", "slope 2", "stripes: slope 2")]
+        one = self.write("old", "strain", changes=claim)
+        two = self.write(
+            "new",
+            "strain",
+            changes=claim
+            + [("verdicts.json", "PASS", "FAIL"), ("stripes/homogenize.json", "2839.91", "2900.0")],
+        )
+        self.assertEqual(self.run_report(one, two), (0, ""))
+        page = self.page()
+        start = page.index('<h2 id="comparison">')
+        section = page[start : page.index("<h2", start + 4)]
+        for text in (
+            "stripes (old)",
+            "stripes (new)",
+            "2840",
+            "2900",
+            "…: slope 2",
+            "the verdicts of 1 differ",
+            '<tr class="differs">',
+            "periodic-22",
+            "0 (2.00)",
+            "0.0800 (2.00)",
+        ):
+            self.assertIn(text, section)
+        self.assertIn('id="comparison-error-strain"', section)
+        self.assertLess(page.index('<h2 id="verdicts">'), start)
+        self.assertIn('href="#comparison"', page)
+
+    def test_rows_of_two_versions_are_not_mixed(self):
+        one, two = self.write("old", "strain"), self.write(
+            "new", "strain", changes=[("strain.csv", ",0.01,", ",0.02,")]
+        )
+        found = read_results([one, two])
+        self.assertEqual(
+            {row["strain"] for row in found.reached("stripes (old)")}, {0.001, 0.01, 0.1}
+        )
+        self.assertEqual(
+            {row["strain"] for row in found.reached("stripes (new)")}, {0.001, 0.02, 0.1}
+        )
+
+    def test_one_cell_is_not_compared(self):
+        self.assertEqual(self.run_report(self.write("alone")), (0, ""))
+        self.assertNotIn("comparison", self.page().split("</style>")[1].split("<script>")[0])
+
+    def test_effective_stiffness_of_one_study_does_not_stand_beside_the_errors_of_another(self):
+        strained = self.write("strain", changes=[("stripes/homogenize.json", "2839.91", "2900.0")])
+        homogenized = self.homogenized("homog", "stripes")
+        for folders in ([homogenized, strained], [strained, homogenized]):
+            found = read_results(folders)
+            alone, studied = found.cells["stripes (stripes)"], found.cells["stripes (strain)"]
+            self.assertEqual(
+                (alone.stiffness()[0, 0], studied.stiffness()[0, 0]), (2839.91, 2900.0)
+            )
+            self.assertEqual({row["cell"] for row in found.strain}, {"stripes (strain)"})
+
+    def test_a_cell_whose_stiffness_was_changed_does_not_take_that_of_another_run(self):
+        strained, homogenized = self.write("strain"), self.homogenized("homog", "stripes")
+        with open(
+            os.path.join(strained, "stripes", "homogenize.json"), "a", encoding="utf-8"
+        ) as file:
+            file.write(" ")
+        found = read_results([homogenized, strained])
+        self.assertIsNone(found.cells["stripes (strain)"].stiffness())
+        self.assertTrue(
+            any(
+                "homogenize.json was changed after the run ended" in item["why"]
+                for item in found.missing
+            )
+        )
+
+    def test_a_homogenized_cell_is_called_by_its_name_whatever_its_folder_is(self):
+        self.assertEqual(
+            list(read_results([self.homogenized("dots", "homogenize")]).cells), ["stripes"]
+        )
+
+    def test_folder_of_verify_stands_for_its_parts(self):
+        strain = self.write("verify", "strain")
+        top = self.verified("verify")
+        faults = []
+        self.assertEqual([run.folder for run in runs.with_parts([top], faults, [])], [top, strain])
+        self.assertEqual(
+            [run.folder for run in runs.with_parts([top, strain], faults, [])], [top, strain]
+        )
+        self.assertEqual(faults, [])
+        self.assertEqual(len(read_results([top]).strain), len(read_results([strain]).strain))
+        self.assertFalse(
+            [m for m in read_results([top]).missing if m["what"].startswith("verdicts")]
+        )
+        another = self.write("again", "strain")
+        self.assertEqual(
+            [s.name for s in read_results([top, another]).subjects],
+            ["stripes (verify)", "stripes (strain)"],
+        )
+
+    def test_parts_of_a_verify_need_no_claims_of_their_own(self):
+        cell = self.homogenized("verify", "cells", "layered")
+        top = self.verified("verify")
+
+        def lost(*folders):
+            return [
+                m["why"]
+                for m in read_results(list(folders)).missing
+                if m["what"].startswith("verdicts")
+            ]
+
+        self.assertEqual(lost(top), [])
+        self.assertEqual(lost(cell, top), [])
+        self.assertEqual(lost(cell), [f"{os.path.join(cell, 'verdicts.json')} does not exist"])
+
+    def test_a_part_of_another_revision_is_no_part(self):
+        self.write("verify", "strain", revision="def5678")
+        found = read_results([self.verified("verify")])
+        self.assertEqual(found.strain, [])
+        self.assertTrue(
+            any(
+                "it is a run of revision def5678, the verify of abc1234" in item["why"]
+                for item in found.missing
+            )
+        )
+
+    def test_a_page_of_several_runs_says_which_and_that_their_revisions_differ(self):
+        one, two = self.write("old", "strain"), self.write("new", "strain", revision="def5678")
+        self.assertEqual(self.run_report(one, two), (0, ""))
+        page = self.page()
+        for claim in ("old: slope 2", "new: slope 2", "old: a note"):
+            self.assertIn(claim, page)
+        for words in (
+            "This page sets 2 runs side by side: old (strain, revision abc1234",
+            "new (strain, revision def5678",
+            "They were made by different revisions of homespun",
+        ):
+            self.assertIn(words, page)
+        self.assertLess(page.index("different revisions"), page.index('<h2 id="verdicts">'))
+        self.assertEqual(self.run_report(one), (0, ""))
+        self.assertNotIn("side by side", self.page().split("</style>")[1].split("<h2")[0])
+
+    def test_claims_are_matched_without_the_name_of_their_cell(self):
+        self.assertEqual(key_of("layered, strip-1: slope", "layered"), "CELL, strip-1: slope")
+        self.assertEqual(
+            key_of("homogenize cells/layered: gap", "layered"), "homogenize cells/CELL: gap"
+        )
+        self.assertIsNone(key_of("three-layered: slope", "layered"))
+        found = results.Results(
+            studies=[
+                results.Study(
+                    "a",
+                    "a",
+                    place="a",
+                    verdicts=[
+                        verdict(f"{cell}: slope", outcome, 2.0, "2")
+                        for cell, outcome in (("one", "PASS"), ("two", "FAIL"))
+                    ]
+                    + [verdict("one: alone", "PASS")],
+                )
+            ]
+        )
+        subjects = [versions.Subject(name, name, "a") for name in ("one", "two")]
+        (block,) = claims_side_by_side(found, subjects)
+        self.assertEqual(
+            [(row["claim"], row["differs"]) for row in block["rows"]], [("…: slope", True)]
+        )
+
+    def test_names_of_versions_are_short_and_differ(self):
+        self.assertEqual(
+            versions.tags(["/a/v1/strain", "/a/v2/strain"]),
+            {"/a/v1/strain": "v1", "/a/v2/strain": "v2"},
+        )
+        self.assertEqual(versions.tags(["/a/one", "/b/two"]), {"/a/one": "one", "/b/two": "two"})
+        self.assertEqual(len(set(versions.tags(["/a/x/1", "/a/y/1", "/a/y/2"]).values())), 3)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,365 @@
+# SPDX-License-Identifier: MIT
+"""Curves of a draped cloth: error, height and energies against time, and the time of a step."""
+import math
+
+import numpy
+from matplotlib import pyplot, ticker
+from matplotlib.lines import Line2D
+from matplotlib.patches import Patch
+
+from figures import style
+from figures.plot_data import band, name_unseen
+from figures.sheet import unit_of
+
+BLOWN = 1e3  # times the largest value of the first cloth
+VARIANTS = ("corotational", "triangle-warping", "nodal-warping")
+VARIANT_COLOURS = dict(zip(VARIANTS, (style.BLUE, style.GREEN, style.ORANGE, style.VERMILLION)))
+REFERENCES = ("shell", "biot", "green")
+REFERENCE_LINES = dict(zip(REFERENCES, ("--", ":", "-.")))
+FALL = 3.0  # a height that ranges over so many times that of the others gets a panel of its own
+
+
+def ordered(names, known):
+    """Known names in their order, then the others as they come."""
+    names = list(dict.fromkeys(names))
+    return [name for name in known if name in names] + [name for name in names if name not in known]
+
+
+def ordered_variants(names):
+    return ordered(names, VARIANTS)
+
+
+def ordered_references(names):
+    return ordered(names, REFERENCES)
+
+
+def variant_colour(name):
+    return VARIANT_COLOURS.get(name, style.PURPLE)
+
+
+def curve(rows, key, factor=1.0):
+    """(time, value) in the order of time, without empty fields."""
+    pairs = sorted((row["time_s"], factor * row[key]) for row in rows if not math.isnan(row[key]))
+    return numpy.array([p[0] for p in pairs]), numpy.array([p[1] for p in pairs])
+
+
+def error_time_curves(rows):
+    """Mean error against time: a column per variant, a row per reference, a colour per method; log
+    y.
+
+    @return figure, or None where no row has an error above zero
+    """
+    rows = [row for row in rows if row["error_mean_m"] > 0.0]
+    if not rows:
+        return None
+    variants = ordered_variants(row["variant"] for row in rows)
+    references = ordered_references(row["reference"] for row in rows)
+    methods = style.ordered_methods(row["method"] for row in rows)
+    largest = [
+        max(row["error_mean_m"] for row in rows if row["variant"] == variant)
+        for variant in variants
+    ]
+    factor, unit = unit_of(largest[0])
+    bars = [row["reference_uncertainty_m"] for row in rows if row["reference_uncertainty_m"] > 0.0]
+    # The first steps from a common start are arbitrarily small: four decades below the best cloth's
+    # largest do.
+    lower = max(min([row["error_mean_m"] for row in rows] + bars), 1e-4 * min(largest))
+    lower = 10.0 ** math.floor(math.log10(factor * lower) - 0.2)
+    upper = 10.0 ** math.ceil(math.log10(1.2 * factor * max(largest)))
+    size = (0.9 + max(2.3 * len(variants), 4.2), 0.5 + 2.5 * len(references))
+    figure, grid = pyplot.subplots(
+        len(references),
+        len(variants),
+        squeeze=False,
+        sharex=True,
+        sharey=True,
+        layout="constrained",
+        figsize=size,
+    )
+    for axes in grid[-1]:
+        axes.set_xlabel("time [s]")
+    for line, reference in zip(grid, references):
+        for axes, variant in zip(line, variants):
+            here = [r for r in rows if r["variant"] == variant and r["reference"] == reference]
+            time, bar = curve(
+                [r for r in here if r["method"] == here[0]["method"]],
+                "reference_uncertainty_m",
+                factor,
+            )
+            if len(time):
+                band(axes, time, bar, lower / 100.0, "uncertainty of the reference")
+            for method in methods:
+                time, value = curve(
+                    [r for r in here if r["method"] == method], "error_mean_m", factor
+                )
+                if len(time):
+                    axes.plot(
+                        time,
+                        value,
+                        color=style.method_colour(method, methods),
+                        marker="o" if len(time) < 12 else "",
+                        label=method,
+                    )
+            axes.set(yscale="log", ylim=(lower, upper))
+            axes.yaxis.set_minor_locator(ticker.NullLocator())
+            axes.set_title(
+                f"{variant} against {reference}",
+                loc="left",
+                fontweight="bold",
+                fontsize=9 if len(variants) < 3 else 7.0,
+            )
+        line[0].set_ylabel(f"mean error [{unit}]")
+    handles = [
+        Line2D([], [], color=style.method_colour(m, methods), lw=2.0, label=m) for m in methods
+    ]
+    if bars:
+        handles.append(Patch(color="#BDBDBD", alpha=0.55, label="uncertainty of the reference"))
+    figure.legend(handles=handles, loc="lower center", bbox_to_anchor=(0.5, 1.0), ncol=len(handles))
+    return figure
+
+
+def plot_members(axes, rows, key, factor=1.0, positive=False):
+    """A curve for each variant in colour and for each reference in black."""
+    for name in members(rows):
+        time, value = curve([row for row in rows if row["variant"] == name], key, factor)
+        if positive:
+            time, value = time[value > 0.0], value[value > 0.0]
+        if name in REFERENCES:
+            axes.plot(
+                time,
+                value,
+                color=style.BLACK,
+                ls=REFERENCE_LINES[name],
+                lw=1.6,
+                zorder=4,
+                label=f"reference {name}",
+            )
+        else:
+            axes.plot(
+                time,
+                value,
+                color=variant_colour(name),
+                lw=2.2 if name == VARIANTS[0] else 1.5,
+                label=name,
+            )
+
+
+def members(rows):
+    return ordered([row["variant"] for row in rows], VARIANTS + REFERENCES)
+
+
+def member_handles(rows):
+    return [
+        (
+            Line2D(
+                [],
+                [],
+                color=style.BLACK,
+                ls=REFERENCE_LINES[name],
+                lw=1.6,
+                label=f"reference {name}",
+            )
+            if name in REFERENCES
+            else Line2D([], [], color=variant_colour(name), lw=2.0, label=name)
+        )
+        for name in members(rows)
+    ]
+
+
+def with_height(rows, up):
+    """Rows with the height of the centre along `up` (3) [m]."""
+    return [
+        {**row, "height": float(numpy.dot(up, [row[f"centre_{axis}_m"] for axis in "xyz"]))}
+        for row in rows
+    ]
+
+
+def free_fall(rows, gravity):
+    """(time, height) of the parabola from the first height, or None where the cloth does not start
+    at rest.
+    """
+    first = min(rows, key=lambda row: row["time_s"])
+    if gravity is None or first["kinetic_J"] > 0.0:
+        return None
+    time = numpy.linspace(first["time_s"], max(row["time_s"] for row in rows), 100)
+    return (
+        time,
+        first["height"] - 0.5 * float(numpy.linalg.norm(gravity)) * (time - first["time_s"]) ** 2,
+    )
+
+
+def height_figure(rows, up, gravity):
+    """Height of the centre against time.
+
+    A variant that falls would flatten the curves of all others: then a second panel shows those.
+
+    @return (figure, names of those that fall), or None
+    """
+    rows = [row for row in with_height(rows, up) if not math.isnan(row["height"])]
+    if not rows:
+        return None
+    span = {}
+    for name in members(rows):
+        heights = [row["height"] for row in rows if row["variant"] == name]
+        span[name] = max(heights) - min(heights)
+    usual = max(span[name] for name in span if name in REFERENCES or name == members(rows)[0])
+    falling = [
+        name for name in span if name not in REFERENCES and span[name] > FALL * max(usual, 1e-12)
+    ]
+    staying = [row for row in rows if row["variant"] not in falling]
+    figure, grid = pyplot.subplots(
+        1,
+        2 if falling else 1,
+        squeeze=False,
+        figsize=(9.6 if falling else 5.6, 3.1),
+        layout="constrained",
+    )
+    parabola = free_fall(rows, gravity)
+    for axes, some in zip(grid[0], (rows, staying)):
+        if parabola is not None:
+            axes.plot(
+                parabola[0],
+                100.0 * parabola[1],
+                color="#777777",
+                lw=4.0,
+                alpha=0.45,
+                zorder=0,
+                label="free fall",
+            )
+        plot_members(axes, some, "height", 100.0)
+        heights = [100.0 * row["height"] for row in some]
+        pad = 0.06 * (max(heights) - min(heights)) or 1.0
+        axes.set(xlabel="time [s]", ylim=(min(heights) - pad, max(heights) + pad))
+    grid[0][0].set_ylabel("height of the centre [cm]")
+    if falling:
+        grid[0][0].set_title("all", loc="left", fontweight="bold")
+        grid[0][1].set_title("without " + ", ".join(falling), loc="left", fontweight="bold")
+    handles = member_handles(rows)
+    if parabola is not None:
+        handles.append(
+            Line2D([], [], color="#777777", lw=4.0, alpha=0.45, label="free fall, −½ g t²")
+        )
+    figure.legend(handles=handles, loc="lower center", bbox_to_anchor=(0.5, 1.0), ncol=4)
+    return figure, falling
+
+
+def energy_figure(rows):
+    """Kinetic and elastic energy, that of the weight, and the largest stretch, against time; None
+    without numbers.
+
+    Energies stand on logarithmic axes where they are positive; that of the weight is not. A curve
+    is missing where the cloth has no such energy.
+    """
+    panels = [
+        ("kinetic_J", "kinetic energy [J]"),
+        ("elastic_J", "elastic energy [J]"),
+        ("gravity_J", "energy of the weight [J]"),
+        ("max_stretch", "largest stretch [1]"),
+    ]
+    panels = [(key, label) for key, label in panels if any(abs(row[key]) > 0.0 for row in rows)]
+    if not panels:
+        return None
+    figure, grid = pyplot.subplots(
+        1, len(panels), squeeze=False, figsize=(0.4 + 3.2 * len(panels), 3.0), layout="constrained"
+    )
+    first = ordered_variants({row["variant"] for row in rows})[0]
+    for axes, (key, label) in zip(grid[0], panels):
+        log = key not in ("max_stretch", "gravity_J") and not any(row[key] < 0.0 for row in rows)
+        plot_members(axes, rows, key, positive=log)
+        axes.set(xlabel="time [s]", ylabel=label)
+        # A variant that blows up must not flatten the others: it leaves the panel.
+        every = [row[key] for row in rows if not math.isnan(row[key])]
+        calm = [
+            row[key] for row in rows if row["variant"] == first and not math.isnan(row[key])
+        ] or every
+        largest = max(map(abs, calm))
+        blown = max(map(abs, every)) > BLOWN * largest > 0.0
+        if log:
+            axes.set_yscale("log")
+            axes.yaxis.set_minor_locator(ticker.NullLocator())
+            top = BLOWN * largest if blown else max(every)
+            axes.set_ylim(top=top if blown else None)
+            if min(value for value in every if value > 0.0) < 1e-8 * top:
+                axes.set_ylim(bottom=1e-8 * top)
+        else:
+            axes.yaxis.set_major_formatter(ticker.FormatStrFormatter("%.4g"))
+            if blown:
+                axes.set_ylim(min(calm) - 0.5 * largest, max(calm) + 0.5 * largest)
+    figure.legend(
+        handles=member_handles(rows), loc="lower center", bbox_to_anchor=(0.5, 1.0), ncol=4
+    )
+    return figure
+
+
+def number(item, key):
+    value = item.get(key)
+    return math.nan if value is None else float(value)
+
+
+def light_seconds(run):
+    """Coarse step with its up-sampling [s], nan where one is unknown."""
+    return number(run, "seconds_per_coarse_step") + number(run, "seconds_per_upsampling")
+
+
+def main_run(cell):
+    """The run that references are held against: the corotational one, or the first."""
+    order = ordered_variants(run["variant"] for run in cell.runs)
+    return next((run for run in cell.runs if run["variant"] == order[0]), None) if order else None
+
+
+def step_bars(cell):
+    """Time per step as bars on a log axis: coarse step and up-sampling of each variant, the step of
+    each reference.
+
+    @return figure, or None without times
+    """
+    entries = []
+    for name in ordered_variants(run["variant"] for run in cell.runs):
+        run = next(run for run in cell.runs if run["variant"] == name)
+        entries.append(
+            (
+                f"{name}\ncoarse step",
+                number(run, "seconds_per_coarse_step"),
+                variant_colour(name),
+                None,
+            )
+        )
+        entries.append(
+            (f"{name}\nup-sampling", number(run, "seconds_per_upsampling"), style.SKY, None)
+        )
+    light = light_seconds(main_run(cell)) if cell.runs else math.nan
+    for name in ordered_references(reference["reference"] for reference in cell.references):
+        reference = next(r for r in cell.references if r["reference"] == name)
+        value = number(reference, "seconds_per_step")
+        ratio = value / light if light > 0.0 else math.nan
+        entries.append(
+            (f"reference {name}\n{workers_of(reference)}".strip(), value, "#555555", ratio)
+        )
+    entries = [entry for entry in entries if entry[1] > 0.0]
+    if not entries:
+        return None
+    figure, axes = pyplot.subplots(figsize=(8.4, 0.7 + 0.36 * len(entries)), layout="constrained")
+    lower = 10.0 ** math.floor(math.log10(min(entry[1] for entry in entries)) - 0.3)
+    for i, (_, value, colour, ratio) in enumerate(entries):
+        axes.barh(i, value - lower, 0.72, left=lower, color=colour, label="median time per step")
+        text = style.seconds(value)
+        text += "" if ratio is None or math.isnan(ratio) else f",  {style.three(float(ratio))} ×"
+        axes.annotate(
+            text, (value, i), xytext=(4, 0), textcoords="offset points", va="center", fontsize=8
+        )
+    axes.set(xscale="log", xlabel="time per step [s]", ylim=(len(entries) - 0.4, -0.6))
+    axes.set_xlim(lower, 6.0 * max(entry[1] for entry in entries))
+    axes.set_yticks(range(len(entries)), [entry[0].replace("\n", ", ") for entry in entries])
+    name_unseen(axes.yaxis, "part of a step")
+    axes.grid(axis="y", visible=False)
+    return figure
+
+
+def workers_of(item):
+    """2 ranks × 1 thread, as far as it is known."""
+    words = [
+        f"{int(number(item, key))} {key[:-1] if number(item, key) == 1 else key}"
+        for key in ("ranks", "threads")
+        if number(item, key) > 0.0
+    ]
+    return " × ".join(words)

@@ -1,0 +1,228 @@
+# SPDX-License-Identifier: MIT
+"""The paper's Figure 3: error per vertex against strain, one panel per load.
+
+Colour tells the method, line style and marker tell the reference law, the grey area the reference's
+own uncertainty (an error inside it is not resolved), the vertical line 1 % strain.
+"""
+import math
+
+import numpy
+from matplotlib import pyplot
+from matplotlib.lines import Line2D
+from matplotlib.patches import Patch
+
+from figures import style
+from figures.plot_data import ROUND_OFF_NOTE, band
+
+MARKED_STRAIN = 0.01  # real textiles hardly stretch more under their own weight
+
+
+def series(rows, key, factor=1.0):
+    """(strain, value) of rows in the order of strain, without empty fields."""
+    pairs = sorted((row["strain"], factor * row[key]) for row in rows if not math.isnan(row[key]))
+    return numpy.array([p[0] for p in pairs]), numpy.array([p[1] for p in pairs])
+
+
+def errors_are_round_off(rows):
+    """Whether an error, per cell side, is too small to tell from round-off."""
+    return bool(rows) and all(
+        row["error_mean_per_cell"] < style.ROUND_OFF
+        for row in rows
+        if not math.isnan(row["error_mean_per_cell"])
+    )
+
+
+def floored(rows, key, factor):
+    """Strain, value and a mask of values that are round-off, judged by the error per cell side."""
+    kept = sorted((row for row in rows if not math.isnan(row[key])), key=lambda row: row["strain"])
+    strain = numpy.array([row["strain"] for row in kept])
+    value = numpy.array([factor * row[key] for row in kept])
+    low = numpy.array(
+        [row[key] <= 0 or row["error_mean_per_cell"] < style.ROUND_OFF for row in kept], dtype=bool
+    )
+    return strain, value, low
+
+
+def slope_triangle(axes, strain, value, slope):
+    """A triangle of the given slope below the end of a curve, over one factor of three in strain.
+    """
+    x1, y1 = strain[-1], value[-1]
+    x0 = x1 / 3.0
+    y1 = y1 / 3.0
+    y0 = y1 * (x0 / x1) ** slope
+    axes.plot([100 * x0, 100 * x1, 100 * x1, 100 * x0], [y0, y0, y1, y0], color="#444444", lw=0.9)
+    axes.annotate(
+        f"{slope}",
+        (100 * x1, math.sqrt(y0 * y1)),
+        xytext=(2, 0),
+        textcoords="offset points",
+        fontsize=7.5,
+        va="center",
+        color="#444444",
+    )
+
+
+def draw_panel(axes, rows, load, methods, references, key, factor, floor, side):
+    """One load: all methods and references; returns whether round-off was drawn at the floor."""
+    at_floor = False
+    rows = [row for row in rows if row["load"] == load]
+    if key == "error_mean_per_cell" and side:
+        uncertain = {}
+        for row in rows:
+            if row["reference"] in references and not math.isnan(row["reference_uncertainty_m"]):
+                bar = row["reference_uncertainty_m"] / side
+                uncertain[row["strain"]] = max(bar, uncertain.get(row["strain"], 0.0))
+        uncertain = sorted((s, u) for s, u in uncertain.items() if u > style.ROUND_OFF)
+        if uncertain:
+            strain, bar = numpy.array(uncertain).T
+            band(axes, 100 * strain, bar, floor / 100.0, "uncertainty of the reference")
+    for method in methods:
+        for reference in references:
+            some = [r for r in rows if r["method"] == method and r["reference"] == reference]
+            strain, value, low = floored(some, key, factor)
+            if not len(strain):
+                continue
+            line, marker = style.reference_style(reference)
+            colour = style.method_colour(method, methods)
+            axes.plot(
+                100 * strain,
+                numpy.where(low, floor, value),
+                line,
+                marker=marker,
+                color=colour,
+                markevery=list(numpy.flatnonzero(~low)),
+                markerfacecolor="white",
+                markeredgewidth=1,
+                label=f"{method} against {reference}",
+            )
+            if low.any():
+                at_floor = True
+                axes.plot(
+                    100 * strain[low],
+                    numpy.full(low.sum(), floor),
+                    "v",
+                    color=colour,
+                    markerfacecolor="none",
+                    clip_on=False,
+                    zorder=5,
+                    label=f"{method} against {reference}",
+                    gid=ROUND_OFF_NOTE,
+                )
+    if load.startswith("periodic") and key == "error_mean_per_cell":
+        some = [r for r in rows if r["method"] == "localized" and r["reference"] == "biot"]
+        strain, value, low = floored(some, key, factor)
+        if len(strain) > 1 and not low.any():
+            slope_triangle(axes, strain, value, 2)
+    axes.axvline(100 * MARKED_STRAIN, color="#888888", lw=0.9, ls=(0, (1, 1.5)), zorder=1)
+    style.log_axes(axes)
+    axes.set_title(load, loc="left", fontweight="bold")
+    axes.xaxis.set_major_formatter(lambda x, _: f"{x:g}")
+    return at_floor
+
+
+def limits(rows, key, factor):
+    """A common range of decades for a row of panels, and the floor: its lowest line."""
+    values = [
+        factor * row[key]
+        for row in rows
+        if not math.isnan(row[key])
+        and row[key] > 0
+        and row["error_mean_per_cell"] >= style.ROUND_OFF
+    ]
+    low = any(
+        not math.isnan(row[key]) and (row[key] <= 0 or row["error_mean_per_cell"] < style.ROUND_OFF)
+        for row in rows
+    )
+    if not values:
+        values = [factor * style.ROUND_OFF]
+    lower = 10.0 ** math.floor(math.log10(min(values)) - (0.5 if low else 0.0))
+    upper = 10.0 ** math.ceil(math.log10(max(values) * 1.2))
+    return lower, upper
+
+
+def legend(figure, methods, references, uncertainty, at_floor):
+    entries = [
+        Line2D([], [], color=style.method_colour(m, methods), lw=2.2, label=m) for m in methods
+    ]
+    for reference in references:
+        line, marker = style.reference_style(reference)
+        entries.append(
+            Line2D(
+                [],
+                [],
+                color="#444444",
+                ls=line,
+                marker=marker,
+                markerfacecolor="white",
+                label=f"against {reference}",
+            )
+        )
+    if uncertainty:
+        entries.append(Patch(color="#BDBDBD", alpha=0.55, label="uncertainty of the reference"))
+    if at_floor:
+        entries.append(
+            Line2D(
+                [],
+                [],
+                color="#444444",
+                ls="",
+                marker="v",
+                markerfacecolor="none",
+                label="zero to round-off, drawn at the lower edge",
+            )
+        )
+    entries.append(Line2D([], [], color="#888888", lw=0.9, ls=(0, (1, 1.5)), label="1 % strain"))
+    figure.legend(
+        handles=entries,
+        loc="lower center",
+        bbox_to_anchor=(0.5, 1.0),
+        ncol=4,
+        handlelength=2.8,
+        columnspacing=1.6,
+    )
+
+
+def error_figure(rows, methods, references, side, key="error_mean_per_cell"):
+    """Error against strain for all loads of one cell.
+
+    @param key error_mean_per_cell, or error_mean_per_fluctuation, which is drawn in percent
+    @return (figure, whether round-off was drawn at the floor)
+    """
+    rows = [row for row in rows if row["method"] in methods and row["reference"] in references]
+    loads = style.ordered_loads(row["load"] for row in rows)
+    groups = [
+        [load for load in loads if load.startswith("periodic")],
+        [load for load in loads if not load.startswith("periodic")],
+    ]
+    groups = [group[i : i + 3] for group in groups for i in range(0, len(group), 3)]
+    factor = 100.0 if key == "error_mean_per_fluctuation" else 1.0
+    columns = max(len(group) for group in groups)
+    figure, grid = pyplot.subplots(
+        len(groups),
+        columns,
+        squeeze=False,
+        sharex=True,
+        figsize=(0.9 + 2.9 * columns, 0.5 + 2.55 * len(groups)),
+        layout="constrained",
+    )
+    at_floor = False
+    uncertainty = (
+        key == "error_mean_per_cell"
+        and any(row["reference_uncertainty_m"] > 0 for row in rows)
+        and bool(side)
+    )
+    for group, line in zip(groups, grid):
+        group_rows = [row for row in rows if row["load"] in group]
+        lower, upper = limits(group_rows, key, factor)
+        for axes, load in zip(line, group):
+            at_floor |= draw_panel(axes, rows, load, methods, references, key, factor, lower, side)
+            axes.set_ylim(lower, upper)
+            axes.tick_params(labelleft=axes is line[0], labelbottom=True)
+            axes.set_xlabel("strain [%]")
+        line[0].set_ylabel(
+            "mean error [% of the fluctuation]" if factor == 100.0 else "mean error [cell sides]"
+        )
+        for axes in line[len(group) :]:
+            axes.set_visible(False)
+    legend(figure, methods, references, uncertainty, at_floor)
+    return figure, at_floor

@@ -1,0 +1,165 @@
+# SPDX-License-Identifier: MIT
+"""How the figures and the numbers look: one place for fonts, colours, names and rounding.
+
+Colours are those of Okabe and Ito (2008), which readers with any colour vision tell apart; phases
+of a cell go from light to dark with stiffness, so that they survive a black-and-white print.
+"""
+import math
+
+import matplotlib
+from matplotlib import colors, ticker
+
+matplotlib.use("Agg")  # no display on a compute node
+
+BLACK, ORANGE, SKY, GREEN, YELLOW, BLUE, VERMILLION, PURPLE = (
+    "#000000",
+    "#E69F00",
+    "#56B4E9",
+    "#009E73",
+    "#F0E442",
+    "#0072B2",
+    "#D55E00",
+    "#CC79A7",
+)
+
+METHOD_COLOURS = {
+    "affine": VERMILLION,
+    "localized": BLUE,
+    "localized-affine-lift": GREEN,
+    "localized-mean-anchor": ORANGE,
+    "localized-piecewise": PURPLE,
+}
+SPARE_COLOURS = (BLACK, SKY, "#7F7F7F", YELLOW)
+
+# Line style and marker of each reference law.
+REFERENCE_STYLES = {"linear": (":", "s"), "biot": ("-", "o"), "green": ("--", "^")}
+
+LOADS = ("periodic-11", "periodic-22", "periodic-12", "strip-1", "strip-2", "shear-frame")
+LOAD_COLOURS = dict(zip(LOADS, (SKY, BLUE, PURPLE, GREEN, ORANGE, VERMILLION)))
+LOAD_MARKERS = dict(zip(LOADS, ("v", "^", "D", "s", "o", "P")))
+
+# Two errors that differ by less than this part of a cell side are the same in double precision:
+# positions of a sheet of 20 cells carry 16 digits, and solvers stop some digits earlier.
+ROUND_OFF = 1e-11
+ROUND_OFF_TEXT = "10⁻¹¹ cell sides"
+
+RC = {
+    "font.family": "DejaVu Sans",
+    "font.size": 9,
+    "axes.titlesize": 9.5,
+    "axes.labelsize": 9,
+    "xtick.labelsize": 8,
+    "ytick.labelsize": 8,
+    "legend.fontsize": 8,
+    "axes.grid": True,
+    "grid.color": "#D9D9D9",
+    "grid.linewidth": 0.5,
+    "axes.axisbelow": True,
+    "axes.spines.top": False,
+    "axes.spines.right": False,
+    "lines.linewidth": 1.4,
+    "lines.markersize": 4,
+    "legend.frameon": False,
+    "figure.dpi": 100,
+    "savefig.dpi": 160,
+    "svg.hashsalt": "homespun",  # the same input gives the same file
+    "pdf.fonttype": 42,
+}
+
+
+def use():
+    """Sets matplotlib up for all figures of the report."""
+    matplotlib.rcParams.update(RC)
+
+
+def method_colour(method, methods=()):
+    """Colour of a method; methods that the report does not know take the spare colours in turn."""
+    if method in METHOD_COLOURS:
+        return METHOD_COLOURS[method]
+    unknown = [name for name in methods if name not in METHOD_COLOURS]
+    return SPARE_COLOURS[unknown.index(method) % len(SPARE_COLOURS)] if method in unknown else BLACK
+
+
+def reference_style(reference):
+    """(line style, marker) of a reference law."""
+    return REFERENCE_STYLES.get(reference, ("-.", "D"))
+
+
+def load_colour(load):
+    return LOAD_COLOURS.get(load, BLACK)
+
+
+def load_marker(load):
+    return LOAD_MARKERS.get(load, "X")
+
+
+def ordered_loads(loads):
+    """Known loads in the order of the design, then the others by name."""
+    loads = set(loads)
+    return [load for load in LOADS if load in loads] + sorted(loads.difference(LOADS))
+
+
+def ordered_methods(methods):
+    """Known methods in the order of the design, then the others by name."""
+    methods = set(methods)
+    return [m for m in METHOD_COLOURS if m in methods] + sorted(methods.difference(METHOD_COLOURS))
+
+
+def ordered_references(references):
+    references = set(references)
+    return [r for r in REFERENCE_STYLES if r in references] + sorted(
+        references.difference(REFERENCE_STYLES)
+    )
+
+
+def phase_colours(stiffnesses):
+    """One colour per phase, from light (softest) to dark (stiffest)."""
+    ramp = colors.LinearSegmentedColormap.from_list("phases", ["#F6ECD6", PURPLE, "#43215F"])
+    order = sorted(range(len(stiffnesses)), key=lambda i: stiffnesses[i])
+    result = [None] * len(order)
+    for rank, i in enumerate(order):
+        result[i] = colors.to_hex(ramp(rank / max(1, len(order) - 1)))
+    return result
+
+
+def log_axes(axes):
+    """Logarithmic on both axes, strain or time in plain numbers where that is short."""
+    axes.set(xscale="log", yscale="log")
+    axes.xaxis.set_minor_formatter(ticker.NullFormatter())
+    # Ten decades of minor ticks are only grey and slow.
+    axes.yaxis.set_minor_locator(ticker.NullLocator())
+
+
+def three(value):
+    """A number with three significant digits, for print: 0.0123, 4.56e-7 as 4.56 × 10⁻⁷."""
+    if value is None or (isinstance(value, float) and math.isnan(value)):
+        return "–"
+    if isinstance(value, bool) or isinstance(value, str):
+        return str(value)
+    if value == 0:
+        return "0"
+    if math.isinf(value):
+        return "∞" if value > 0 else "−∞"
+    if isinstance(value, int) and abs(value) < 10**9:
+        return f"{value:,}".replace(",", "\u202f").replace("-", "−")
+    value = float(f"{value:.2e}")
+    exponent = math.floor(math.log10(abs(value)))
+    if -4 < exponent < 6:
+        return f"{value:.{max(0, 2 - exponent)}f}".replace("-", "−")
+    superscript = str(exponent).translate(str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹"))
+    return f"{value / 10 ** exponent:.2f} × 10{superscript}".replace("-", "−")
+
+
+def percent(strain):
+    """A strain as a percentage without trailing zeros: 0.1 gives 10 %."""
+    return f"{100 * strain:.6g} %"
+
+
+def seconds(value):
+    """A time in the unit that suits it."""
+    if value is None or math.isnan(value):
+        return "–"
+    for limit, factor, unit in ((1e-3, 1e6, "µs"), (1.0, 1e3, "ms"), (120.0, 1.0, "s")):
+        if value < limit:
+            return f"{three(float(value * factor))} {unit}"
+    return f"{three(float(value / 60.))} min"

@@ -1,0 +1,244 @@
+# SPDX-License-Identifier: MIT
+"""Several cells, or several versions of one, side by side: figures of merit in a table, claims
+matched word by word.
+"""
+import math
+import re
+from statistics import median
+
+from figures import style
+from figures.comparison import comparison_figure
+from figures.run_time import METHOD
+from figures.style import percent, seconds, three
+from page import tables
+from page.budget_contents import validity_text
+from read.verdicts import WORDS
+from read.versions import tags
+
+ENTRIES = (("C11", 0, 0), ("C22", 1, 1), ("C12", 0, 1), ("C33 (shear)", 2, 2))
+VALIDITY_LIMIT = 0.01  # of a cell side
+STEP_PARTS = (
+    ("coarse solve", "seconds_coarse_solve"),
+    ("up-sampling", "seconds_upsample"),
+    ("full resolution", "seconds_fine_step"),
+)
+
+
+def comparison_contents(results, gallery):
+    """What the page shows, or None with fewer than two cells."""
+    subjects = [s for s in results.subjects if s.name in results.cells]
+    if len(subjects) < 2:
+        return None
+    contents = {
+        "names": [s.name for s in subjects],
+        "groups": groups_of(results, subjects),
+        "picture": None,
+        "claims": claims_side_by_side(results, subjects),
+    }
+    rows = {s.name: results.reached(s.name) for s in subjects}
+    references = {name: tables.main_reference(some) for name, some in rows.items() if some}
+    if figure := comparison_figure(rows, references):
+        contents["picture"] = gallery.add(
+            figure,
+            "comparison-error-strain",
+            "Mean error per vertex against strain, in sides of each cell, one panel per load: "
+            "localized (full lines) and coarse mesh alone (dashed), against "
+            + ", ".join(sorted(set(references.values())))
+            + ".",
+        )
+    return contents
+
+
+def groups_of(results, subjects):
+    """[(heading, [(row name, [text per subject])])], rows in which no subject has a value left out.
+    """
+    groups = [
+        ("Effective stiffness [N/m]", stiffness_rows(results, subjects)),
+        (
+            "Largest strain whose mean error stays within 1 % of the cell side",
+            validity_rows(results, subjects),
+        ),
+    ]
+    for strain in tables.CHOSEN_STRAINS:
+        groups.append(
+            (
+                (
+                    f"Mean error at {percent(strain)} strain [1/1000 of the cell side], localized"
+                    " (coarse mesh alone)"
+                ),
+                error_rows(results, subjects, strain),
+            )
+        )
+    groups.append(("Median time per load step of the sheets", time_rows(results, subjects)))
+    kept = [
+        (heading, [row for row in rows if any(text != "–" for text in row[1])])
+        for heading, rows in groups
+    ]
+    return [(heading, rows) for heading, rows in kept if rows]
+
+
+def stiffness_rows(results, subjects):
+    cells = [results.cells[s.name] for s in subjects]
+    rows = []
+    for name, i, j in ENTRIES:
+        rows.append((name, [entry(cell.stiffness(), i, j) for cell in cells]))
+    brackets = [tables.stiffness_table(cell)["bracket"] for cell in cells]
+    rows.append(
+        (
+            "width of the guaranteed bracket of the meshed cell, relative",
+            [bracket or "–" for bracket in brackets],
+        )
+    )
+    densities = [(cell.homogenize or {}).get("areal_density") for cell in cells]
+    rows.append(
+        ("areal density [kg/m²]", [three(float(value)) if value else "–" for value in densities])
+    )
+    return rows
+
+
+def entry(matrix, i, j):
+    if matrix is None:
+        return "–"
+    return "0" if abs(matrix[i, j]) <= 1e-9 * abs(matrix).max() else three(float(matrix[i, j]))
+
+
+def loads_of(results, subjects):
+    return style.ordered_loads(row["load"] for s in subjects for row in results.reached(s.name))
+
+
+def validity_rows(results, subjects):
+    rows = []
+    for load in loads_of(results, subjects):
+        texts = []
+        for s in subjects:
+            some = [
+                row
+                for row in results.validity
+                if row["cell"] == s.name
+                and row["load"] == load
+                and float(row["limit"]) == VALIDITY_LIMIT
+                and row["measure"].startswith("cell")
+            ]
+            reference = tables.main_reference(some)
+            texts.append(
+                next((validity_text(row) for row in some if row["reference"] == reference), "–")
+            )
+        rows.append((load, texts))
+    return rows
+
+
+def error_rows(results, subjects, strain):
+    rows = []
+    for load in loads_of(results, subjects):
+        texts = []
+        for s in subjects:
+            some = results.reached(s.name)
+            reference = tables.main_reference(some)
+            here = {
+                row["method"]: row["error_mean_per_cell"]
+                for row in some
+                if row["load"] == load
+                and row["reference"] == reference
+                and math.isclose(row["strain"], strain, rel_tol=1e-6)
+            }
+            texts.append(
+                f"{thousandths(here[METHOD])} ({thousandths(here.get('affine'))})"
+                if METHOD in here
+                else "–"
+            )
+        rows.append((load, texts))
+    return rows
+
+
+def thousandths(value):
+    if value is None or math.isnan(value):
+        return "–"
+    return "0" if value < style.ROUND_OFF else three(1000.0 * value)
+
+
+def time_rows(results, subjects):
+    steps = {
+        s.name: [
+            row
+            for row in results.steps
+            if row["cell"] == s.name and not row["load"].startswith("periodic")
+        ]
+        for s in subjects
+    }
+    rows = []
+    for name, key in STEP_PARTS:
+        values = {s: [row[key] for row in some if row[key] > 0] for s, some in steps.items()}
+        rows.append(
+            (name, [seconds(median(values[s.name])) if values[s.name] else "–" for s in subjects])
+        )
+    ratios = []
+    for s in subjects:
+        some = [
+            row["seconds_fine_step"] / (row["seconds_coarse_solve"] + row["seconds_upsample"])
+            for row in steps[s.name]
+            if row["seconds_coarse_solve"] + row["seconds_upsample"] > 0
+            and row["seconds_fine_step"] > 0
+        ]
+        ratios.append(three(float(median(some))) if some else "–")
+    rows.append(("full resolution over the other two", ratios))
+    return rows
+
+
+def key_of(claim, cell):
+    """A claim without the name of its cell, by which those of two cells are matched; None where it
+    does not name it.
+    """
+    key, found = re.subn(rf"(?<![\w-]){re.escape(cell)}(?![\w-])", "CELL", claim)
+    return key if found else None
+
+
+def claims_side_by_side(results, subjects):
+    """{"names", "rows", "differ"} of the claims that name a cell, and of those of whole studies
+    where there are versions.
+    """
+    table, general = {}, {}
+    names = sorted({s.cell for s in subjects}, key=len, reverse=True)
+    for study, verdict in results.claims():
+        cell = next((name for name in names if key_of(verdict["claim"], name)), None)
+        if cell is None:
+            general.setdefault(verdict["claim"], {})[study.place] = verdict
+            continue
+        subject = next((s for s in subjects if s.cell == cell and s.place == study.place), None)
+        if subject:
+            table.setdefault(key_of(verdict["claim"], cell), {})[subject.name] = verdict
+    blocks = [block(table, [s.name for s in subjects], [s.name for s in subjects])]
+    places = list(dict.fromkeys(place for some in general.values() for place in some))
+    if len(places) > 1:
+        names = tags(places)
+        blocks.append(block(general, places, [names[place] for place in places]))
+    return [one for one in blocks if one["rows"]]
+
+
+def block(table, columns, names):
+    """Claims that at least two columns share; those whose verdicts differ first."""
+    rows = []
+    for claim, some in table.items():
+        if len(some) < 2:
+            continue
+        verdicts = {verdict["verdict"] for verdict in some.values()}
+        rows.append(
+            {
+                "claim": claim.replace("CELL", "…"),
+                "differs": len(verdicts) > 1,
+                "entries": [
+                    (
+                        {
+                            "verdict": some[c]["verdict"],
+                            "word": WORDS[some[c]["verdict"]],
+                            "value": tables.shown(some[c].get("value")),
+                        }
+                        if c in some
+                        else None
+                    )
+                    for c in columns
+                ],
+                "limit": tables.shown(next(iter(some.values())).get("limit", "")),
+            }
+        )
+    rows.sort(key=lambda row: not row["differs"])
+    return {"names": names, "rows": rows, "differ": sum(row["differs"] for row in rows)}

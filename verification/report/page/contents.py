@@ -1,0 +1,259 @@
+# SPDX-License-Identifier: MIT
+"""What stands in the report, in its order: draws the figures, fills the tables, words the
+sentences.
+"""
+
+from figures.animation import MOVING_BYTES
+from figures.cloth import workers
+from figures.style import seconds, three
+from page import tables
+from page.cell_contents import contents_of_cells
+from page.comparison import comparison_contents
+from page.converge_contents import convergence_contents
+from page.drape_contents import drape_contents
+from page.run_contents import (
+    run_rows,
+    run_sentences,
+    verdict_contents,
+    verdict_groups,
+    verdict_sentence,
+)
+from page.stress_contents import stress_contents
+
+HEADINGS = {
+    "verdicts": "Verdicts",
+    "comparison": "Comparison",
+    "short": "In short",
+    "strain": "Error and run time against strain",
+    "stiffness": "Effective stiffness",
+    "cells": "The unit cells",
+    "chi": "Characteristic displacements",
+    "sheets": "Reference, up-sampled sheet and error per vertex",
+    "budget": "Error budget",
+    "validity": "Range of validity",
+    "time": "Error against run time",
+    "errors": "Errors at chosen strains",
+    "uncertainty": "Uncertainty of the references",
+    "notes": "Notes of the run",
+    "left-out": "What was left out, and why",
+    "checks": "Checks of the homogenization",
+    "provenance": "Provenance",
+}
+# Headings of every page; the others are those of `homespun strain`.
+COMMON = ("verdicts", "notes", "left-out", "provenance")
+
+
+def page_contents(results, gallery, output):
+    """Everything the template shows.
+
+    @param gallery where figures are saved
+    @param output folder of the page, for links to frames
+    @throws BadResults where a stored sheet or frame cannot be read
+    """
+    stress = [
+        {**stress_contents(s, gallery), "id": f"stress-{i}"}
+        for i, s in enumerate(results.stress, 1)
+    ]
+    convergence = [
+        {**convergence_contents(c, gallery), "id": f"converge-{i}"}
+        for i, c in enumerate(results.convergence, 1)
+    ]
+    drapes = contents_of_drapes(results, gallery, output)
+    scenes = [d["scene"] for d in drapes]
+    for d, drape in zip(drapes, results.drapes):  # one scene may have been run into two folders
+        d["name"] = (
+            d["scene"] if scenes.count(d["scene"]) == 1 else f"{d['scene']} ({drape.folder})"
+        )
+    lists_all = any(study.lists_all for study in results.studies)
+    strain_shown = bool(results.cells) or not (drapes or stress or convergence or lists_all)
+    comparison = comparison_contents(results, gallery)
+    several = len(results.studies) > 1
+    notes = [
+        f"{study.name}: {note}" if several else str(note)
+        for study in results.studies
+        for note in study.info.get("notes") or []
+    ]
+    headings = headings_of(drapes, stress, convergence, strain_shown, comparison, notes)
+    cells = contents_of_cells(results, gallery)
+    reasons = {key: [] for key in ("verdicts", "short", "strain", "uncertainty")}
+    words = {"verdicts": "verdicts", "strain": "error against strain", "uncertainty": "error bar"}
+    for key, word in words.items():
+        reasons[key] = [item for item in results.missing if item["what"].startswith(word)]
+    reasons["strain"] += [item for item in results.missing if item["what"] == "time per load step"]
+    short = [s for s in (tables.in_short(results, name) for name in results.cells) if s]
+    if not short:
+        reasons["short"] = [
+            {
+                "what": "the summary of errors",
+                "why": "it needs rows of `affine` and `localized` in strain.csv",
+            }
+        ]
+    commands = list(dict.fromkeys(c for c in map(command_of, results.studies) if c))
+    of_one_verify = len({study.place for study in results.studies}) == 1
+    verdicts = [
+        verdict_contents(
+            v, commands, study.name if several and not (study.lists_all and of_one_verify) else ""
+        )
+        for study, v in results.claims()
+    ]
+    unreached = tables.unreached_notes(results.unreached())
+    return {
+        "title": "homespun: "
+        + ", ".join(
+            [d["scene"] for d in drapes]
+            + ["stress"] * bool(stress)
+            + ["convergence"] * bool(convergence)
+            + list(results.cells)
+        ),
+        "lead": lead(bool(drapes), bool(stress), bool(convergence), strain_shown),
+        "comparison": comparison,
+        "drapes": drapes,
+        "stress": stress,
+        "convergence": convergence,
+        "strain_shown": strain_shown,
+        "summary": summary(results),
+        "commands": commands,
+        "headings": HEADINGS,
+        "shown_headings": headings,
+        "contents": list(headings.items()),
+        "runs": run_sentences(results),
+        "run_rows": run_rows(results),
+        "verdict_groups": verdict_groups(verdicts),
+        "verdict_sentence": verdict_sentence(verdicts),
+        "in_short": short,
+        "cells": cells,
+        "notes": notes,
+        "steps": tables.step_rows(results.steps),
+        "fluctuation": tables.fluctuation_sentence(results.steps),
+        "uncertainty": tables.uncertainty_rows(results.uncertainty),
+        "all_left_out": (
+            [item for s in results.studies for item in s.info.get("left_out") or []]
+            + unreached
+            + results.missing
+        ),
+        "reasons": reasons,
+        "provenance": provenance(results),
+    }
+
+
+def contents_of_drapes(results, gallery, output):
+    """The scenes one after the other; frames are rendered by all cores."""
+    if not results.drapes:
+        return []
+    limit = min(
+        MOVING_BYTES, 2 * MOVING_BYTES // max(1, sum(len(drape.cells) for drape in results.drapes))
+    )
+    with workers() as pool:
+        return [
+            {
+                **drape_contents(drape, gallery, output, limit, pool, len(results.drapes)),
+                "id": f"scene-{i}",
+            }
+            for i, drape in enumerate(results.drapes, 1)
+        ]
+
+
+def headings_of(drapes, stress, convergence, strain_shown, comparison, notes):
+    """id -> heading of the sections that this page has, in their order."""
+    headings = {
+        key: HEADINGS[key] for key in ("verdicts", "comparison") if key == "verdicts" or comparison
+    }
+    if drapes:
+        headings["drape-short"] = "In short: cloth in motion" if strain_shown else "In short"
+    headings.update((d["id"], f"Drape: {d['name']}") for d in drapes)
+    headings.update(
+        (s["id"], "Stress cases" + (f": {s['name']}" if len(stress) > 1 else "")) for s in stress
+    )
+    headings.update(
+        (c["id"], "Convergence" + (f": {c['name']}" if len(convergence) > 1 else ""))
+        for c in convergence
+    )
+    hidden = {key for key, shown in (("comparison", comparison), ("notes", notes)) if not shown}
+    headings.update(
+        (key, text)
+        for key, text in HEADINGS.items()
+        if (strain_shown or key in COMMON) and key not in hidden
+    )
+    return headings
+
+
+def lead(drape, stress, convergence, strain):
+    """What the page is about."""
+    sentences = []
+    if strain:
+        sentences.append(
+            "How far an up-sampled cloth is from the resolved one: a coarse sheet with homogenized"
+            " stiffness, its fine mesh restored by characteristic displacements, held against"
+            " fine-scale finite elements, vertex by vertex."
+        )
+    if drape:
+        sentences.append(
+            "Cloth in motion: a coarse cloth with homogenized stiffness is run through time,"
+            " up-sampled, and held against a cloth that is resolved by fine-scale finite elements,"
+            " vertex by vertex."
+        )
+    if stress:
+        sentences.append(
+            "Numerical stability: stiff, degenerate and extreme cases, each of which must end in a"
+            " finite answer or in a refusal that names the fault."
+        )
+    if convergence:
+        sentences.append(
+            "Convergence: observed orders in mesh width, cells per sheet, coarse mesh, strain and"
+            " time step, held against the orders that theory says."
+        )
+    return " ".join(sentences)
+
+
+def summary(results):
+    """Size and cost of the studies, in one sentence each."""
+    sentences = []
+    for study in results.studies:
+        info, parts = study.info, []
+        rows = [r for r in results.strain if r["fine_triangles"] > 0]
+        if info.get("cells_per_side") is not None:
+            parts.append(f"{info['cells_per_side']} × {info['cells_per_side']} cells")
+        if rows and len(results.studies) == 1:
+            parts.append(
+                f"{int(max(r['coarse_triangles'] for r in rows)):,} coarse and "
+                f"{int(max(r['fine_triangles'] for r in rows)):,} fine triangles"
+            )
+        if info.get("ranks") is not None:
+            parts.append(f"{info['ranks']} rank{'s' if info['ranks'] != 1 else ''}")
+        if info.get("seconds_total") is not None:
+            what = "since it was taken up again" if info.get("resumed") else "in all"
+            parts.append(f"{seconds(float(info['seconds_total']))} {what}")
+        if info.get("peak_memory_bytes") is not None:
+            parts.append(
+                f"{three(info['peak_memory_bytes'] / 2. ** 30)} GiB of memory at most"
+                + (" since then" if info.get("resumed") else "")
+            )
+        if parts:
+            name = f"{study.name}: " if len(results.studies) > 1 else ""
+            sentences.append(name + ", ".join(parts) + ".")
+    return " ".join(sentences)
+
+
+def command_of(study):
+    """The command that made a folder; where none is stored, the one that all its verdicts name."""
+    named = {v.get("command") for v in study.verdicts}
+    return study.info.get("command") or (named.pop() if len(named) == 1 else None)
+
+
+def provenance(results):
+    """(name, [(key, value)]) of each study, and of cells homogenized on their own."""
+    blocks = [
+        (study.folder, study.info["provenance"])
+        for study in results.studies
+        if study.info.get("provenance")
+    ]
+    if not blocks:
+        blocks = [
+            (cell.name, cell.homogenize["provenance"])
+            for cell in results.cells.values()
+            if (cell.homogenize or {}).get("provenance")
+        ]
+    return [
+        (name, list(value.items()) if isinstance(value, dict) else [("provenance", value)])
+        for name, value in blocks
+    ]

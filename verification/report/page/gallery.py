@@ -1,0 +1,159 @@
+# SPDX-License-Identifier: MIT
+"""Saves figures as PDF and SVG with their numbers as CSV, animations as WebP, and inlines them into
+the page.
+"""
+import base64
+import io
+import json
+import os
+import re
+import urllib.parse
+from dataclasses import dataclass
+
+from matplotlib import pyplot
+from markupsafe import Markup
+from PIL import Image
+
+from figures import plot_data
+
+PAD = 0.04  # inches around a figure
+PAGE_DPI = 130  # of images on the page; the saved files are finer
+SHADED_DPI = 170  # of pictures of shaded cloth, which are small files
+FULL_IMAGES = 6  # that the page takes at this resolution; more of them become coarser
+
+
+@dataclass
+class Picture:
+    """A drawn figure as the template shows it."""
+
+    name: str  # file name without ending
+    source: str  # data URI
+    caption: str
+    width: int  # CSS pixels
+    endings: tuple = ("pdf", "svg")  # of its files, as far as there are any
+    plot: str = ""  # JSON of panels and curves, for the interactive plot
+    view: str = ""  # JSON of a cloth to turn and zoom
+
+
+def short_svg(svg):
+    """An SVG with coordinates of one decimal (1/720 inch) and without metadata, comments and unused
+    names.
+
+    Only paths, positions and shifts are rounded; scale factors keep their digits.
+    """
+    svg = re.sub(
+        r"<metadata>.*?</metadata>|<!--.*?-->|<\?xml.*?\?>|<!DOCTYPE.*?>", "", svg, flags=re.S
+    )
+    used = set(re.findall(r'(?:href="|url\()#([^")]*)', svg))
+    svg = re.sub(
+        r' id="([^"]*)"', lambda match: match.group(0) if match.group(1) in used else "", svg
+    )
+
+    def rounded(match):
+        return re.sub(r"(\d+\.\d)\d+", r"\1", match.group(0))
+
+    svg = re.sub(r'\b(?:d|x|y|points)="[^"]*"|translate\([^)]*\)', rounded, svg)
+    return (
+        re.sub(r"\s+", " ", svg).replace("> <", "><").replace("; ", ";").replace(": ", ":").strip()
+    )
+
+
+def svg_address(svg):
+    """An SVG as a data URI in percent encoding: a quarter shorter than base64."""
+    return "data:image/svg+xml," + urllib.parse.quote(
+        svg.replace('"', "'"), safe=" !$()*+,-./:;=?@[]_~'<>{}|^`"
+    )
+
+
+def small_webp(figure, box, dpi):
+    """A WebP for the page: a third to a tenth of the PNG, and the eye misses nothing."""
+    buffer = io.BytesIO()
+    figure.savefig(buffer, format="png", dpi=dpi, bbox_inches=box)
+    picture = Image.open(buffer).convert("RGB")
+    buffer = io.BytesIO()
+    picture.save(buffer, format="webp", quality=84, method=4)
+    return buffer.getvalue()
+
+
+def file_name(name):
+    """A name without characters that file systems and links dislike."""
+    return re.sub(r"[^A-Za-z0-9._-]+", "-", name).strip("-.")
+
+
+def in_page(value):
+    """JSON that may stand in a script element; empty for None."""
+    if value is None:
+        return ""
+    return json.dumps(value, ensure_ascii=False, allow_nan=False, separators=(",", ":")).replace(
+        "<", "\\u003c"
+    )
+
+
+class Gallery:
+    """Saves figures into a folder and keeps them as data URIs for the page."""
+
+    def __init__(self, folder, images=0):
+        """@param images how many images of dots will come: with many of them each is kept smaller
+        """
+        self.folder = folder
+        self.dpi = PAGE_DPI * min(1.0, (FULL_IMAGES / max(1, images)) ** 0.5)
+        os.makedirs(folder, exist_ok=True)
+        self.names = set()
+
+    def own_name(self, name):
+        """A file name that no other figure has."""
+        name = file_name(name)
+        while name in self.names:
+            name += "-2"
+        self.names.add(name)
+        return name
+
+    def add(self, figure, name, caption, as_image=False, table=None, view=None):
+        """Saves `name`.pdf, `name`.svg and, of figures with numbers, `name`.csv, and closes the
+        figure.
+
+        @param as_image whether the page shows an image of dots, "shaded" for a fine one of shaded
+            pictures; else the SVG
+        @param table (header, rows) of the CSV file; None: the numbers of the curves and bars
+        @param view what the page needs to show the same cloth in space, or None
+        @return Picture
+        """
+        name = self.own_name(name)
+        figure.draw_without_rendering()  # lays the figure out, once for all formats
+        figure.set_layout_engine("none")
+        box = figure.get_tightbbox().padded(PAD)
+        for kind, metadata in (
+            ("pdf", {"CreationDate": None, "Producer": None, "Creator": "homespun"}),
+            ("svg", {"Date": None, "Creator": "homespun"}),
+        ):
+            figure.savefig(
+                os.path.join(self.folder, f"{name}.{kind}"), metadata=metadata, bbox_inches=box
+            )
+        if as_image:
+            data = small_webp(figure, box, SHADED_DPI if as_image == "shaded" else self.dpi)
+            source = "data:image/webp;base64," + base64.b64encode(data).decode("ascii")
+        else:
+            with open(os.path.join(self.folder, name + ".svg"), encoding="utf-8") as file:
+                # Without quotes and ampersands.
+                source = Markup(svg_address(short_svg(file.read())))
+        panels = None if as_image else plot_data.panels_of(figure)
+        header, rows = table or (plot_data.HEADER, [] if as_image else plot_data.rows_of(figure))
+        endings = ("pdf", "svg") + (("csv",) if rows else ())
+        if rows:
+            with open(os.path.join(self.folder, name + ".csv"), "w", encoding="utf-8") as file:
+                file.write(plot_data.csv_text(rows, header))
+        pyplot.close(figure)
+        return Picture(
+            name, source, caption, round(105.0 * box.width), endings, in_page(panels), in_page(view)
+        )
+
+    def add_animation(self, data, name, width, caption):
+        """Saves `name`.webp, a looping picture of so many pixels' width.
+
+        @return Picture
+        """
+        name = self.own_name(name)
+        with open(os.path.join(self.folder, name + ".webp"), "wb") as file:
+            file.write(data)
+        source = "data:image/webp;base64," + base64.b64encode(data).decode("ascii")
+        return Picture(name, source, caption, width, ("webp",))

@@ -1,0 +1,353 @@
+# SPDX-License-Identifier: MIT
+"""The tables of the report and its sentences in words: results in, rows of text out."""
+import math
+from statistics import median
+
+import numpy
+
+from figures import style
+from figures.run_time import METHOD, speed_ratio
+from figures.strain import errors_are_round_off
+from figures.style import percent, seconds, three
+from read.cell_results import relative_width
+from read.results import cell_side
+
+CHOSEN_STRAINS = (0.01, 0.1)
+
+
+def main_reference(rows):
+    """The law that the coarse solver's own energy matches, or the first there is."""
+    references = style.ordered_references(row["reference"] for row in rows)
+    return "biot" if "biot" in references else (references[0] if references else None)
+
+
+def nearest_strains(rows):
+    """The strains of the rows that lie nearest to the chosen ones, each once."""
+    strains = sorted({row["strain"] for row in rows})
+    chosen = []
+    for wanted in CHOSEN_STRAINS if strains else ():
+        best = min(strains, key=lambda s: abs(math.log(s / wanted)))
+        if best not in chosen:
+            chosen.append(best)
+    return chosen
+
+
+def length(value):
+    """A length in the unit that suits it."""
+    if value is None or math.isnan(value):
+        return "–"
+    for limit, factor, unit in ((1e-6, 1e9, "nm"), (1e-3, 1e6, "µm"), (1.0, 1e3, "mm")):
+        if value < limit:
+            return f"{three(float(factor * value))} {unit}"
+    return f"{three(float(value))} m"
+
+
+def error_tables(rows, methods):
+    """Errors at the chosen strains.
+
+    @return list of {"strain", "methods", "rows": [{"load", "reference", "uncertainty", "errors"}]};
+            an error is {"text", "share", "resolved"}
+    """
+    tables = []
+    for strain in nearest_strains(rows):
+        lines = []
+        here = [row for row in rows if row["strain"] == strain]
+        for load in style.ordered_loads(row["load"] for row in here):
+            for reference in style.ordered_references(
+                r["reference"] for r in here if r["load"] == load
+            ):
+                some = {
+                    r["method"]: r
+                    for r in here
+                    if r["load"] == load and r["reference"] == reference
+                }
+                bar = next(iter(some.values()))["reference_uncertainty_m"]
+                lines.append(
+                    {
+                        "load": load,
+                        "reference": reference,
+                        "uncertainty": "not known" if math.isnan(bar) else length(bar),
+                        "errors": [error_entry(some.get(method), bar) for method in methods],
+                    }
+                )
+        tables.append({"strain": percent(strain), "methods": methods, "rows": lines})
+    return tables
+
+
+def error_entry(row, bar):
+    if row is None:
+        return {"text": "–", "share": "", "resolved": True}
+    if row["error_mean_per_cell"] < style.ROUND_OFF:
+        return {"text": "0", "share": "to round-off", "resolved": True}
+    share = row["error_mean_per_fluctuation"]
+    return {
+        "text": length(row["error_mean_m"]),
+        "share": "" if math.isnan(share) else f"{three(100. * share)} %",
+        "resolved": math.isnan(bar) or row["error_mean_m"] > bar,
+    }
+
+
+def matrix_rows(matrix):
+    """A 3 x 3 matrix as text; what is below 1e-9 of the largest entry is printed as zero."""
+    if matrix is None:
+        return None
+    scale = numpy.abs(matrix).max()
+    return [[three(float(v)) if abs(v) > 1e-9 * scale else "0" for v in row] for row in matrix]
+
+
+def stiffness_table(cell):
+    """C^H, its bracket, Voigt, Reuss and the engineering moduli of a cell."""
+    value = cell.homogenize or {}
+    engineering = value.get("engineering") or {}
+    units = {"E1": "N/m", "E2": "N/m", "G12": "N/m"}
+    lower, upper = cell.stiffness("C_lower"), cell.stiffness("C_upper")
+    bracket = None
+    if (
+        lower is not None
+        and upper is not None
+        and not math.isnan(width := relative_width(lower, upper))
+    ):
+        bracket = three(width)
+    facts = [(key, f"{shown(v)} {units.get(key, '')}".strip()) for key, v in engineering.items()]
+    for key, name, unit in (
+        ("areal_density", "areal density", "kg/m²"),
+        ("area", "area of the cell", "m²"),
+        ("dofs", "degrees of freedom", ""),
+        ("iterations", "iterations", ""),
+        ("seconds", "seconds", ""),
+    ):
+        if value.get(key) is not None:
+            facts.append((name, f"{shown(value[key])} {unit}".strip()))
+    return {
+        "matrices": [
+            (name, rows)
+            for name, rows in (
+                ("C^H", matrix_rows(cell.stiffness("C"))),
+                ("Voigt", matrix_rows(cell.stiffness("voigt"))),
+                ("Reuss", matrix_rows(cell.stiffness("reuss"))),
+            )
+            if rows
+        ],
+        "bracket": bracket,
+        "bracket_of": value.get("bracket_of", "mesh"),
+        "bracket_remark": (value.get("bracket") or {}).get("remark"),
+        "facts": facts,
+    }
+
+
+def shown(value):
+    """Any value of a JSON file, numbers with three digits."""
+    if isinstance(value, dict):
+        return ", ".join(f"{key} {shown(v)}" for key, v in value.items())
+    if isinstance(value, (list, tuple)):
+        return ", ".join(shown(v) for v in value)
+    return three(value) if isinstance(value, (int, float)) or value is None else str(value)
+
+
+def directions(angles):
+    """The angles of a group that differ from triangle to triangle, as text."""
+    known = [angle for angle in angles if isinstance(angle, (int, float))]
+    return (
+        f"{three(float(min(known)))} to {three(float(max(known)))}, {len(angles)} directions"
+        if known
+        else "–"
+    )
+
+
+def phase_rows(cell):
+    """Material parameters of each phase, as text."""
+    rows = []
+    for phase in cell.phases or []:
+
+        def number(key, factor=1.0):
+            try:
+                return three(float(phase[key]) * factor)
+            except (KeyError, TypeError, ValueError):
+                return "–"
+
+        rows.append(
+            [
+                str(phase.get("name", "?")),
+                number("E1", 1e-6),
+                number("E2", 1e-6),
+                number("nu12"),
+                number("G12", 1e-6),
+                directions(phase["angles"]) if "angles" in phase else number("angle"),
+                number("thickness", 1e3),
+                number("density"),
+            ]
+        )
+    return rows
+
+
+def uncertainty_rows(rows):
+    """uncertainty.csv as text."""
+    return [
+        [
+            row["cell"],
+            row["load"],
+            row["reference"],
+            percent(row["strain"]),
+            integer(row["cells"]),
+            length(row["p1_minus_p2_m"]),
+            length(row["p1_minus_refined_p2_m"]),
+            length(row["p2_minus_refined_p2_m"]),
+            three(row["uncertainty_per_strain_and_side"]),
+        ]
+        for row in rows
+    ]
+
+
+def step_rows(rows):
+    """steps.csv as text, medians over its strains, with the ratio of fine step to the coarse one.
+    """
+    groups = {}
+    for row in rows:
+        groups.setdefault((row["cell"], row["load"], row["reference"]), []).append(row)
+    result = []
+    for (cell, load, reference), some in groups.items():
+
+        def middle(key, some=some):
+            values = [row[key] for row in some if not math.isnan(row[key])]
+            return median(values) if values else math.nan
+
+        light = middle("seconds_coarse_solve") + middle("seconds_upsample")
+        ratio = middle("seconds_fine_step") / light if light > 0 else math.nan
+        result.append(
+            [
+                cell,
+                load,
+                reference,
+                three(len(some)),
+                seconds(middle("seconds_coarse_solve")),
+                seconds(middle("seconds_upsample")),
+                seconds(middle("seconds_fine_step")),
+                three(ratio),
+                integer(middle("coarse_iterations")),
+                integer(middle("fine_iterations")),
+                integer(middle("fine_dofs")),
+                integer(middle("ranks")),
+            ]
+        )
+    return result
+
+
+def fluctuation_sentence(rows):
+    """Which law the homogenized sheets have, what they cost, and how far their own mesh moves the
+    fluctuation.
+    """
+    known = [row for row in rows if row["fluctuation_m"] > 0.0]
+    if not known:
+        return ""
+    beside = {}
+    for row in known:
+        if row["homogenized_law"]:
+            beside.setdefault(row["homogenized_law"], set()).add(row["reference"])
+    laws = "; ".join(
+        f"{law} beside {' and '.join(style.ordered_references(references))}"
+        for law, references in sorted(beside.items())
+    )
+    times = [
+        row["seconds_homogenized_sheet"] for row in known if row["seconds_homogenized_sheet"] > 0.0
+    ]
+    moved = [
+        row["fluctuation_bar_m"] / row["fluctuation_m"]
+        for row in known
+        if not math.isnan(row["fluctuation_bar_m"])
+    ]
+    words = [f"law of that sheet: {laws}"] * bool(laws)
+    if times:
+        words.append(f"it takes {seconds(median(times))} a level (median)")
+    if moved:
+        words.append(
+            "from a sheet half as fine the fluctuation differs by at most"
+            f" {three(100. * max(moved))} %"
+        )
+    text = "; ".join(words)
+    return text[:1].upper() + text[1:] + "." if text else ""
+
+
+def integer(value):
+    return "–" if math.isnan(value) else three(int(value))
+
+
+def unreached_notes(rows):
+    """One sentence for each load and reference with strains that its solver could not reach."""
+    groups = {}
+    for row in rows:
+        groups.setdefault((row["cell"], row["load"], row["reference"]), set()).add(row["strain"])
+    return [
+        {
+            "what": f"{cell}, {load}, reference {reference} at "
+            + ", ".join(percent(s) for s in sorted(strains)),
+            "why": (
+                "no equilibrium of the reference or of the coarse cloth was found there, or at a"
+                " strain below"
+            ),
+        }
+        for (cell, load, reference), strains in groups.items()
+    ]
+
+
+def round_off_sentences(rows):
+    """Where the localized error vanishes, in words: such a curve has no slope to read."""
+    sentences = []
+    for load in style.ordered_loads(row["load"] for row in rows):
+        zero = [
+            reference
+            for reference in style.ordered_references(row["reference"] for row in rows)
+            if errors_are_round_off(
+                [
+                    r
+                    for r in rows
+                    if r["load"] == load and r["method"] == METHOD and r["reference"] == reference
+                ]
+            )
+        ]
+        if zero:
+            sentences.append(
+                f"{load}: the error of {METHOD} is zero to round-off (below "
+                f"{style.ROUND_OFF_TEXT}) against {', '.join(zero)}."
+            )
+    return sentences
+
+
+def in_short(results, name):
+    """The finding for one cell: errors with and without microscopic displacement at the first
+    chosen strain.
+    """
+    rows = results.reached(name)
+    reference = main_reference(rows)
+    strains = nearest_strains([row for row in rows if row["reference"] == reference])
+    if not strains:
+        return None
+    here = [row for row in rows if row["strain"] == strains[0] and row["reference"] == reference]
+    lines = []
+    for load in style.ordered_loads(row["load"] for row in here):
+        some = {row["method"]: row for row in here if row["load"] == load}
+        if METHOD in some and "affine" in some:
+            gain = math.nan
+            if some[METHOD]["error_mean_per_cell"] >= style.ROUND_OFF:
+                gain = some["affine"]["error_mean_m"] / some[METHOD]["error_mean_m"]
+            lines.append(
+                [
+                    load,
+                    error_entry(some["affine"], math.nan),
+                    error_entry(some[METHOD], math.nan),
+                    three(gain),
+                ]
+            )
+    ratio = speed_ratio(rows, reference)
+    side = cell_side(results, name)
+    return (
+        {
+            "name": name,
+            "strain": percent(strains[0]),
+            "reference": reference,
+            "lines": lines,
+            "side": length(side) if side else None,
+            "ratio": None if ratio is None else three(ratio),
+        }
+        if lines
+        else None
+    )

@@ -1,0 +1,2 @@
+# SPDX-License-Identifier: MIT
+"""Reading and judging stored results: whatever only reads."""

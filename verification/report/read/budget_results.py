@@ -1,0 +1,82 @@
+# SPDX-License-Identifier: MIT
+"""Reads budget.csv, runtime.csv and validity.csv of a strain study, and what follows from their
+rows alone.
+"""
+import math
+
+from read.stored import read_csv
+
+# In their order, and what each is called in a figure.
+PARTS = {
+    "scale": "1 scale separation, boundary layer",
+    "nonlinearity": "2 geometric nonlinearity",
+    "coarse-mesh": "3 coarse mesh",
+    "cell": "4 cell discretization",
+    "blending": "5 strain averaging, blending",
+    "time-step": "6 time step",
+    "solver": "7 solver tolerance",
+    "precision": "8 float against double",
+    "convention": "9 convention (anchor)",
+    "reference": "the reference's own discretization",
+    "resolution": "change of the resolved homogenized sheet from a mesh half as fine",
+}
+BESIDE_THE_SUM = ("precision", "resolution")
+REGIONS = ("interior", "boundary", "corner")
+
+
+def read_budget(path_of, results, faults):
+    """Adds the three tables to the results; one that was left out is noted as such."""
+    for name, rows, consequence in (
+        ("budget.csv", results.budget, "the error budget"),
+        ("runtime.csv", results.run_time, "error against run time of every way"),
+        ("validity.csv", results.validity, "the range of validity"),
+    ):
+        if path := path_of(name, consequence):
+            rows += read_csv(path, faults, results.missing)
+
+
+def levels(rows):
+    """(load, strain) -> region -> part -> row, of one cell, levels with a total alone.
+
+    Of several reference laws, as a study that was taken up again with others leaves them, biot
+    counts, else the first.
+    """
+    table = {}
+    laws = [row["reference"] for row in rows]
+    law = "biot" if "biot" in laws else laws[0] if laws else None
+    for row in (row for row in rows if row["reference"] == law):
+        table.setdefault((row["load"], row["strain"]), {}).setdefault(row["region"], {})[
+            row["part"]
+        ] = row
+    return {key: regions for key, regions in table.items() if "total" in regions.get("all", {})}
+
+
+def effectivity(parts):
+    """Mean of the sum over mean of the total, nan of a total that is zero."""
+    total = parts["total"]["mean_m"]
+    return parts["sum"]["mean_m"] / total if total > 0 and "sum" in parts else math.nan
+
+
+def worst_error(way, side):
+    """Error of a way with the error bar of the best solution added; P2 is that solution, its error
+    is the bar.
+    """
+    bar = way["reference_uncertainty_m"] / side
+    return way["error_mean_per_cell"] + (bar if way["way"] != "fine-p2" and bar > 0 else 0.0)
+
+
+def pareto_front(ways):
+    """The ways that no other beats in both time and error, by time. Ways without either do not
+    count.
+
+    @param ways rows with `seconds` and `error_mean_per_cell`
+    """
+    known = [
+        way for way in ways if way["seconds"] > 0 and not math.isnan(way["error_mean_per_cell"])
+    ]
+    front, best = [], math.inf
+    for way in sorted(known, key=lambda w: (w["seconds"], w["error_mean_per_cell"])):
+        if way["error_mean_per_cell"] < best:
+            front.append(way)
+            best = way["error_mean_per_cell"]
+    return front

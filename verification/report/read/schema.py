@@ -1,0 +1,132 @@
+# SPDX-License-Identifier: MIT
+"""The tables that the program writes, as its build says them in schema.json: columns in their
+order, what each may hold, and how many of the first ones name a row.
+
+    {FILE: {"keys": 5, "columns": [{"name": "strain", "domain": "positive"}, ...]}, ...}
+
+The program hands on where the file lies in HOMESPUN_SCHEMA; an installed report has it beside
+report.py.
+"""
+import functools
+import json
+import math
+import os
+from dataclasses import dataclass
+
+OUTCOMES = ("PASS", "FAIL", "INCONCLUSIVE")
+TEXTS = {"name", "text", "outcome"}
+
+# What a number of each domain must be: in words, whether the field may be empty, and a test.
+NUMBERS = {
+    "real": ("a number, or nothing", True, lambda value: True),
+    "not negative": ("a number, zero or above, or nothing", True, lambda value: value >= 0.0),
+    "positive": ("a number above zero", False, lambda value: value > 0.0),
+    "needed not negative": ("a number, zero or above", False, lambda value: value >= 0.0),
+}
+
+
+class NoSchema(Exception):
+    """schema.json is missing, or is none."""
+
+
+@dataclass(frozen=True)
+class Column:
+    name: str
+    domain: str
+
+    def read(self, field):
+        """@return (value, "") of a field, or (what stands for it, what was expected)"""
+        if self.domain in NUMBERS:
+            return number_of(field, *NUMBERS[self.domain])
+        if self.domain == "flag":
+            return field == "true", "" if field in ("true", "false") else "true or false"
+        if self.domain == "name" and not field:
+            return field, "a name"
+        if self.domain == "outcome" and field and field not in OUTCOMES:
+            return "", f"nothing or one of {', '.join(OUTCOMES)}"
+        return field, ""
+
+
+def number_of(field, words, may_be_empty, is_right):
+    """(number, ""), or (nan, what was expected)"""
+    if not field:
+        return math.nan, "" if may_be_empty else words
+    try:
+        value = float(field)
+    except ValueError:
+        value = math.nan
+    if not math.isfinite(value) or not is_right(value):
+        return math.nan, words
+    return value, ""
+
+
+@dataclass(frozen=True)
+class Table:
+    """One kind of file: its columns, of which the first `keys` name a row."""
+
+    columns: tuple
+    keys: int
+
+    @property
+    def names(self):
+        return [column.name for column in self.columns]
+
+    @property
+    def key_names(self):
+        return self.names[: self.keys]
+
+
+def place():
+    """Where schema.json is looked for."""
+    program = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
+    return os.environ.get("HOMESPUN_SCHEMA") or os.path.join(program, "schema.json")
+
+
+def tables():
+    """{FILE: Table}
+
+    @throws NoSchema
+    """
+    return read(place())
+
+
+def table(file):
+    """@throws NoSchema where the program writes no such file"""
+    known = tables()
+    if file not in known:
+        raise NoSchema(
+            f"{place()}: does not know {file}, as one of another version: build homespun, or set"
+            " HOMESPUN_SCHEMA"
+        )
+    return known[file]
+
+
+@functools.lru_cache(maxsize=None)
+def read(path):
+    try:
+        with open(path, encoding="utf-8") as file:
+            value = json.load(file)
+        return {
+            name: Table(
+                tuple(Column(column["name"], known(column["domain"])) for column in one["columns"]),
+                one["keys"],
+            )
+            for name, one in value.items()
+        }
+    except OSError as error:
+        raise NoSchema(
+            f"schema.json is missing ({path}: {error.strerror}): build homespun, or set"
+            " HOMESPUN_SCHEMA"
+        ) from error
+    except (ValueError, KeyError, TypeError, AttributeError) as error:
+        raise NoSchema(
+            f"{path}: is not the schema.json of this version ({error}): build homespun, or set"
+            " HOMESPUN_SCHEMA"
+        ) from error
+
+
+def known(domain):
+    """@throws ValueError where a column may hold what this report cannot read"""
+    if domain in NUMBERS or domain in TEXTS or domain == "flag":
+        return domain
+    raise ValueError(f"the domain `{domain}` is not known")
