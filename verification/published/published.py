@@ -118,8 +118,7 @@ def times(results):
 
 
 def budget(results):
-    """Effectivity |sum| / |measured|, and misfit in percent of the measured error, of each level.
-    """
+    """What the parts leave of the measured error of each level, and its bar, in percent."""
     if not results.run.holds("budget.csv"):
         return
     levels = {}
@@ -129,13 +128,13 @@ def budget(results):
                 "mean_m"
             ]
     for (cell, load, strain), parts in levels.items():
-        if parts.get("total", 0.0) > 0.0 and {"sum", "misfit"} <= parts.keys():
+        if parts.get("total", 0.0) > 0.0 and {"unexplained", "unexplained-bar"} <= parts.keys():
             yield {
                 "cell": cell,
                 "load": load,
                 "strain": strain,
-                "effectivity": parts["sum"] / parts["total"],
-                "misfit": 100.0 * parts["misfit"] / parts["total"],
+                "unexplained": 100.0 * parts["unexplained"] / parts["total"],
+                "unexplained_bar": 100.0 * parts["unexplained-bar"] / parts["total"],
             }
 
 

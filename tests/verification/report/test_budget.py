@@ -46,7 +46,8 @@ def write_budget(folder):
         "blending": -0.1,
         "sum": 1.0,
         "total": 1.0,
-        "misfit": 0.0,
+        "unexplained": 0.0,
+        "unexplained-bar": 0.05,
     }
     level = {"cell": "stripes", "load": "shear-frame", "reference": "biot"}
     write_table(
@@ -66,7 +67,7 @@ def write_budget(folder):
             }
             for strain in (0.01, 0.1)
             for region in ("all", "interior", "corner")
-            for part in (*budget_results.PARTS, "sum", "misfit", "total")
+            for part in (*budget_results.PARTS, "sum", "unexplained", "unexplained-bar", "total")
             for share in [shares.get(part, 0.0)]
         ],
     )
@@ -187,14 +188,12 @@ class Budget(unittest.TestCase):
         table = budget_results.levels([row("linear", 1.0), row("biot", 2.0), row("linear", 3.0)])
         self.assertEqual(table[("strip-1", 0.1)]["all"]["total"]["mean_m"], 2.0)
 
-    def test_effectivity_is_the_sum_over_the_total(self):
-        parts = {"sum": {"mean_m": 3.0}, "total": {"mean_m": 2.0}}
-        self.assertEqual(budget_results.effectivity(parts), 1.5)
-        self.assertTrue(
-            math.isnan(
-                budget_results.effectivity({"sum": {"mean_m": 3.0}, "total": {"mean_m": 0.0}})
-            )
-        )
+    def test_what_the_parts_leave_is_told_in_parts_of_the_error(self):
+        parts = {"unexplained": {"mean_m": 3.0}, "total": {"mean_m": 2.0}}
+        self.assertEqual(budget_results.unexplained(parts), 1.5)
+        self.assertTrue(math.isnan(budget_results.unexplained(parts, "unexplained-bar")))
+        parts["total"]["mean_m"] = 0.0
+        self.assertTrue(math.isnan(budget_results.unexplained(parts)))
 
     def test_validity_tells_a_crossing_from_an_open_end(self):
         def text(relation, strain=math.nan, low=math.nan, high=math.nan):

@@ -10,7 +10,7 @@ from matplotlib.patches import Patch
 
 from figures import style
 from figures.plot_data import BAND_ALPHA, BAND_COLOUR, band, name_unseen
-from read.budget_results import BESIDE_THE_SUM, PARTS, effectivity, levels, pareto_front
+from read.budget_results import BESIDE_THE_SUM, PARTS, levels, pareto_front, unexplained
 
 PART_COLOURS = dict(
     zip(
@@ -36,8 +36,7 @@ def budget_figure(rows, strains, side):
     """Shares of the parts in the measured error, stacked up and, where they compensate, down; one
     panel per strain.
 
-    The total is the line at 1, the diamond the sum of the parts: its height is the effectivity of
-    the shares.
+    The total is the line at 1, the diamond the sum of the parts; the number is what they leave.
     @return figure, or None without a level whose error is above round-off
     """
     table = {
@@ -85,7 +84,7 @@ def budget_figure(rows, strains, side):
             marker="D",
             color="white",
             markeredgecolor="#222222",
-            label="sum of the parts (with effectivity)",
+            label="sum of the parts (with what it leaves unexplained)",
         ),
     ]
     figure.legend(handles=handles, loc="center left", bbox_to_anchor=(1.0, 0.5))
@@ -121,7 +120,7 @@ def draw_stack(axes, x, parts, drawn):
     axes.bar(x, share, 0.0, lw=0, label="sum of the parts")  # its number, for the CSV file
     axes.plot(x, share, "D", color="white", markeredgecolor="#222222", ms=5, zorder=5)
     axes.annotate(
-        f"{effectivity(parts):.2f}",
+        f"{100 * unexplained(parts):.2g} %",
         (x, max(up, share, 1.0)),
         xytext=(0, 4),
         textcoords="offset points",

@@ -9,7 +9,6 @@ from read.budget_results import (
     BESIDE_THE_SUM,
     PARTS,
     REGIONS,
-    effectivity,
     levels,
     pareto_front,
     worst_error,
@@ -43,8 +42,8 @@ def budget_contents(results, name, side, strains, gallery):
                 f"{name}: where the error comes from. Each part is a difference of two solutions;"
                 " its share is its projection on the measured error, vertex by vertex, so that"
                 " shares add up and a part that compensates others counts downwards. Diamond: sum"
-                " of the parts; the number is the effectivity, mean length of the summed field"
-                " over that of the measured error. Shares below 0.5 % are not drawn."
+                " of the parts; the number is what they leave unexplained, mean length of the"
+                " difference over that of the measured error. Shares below 0.5 % are not drawn."
             ),
         )
     if ways:
@@ -66,7 +65,7 @@ def budget_contents(results, name, side, strains, gallery):
 
 
 def budget_rows(rows, strains):
-    """Load, strain, total, then each part in percent of the total, misfit and effectivity, as text.
+    """Load, strain, total, then in percent of it each part, what they leave, its bar, as text.
     """
     lines = []
     for (load, strain), regions in ordered(levels(rows)):
@@ -80,7 +79,10 @@ def budget_rows(rows, strains):
         lines.append(
             [load, percent(strain), three(parts["total"]["mean_per_cell"])]
             + [share_of(parts[part]["mean_m"], total) if part in parts else "–" for part in PARTS]
-            + [share_of(parts["misfit"]["mean_m"], total), three(effectivity(parts))]
+            + [
+                share_of(parts[part]["mean_m"], total) if part in parts else "–"
+                for part in ("unexplained", "unexplained-bar")
+            ]
         )
     return lines
 
@@ -125,7 +127,11 @@ def region_rows(rows, strains):
                         if total > 0
                         else "–"
                     ),
-                    three(effectivity(parts)),
+                    (
+                        share_of(parts["unexplained"]["mean_m"], total)
+                        if total > 0 and "unexplained" in parts
+                        else "–"
+                    ),
                     (
                         ", ".join(
                             f"{PARTS[p]} ({share_of(parts[p]['mean_m'], total)} %)" for p in largest

@@ -20,7 +20,7 @@ PARTS = {
     "reference": "the reference's own discretization",
     "resolution": "change of the resolved homogenized sheet from a mesh half as fine",
 }
-BESIDE_THE_SUM = ("precision", "resolution")
+BESIDE_THE_SUM = ("cell", "reference", "precision", "resolution")
 REGIONS = ("interior", "boundary", "corner")
 
 
@@ -51,10 +51,12 @@ def levels(rows):
     return {key: regions for key, regions in table.items() if "total" in regions.get("all", {})}
 
 
-def effectivity(parts):
-    """Mean of the sum over mean of the total, nan of a total that is zero."""
+def unexplained(parts, of="unexplained"):
+    """Mean of what the parts leave of the error over its mean, or with `unexplained-bar` how large
+    that may be; nan where it is not known or the error is zero.
+    """
     total = parts["total"]["mean_m"]
-    return parts["sum"]["mean_m"] / total if total > 0 and "sum" in parts else math.nan
+    return parts[of]["mean_m"] / total if total > 0 and of in parts else math.nan
 
 
 def worst_error(way, side):
