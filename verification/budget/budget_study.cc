@@ -156,7 +156,9 @@ void BudgetStudy::hold_against_second_code(const double strain, const meshes::Po
 
 std::string BudgetStudy::measure_on_root(const Law law, const double strain,
                                          const meshes::Points &positions,
-                                         const meshes::Points &tight, const UpsampledLevel &solved)
+                                         const meshes::Points &tight,
+                                         const meshes::Points *p2_positions,
+                                         const UpsampledLevel &solved)
 {
   try
   {
