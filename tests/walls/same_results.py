@@ -38,7 +38,8 @@ def run(program, part, folder):
         return
     folder.parent.mkdir(parents=True, exist_ok=True)
     report = [] if part.startswith("homogenize") else ["--no-report"]
-    subprocess.run([program, *PARTS[part], *report, "--quiet", "--overwrite", "--output", str(folder)],
+    subprocess.run([program, *PARTS[part], *report, "--quiet", "--overwrite", "--output",
+                    str(folder)],
                    stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, check=False)
 
 

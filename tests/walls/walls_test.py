@@ -16,6 +16,10 @@ class House(unittest.TestCase):
 
 
 class Planted(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.others = walls.House(ROOT).others
+
     def setUp(self):
         self.root = pathlib.Path(tempfile.mkdtemp(prefix="homespun-walls-"))
         self.addCleanup(shutil.rmtree, self.root)
@@ -24,6 +28,9 @@ class Planted(unittest.TestCase):
                             ignore=lambda folder, names: [
                                 name for name in names if "." in name and
                                 not name.endswith((".h", ".cc", "README.md"))])
+        for path, text in self.others.items():
+            (self.root / path).parent.mkdir(parents=True, exist_ok=True)
+            (self.root / path).write_text(text, encoding="utf-8")
 
     def expect(self, rule, says):
         found = walls.violations(self.root, [rule])
@@ -104,8 +111,19 @@ class Planted(unittest.TestCase):
         self.expect(walls.sizes, "shell/solver/cloth.cc: ")
 
     def test_long_line(self):
-        self.append("shell/solver/cloth.cc", "//" + "x" * walls.MOST_COLUMNS + "\n")
-        self.expect(walls.texts, "columns; at most 100")
+        long = "#" + "±" * walls.MOST_COLUMNS  # in characters, not in bytes
+        paths = ["shell/solver/cloth.cc", "bootstrap", "CMakeLists.txt",
+                 "tests/fuzz/CMakeLists.txt", "homogenization/dealii.cmake",
+                 "meshes/homespun-config.cmake.in", "tests/walls/walls.py",
+                 "tests/verification/program/cli.py"]
+        for path in paths:
+            self.append(path, long[1:] + "\n")
+        self.assertEqual(walls.violations(self.root, [walls.texts]), [])
+        for path in paths:
+            self.append(path, long + "\n")
+        found = walls.violations(self.root, [walls.texts])
+        self.assertEqual(sorted(text.split(":")[0] for text in found), sorted(paths))
+        self.expect(walls.texts, "101 columns; at most 100")
 
     def test_document_that_a_reader_has_not(self):
         self.append("shell/solver/cloth.cc", "// see " + "METHOD" + " 3\n")

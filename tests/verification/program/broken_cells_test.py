@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""Twenty cells, each broken in its own way: `homespun check` says what is wrong, where, and what to do."""
+"""Twenty cells, each broken in its own way: `homespun check` says what is wrong, where, what to do.
+"""
 import json
 import math
 import unittest
@@ -13,7 +14,7 @@ KEYS = {"Mesh": "cell.msh", "Length unit": "0.01", "Young's modulus": "soft: 1e6
 
 
 class Cell:
-    """A unit square of N x N x 2 triangles, the upper half hard, to be broken; and its ten lines."""
+    """A unit square of N x N x 2 triangles, the upper half hard, to be broken; its ten lines."""
 
     def __init__(self):
         self.keys = dict(KEYS)
@@ -32,13 +33,15 @@ class Cell:
     def keep(self, stays):
         """Leaves out the squares (i, j) that do not stay."""
         kept = [t for t in range(len(self.triangles)) if stays(*self.square_of(t))]
-        self.triangles, self.groups = [self.triangles[t] for t in kept], [self.groups[t] for t in kept]
+        self.triangles = [self.triangles[t] for t in kept]
+        self.groups = [self.groups[t] for t in kept]
 
     def write(self, folder):
         path = folder / "cell.prm"
-        path.write_text("".join(f"set {key} = {value}\n" for key, value in self.keys.items()), encoding="utf-8")
-        lines = ["$MeshFormat", "2.2 0 8", "$EndMeshFormat", "$PhysicalNames", "2", '2 1 "soft"', '2 2 "hard"',
-                 "$EndPhysicalNames", "$Nodes", str(len(self.points))]
+        path.write_text("".join(f"set {key} = {value}\n" for key, value in self.keys.items()),
+                        encoding="utf-8")
+        lines = ["$MeshFormat", "2.2 0 8", "$EndMeshFormat", "$PhysicalNames", "2", '2 1 "soft"',
+                 '2 2 "hard"', "$EndPhysicalNames", "$Nodes", str(len(self.points))]
         lines += [f"{k} {x!r} {y!r} {z!r}" for k, (x, y, z) in enumerate(self.points, 1)]
         lines += ["$EndNodes", "$Elements", str(len(self.triangles))]
         lines += [f"{t} 2 2 {g} {g} {a + 1} {b + 1} {c + 1}"
@@ -85,7 +88,8 @@ def unglued_parts(cell):
     first = len(cell.points)
     copy = {vertex(i, N // 2): first + i for i in range(N + 1)}
     cell.points += [list(cell.points[v]) for v in copy]
-    cell.triangles = [[copy.get(v, v) for v in t] if g == 2 else t for t, g in zip(cell.triangles, cell.groups)]
+    cell.triangles = [[copy.get(v, v) for v in t] if g == 2 else t
+                      for t, g in zip(cell.triangles, cell.groups)]
 
 
 def slit(cell):
@@ -93,7 +97,8 @@ def slit(cell):
     first = len(cell.points)
     copy = {vertex(i, N // 2): first + k for k, i in enumerate((3, 4, 5))}
     cell.points += [list(cell.points[v]) for v in copy]
-    cell.triangles = [[copy.get(v, v) for v in t] if g == 2 else t for t, g in zip(cell.triangles, cell.groups)]
+    cell.triangles = [[copy.get(v, v) for v in t] if g == 2 else t
+                      for t, g in zip(cell.triangles, cell.groups)]
 
 
 def sliver(cell):
@@ -171,20 +176,25 @@ ERROR, WARNING = "error", "warning"
 # how it is broken: severity, words of the message, whether its place is known
 TABLE = {
     floating_island: (ERROR, "a part of 2 triangles", "floats: nothing holds it", True),
-    hanging_square: (ERROR, "a part of 2 triangles", "hangs on a single vertex and turns freely", True),
+    hanging_square: (ERROR, "a part of 2 triangles", "hangs on a single vertex and turns freely",
+                     True),
     not_across_a_period: (ERROR, "the mesh falls into 2 pieces", "mesh what connects them", True),
     unglued_parts: (ERROR, "9 pairs of vertices coincide", "BooleanFragments", True),
     slit: (ERROR, "count as one", "move them apart", True),
     sliver: (WARNING, "slivers: triangle", "remesh", True),
     millimetres: (WARNING, "the cell is 10 m wide", "0.001 (millimetres)", False),
     thick: (WARNING, "phase `soft` is 0.5 m thick", "0.5 mm is 5e-4", True),
-    megapascals: (WARNING, "phase `soft` has modulus times thickness 0.0005", "In Pa it would be 1e+06", True),
-    high_contrast: (WARNING, "the contrast between phases `hard` and `soft`", "make what is nearly void a hole", True),
+    megapascals: (WARNING, "phase `soft` has modulus times thickness 0.0005",
+                  "In Pa it would be 1e+06", True),
+    high_contrast: (WARNING, "the contrast between phases `hard` and `soft`",
+                    "make what is nearly void a hole", True),
     hopeless_contrast: (ERROR, "the contrast between phases", "no digit is left", True),
-    sides_apart: (ERROR, "has no periodic image; the nearest candidate is vertex", "Periodic Curve", True),
+    sides_apart: (ERROR, "has no periodic image; the nearest candidate is vertex", "Periodic Curve",
+                  True),
     sides_nearly_apart: (WARNING, "opposite sides match only just", "16 digits", True),
     unused_phase: (ERROR, "names the group `cord`", "which no triangle of the mesh has", False),
-    missing_phase: (ERROR, "group `hard` of the mesh has no value in key `Density`", "hard: value", False),
+    missing_phase: (ERROR, "group `hard` of the mesh has no value in key `Density`", "hard: value",
+                    False),
     thin_stripe: (WARNING, "phase `hard` has a single element across", "mesh finer there", True),
     folded: (ERROR, "on the same side", "untangle it", True),
     not_flat: (ERROR, "the mesh is not flat: z reaches from 0 to 0.3", "project it", False),
@@ -233,19 +243,22 @@ class BrokenCells(InFolder):
         cell = Cell()
         corner = [[math.cos(k * math.pi / 3), math.sin(k * math.pi / 3), 0.] for k in range(6)]
         middle = [[0.5 * (a + b) for a, b in zip(corner[k], corner[(k + 1) % 6])] for k in range(6)]
-        cell.points = [[0., 0., 0.], *corner, *middle, *[[0.5 * x, 0.5 * y, 0.] for x, y, _ in corner]]
+        cell.points = [[0., 0., 0.], *corner, *middle,
+                       *[[0.5 * x, 0.5 * y, 0.] for x, y, _ in corner]]
         cell.triangles, cell.groups = [], []
         for k in range(6):
-            here, after, side, inner, inner_after = 1 + k, 1 + (k + 1) % 6, 7 + k, 13 + k, 13 + (k + 1) % 6
-            cell.triangles += [[0, inner, inner_after], [inner, here, side], [inner, side, inner_after],
-                               [inner_after, side, after]]
+            here, side, inner = 1 + k, 7 + k, 13 + k
+            after, inner_after = 1 + (k + 1) % 6, 13 + (k + 1) % 6
+            cell.triangles += [[0, inner, inner_after], [inner, here, side],
+                               [inner, side, inner_after], [inner_after, side, after]]
             cell.groups += [2, 1, 1, 1]
         path = cell.write(self.folder)
         result = run("check", path)
         self.assertEqual(result.returncode, 0, result.stderr)
         # |Y| of a hexagon of side 1 cm is 3/2 sqrt(3) cm^2.
         self.assertIn("|Y| = 0.000259808 m^2", result.stdout)
-        path.write_text(path.read_text() + "set Lattice vectors = 1.5 0.8660254037844386; 0 1.7320508075688772\n")
+        path.write_text(path.read_text() +
+                        "set Lattice vectors = 1.5 0.8660254037844386; 0 1.7320508075688772\n")
         self.assertEqual(run("check", path).returncode, 0)
 
     def test_a_place_is_in_the_unit_of_the_mesh_and_in_the_picture(self):
@@ -253,7 +266,8 @@ class BrokenCells(InFolder):
         sides_apart(cell)
         _, findings = self.findings(cell)
         places = [f["point"] for f in findings if f["point"]]
-        self.assertTrue(any(abs(x - 1) < 1e-9 and abs(y - (3 / N + 0.01)) < 1e-9 for x, y in places), places)
+        self.assertTrue(any(abs(x - 1) < 1e-9 and abs(y - (3 / N + 0.01)) < 1e-9
+                            for x, y in places), places)
         self.assertIn(b"PNG", (self.folder / "out" / "cell.png").read_bytes()[:8])
 
     def test_what_cannot_be_solved_is_refused_by_the_commands_that_solve(self):

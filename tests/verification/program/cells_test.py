@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""The library of cells: the list, what `cells make` refuses, and what it makes where Gmsh is installed."""
+"""The library of cells: the list, what `cells make` refuses, what it makes where Gmsh is installed.
+"""
 import os
 import re
 import shutil
@@ -18,7 +19,8 @@ def n_triangles(cell):
 def shape_of(cell):
     """Words and numbers of what `homespun check` says of size, lattice and phases."""
     first, *more = run("check", cell).stdout.splitlines()
-    said = " ".join([first[first.index("cell of"):], *(line for line in more if re.match("  (?!warning)", line))])
+    said = " ".join([first[first.index("cell of"):],
+                     *(line for line in more if re.match("  (?!warning)", line))])
     parts = said.replace("(", " ").replace(")", " ").replace(",", " ").split()
     is_number = [re.fullmatch(r"-?[\d.]+(e[-+]\d+)?", part) is not None for part in parts]
     return ([part for part, number in zip(parts, is_number) if not number],
@@ -59,14 +61,19 @@ class Refusals(InFolder):
         self.refused("../cells/twill", says=["expected a shipped cell"])
 
     def test_all_faults_of_the_settings_come_at_once(self):
-        self.refused("random-dots", "--set", "colour=3", "--set", "radius=9", "--set", "seed=1.5", "--set", "h=fine",
-                     "--set", "dots", "--set", "radius=0.1", "--set", "h=nan", "--name", "a/b",
-                     says=["found `colour=3`; expected a parameter of `random-dots`: seed (1; 1 to 1000000), dots",
+        self.refused("random-dots", "--set", "colour=3", "--set", "radius=9", "--set", "seed=1.5",
+                     "--set", "h=fine", "--set", "dots", "--set", "radius=0.1", "--set", "h=nan",
+                     "--name", "a/b",
+                     says=["found `colour=3`; expected a parameter of `random-dots`: seed (1; 1 to "
+                           "1000000), dots",
                            "found `radius=9`; expected a number from 0.03 to 0.15",
                            "found `seed=1.5`; expected a whole number from 1 to 1000000",
-                           "found `h=fine`; expected a number", "found `dots`; expected `key=value`",
-                           "found `radius=0.1`; expected each parameter once", "--name: found `a/b`"])
-        self.refused("twill", "--set", "yarn_width=nan", says=["found `yarn_width=nan`; expected a number from 0.3"])
+                           "found `h=fine`; expected a number",
+                           "found `dots`; expected `key=value`",
+                           "found `radius=0.1`; expected each parameter once",
+                           "--name: found `a/b`"])
+        self.refused("twill", "--set", "yarn_width=nan",
+                     says=["found `yarn_width=nan`; expected a number from 0.3"])
 
     def test_files_that_exist_are_left_alone(self):
         (self.folder / "twill.prm").write_text("mine", encoding="utf-8")
@@ -80,18 +87,22 @@ class Refusals(InFolder):
         tools.mkdir()
         self.addCleanup(shutil.rmtree, tools)
         (tools / "ssh").symlink_to("/bin/true")  # Open MPI does not begin without
-        self.refused("twill", says=["install the package gmsh"], env={**os.environ, "PATH": str(tools)})
+        self.refused("twill", says=["install the package gmsh"],
+                     env={**os.environ, "PATH": str(tools)})
 
 
 @unittest.skipUnless(shutil.which("gmsh"), "Gmsh is not installed")
 class Making(InFolder):
     def test_a_variant_is_sound_and_its_source_makes_it_again(self):
-        result = run("cells", "make", "twill", "--set", "yarn_width=0.4", "--name", "open", "--output", self.folder)
+        result = run("cells", "make", "twill", "--set", "yarn_width=0.4", "--name", "open",
+                     "--output", self.folder)
         self.assertEqual(result.returncode, 0, result.stderr)
         self.assertRegex(result.stdout, r"open\.prm: sound")
         self.assertIn("holes: 36 % of the area", result.stdout)  # (1 - 0.4)^2
-        self.assertEqual({path.name for path in self.folder.iterdir()}, {"open.geo", "open.msh", "open.prm"})
-        self.assertIn("yarn_width = { 0.4, Min", (self.folder / "open.geo").read_text(encoding="utf-8"))
+        self.assertEqual({path.name for path in self.folder.iterdir()},
+                         {"open.geo", "open.msh", "open.prm"})
+        self.assertIn("yarn_width = { 0.4, Min",
+                      (self.folder / "open.geo").read_text(encoding="utf-8"))
         self.assertIn("twill, made by homespun: yarn_width = 0.4.",
                       (self.folder / "open.prm").read_text(encoding="utf-8"))
 
@@ -101,7 +112,8 @@ class Making(InFolder):
             self.assertEqual(result.returncode, 0, result.stderr)
             made, shipped = self.folder / f"{name}.prm", CELLS / f"{name}.prm"
             n_made, n_shipped = n_triangles(made), n_triangles(shipped)
-            self.assertLess(abs(n_made - n_shipped), 0.05 * n_shipped, name)  # versions of Gmsh differ a little
+            # Versions of Gmsh differ a little.
+            self.assertLess(abs(n_made - n_shipped), 0.05 * n_shipped, name)
             words, numbers = shape_of(made)
             self.assertEqual(words, shape_of(shipped)[0], name)
             for one, two in zip(numbers, shape_of(shipped)[1]):
@@ -109,15 +121,18 @@ class Making(InFolder):
 
     def test_the_seed_decides(self):
         for name, seed in (("one", 3), ("again", 3), ("other", 4)):
-            run("cells", "make", "random-dots", "--set", f"seed={seed}", "--name", name, "--output", self.folder)
+            run("cells", "make", "random-dots", "--set", f"seed={seed}", "--name", name, "--output",
+                self.folder)
         # Nodes and elements: Gmsh lists the periodic curves after them, in any order.
-        one, again, other = ((self.folder / f"{name}.msh").read_text(encoding="utf-8").split("$Periodic")[0]
-                             for name in ("one", "again", "other"))
+        meshes = [(self.folder / f"{name}.msh").read_text(encoding="utf-8")
+                  for name in ("one", "again", "other")]
+        one, again, other = (text.split("$Periodic")[0] for text in meshes)
         self.assertEqual(one, again)
         self.assertNotEqual(one, other)
 
     def test_values_that_do_not_fit_together_leave_nothing_behind(self):
-        result = run("cells", "make", "random-dots", "--set", "dots=60", "--set", "radius=0.15", "--output", self.folder)
+        result = run("cells", "make", "random-dots", "--set", "dots=60", "--set", "radius=0.15",
+                     "--output", self.folder)
         self.assertEqual(result.returncode, 2)
         self.assertIn("of 60 dots found a place", result.stderr)
         self.assertEqual(list(self.folder.iterdir()), [])

@@ -20,7 +20,8 @@ def run(*arguments, ranks=1, **options):
     command = [PROGRAM, *map(str, arguments)]
     if ranks > 1:
         command = [MPIEXEC, "--oversubscribe", "-n", str(ranks), *command]
-    return subprocess.run(command, capture_output=True, text=True, timeout=240 * PATIENCE, check=False, **options)
+    return subprocess.run(command, capture_output=True, text=True, timeout=240 * PATIENCE,
+                          check=False, **options)
 
 
 def rows_of(path):
@@ -72,4 +73,5 @@ class InFolder(unittest.TestCase):
                 except ValueError:
                     self.assertEqual(one[key], value, two)
                 else:
-                    self.assertAlmostEqual(float(one[key]), number, delta=2e-5 * abs(number) + 1e-13, msg=f"{key} of {two}")
+                    self.assertAlmostEqual(float(one[key]), number,
+                                           delta=2e-5 * abs(number) + 1e-13, msg=f"{key} of {two}")

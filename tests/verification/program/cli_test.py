@@ -9,20 +9,21 @@ from cli import CELLS, InFolder, rows_of, run, status_of
 class Help(unittest.TestCase):
     def test_help_names_the_commands_and_the_exit_status(self):
         text = run("--help").stdout
-        for word in ("check", "homogenize", "strain", "converge", "drape", "stress", "verify", "report",
-                     "cells", "Exit status"):
+        for word in ("check", "homogenize", "strain", "converge", "drape", "stress", "verify",
+                     "report", "cells", "Exit status"):
             self.assertIn(word, text)
 
     def test_every_command_has_help(self):
-        for command in ("check", "homogenize", "strain", "converge", "drape", "stress", "verify", "report",
-                        "cells"):
+        for command in ("check", "homogenize", "strain", "converge", "drape", "stress", "verify",
+                        "report", "cells"):
             result = run(command, "--help")
             self.assertEqual(result.returncode, 0)
             self.assertIn(command, result.stdout)
 
     def test_version_names_every_library(self):
         text = run("--version").stdout
-        for word in ("homespun", "dealii", "trilinos", "hdf5", "eigen", "CLI11", "nlohmann-json", "flags"):
+        for word in ("homespun", "dealii", "trilinos", "hdf5", "eigen", "CLI11", "nlohmann-json",
+                     "flags"):
             self.assertIn(word, text)
 
     def test_an_unknown_command_or_option_is_bad_input(self):
@@ -46,12 +47,13 @@ class Verify(InFolder):
         self.assertFalse((self.folder / "out").exists())
 
     def test_one_part_of_one_cell_ends_with_its_outcome_and_one_file_of_claims(self):
-        result = run("verify", CELLS / "layered.prm", "--parts", "homogenize", "--quiet", "--no-report",
-                     "--output", self.folder)
+        result = run("verify", CELLS / "layered.prm", "--parts", "homogenize", "--quiet",
+                     "--no-report", "--output", self.folder)
         self.assertEqual(result.returncode, 0, result.stderr)
         self.assertRegex(result.stdout, r"^PASS: (\d+) of \1 claims hold\n$")
         claims = json.loads((self.folder / "verdicts.json").read_text())["verdicts"]
-        self.assertTrue(all(claim["claim"].startswith("homogenize cells/layered: ") for claim in claims))
+        self.assertTrue(all(claim["claim"].startswith("homogenize cells/layered: ")
+                            for claim in claims))
         self.assertTrue((self.folder / "cells" / "layered" / "homogenize.json").exists())
 
     def test_an_unknown_part_is_refused(self):
@@ -65,8 +67,9 @@ class Homogenize(InFolder):
         result = run("homogenize", CELLS / "layered.prm", "--output", self.folder)
         self.assertEqual(result.returncode, 0, result.stderr)
         found = json.loads((self.folder / "homogenize.json").read_text())
-        for key in ("C", "C_lower", "C_upper", "bracket_of", "geometry", "voigt", "reuss", "area", "areal_density",
-                    "engineering", "dofs", "iterations", "seconds", "checks", "provenance"):
+        for key in ("C", "C_lower", "C_upper", "bracket_of", "geometry", "voigt", "reuss", "area",
+                    "areal_density", "engineering", "dofs", "iterations", "seconds", "checks",
+                    "provenance"):
             self.assertIn(key, found)
         # 500 N/m x (E = 1, 10; unit thickness)
         self.assertAlmostEqual(found["C"][0][0], 500 * 5.67982018, delta=1e-5)
@@ -92,21 +95,26 @@ class Homogenize(InFolder):
 
     def test_a_width_that_is_not_reached_fails_and_one_that_is_passes(self):
         cell = CELLS / "three-stiffness.prm"
-        result = run("homogenize", cell, "--tolerance", "1e-6", "--max-dofs", "5000", "--output", self.folder)
+        result = run("homogenize", cell, "--tolerance", "1e-6", "--max-dofs", "5000", "--output",
+                     self.folder)
         self.assertEqual(result.returncode, 1, result.stderr)
         self.assertIn("raise --max-dofs", result.stdout)
-        again = run("homogenize", cell, "--tolerance", "6e-4", "--output", self.folder, "--overwrite")
+        again = run("homogenize", cell, "--tolerance", "6e-4", "--output", self.folder,
+                    "--overwrite")
         self.assertEqual(again.returncode, 0, again.stdout + again.stderr)
         history = json.loads((self.folder / "homogenize.json").read_text())["history"]
         self.assertGreater(len(history), 1)
         self.assertLess(history[-1]["width"], 6e-4)
         self.assertLess(history[0]["dofs"], history[-1]["dofs"])
-        result = run("homogenize", cell, "--tolerance", "6e-4", "--no-bars", "--output", self.folder)
+        result = run("homogenize", cell, "--tolerance", "6e-4", "--no-bars", "--output",
+                     self.folder)
         self.assertEqual(result.returncode, 2)
-        self.assertRegex(result.stderr, "--no-bars excludes --tolerance|--tolerance excludes --no-bars")
+        self.assertRegex(result.stderr,
+                         "--no-bars excludes --tolerance|--tolerance excludes --no-bars")
 
     def test_every_check_says_of_whom_it_speaks_and_where_its_limit_comes_from(self):
-        result = run("homogenize", CELLS / "layered.prm", "--max-dofs", "100", "--output", self.folder)
+        result = run("homogenize", CELLS / "layered.prm", "--max-dofs", "100", "--output",
+                     self.folder)
         # What --max-dofs leaves out is said and not claimed.
         self.assertEqual(result.returncode, 0, result.stdout + result.stderr)
         self.assertIn("raise --max-dofs", result.stdout)
@@ -114,7 +122,8 @@ class Homogenize(InFolder):
         self.assertIn("raise --max-dofs", found["bracket"]["remark"])
         self.assertEqual(len(found["checks"]), 3)
         for check in found["checks"]:
-            self.assertEqual(sorted(check), ["derivation", "kind", "limit", "name", "value", "verdict"])
+            self.assertEqual(sorted(check), ["derivation", "kind", "limit", "name", "value",
+                                             "verdict"])
             self.assertEqual(check["kind"], "program")
             self.assertTrue(check["derivation"])
 
@@ -123,7 +132,8 @@ class Homogenize(InFolder):
         cell = CELLS / "hexagonal-dots.prm"
         result = run("homogenize", cell, "--tolerance", "5e-4", "--output", self.folder / "drawn")
         self.assertEqual(result.returncode, 0, result.stderr)
-        for text in ("C^H of the drawing", "Bracket of the drawing, C_lower", "C of the straight triangles"):
+        for text in ("C^H of the drawing", "Bracket of the drawing, C_lower",
+                     "C of the straight triangles"):
             self.assertIn(text, result.stdout)
         self.assertNotIn("faceted", result.stdout)
         drawn = json.loads((self.folder / "drawn" / "homogenize.json").read_text())
@@ -138,46 +148,55 @@ class Homogenize(InFolder):
                 line = f"{words[0]} {words[1]} 2 {words[3]}"
             straight.append(" ".join(words[:4]) if len(words) == 7 else line)
         (self.folder / "faceted.msh").write_text(mesh[0] + "$Elements\n" + "\n".join(straight))
-        (self.folder / "faceted.prm").write_text(cell.read_text().replace("hexagonal-dots.msh", "faceted.msh"))
+        (self.folder / "faceted.prm").write_text(cell.read_text().replace("hexagonal-dots.msh",
+                                                                          "faceted.msh"))
         result = run("check", self.folder / "faceted.prm")
         self.assertEqual(result.returncode, 0, result.stderr)
-        self.assertRegex(result.stdout, "warning: .*the outline of phase `dot` is faceted: 42 of its sides")
+        self.assertRegex(result.stdout,
+                         "warning: .*the outline of phase `dot` is faceted: 42 of its sides")
         result = run("homogenize", self.folder / "faceted.prm", "--output", self.folder / "faceted")
         self.assertEqual(result.returncode, 0, result.stderr)
         self.assertIn("Bracket of the mesh", result.stdout)
         self.assertIn("geometry (an estimate, in no bar)", result.stdout)
         faceted = json.loads((self.folder / "faceted" / "homogenize.json").read_text())
         self.assertEqual(faceted["bracket_of"], "mesh")
-        self.assertEqual(faceted["C"], drawn["C"])  # all but brackets is that of the straight triangles
+        # All but brackets is that of the straight triangles.
+        self.assertEqual(faceted["C"], drawn["C"])
         self.assertEqual(faceted["geometry"]["faceted_sides"], 42)
-        # The estimate brings C to within the drawing's bracket and what P2 leaves on these triangles.
+        # The estimate brings C to within the drawing's bracket and what P2 leaves on these
+        # triangles.
         arcs = faceted["C"][0][0] + faceted["geometry"]["C_change"][0][0]
         middle = 0.5 * (drawn["C_lower"][0][0] + drawn["C_upper"][0][0])
         self.assertLess(abs(arcs - middle), 0.3 * abs(faceted["C"][0][0] - middle))
 
 
-# Cases of `homespun stress` that do not hold, each with the reason. A case that fails anew breaks the test, and
-# so does one that holds again: then it leaves the list.
-CRUSHED = ("thrown apart by a spin whose centrifugal stress rho omega^2 r^2 is above the softest stiffness: triangles are crushed to a line, where "
-           "the law in space has a kink that Newton's method does not get over; cut eight times, then refused")
-NO_RIGID_BODY = "thrown apart: it swells to many times its size in a step, and turns less than the rigid body that its theory speaks of"
+# Cases of `homespun stress` that do not hold, each with the reason. A case that fails anew breaks
+# the test, and so does one that holds again: then it leaves the list.
+CRUSHED = ("thrown apart by a spin whose centrifugal stress rho omega^2 r^2 is above the softest "
+           "stiffness: triangles are crushed to a line, where the law in space has a kink that "
+           "Newton's method does not get over; cut eight times, then refused")
+NO_RIGID_BODY = ("thrown apart: it swells to many times its size in a step, and turns less than "
+                 "the rigid body that its theory speaks of")
 KNOWN_FAILURES = {
     ("spin", f"{what}; {turns} turns per step of 10 ms; {integrator}; {stiffness}"): CRUSHED
     for what in ("keeps", "turns")
     for turns, integrator, stiffness in (
-        ("0.25", "conserving", "anisotropic 1e4"), ("0.5", "conserving", "anisotropic 1e4"), ("1", "conserving", "anisotropic 1e4"),
-        ("5", "conserving", "anisotropic 1e4"), ("5", "conserving", "laminate"), ("0.5", "implicit", "anisotropic 1e4"),
+        ("0.25", "conserving", "anisotropic 1e4"), ("0.5", "conserving", "anisotropic 1e4"),
+        ("1", "conserving", "anisotropic 1e4"), ("5", "conserving", "anisotropic 1e4"),
+        ("5", "conserving", "laminate"), ("0.5", "implicit", "anisotropic 1e4"),
         ("1", "implicit", "anisotropic 1e4"), ("5", "implicit", "anisotropic 1e4"))
 }
 KNOWN_FAILURES["spin", "turns; 5 turns per step of 10 ms; conserving; isotropic"] = NO_RIGID_BODY
 
 
 def differences_from_known(rows):
-    """What the failing cases among the rows of stress.csv and the known failures do not share, one line each."""
+    """What the failing cases of stress.csv and the known failures do not share, one line each."""
     failing = {(row["group"], row["case"]): row for row in rows if row["verdict"] != "PASS"}
-    anew = [f"{group}: {case}: fails, and is not known to: {row['outcome']}, {row['figure']}, limit {row['limit']}"
+    anew = [f"{group}: {case}: fails, and is not known to: {row['outcome']}, {row['figure']}, "
+            f"limit {row['limit']}"
             for (group, case), row in failing.items() if (group, case) not in KNOWN_FAILURES]
-    gone = [f"{group}: {case}: holds or does not exist, but is known to fail ({reason}): take it off the list"
+    gone = [f"{group}: {case}: holds or does not exist, but is known to fail ({reason}): "
+            "take it off the list"
             for (group, case), reason in KNOWN_FAILURES.items() if (group, case) not in failing]
     return anew + gone
 
@@ -185,12 +204,14 @@ def differences_from_known(rows):
 class KnownFailures(unittest.TestCase):
     @staticmethod
     def row(case, verdict):
-        return {"group": case[0], "case": case[1], "verdict": verdict, "outcome": "finite", "figure": "2", "limit": "1"}
+        return {"group": case[0], "case": case[1], "verdict": verdict, "outcome": "finite",
+                "figure": "2", "limit": "1"}
 
     def test_a_case_that_fails_anew_or_holds_again_is_noticed(self):
         rows = [self.row(case, "FAIL") for case in KNOWN_FAILURES]
         self.assertEqual(differences_from_known(rows + [self.row(("mesh", "a hole"), "PASS")]), [])
-        self.assertIn("mesh: a hole: fails", *differences_from_known(rows + [self.row(("mesh", "a hole"), "FAIL")]))
+        self.assertIn("mesh: a hole: fails",
+                      *differences_from_known(rows + [self.row(("mesh", "a hole"), "FAIL")]))
         rows[0]["verdict"] = "PASS"
         self.assertIn("take it off the list", *differences_from_known(rows))
         self.assertIn("take it off the list", *differences_from_known(rows[1:]))
@@ -225,9 +246,11 @@ class Stress(InFolder):
         self.assertEqual((self.folder / "stress.csv").read_text(), text)
         self.assertTrue(json.loads((self.folder / "study.json").read_text())["resumed"])
         # Another run is refused, with what differs; so are rows that somebody edited.
-        other = run("stress", CELLS / "layered.prm", "--quick", "--no-report", "--output", self.folder)
+        other = run("stress", CELLS / "layered.prm", "--quick", "--no-report", "--output",
+                    self.folder)
         self.assertEqual(other.returncode, 2)
-        self.assertRegex(other.stderr, r"holds another run \(cells\), .* of work; .*--overwrite removes it")
+        self.assertRegex(other.stderr,
+                         r"holds another run \(cells\), .* of work; .*--overwrite removes it")
         self.assertEqual(text, (self.folder / "stress.csv").read_text())
         (self.folder / "stress.csv").write_text(text.replace("FAIL", "PASS"))
         edited = run(*study)
@@ -261,7 +284,8 @@ class BadInput(InFolder):
         mesh.write_bytes(mesh.read_bytes()[:9000])
         output = self.folder / "out"
         self.refused("homogenize", cell, "--output", output, says=["layered.msh: cannot be read"])
-        self.refused("strain", cell, "--quick", "--output", output, says=["layered.msh: cannot be read"])
+        self.refused("strain", cell, "--quick", "--output", output,
+                     says=["layered.msh: cannot be read"])
         self.assertFalse(output.exists())
 
     def test_unknown_loads_methods_and_strains_are_refused_together(self):
@@ -271,7 +295,8 @@ class BadInput(InFolder):
 
     def test_an_output_that_cannot_be_written_is_named(self):
         for ranks in (1, 2):
-            result = run("homogenize", CELLS / "layered.prm", "--quiet", "--output", "/proc/nowhere", ranks=ranks)
+            result = run("homogenize", CELLS / "layered.prm", "--quiet", "--output",
+                         "/proc/nowhere", ranks=ranks)
             self.assertNotEqual(result.returncode, 0)
             self.assertIn("/proc/nowhere", result.stderr)
             self.assertNotIn("terminate called", result.stderr)
@@ -288,11 +313,12 @@ class BadInput(InFolder):
 
     def test_a_name_that_breaks_a_table_is_refused(self):
         cell = self.cell_with("soft", "soft")
-        self.refused("strain", cell.rename(self.folder / "a,b.prm"), "--output", self.folder / "out",
-                     says=["comma"])
+        self.refused("strain", cell.rename(self.folder / "a,b.prm"), "--output",
+                     self.folder / "out", says=["comma"])
 
     def test_options_with_lists_leave_the_cell_alone(self):
-        self.refused("strain", "--strains", "0.01", self.folder / "none.prm", says=["none.prm: no such file"])
+        self.refused("strain", "--strains", "0.01", self.folder / "none.prm",
+                     says=["none.prm: no such file"])
 
     def test_two_cells_of_one_name_are_refused(self):
         self.refused("strain", CELLS / "layered.prm", self.cell_with("soft", "soft"), "--output",

@@ -8,7 +8,8 @@ import unittest.mock
 import broken_cells_test
 from cli import CELLS, InFolder, cut, rows_of, run, status_of
 
-TEXTS = {"cell", "study", "case", "quantity", "h_unit", "judgement", "claim", "verdict", "limit", "kind", "derivation"}
+TEXTS = {"cell", "study", "case", "quantity", "h_unit", "judgement", "claim", "verdict", "limit",
+         "kind", "derivation"}
 
 
 class Converge(InFolder):
@@ -16,8 +17,8 @@ class Converge(InFolder):
         return rows_of(self.folder / name)
 
     def test_quick_run_leaves_finite_numbers_verdicts_and_a_page(self):
-        result = run("converge", CELLS / "layered.prm", "--quick", "--studies", "mesh,scale,coarse,strain,time",
-                     "--quiet", "--output", self.folder)
+        result = run("converge", CELLS / "layered.prm", "--quick", "--studies",
+                     "mesh,scale,coarse,strain,time", "--quiet", "--output", self.folder)
         verdicts = json.loads((self.folder / "verdicts.json").read_text())["verdicts"]
         failed = [verdict for verdict in verdicts if verdict["verdict"] == "FAIL"]
         self.assertEqual(failed, [])
@@ -26,7 +27,8 @@ class Converge(InFolder):
             self.assertIn(verdict["kind"], ("program", "input", "method"), verdict)
             self.assertTrue(verdict["derivation"], verdict)
         rows = self.rows("converge.csv")
-        self.assertEqual({row["study"] for row in rows}, {"mesh", "scale", "coarse", "strain", "time"})
+        self.assertEqual({row["study"] for row in rows},
+                         {"mesh", "scale", "coarse", "strain", "time"})
         for table in ("converge.csv", "claims.csv", "cases.csv"):
             for row in self.rows(table):
                 for key, text in row.items():
@@ -34,97 +36,117 @@ class Converge(InFolder):
                         self.assertTrue(math.isfinite(float(text)), (table, key, row))
         for row in rows:
             self.assertGreater(float(row["h"]), 0.)
-            self.assertTrue(row["value"] or row["error"] or row["quantity"].startswith("change"), row)
+            self.assertTrue(row["value"] or row["error"] or row["quantity"].startswith("change"),
+                            row)
             if row["judgement"]:
                 self.assertLess(float(row["order_lowest"]), float(row["order_highest"]), row)
         # A laminate with a mesh that fits it: closed form, the same at every level.
         for row in rows:
             if row["quantity"].startswith("C11"):
                 self.assertAlmostEqual(float(row["value"]), 500 * 5.67982018, delta=0.01)
-        self.assertTrue(any("laminate" in verdict["claim"] and verdict["verdict"] == "PASS" for verdict in verdicts))
+        self.assertTrue(any("laminate" in verdict["claim"] and verdict["verdict"] == "PASS"
+                            for verdict in verdicts))
         study = json.loads((self.folder / "study.json").read_text())
         self.assertTrue(any(item["what"] == "study manufactured" for item in study["left_out"]))
-        self.assertFalse(any(note.startswith(("manufactured", "adaptive")) for note in study["notes"]), "they did not run")
+        self.assertFalse(any(note.startswith(("manufactured", "adaptive"))
+                             for note in study["notes"]), "they did not run")
         page = (self.folder / "report.html").read_text(encoding="utf-8")
         self.assertIn("observed orders lie within their limits", page)
 
     def test_a_resumed_study_runs_only_what_is_missing_and_equals_an_uninterrupted_one(self):
-        options = ("converge", CELLS / "layered.prm", "--quick", "--studies", "mesh,time", "--quiet", "--no-report",
-                   "--output", self.folder)
+        options = ("converge", CELLS / "layered.prm", "--quick", "--studies", "mesh,time",
+                   "--quiet", "--no-report", "--output", self.folder)
         first = run(*options)
         self.assertIn(first.returncode, (0, 4), first.stderr)
         numbers = lambda: [{key: text for key, text in row.items() if key != "seconds"}
                            for row in self.rows("converge.csv")]
         before = numbers()
         lines = (self.folder / "cases.csv").read_text().splitlines(keepends=True)
-        (self.folder / "cases.csv").write_text("".join(lines[:-1]))  # the last case counts as not complete
+        # The last case counts as not complete.
+        (self.folder / "cases.csv").write_text("".join(lines[:-1]))
         verdicts = (self.folder / "verdicts.json").read_text()
-        self.assertEqual(run(*options, "--resume").returncode, 2, "its tables were changed after it ended")
+        self.assertEqual(run(*options, "--resume").returncode, 2,
+                         "its tables were changed after it ended")
         cut(self.folder)
         self.assertEqual(run(*options).returncode, first.returncode)
         self.assertTrue(json.loads((self.folder / "study.json").read_text())["resumed"])
         self.assertEqual(numbers(), before)
         self.assertEqual(len(self.rows("cases.csv")), len(lines) - 1)
-        strip = lambda text: [(v["claim"], v["verdict"], v["value"]) for v in json.loads(text)["verdicts"]]
+        strip = lambda text: [(v["claim"], v["verdict"], v["value"])
+                              for v in json.loads(text)["verdicts"]]
         self.assertEqual(strip((self.folder / "verdicts.json").read_text()), strip(verdicts))
 
     def test_rows_of_other_inputs_never_stand_in_the_same_table(self):
         output = self.folder / "out"
         options = ("--quick", "--no-report", "--output", output)
-        self.assertIn(run("converge", CELLS / "layered.prm", *options, "--studies", "mesh").returncode, (0, 4))
+        self.assertIn(run("converge", CELLS / "layered.prm", *options, "--studies",
+                          "mesh").returncode, (0, 4))
         table = (output / "converge.csv").read_bytes()
-        for other, studies in ((self.cell_with("soft: 400, hard: 400", "soft: 400, hard: 500"), "mesh"),
-                               (self.cell_with("hard: 1e7", "hard: 2e7"), "mesh"), (CELLS / "layered.prm", "time")):
+        for other, studies in ((self.cell_with("soft: 400, hard: 400", "soft: 400, hard: 500"),
+                                "mesh"),
+                               (self.cell_with("hard: 1e7", "hard: 2e7"), "mesh"),
+                               (CELLS / "layered.prm", "time")):
             result = run("converge", other, *options, "--studies", studies, "--resume")
             self.assertEqual(result.returncode, 2)
             self.assertIn("holds another run", result.stderr)
             self.assertEqual((output / "converge.csv").read_bytes(), table)
-        result = run("converge", CELLS / "layered.prm", *options, "--studies", "time", "--overwrite")
+        result = run("converge", CELLS / "layered.prm", *options, "--studies", "time",
+                     "--overwrite")
         self.assertIn(result.returncode, (0, 4), result.stderr)
         self.assertIn("the earlier run was replaced", result.stderr)
         self.assertEqual({row["study"] for row in rows_of(output / "converge.csv")}, {"time"})
 
     def test_an_order_that_so_few_meshes_cannot_show_is_reported_and_not_judged(self):
-        # 7,200 triangles: with P1 three adaptive meshes have no more than 60,000 degrees of freedom, and one uniform one.
+        # 7,200 triangles: with P1 three adaptive meshes have no more than 60,000 degrees of
+        # freedom, and one uniform one.
         n = 60
         with unittest.mock.patch.object(broken_cells_test, "N", n):
             cell = broken_cells_test.Cell()
-            cell.groups = [2 if min(cell.square_of(t)) >= n // 2 else 1 for t in range(len(cell.triangles))]
+            cell.groups = [2 if min(cell.square_of(t)) >= n // 2 else 1
+                           for t in range(len(cell.triangles))]
             path = cell.write(self.folder)
         output = self.folder / "out"
-        result = run("converge", path, "--quick", "--studies", "adaptive", "--quiet", "--no-report", "--output", output)
+        result = run("converge", path, "--quick", "--studies", "adaptive", "--quiet", "--no-report",
+                     "--output", output)
         claims = json.loads((output / "verdicts.json").read_text())["verdicts"]
         self.assertEqual(result.returncode, status_of(claims), result.stderr)
-        left_out = {item["what"]: item["why"] for item in json.loads((output / "study.json").read_text())["left_out"]}
+        left_out = {item["what"]: item["why"]
+                    for item in json.loads((output / "study.json").read_text())["left_out"]}
         rows = rows_of(output / "converge.csv")
         n_left_out = 0
         for p in (1, 2):
-            levels = [row for row in rows if row["order_p"] == str(p) and row["quantity"].startswith("adaptive")]
-            is_claimed = any(f": P{p}: the width of the adaptive bracket falls" in claim["claim"] for claim in claims)
+            levels = [row for row in rows if row["order_p"] == str(p)
+                      and row["quantity"].startswith("adaptive")]
+            is_claimed = any(f": P{p}: the width of the adaptive bracket falls" in claim["claim"]
+                             for claim in claims)
             self.assertEqual(is_claimed, len(levels) >= 5, p)
             self.assertEqual({bool(row["judgement"]) for row in levels}, {is_claimed}, p)
             why = left_out.get(f"cell, adaptive, P{p}: order of the width")
             self.assertEqual(why, None if is_claimed else
                              f"{len(levels)} meshes have no more than 60000 DoFs; a fit needs 5")
             n_left_out += not is_claimed
-            self.assertFalse(any(f": P{p}: the adaptive bracket is narrower" in claim["claim"] for claim in claims), p)
+            self.assertFalse(any(f": P{p}: the adaptive bracket is narrower" in claim["claim"]
+                                 for claim in claims), p)
         self.assertGreater(n_left_out, 0)
 
     def test_brackets_of_laminates_close_and_those_of_corners_fall_faster_on_adaptive_meshes(self):
-        result = run("converge", CELLS / "layered.prm", CELLS / "three-stiffness.prm", "--quick", "--studies",
-                     "adaptive", "--quiet", "--no-report", "--output", self.folder)
+        result = run("converge", CELLS / "layered.prm", CELLS / "three-stiffness.prm", "--quick",
+                     "--studies", "adaptive", "--quiet", "--no-report", "--output", self.folder)
         claims = self.rows("claims.csv")
         self.assertEqual(result.returncode, status_of(claims), result.stderr)
         self.assertNotEqual(result.returncode, 1, result.stderr)
         self.assertEqual({row["verdict"] for row in claims if row["cell"] == "layered"}, {"PASS"})
-        self.assertEqual({row["verdict"] for row in claims if "P2: the adaptive bracket is narrower" in row["claim"]}, {"PASS"})
+        self.assertEqual({row["verdict"] for row in claims
+                          if "P2: the adaptive bracket is narrower" in row["claim"]}, {"PASS"})
         rows = self.rows("converge.csv")
         self.assertEqual({row["cell"] for row in rows}, {"three-stiffness"})
         for row in rows:
-            self.assertAlmostEqual(float(row["h"]), float(row["dofs"]) ** -0.5, delta=1e-5 * float(row["h"]))
+            self.assertAlmostEqual(float(row["h"]), float(row["dofs"]) ** -0.5,
+                                   delta=1e-5 * float(row["h"]))
 
     def test_an_unknown_study_is_refused_with_the_names_there_are(self):
-        result = run("converge", CELLS / "layered.prm", "--studies", "mesh,knit", "--output", self.folder)
+        result = run("converge", CELLS / "layered.prm", "--studies", "mesh,knit", "--output",
+                     self.folder)
         self.assertEqual(result.returncode, 2)
         for word in ("--studies", "knit", "manufactured", "scale"):
             self.assertIn(word, result.stderr)

@@ -23,14 +23,16 @@ def keep_rows(path, keep):
     """Removes the other rows of a table."""
     lines = path.read_text(encoding="utf-8").splitlines(keepends=True)
     header = lines[0].strip().split(",")
-    path.write_text(lines[0] + "".join(line for line in lines[1:] if keep(dict(zip(header, line.strip().split(","))))),
+    path.write_text(lines[0] + "".join(line for line in lines[1:]
+                                       if keep(dict(zip(header, line.strip().split(","))))),
                     encoding="utf-8")
 
 
 class SceneCase(InFolder):
     def scene(self, changes, name="hang", garment=None):
         """A copy of a shipped scene with keys replaced, added, or, given None, removed."""
-        lines = (SCENES / f"{name}.prm").read_text(encoding="utf-8").replace("../cells", str(CELLS)).splitlines()
+        shipped = (SCENES / f"{name}.prm").read_text(encoding="utf-8")
+        lines = shipped.replace("../cells", str(CELLS)).splitlines()
         for key, value in changes.items():
             lines = [line for line in lines if line.split("=")[0].split()[1:] != key.split()]
             if value is not None:
@@ -49,17 +51,19 @@ class Scenes(SceneCase):
             with self.subTest(scene=scene.name):
                 output = self.folder / scene.stem
                 sheet = [] if scene.stem == "skirt" else ["--quick"]
-                result = run("drape", scene, *sheet, "--duration", 0.2, "--no-report", "--no-frames", "--output", output)
+                result = run("drape", scene, *sheet, "--duration", 0.2, "--no-report",
+                             "--no-frames", "--output", output)
                 self.assertEqual(result.returncode, 0, result.stdout + result.stderr)
-                self.assertEqual({row["cell"] for row in rows_of(output / "motion.csv")}, {"layered", "three-stiffness"})
+                self.assertEqual({row["cell"] for row in rows_of(output / "motion.csv")},
+                                 {"layered", "three-stiffness"})
                 found = json.loads((output / "drape.json").read_text())
                 listed = {term["name"] for term in found["terms"] if term["present"]}
                 self.assertIn("membrane", listed)
 
     def test_frames_open_elsewhere(self):
         output = self.folder / "frames"
-        run("drape", SCENES / "hang.prm", "--quick", "--duration", 0.1, "--frames", "vtu,ply,obj", "--no-report",
-            "--unit-cells", CELLS / "layered.prm", "--output", output)
+        run("drape", SCENES / "hang.prm", "--quick", "--duration", 0.1, "--frames", "vtu,ply,obj",
+            "--no-report", "--unit-cells", CELLS / "layered.prm", "--output", output)
         folder = output / "layered-corotational"
         self.assertEqual((folder / "fine.pvd").read_text().count("fine_000"), 3)
         for ending in ("vtu", "ply", "obj"):
@@ -67,21 +71,26 @@ class Scenes(SceneCase):
 
     def test_a_duration_is_run_in_whole_steps_and_said_as_it_was_run(self):
         output = self.folder / "out"
-        self.assertEqual(run("drape", SCENES / "hang.prm", "--quick", "--duration", 0.035, "--no-frames", "--no-report",
-                             "--unit-cells", CELLS / "layered.prm", "--output", output).returncode, 0)
-        self.assertEqual([float(row["time_s"]) for row in rows_of(output / "motion.csv")], [0., 0.03])
+        self.assertEqual(run("drape", SCENES / "hang.prm", "--quick", "--duration", 0.035,
+                             "--no-frames", "--no-report", "--unit-cells", CELLS / "layered.prm",
+                             "--output", output).returncode, 0)
+        self.assertEqual([float(row["time_s"]) for row in rows_of(output / "motion.csv")],
+                         [0., 0.03])
         self.assertAlmostEqual(json.loads((output / "drape.json").read_text())["duration_s"], 0.03)
 
     def test_energies_of_a_hanging_cloth_and_its_references_obey_clapeyron(self):
         # In equilibrium at small strain the weight has given twice what the cloth stores.
         output = self.folder / "out"
         scene = self.scene({"Integrator": "static"})
-        self.assertEqual(run("drape", scene, "--quick", "--duration", 0.05, "--references", "biot,shell", "--variants",
-                             "corotational,nodal-warping", "--unit-cells", CELLS / "layered.prm", "--no-frames", "--no-report",
+        self.assertEqual(run("drape", scene, "--quick", "--duration", 0.05, "--references",
+                             "biot,shell", "--variants", "corotational,nodal-warping",
+                             "--unit-cells", CELLS / "layered.prm", "--no-frames", "--no-report",
                              "--output", output).returncode, 0)
-        energies = {(row["variant"], int(row["frame"])): row for row in rows_of(output / "motion.csv")}
+        energies = {(row["variant"], int(row["frame"])): row
+                    for row in rows_of(output / "motion.csv")}
         for name in ("corotational", "biot", "shell"):
-            elastic, given = (float(energies[name, 1][key]) - float(energies[name, 0][key]) for key in ("elastic_J", "gravity_J"))
+            elastic, given = (float(energies[name, 1][key]) - float(energies[name, 0][key])
+                              for key in ("elastic_J", "gravity_J"))
             self.assertGreater(elastic, 0.)
             self.assertAlmostEqual(given, -2. * elastic, delta=0.01 * elastic, msg=name)
         self.assertEqual(energies["nodal-warping", 0]["elastic_J"], "")
@@ -90,11 +99,12 @@ class Scenes(SceneCase):
         # Both ends of the lower edge of 20 x 20 cells hold the sheet, which falls upwards.
         scene = self.scene({"Pins": "vertices 0 20", "Gravity": "0 0 9.81"})
         output = self.folder / "out"
-        result = run("drape", scene, "--quick", "--duration", 0.05, "--references", "biot", "--unit-cells",
-                     CELLS / "layered.prm", "--no-report", "--output", output)
+        result = run("drape", scene, "--quick", "--duration", 0.05, "--references", "biot",
+                     "--unit-cells", CELLS / "layered.prm", "--no-report", "--output", output)
         self.assertEqual(result.returncode, 0, result.stdout + result.stderr)
         for name in ("layered-corotational", "layered-biot"):
-            before, after = (read_vtu(output / name / f"fine_000{frame}.vtu").points for frame in (0, 1))
+            before, after = (read_vtu(output / name / f"fine_000{frame}.vtu").points
+                             for frame in (0, 1))
             moved = numpy.linalg.norm(after - before, axis=1)
             low, high = before.min(axis=0), before.max(axis=0)
             self.assertAlmostEqual(high[0] - low[0], 0.04, delta=1e-6)
@@ -105,17 +115,20 @@ class Scenes(SceneCase):
 
     def test_the_checks_of_each_effective_stiffness_are_among_the_verdicts(self):
         output = self.folder / "out"
-        self.assertEqual(run("drape", SCENES / "hang.prm", "--quick", "--duration", 0.05, "--no-frames", "--no-report",
-                             "--output", output).returncode, 0)
-        claims = [verdict["claim"] for verdict in json.loads((output / "verdicts.json").read_text())["verdicts"]]
+        self.assertEqual(run("drape", SCENES / "hang.prm", "--quick", "--duration", 0.05,
+                             "--no-frames", "--no-report", "--output", output).returncode, 0)
+        claims = [verdict["claim"]
+                  for verdict in json.loads((output / "verdicts.json").read_text())["verdicts"]]
         for cell in ("layered", "three-stiffness"):
             for check in ("Hill-Mandel", "C^H <= Voigt", "C^H >= Reuss", "C_lower <= C_upper"):
-                self.assertEqual(sum(claim.startswith(f"{cell}: {check}") for claim in claims), 1, (cell, check))
+                self.assertEqual(sum(claim.startswith(f"{cell}: {check}") for claim in claims), 1,
+                                 (cell, check))
 
     def test_what_absent_terms_cost_is_measured_with_its_spread(self):
         output = self.folder / "out"
-        self.assertEqual(run("drape", SCENES / "pull.prm", "--quick", "--duration", 0.05, "--costs", "--unit-cells",
-                             CELLS / "layered.prm", "--no-frames", "--no-report", "--output", output).returncode, 0)
+        self.assertEqual(run("drape", SCENES / "pull.prm", "--quick", "--duration", 0.05, "--costs",
+                             "--unit-cells", CELLS / "layered.prm", "--no-frames", "--no-report",
+                             "--output", output).returncode, 0)
         rows = {row["term"]: row for row in rows_of(output / "terms.csv")}
         self.assertEqual(set(rows), {"bending", "gravity", "damping", "wind", "obstacles"})
         for term, row in rows.items():
@@ -127,24 +140,28 @@ class Scenes(SceneCase):
         errors = []
         for ranks in (1, 2):
             output = self.folder / f"ranks{ranks}"
-            result = run("drape", SCENES / "pull.prm", "--quick", "--duration", 0.15, "--references", "biot,shell",
-                         "--unit-cells", CELLS / "layered.prm", "--no-frames", "--no-report", "--output", output,
-                         ranks=ranks)
+            result = run("drape", SCENES / "pull.prm", "--quick", "--duration", 0.15,
+                         "--references", "biot,shell", "--unit-cells", CELLS / "layered.prm",
+                         "--no-frames", "--no-report", "--output", output, ranks=ranks)
             self.assertEqual(result.returncode, 0, result.stderr)
-            errors.append({(row["reference"], row["method"], row["frame"]): float(row["error_mean_m"])
+            errors.append({(row["reference"], row["method"], row["frame"]):
+                           float(row["error_mean_m"])
                            for row in rows_of(output / "drape.csv")})
         for (reference, method, frame), error in errors[0].items():
-            self.assertAlmostEqual(errors[1][reference, method, frame], error, delta=1e-5 * error + 1e-13)
+            self.assertAlmostEqual(errors[1][reference, method, frame], error,
+                                   delta=1e-5 * error + 1e-13)
             # One linearly implicit step of the shell against Newton's method of the other.
-            self.assertAlmostEqual(errors[0]["shell", method, frame], error, delta=1e-2 * error + 1e-12)
+            self.assertAlmostEqual(errors[0]["shell", method, frame], error,
+                                   delta=1e-2 * error + 1e-12)
 
     def test_a_resumed_run_equals_an_uninterrupted_one(self):
-        study = ["drape", SCENES / "pull.prm", "--quick", "--references", "biot,shell", "--unit-cells",
-                 CELLS / "layered.prm", "--no-report", "--output"]
+        study = ["drape", SCENES / "pull.prm", "--quick", "--references", "biot,shell",
+                 "--unit-cells", CELLS / "layered.prm", "--no-report", "--output"]
         whole, early = self.folder / "whole", self.folder / "early"
         self.assertEqual(run(*study, whole, "--duration", 0.3).returncode, 0)
         self.assertEqual(run(*study, early, "--duration", 0.15).returncode, 0)
-        # What a kill leaves: the state of frame 3, rows and frames of the next one too, of the second reference nothing.
+        # What a kill leaves: the state of frame 3, rows and frames of the next one too, of the
+        # second reference nothing.
         killed = self.folder / "killed"
         shutil.copytree(whole, killed)
         cut(killed)
@@ -152,8 +169,9 @@ class Scenes(SceneCase):
         for frame in (5, 6):
             (killed / "layered-biot" / f"fine_{frame:04d}.vtu").unlink()
         for table in ("drape.csv", "motion.csv"):
-            keep_rows(killed / table, lambda row: row.get("variant") == "corotational" and "reference" not in row
-                      or "biot" in row.values() and int(row["frame"]) <= 4)
+            keep_rows(killed / table, lambda row: row.get("variant") == "corotational"
+                      and "reference" not in row or "biot" in row.values()
+                      and int(row["frame"]) <= 4)
         shutil.copy(early / "layered-biot" / "checkpoint.h5", killed / "layered-biot")
         with h5py.File(whole / "layered-biot" / "checkpoint.h5") as of_whole, \
                 h5py.File(killed / "layered-biot" / "checkpoint.h5", "a") as of_cut:
@@ -166,15 +184,18 @@ class Scenes(SceneCase):
         self.assertEqual(sorted(path.relative_to(killed) for path in killed.rglob("*")),
                          sorted(path.relative_to(whole) for path in whole.rglob("*")))
         for table, keys in (("drape.csv", ("reference", "method")), ("motion.csv", ("variant",))):
-            expected, found = (sorted(rows_of(folder / table), key=lambda row: [*(row[k] for k in keys), int(row["frame"])])
+            expected, found = (sorted(rows_of(folder / table),
+                                      key=lambda row: [*(row[k] for k in keys), int(row["frame"])])
                                for folder in (whole, killed))
             self.assert_same_rows(found, expected)
-        verdicts = [json.loads((folder / "verdicts.json").read_text())["verdicts"] for folder in (whole, killed)]
+        verdicts = [json.loads((folder / "verdicts.json").read_text())["verdicts"]
+                    for folder in (whole, killed)]
         self.assertEqual(*([{**verdict, "command": ""} for verdict in some] for some in verdicts))
         for path in whole.rglob("*"):
             there = killed / path.relative_to(whole)
             if path.name == "run.json":
-                self.assertEqual(*(json.loads(one.read_text())["fingerprint"] for one in (there, path)))
+                self.assertEqual(*(json.loads(one.read_text())["fingerprint"]
+                                   for one in (there, path)))
             elif path.suffix == ".pvd":
                 self.assertEqual(there.read_text(), path.read_text(), path)
             elif path.suffix == ".vtu":
@@ -182,7 +203,8 @@ class Scenes(SceneCase):
                 numpy.testing.assert_allclose(one.points, two.points, atol=1e-8)
                 self.assertEqual(set(one.point_data), set(two.point_data), path)
                 for name, values in two.point_data.items():
-                    numpy.testing.assert_allclose(one.point_data[name], values, atol=1e-8, err_msg=f"{path} {name}")
+                    numpy.testing.assert_allclose(one.point_data[name], values, atol=1e-8,
+                                                  err_msg=f"{path} {name}")
         self.assertIn("error", read_vtu(killed / "layered-biot" / "fine_0001.vtu").point_data)
         self.assertIn("error", read_vtu(killed / "layered-shell" / "fine_0006.vtu").point_data)
         # Times are those of all steps, before and after the cut.
@@ -195,11 +217,13 @@ class Scenes(SceneCase):
         self.assertAlmostEqual(reference["seconds_per_step"], numpy.median(seconds), delta=1e-5)
 
     def test_a_finished_run_that_is_resumed_keeps_its_times(self):
-        study = ["drape", SCENES / "pull.prm", "--quick", "--references", "shell", "--unit-cells", CELLS / "layered.prm",
-                 "--no-frames", "--no-report", "--duration", 0.1, "--output", self.folder / "out"]
+        study = ["drape", SCENES / "pull.prm", "--quick", "--references", "shell", "--unit-cells",
+                 CELLS / "layered.prm", "--no-frames", "--no-report", "--duration", 0.1, "--output",
+                 self.folder / "out"]
 
         def reference():
-            return json.loads((self.folder / "out" / "drape.json").read_text())["cells"][0]["references"][0]
+            found = json.loads((self.folder / "out" / "drape.json").read_text())
+            return found["cells"][0]["references"][0]
         self.assertEqual(run(*study).returncode, 0)
         first = reference()
         self.assertEqual(run(*study, "--resume").returncode, 0)
@@ -208,8 +232,9 @@ class Scenes(SceneCase):
 
     def test_the_state_of_another_run_is_not_taken_up(self):
         output = self.folder / "out"
-        study = ["drape", SCENES / "pull.prm", "--quick", "--references", "shell", "--unit-cells", CELLS / "layered.prm",
-                 "--no-frames", "--no-report", "--duration", 0.1, "--output", output]
+        study = ["drape", SCENES / "pull.prm", "--quick", "--references", "shell", "--unit-cells",
+                 CELLS / "layered.prm", "--no-frames", "--no-report", "--duration", 0.1, "--output",
+                 output]
         self.assertEqual(run(*study).returncode, 0)
         checkpoint, kept = output / "layered-shell" / "checkpoint.h5", self.folder / "kept.h5"
         shutil.copy(checkpoint, kept)
@@ -218,8 +243,10 @@ class Scenes(SceneCase):
         refused = run(*other, "--resume")
         self.assertEqual(refused.returncode, 2, refused.stdout)
         self.assertIn("time_step", refused.stderr)
-        self.assertEqual(before, {path: path.read_bytes() for path in output.rglob("*") if path.is_file()})
-        # A run that begins anew does so without the state of the old one, even where it is killed before its first frame.
+        self.assertEqual(before, {path: path.read_bytes() for path in output.rglob("*")
+                                  if path.is_file()})
+        # A run that begins anew does so without the state of the old one, even where it is killed
+        # before its first frame.
         with subprocess.Popen([PROGRAM, *map(str, other), "--overwrite"], stdout=subprocess.DEVNULL,
                               stderr=subprocess.DEVNULL) as process:
             deadline = time.monotonic() + 60
@@ -248,18 +275,22 @@ class Scenes(SceneCase):
     def time_step_of_run(output):
         """None while there is no run."""
         try:
-            return json.loads((output / "run.json").read_text(encoding="utf-8"))["inputs"]["time_step"]
+            description = json.loads((output / "run.json").read_text(encoding="utf-8"))
+            return description["inputs"]["time_step"]
         except (FileNotFoundError, json.JSONDecodeError):
             return None
 
     def test_a_run_that_was_killed_is_taken_up_where_it_was(self):
         output = self.folder / "out"
-        study = ["drape", SCENES / "pull.prm", "--quick", "--references", "shell", "--unit-cells", CELLS / "layered.prm",
-                 "--no-frames", "--no-report", "--duration", 1, "--output", output]
+        study = ["drape", SCENES / "pull.prm", "--quick", "--references", "shell", "--unit-cells",
+                 CELLS / "layered.prm", "--no-frames", "--no-report", "--duration", 1, "--output",
+                 output]
         checkpoint = output / "layered-shell" / "checkpoint.h5"
-        with subprocess.Popen([PROGRAM, *map(str, study)], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL) as process:
+        with subprocess.Popen([PROGRAM, *map(str, study)], stdout=subprocess.DEVNULL,
+                              stderr=subprocess.DEVNULL) as process:
             deadline = time.monotonic() + 120
-            while time.monotonic() < deadline and process.poll() is None and not checkpoint.exists():
+            while (time.monotonic() < deadline and process.poll() is None
+                   and not checkpoint.exists()):
                 time.sleep(0.001)
             process.kill()
         self.assertTrue(checkpoint.exists())
@@ -274,13 +305,13 @@ class Scenes(SceneCase):
 
     def test_a_run_is_taken_up_only_with_what_it_was_asked_for(self):
         output = self.folder / "out"
-        study = ["drape", SCENES / "pull.prm", "--quick", "--unit-cells", CELLS / "layered.prm", "--no-frames", "--no-report",
-                 "--duration", 0.1, "--output", output]
+        study = ["drape", SCENES / "pull.prm", "--quick", "--unit-cells", CELLS / "layered.prm",
+                 "--no-frames", "--no-report", "--duration", 0.1, "--output", output]
         asked = {"--variants": "corotational", "--methods": "localized", "--references": "shell"}
         options = [word for pair in asked.items() for word in pair]
         self.assertEqual(run(*study, *options).returncode, 0)
-        for name, more in (("--variants", "corotational,triangle-warping"), ("--methods", "affine,localized"),
-                           ("--references", "shell,biot")):
+        for name, more in (("--variants", "corotational,triangle-warping"),
+                           ("--methods", "affine,localized"), ("--references", "shell,biot")):
             words = [word for pair in {**asked, name: more}.items() for word in pair]
             result = run(*study, *words, "--resume")
             self.assertEqual(result.returncode, 2, name)
@@ -288,10 +319,12 @@ class Scenes(SceneCase):
 
     def test_each_claim_has_its_kind_and_says_where_its_limit_comes_from(self):
         output = self.folder / "out"
-        self.assertEqual(run("drape", SCENES / "pull.prm", "--quick", "--duration", 0.1, "--references", "shell", "--variants",
-                             "corotational,nodal-warping", "--unit-cells", CELLS / "layered.prm", "--no-frames", "--no-report",
+        self.assertEqual(run("drape", SCENES / "pull.prm", "--quick", "--duration", 0.1,
+                             "--references", "shell", "--variants", "corotational,nodal-warping",
+                             "--unit-cells", CELLS / "layered.prm", "--no-frames", "--no-report",
                              "--output", output).returncode, 0)
-        claims = {verdict["claim"]: verdict for verdict in json.loads((output / "verdicts.json").read_text())["verdicts"]
+        claims = {verdict["claim"]: verdict
+                  for verdict in json.loads((output / "verdicts.json").read_text())["verdicts"]
                   if "runs to its end" in verdict["claim"]}
         self.assertEqual({claim: verdict["kind"] for claim, verdict in claims.items()}, {
             "layered, corotational: the scene runs to its end (frames reached)": "program",
@@ -299,19 +332,22 @@ class Scenes(SceneCase):
             "layered, shell: the reference runs to its end (frames reached)": "program"})
         for verdict in claims.values():
             self.assertTrue(verdict["derivation"])
-            self.assertEqual((verdict["verdict"], verdict["value"], verdict["limit"]), ("PASS", 3, "3"))
+            self.assertEqual((verdict["verdict"], verdict["value"], verdict["limit"]),
+                             ("PASS", 3, "3"))
 
     def test_what_was_left_out_is_what_was_not_asked_for(self):
-        study = ["drape", SCENES / "pull.prm", "--quick", "--duration", 0.05, "--unit-cells", CELLS / "layered.prm",
-                 "--no-frames", "--no-report"]
+        study = ["drape", SCENES / "pull.prm", "--quick", "--duration", 0.05, "--unit-cells",
+                 CELLS / "layered.prm", "--no-frames", "--no-report"]
         for options, left_out in (
                 ([], ["full-resolution cloth", "frames", "what absent terms would cost"]),
-                (["--references", "biot,shell", "--costs"], ["error bar of the reference biot", "error bar of the reference shell",
-                                                             "frames"])):
+                (["--references", "biot,shell", "--costs"],
+                 ["error bar of the reference biot", "error bar of the reference shell",
+                  "frames"])):
             output = self.folder / f"out{len(options)}"
             self.assertEqual(run(*study, *options, "--output", output).returncode, 0)
             found = json.loads((output / "drape.json").read_text())
-            self.assertEqual([item["what"] for item in found["left_out"]], ["pull: " + what for what in left_out])
+            self.assertEqual([item["what"] for item in found["left_out"]],
+                             ["pull: " + what for what in left_out])
             self.assertEqual(found["notes"], [])
 
 
@@ -326,10 +362,13 @@ class BadScenes(SceneCase):
         return result.stderr
 
     def test_terms(self):
-        self.refused(self.scene({"Terms": "membrane, gravity, pins, damping, magic"}), "unknown term `magic`", "wind")
+        self.refused(self.scene({"Terms": "membrane, gravity, pins, damping, magic"}),
+                     "unknown term `magic`", "wind")
         self.refused(self.scene({"Terms": "gravity, pins, damping"}), "`membrane` is missing")
-        self.refused(self.scene({"Wind velocity": "1 0 0"}), "`Wind velocity` belongs to the term `wind`")
-        self.refused(self.scene({"Terms": "membrane, friction, gravity, pins, damping"}), "`friction` without `obstacles`")
+        self.refused(self.scene({"Wind velocity": "1 0 0"}),
+                     "`Wind velocity` belongs to the term `wind`")
+        self.refused(self.scene({"Terms": "membrane, friction, gravity, pins, damping"}),
+                     "`friction` without `obstacles`")
 
     def test_places(self):
         self.refused(self.scene({"Pins": None}), "key `Pins` is missing")
@@ -337,29 +376,38 @@ class BadScenes(SceneCase):
         self.refused(self.scene({"Pins": "vertices 0 99999"}), "held vertex 99999 does not exist")
         self.refused(self.scene({"Pins": "waist"}), "found `waist`", "a sheet has no waist")
         self.refused(self.scene({"Pins": "left; left"}), "the place `left` holds no vertex")
-        for options in (["--quick"], ["--cells", 4], ["--references", "biot"]):  # the last one for its error bar
-            self.refused(self.scene({"Pins": "vertices 0 1"}), "held vertex 1, at (1, 0) of 20 x 20 cells", "4 x 4 cells",
+        # The last one for its error bar.
+        for options in (["--quick"], ["--cells", 4], ["--references", "biot"]):
+            self.refused(self.scene({"Pins": "vertices 0 1"}),
+                         "held vertex 1, at (1, 0) of 20 x 20 cells", "4 x 4 cells",
                          options=options)
-        self.refused(self.scene({"Pins": "vertices 0 99999"}), "held vertex 99999 does not exist", options=["--quick"])
-        self.refused(self.scene({"Terms": "membrane, handles, damping", "Handles": "right: translate 1 during 2",
-                                 "Pins": None, "Gravity": None}), "place: translate dx dy dz during s")
+        self.refused(self.scene({"Pins": "vertices 0 99999"}), "held vertex 99999 does not exist",
+                     options=["--quick"])
+        self.refused(self.scene({"Terms": "membrane, handles, damping",
+                                 "Handles": "right: translate 1 during 2", "Pins": None,
+                                 "Gravity": None}), "place: translate dx dy dz during s")
 
     def test_time(self):
         for value in ("0", "-0.01", "nan", "soon"):
-            self.refused(self.scene({"Time step": value}), "key `Time step`", f"`{value}`", "positive")
+            self.refused(self.scene({"Time step": value}), "key `Time step`", f"`{value}`",
+                         "positive")
         self.refused(self.scene({"Frame interval": "0.015"}), "multiple of the time step")
-        self.refused(self.scene({"Duration": "0.004", "Frame interval": "0.01"}), "`Duration`", "0.004 s", "0.01 s")
-        self.refused(SCENES / "hang.prm", "--duration", "0.004 s", "0.01 s", options=["--duration", "0.004"])
+        self.refused(self.scene({"Duration": "0.004", "Frame interval": "0.01"}), "`Duration`",
+                     "0.004 s", "0.01 s")
+        self.refused(SCENES / "hang.prm", "--duration", "0.004 s", "0.01 s",
+                     options=["--duration", "0.004"])
 
     def test_all_faults_at_once(self):
-        text = self.refused(self.scene({"Time step": "0", "Pins": "north", "Terms": "membrane, pins, damping, magic"}))
+        text = self.refused(self.scene({"Time step": "0", "Pins": "north",
+                                        "Terms": "membrane, pins, damping, magic"}))
         self.assertGreaterEqual(text.count("scene.prm"), 3)
 
     def test_files(self):
         self.refused(self.folder / "none.prm", "no such file")
         self.refused(self.scene({"Cells": "gone.prm"}), "gone.prm does not exist")
-        self.refused(self.scene({"Terms": "membrane, gravity, obstacles", "Obstacles": "mesh gone.obj 0 0 0",
-                                 "Pins": None, "Damping rate": None}), "gone.obj does not exist")
+        self.refused(self.scene({"Terms": "membrane, gravity, obstacles",
+                                 "Obstacles": "mesh gone.obj 0 0 0", "Pins": None,
+                                 "Damping rate": None}), "gone.obj does not exist")
         cell = self.cell_with("set Lattice vectors = auto", "set Lattice vectors = 1 0; 0 1.1")
         self.refused(self.scene({"Cells": cell}), "layered")
 
@@ -368,9 +416,12 @@ class BadScenes(SceneCase):
         shift = "v 0.1 0.1 0\nvt 0.1 0.1\n"
         for says, text in {
                 "without": "v 0 0 1\nv 0.1 0 0\nv 0 0.1 0\nf 1 2 3\n",
-                "triangle 0": "v 0 0 1\nv 0.1 0 0\nv 0 0.1 0\nvt 0 0\nvt 0.1 0\nvt 0.2 0\nf 1/1 2/2 3/3\n",
-                "belongs to 3 triangles": TRIANGLE + shift + "v 0 0 -1\nvt 0.2 0.1\nf 2/2 4/4 3/3\nf 2/2 5/5 3/3\n",
-                "inside": TRIANGLE + "v 0.05 0.05 0\nv 0.1 0.1 0\nvt 0.05 0.05\nvt 0.1 0.1\nf 2/2 5/5 4/4\nf 4/4 5/5 3/3\n"}.items():
+                "triangle 0": "v 0 0 1\nv 0.1 0 0\nv 0 0.1 0\nvt 0 0\nvt 0.1 0\nvt 0.2 0\n"
+                              "f 1/1 2/2 3/3\n",
+                "belongs to 3 triangles": TRIANGLE + shift + "v 0 0 -1\nvt 0.2 0.1\n"
+                                          "f 2/2 4/4 3/3\nf 2/2 5/5 3/3\n",
+                "inside": TRIANGLE + "v 0.05 0.05 0\nv 0.1 0.1 0\nvt 0.05 0.05\nvt 0.1 0.1\n"
+                          "f 2/2 5/5 4/4\nf 4/4 5/5 3/3\n"}.items():
             with self.subTest(says):
                 self.assertIn(says, self.refused(self.scene(waist, garment=text), "cloth.obj"))
 
@@ -379,7 +430,8 @@ class BadScenes(SceneCase):
                      options=["--references", "biot"])
         self.refused(SCENES / "skirt.prm", "is a garment", options=["--references", "green"])
         self.refused(SCENES / "hang.prm", "found `oracle`", options=["--references", "oracle"])
-        self.refused(SCENES / "hang.prm", "found `knitted`", options=["--variants", "corotational,knitted"])
+        self.refused(SCENES / "hang.prm", "found `knitted`",
+                     options=["--variants", "corotational,knitted"])
 
 
 if __name__ == "__main__":

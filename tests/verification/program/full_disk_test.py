@@ -14,8 +14,8 @@ class FullDisk(InFolder):
         """A disk of so many kilobytes."""
         place = self.folder / f"disk{size}"
         place.mkdir()
-        mounted = subprocess.run(["mount", "-t", "tmpfs", "-o", f"size={size}k", "tmpfs", place], capture_output=True,
-                                 text=True, check=False)
+        mounted = subprocess.run(["mount", "-t", "tmpfs", "-o", f"size={size}k", "tmpfs", place],
+                                 capture_output=True, text=True, check=False)
         if mounted.returncode != 0:
             self.skipTest("a small disk can be mounted by root alone: " + mounted.stderr.strip())
         self.addCleanup(subprocess.run, ["umount", place], check=False)
@@ -31,20 +31,22 @@ class FullDisk(InFolder):
     def test_homogenize(self):
         for size in (4, 20, 40):
             place = self.disk(size)
-            self.refused(run("homogenize", CELLS / "layered.prm", "--order", 1, "--no-bars", "--quiet", "--output", place / "out"))
+            self.refused(run("homogenize", CELLS / "layered.prm", "--order", 1, "--no-bars",
+                             "--quiet", "--output", place / "out"))
             self.assertEqual(list(place.rglob("*.part")), [])
 
     def test_strain(self):
         for size in (60, 140, 160):  # the cell, the table or the sheet
-            self.refused(run("strain", CELLS / "layered.prm", "--cells", 2, "--strains", "0.01", "--loads", "strip-1",
-                             "--references", "linear", "--methods", "localized", "--no-budget", "--no-runtime", "--no-report",
-                             "--output", self.disk(size) / "out"))
+            self.refused(run("strain", CELLS / "layered.prm", "--cells", 2, "--strains", "0.01",
+                             "--loads", "strip-1", "--references", "linear", "--methods",
+                             "localized", "--no-budget", "--no-runtime", "--no-report", "--output",
+                             self.disk(size) / "out"))
 
     def test_drape_keeps_the_frames_that_it_wrote(self):
         for options in ([], ["--no-frames", "--references", "shell"]):
             place = self.disk(500 if options == [] else 60)
-            result = run("drape", SCENES / "pull.prm", "--quick", "--duration", 0.3, "--unit-cells", CELLS / "layered.prm",
-                         "--no-report", *options, "--output", place / "out")
+            result = run("drape", SCENES / "pull.prm", "--quick", "--duration", 0.3, "--unit-cells",
+                         CELLS / "layered.prm", "--no-report", *options, "--output", place / "out")
             self.refused(result)
             if not options:
                 self.assertGreater(len(rows_of(place / "out" / "motion.csv")), 1)
@@ -57,8 +59,8 @@ class FullDisk(InFolder):
 
     def test_report(self):
         output = self.folder / "results"
-        self.assertEqual(run("homogenize", CELLS / "layered.prm", "--order", 1, "--no-bars", "--quiet",
-                             "--output", output).returncode, 0)
+        self.assertEqual(run("homogenize", CELLS / "layered.prm", "--order", 1, "--no-bars",
+                             "--quiet", "--output", output).returncode, 0)
         for size in (8, 200, 400):
             result = run("report", output, "--output", self.disk(size) / "page")
             self.refused(result)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Manual page and completion of the shell: they must know all that --help knows, and nothing else."""
+"""Manual page and completion of the shell: they know all that --help knows, and nothing else."""
 import gzip
 import pathlib
 import re
@@ -51,7 +51,8 @@ class Manual(unittest.TestCase):
 
     def complete(self, *words):
         """What bash offers for the last word."""
-        script = f'source "{self.bash}"; COMP_WORDS=("$@"); COMP_CWORD=$(($# - 1)); _homespun; printf "%s\\n" "${{COMPREPLY[@]}}"'
+        script = (f'source "{self.bash}"; COMP_WORDS=("$@"); COMP_CWORD=$(($# - 1)); _homespun; '
+                  'printf "%s\\n" "${COMPREPLY[@]}"')
         result = subprocess.run(["bash", "-u", "-c", script, "bash", "homespun", *words],
                                 capture_output=True, text=True, check=True)
         self.assertEqual(result.stderr, "")
@@ -59,23 +60,27 @@ class Manual(unittest.TestCase):
 
     def test_the_help_itself_lists_commands_and_options(self):
         self.assertIn(("check",), self.helps)
-        self.assertLess({"--help", "--tolerance", "--max-dofs"}, options_of(self.helps["homogenize",]))
+        self.assertLess({"--help", "--tolerance", "--max-dofs"},
+                        options_of(self.helps["homogenize",]))
 
     def test_the_page_has_the_commands_and_options_of_the_help(self):
         sections = self.sections()
         self.assertEqual(set(sections), set(self.helps))
         for words, text in self.helps.items():
-            listed = set(re.findall(r"^\.TP\n\\fB(?:-\w,)?(--[a-z-]+)", sections[words], re.MULTILINE))
+            listed = set(re.findall(r"^\.TP\n\\fB(?:-\w,)?(--[a-z-]+)", sections[words],
+                                    re.MULTILINE))
             self.assertEqual(listed | {"--help"}, options_of(text), words)
 
     @unittest.skipUnless(shutil.which("man"), "man is not installed")
     def test_the_page_has_every_word_of_the_help(self):
         """Nothing is lost on the way: footers, examples, keys and their values."""
         page = subprocess.run(["man", "-l", self.roff], capture_output=True, text=True, check=True,
-                              env={"PATH": "/usr/bin:/bin", "LC_ALL": "C.UTF-8", "MANWIDTH": "400"}).stdout
+                              env={"PATH": "/usr/bin:/bin", "LC_ALL": "C.UTF-8",
+                                   "MANWIDTH": "400"}).stdout
         known = set(page.replace("\N{HYPHEN}", "-").split())
         for words, text in self.helps.items():
-            text = re.sub(r"\{false\}|:[A-Z]+(?= in )|Usage:|^(Positionals|Options|Subcommands):$", "", text, flags=re.MULTILINE)
+            text = re.sub(r"\{false\}|:[A-Z]+(?= in )|Usage:|^(Positionals|Options|Subcommands):$",
+                          "", text, flags=re.MULTILINE)
             lost = {word for word in text.split() if not {word, word + "."} & known}
             # The first line of the help becomes `NAME`, without its full stop.
             self.assertEqual(lost - {"from."}, set(), words)
@@ -83,9 +88,11 @@ class Manual(unittest.TestCase):
     @unittest.skipUnless(shutil.which("man"), "man is not installed")
     def test_groff_has_nothing_to_say_about_the_page(self):
         for width in ("60", "80", "200"):
-            result = subprocess.run(["man", "--warnings", "-E", "UTF-8", "-l", "-Tutf8", "-Z", self.roff],
+            result = subprocess.run(["man", "--warnings", "-E", "UTF-8", "-l", "-Tutf8", "-Z",
+                                     self.roff],
                                     capture_output=True, text=True, check=True,
-                                    env={"PATH": "/usr/bin:/bin", "LC_ALL": "C.UTF-8", "MANWIDTH": width})
+                                    env={"PATH": "/usr/bin:/bin", "LC_ALL": "C.UTF-8",
+                                         "MANWIDTH": width})
             self.assertEqual(result.stderr, "")
             self.assertIn(VERSION, result.stdout)
 
@@ -96,7 +103,8 @@ class Manual(unittest.TestCase):
         self.assertEqual((again / "homespun.1.gz").read_bytes(), self.roff.read_bytes())
 
     def test_bash_accepts_the_completion(self):
-        result = subprocess.run(["bash", "-n", self.bash], capture_output=True, text=True, check=True)
+        result = subprocess.run(["bash", "-n", self.bash], capture_output=True, text=True,
+                                check=True)
         self.assertEqual(result.stderr, "")
 
     def test_commands_and_options_are_completed(self):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""What a run says is what it did: exit statuses, folders that are one run, notes that follow from what ran."""
+"""What a run says is what it did: exit statuses, folders that are one run, notes of what ran."""
 import json
 import os
 import shutil
@@ -12,40 +12,47 @@ import unittest
 from cli import CELLS, PATIENCE, PROGRAM, InFolder, cut, rows_of, run
 
 LAYERED = CELLS / "layered.prm"
-SMALL = ["--cells", "2", "--loads", "periodic-12", "--strains", "0.01", "--references", "biot", "--no-budget", "--no-runtime",
-         "--no-report"]
+SMALL = ["--cells", "2", "--loads", "periodic-12", "--strains", "0.01", "--references", "biot",
+         "--no-budget", "--no-runtime", "--no-report"]
 
 
 class OneRun(InFolder):
     def tree(self, folder):
-        return {path.relative_to(folder): path.read_bytes() for path in folder.rglob("*") if path.is_file()}
+        return {path.relative_to(folder): path.read_bytes() for path in folder.rglob("*")
+                if path.is_file()}
 
     def test_a_load_of_which_no_level_has_an_equilibrium_fails(self):
-        result = run("strain", LAYERED, "--cells", "2", "--loads", "shear-frame", "--references", "green", "--strains", "0.6,0.8",
-                     "--no-budget", "--no-runtime", "--no-report", "--output", self.folder / "run")
+        result = run("strain", LAYERED, "--cells", "2", "--loads", "shear-frame", "--references",
+                     "green", "--strains", "0.6,0.8", "--no-budget", "--no-runtime", "--no-report",
+                     "--output", self.folder / "run")
         self.assertEqual(result.returncode, 1, result.stderr)
-        self.assertRegex(result.stdout, "FAIL +program +layered, shear-frame, green: .*each of 2 levels")
+        self.assertRegex(result.stdout,
+                         "FAIL +program +layered, shear-frame, green: .*each of 2 levels")
         self.assertIn("no equilibrium found", result.stderr)
 
     def test_on_two_ranks_the_page_is_made_also_where_a_claim_failed(self):
         output = self.folder / "run"
-        result = run("strain", LAYERED, "--cells", "2", "--loads", "periodic-12,shear-frame", "--references", "green", "--strains",
-                     "0.6,0.8", "--no-budget", "--no-runtime", "--output", output, ranks=2)
+        result = run("strain", LAYERED, "--cells", "2", "--loads", "periodic-12,shear-frame",
+                     "--references", "green", "--strains", "0.6,0.8", "--no-budget", "--no-runtime",
+                     "--output", output, ranks=2)
         self.assertEqual(result.returncode, 1, result.stderr)
         self.assertTrue((output / "report.html").exists(), result.stderr)
 
     def test_every_claim_has_a_kind_and_a_limit_that_says_where_it_comes_from(self):
         output = self.folder / "run"
-        self.assertEqual(run("strain", LAYERED, "--quick", "--no-runtime", "--no-report", "--output", output).returncode, 0)
+        self.assertEqual(run("strain", LAYERED, "--quick", "--no-runtime", "--no-report",
+                             "--output", output).returncode, 0)
         for verdict in json.loads((output / "verdicts.json").read_text())["verdicts"]:
             self.assertIn(verdict["kind"], ("program", "input", "method"), verdict)
             self.assertTrue(verdict["derivation"], verdict)
-            self.assertIsNotNone(verdict["value"], verdict)  # what the settings cannot decide is no claim
+            # What the settings cannot decide is no claim.
+            self.assertIsNotNone(verdict["value"], verdict)
 
     def test_notes_speak_of_what_ran(self):
         def notes(*options):
             output = self.folder / "-".join(["run", *options])
-            self.assertEqual(run("strain", LAYERED, *SMALL, *options, "--output", output).returncode, 0)
+            self.assertEqual(run("strain", LAYERED, *SMALL, *options, "--output",
+                                 output).returncode, 0)
             study = json.loads((output / "study.json").read_text())
             return " ".join(study["notes"]), {item["what"] for item in study["left_out"]}
         text, left_out = notes()
@@ -53,11 +60,13 @@ class OneRun(InFolder):
             self.assertNotIn(word, text)
         self.assertIn("error budget", left_out)
         self.assertIn("load strip-1", left_out)
-        self.assertNotIn("localized-affine-lift against the linear reference", left_out)  # which was not asked for
+        # Which was not asked for.
+        self.assertNotIn("localized-affine-lift against the linear reference", left_out)
 
     def test_default_places_keep_commands_and_sizes_apart(self):
         for options in ([], ["--quick"]):
-            self.assertEqual(run("strain", LAYERED, *SMALL, *options, cwd=self.folder).returncode, 0)
+            result = run("strain", LAYERED, *SMALL, *options, cwd=self.folder)
+            self.assertEqual(result.returncode, 0)
         self.assertEqual(run("homogenize", LAYERED, "--quiet", cwd=self.folder).returncode, 0)
         places = {path.name for path in (self.folder / "out" / "layered").iterdir()}
         self.assertEqual(places, {"strain", "strain-quick", "homogenize"})
@@ -71,7 +80,8 @@ class OneRun(InFolder):
         (output / "run.json").write_text(json.dumps(description))
         before = self.tree(output)
         other = [*study, "--methods", "affine,localized"]
-        for options, words in (([], "66 min of work"), (["--resume"], "expected the same to --resume")):
+        for options, words in (([], "66 min of work"),
+                               (["--resume"], "expected the same to --resume")):
             result = run(*other, *options)
             self.assertEqual(result.returncode, 2)
             self.assertIn("holds another run (methods)", result.stderr)
@@ -81,7 +91,8 @@ class OneRun(InFolder):
         result = run(*other, "--overwrite")
         self.assertEqual(result.returncode, 0)
         self.assertIn("the earlier run was replaced (methods)", result.stderr)
-        self.assertEqual({row["method"] for row in rows_of(output / "strain.csv")}, {"affine", "localized"})
+        self.assertEqual({row["method"] for row in rows_of(output / "strain.csv")},
+                         {"affine", "localized"})
 
     def test_a_changed_cell_is_another_run(self):
         output = self.folder / "run"
@@ -104,16 +115,19 @@ class OneRun(InFolder):
         self.assertEqual(run(*study).returncode, 0)
         cut(output)
         path = output / "strain.csv"
-        path.write_text(path.read_text().replace("layered,periodic-12,0.01,", "layered,periodic-12,0.x1,", 1))
+        path.write_text(path.read_text().replace("layered,periodic-12,0.01,",
+                                                 "layered,periodic-12,0.x1,", 1))
         before = path.read_bytes()
         result = run(*study)
         self.assertEqual(result.returncode, 2)
-        self.assertIn("strain.csv:2: column `strain`: found `0.x1`; expected a number above zero", result.stderr)
+        self.assertIn("strain.csv:2: column `strain`: found `0.x1`; expected a number above zero",
+                      result.stderr)
         self.assertEqual(path.read_bytes(), before)
 
     def test_two_at_once_do_not_mix(self):
         output = self.folder / "run"
-        study = [PROGRAM, "strain", str(LAYERED), "--quick", "--no-report", "--quiet", "--output", str(output)]
+        study = [PROGRAM, "strain", str(LAYERED), "--quick", "--no-report", "--quiet", "--output",
+                 str(output)]
         with subprocess.Popen(study, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL) as first:
             deadline = time.monotonic() + 120 * PATIENCE
             while not (output / "strain.csv").exists() and time.monotonic() < deadline:
@@ -123,7 +137,8 @@ class OneRun(InFolder):
         self.assertEqual(result.returncode, 2)
         self.assertIn("another homespun is writing there", result.stderr)
         rows = rows_of(output / "strain.csv")
-        again = run(*study[1:], "--no-budget", "--no-runtime", "--overwrite")  # the lock went with its process
+        # The lock went with its process.
+        again = run(*study[1:], "--no-budget", "--no-runtime", "--overwrite")
         self.assertEqual(again.returncode, 0, again.stderr)
         self.assertGreaterEqual(len(rows_of(output / "strain.csv")), len(rows))
 
@@ -133,9 +148,11 @@ class Figure3(InFolder):
         script = CELLS.parents[1] / "verification" / "figure3.py"
 
         def ends_with(status, *claims):
-            verdicts = [{"claim": "a claim", "kind": kind, "verdict": verdict, "value": 1, "limit": "0"} for kind, verdict in claims]
+            verdicts = [{"claim": "a claim", "kind": kind, "verdict": verdict, "value": 1,
+                         "limit": "0"} for kind, verdict in claims]
             (self.folder / "verdicts.json").write_text(json.dumps({"verdicts": verdicts}))
-            return subprocess.run([sys.executable, "-B", script, self.folder, "sh", "-c", f"exit {status}"], capture_output=True,
+            return subprocess.run([sys.executable, "-B", script, self.folder, "sh", "-c",
+                                   f"exit {status}"], capture_output=True,
                                   text=True, check=False)
         self.assertEqual(ends_with(0).returncode, 0)
         self.assertEqual(ends_with(4, ("program", "INCONCLUSIVE")).returncode, 0)

@@ -1,5 +1,8 @@
 # SPDX-License-Identifier: MIT
-"""Every number of README's results comes from a file of verification/published, and a number without one is a fault."""
+"""Every number of README's results comes from a file of verification/published.
+
+A number without one is a fault.
+"""
 import os
 import pathlib
 import sys
@@ -20,8 +23,10 @@ from made_up_study import write_results, write_stress  # noqa: E402
 from read.stored import BadResults  # noqa: E402
 from readme_numbers import faults_of, is_printed_as, read_tables  # noqa: E402
 
-TABLES = {"errors.csv": [{"cell": "layered", "load": "strip-1", "affine": "51.27", "localized": "49.71", "bar": "1.44"},
-                         {"cell": "layered", "load": "strip-2", "affine": "204.9", "localized": "8.8123", "bar": ""}]}
+TABLES = {"errors.csv": [{"cell": "layered", "load": "strip-1", "affine": "51.27",
+                          "localized": "49.71", "bar": "1.44"},
+                         {"cell": "layered", "load": "strip-2", "affine": "204.9",
+                          "localized": "8.8123", "bar": ""}]}
 KEYS = {"errors.csv": ("cell", "load")}
 MARKED = """<!-- published: errors.csv: {cell} | {load} | {affine} | {localized} ± {bar} -->
 | cell | load | coarse | localized |
@@ -52,46 +57,60 @@ class CheckerTest(unittest.TestCase):
         self.assertEqual(self.faults(MARKED), [])
 
     def test_a_wrong_cell_a_lacking_row_and_an_unknown_one_are_faults(self):
-        for old, new, words in (("51.3", "51.2", "says 51.2; errors.csv, layered/strip-1, affine has 51.27"),
-                                ("± 1.4", "± 1.5", "says 1.5"), ("± –", "± 0", "says 0"), ("| 205 |", "| 204 |", "says 204"),
-                                ("| | strip-2 | 205 | 8.8 ± – |\n", "", "the table lacks layered/strip-2"),
-                                ("strip-2", "strip-3", "has no row layered/strip-3"), ("49.7 ± 1.4", "49.7", "is not of the form"),
+        for old, new, words in (("51.3", "51.2",
+                                 "says 51.2; errors.csv, layered/strip-1, affine has 51.27"),
+                                ("± 1.4", "± 1.5", "says 1.5"), ("± –", "± 0", "says 0"),
+                                ("| 205 |", "| 204 |", "says 204"),
+                                ("| | strip-2 | 205 | 8.8 ± – |\n", "",
+                                 "the table lacks layered/strip-2"),
+                                ("strip-2", "strip-3", "has no row layered/strip-3"),
+                                ("49.7 ± 1.4", "49.7", "is not of the form"),
                                 ("errors.csv:", "other.csv:", "other.csv is not published")):
             found = self.faults(MARKED.replace(old, new))
             self.assertTrue(any(words in fault for fault in found), (new, found))
-        self.assertEqual(self.faults(MARKED.replace("errors.csv:", "part of errors.csv:").replace("| | strip-2 | 205 | 8.8 ± – |\n", "")), [])
+        part = MARKED.replace("errors.csv:", "part of errors.csv:")
+        self.assertEqual(self.faults(part.replace("| | strip-2 | 205 | 8.8 ± – |\n", "")), [])
 
     def test_headers_name_the_columns_of_a_table_without_a_form(self):
-        text = "<!-- published: errors.csv -->\n| cell | load | affine |\n|---|---|---|\n| layered | strip-1 | 51 |\n| layered | strip-2 | 204.9 |\n"
+        text = ("<!-- published: errors.csv -->\n| cell | load | affine |\n|---|---|---|\n"
+                "| layered | strip-1 | 51 |\n| layered | strip-2 | 204.9 |\n")
         self.assertEqual(self.faults(text), [])
         self.assertEqual(len(self.faults(text.replace("204.9", "204.8"))), 1)
 
     def test_a_number_in_a_sentence_is_held_against_its_row(self):
-        sentence = "Across the stripes <!-- published: errors.csv layered/strip-2 localized --> **8.8** is left"
+        mark = "<!-- published: errors.csv layered/strip-2 localized -->"
+        sentence = f"Across the stripes {mark} **8.8** is left"
         self.assertEqual(self.faults(sentence), [])
-        self.assertEqual(self.faults(sentence.replace("8.8", "8.9")), ["line 1: says 8.9; errors.csv, layered/strip-2, localized has 8.8123"])
+        self.assertEqual(self.faults(sentence.replace("8.8", "8.9")),
+                         ["line 1: says 8.9; errors.csv, layered/strip-2, localized has 8.8123"])
         self.assertIn("no row", self.faults(sentence.replace("strip-2", "strip-4"))[0])
         self.assertIn("no column", self.faults(sentence.replace(" localized ", " local "))[0])
-        self.assertIn("stands no number", self.faults("a <!-- published: errors.csv layered/strip-2 localized --> few")[0])
+        self.assertIn("stands no number", self.faults(f"a {mark} few")[0])
 
     def test_a_mark_may_stand_for_several_rows(self):
         def faults(fold, number):
-            return self.faults(f"<!-- published: errors.csv 'layered/*' localized{fold} -->{number}")
+            mark = f"<!-- published: errors.csv 'layered/*' localized{fold} -->"
+            return self.faults(mark + number)
         for fold, number in ((":min", "8.8"), (":max", "49.7"), (":count", "2"), (":sum", "58.5")):
             self.assertEqual(faults(fold, number), [])
             self.assertEqual(len(faults(fold, "7")), 1)
         self.assertIn("has 2 rows", faults("", "8.8")[0])
 
     def test_a_number_without_a_mark_is_a_fault_outside_of_code_and_of_what_is_no_result(self):
-        self.assertEqual(self.faults("\nIt is 3.7 times faster."), ["line 2: 3.7 has no mark `<!-- published: FILE ROW COLUMN -->`"])
-        for text in ("```sh\nsleep 20\n```", "`--strains 0.6`", "20 x 20 cells", "the paper's Eq. 8", "at 1 % strain", "Debian 12", "P1, L2, C^H",
+        self.assertEqual(self.faults("\nIt is 3.7 times faster."),
+                         ["line 2: 3.7 has no mark `<!-- published: FILE ROW COLUMN -->`"])
+        for text in ("```sh\nsleep 20\n```", "`--strains 0.6`", "20 x 20 cells",
+                     "the paper's Eq. 8", "at 1 % strain", "Debian 12", "P1, L2, C^H",
                      "Exit status: 0 all hold, 1 one failed,\n2 bad input", "[here](a/7.html)"):
             self.assertEqual(self.faults(text), [], text)
 
     def test_rounding_is_to_the_digits_of_the_text(self):
-        for value, good, bad in (("8.8123", ("8.8", "8.81", "9"), ("8.80", "8.9", "10")), ("1183.2", ("1183", "1180", "1,183"), ("1200", "1190")),
-                                 ("97.2", ("97",), ("100",)), ("9.64e-4", ("9.6e-4", "0.00096", "1e-3"), ("9.7e-4", "0.00097")),
-                                 ("-0.99", ("-0.99", "−0.99"), ("0.99",)), ("0", ("0", "0.0"), ("0.1",)), ("", (), ("0",))):
+        for value, good, bad in (("8.8123", ("8.8", "8.81", "9"), ("8.80", "8.9", "10")),
+                                 ("1183.2", ("1183", "1180", "1,183"), ("1200", "1190")),
+                                 ("97.2", ("97",), ("100",)),
+                                 ("9.64e-4", ("9.6e-4", "0.00096", "1e-3"), ("9.7e-4", "0.00097")),
+                                 ("-0.99", ("-0.99", "−0.99"), ("0.99",)),
+                                 ("0", ("0", "0.0"), ("0.1",)), ("", (), ("0",))):
             for text in good:
                 self.assertTrue(is_printed_as(value, text), (value, text))
             for text in bad:
@@ -111,10 +130,12 @@ class PublishTest(unittest.TestCase):
 
     def test_errors_are_those_of_the_table_in_thousandths_of_strain_and_side(self):
         (row,) = published.rows_of([self.folder("strain", write_results)])["errors.csv"]
-        expected = {"affine": 200., "localized": 8., "reference_bar": 0.1, "share_of_affine_left": 4., "share_of_fluctuation_left": 4.}
+        expected = {"affine": 200., "localized": 8., "reference_bar": 0.1,
+                    "share_of_affine_left": 4., "share_of_fluctuation_left": 4.}
         for key, value in expected.items():
             self.assertAlmostEqual(row[key], value, places=9, msg=key)
-        self.assertEqual((row["cell"], row["load"], row["revision"]), ("stripes", "shear-frame", "abc1234"))
+        self.assertEqual((row["cell"], row["load"], row["revision"]),
+                         ("stripes", "shear-frame", "abc1234"))
 
     def test_times_are_medians_and_ratios_those_of_whole_steps(self):
         (row,) = published.rows_of([self.folder("strain", write_results)])["times.csv"]
@@ -122,7 +143,8 @@ class PublishTest(unittest.TestCase):
         self.assertAlmostEqual(row["ratio_most"], 6.5 / 0.0021)
 
     def test_a_scene_gives_its_last_frame_with_the_bar_of_its_reference(self):
-        folder = self.folder("drape", write_drape, references=("biot",), frames=2, variants=("corotational", "nodal-warping"))
+        folder = self.folder("drape", write_drape, references=("biot",), frames=2,
+                             variants=("corotational", "nodal-warping"))
         self.assertNotIn("pull.csv", published.rows_of([folder]))  # another scene
         with mock.patch.object(published, "SCENE", "swing"):
             (row,) = published.rows_of([folder])["pull.csv"]
@@ -139,7 +161,8 @@ class PublishTest(unittest.TestCase):
     def test_claims_are_counted_by_kind_and_amount_to_an_exit_status(self):
         folder = self.folder("dots/stress-quick", write_stress)
         for verdicts, status in (([verdict("a", "PASS")], 0), ([verdict("a", "INCONCLUSIVE")], 4),
-                                 ([verdict("a", "INCONCLUSIVE"), verdict("b", "FAIL", kind="method")], 1)):
+                                 ([verdict("a", "INCONCLUSIVE"),
+                                   verdict("b", "FAIL", kind="method")], 1)):
             write_verdicts(folder, verdicts)
             write_run(folder, "stress")
             (row,) = published.rows_of([folder])["claims.csv"]
@@ -149,15 +172,19 @@ class PublishTest(unittest.TestCase):
 
     def test_two_runs_of_one_cell_are_refused(self):
         folders = [self.folder(name, write_results) for name in ("one", "two")]
-        with self.assertRaisesRegex(BadResults, "errors.csv: two runs have a row stripes/shear-frame"):
+        with self.assertRaisesRegex(BadResults,
+                                    "errors.csv: two runs have a row stripes/shear-frame"):
             published.rows_of(folders)
 
     def test_orders_stand_with_their_limits(self):
         folder = os.path.join(self.place, "converge")
         os.makedirs(folder)
-        row = {"cell": "none", "study": "manufactured", "case": "statics", "quantity": "L2 error [side]", "order_p": 2, "h_unit": "side",
-               "dofs": 5, "order": 3.01, "order_lowest": 2.9, "order_highest": 3.1, "judgement": "PASS", "seconds": 0.1}
-        write_table(folder, "converge.csv", [{**row, "level": level, "h": 0.5 ** level} for level in range(4)])
+        row = {"cell": "none", "study": "manufactured", "case": "statics",
+               "quantity": "L2 error [side]", "order_p": 2, "h_unit": "side", "dofs": 5,
+               "order": 3.01, "order_lowest": 2.9, "order_highest": 3.1, "judgement": "PASS",
+               "seconds": 0.1}
+        write_table(folder, "converge.csv",
+                    [{**row, "level": level, "h": 0.5 ** level} for level in range(4)])
         write_run(folder, "converge")
         (found,) = published.rows_of([folder])["orders.csv"]
         self.assertEqual((found["elements"], found["order"], found["levels"]), ("P2", 3.01, 4))
@@ -165,9 +192,11 @@ class PublishTest(unittest.TestCase):
     def test_what_is_published_reads_back_and_what_was_changed_is_refused(self):
         folder = self.folder("strain", write_results)
         output = os.path.join(self.place, "published")
-        self.assertEqual(published.publish(output, [folder]), ["claims.csv", "errors.csv", "times.csv"])
+        self.assertEqual(published.publish(output, [folder]),
+                         ["claims.csv", "errors.csv", "times.csv"])
         tables = read_tables(output)
-        self.assertEqual(faults_of("<!-- published: errors.csv stripes/shear-frame localized -->8.0", tables, published.KEYS), [])
+        text = "<!-- published: errors.csv stripes/shear-frame localized -->8.0"
+        self.assertEqual(faults_of(text, tables, published.KEYS), [])
         with open(os.path.join(folder, "strain.csv"), "a", encoding="utf-8") as file:
             file.write("\n")
         with self.assertRaisesRegex(BadResults, "strain.csv was changed after the run ended"):

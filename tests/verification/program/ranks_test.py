@@ -20,8 +20,8 @@ from read.vtu import read_vtu  # noqa: E402
 class Ranks(InFolder):
     def stiffness(self, cell, order, ranks):
         output = self.folder / f"{cell}-{order}-{ranks}"
-        result = run("homogenize", CELLS / f"{cell}.prm", "--order", order, "--refine", 1, "--quiet",
-                     "--output", output, ranks=ranks)
+        result = run("homogenize", CELLS / f"{cell}.prm", "--order", order, "--refine", 1,
+                     "--quiet", "--output", output, ranks=ranks)
         self.assertEqual(result.returncode, 0, result.stderr)
         return json.loads((output / "homogenize.json").read_text())["C"]
 
@@ -34,15 +34,16 @@ class Ranks(InFolder):
                     together = self.stiffness(cell, order, ranks)
                     for i in range(3):
                         for j in range(3):
-                            self.assertAlmostEqual(together[i][j], alone[i][j], delta=1e-10 * largest)
+                            self.assertAlmostEqual(together[i][j], alone[i][j],
+                                                   delta=1e-10 * largest)
 
     def test_errors_of_a_study_agree_on_one_and_two_ranks(self):
         rows = {}
         for ranks in (1, 2):
             output = self.folder / f"study-{ranks}"
-            result = run("strain", CELLS / "three-stiffness.prm", "--cells", 2, "--strains", "0.01,0.1",
-                         "--loads", "periodic-12,strip-2", "--no-report", "--quiet", "--output", output,
-                         ranks=ranks)
+            result = run("strain", CELLS / "three-stiffness.prm", "--cells", 2, "--strains",
+                         "0.01,0.1", "--loads", "periodic-12,strip-2", "--no-report", "--quiet",
+                         "--output", output, ranks=ranks)
             self.assertEqual(result.returncode, 0, result.stderr)
             with open(output / "strain.csv", newline="", encoding="utf-8") as file:
                 rows[ranks] = list(csv.DictReader(file))
@@ -53,11 +54,13 @@ class Ranks(InFolder):
             self.assertAlmostEqual(error, float(two["error_mean_m"]), delta=2e-5 * error + 1e-15)
 
     def test_a_budget_that_is_not_found_is_a_note_and_no_rank_waits(self):
-        # Stripes of contrast 1e9: their coarse equilibrium at 10 % is not found by the budget, which the first rank alone knows.
+        # Stripes of contrast 1e9: their coarse equilibrium at 10 % is not found by the budget,
+        # which the first rank alone knows.
         cell = self.cell_with("soft: 1e6", "soft: 1e-2")
         output = self.folder / "study"
-        result = run("strain", cell, "--cells", 2, "--strains", "0.01,0.1", "--loads", "strip-1", "--references", "biot",
-                     "--methods", "localized", "--no-report", "--no-runtime", "--quiet", "--output", output, ranks=2)
+        result = run("strain", cell, "--cells", 2, "--strains", "0.01,0.1", "--loads", "strip-1",
+                     "--references", "biot", "--methods", "localized", "--no-report",
+                     "--no-runtime", "--quiet", "--output", output, ranks=2)
         self.assertIn(result.returncode, (0, 1, 4), result.stderr)
         notes = (output / "notes.csv").read_text()
         self.assertIn("error budget: ", notes)
@@ -72,7 +75,8 @@ def chi_of(surface):
 def materials_of(surface):
     """Centre and material of each triangle, sorted."""
     centres = surface.points[surface.triangles].mean(axis=1).tolist()
-    return sorted((*centre, material) for centre, material in zip(centres, surface.cell_data["material"]))
+    return sorted((*centre, material)
+                  for centre, material in zip(centres, surface.cell_data["material"]))
 
 
 class Homogenize(InFolder):
@@ -82,13 +86,15 @@ class Homogenize(InFolder):
         return numpy.array(json.loads((output / "homogenize.json").read_text())["C"])
 
     def pieces(self, output, ranks):
-        result = run("homogenize", self.CELL, "--refine", 2, "--no-bars", "--quiet", "--pieces", "--output", output,
-                     ranks=ranks)
+        result = run("homogenize", self.CELL, "--refine", 2, "--no-bars", "--quiet", "--pieces",
+                     "--output", output, ranks=ranks)
         self.assertEqual(result.returncode, 0, result.stderr)
-        collection = ElementTree.parse(output / "characteristic-displacements-refined.pvtu").getroot()
+        listing = output / "characteristic-displacements-refined.pvtu"
+        collection = ElementTree.parse(listing).getroot()
         names = [piece.get("Source") for piece in collection.iter("Piece")]
         self.assertEqual(len(names), ranks)
-        self.assertEqual(len(list(output.glob("characteristic-displacements-refined-*.vtu"))), ranks)
+        self.assertEqual(len(list(output.glob("characteristic-displacements-refined-*.vtu"))),
+                         ranks)
         surfaces = [read_vtu(output / name) for name in names]
         arrays = {array.get("Name") for array in collection.iter("PDataArray")}
         for surface in surfaces:
@@ -108,13 +114,15 @@ class Homogenize(InFolder):
             chi = chi_of(surface)
             expected = numpy.array([chi_at[tuple(point)] for point in surface.points.round(9)])
             self.assertGreater(numpy.abs(expected).max(), 1e-4)
-            numpy.testing.assert_allclose(chi, expected, rtol=0, atol=1e-6 * numpy.abs(expected).max())
+            numpy.testing.assert_allclose(chi, expected, rtol=0,
+                                          atol=1e-6 * numpy.abs(expected).max())
         # Every triangle is in one piece, with its material.
-        numpy.testing.assert_allclose(sorted(materials_of(two[0]) + materials_of(two[1])), materials_of(one),
-                                   rtol=0, atol=1e-12)
+        numpy.testing.assert_allclose(sorted(materials_of(two[0]) + materials_of(two[1])),
+                                      materials_of(one), rtol=0, atol=1e-12)
 
     def test_a_run_that_was_killed_goes_on_from_the_loads_that_are_done(self):
-        study = [PROGRAM, "homogenize", self.CELL, "--refine", "5", "--order", "1", "--no-bars", "--quiet", "--output"]
+        study = [PROGRAM, "homogenize", self.CELL, "--refine", "5", "--order", "1", "--no-bars",
+                 "--quiet", "--output"]
         whole, killed = self.folder / "whole", self.folder / "killed"
         subprocess.run([*map(str, study), str(whole)], check=True, timeout=240 * PATIENCE)
         self.assertFalse((whole / ".homespun-loads").exists())
@@ -124,13 +132,15 @@ class Homogenize(InFolder):
             while not first.exists() and process.poll() is None and time.monotonic() < deadline:
                 time.sleep(0.01)
             process.send_signal(signal.SIGKILL)
-        self.assertTrue(first.exists(), "it was killed before the first load was solved, or ended before")
+        self.assertTrue(first.exists(),
+                        "it was killed before the first load was solved, or ended before")
         self.assertFalse((killed / "homogenize.json").exists())
-        resumed = subprocess.run([*map(str, study), str(killed)], capture_output=True, text=True, check=False,
-                                 timeout=240 * PATIENCE)
+        resumed = subprocess.run([*map(str, study), str(killed)], capture_output=True, text=True,
+                                 check=False, timeout=240 * PATIENCE)
         self.assertEqual(resumed.returncode, 0, resumed.stderr)
         expected = self.stiffness(whole)
-        numpy.testing.assert_allclose(self.stiffness(killed), expected, rtol=0, atol=1e-10 * numpy.abs(expected).max())
+        numpy.testing.assert_allclose(self.stiffness(killed), expected, rtol=0,
+                                      atol=1e-10 * numpy.abs(expected).max())
         self.assertEqual(json.loads((killed / "homogenize.json").read_text())["loads_taken_up"], 1)
         self.assertFalse((killed / ".homespun-loads").exists())
 
@@ -140,18 +150,22 @@ class Homogenize(InFolder):
         cut(self.folder)
         left = self.folder / ".homespun-loads"
         left.mkdir()
-        (left / "load-0-rank-0-of-1").write_bytes(bytes(8 * 3034))  # as many degrees of freedom as layered has
+        # As many degrees of freedom as layered has.
+        (left / "load-0-rank-0-of-1").write_bytes(bytes(8 * 3034))
         refused = run("homogenize", CELLS / "layered.prm", *study, "--resume")
         self.assertEqual(refused.returncode, 2)
         self.assertIn("holds another run", refused.stderr)
         self.assertTrue(left.exists())
-        self.assertEqual(run("homogenize", CELLS / "layered.prm", *study, "--overwrite").returncode, 0)
-        self.assertEqual(json.loads((self.folder / "homogenize.json").read_text())["loads_taken_up"], 0)
+        again = run("homogenize", CELLS / "layered.prm", *study, "--overwrite")
+        self.assertEqual(again.returncode, 0)
+        found = json.loads((self.folder / "homogenize.json").read_text())
+        self.assertEqual(found["loads_taken_up"], 0)
         self.assertFalse(left.exists())
 
 
 class Scaling(InFolder):
-    STUDY = ["scaling", CELLS / "layered.prm", "--refine", "1,2", "--ranks", "1,2", "--repeats", "1", "--quiet"]
+    STUDY = ["scaling", CELLS / "layered.prm", "--refine", "1,2", "--ranks", "1,2", "--repeats",
+             "1", "--quiet"]
 
     def test_rows_of_every_mesh_and_number_of_ranks_are_written_and_kept(self):
         (self.folder / "run").mkdir()  # of the user: not the study's to remove
@@ -159,13 +173,16 @@ class Scaling(InFolder):
         # Meshes as small as these are no claim on memory.
         self.assertIn(result.returncode, (0, 1, 4), result.stderr)
         rows = rows_of(self.folder / "scaling.csv")
-        self.assertEqual([(row["refine"], row["ranks"]) for row in rows], [("1", "1"), ("1", "2"), ("2", "1"), ("2", "2")])
-        self.assertTrue(all(float(row["seconds_solve"]) > 0 and float(row["bytes_largest_rank"]) > 1e7 for row in rows))
+        self.assertEqual([(row["refine"], row["ranks"]) for row in rows],
+                         [("1", "1"), ("1", "2"), ("2", "1"), ("2", "2")])
+        self.assertTrue(all(float(row["seconds_solve"]) > 0
+                            and float(row["bytes_largest_rank"]) > 1e7 for row in rows))
         verdicts = json.loads((self.folder / "verdicts.json").read_text())["verdicts"]
         self.assertEqual(verdicts[0]["verdict"], "PASS", verdicts[0])
         self.assertEqual(sorted(path.name for path in self.folder.iterdir()),
                          ["run", "run.json", "scaling.csv", "scaling.json", "verdicts.json"])
-        self.assertIn("Iterations lie between", *json.loads((self.folder / "scaling.json").read_text())["notes"])
+        self.assertIn("Iterations lie between",
+                      *json.loads((self.folder / "scaling.json").read_text())["notes"])
         again = run(*self.STUDY, "--output", self.folder, "--resume")
         self.assertEqual(again.returncode, result.returncode, again.stderr)
         self.assertEqual(rows_of(self.folder / "scaling.csv"), rows)
@@ -177,11 +194,13 @@ class Scaling(InFolder):
         self.assertIn("scaling.csv:2: column `dofs`: found `12x`", damaged.stderr)
 
     def test_faults_are_told_at_once_and_a_launcher_that_does_not_run_by_what_it_said(self):
-        result = run(*self.STUDY, "--ranks", "0", "--launcher", "mpirun -n 2", "--output", self.folder)
+        result = run(*self.STUDY, "--ranks", "0", "--launcher", "mpirun -n 2", "--output",
+                     self.folder)
         self.assertEqual(result.returncode, 2)
         self.assertIn("--ranks: found 0", result.stderr)
         self.assertIn("expected {ranks} where the number of ranks stands", result.stderr)
-        result = run(*self.STUDY, "--launcher", "no-such-launcher {ranks}", "--output", self.folder / "out")
+        result = run(*self.STUDY, "--launcher", "no-such-launcher {ranks}", "--output",
+                     self.folder / "out")
         self.assertEqual(result.returncode, 2)
         self.assertIn("mend --launcher", result.stderr)
         result = run(*self.STUDY, "--output", self.folder / "out", ranks=2)

@@ -10,9 +10,10 @@ import unittest
 from cli import CELLS, PROGRAM, InFolder, cut, rows_of, run
 
 STUDY = ["strain", CELLS / "layered.prm", "--cells", "3", "--strains", "0.01,0.05,0.1", "--loads",
-         "periodic-12,strip-2", "--references", "linear,biot", "--no-budget", "--no-runtime", "--no-report", "--quiet"]
-SCENE = ["drape", CELLS.parent / "scenes" / "pull.prm", "--unit-cells", CELLS / "layered.prm", "--cells", "2", "--duration",
-         "0.1", "--no-frames", "--no-report"]
+         "periodic-12,strip-2", "--references", "linear,biot", "--no-budget", "--no-runtime",
+         "--no-report", "--quiet"]
+SCENE = ["drape", CELLS.parent / "scenes" / "pull.prm", "--unit-cells", CELLS / "layered.prm",
+         "--cells", "2", "--duration", "0.1", "--no-frames", "--no-report"]
 
 
 class Resume(InFolder):
@@ -35,8 +36,8 @@ class Resume(InFolder):
 
     def test_rows_of_another_study_are_not_mixed_in(self):
         output = self.folder / "other"
-        small = ["strain", CELLS / "layered.prm", "--loads", "periodic-12", "--strains", "0.01", "--references",
-                 "biot", "--no-report", "--quiet", "--output", output]
+        small = ["strain", CELLS / "layered.prm", "--loads", "periodic-12", "--strains", "0.01",
+                 "--references", "biot", "--no-report", "--quiet", "--output", output]
         self.assertEqual(run(*small, "--cells", 2).returncode, 0)
         for ranks in (1, 2):
             result = run(*small, "--cells", 3, "--resume", ranks=ranks)
@@ -46,8 +47,8 @@ class Resume(InFolder):
 
     def test_rows_of_another_density_are_not_mixed_in(self):
         other = self.cell_with("soft: 400, hard: 400", "soft: 400, hard: 500")
-        studies = {"strain": ["--loads", "periodic-12", "--strains", "0.01", "--references", "biot", "--cells", "2",
-                              "--no-budget", "--no-runtime"]}
+        studies = {"strain": ["--loads", "periodic-12", "--strains", "0.01", "--references", "biot",
+                              "--cells", "2", "--no-budget", "--no-runtime"]}
         for name, options in studies.items():
             end = [*options, "--no-report", "--quiet", "--output", self.folder / name]
             self.assertEqual(run(name, CELLS / "layered.prm", *end).returncode, 0)
@@ -56,7 +57,8 @@ class Resume(InFolder):
             self.assertIn("holds another run (cell layered)", result.stderr)
         scene = [*SCENE, "--quiet", "--output", self.folder / "scene"]
         self.assertEqual(run(*scene).returncode, 0)
-        result = run(*(other if word == CELLS / "layered.prm" else word for word in scene), "--resume")
+        result = run(*(other if word == CELLS / "layered.prm" else word for word in scene),
+                     "--resume")
         self.assertEqual(result.returncode, 2)
         self.assertIn("holds another run (cells)", result.stderr)
 
@@ -74,11 +76,13 @@ class Resume(InFolder):
         self.assertNotIn("error bar", again.stderr)
         for name, text in whole.items():
             self.assertEqual((output / name).read_text(), text)
-        for name, n_kept, ranks in (("drape.csv", -2, 1), ("motion.csv", -1, 2), ("drape.csv", 1, 2)):
+        for name, n_kept, ranks in (("drape.csv", -2, 1), ("motion.csv", -1, 2),
+                                    ("drape.csv", 1, 2)):
             with self.subTest(table=name, kept=n_kept):
                 lines = whole[name].splitlines(keepends=True)
                 (output / name).write_text("".join(lines[:n_kept]))
-                # Of a run that ended nobody may take away a row; one that was killed had not written it yet.
+                # Of a run that ended nobody may take away a row; one that was killed had not
+                # written it yet.
                 result = run(*study, ranks=ranks)
                 self.assertEqual(result.returncode, 2, result.stdout)
                 self.assertIn(f"{name}: was changed after the run ended", result.stderr)
@@ -89,8 +93,9 @@ class Resume(InFolder):
                 self.assert_same_rows(rows_of(output / name), expected[name])
 
     def test_a_single_level_outside_the_window_of_the_verdicts_ends_well(self):
-        result = run("strain", CELLS / "layered.prm", "--loads", "periodic-12", "--strains", "0.2", "--references",
-                     "biot", "--methods", "localized", "--no-report", "--output", self.folder / "one")
+        result = run("strain", CELLS / "layered.prm", "--loads", "periodic-12", "--strains", "0.2",
+                     "--references", "biot", "--methods", "localized", "--no-report", "--output",
+                     self.folder / "one")
         self.assertEqual(result.returncode, 0, result.stderr)
         self.assertNotIn("slope", result.stdout)  # which its own strains cannot decide
         self.assertNotIn("INCONCLUSIVE", result.stdout)
