@@ -26,7 +26,6 @@ int main(int argc, char **argv)
   add_to_schema<UncertaintyRow>(schema);
   add_to_schema<BudgetRow>(schema);
   add_to_schema<SecondCodeRow>(schema);
-  add_to_schema<SecondCodeRow>(schema);
   add_to_schema<RunTimeRow>(schema);
   add_to_schema<ValidityRow>(schema);
   add_to_schema<ConvergeRow>(schema);

@@ -26,11 +26,12 @@ class Install(InFolder):
         share = self.prefix / "share"
         for name in ("doc/homespun/LICENSE", "doc/homespun/README.md", "man/man1/homespun.1.gz",
                      "bash-completion/completions/homespun", "homespun/cells/layered.geo",
-                     "homespun/scenes/skirt.obj", "homespun/report/report.py", "homespun/report/read/runs.py",
+                     "homespun/scenes/skirt.obj", "homespun/report/report.py",
+                     "homespun/report/read/runs.py",
                      "homespun/report/figures/style.py", "homespun/report/page/report.html.j2"):
             self.assertTrue((share / name).is_file(), name)
         for folder in ("meshes", "shell", "localization", "homogenization"):
-            self.assertTrue(list((self.prefix / "include" / "homespun" / folder).glob("*.h")),
+            self.assertTrue(list((self.prefix / "include" / "homespun" / folder).rglob("*.h")),
                             folder)
         self.assertEqual(list((share / "homespun").rglob("test_*")), [])
 
