@@ -83,9 +83,10 @@ std::vector<BudgetRow> budget_rows(const BudgetRow &level, const ErrorBudget &bu
   BudgetRow bar = level;
   bar.part      = "unexplained-bar";
   bar.region    = budget_regions().front();
-  bar.mean      = budget.bar();
+  bar.mean      = budget.bar;
   bar.per_cell  = bar.mean / side;
-  rows.push_back(bar);
+  if (std::isfinite(bar.mean))
+    rows.push_back(bar);
   for (const auto &[name, field] : fields)
     for (int region = 3; region >= 0; --region)
     {

@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace homespun::verification
 {
@@ -120,10 +121,14 @@ std::string BudgetStudy::measure(const Law law, const double strain,
               fault = "the reference does not converge to 1e-11; " + tight.why;
             else
             {
-              if (is_judged && law == Law::biot)
-                hold_against_second_code(strain, tight.positions);
-              fault = measure_on_root(law, strain, positions, tight.positions,
-                                      of_p2.reached ? &of_p2.positions : nullptr, solved);
+              std::optional<meshes::Points> second_sheet;
+              if (is_judged)
+                second_sheet = solve_by_second_code(law, strain, tight.positions, fault);
+              const std::string of_parts =
+                measure_on_root(law, {strain, solved.coarse, solved.upsampled, positions,
+                                      tight.positions, of_p2.reached ? &of_p2.positions : nullptr,
+                                      second_sheet ? &*second_sheet : nullptr});
+              fault += (fault.empty() || of_parts.empty() ? "" : "; ") + of_parts;
             }
             if (fault.empty() && is_judged && !of_p2.reached)
               fault = "the part `reference` is not known: P2 is not reached; " + of_p2.why;
@@ -134,38 +139,42 @@ std::string BudgetStudy::measure(const Law law, const double strain,
   return fault;
 }
 
-/// One level of each load: the first that is judged.
-void BudgetStudy::hold_against_second_code(const double strain, const meshes::Points &tight)
+/// The sheet by the second code, and its distance from the reference into the table; nothing where
+/// it has not that law, or does not converge.
+std::optional<meshes::Points> BudgetStudy::solve_by_second_code(const Law law, const double strain,
+                                                                const meshes::Points &tight,
+                                                                std::string &fault)
 {
-  if (strain != judged.front())
-    return;
-  SecondCodeRow row = {cell->name, load_name, strain, name_of(Law::biot), "sheet"};
+  if (law == Law::green)
+    return std::nullopt;
+  SecondCodeRow row = {cell->name, load_name, strain, name_of(law), "sheet"};
+  std::optional<meshes::Points> positions;
   try
   {
-    const meshes::Points other = second_corotational_sheet(cells.given, cells.stiffness_of_phase,
-                                                           *sheet, Load(load_name), strain, tight);
+    const Load load(load_name);
+    positions =
+      law == Law::linear
+        ? second_linear_sheet(cells.given, cells.stiffness_of_phase, *sheet, load, strain)
+        : second_corotational_sheet(cells.given, cells.stiffness_of_phase, *sheet, load, strain);
     row.distance =
-      (tight - other).rowwise().norm().mean() / (strain * std::sqrt(cell->lattice.area()));
+      (tight - *positions).rowwise().norm().mean() / (strain * std::sqrt(cell->lattice.area()));
   }
   catch (const meshes::NotConverged &failure)
   {
     row.fault = failure.what();
+    fault     = std::string("the second code: ") + failure.what();
   }
   second->append_if_missing(row);
+  return positions;
 }
 
-std::string BudgetStudy::measure_on_root(const Law law, const double strain,
-                                         const meshes::Points &positions,
-                                         const meshes::Points &tight,
-                                         const meshes::Points *p2_positions,
-                                         const UpsampledLevel &solved)
+std::string BudgetStudy::measure_on_root(const Law law, const SolvedLevel &level)
 {
   try
   {
-    const ErrorBudget budget = of_load->measure(
-      law, {strain, solved.coarse, solved.upsampled, positions, tight, p2_positions});
-    for (const BudgetRow &row : budget_rows({cell->name, load_name, strain, name_of(law)}, budget,
-                                            regions, std::sqrt(cell->lattice.area())))
+    const ErrorBudget budget = of_load->measure(law, level);
+    for (const BudgetRow &row : budget_rows({cell->name, load_name, level.strain, name_of(law)},
+                                            budget, regions, std::sqrt(cell->lattice.area())))
       table->append_if_missing(row);
     return budget.misfit_of_localization <= 0.02
              ? std::string()

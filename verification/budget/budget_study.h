@@ -10,6 +10,7 @@
 #include <mpi.h>
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -63,10 +64,9 @@ public:
 
 private:
   void begin_cell(const homogenization::UnitCell &cell, const meshes::HomogenizedCell &given);
-  std::string measure_on_root(Law law, double strain, const meshes::Points &positions,
-                              const meshes::Points &tight, const meshes::Points *p2,
-                              const UpsampledLevel &solved);
-  void hold_against_second_code(double strain, const meshes::Points &tight);
+  std::string measure_on_root(Law law, const SolvedLevel &level);
+  std::optional<meshes::Points>
+  solve_by_second_code(Law law, double strain, const meshes::Points &tight, std::string &fault);
 
   Table<BudgetRow> *const table;
   Table<SecondCodeRow> *const second;

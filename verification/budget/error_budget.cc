@@ -3,6 +3,7 @@
 
 #include "localization/upsampler.h"
 #include "meshes/plain/errors.h"
+#include "verification/budget/second_code.h"
 
 #include <Eigen/QR>
 
@@ -16,14 +17,15 @@ using meshes::Points;
 const std::vector<std::string> &budget_parts()
 {
   static const std::vector<std::string> names = {
-    "scale",  "nonlinearity", "coarse-mesh", "cell",      "blending",  "time-step",
-    "solver", "precision",    "convention",  "reference", "resolution"};
+    "scale",  "nonlinearity", "coarse-mesh", "cell",      "blending",   "time-step",
+    "solver", "precision",    "convention",  "reference", "resolution", "scale-change"};
   return names;
 }
 
 bool is_in_sum(const std::string &part)
 {
-  return part != "cell" && part != "reference" && part != "precision" && part != "resolution";
+  return part != "cell" && part != "reference" && part != "precision" && part != "resolution" &&
+         part != "scale-change";
 }
 
 Points ErrorBudget::sum() const
@@ -33,16 +35,6 @@ Points ErrorBudget::sum() const
     if (is_in_sum(name))
       result += field;
   return result;
-}
-
-double ErrorBudget::bar() const
-{
-  const auto mean = [&](const char *part) { return parts.at(part).rowwise().norm().mean(); };
-  double linear   = 0.;
-  for (const char *part : {"scale", "coarse-mesh", "blending", "convention"})
-    linear += mean(part);
-  return change_of_response * linear +
-         (misfit_of_localization + change_of_response) * mean("nonlinearity");
 }
 
 int budget_refinement(const meshes::Sheet &sheet)
@@ -125,13 +117,17 @@ ErrorBudget LoadBudget::measure(const Law law, const SolvedLevel &level)
   const Points with_exact     = localized(exact, cells.given, sheet);
   const Points with_averaged  = localized(averaged, cells.given, sheet);
 
-  budget.parts["scale"]      = strain * scale;
   budget.parts["convention"] = from_constant(exact, constant);
   budget.parts["nonlinearity"] =
     law == Law::linear ? zero : nonlinearity(law, u, with_exact, budget);
-  const double response = (with_exact - exact.positions).rowwise().norm().mean();
-  if (response > 0.)
-    budget.change_of_response = budget.parts["nonlinearity"].rowwise().norm().mean() / response;
+  budget.parts["scale"] = strain * scale;
+  if (level.second != nullptr)
+  {
+    const Points infinite        = with_exact - budget.parts["nonlinearity"];
+    budget.parts["scale"]        = infinite - *level.second - budget.parts["convention"];
+    budget.parts["scale-change"] = budget.parts["scale"] - strain * scale;
+    budget.bar                   = agreement * strain * std::sqrt(sheet.lattice.area());
+  }
   budget.parts["coarse-mesh"] =
     localized(coarse.at_fine_vertices(law, level.coarse), cells.given, sheet) - with_averaged;
   budget.parts["blending"]   = with_averaged - with_exact;

@@ -141,7 +141,7 @@ meshes::Points second_linear_sheet(const meshes::HomogenizedCell &cell,
 meshes::Points second_corotational_sheet(const meshes::HomogenizedCell &cell,
                                          const std::vector<Eigen::Matrix3d> &stiffness_of_phase,
                                          const meshes::Sheet &sheet, const Load &load,
-                                         const double strain, const meshes::Points &start)
+                                         const double strain)
 {
   if (load.is_periodic())
   {
@@ -156,12 +156,9 @@ meshes::Points second_corotational_sheet(const meshes::HomogenizedCell &cell,
   }
   const Prescribed known = prescribed(sheet, load, strain);
   const shell::MembraneSolver<2> solver(second_mesh(cell, sheet), stiffness_of_phase, known.held);
-  shell::Positions<2> positions = start;
-  for (const int v : known.held)
-    positions.row(v) = known.positions.row(v);
   shell::EquilibriumOptions tight;
   tight.relative_tolerance = 1e-13; // round-off counts as zero before
-  return solver.solve_equilibrium(positions, tight).positions;
+  return solver.solve_equilibrium(solver.solve_linear(known.positions), tight).positions;
 }
 
 Eigen::Matrix3d second_p2_stiffness(const meshes::HomogenizedCell &cell,

@@ -47,7 +47,7 @@ ErrorBudget known_budget(const double strain)
     size *= 0.8;
     turn += 1.;
   }
-  budget.change_of_response = 0.1 * strain;
+  budget.bar = 1e-8 * strain;
   return budget;
 }
 
@@ -166,8 +166,8 @@ TEST(tripwire_budget, a_sum_as_long_as_the_error_that_points_elsewhere_is_notice
 
 TEST(exact_budget, a_bar_above_a_fifth_of_the_error_decides_nothing)
 {
-  ErrorBudget budget        = known_budget(0.01);
-  budget.change_of_response = 0.3;
+  ErrorBudget budget = known_budget(0.01);
+  budget.bar         = 0.3 * budget.total.rowwise().norm().mean();
   budget.total *= 1.1;
   std::vector<BudgetRow> rows;
   add_level(0.01, budget, rows);
