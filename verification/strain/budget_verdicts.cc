@@ -261,7 +261,7 @@ std::vector<std::string> budget_notes(const std::vector<StrainRow> &strain_rows,
         return;
       std::string larger_parts;
       for (const std::string &part : budget_parts())
-        if (const double mean = mean_of(budget_rows, level, part); mean > total)
+        if (const double mean = mean_of(budget_rows, level, part); is_in_sum(part) && mean > total)
           larger_parts += (larger_parts.empty() ? "" : ", ") + part + " (" +
                           short_text(std::round(100. * mean / total)) + " %)";
       if (!larger_parts.empty())

@@ -62,7 +62,7 @@ std::vector<StrainRow> strain_rows(const std::vector<double> &strains)
     row.mean            = 1e-6;
     row.per_cell        = 1e-4;
     row.per_fluctuation = 0.01;
-    row.uncertainty     = 1e-9;
+    row.uncertainty     = 1.; // covers whatever the reference lacks
     rows.push_back(row);
   }
   return rows;
@@ -108,7 +108,7 @@ const std::vector<double> strains = {0.001, 0.005, 0.01, 0.1};
 TEST(exact_budget, parts_that_make_up_the_total_leave_nothing)
 {
   const auto verdicts = judged(strains, ladder(strains));
-  EXPECT_EQ(verdicts.size(), 5u); // two levels, two claims each, and the slope
+  EXPECT_EQ(verdicts.size(), 7u); // two levels, three claims each, and the slope
   for (const Verdict &verdict : verdicts)
     EXPECT_EQ(verdict.outcome, Outcome::pass) << verdict.claim;
   EXPECT_LT(verdict_with(verdicts, "the parts leave").value, 1e-12);
@@ -188,6 +188,15 @@ TEST(exact_budget, parts_larger_than_the_error_are_named)
   EXPECT_NE(notes[0].find("convention ("), std::string::npos) << notes[0];
 }
 
+TEST(tripwire_budget, an_error_bar_that_does_not_cover_the_distance_from_p2_is_noticed)
+{
+  std::vector<StrainRow> rows = strain_rows(strains);
+  for (StrainRow &row : rows)
+    row.uncertainty = 1e-12;
+  EXPECT_EQ(verdict_with(budget_verdicts(rows, ladder(strains), strains), "covers").outcome,
+            Outcome::fail);
+}
+
 TEST(tripwire_second_code, two_codes_that_differ_are_noticed)
 {
   const auto outcome = [](const char *what, const double distance)
@@ -247,7 +256,7 @@ TEST(exact_budget, a_level_without_a_budget_is_inconclusive)
       EXPECT_EQ(verdict.outcome, Outcome::inconclusive) << verdict.claim;
       ++n_judged;
     }
-  EXPECT_EQ(n_judged, 2);
+  EXPECT_EQ(n_judged, 3);
 }
 
 TEST(exact_run_time, the_median_is_the_middle)
