@@ -215,10 +215,15 @@ TEST(tripwire_second_code, two_codes_that_differ_are_noticed)
 
 TEST(tripwire_budget, a_homogenized_sheet_that_is_not_resolved_is_told)
 {
-  const auto notes = budget_notes(strain_rows(strains), ladder(strains, "resolution", 1e6));
-  const auto right = budget_notes(strain_rows(strains), ladder(strains));
-  EXPECT_NE(notes[0], right[0]);
-  EXPECT_NE(notes[0].find("counts as resolved changes by"), std::string::npos) << notes[0];
+  const auto told = [](const std::vector<BudgetRow> &rows)
+  {
+    for (const std::string &note : budget_notes(strain_rows(strains), rows))
+      if (note.find("counts as resolved changes by") != std::string::npos)
+        return note;
+    return std::string("no note");
+  };
+  EXPECT_NE(told(ladder(strains, "resolution", 1e6)), "no note");
+  EXPECT_NE(told(ladder(strains, "resolution", 1e6)), told(ladder(strains)));
 }
 
 TEST(tripwire_budget, a_solver_that_stops_early_is_noticed)
