@@ -14,8 +14,8 @@ import patches
 
 # What no mutant touches: the command line, and lines that tell, refuse or assert.
 LEFT_OUT = "verification/program/"
-SPEAKS = re.compile(r'"|^\s*#|\\$|\bthrow\b|\b(static_)?assert\b|\bAssert\w*\(|\btemplate\b|\btext\b'
-                    r"|\bwhat\b|\bremedy\b|\bmessage\b|\bprintf\b")
+SPEAKS = re.compile(r'"|^\s*#|\\$|\bthrow\b|\b(static_)?assert\b|\bAssert\w*\(|\btemplate\b'
+                    r"|\btext\b|\bwhat\b|\bremedy\b|\bmessage\b|\bprintf\b")
 # In these " + " may join texts or step through a container.
 NO_NUMBERS = re.compile(r"string|name|text|folder|path|file|output|what|line|begin\(\)|end\(\)"
                         r"|operator")

@@ -1,0 +1,333 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: MIT
+"""Measures which mutants the tests notice, and which the program notices itself.
+
+run.py BUILD WORK [NAME ...]   BUILD: a tree of the unpatched program, for its settings and the
+                               seconds of its tests; WORK: a folder for copy, build and table
+run.py --dry BUILD WORK ...    puts each fault into the copy and takes it out again, builds nothing
+run.py --list                  all mutants
+
+A row of WORK/mutants.csv per mutant (with --dry WORK/dry.csv); rows that are there are not run
+again. It takes hours, and may be killed at any time.
+"""
+import argparse
+import csv
+import json
+import os
+import pathlib
+import re
+import shutil
+import subprocess
+import sys
+import time
+
+import patches
+
+COLUMNS = ["mutant", "kind", "file", "noticed_by_test", "seconds_to_notice", "noticed_by_program",
+           "builds"]
+JOBS = 2
+# These read the text of the sources, which every mutant changes.
+NOT_ASKED = ("mutants", "walls")
+# Upper ends of the seconds of tests that are run together; longer ones go one by one.
+BATCHES = (0.1, 1., 10.)
+# Without measured seconds: programs in C++ first, then in Python, then those that build.
+GUESSED = [(r"^(consumer|verification\.install)$", 600.), (r"^benchmarks\.", 60.),
+           (r"^verification\.\w+$", 300.), (r"", 0.5)]
+NOT_COPIED = ("build", "out")
+MARK = "copy-of-homespun"
+CELL = "meshes/cells/layered.prm"
+MOST_SECONDS_OF_PROGRAM = 3600
+WORST_FIRST = [2, 3, 1, 4, 0]  # exit statuses, as in verification/record/verdict.h
+
+
+class Table:
+    """Rows by mutant. It is written as a whole and then renamed: what stands there is sound."""
+
+    def __init__(self, path):
+        self.path = pathlib.Path(path)
+        self.rows = {}
+        if self.path.exists():
+            with open(self.path, newline="", encoding="utf-8") as file:
+                reader = csv.DictReader(file)
+                if reader.fieldnames != COLUMNS:
+                    raise SystemExit(f"{self.path}: found the columns {reader.fieldnames}; expected"
+                                     f" {COLUMNS}: take another folder, or move the file away")
+                self.rows = {row["mutant"]: row for row in reader}
+
+    def add(self, row):
+        self.rows[row["mutant"]] = {column: str(row[column]) for column in COLUMNS}
+        unfinished = self.path.with_suffix(".unfinished")
+        with open(unfinished, "w", newline="", encoding="utf-8") as file:
+            writer = csv.DictWriter(file, COLUMNS, lineterminator="\n")
+            writer.writeheader()
+            writer.writerows(self.rows.values())
+            file.flush()
+            os.fsync(file.fileno())
+        os.replace(unfinished, self.path)
+
+
+def make_equal(source, copy):
+    """Brings a copy of the sources up to date, whatever a run before it left there.
+
+    Only files that differ are written, with the time of now, so that just those are built."""
+    def files_of(root):
+        for folder, folders, names in os.walk(root):
+            top = pathlib.Path(folder) == root
+            folders[:] = [name for name in folders if name not in (".git", "__pycache__")
+                          and not (top and name in NOT_COPIED)]
+            for name in names:
+                path = (pathlib.Path(folder) / name).relative_to(root)
+                if name != ".git":
+                    yield path
+    source, copy = pathlib.Path(source), pathlib.Path(copy)
+    wanted = set(files_of(source))
+    for path in wanted:
+        there = copy / path
+        there.parent.mkdir(parents=True, exist_ok=True)
+        if not there.exists() or there.read_bytes() != (source / path).read_bytes():
+            there.write_bytes((source / path).read_bytes())
+            shutil.copymode(source / path, there)
+    for path in set(files_of(copy)) - wanted:
+        (copy / path).unlink()
+
+
+def refuse_places(work):
+    """What is in the copy and not in the sources is deleted: no folder of somebody else's."""
+    if (work / "source").exists() and not (work / MARK).exists():
+        raise SystemExit(f"{work}/source was not made by this program; take another folder")
+    inside = patches.ROOT in work.parents
+    if work == patches.ROOT or inside and work.relative_to(patches.ROOT).parts[0] not in NOT_COPIED:
+        raise SystemExit(f"{work} would be copied into itself; take a folder outside of the "
+                         "sources, or in build/")
+
+
+class Fault:
+    """with Fault(copy, mutant): the fault is in the copy."""
+
+    def __init__(self, copy, mutant):
+        self.path = pathlib.Path(copy) / mutant.file
+        self.mutant = mutant
+
+    def __enter__(self):
+        self.sound = self.path.read_text(encoding="utf-8")
+        self.path.write_text(self.mutant.applied(self.sound), encoding="utf-8")
+
+    def __exit__(self, *_):
+        self.path.write_text(self.sound, encoding="utf-8")
+
+
+def settings_of(build):
+    """What to configure with, from the cache of a build tree."""
+    cache = (pathlib.Path(build) / "CMakeCache.txt").read_text(encoding="utf-8")
+    entries = re.findall(r"^([\w.-]+):(\w+)=(.*)$", cache, re.M)
+    generator = next(value for name, _, value in entries if name == "CMAKE_GENERATOR")
+    wanted = (r"HOMESPUN_(WITH_DEALII|NATIVE|AUDIT|SANITIZE)|CMAKE_BUILD_TYPE|CMAKE_C(XX)?_COMPILER"
+              r"|CMAKE_C(XX)?_FLAGS(_\w+)?|CMAKE_PREFIX_PATH|deal\.II_DIR")
+    return ["-G", generator] + [f"-D{name}:{kind}={value}" for name, kind, value in entries
+                                if re.fullmatch(wanted, name) and value]
+
+
+def seconds_of_tests(*builds):
+    """{test: seconds} as ctest measured them; the first build that has some counts."""
+    for build in builds:
+        path = pathlib.Path(build) / "Testing/Temporary/CTestCostData.txt"
+        if path.exists():
+            text = path.read_text(encoding="utf-8").split("---")[0]
+            return {name: float(seconds)
+                    for name, runs, seconds in re.findall(r"^(\S+) (\d+) (\S+)$", text, re.M)
+                    if int(runs) > 0}
+    return {}
+
+
+def batches_of(names, seconds, not_asked=NOT_ASKED):
+    """Numbers of tests, from 1, in the order in which they are asked: the quickest first."""
+    def cost(name):
+        if name in seconds:
+            return seconds[name]
+        return next(guess for pattern, guess in GUESSED if re.search(pattern, name))
+    asked = sorted((cost(name), number) for number, name in enumerate(names, 1)
+                   if name not in not_asked)
+    batches, low = [], 0.
+    for high in BATCHES:
+        batches.append([number for of_it, number in asked if low <= of_it < high])
+        low = high
+    return [batch for batch in batches if batch] + [[number] for of_it, number in asked
+                                                    if of_it >= low]
+
+
+def what_the_program_says(status, claims, usual):
+    """A claim that fails and usually does not, else a worse exit status, else nothing."""
+    for claim in claims:
+        if claim not in usual["claims"]:
+            return claim
+    if status == usual["status"]:
+        return ""
+    rank = {of_it: place for place, of_it in enumerate(WORST_FIRST)}
+    if rank.get(status, -1) < rank.get(usual["status"], -1):
+        return f"exit status {status}, usually {usual['status']}"
+    return ""
+
+
+class Workshop:
+    """Copy and build tree in WORK."""
+
+    def __init__(self, build, work):
+        self.given, self.work = pathlib.Path(build).resolve(), pathlib.Path(work).resolve()
+        self.copy, self.build = self.work / "source", self.work / "build"
+        self.environment = {**os.environ, "PYTHONDONTWRITEBYTECODE": "1",
+                            "OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1"}
+        refuse_places(self.work)
+        self.work.mkdir(parents=True, exist_ok=True)
+        (self.work / MARK).touch()
+        make_equal(patches.ROOT, self.copy)
+
+    def run(self, *command, log, seconds=None, cwd=None):
+        """The exit status; what is printed goes to a file. None where it takes too long."""
+        with open(self.work / log, "w", encoding="utf-8") as file:
+            try:
+                return subprocess.run(command, cwd=cwd or self.build, env=self.environment,
+                                      stdout=file, stderr=subprocess.STDOUT, check=False,
+                                      timeout=seconds).returncode
+            except subprocess.TimeoutExpired:
+                return None
+
+    def builds(self):
+        return self.run("cmake", "--build", ".", "--parallel", str(JOBS), log="build.log") == 0
+
+    def prepare(self):
+        """Configures once, builds what is sound, and asks it what it says when nothing is wrong."""
+        self.build.mkdir(exist_ok=True)
+        if not (self.build / "build.ninja").exists() and not (self.build / "Makefile").exists():
+            command = ["cmake", "-S", str(self.copy), "-B", ".", *settings_of(self.given)]
+            if self.run(*command, log="configure.log") != 0:
+                raise SystemExit(f"cmake fails; see {self.work}/configure.log")
+        if not self.builds():
+            raise SystemExit(f"the sources do not build; see {self.work}/build.log")
+        listing = subprocess.run(["ctest", "--show-only=json-v1"], cwd=self.build, check=True,
+                                 env=self.environment, stdout=subprocess.PIPE).stdout
+        names = [test["name"] for test in json.loads(listing)["tests"]]
+        usual = self.work / "usual.json"
+        if not usual.exists():
+            print("the sound program: all tests", flush=True)
+            self.failed_log().unlink(missing_ok=True)
+            self.run("ctest", log="tests.log")
+            status, claims = self.ask_program()
+            unfinished = usual.with_suffix(".unfinished")
+            unfinished.write_text(json.dumps({"status": status, "claims": claims,
+                                              "failing_tests": self.failed_tests()}, indent=2))
+            os.replace(unfinished, usual)
+        self.usual = json.loads(usual.read_text())
+        for test in self.usual["failing_tests"]:
+            if test not in NOT_ASKED:
+                print(f"{test} fails without any mutant and is not asked", flush=True)
+        self.batches = batches_of(names, seconds_of_tests(self.build, self.given),
+                                  [*NOT_ASKED, *self.usual["failing_tests"]])
+
+    def failed_log(self):
+        return self.build / "Testing/Temporary/LastTestsFailed.log"
+
+    def failed_tests(self):
+        log = self.failed_log()
+        return re.findall(r"^\d+:(.+)$", log.read_text(), re.M) if log.exists() else []
+
+    def ask_tests(self):
+        """The first test that fails, or nothing, and the seconds until then."""
+        start = time.monotonic()
+        for numbers in self.batches:
+            self.failed_log().unlink(missing_ok=True)
+            status = self.run("ctest", "--stop-on-failure", "-I",
+                              "0,0,0," + ",".join(str(number) for number in numbers),
+                              log="tests.log")
+            if status != 0:
+                return (self.failed_tests() or ["ctest"])[0], time.monotonic() - start
+        return "", time.monotonic() - start
+
+    def ask_program(self):
+        """The exit status of a quick verification, and the claims on the program that failed."""
+        output = self.work / "verify"
+        shutil.rmtree(output, ignore_errors=True)
+        status = self.run(str(self.build / "homespun"), "verify", "--quick", "--no-report",
+                          "--output", str(output), CELL, log="verify.log", cwd=self.copy,
+                          seconds=MOST_SECONDS_OF_PROGRAM)
+        try:
+            verdicts = json.loads((output / "verdicts.json").read_text())["verdicts"]
+        except (OSError, ValueError, KeyError):
+            verdicts = []
+        return status, [one["claim"] for one in verdicts
+                        if one["kind"] == "program" and one["verdict"] == "FAIL"]
+
+    def measured(self, mutant):
+        """The row of a mutant."""
+        row = {"mutant": mutant.name, "kind": mutant.kind, "file": mutant.file,
+               "noticed_by_test": "", "seconds_to_notice": "", "noticed_by_program": "",
+               "builds": "false"}
+        with Fault(self.copy, mutant):
+            if self.builds():
+                row["builds"] = "true"
+                test, seconds = self.ask_tests()
+                if test:
+                    row.update(noticed_by_test=test, seconds_to_notice=f"{seconds:.1f}")
+                row["noticed_by_program"] = what_the_program_says(*self.ask_program(), self.usual)
+        return row
+
+    def tried(self, mutant):
+        """The row of a mutant that was put in and taken out."""
+        path = self.copy / mutant.file
+        before = path.read_bytes()
+        with Fault(self.copy, mutant):
+            if path.read_bytes() == before:
+                raise SystemExit(f"{mutant.name} changes nothing")
+        if path.read_bytes() != before:
+            raise SystemExit(f"{mutant.name} is left in {path}")
+        return {**dict.fromkeys(COLUMNS, ""), "mutant": mutant.name, "kind": mutant.kind,
+                "file": mutant.file}
+
+
+def measure(mutants, table, row_of):
+    """Adds the rows that are missing."""
+    for mutant in mutants:
+        if mutant.name not in table.rows:
+            row = row_of(mutant)
+            table.add(row)
+            print(", ".join(f"{name} {row[name]}" for name in COLUMNS if row[name]), flush=True)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__,
+                                     formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--list", action="store_true")
+    parser.add_argument("--dry", action="store_true")
+    parser.add_argument("build", nargs="?")
+    parser.add_argument("work", nargs="?")
+    parser.add_argument("names", nargs="*")
+    given = parser.parse_args()
+    mutants = patches.read()
+    if given.list:
+        for mutant in mutants:
+            print(f"{mutant.kind:7} {mutant.name:36} {mutant.file}: {mutant.sentence}")
+        return
+    if given.work is None:
+        parser.error("BUILD and WORK are needed")
+    unknown = set(given.names) - {mutant.name for mutant in mutants}
+    if unknown:
+        parser.error(f"no mutant is called {', '.join(sorted(unknown))}; see --list")
+    if given.names:
+        mutants = [mutant for mutant in mutants if mutant.name in given.names]
+    workshop = Workshop(given.build, given.work)
+    if given.dry:
+        measure(mutants, Table(workshop.work / "dry.csv"), workshop.tried)
+        return
+    table = Table(workshop.work / "mutants.csv")
+    workshop.prepare()
+    measure(mutants, table, workshop.measured)
+    rows = [row for row in table.rows.values() if row["builds"] == "true"]
+    quiet = [row["mutant"] for row in rows
+             if not row["noticed_by_test"] and not row["noticed_by_program"]]
+    print(f"{len(rows)} mutants build; tests notice "
+          f"{sum(bool(row['noticed_by_test']) for row in rows)}, the program "
+          f"{sum(bool(row['noticed_by_program']) for row in rows)}; unnoticed: "
+          f"{', '.join(quiet) or 'none'}")
+
+
+if __name__ == "__main__":
+    sys.exit(main())
