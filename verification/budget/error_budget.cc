@@ -17,15 +17,14 @@ using meshes::Points;
 const std::vector<std::string> &budget_parts()
 {
   static const std::vector<std::string> names = {
-    "scale",  "nonlinearity", "coarse-mesh", "cell",      "blending",   "time-step",
-    "solver", "precision",    "convention",  "reference", "resolution", "scale-change"};
+    "scale",  "nonlinearity", "coarse-mesh", "cell",      "blending",  "time-step",
+    "solver", "precision",    "convention",  "reference", "resolution"};
   return names;
 }
 
 bool is_in_sum(const std::string &part)
 {
-  return part != "cell" && part != "reference" && part != "precision" && part != "resolution" &&
-         part != "scale-change";
+  return part != "cell" && part != "reference" && part != "precision" && part != "resolution";
 }
 
 Points ErrorBudget::sum() const
@@ -96,7 +95,26 @@ LoadBudget::LoadBudget(const BudgetCells &cells, const meshes::Sheet &sheet, con
     Law::linear, resolved.solve(Law::linear, resolved.prescribed(linear_strain)));
   const Points error = localized(state, cells.given, sheet) - second;
   constant           = best_constant(state, error);
-  scale              = (error - from_constant(state, constant)) / linear_strain;
+  shift              = from_constant(state, constant) / linear_strain;
+  scale              = error / linear_strain - shift;
+  fluctuation        = (second - state.positions) / linear_strain;
+  localization       = (localized(state, cells.given, sheet) - state.positions) / linear_strain;
+}
+
+double LoadBudget::bar_of_sum(const Law law, const SolvedLevel &level, const Points &homogenized,
+                              const Points &with_exact, const ErrorBudget &budget) const
+{
+  const auto mean        = [](const Points &field) { return field.rowwise().norm().mean(); };
+  const double strain    = level.strain;
+  const Points &part_2   = budget.parts.at("nonlinearity");
+  const double of_part_2 = budget.misfit_of_localization * mean(part_2);
+  const double of_codes  = agreement * strain * std::sqrt(sheet.lattice.area());
+  if (law == Law::linear || load.is_periodic())
+    return of_part_2 + of_codes;
+  const Points of_sheet = *level.second - homogenized - strain * fluctuation;
+  const Points of_cell  = with_exact - part_2 - homogenized - strain * localization;
+  const Points of_shift = budget.parts.at("convention") - strain * shift;
+  return mean(of_sheet) + mean(of_cell) + mean(of_shift) + of_part_2 + of_codes;
 }
 
 ErrorBudget LoadBudget::measure(const Law law, const SolvedLevel &level)
@@ -121,13 +139,8 @@ ErrorBudget LoadBudget::measure(const Law law, const SolvedLevel &level)
   budget.parts["nonlinearity"] =
     law == Law::linear ? zero : nonlinearity(law, u, with_exact, budget);
   budget.parts["scale"] = strain * scale;
-  if (level.second != nullptr)
-  {
-    const Points infinite        = with_exact - budget.parts["nonlinearity"];
-    budget.parts["scale"]        = infinite - *level.second - budget.parts["convention"];
-    budget.parts["scale-change"] = budget.parts["scale"] - strain * scale;
-    budget.bar                   = agreement * strain * std::sqrt(sheet.lattice.area());
-  }
+  if (law == Law::linear || level.second != nullptr)
+    budget.bar = bar_of_sum(law, level, exact.positions, with_exact, budget);
   budget.parts["coarse-mesh"] =
     localized(coarse.at_fine_vertices(law, level.coarse), cells.given, sheet) - with_averaged;
   budget.parts["blending"]   = with_averaged - with_exact;

@@ -19,9 +19,8 @@ PARTS = {
     "convention": "9 convention (anchor)",
     "reference": "the reference's own discretization",
     "resolution": "change of the resolved homogenized sheet from a mesh half as fine",
-    "scale-change": "what part 1 changed by from linear theory",
 }
-BESIDE_THE_SUM = ("cell", "reference", "precision", "resolution", "scale-change")
+BESIDE_THE_SUM = ("cell", "reference", "precision", "resolution")
 REGIONS = ("interior", "boundary", "corner")
 
 
