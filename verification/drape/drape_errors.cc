@@ -15,52 +15,6 @@ namespace
 constexpr double not_known = std::numeric_limits<double>::quiet_NaN();
 } // namespace
 
-double DrapeErrorBar::at(const std::size_t frame, const double fluctuation_there) const
-{
-  if (frame >= difference.size() || !(fluctuation[frame] > 0.))
-    return not_known;
-  return difference[frame] / fluctuation[frame] * fluctuation_there;
-}
-
-DrapeErrorBar drape_error_bar(const DrapedCell &draped, const Law law, const int n_cells,
-                              const DrapeSchedule &schedule, const MPI_Comm communicator)
-{
-  const Scene small = scaled(draped.scene, n_cells);
-  const DrapedCell sheet(small, draped.cell, draped.homogenized);
-  const std::unique_ptr<FineRun> p1 = dealii_run(sheet, law, 1, communicator),
-                                 p2 = dealii_run(sheet, law, 2, communicator);
-  SceneCloth coarse(small, sheet.coarse, sheet.effective, sheet.coarse_motion());
-  const Upsampler3d affine = sheet.upsampler<double>(Method("affine"));
-  Upsampler3d::Fine motion;
-  DrapeErrorBar bar;
-  for (int frame = 0; frame <= schedule.n_frames; ++frame)
-  {
-    const double time = schedule.time_of(frame);
-    for (int k = 0; k < schedule.steps_to(frame); ++k)
-    {
-      // Every rank has the same coarse cloth, and they end together.
-      try
-      {
-        if (schedule.is_static)
-          coarse.solve_equilibrium(time);
-        else
-          coarse.step(schedule.step);
-      }
-      catch (const meshes::NotConverged &)
-      {
-        return bar;
-      }
-      for (FineRun *const run : {p1.get(), p2.get()})
-        if (!run->advance(schedule.is_static, schedule.step, time).why.empty())
-          return bar;
-    }
-    affine.upsample(coarse.cloth().positions(), motion);
-    bar.difference.push_back((p1->positions() - p2->positions()).rowwise().norm().mean());
-    bar.fluctuation.push_back((p2->positions() - motion).rowwise().norm().mean());
-  }
-  return bar;
-}
-
 DrapeComparison::DrapeComparison(const DrapedCell &draped, const std::vector<std::string> &methods,
                                  const std::vector<CoarseRun> &runs)
     : draped(draped)
@@ -87,8 +41,10 @@ std::vector<meshes::VertexData> DrapeComparison::compare(const std::string &refe
                                                          const DrapeErrorBar &bar,
                                                          DrapeOutput &output) const
 {
-  const auto at      = static_cast<std::size_t>(frame);
-  double fluctuation = not_known;
+  const auto at               = static_cast<std::size_t>(frame);
+  double fluctuation          = not_known;
+  const SpacePoints beginning = draped.at_fine_vertices(draped.fine.positions);
+  const double displacement   = (positions - beginning).rowwise().norm().mean();
   std::vector<meshes::VertexData> error;
   for (const CoarseRun &run : runs)
   {
@@ -116,7 +72,9 @@ std::vector<meshes::VertexData> DrapeComparison::compare(const std::string &refe
       row.max           = distance.maxCoeff();
       row.mean_per_cell = row.mean / draped.side;
       row.mean_per_fluctuation = row.mean / fluctuation;
-      row.uncertainty          = bar.at(at, fluctuation);
+      row.displacement         = displacement;
+      row.uncertainty          = bar.of_mesh_at(at, fluctuation);
+      row.time_step            = bar.of_time_step_at(at, fluctuation);
       output.write(row);
       if (run.is_method() && method == "localized")
         error = {{"error", distance.cast<float>()}};

@@ -1,15 +1,11 @@
 // SPDX-License-Identifier: MIT
-// How far the up-sampled cloth is from a full-resolution one at a frame, and how far that one may
-// itself be from the limit of fine meshes.
+// How far the up-sampled cloth is from a full-resolution one at a frame.
 #pragma once
 
 #include "verification/drape/coarse_run.h"
+#include "verification/drape/drape_error_bar.h"
 #include "verification/drape/drape_output.h"
-#include "verification/drape/drape_schedule.h"
 #include "verification/drape/draped_cell.h"
-#include "verification/drape/fine_run.h"
-
-#include <mpi.h>
 
 #include <map>
 #include <string>
@@ -17,24 +13,6 @@
 
 namespace homespun::verification
 {
-/// Discretization error of a reference on a small sheet, per frame. It goes with the local strain,
-/// as the fluctuation does, and is carried over to the full sheet by the ratio of the two.
-struct DrapeErrorBar
-{
-  std::vector<double> difference;  ///< mean |P1 − P2| [m]
-  std::vector<double> fluctuation; ///< mean |P2 − coarse motion| [m]
-
-  /// On a sheet with another fluctuation [m]; nothing known: not a number.
-  double at(std::size_t frame, double fluctuation_there) const;
-};
-
-/// Runs the scene on a small sheet with P1 and P2. Ends at the first frame that one of them, or the
-/// coarse cloth there, does not reach.
-/// @param law of the reference
-/// @param n_cells of the small sheet, per side
-DrapeErrorBar drape_error_bar(const DrapedCell &draped, Law law, int n_cells,
-                              const DrapeSchedule &schedule, MPI_Comm communicator);
-
 /// Holds the coarse runs of one cell, up-sampled by some methods, against references.
 class DrapeComparison
 {

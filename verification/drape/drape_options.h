@@ -16,7 +16,7 @@ struct DrapeOptions
   std::vector<std::string> variants, references, methods;
   std::vector<std::string> frames = {"vtu"}; ///< of vtu, ply, obj; empty: none
   int n_cells                     = 0;       ///< cells per side of a sheet; 0: the scene's
-  int n_cells_of_error_bar        = 4;       ///< 0: no error bar
+  int n_cells_of_error_bar        = 2;       ///< 0: no error bar
   double time_step = 0., duration = 0.;      ///< [s]; 0: the scene's
   bool costs = false;                        ///< what absent terms would cost
   std::string output, command;

@@ -47,6 +47,11 @@ public:
     terms->append_if_missing(row);
   }
 
+  const std::vector<DrapeRow> &error_rows() const
+  {
+    return errors.rows();
+  }
+
   /// Whether a row with these keys is there.
   bool has(const DrapeRow &row) const
   {

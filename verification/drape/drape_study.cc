@@ -11,6 +11,7 @@
 #include "verification/drape/drape_errors.h"
 #include "verification/drape/drape_inputs.h"
 #include "verification/drape/drape_verdicts.h"
+#include "verification/drape/fine_run.h"
 #include "verification/drape/obstacle_surface.h"
 #include "verification/record/json_files.h"
 #include "verification/record/number_text.h"
@@ -170,10 +171,10 @@ private:
     const std::string title = draped.cell.name + ", " + reference;
     progress.begin(title + ": setting up", true);
     on_root(communicator, [&]() { std::filesystem::create_directories(place); });
-    const std::unique_ptr<FineRun> fine = is_dealii(reference)
-                                            ? dealii_run(draped, law_of(reference), 1, communicator)
-                                            : shell_run(draped, communicator);
-    int first                           = 0;
+    const std::unique_ptr<FineRun> fine =
+      is_dealii(reference) ? dealii_run(draped, law_of(reference), {}, communicator)
+                           : shell_run(draped, communicator);
+    int first = 0;
     std::vector<double> seconds;
     if (const auto state = state_to_resume(name, reference, fine->n_vertices(), comparison))
     {
@@ -184,10 +185,11 @@ private:
     DrapeErrorBar bar;
     if (is_dealii(reference) && options.n_cells_of_error_bar > 0 && first <= schedule.n_frames)
     {
-      progress.begin(title + ": error bar", true);
-      bar =
-        drape_error_bar(draped, law_of(reference), std::min(options.n_cells_of_error_bar, scene.n1),
-                        schedule, communicator);
+      bar = drape_error_bar(
+        draped, law_of(reference), std::min(options.n_cells_of_error_bar, scene.n1), schedule,
+        communicator,
+        [&](const int frame)
+        { progress.begin(title + ": error bar, frame " + std::to_string(frame), true); });
     }
     std::unique_ptr<meshes::FrameCollection> list;
     on_root(communicator,
@@ -236,6 +238,14 @@ private:
         progress.done();
     }
     verdicts.push_back(verdict_of_reference(title, n_frames, schedule.n_frames + 1));
+    if (is_dealii(reference) && options.n_cells_of_error_bar > 0)
+      on_root(communicator,
+              [&]()
+              {
+                for (const Verdict &verdict : verdicts_of_accuracy(
+                       output->error_rows(), draped.cell.name, reference, draped.side))
+                  verdicts.push_back(verdict);
+              });
     // A time depends on the machine: reported, never judged.
     double ratio = std::numeric_limits<double>::quiet_NaN();
     for (const CoarseRun &run : runs)
@@ -307,9 +317,10 @@ private:
     for (const std::string &reference : options.references)
       if (!is_dealii(reference))
         add(scene.name + ": error bar of the reference " + reference,
-            "it has none: its meshes have no quadratic elements");
+            "it has none, and its accuracy is not judged: its meshes have no quadratic elements");
       else if (options.n_cells_of_error_bar == 0)
-        add(scene.name + ": error bar of the reference " + reference, "--quick leaves it out");
+        add(scene.name + ": error bar of the reference " + reference,
+            "--quick leaves it out: accuracy is not judged");
     if (options.frames.empty())
       add(scene.name + ": frames", "--no-frames was given");
     if (!options.costs)

@@ -24,7 +24,9 @@ struct DrapeRow
   double time = 0.;                                                   ///< [s]
   double mean = not_a_number, rms = not_a_number, max = not_a_number; ///< [m]
   double mean_per_cell = not_a_number, mean_per_fluctuation = not_a_number;
-  double uncertainty = not_a_number; ///< of the reference [m]
+  double uncertainty  = not_a_number; ///< of the reference's mesh [m]
+  double time_step    = not_a_number; ///< uncertainty of the error from the time step [m]
+  double displacement = not_a_number; ///< mean of the reference's since the beginning [m]
 
   template <typename Column>
   static void columns(Column &&column)
@@ -42,6 +44,8 @@ struct DrapeRow
     column("error_mean_per_cell", &DrapeRow::mean_per_cell, Domain::not_negative);
     column("error_mean_per_fluctuation", &DrapeRow::mean_per_fluctuation, Domain::not_negative);
     column("reference_uncertainty_m", &DrapeRow::uncertainty, Domain::not_negative);
+    column("time_step_uncertainty_m", &DrapeRow::time_step, Domain::not_negative);
+    column("displacement_mean_m", &DrapeRow::displacement, Domain::not_negative);
   }
 };
 

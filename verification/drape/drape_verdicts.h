@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: MIT
-// What a scene run claims: that each of its cloths comes to the end of the scene.
+// What a scene run claims: that each of its cloths comes to the end of the scene, and how near the
+// method is to a reference.
 #pragma once
 
+#include "verification/drape/drape_tables.h"
 #include "verification/record/verdict.h"
 
 #include <string>
+#include <vector>
 
 namespace homespun::verification
 {
@@ -38,4 +41,22 @@ inline Verdict verdict_of_reference(const std::string &title, const int n_found,
   return reaches_the_end(title + ": the reference runs to its end", n_found, n_wanted,
                          n_found <= 1 ? Outcome::fail : Outcome::inconclusive, Kind::program);
 }
+
+/// What is asked of the method in a scene: places in the fabric to a twentieth of the way that they
+/// went, and to a tenth of a cell.
+constexpr double most_per_displacement = 0.05, most_per_cell = 0.1;
+
+/// Judges the method (variant corotational) against one reference that has an error bar, over the
+/// frames after the beginning:
+/// - localized is closer to it than affine, by more than the bar
+/// - the error over the displacement of the reference, and over the side of a cell, is below what
+///   is asked
+/// Each is a ratio of means over the frames. The bar of an error is that of the reference's mesh
+/// and that of the time step together; a claim that the bar could turn round is open, as is one of
+/// which some frame has no bar.
+/// @param rows of drape.csv of one scene
+/// @param side of a cell [m]
+std::vector<Verdict> verdicts_of_accuracy(const std::vector<DrapeRow> &rows,
+                                          const std::string &cell, const std::string &reference,
+                                          double side);
 } // namespace homespun::verification

@@ -14,11 +14,11 @@ namespace
 class DealiiRun : public FineRun
 {
 public:
-  DealiiRun(const DrapedCell &draped, const Law law, const unsigned int order,
+  DealiiRun(const DrapedCell &draped, const Law law, const Discretization discretization,
             const MPI_Comm communicator)
       : motion(draped.fine_motion())
       , reference(draped.fine.rest, draped.phases.stiffness, draped.phases.areal_density,
-                  options_of(law, order), communicator)
+                  options_of(law, discretization), communicator)
       , n(draped.fine.n_vertices())
   {
     ClothLoads loads;
@@ -71,13 +71,14 @@ public:
   }
 
 private:
-  static ClothReferenceOptions options_of(const Law law, const unsigned int order)
+  static ClothReferenceOptions options_of(const Law law, const Discretization discretization)
   {
     ClothReferenceOptions options;
-    options.law   = law;
-    options.order = order;
+    options.law    = law;
+    options.order  = discretization.order;
+    options.refine = discretization.refine;
     // Lumped P2 shows second order only.
-    options.consistent_mass = order == 2;
+    options.consistent_mass = discretization.order == 2;
     return options;
   }
   const HeldMotion motion;
@@ -173,9 +174,10 @@ private:
 } // namespace
 
 std::unique_ptr<FineRun> dealii_run(const DrapedCell &draped, const Law law,
-                                    const unsigned int order, const MPI_Comm communicator)
+                                    const Discretization discretization,
+                                    const MPI_Comm communicator)
 {
-  return std::make_unique<DealiiRun>(draped, law, order, communicator);
+  return std::make_unique<DealiiRun>(draped, law, discretization, communicator);
 }
 
 std::unique_ptr<FineRun> shell_run(const DrapedCell &draped, const MPI_Comm communicator)

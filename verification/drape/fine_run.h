@@ -37,9 +37,15 @@ public:
   virtual unsigned long n_dofs() const  = 0;
 };
 
+/// Degree of the elements, and how often the mesh is refined uniformly.
+struct Discretization
+{
+  unsigned int order = 1, refine = 0;
+};
+
 /// By finite elements, on all ranks.
-std::unique_ptr<FineRun> dealii_run(const DrapedCell &draped, Law law, unsigned int order,
-                                    MPI_Comm communicator);
+std::unique_ptr<FineRun> dealii_run(const DrapedCell &draped, Law law,
+                                    Discretization discretization, MPI_Comm communicator);
 
 /// By the shell's own code, a stiffness per triangle; on the first rank, one thread.
 std::unique_ptr<FineRun> shell_run(const DrapedCell &draped, MPI_Comm communicator);

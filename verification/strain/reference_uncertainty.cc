@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "verification/strain/reference_uncertainty.h"
 
-#include "homogenization/cell/corners.h"
 #include "verification/reference/fine_reference.h"
 
 #include <algorithm>
@@ -17,18 +16,6 @@ double mean_distance(const meshes::Points &a, const meshes::Points &b)
   return (a - b).rowwise().norm().mean();
 }
 } // namespace
-
-double DiscretizationDistance::uncertainty(const double order) const
-{
-  return 1.25 * (p1_to_refined + p2_to_refined / (std::pow(2., order) - 1.));
-}
-
-double order_of_p2(const homogenization::UnitCell &cell, const Load &load)
-{
-  const homogenization::Singularity corners = homogenization::singularity_of(
-    homogenization::corners_of(cell.mesh, cell.lattice, cell.stiffness_of_phase()));
-  return std::min(corners.exists ? 2. * corners.strongest : 3., load.is_periodic() ? 3. : 1.);
-}
 
 DiscretizationDistance ReferenceUncertainty::measure(const int n, const Law law,
                                                      const double strain, const bool with_refined)
@@ -66,7 +53,7 @@ ReferenceUncertainty::ReferenceUncertainty(const homogenization::UnitCell &cell,
     , load(load)
     , communicator(communicator)
     , side(std::sqrt(cell.lattice.area()))
-    , order(order_of_p2(cell, load))
+    , order(order_of_p2(cell, load.is_periodic() ? order_of_p2_smooth : order_of_p2_sheet))
 {
   const int n_full     = load.is_periodic() ? 1 : n_cells;
   const int n_measured = load.is_periodic() ? 1 : std::min(n_small, n_cells);

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "homogenization/cell/unit_cell.h"
+#include "verification/cell/discretization_distance.h"
 #include "verification/reference/laws.h"
 #include "verification/reference/loads.h"
 #include "verification/strain/strain_tables.h"
@@ -16,24 +17,6 @@
 
 namespace homespun::verification
 {
-/// Measured distances between discretizations of one sheet, per (strain x cell side).
-struct DiscretizationDistance
-{
-  double p1_to_p2 = 0., p1_to_refined = 0., p2_to_refined = 0.;
-  bool reached = false; ///< false where one of them found no equilibrium
-
-  /// 1.25 (|P1 − refined P2| + |P2 − refined P2| / (2^q − 1)): the distance to the best solution,
-  /// and by Richardson how far that one is from the limit; 1.25 as in the grid convergence index
-  /// (record/convergence.h).
-  /// @param order q of P2 on uniformly refined meshes
-  double uncertainty(double order) const;
-};
-
-/// The order in which P2 displacements converge on uniformly refined meshes of a sheet, in the
-/// mean: twice the exponent of the strongest corner of the cell, at most 3; of sheets with clamped
-/// and free edges at most 1, because where these meet the exponent lies above ½.
-double order_of_p2(const homogenization::UnitCell &cell, const Load &load);
-
 /// The error bar of the P1 reference of one cell and load.
 ///
 /// Measured on a small sheet with P1, P2 and refined P2: the linear law, which all laws approach at

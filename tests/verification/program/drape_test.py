@@ -377,9 +377,9 @@ class BadScenes(SceneCase):
         self.refused(self.scene({"Pins": "waist"}), "found `waist`", "a sheet has no waist")
         self.refused(self.scene({"Pins": "left; left"}), "the place `left` holds no vertex")
         # The last one for its error bar.
-        for options in (["--quick"], ["--cells", 4], ["--references", "biot"]):
+        for options, n in ((["--quick"], 4), (["--cells", 4], 4), (["--references", "biot"], 2)):
             self.refused(self.scene({"Pins": "vertices 0 1"}),
-                         "held vertex 1, at (1, 0) of 20 x 20 cells", "4 x 4 cells",
+                         "held vertex 1, at (1, 0) of 20 x 20 cells", f"{n} x {n} cells",
                          options=options)
         self.refused(self.scene({"Pins": "vertices 0 99999"}), "held vertex 99999 does not exist",
                      options=["--quick"])

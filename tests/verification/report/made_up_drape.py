@@ -203,6 +203,8 @@ def write_drape(
                                 "error_mean_per_cell": one / SIDE,
                                 "error_mean_per_fluctuation": one / SIDE * 10.0,
                                 "reference_uncertainty_m": 1e-5 if reference == "shell" else None,
+                                "time_step_uncertainty_m": 2e-6 if reference == "shell" else None,
+                                "displacement_mean_m": 0.1 * time,
                             }
                         )
         for variant in (*variants, *references):

@@ -57,7 +57,7 @@ class DrapePageTest(PageTest):
         for text in (
             "1.10 ms and its up-sampling 90.0 µs on 1 thread",
             "<b>1090 times</b> as long",
-            "the uncertainty of the reference is 10.0 µm",
+            "the uncertainty of the reference's mesh is 10.0 µm",
             "the uncertainty of the reference is not known",
             "let go &lt;level&gt;",
             "the scene does not ask for it",
@@ -193,7 +193,7 @@ class DrapePageTest(PageTest):
         self.edit_table("terms.csv", lambda rows: rows[1].update(present="perhaps"))
         self.edit("layered-shell/fine.pvd", lambda text: text[:100])
         self.assert_refused(
-            "drape.csv, line 3: found 12 fields, expected 13",
+            "drape.csv, line 3: found 14 fields, expected 15",
             "`frame` is `one`",
             "`present` is `perhaps`",
             "fine.pvd: not a readable .pvd",

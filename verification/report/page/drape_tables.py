@@ -110,8 +110,14 @@ def error_sentence(cell, variant, reference):
     )
     text += "" if math.isnan(sides) else f" ({three(sides)} cell sides)"
     text += f", at most {length(worst['error_mean_m'])} at {three(worst['time_s'])} s"
-    text += "; the uncertainty of the reference is "
+    moved, step = last["displacement_mean_m"], last["time_step_uncertainty_m"]
+    if moved > 0.0:
+        text += f"; that is {three(100.0 * last['error_mean_m'] / moved)} % of the mean displacement"
+    text += "; the uncertainty of the reference's mesh is "
     text += "not known" if math.isnan(bar) else length(bar)
+    if not math.isnan(step):
+        text += f", that of the error from the time step {length(step)}"
+        bar += step
     if last["error_mean_m"] <= bar:
         text += ", so that the error at the end is not resolved"
     affine = rows_of(cell, variant, reference, "affine")

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: MIT
+#include "verification/drape/drape_verdicts.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+using namespace homespun;
+using namespace homespun::verification;
+
+namespace
+{
+/// Two frames after the beginning, of both methods.
+std::vector<DrapeRow> rows_of(const double affine, const double localized, const double bar,
+                              const double displacement = 1.)
+{
+  std::vector<DrapeRow> rows;
+  for (const auto &[method, error] : {std::pair{"affine", affine}, {"localized", localized}})
+    for (const int frame : {0, 1, 2})
+    {
+      DrapeRow row;
+      row.cell         = "cell";
+      row.variant      = "corotational";
+      row.reference    = "biot";
+      row.method       = method;
+      row.frame        = frame;
+      row.mean         = frame == 0 ? 0. : error;
+      row.uncertainty  = frame == 0 ? std::numeric_limits<double>::quiet_NaN() : 0.75 * bar;
+      row.time_step    = frame == 0 ? std::numeric_limits<double>::quiet_NaN() : 0.25 * bar;
+      row.displacement = frame == 0 ? 0. : displacement;
+      rows.push_back(row);
+    }
+  return rows;
+}
+
+std::vector<Outcome> outcomes_of(const std::vector<DrapeRow> &rows, const double side)
+{
+  std::vector<Outcome> outcomes;
+  for (const Verdict &verdict : verdicts_of_accuracy(rows, "cell", "biot", side))
+    outcomes.push_back(verdict.outcome);
+  return outcomes;
+}
+
+constexpr Outcome pass = Outcome::pass, fail = Outcome::fail, open = Outcome::inconclusive;
+} // namespace
+
+TEST(exact_drape_verdicts,
+     a_reference_that_stops_leaves_its_claim_open_and_one_without_a_frame_fails)
+{
+  EXPECT_EQ(verdict_of_reference("", 5, 5).outcome, Outcome::pass);
+  for (const int n : {2, 3, 4})
+    EXPECT_EQ(status_of({verdict_of_reference("", n, 5)}), exit_status::claim_open);
+  for (const int n : {0, 1}) // the beginning is no answer
+    EXPECT_EQ(status_of({verdict_of_reference("", n, 5)}), exit_status::claim_failed);
+  EXPECT_EQ(verdict_of_reference("", 1, 5).kind, Kind::program);
+}
+
+TEST(exact_drape_verdicts, the_method_fails_where_it_stops_and_a_variant_is_open)
+{
+  EXPECT_EQ(status_of({verdict_of_cloth("", true, 5, 5), verdict_of_cloth("", false, 5, 5)}),
+            exit_status::good);
+  EXPECT_EQ(status_of({verdict_of_cloth("", true, 4, 5)}), exit_status::claim_failed);
+  EXPECT_EQ(status_of({verdict_of_cloth("", false, 4, 5)}), exit_status::claim_open);
+  EXPECT_EQ(verdict_of_cloth("", false, 4, 5).kind, Kind::method);
+}
+
+TEST(exact_drape_verdicts, accuracy_is_judged_with_the_bar)
+{
+  using All = std::vector<Outcome>;
+  // Closer than affine; 0.02 of the displacement; 0.02 of a cell.
+  EXPECT_EQ(outcomes_of(rows_of(0.04, 0.02, 0.01), 1.), (All{pass, pass, pass}));
+  EXPECT_EQ(outcomes_of(rows_of(0.04, 0.02, 0.03), 1.), (All{open, pass, pass}));
+  EXPECT_EQ(outcomes_of(rows_of(0.01, 0.02, 0.005), 1.), (All{fail, pass, pass}));
+  // A small part of a cell, and a quarter of the way.
+  EXPECT_EQ(outcomes_of(rows_of(0.04, 0.02, 0.01, 0.08), 1.), (All{pass, fail, pass}));
+  EXPECT_EQ(outcomes_of(rows_of(0.04, 0.02, 0.01), 0.05), (All{pass, pass, fail}));
+  EXPECT_EQ(outcomes_of(rows_of(0.04, 0.02, 0.01), 0.25), (All{pass, pass, open}));
+}
+
+TEST(tripwire_drape_verdicts, a_frame_without_a_bar_or_a_number_leaves_accuracy_open)
+{
+  std::vector<DrapeRow> rows = rows_of(0.04, 0.02, 0.01);
+  rows[5].time_step          = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(outcomes_of(rows, 1.), (std::vector<Outcome>{open, open, open}));
+  rows         = rows_of(0.04, 0.02, 0.01);
+  rows[5].mean = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(outcomes_of(rows, 1.), (std::vector<Outcome>{open, open, open}));
+  rows = rows_of(0.04, 0.02, 0.01, 0.); // nothing has moved
+  EXPECT_EQ(outcomes_of(rows, 1.)[1], open);
+}
+
+TEST(exact_drape_verdicts, other_variants_references_and_the_beginning_are_not_judged)
+{
+  std::vector<DrapeRow> rows = rows_of(0.04, 0.02, 0.01);
+  EXPECT_TRUE(verdicts_of_accuracy(rows, "cell", "green", 1.).empty());
+  for (DrapeRow &row : rows)
+    row.variant = "nodal-warping";
+  EXPECT_TRUE(verdicts_of_accuracy(rows, "cell", "biot", 1.).empty());
+  rows = rows_of(0.04, 0.02, 0.01);
+  rows.resize(1);
+  EXPECT_TRUE(verdicts_of_accuracy(rows, "cell", "biot", 1.).empty());
+}

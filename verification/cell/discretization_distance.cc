@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: MIT
+#include "verification/cell/discretization_distance.h"
+
+#include "homogenization/cell/corners.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace homespun::verification
+{
+double DiscretizationDistance::uncertainty(const double order) const
+{
+  return 1.25 * (p1_to_refined + p2_to_refined / (std::pow(2., order) - 1.));
+}
+
+double order_of_p2(const homogenization::UnitCell &cell, const double highest)
+{
+  const homogenization::Singularity corners = homogenization::singularity_of(
+    homogenization::corners_of(cell.mesh, cell.lattice, cell.stiffness_of_phase()));
+  return corners.exists ? std::min(2. * corners.strongest, highest) : highest;
+}
+} // namespace homespun::verification

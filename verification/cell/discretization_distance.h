@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: MIT
+// How far P1 on a mesh is from the limit of fine meshes, from three discretizations: P1, P2, and P2
+// on the refined mesh.
+#pragma once
+
+#include "homogenization/cell/unit_cell.h"
+
+namespace homespun::verification
+{
+/// Measured distances between discretizations of one sheet: means over its vertices, in any unit.
+struct DiscretizationDistance
+{
+  double p1_to_p2 = 0., p1_to_refined = 0., p2_to_refined = 0.;
+  bool reached = false; ///< false where one of them found no equilibrium
+
+  /// 1.25 (|P1 − refined P2| + |P2 − refined P2| / (2^q − 1)): the distance to the best solution,
+  /// and by Richardson how far that one is from the limit; 1.25 as in the grid convergence index
+  /// (record/convergence.h).
+  /// @param order q of P2 on uniformly refined meshes
+  double uncertainty(double order) const;
+};
+
+/// The highest order of P2 displacements: of smooth solutions, and of sheets whose clamped and free
+/// edges meet, where the exponent of the corner lies above ½.
+constexpr double order_of_p2_smooth = 3., order_of_p2_sheet = 1.;
+
+/// The order in which P2 displacements converge on uniformly refined meshes, in the mean: twice the
+/// exponent of the strongest corner of the cell, and at most `highest`.
+double order_of_p2(const homogenization::UnitCell &cell, double highest);
+} // namespace homespun::verification

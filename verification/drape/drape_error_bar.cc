@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: MIT
+#include "verification/drape/drape_error_bar.h"
+
+#include "meshes/plain/errors.h"
+#include "verification/cell/discretization_distance.h"
+#include "verification/drape/fine_run.h"
+
+#include <limits>
+#include <memory>
+
+namespace homespun::verification
+{
+namespace
+{
+using meshes::SpacePoints;
+
+double mean_length(const SpacePoints &field)
+{
+  return field.rowwise().norm().mean();
+}
+
+/// A coarse cloth and resolved ones that go side by side with one time step.
+class Runs
+{
+public:
+  /// @param step [s]
+  /// @param n_steps of the schedule's steps that one of its steps is made of
+  Runs(const Scene &scene, const DrapedCell &sheet, const double step, const int n_steps)
+      : step(step)
+      , n_steps(n_steps)
+      , coarse(scene, sheet.coarse, sheet.effective, sheet.coarse_motion())
+  {
+  }
+
+  /// @return whether all of them came to the next frame
+  bool advance(const DrapeSchedule &schedule, const int frame)
+  {
+    const double time = schedule.time_of(frame);
+    for (int k = 0; k < n_steps * schedule.steps_to(frame); ++k)
+    {
+      // Every rank has the same coarse cloth, and they end together.
+      try
+      {
+        if (schedule.is_static)
+          coarse.solve_equilibrium(time);
+        else
+          coarse.step(step);
+      }
+      catch (const meshes::NotConverged &)
+      {
+        return false;
+      }
+      for (const std::unique_ptr<FineRun> &run : fine)
+        if (!run->advance(schedule.is_static, step, time).why.empty())
+          return false;
+    }
+    return true;
+  }
+
+  const double step;
+  const int n_steps;
+  SceneCloth coarse;
+  std::vector<std::unique_ptr<FineRun>> fine;
+};
+
+double carried(const std::vector<double> &bar, const std::vector<double> &fluctuation,
+               const std::size_t frame, const double fluctuation_there)
+{
+  if (frame >= bar.size() || !(fluctuation[frame] > 0.))
+    return std::numeric_limits<double>::quiet_NaN();
+  return bar[frame] / fluctuation[frame] * fluctuation_there;
+}
+} // namespace
+
+double DrapeErrorBar::of_mesh_at(const std::size_t frame, const double fluctuation_there) const
+{
+  return carried(of_mesh, fluctuation, frame, fluctuation_there);
+}
+
+double DrapeErrorBar::of_time_step_at(const std::size_t frame, const double fluctuation_there) const
+{
+  return carried(of_time_step, fluctuation, frame, fluctuation_there);
+}
+
+DrapeErrorBar drape_error_bar(const DrapedCell &draped, const Law law, const int n_cells,
+                              const DrapeSchedule &schedule, const MPI_Comm communicator,
+                              const std::function<void(int frame)> &tell)
+{
+  const Scene scene = scaled(draped.scene, n_cells);
+  const DrapedCell sheet(scene, draped.cell, draped.homogenized);
+  const double order       = order_of_p2(draped.cell, order_of_p2_sheet);
+  const Upsampler3d affine = sheet.upsampler<double>(Method("affine")),
+                    method = sheet.upsampler<double>(Method("localized"));
+  const auto upsampled     = [](const Upsampler3d &upsampler, const Runs &runs)
+  {
+    Upsampler3d::Fine fine;
+    upsampler.upsample(runs.coarse.cloth().positions(), fine);
+    return SpacePoints(fine);
+  };
+
+  Runs runs(scene, sheet, schedule.step, 1), halved(scene, sheet, 0.5 * schedule.step, 2);
+  for (const Discretization &discretization : {Discretization{1, 0}, {2, 0}, {2, 1}})
+    runs.fine.push_back(dealii_run(sheet, law, discretization, communicator));
+  halved.fine.push_back(dealii_run(sheet, law, {1, 0}, communicator));
+
+  DrapeErrorBar bar;
+  for (int frame = 0; frame <= schedule.n_frames; ++frame)
+  {
+    tell(frame);
+    if (!runs.advance(schedule, frame) || (!schedule.is_static && !halved.advance(schedule, frame)))
+      return bar;
+    const SpacePoints &p1 = runs.fine[0]->positions(), &p2 = runs.fine[1]->positions(),
+                      &refined = runs.fine[2]->positions();
+    DiscretizationDistance distance;
+    distance.p1_to_refined = mean_length(p1 - refined);
+    distance.p2_to_refined = mean_length(p2 - refined);
+    bar.of_mesh.push_back(distance.uncertainty(order));
+    const SpacePoints change =
+      (upsampled(method, runs) - p1) - (upsampled(method, halved) - halved.fine[0]->positions());
+    bar.of_time_step.push_back(schedule.is_static ? 0. : 1.25 * 2. * mean_length(change));
+    bar.fluctuation.push_back(mean_length(refined - upsampled(affine, runs)));
+  }
+  return bar;
+}
+} // namespace homespun::verification

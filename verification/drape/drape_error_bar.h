@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+// How far the error of a scene may itself be from that of fine meshes and small time steps:
+// measured on a small sheet.
+#pragma once
+
+#include "verification/drape/drape_schedule.h"
+#include "verification/drape/draped_cell.h"
+
+#include <mpi.h>
+
+#include <cstddef>
+#include <functional>
+#include <vector>
+
+namespace homespun::verification
+{
+/// Error bar on a small sheet, per frame. It goes with the local strain, as the fluctuation does,
+/// and is carried over to the full sheet by the ratio of the two.
+struct DrapeErrorBar
+{
+  std::vector<double> of_mesh;      ///< of the reference, DiscretizationDistance::uncertainty() [m]
+  std::vector<double> of_time_step; ///< of the error [m]
+  std::vector<double> fluctuation;  ///< mean |refined P2 − coarse motion| [m]
+
+  /// Either of them on a sheet with another fluctuation [m]; not a number where it is not known.
+  double of_mesh_at(std::size_t frame, double fluctuation_there) const;
+  double of_time_step_at(std::size_t frame, double fluctuation_there) const;
+};
+
+/// Runs the scene on a small sheet: P1, P2, refined P2, and where the cloth moves P1 and the coarse
+/// cloth once more with half of the time step. With e = up-sampled − P1, of first order in the time
+/// step h because the reference's implicit Euler is, its distance from that of h -> 0 is
+/// 2 |e(h) − e(h/2)|, times 1.25 as in the grid convergence index; means over the fine vertices.
+/// Ends at the first frame that one of them does not reach.
+/// @param law of the reference
+/// @param n_cells of the small sheet, per side
+/// @param tell of each frame before it is run
+DrapeErrorBar drape_error_bar(const DrapedCell &draped, Law law, int n_cells,
+                              const DrapeSchedule &schedule, MPI_Comm communicator,
+                              const std::function<void(int frame)> &tell);
+} // namespace homespun::verification
