@@ -173,7 +173,7 @@ class Workshop:
 
     def __init__(self, build, work):
         self.given, self.work = pathlib.Path(build).resolve(), pathlib.Path(work).resolve()
-        self.copy, self.build = self.work / "source", self.work / "build"
+        self.copy, self.build = self.work / "source", self.work / "source/build/mutants"
         self.environment = {**os.environ, "PYTHONDONTWRITEBYTECODE": "1",
                             "OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1"}
         refuse_places(self.work)
@@ -196,7 +196,7 @@ class Workshop:
 
     def prepare(self):
         """Configures once, builds what is sound, and asks it what it says when nothing is wrong."""
-        self.build.mkdir(exist_ok=True)
+        self.build.mkdir(parents=True, exist_ok=True)
         if not (self.build / "build.ninja").exists() and not (self.build / "Makefile").exists():
             command = ["cmake", "-S", str(self.copy), "-B", ".", *settings_of(self.given)]
             if self.run(*command, log="configure.log") != 0:

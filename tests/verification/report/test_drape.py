@@ -58,7 +58,7 @@ class DrapePageTest(PageTest):
             "1.10 ms and its up-sampling 90.0 µs on 1 thread",
             "<b>1090 times</b> as long",
             "the uncertainty of the reference's mesh is 10.0 µm",
-            "the uncertainty of the reference is not known",
+            "the uncertainty of the reference's mesh is not known",
             "let go &lt;level&gt;",
             "the scene does not ask for it",
             "1.10 ms ± 20.0 µs",
