@@ -9,6 +9,7 @@
 // ones FAIL, and so does an integrator of first order in the place of one of second.
 #pragma once
 
+#include "localization/options.h"
 #include "verification/converge/manufactured_motions.h"
 #include "verification/record/convergence.h"
 #include "verification/reference/field_integrals.h"
@@ -78,7 +79,9 @@ ManufacturedCase of_time_steps(const std::string &name, double order, std::vecto
 std::vector<ManufacturedCase> reference_cases();
 std::vector<ManufacturedCase> shell_cases();
 std::vector<ManufacturedCase> homogenizer_cases();
-std::vector<ManufacturedCase> upsampler_cases();
+/// @param options whose strain and lift are those of biot, whose chi is zero at the lattice, and
+///   which blend: others are no choice of order 2
+std::vector<ManufacturedCase> upsampler_cases(const localization::UpsamplerOptions &options = {});
 
 /// All of them.
 const std::vector<ManufacturedCase> &manufactured_cases();

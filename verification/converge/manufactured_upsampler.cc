@@ -27,10 +27,10 @@ namespace
 constexpr double side = manufactured_side;
 
 /// A cell with a chi that is periodic and zero at its corners.
-meshes::HomogenizedCell cell_of(const double cell_side)
+meshes::HomogenizedCell cell_of(const double cell_side, const int n_divisions)
 {
   meshes::HomogenizedCell cell;
-  cell.mesh = irregular_mesh(6);
+  cell.mesh = irregular_mesh(n_divisions);
   cell.mesh.vertices *= cell_side / side;
   cell.lattice.vectors = cell_side * Eigen::Matrix2d::Identity();
   cell.chi.resize(cell.mesh.n_vertices(), 6);
@@ -64,17 +64,19 @@ Eigen::Matrix<double, 1, dim> fine_position(const Wave &motion,
 
 /// The distance of the up-sampled vertices from the motion, root mean square.
 /// @param n_cells,n_coarse per side of the sheet
+/// @param n_fine divisions of a side of a cell
 template <int dim>
-ManufacturedSolution upsampled(const int n_cells, const int n_coarse)
+ManufacturedSolution upsampled(const int n_cells, const int n_coarse, const int n_fine,
+                               const localization::UpsamplerOptions &options)
 {
-  const meshes::HomogenizedCell cell = cell_of(side / n_cells);
+  const meshes::HomogenizedCell cell = cell_of(side / n_cells, n_fine);
   const meshes::Sheet sheet          = meshes::tile(cell.mesh, cell.lattice, n_cells, n_cells);
   const meshes::TriangleMesh coarse  = meshes::coarse_sheet(
      sheet.origin, side / n_coarse * Eigen::Matrix2d::Identity(), n_coarse, n_coarse);
   localization::Positions<dim> given(coarse.n_vertices(), dim);
   for (int v = 0; v < coarse.n_vertices(); ++v)
     given.row(v) = spreading(coarse.vertices.row(v)).value.head<dim>().transpose();
-  const localization::Upsampler<dim, double> upsampler(cell, coarse, sheet);
+  const localization::Upsampler<dim, double> upsampler(cell, coarse, sheet, options);
   typename localization::Upsampler<dim, double>::Fine found;
   upsampler.upsample(given, found);
   ManufacturedSolution solution;
@@ -88,29 +90,29 @@ ManufacturedSolution upsampled(const int n_cells, const int n_coarse)
   return solution;
 }
 
-ManufacturedCase upsampler_case(const std::string &name, std::vector<int> sizes,
-                                ManufacturedSolution (*solve)(int n_coarse))
+ManufacturedCase upsampler_case(const std::string &name,
+                                std::function<ManufacturedSolution(int n_coarse)> solve)
 {
-  ManufacturedCase result = of_elements("up-sampler; " + name + "; biot", 1, std::move(sizes));
+  ManufacturedCase result = of_elements("up-sampler; " + name + "; biot", 1, {8, 16, 32, 64});
   result.L2_claim         = "the up-sampled positions converge with order 2 in H";
   result.has_H1           = false;
   result.theory           = "linear interpolation of a smooth motion, of its strain and rotation";
   result.has_tolerance    = false;
-  result.solve            = [=](const int n_coarse, double, MPI_Comm) { return solve(n_coarse); };
+  result.solve = [solve](const int n_coarse, double, MPI_Comm) { return solve(n_coarse); };
   return result;
 }
 } // namespace
 
-std::vector<ManufacturedCase> upsampler_cases()
+std::vector<ManufacturedCase> upsampler_cases(const localization::UpsamplerOptions &options)
 {
-  constexpr int n_cells = 7; // whose sides are no lines of the coarse meshes
-  return {upsampler_case("in space; cells of the coarse mesh's size", {8, 16, 32, 64},
-                         [](const int n) { return upsampled<3>(n, n); }),
-          upsampler_case("in the plane; cells of the coarse mesh's size", {8, 16, 32, 64},
-                         [](const int n) { return upsampled<2>(n, n); }),
-          upsampler_case("in space; cells of one size", {10, 20, 40, 80},
-                         [](const int n) { return upsampled<3>(n_cells, n); }),
-          upsampler_case("in the plane; cells of one size", {10, 20, 40, 80},
-                         [](const int n) { return upsampled<2>(n_cells, n); })};
+  constexpr int n_cells = 7; // of one size: their sides are no lines of the coarse meshes
+  return {upsampler_case("in space; cells of the coarse mesh's size",
+                         [=](const int n) { return upsampled<3>(n, n, 6, options); }),
+          upsampler_case("in the plane; cells of the coarse mesh's size",
+                         [=](const int n) { return upsampled<2>(n, n, 6, options); }),
+          upsampler_case("in space; cells of one size",
+                         [=](const int n) { return upsampled<3>(n_cells, n, 24, options); }),
+          upsampler_case("in the plane; cells of one size",
+                         [=](const int n) { return upsampled<2>(n_cells, n, 24, options); })};
 }
 } // namespace homespun::verification
