@@ -89,6 +89,8 @@ void expect_orders(const std::string &beginning, const int n_cases)
     {
       EXPECT_LT(claims.algebraic_share, 0.01) << name;
     }
+    EXPECT_EQ(ladder.unfinished, "") << name;
+    ASSERT_FALSE(ladder.L2.empty()) << name;
     EXPECT_LT(ladder.L2.back(), 1e-3) << name; // of the side: it converges to this motion
   }
   EXPECT_EQ(n_found, n_cases);
