@@ -3,13 +3,18 @@
 // whether assembly, constraints and solver of homogenize() give chi with the order of its elements.
 #pragma once
 
+#include "homogenization/cell/unit_cell.h"
 #include "homogenization/fem/elastic_solver.h"
-#include "homogenization/fem/homogenize.h"
+#include "meshes/plain/homogenized_cell.h"
+
+#include <mpi.h>
 
 #include <functional>
 
 namespace homespun::homogenization
 {
+struct HomogenizationOptions;
+
 /// What a manufactured solution adds to the cell problems, and how it looks at their fields. Both
 /// are called on every rank, for each load a = 0, 1, 2 in turn.
 struct CellForces

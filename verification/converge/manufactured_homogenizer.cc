@@ -7,6 +7,7 @@
 // interface asks for. A stiffness per triangle stands for a smooth one with order 2, so that only
 // P1 is tried on that: with P2 theory has order 2 in L2 and 1 in H1 too.
 #include "homogenization/fem/cell_forces.h"
+#include "homogenization/fem/homogenize.h"
 #include "meshes/cloth/irregular_sheet.h"
 #include "meshes/plain/refine.h"
 #include "verification/converge/manufactured.h"
