@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "homogenization/fem/homogenize.h"
 
+#include "homogenization/fem/cell_forces.h"
 #include "homogenization/fem/elastic_solver.h"
 #include "homogenization/fem/load_checkpoint.h"
 #include "homogenization/fem/solution_pieces.h"
@@ -77,6 +78,31 @@ public:
       write_pieces(options.pieces, discretization, solutions);
     lap(result.seconds.evaluation);
     return result;
+  }
+
+  meshes::Chi run_with(const CellForces &forces)
+  {
+    constrain();
+    solver = std::make_unique<ElasticSolver>(discretization, constraints);
+    options.order == 1 ? assemble<3>() : assemble<6>();
+    for (int a = 0; a < 3; ++a)
+    {
+      const Vector further = forces.load_vector(a, discretization, constraints);
+      loads[a] += further;
+      load_sizes[a] = std::hypot(load_sizes[a], further.l2_norm());
+    }
+    solver->build_preconditioner();
+    solve();
+    for (int a = 0; a < 3; ++a)
+    {
+      Vector owned = solver->owned_vector();
+      for (const types::global_dof_index dof : discretization.locally_owned)
+        owned(dof) = solutions[a](dof);
+      owned.compress(VectorOperation::insert);
+      forces.look(a, discretization, owned);
+    }
+    sample_at_vertices();
+    return result.chi;
   }
 
 private:
@@ -269,6 +295,12 @@ Homogenization homogenize(const UnitCell &cell, const HomogenizationOptions &opt
                           const MPI_Comm communicator)
 {
   return CellProblems(cell, options, communicator).run();
+}
+
+meshes::Chi chi_under_forces(const UnitCell &cell, const HomogenizationOptions &options,
+                             const CellForces &forces, const MPI_Comm communicator)
+{
+  return CellProblems(cell, options, communicator).run_with(forces);
 }
 
 meshes::HomogenizedCell homogenized_cell(const UnitCell &cell, const Homogenization &result,

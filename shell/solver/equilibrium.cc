@@ -64,11 +64,15 @@ struct FreeForces
   double norm = 0., accepted = 0., energy_round_off = 0.;
 };
 
+/// @param loads (n,dim) [N]
 template <int dim>
 FreeForces<dim> residual_at(const Membrane &membrane, const std::vector<bool> &is_held,
-                            const Positions<dim> &positions, const double relative_tolerance)
+                            const Positions<dim> &positions, const Positions<dim> &loads,
+                            const double relative_tolerance)
 {
   MembraneGradient<dim> force = membrane_gradient<dim>(membrane, positions);
+  force.gradient -= loads;
+  force.magnitude += loads.rowwise().norm();
   for (std::size_t v = 0; v < is_held.size(); ++v)
     if (is_held[v])
       force.gradient.row(static_cast<Eigen::Index>(v)).setZero();
@@ -100,6 +104,18 @@ void require_rows(const Eigen::Index found, const std::size_t expected, const st
     throw meshes::BadInput(name + ": has " + std::to_string(found) + " rows; expected " +
                            std::to_string(expected) + ", one per vertex");
 }
+
+/// A load for every vertex, zero where none are given.
+template <int dim>
+Positions<dim> all_loads(const Positions<dim> &loads, const std::size_t n_vertices)
+{
+  if (loads.rows() == 0)
+    return Positions<dim>::Zero(static_cast<Eigen::Index>(n_vertices), dim);
+  require_rows(loads.rows(), n_vertices, "loads");
+  if (const int v = first_not_finite<dim>(loads); v >= 0)
+    throw meshes::BadInput("vertex " + std::to_string(v) + ": its load is not finite");
+  return loads;
+}
 } // namespace
 
 template <int dim>
@@ -127,9 +143,11 @@ bool MembraneSolver<dim>::factorize_at(const Positions<dim> &positions) const
 }
 
 template <int dim>
-Positions<dim> MembraneSolver<dim>::linear_equilibrium(const Positions<dim> &prescribed) const
+Positions<dim> MembraneSolver<dim>::linear_equilibrium(const Positions<dim> &prescribed,
+                                                       const Positions<dim> &loads) const
 {
   require_rows(prescribed.rows(), is_held.size(), "prescribed positions");
+  const Positions<dim> all = all_loads<dim>(loads, is_held.size());
   if (!linear_matrix)
   {
     auto made = std::make_unique<FreeVertexMatrix<dim>>(membrane.triangles, is_held);
@@ -149,11 +167,11 @@ Positions<dim> MembraneSolver<dim>::linear_equilibrium(const Positions<dim> &pre
                                ": its prescribed position is not finite");
       displacement.row(row) = prescribed.row(row) - membrane.vertices.row(row);
     }
-  // K u, element by element, so that the coupling of held to free vertices needs no matrix; the
+  // K u − f, element by element, so that the coupling of held to free vertices needs no matrix; the
   // second pass refines the first, which matters at high stiffness contrast.
   for (int pass = 0; pass < 2; ++pass)
   {
-    Positions<dim> force = Positions<dim>::Zero(prescribed.rows(), dim);
+    Positions<dim> force = -all;
     for (int t = 0; t < static_cast<int>(membrane.triangles.rows()); ++t)
     {
       const RestTriangle &rest = membrane.rest[static_cast<std::size_t>(t)];
@@ -197,9 +215,11 @@ Positions<dim> MembraneSolver<dim>::newton_step(const Positions<dim> &positions,
 
 template <int dim>
 Equilibrium<dim> MembraneSolver<dim>::solve_equilibrium(const Positions<dim> &start,
-                                                        const EquilibriumOptions &options) const
+                                                        const EquilibriumOptions &options,
+                                                        const Positions<dim> &loads) const
 {
   require_rows(start.rows(), is_held.size(), "start positions");
+  const Positions<dim> all = all_loads<dim>(loads, is_held.size());
   if (const int v = first_not_finite<dim>(start); v >= 0)
     throw meshes::BadInput("vertex " + std::to_string(v) + ": its start position is not finite");
 
@@ -208,7 +228,8 @@ Equilibrium<dim> MembraneSolver<dim>::solve_equilibrium(const Positions<dim> &st
   result.energy    = membrane_energy<dim>(membrane, start);
   if (!std::isfinite(result.energy))
     throw meshes::BadInput("start positions: their energy is not finite, they lie too far apart");
-  FreeForces<dim> residual = residual_at<dim>(membrane, is_held, start, options.relative_tolerance);
+  FreeForces<dim> residual =
+    residual_at<dim>(membrane, is_held, start, all, options.relative_tolerance);
   while (true)
   {
     result.residual_history.push_back(residual.norm);
@@ -230,8 +251,10 @@ Equilibrium<dim> MembraneSolver<dim>::solve_equilibrium(const Positions<dim> &st
     {
       const Positions<dim> trial = result.positions + length * step;
       const double energy        = membrane_energy<dim>(membrane, trial);
-      const double slack         = 16. * epsilon * result.energy + residual.energy_round_off;
-      if (energy <= result.energy + 1e-4 * length * slope + slack)
+      const double work          = length * step.cwiseProduct(all).sum(); // of the loads
+      const double slack =
+        16. * epsilon * (result.energy + std::abs(work)) + residual.energy_round_off;
+      if (energy - work <= result.energy + 1e-4 * length * slope + slack)
       {
         accepted         = true;
         result.positions = trial;
@@ -242,7 +265,8 @@ Equilibrium<dim> MembraneSolver<dim>::solve_equilibrium(const Positions<dim> &st
       throw meshes::NotConverged(
         "equilibrium: no step along the Newton direction lowers the energy",
         result.residual_history);
-    residual = residual_at<dim>(membrane, is_held, result.positions, options.relative_tolerance);
+    residual =
+      residual_at<dim>(membrane, is_held, result.positions, all, options.relative_tolerance);
     ++result.iterations;
   }
   result.inverted_triangles = count_inverted<dim>(membrane, result.positions);
@@ -256,5 +280,6 @@ template MembraneSolver<3>::MembraneSolver(const meshes::TriangleMesh &,
 template const Membrane &MembraneSolver<3>::rest_membrane() const;
 template bool MembraneSolver<3>::factorize_at(const Positions<3> &) const;
 template Equilibrium<3> MembraneSolver<3>::solve_equilibrium(const Positions<3> &,
-                                                             const EquilibriumOptions &) const;
+                                                             const EquilibriumOptions &,
+                                                             const Positions<3> &) const;
 } // namespace homespun::shell

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Static equilibrium of the coarse cloth under prescribed positions: grad W = 0 at every vertex
-// that is not held, with the energy of corotational_energy.h, and its small-strain linear form.
+// Static equilibrium of the coarse cloth under prescribed positions and loads: grad W = f at every
+// vertex that is not held, with the energy of corotational_energy.h, and its small-strain linear
+// form.
 #pragma once
 
 #include "meshes/plain/triangle_mesh.h"
@@ -27,7 +28,7 @@ struct Equilibrium
 {
   Positions<dim> positions;             ///< (n,dim) [m]
   int iterations  = 0;                  ///< Newton steps taken
-  double energy   = 0.;                 ///< [J]
+  double energy   = 0.;                 ///< of the membrane, without that of the loads [J]
   double residual = 0.;                 ///< norm of the forces on the free vertices [N]
   std::vector<double> residual_history; ///< before each step and at the end [N]
   int projected_steps =
@@ -50,27 +51,34 @@ public:
   MembraneSolver(const meshes::TriangleMesh &rest, std::vector<Eigen::Matrix3d> stiffness_of_phase,
                  const std::vector<int> &held_vertices);
 
-  /// Small-strain equilibrium, K u = 0 at the free vertices with K the Hessian at rest; factored on
+  /// Small-strain equilibrium, K u = f at the free vertices with K the Hessian at rest; factored on
   /// first use, then a substitution per call.
   /// @param prescribed (n,2) current positions of the held vertices [m]; other rows are ignored
+  /// @param loads f (n,2) on the vertices, those on held ones are ignored; empty: none [N]
   /// @return (n,2) current positions X + u [m]
-  /// @throws BadInput where a prescribed position is not finite or the held vertices leave a rigid
-  ///   motion free
-  Positions<dim> solve_linear(const Positions<dim> &prescribed) const
+  /// @throws BadInput where a prescribed position or a load is not finite or the held vertices
+  /// leave
+  ///   a rigid motion free
+  Positions<dim> solve_linear(const Positions<dim> &prescribed,
+                              const Positions<dim> &loads = {}) const
   {
     static_assert(dim == 2, "a flat sheet at rest has no stiffness out of its plane: the linear "
                             "problem exists in the plane only");
-    return linear_equilibrium(prescribed);
+    return linear_equilibrium(prescribed, loads);
   }
 
   /// Equilibrium at finite strain by Newton's method with a line search on the energy. A step uses
   /// the exact Hessian where it is positive definite, else the projected one (with the smallest
   /// shift that makes it so).
   /// @param start (n,dim) [m] first guess; its held rows are the prescribed positions
-  /// @return positions of a stationary point at or below the energy of the start
-  /// @throws BadInput where the start is not finite; NotConverged with the residual history
+  /// @param loads f (n,dim) on the vertices, which do not turn with the cloth; those on held ones
+  ///   are ignored; empty: none [N]
+  /// @return positions of a stationary point at or below the energy of the start, that of the loads
+  ///   included
+  /// @throws BadInput where start or loads are not finite; NotConverged with the residual history
   Equilibrium<dim> solve_equilibrium(const Positions<dim> &start,
-                                     const EquilibriumOptions &options = {}) const;
+                                     const EquilibriumOptions &options = {},
+                                     const Positions<dim> &loads       = {}) const;
 
   /// The membrane at rest, for its energy, gradient and Hessian.
   const Membrane &rest_membrane() const;
@@ -81,7 +89,8 @@ public:
   bool factorize_at(const Positions<dim> &positions) const;
 
 private:
-  Positions<dim> linear_equilibrium(const Positions<dim> &prescribed) const;
+  Positions<dim> linear_equilibrium(const Positions<dim> &prescribed,
+                                    const Positions<dim> &loads) const;
   Positions<dim> newton_step(const Positions<dim> &positions, const Positions<dim> &gradient,
                              int &projected_steps) const;
 

@@ -45,7 +45,7 @@ MAY_INCLUDE = {
                             "verification/method", "verification/budget", "localization"}
     | MESHES | CELLS | SHELL,
     "verification/converge": {"verification/record", "verification/reference", "verification/cell",
-                              "verification/method", "homogenization/bracket"}
+                              "verification/method", "homogenization/bracket", "localization"}
     | MESHES | CELLS | SHELL,
     "verification/drape": {"verification/record", "verification/reference", "verification/cell",
                            "verification/method", "localization", "shell/contact"}

@@ -151,6 +151,35 @@ Verdict changes_with_the_mesh(const std::vector<RefinementLadder> &ladders,
     "no polynomial holds the fields at a corner; the limit is what round-off and solvers leave"};
 }
 
+/// P2 contains P1 on the same mesh, and at corners it is not P1: what tells one from the other
+/// there, where both have the order of the corners.
+Verdict quadratic_lies_below(const std::vector<RefinementLadder> &ladders,
+                             const Singularity &singularity, const RoundOff &round_off)
+{
+  Difference violation;
+  double least = std::numeric_limits<double>::infinity(), noise = stiffness_floor;
+  for (const RefinedCell &linear : ladders[0].levels)
+    for (const RefinedCell &quadratic : ladders[1].levels)
+      if (linear.h == quadratic.h)
+      {
+        const double limit = round_off.of(quadratic, stiffness_floor);
+        violation.add(order_violation(quadratic.stiffness, linear.stiffness), limit);
+        noise               = std::max(noise, limit);
+        const double change = energy_difference(linear.stiffness, quadratic.stiffness);
+        if (!(change >= least))
+          least = change;
+      }
+  constexpr double weak = 1e-4; // as in changes_with_the_mesh()
+  const bool is_strong  = singularity.exists && singularity.strongest < 1. - weak;
+  Outcome outcome       = outcome_of(violation);
+  if (outcome == Outcome::pass && !(least > noise))
+    outcome = is_strong && noise <= stiffness_floor ? Outcome::fail : Outcome::inconclusive;
+  return {"on the same mesh the energies of P2 lie below those of P1, by more than round-off "
+          "(smallest relative difference)",
+          violation.limit > 0. ? outcome : Outcome::inconclusive, least, "> " + number(noise),
+          "the space of P2 contains that of P1, and neither holds the fields at a corner"};
+}
+
 /// Whether the limits of both orders are one value, by their error bars.
 Verdict limits_agree(const Series &p1, const Series &p2)
 {
@@ -201,6 +230,8 @@ void judge_refinements(const UnitCell &cell, const std::vector<RefinementLadder>
   const Singularity singularity = homogenization::singularity_of(corners);
   result.verdicts.push_back(has_corners ? changes_with_the_mesh(ladders, singularity, round_off)
                                         : is_laminate(cell, ladders, round_off));
+  if (has_corners && ladders.size() == 2)
+    result.verdicts.push_back(quadratic_lies_below(ladders, singularity, round_off));
   const std::string exponents =
     singularity.exists
       ? "the energy converges with at least twice the exponent of the strongest corner, 2 x " +

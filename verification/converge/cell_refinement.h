@@ -2,7 +2,8 @@
 // What C^H of a cell must show under uniform refinement, with P1 and P2. Spaces are nested: it
 // falls in the Loewner order. A cell without corners is a laminate, and C^H its closed form on
 // every mesh. At corners the energy converges with order 2 lambda, lambda the exponents of
-// corners.h; and a C^H that does not change with the mesh is a fault there.
+// corners.h; and a C^H that does not change with the mesh is a fault there. The corners give P1 and
+// P2 the same order, so that what tells them apart is that P2 lies below P1 on the same mesh.
 //
 // How far an observed order may be from that: a sum of powers of h shows orders between those of
 // its parts. P1 adds the h^2 of the smooth part, which no ladder tells from h^1.5 (the order of
@@ -41,8 +42,8 @@ struct RefinementLadder
 /// The orders that the energy may show.
 OrderLimit order_of_energy(const homogenization::Singularity &singularity, unsigned int order);
 
-/// Judges the ladders of P1 and P2 of a cell: trace and entries of C^H as series, and the claims
-/// above. A ladder may have ended early, or be empty.
+/// Judges the ladders of P1 and P2 of a cell, in this order: trace and entries of C^H as series,
+/// and the claims above. A ladder may have ended early, or be empty.
 void judge_refinements(const homogenization::UnitCell &cell,
                        const std::vector<RefinementLadder> &ladders, ConvergenceResult &result);
 } // namespace homespun::verification

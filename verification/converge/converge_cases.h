@@ -18,7 +18,8 @@
 //               squared, `affine` by strain.
 // time          the coarse cloth swings down from one edge, linearly implicit and implicit Euler:
 //               order 1.
-// manufactured  manufactured_cases.h: L2 order p + 1, H1 order p; steps in time order 1.
+// manufactured  manufactured_cases.h: L2 order p + 1, H1 order p; steps in time order 1, of the
+//               conserving integrator 2; up-sampled positions order 2 in H.
 #pragma once
 
 #include "homogenization/cell/unit_cell.h"

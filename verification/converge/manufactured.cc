@@ -8,46 +8,37 @@ namespace homespun::verification
 {
 namespace
 {
-/// W of a law; products are transposed, never conjugated, so that F may have an imaginary part.
+/// ½ e:C:e
 template <typename Scalar>
-Scalar energy(const Law law, const Eigen::Matrix3d &stiffness, const Eigen::Matrix<Scalar, 3, 2> &F)
+Scalar quadratic(const Eigen::Matrix3d &stiffness, const Scalar (&strain)[3])
 {
-  using std::sqrt;
-  Scalar strain[3];
-  if (law == Law::linear)
-  {
-    strain[0] = F(0, 0) - 1.;
-    strain[1] = F(1, 1) - 1.;
-    strain[2] = F(0, 1) + F(1, 0);
-  }
-  else
-  {
-    Scalar c11 = 0., c22 = 0., c12 = 0.;
-    for (int i = 0; i < 3; ++i)
-    {
-      c11 += F(i, 0) * F(i, 0);
-      c22 += F(i, 1) * F(i, 1);
-      c12 += F(i, 0) * F(i, 1);
-    }
-    if (law == Law::green)
-    {
-      strain[0] = 0.5 * (c11 - 1.);
-      strain[1] = 0.5 * (c22 - 1.);
-      strain[2] = c12;
-    }
-    else
-    {
-      const Scalar root  = sqrt(c11 * c22 - c12 * c12);
-      const Scalar trace = sqrt(c11 + c22 + 2. * root);
-      strain[0]          = (c11 + root) / trace - 1.;
-      strain[1]          = (c22 + root) / trace - 1.;
-      strain[2]          = 2. * c12 / trace;
-    }
-  }
   Scalar result = 0.;
   for (int a = 0; a < 3; ++a)
     for (int b = 0; b < 3; ++b)
       result += 0.5 * stiffness(a, b) * strain[a] * strain[b];
+  return result;
+}
+
+/// W of biot or green as a function of C11, C22, C12 of C = F^T F, which may have imaginary parts.
+template <typename Scalar>
+Scalar energy(const Law law, const Eigen::Matrix3d &stiffness, const Scalar (&c)[3])
+{
+  using std::sqrt;
+  if (law == Law::green)
+    return quadratic<Scalar>(stiffness, {0.5 * (c[0] - 1.), 0.5 * (c[1] - 1.), c[2]});
+  const Scalar root  = sqrt(c[0] * c[1] - c[2] * c[2]);
+  const Scalar trace = sqrt(c[0] + c[1] + 2. * root);
+  return quadratic<Scalar>(
+    stiffness, {(c[0] + root) / trace - 1., (c[1] + root) / trace - 1., 2. * c[2] / trace});
+}
+
+EnergyAndStress linear_law(const Eigen::Matrix3d &stiffness, const Eigen::Matrix<double, 3, 2> &F)
+{
+  const Eigen::Vector3d strain(F(0, 0) - 1., F(1, 1) - 1., F(0, 1) + F(1, 0));
+  const Eigen::Vector3d stress = stiffness * strain;
+  EnergyAndStress result;
+  result.energy = 0.5 * strain.dot(stress);
+  result.stress << stress(0), stress(2), stress(2), stress(1), 0., 0.;
   return result;
 }
 } // namespace
@@ -55,24 +46,27 @@ Scalar energy(const Law law, const Eigen::Matrix3d &stiffness, const Eigen::Matr
 EnergyAndStress energy_and_stress(const Law law, const Eigen::Matrix3d &stiffness,
                                   const Eigen::Matrix<double, 3, 2> &F)
 {
+  if (law == Law::linear)
+    return linear_law(stiffness, F);
+  const Eigen::Matrix2d C = F.transpose() * F;
   EnergyAndStress result;
-  result.energy                      = energy<double>(law, stiffness, F);
-  constexpr double small             = 1e-30; // no difference is taken: any small number serves
-  using Complex                      = std::complex<double>;
-  Eigen::Matrix<Complex, 3, 2> moved = F.cast<Complex>();
-  result.stress.setZero();
-  const int n_rows = F.row(2).isZero(0.) ? 2 : 3; // in the plane there is no force along the normal
-  for (int i = 0; i < n_rows; ++i)
-    for (int j = 0; j < 2; ++j)
-    {
-      moved(i, j)         = Complex(F(i, j), small);
-      result.stress(i, j) = energy<Complex>(law, stiffness, moved).imag() / small;
-      moved(i, j)         = F(i, j);
-    }
+  result.energy          = energy<double>(law, stiffness, {C(0, 0), C(1, 1), C(0, 1)});
+  constexpr double small = 1e-30; // no difference is taken: any small number serves
+  using Complex          = std::complex<double>;
+  double slope[3]; // of W by C11, C22, C12
+  for (int a = 0; a < 3; ++a)
+  {
+    Complex moved[3] = {C(0, 0), C(1, 1), C(0, 1)};
+    moved[a] += Complex(0., small);
+    slope[a] = energy<Complex>(law, stiffness, moved).imag() / small;
+  }
+  Eigen::Matrix2d twice; // dW = P : dF, dC = dF^T F + F^T dF
+  twice << 2. * slope[0], slope[2], slope[2], 2. * slope[1];
+  result.stress = F * twice;
   return result;
 }
 
-Eigen::Vector3d equilibrium_force(const Law law, const Eigen::Matrix3d &stiffness,
+Eigen::Vector3d equilibrium_force(const Law law, const StiffnessField &stiffness,
                                   const GradientField &gradient,
                                   const Eigen::RowVector2d &rest_point, const double step)
 {
@@ -85,8 +79,16 @@ Eigen::Vector3d equilibrium_force(const Law law, const Eigen::Matrix3d &stiffnes
         Eigen::RowVector2d at = rest_point;
         at(j) += sign * k * step;
         divergence += sign * weights[k - 1] / step *
-                      energy_and_stress(law, stiffness, gradient(at)).stress.col(j);
+                      energy_and_stress(law, stiffness(at), gradient(at)).stress.col(j);
       }
   return -divergence;
+}
+
+Eigen::Vector3d equilibrium_force(const Law law, const Eigen::Matrix3d &stiffness,
+                                  const GradientField &gradient,
+                                  const Eigen::RowVector2d &rest_point, const double step)
+{
+  return equilibrium_force(
+    law, [&](const Eigen::RowVector2d &) { return stiffness; }, gradient, rest_point, step);
 }
 } // namespace homespun::verification

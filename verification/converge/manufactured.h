@@ -6,9 +6,9 @@
 // so that a solver's distance from it has the order of its elements and nothing else (Roache, J.
 // Fluids Eng. 124, 2002).
 //
-// The energies are written here once more, from their formulas alone: P by complex steps, which are
-// exact to round-off, Div P by central differences of fourth order. Nothing is shared with the laws
-// that the solvers use, neither stress nor tangent.
+// The energies are written here once more, from their formulas alone: P by complex steps in F^T F,
+// which are exact to round-off, Div P by central differences of fourth order. Nothing is shared
+// with the laws that the solvers use, neither stress nor tangent.
 #pragma once
 
 #include "verification/reference/laws.h"
@@ -22,6 +22,9 @@ namespace homespun::verification
 /// F of a motion at a rest point.
 using GradientField =
   std::function<Eigen::Matrix<double, 3, 2>(const Eigen::RowVector2d &rest_point)>;
+
+/// The stiffness at a rest point (3,3) [N/m].
+using StiffnessField = std::function<Eigen::Matrix3d(const Eigen::RowVector2d &rest_point)>;
 
 /// Energy per rest area of a law at a gradient F, and its stress P = dW/dF.
 struct EnergyAndStress
@@ -37,9 +40,15 @@ EnergyAndStress energy_and_stress(Law law, const Eigen::Matrix3d &stiffness,
                                   const Eigen::Matrix<double, 3, 2> &F);
 
 /// −Div P of a motion, per rest area [N/m^2].
+/// @param stiffness smooth within two steps of the point; layers are asked for one by one
 /// @param gradient F of the motion; in the plane its third row is zero
 /// @param step of the central differences [m], some thousandth of the length on which the motion
 ///   varies
+Eigen::Vector3d equilibrium_force(Law law, const StiffnessField &stiffness,
+                                  const GradientField &gradient,
+                                  const Eigen::RowVector2d &rest_point, double step);
+
+/// The same of one stiffness everywhere.
 Eigen::Vector3d equilibrium_force(Law law, const Eigen::Matrix3d &stiffness,
                                   const GradientField &gradient,
                                   const Eigen::RowVector2d &rest_point, double step);

@@ -1,9 +1,16 @@
 // SPDX-License-Identifier: MIT
 // Every solver held against motions that it must reproduce with the order of its elements or of its
-// time step: the references in the plane (periodic and clamped) and the reference in space
-// (statics, steps).
+// time step:
+//   references    in the plane (periodic and clamped) and in space (statics, steps)
+//   shell         in the plane and in space, one stiffness or a field of them; its integrators
+//   homogenizer   a force in the cell; one stiffness, layers, a field
+//   up-sampler    the coarse motion is given, nothing is solved
+// Limits are one order of theory +- 0.1 on both sides: linear elements in the place of quadratic
+// ones FAIL, and so does an integrator of first order in the place of one of second.
 #pragma once
 
+#include "localization/options.h"
+#include "verification/converge/manufactured_motions.h"
 #include "verification/record/convergence.h"
 #include "verification/reference/field_integrals.h"
 
@@ -17,9 +24,6 @@
 
 namespace homespun::verification
 {
-/// Side of every sheet [m].
-constexpr double manufactured_side = 0.1;
-
 /// Of the residual of all solvers.
 constexpr double manufactured_tolerance = 1e-12;
 
@@ -40,8 +44,13 @@ struct ManufacturedCase
   std::vector<int> sizes;   ///< divisions of the side, or time steps
   double extent;            ///< h = extent / size
   OrderLimit L2;            ///< expected order of the L2 error
-  bool has_H1   = true;     ///< false in time, where the space is exact
+  std::string L2_claim;     ///< the same in words
+  bool has_H1   = true;     ///< false where only points are compared
   OrderLimit H1 = {0., 0.}; ///< expected order of the H1 error
+  std::string theory;       ///< where the orders come from
+  /// False where nothing is solved, or by a factorisation: there is no tolerance, and the algebraic
+  /// error is round-off.
+  bool has_tolerance = true;
   /// Solves with a division and a solver tolerance. @throws NotConverged
   std::function<ManufacturedSolution(int size, double tolerance, MPI_Comm)> solve;
 };
@@ -58,7 +67,23 @@ struct ManufacturedLadder
   std::string unfinished; ///< why the levels end early; empty where all are solved
 };
 
-/// All cases.
+/// A case whose levels are mesh widths over the side, with the orders of its elements: p + 1 in L2,
+/// p in H1.
+ManufacturedCase of_elements(const std::string &name, unsigned int order, std::vector<int> sizes);
+
+/// A case whose levels are time steps.
+/// @param duration of the motion [s]
+ManufacturedCase of_time_steps(const std::string &name, double order, std::vector<int> sizes,
+                               double duration);
+
+std::vector<ManufacturedCase> reference_cases();
+std::vector<ManufacturedCase> shell_cases();
+std::vector<ManufacturedCase> homogenizer_cases();
+/// @param options whose strain and lift are those of biot, whose chi is zero at the lattice, and
+///   which blend: others are no choice of order 2
+std::vector<ManufacturedCase> upsampler_cases(const localization::UpsamplerOptions &options = {});
+
+/// All of them.
 const std::vector<ManufacturedCase> &manufactured_cases();
 
 /// Solves a case on all of its levels, or as many as converge.
@@ -73,7 +98,8 @@ constexpr double largest_algebraic_share = 0.01;
 struct ManufacturedClaims
 {
   OrderJudgement L2, H1;
-  double algebraic_share; ///< algebraic error over the smallest L2 error
+  /// Algebraic error over the smallest L2 error; not a number where there is no tolerance.
+  double algebraic_share;
 };
 ManufacturedClaims judge(const ManufacturedCase &manufactured, const ManufacturedLadder &ladder);
 } // namespace homespun::verification

@@ -89,6 +89,44 @@ TEST(exact_equilibrium, a_strip_free_to_contract_shrinks_by_its_poisson_ratio)
   EXPECT_NEAR(result.energy, energy, 1e-12 * energy);
 }
 
+TEST(exact_equilibrium, loads_on_a_free_edge_stretch_a_strip_by_their_stress)
+{
+  // Without contraction: C22 = 5 N/m, held below, pulled above with s C22 per length: the stretch
+  // is s, in both, because the stress of biot is linear in it.
+  const int n         = 4;
+  const double strain = 0.2, side = 0.01, C22 = 5.;
+  const meshes::TriangleMesh mesh = tests::irregular_sheet(n, side);
+  const MembraneSolver<2> solver(mesh, {Eigen::Vector3d(3., C22, 2.).asDiagonal().toDenseMatrix()},
+                                 {0, 1, 2, 3, 4});
+  Positions<2> loads = Positions<2>::Zero(mesh.n_vertices(), 2), expected = mesh.vertices;
+  expected.col(1) *= 1. + strain;
+  for (int i = 0; i < n; ++i)
+    for (const int v : {n * (n + 1) + i, n * (n + 1) + i + 1})
+      loads(v, 1) += 0.5 * C22 * strain * side / n;
+  const Positions<2> start = mesh.vertices;
+  EXPECT_LT((solver.solve_linear(start, loads) - expected).cwiseAbs().maxCoeff(), 1e-12 * side);
+  const Equilibrium<2> found = solver.solve_equilibrium(start, {1e-13, 50}, loads);
+  EXPECT_LT((found.positions - expected).cwiseAbs().maxCoeff(), 1e-11 * side);
+  EXPECT_NEAR(found.energy, 0.5 * C22 * strain * strain * side * side, 1e-11 * found.energy);
+  // Loads on held vertices change nothing.
+  loads.row(2) << 7., -3.;
+  EXPECT_LT((solver.solve_linear(start, loads) - expected).cwiseAbs().maxCoeff(), 1e-12 * side);
+}
+
+TEST(tripwire_equilibrium, loads_that_do_not_fit_are_named)
+{
+  const meshes::TriangleMesh mesh = tests::irregular_sheet(2);
+  const MembraneSolver<2> solver(mesh, {tests::anisotropic()}, {0, 1});
+  const Positions<2> start = mesh.vertices;
+  Positions<2> loads       = Positions<2>::Zero(mesh.n_vertices(), 2);
+  loads(5, 1)              = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_NE(refusal([&]() { solver.solve_linear(start, loads); }).find("vertex 5: its load"),
+            std::string::npos);
+  EXPECT_NE(refusal([&]() { solver.solve_equilibrium(start, {}, loads.topRows(3)); })
+              .find("loads: has 3 rows; expected 9"),
+            std::string::npos);
+}
+
 TEST(order_equilibrium, linear_and_nonlinear_displacements_differ_by_strain_squared)
 {
   const int n                     = 8;

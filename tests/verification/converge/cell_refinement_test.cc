@@ -98,7 +98,7 @@ std::vector<Outcome> outcomes(const ConvergenceResult &result)
 TEST(exact_cell_refinement, orders_of_the_corners_pass_and_give_error_bars)
 {
   const ConvergenceResult result = judged(inclusion(), as_theory_says());
-  EXPECT_EQ(outcomes(result), std::vector<Outcome>(5, Outcome::pass));
+  EXPECT_EQ(outcomes(result), std::vector<Outcome>(6, Outcome::pass));
   for (const Series &series : result.series)
     if (series.quantity.rfind("C16", 0) != 0 && series.quantity.rfind("C26", 0) != 0)
     {
@@ -183,6 +183,23 @@ TEST(tripwire_cell_refinement, characteristic_displacements_lost_at_corners_are_
   EXPECT_EQ(claim(judged(inclusion(), lost), "changes with mesh").outcome, Outcome::fail);
 }
 
+TEST(tripwire_cell_refinement, linear_elements_in_the_place_of_quadratic_ones_are_noticed)
+{
+  const auto with = [](const double of_p2)
+  {
+    return claim(judged(inclusion(), ladders_of(
+                                       [&](const unsigned order, const double h) {
+                                         return (order == 1 ? 0.1 : of_p2) *
+                                                std::pow(h, 2. * singularity().strongest);
+                                       })),
+                 "energies of P2 lie below")
+      .outcome;
+  };
+  EXPECT_EQ(with(0.09), Outcome::pass);
+  EXPECT_EQ(with(0.1), Outcome::fail);  // the same
+  EXPECT_EQ(with(0.11), Outcome::fail); // above
+}
+
 TEST(tripwire_cell_refinement, an_order_that_corners_do_not_allow_is_noticed)
 {
   for (const double wrong : {0.8, 3., 4.})
@@ -205,6 +222,7 @@ TEST(tripwire_cell_refinement, a_level_that_is_not_a_number_fails_every_claim)
       const ConvergenceResult corners = judged(inclusion(), ladders);
       EXPECT_EQ(claim(corners, "Loewner").outcome, Outcome::fail);
       EXPECT_EQ(claim(corners, "changes with mesh").outcome, Outcome::fail);
+      EXPECT_EQ(claim(corners, "energies of P2 lie below").outcome, Outcome::fail);
       EXPECT_EQ(claim(corners, ladder == 0 ? "; P1" : "; P2").outcome, Outcome::fail);
       EXPECT_EQ(claim(corners, "limits of P1 and P2").outcome, Outcome::inconclusive);
       EXPECT_EQ(claim(judged(laminate(), ladders), "closed form").outcome, Outcome::fail);

@@ -4,6 +4,7 @@
 #include "meshes/plain/sheet.h"
 #include "verification/converge/manufactured.h"
 #include "verification/converge/manufactured_cases.h"
+#include "verification/converge/nodal_fields.h"
 #include "verification/extremes/stress_sheet.h"
 #include "verification/reference/fine_reference.h"
 #include "verification/reference/space_laws.h"
@@ -14,16 +15,6 @@
 
 using namespace homespun;
 using namespace homespun::verification;
-
-namespace
-{
-Eigen::Matrix3d anisotropic()
-{
-  Eigen::Matrix3d C;
-  C << 1500., 330., 120., 330., 600., -90., 120., -90., 270.;
-  return C;
-}
-} // namespace
 
 TEST(exact_manufactured, energies_written_twice_agree_with_the_laws_of_the_solvers)
 {
@@ -94,7 +85,12 @@ void expect_orders(const std::string &beginning, const int n_cases)
       EXPECT_EQ(claims.H1.outcome, Outcome::pass)
         << name << ": H1 order " << claims.H1.order << ", " << claims.H1.why;
     }
-    EXPECT_LT(claims.algebraic_share, 0.01) << name;
+    if (manufactured.has_tolerance)
+    {
+      EXPECT_LT(claims.algebraic_share, 0.01) << name;
+    }
+    EXPECT_EQ(ladder.unfinished, "") << name;
+    ASSERT_FALSE(ladder.L2.empty()) << name;
     EXPECT_LT(ladder.L2.back(), 1e-3) << name; // of the side: it converges to this motion
   }
   EXPECT_EQ(n_found, n_cases);
@@ -119,6 +115,60 @@ TEST(order_manufactured, cloth_in_space_converges_with_p_plus_1_and_p_in_motion)
 TEST(order_manufactured, implicit_euler_converges_with_order_1)
 {
   expect_orders("cloth in space; implicit Euler", 2);
+}
+
+TEST(order_manufactured, the_shell_converges_with_2_and_1_in_the_plane)
+{
+  expect_orders("shell in the plane", 4);
+}
+
+TEST(order_manufactured, the_shell_converges_with_2_and_1_in_space_at_rest_and_in_motion)
+{
+  expect_orders("shell in space; statics", 2);
+  expect_orders("shell in space; steps", 2);
+}
+
+TEST(order_manufactured, integrators_of_the_shell_have_their_order_against_a_known_motion)
+{
+  expect_orders("shell in space; linearly implicit Euler", 1);
+  expect_orders("shell in space; implicit Euler", 1);
+  expect_orders("shell in space; conserving integrator", 1);
+}
+
+TEST(order_manufactured, characteristic_displacements_under_a_force_converge_with_p_plus_1_and_p)
+{
+  expect_orders("homogenizer", 5);
+}
+
+TEST(order_manufactured, upsampled_positions_of_a_known_motion_converge_with_order_2)
+{
+  expect_orders("up-sampler", 4);
+}
+
+TEST(exact_manufactured, linear_triangles_integrate_forces_and_distances)
+{
+  meshes::TriangleMesh mesh = meshes::irregular_sheet(3, 1.);
+  // Loads of f = (1, x, x y): their sum is that of f over the square, their moment about y = 0 that
+  // of y f.
+  const meshes::SpacePoints loads = nodal_loads(mesh, [](const Eigen::RowVector2d &X)
+                                                { return FieldValue(1., X(0), X(0) * X(1)); });
+  EXPECT_LT((loads.colwise().sum() - Eigen::RowVector3d(1., 1. / 2., 1. / 4.)).norm(), 1e-13);
+  EXPECT_LT(
+    (mesh.vertices.col(1).transpose() * loads - Eigen::RowVector3d(1. / 2., 1. / 4., 1. / 6.))
+      .norm(),
+    1e-13);
+  Eigen::Matrix<double, 3, 2> F;
+  F << 1.2, 0.1, -0.2, 0.9, 0.3, 0.4;
+  const KnownField affine       = {[=](const Eigen::RowVector2d &X)
+                                   { return FieldValue(F * X.transpose()); },
+                                   [=](const Eigen::RowVector2d &) { return F; }};
+  meshes::SpacePoints positions = mesh.vertices * F.transpose();
+  EXPECT_LT(distance(mesh, positions, affine).L2, 1e-14);
+  EXPECT_LT(distance(mesh, positions, affine).H1, 1e-13);
+  // Moved by (3, 4, 0) x: |.|² = 25 x², its gradient 25.
+  positions += mesh.vertices.col(0) * Eigen::RowVector3d(3., 4., 0.);
+  EXPECT_NEAR(distance(mesh, positions, affine).L2, std::sqrt(25. / 3.), 1e-12);
+  EXPECT_NEAR(distance(mesh, positions, affine).H1, 5., 1e-12);
 }
 
 namespace
@@ -180,6 +230,83 @@ TEST(tripwire_manufactured, a_force_of_another_law_or_of_a_swapped_stiffness_doe
     EXPECT_NE(found.outcome, Outcome::pass) << found.order << " " << found.why;
     EXPECT_LT(found.observed.back(), 0.5) << found.why; // the error stays, however fine the mesh
   }
+}
+
+namespace
+{
+/// The claims of a case whose errors are made up: e = C h^p with a tenth of h^(p+1) beside it.
+ManufacturedClaims judged_as(ManufacturedCase manufactured, const double L2_order)
+{
+  manufactured.solve = [=](const int size, const double tolerance, MPI_Comm)
+  {
+    const double h = 1. / size;
+    ManufacturedSolution solution;
+    solution.error.L2  = 1e-3 * std::pow(h, L2_order) * (1. + 0.1 * h);
+    solution.error.H1  = 1e-2 * std::pow(h, L2_order - 1.) * (1. + 0.1 * h);
+    solution.positions = Eigen::MatrixXd::Constant(1, 1, tolerance);
+    return solution;
+  };
+  return judge(manufactured, climb(manufactured, MPI_COMM_SELF));
+}
+} // namespace
+
+TEST(tripwire_manufactured, an_order_too_low_or_too_high_by_one_fails_in_every_case)
+{
+  for (const ManufacturedCase &one : manufactured_cases())
+  {
+    const double expected = 0.5 * (one.L2.lowest + one.L2.highest);
+    EXPECT_LE(one.L2.highest - one.L2.lowest, 0.2 + 1e-12) << one.name;
+    EXPECT_EQ(judged_as(one, expected).L2.outcome, Outcome::pass) << one.name;
+    for (const double wrong : {expected - 1., expected + 1.})
+      if (wrong > 0.)
+      {
+        EXPECT_EQ(judged_as(one, wrong).L2.outcome, Outcome::fail) << one.name << wrong;
+        if (one.has_H1 && wrong > 1.)
+        {
+          EXPECT_EQ(judged_as(one, wrong).H1.outcome, Outcome::fail) << one.name << wrong;
+        }
+      }
+  }
+}
+
+TEST(tripwire_manufactured, linear_elements_do_not_pass_for_quadratic_ones)
+{
+  int n_pairs = 0;
+  for (const ManufacturedCase &quadratic : homogenizer_cases())
+    for (ManufacturedCase linear : homogenizer_cases())
+      if (quadratic.order == 2 && linear.order == 1 && linear.name == quadratic.name)
+      {
+        ++n_pairs;
+        linear.L2                       = quadratic.L2;
+        linear.H1                       = quadratic.H1;
+        const ManufacturedClaims claims = judge(linear, climb(linear, MPI_COMM_SELF));
+        EXPECT_EQ(claims.L2.outcome, Outcome::fail) << linear.name << claims.L2.why;
+        EXPECT_EQ(claims.H1.outcome, Outcome::fail) << linear.name << claims.H1.why;
+      }
+  EXPECT_EQ(n_pairs, 2);
+}
+
+TEST(tripwire_manufactured, upsampling_by_another_lift_constant_or_blend_has_not_order_2)
+{
+  using namespace localization;
+  const auto orders_with = [](const auto &change)
+  {
+    UpsamplerOptions options;
+    change(options);
+    std::vector<OrderJudgement> found;
+    for (const ManufacturedCase &one : upsampler_cases(options))
+      found.push_back(judge(one, climb(one, MPI_COMM_SELF)).L2);
+    return found;
+  };
+  for (const auto &found : {orders_with([](UpsamplerOptions &o) { o.lift = Lift::affine; }),
+                            orders_with([](UpsamplerOptions &o) { o.anchor = Anchor::mean; }),
+                            orders_with([](UpsamplerOptions &o) { o.microscopic = false; })})
+    for (const OrderJudgement &one : found)
+      EXPECT_EQ(one.outcome, Outcome::fail) << one.order << " " << one.why;
+  // Strains that jump err by H: seen where cells do not shrink with H.
+  const auto piecewise = orders_with([](UpsamplerOptions &o) { o.blend = Blend::piecewise; });
+  for (const std::size_t k : {2u, 3u})
+    EXPECT_EQ(piecewise[k].outcome, Outcome::fail) << piecewise[k].order << piecewise[k].why;
 }
 
 TEST(tripwire_manufactured, an_algebraic_error_that_was_not_measured_proves_no_order)

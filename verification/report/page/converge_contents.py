@@ -57,7 +57,9 @@ CAPTIONS = {
     ),
     "manufactured": (
         "Every solver against a smooth motion of some ten per cent of strain that a body force"
-        " makes exact. Expected: L2 order p + 1, H1 order p, time steps order 1."
+        " makes exact, and up-sampling of a coarse motion that is known. Expected: L2 order p + 1,"
+        " H1 order p; in time order 1, of the conserving integrator 2; up-sampled positions order"
+        " 2."
     ),
 }
 
