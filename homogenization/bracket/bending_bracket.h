@@ -20,11 +20,6 @@
 
 namespace homespun::homogenization
 {
-/// w per unit of the macro curvatures 11, 22 and 2 kappa12, one vertex per row: the sheet bent by K
-/// lies at w3 = ½ y.K.y + K11 w_1 + K22 w_2 + 2 K12 w_3, with kappa = +grad grad w3. Shape (n,3)
-/// [m^2].
-using Deflection = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>;
-
 /// Both sides of D^H on one mesh, Voigt order 11, 22, 12 with kappa = (kappa11, kappa22, 2 kappa12)
 /// [N m].
 struct BendingBracket
@@ -35,8 +30,8 @@ struct BendingBracket
   double round_off   = 0.;      ///< what was added, relative
   double excess      = 0.;      ///< of either energy above its minimum on this mesh, relative
 
-  Eigen::Matrix3d stiffness; ///< energies of the deflections, nothing added; on the upper side
-  Deflection deflection;     ///< at the vertices of the given mesh, zero at its anchor
+  Eigen::Matrix3d stiffness;     ///< energies of the deflections, nothing added; on the upper side
+  meshes::Deflection deflection; ///< at the vertices of the given mesh, zero at its anchor
   /// Of each material of the given mesh, of the curvatures under unit macro curvatures [-].
   std::vector<FieldProducts> curvature_products;
   unsigned n_triangles = 0, n_deflection_dofs = 0, n_moment_dofs = 0, iterations = 0;

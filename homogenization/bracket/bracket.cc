@@ -55,13 +55,6 @@ Part sure_part(const DrawnMesh &drawing)
   return part;
 }
 
-/// Adds weight f f^T at a point.
-void add_products(const double weight, const Eigen::Matrix3d &field, FieldProducts &products)
-{
-  const Eigen::Map<const Eigen::Matrix<double, 9, 1>> f(field.data()); // load by load
-  products.noalias() += weight * f * f.transpose();
-}
-
 /// Both problems, each on its part of a drawing. What may be a part of a hole belongs to the side
 /// that gains by it: there are no stresses where a hole is empty, no strains where it is rigid.
 struct Sides
@@ -149,15 +142,6 @@ void compare(const TorusMesh &given, const Sides &sides, Bracket &result)
     result.indicators += result.indicators.sum() / rest * of_arcs;
 }
 } // namespace
-
-Eigen::Matrix3d energies_of(const Eigen::Matrix3d &form, const FieldProducts &products)
-{
-  Eigen::Matrix3d energies;
-  for (int a = 0; a < 3; ++a)
-    for (int b = 0; b < 3; ++b)
-      energies(a, b) = form.cwiseProduct(products.block<3, 3>(3 * a, 3 * b)).sum();
-  return energies;
-}
 
 Bracket bracket(const TorusMesh &given, const std::vector<Eigen::Matrix3d> &stiffness_of_material,
                 const unsigned order, const Holes holes)

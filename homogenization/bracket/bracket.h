@@ -4,6 +4,7 @@
 // on any mesh and however well either problem is solved. Where the two differ the mesh is refined.
 #pragma once
 
+#include "homogenization/bracket/field_products.h"
 #include "homogenization/bracket/holes.h"
 #include "homogenization/cell/torus_mesh.h"
 #include "meshes/plain/homogenized_cell.h"
@@ -15,14 +16,6 @@
 
 namespace homespun::homogenization
 {
-/// Sum over a phase of products of fields: 1/|Y| integral f_ia f_jb, with the row 3 a + i and the
-/// column 3 b + j, for the component i = 11, 22, 12 under the load a. A form Q of the phase has
-/// the energies sum_ij Q_ij products(3 a + i, 3 b + j).
-using FieldProducts = Eigen::Matrix<double, 9, 9>;
-
-/// The energies of a form: 1/|Y| integral f_a . form . f_b over the phase, for all loads a, b.
-Eigen::Matrix3d energies_of(const Eigen::Matrix3d &form, const FieldProducts &products);
-
 /// Both sides of C^H on one mesh. Voigt order 11, 22, 12 with engineering shear, [N/m].
 struct Bracket
 {

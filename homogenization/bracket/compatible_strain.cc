@@ -241,6 +241,21 @@ FieldOfLoads CompatibleStrain::strain(const int triangle) const
   return order == 1 ? strain_of<3>(triangle, nullptr) : strain_of<6>(triangle, nullptr);
 }
 
+std::vector<FieldProducts> CompatibleStrain::products() const
+{
+  std::vector<FieldProducts> products(stiffnesses.size(), FieldProducts::Zero());
+  for (int t = 0; t < mesh.n_triangles(); ++t)
+  {
+    const TorusTriangle &triangle = mesh.triangles[at(t)];
+    const double weight =
+      gradients_of(triangle.shape(mesh.edges)).second / (n_field_points * mesh.lattice.area());
+    const FieldOfLoads field = strain(t);
+    for (int q = 0; q < n_field_points; ++q)
+      add_products(weight, field.middleRows<3>(3 * q), products[at(triangle.material)]);
+  }
+  return products;
+}
+
 Eigen::VectorXd CompatibleStrain::unbalanced_tractions(const Eigen::Matrix3d &weights) const
 {
   return order == 1 ? unbalanced_tractions_of<3>(weights) : unbalanced_tractions_of<6>(weights);

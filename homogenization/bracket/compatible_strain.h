@@ -5,6 +5,7 @@
 #pragma once
 
 #include "homogenization/bracket/equilibrated_stress.h"
+#include "homogenization/bracket/field_products.h"
 #include "homogenization/bracket/holes.h"
 #include "homogenization/cell/torus_mesh.h"
 #include "meshes/plain/homogenized_cell.h"
@@ -33,6 +34,9 @@ public:
 
   /// e − eps(chi) at the field points of a triangle under the three unit macro strains.
   FieldOfLoads strain(int triangle) const;
+
+  /// Of each material of the mesh, of the strains.
+  std::vector<FieldProducts> products() const;
 
   /// Per triangle, h integral [t].(N1 + N2)^-1.[t] over its edges, half to each side: the jumps of
   /// the traction t = n.c:(e − eps(chi)), which an exact solution does not have, against the
