@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "homogenization/bracket/airy_unknowns.h"
 
-#include "meshes/plain/errors.h"
-
 #include <cmath>
-#include <numeric>
 
 namespace homespun::homogenization
 {
@@ -35,60 +32,15 @@ Eigen::Vector2d edge_normal(const TorusEdge &edge)
   return {edge.vector(1) / length, -edge.vector(0) / length};
 }
 
-AiryUnknowns::AiryUnknowns(const TorusMesh &mesh)
+AiryUnknowns::AiryUnknowns(const TorusMesh &mesh, const Holes holes)
     : mesh(mesh)
 {
-  find_holes();
+  if (holes == Holes::empty)
+    rims = rims_of(mesh);
+  else
+    rims = {std::vector<RimPoint>(at(mesh.n_vertices)), std::vector<RimPoint>(mesh.edges.size()),
+            0};
   number_unknowns();
-}
-
-void AiryUnknowns::find_holes()
-{
-  rim_of_vertex.assign(at(mesh.n_vertices), {});
-  rim_of_edge.assign(mesh.edges.size(), {});
-  const auto rims = rim_edges(mesh);
-  // Holes that touch in a vertex share value and gradient there, hence the whole affine function.
-  std::vector<int> parent(at(mesh.n_vertices));
-  std::iota(parent.begin(), parent.end(), 0);
-  const auto root = [&](int v)
-  {
-    while (parent[at(v)] != v)
-      v = parent[at(v)] = parent[at(parent[at(v)])];
-    return v;
-  };
-  for (const auto &[t, k] : rims)
-  {
-    const TorusTriangle &triangle              = mesh.triangles[at(t)];
-    parent[at(root(triangle.vertices[at(k)]))] = root(triangle.vertices[at((k + 1) % 3)]);
-  }
-  std::vector<int> hole_of_root(at(mesh.n_vertices), -1);
-  std::vector<Eigen::Vector2d> origins;
-  const double tolerance = meshes::image_tolerance * std::sqrt(mesh.lattice.area());
-  for (const auto &[t, k] : rims)
-  {
-    const TorusTriangle &triangle = mesh.triangles[at(t)];
-    const auto shape              = triangle.shape(mesh.edges);
-    int &hole                     = hole_of_root[at(root(triangle.vertices[at(k)]))];
-    if (hole < 0)
-    {
-      hole = static_cast<int>(origins.size());
-      origins.emplace_back(triangle.corner + shape[at(k)]);
-    }
-    const Eigen::Vector2d &origin          = origins[at(hole)];
-    const Eigen::Vector2d ends[2]          = {triangle.corner + shape[at(k)] - origin,
-                                              triangle.corner + shape[at((k + 1) % 3)] - origin};
-    rim_of_edge[at(triangle.edges[at(k)])] = {hole, 0.5 * (ends[0] + ends[1])};
-    for (int end = 0; end < 2; ++end)
-    {
-      RimPoint &rim = rim_of_vertex[at(triangle.vertices[at((k + end) % 3)])];
-      if (rim.hole >= 0 && (rim.position - ends[end]).norm() > tolerance)
-        throw meshes::BadInput(
-          "a hole of the cell meets an image of itself or of another hole at the outline; expected "
-          "holes inside the cell: shift the cell, or fill the hole with a soft phase");
-      rim = {hole, ends[end]};
-    }
-  }
-  first_unknown_of_hole.resize(origins.size());
 }
 
 /// Close to a vertex P of the given mesh phi is stored as phi − phi(P), because next to a strong
@@ -103,19 +55,20 @@ void AiryUnknowns::number_unknowns()
   first_unknown.assign(at(mesh.n_vertices), -1);
   for (int v = 0; v < mesh.n_vertices; ++v)
   {
-    if (rim_of_vertex[at(v)].hole >= 0)
+    if (rims.of_vertex[at(v)].hole >= 0)
       continue;
     first_unknown[at(v)] = n;
     n += 3;
     const VertexOrigin &home = mesh.origins[at(v)];
-    if (rim_of_vertex[at(home.vertex)].hole < 0 &&
+    if (rims.of_vertex[at(home.vertex)].hole < 0 &&
         home.offset.norm() < closeness * mesh.reach[at(home.vertex)])
       centre_of[at(v)] = home.vertex;
   }
   unknown_of_edge.assign(mesh.edges.size(), -1);
   for (int e = 0; e < mesh.n_edges(); ++e)
-    if (rim_of_edge[at(e)].hole < 0)
+    if (rims.of_edge[at(e)].hole < 0)
       unknown_of_edge[at(e)] = n++;
+  first_unknown_of_hole.resize(at(rims.n_holes));
   for (int &first : first_unknown_of_hole)
   {
     first = n;
@@ -141,6 +94,16 @@ AiryDof AiryUnknowns::on_rim(const RimPoint &rim,
   return dof;
 }
 
+AiryDof AiryUnknowns::value_at(const int vertex) const
+{
+  if (rims.of_vertex[at(vertex)].hole >= 0)
+    return on_rim(rims.of_vertex[at(vertex)], Eigen::RowVector3d::Unit(0));
+  AiryDof dof;
+  dof.unknowns[0] = first_unknown[at(vertex)];
+  dof.factors[0]  = 1.;
+  return dof;
+}
+
 AiryDofs AiryUnknowns::of_triangle(const int t) const
 {
   const TorusTriangle &triangle = mesh.triangles[at(t)];
@@ -150,9 +113,9 @@ AiryDofs AiryUnknowns::of_triangle(const int t) const
   for (int k = 0; k < 3; ++k)
   {
     const int v = triangle.vertices[at(k)], e = triangle.edges[at(k)];
-    if (rim_of_vertex[at(v)].hole >= 0)
+    if (rims.of_vertex[at(v)].hole >= 0)
       for (int d = 0; d < 3; ++d)
-        dofs[at(3 * k + d)] = on_rim(rim_of_vertex[at(v)], Eigen::RowVector3d::Unit(d));
+        dofs[at(3 * k + d)] = on_rim(rims.of_vertex[at(v)], Eigen::RowVector3d::Unit(d));
     else
     {
       for (int d = 0; d < 3; ++d)
@@ -168,10 +131,10 @@ AiryDofs AiryUnknowns::of_triangle(const int t) const
         dofs[at(3 * k)].factors[1]  = 1.;
       }
     }
-    if (rim_of_edge[at(e)].hole >= 0)
+    if (rims.of_edge[at(e)].hole >= 0)
     {
       const Eigen::Vector2d normal = edge_normal(mesh.edges[at(e)]);
-      dofs[at(9 + k)]              = on_rim(rim_of_edge[at(e)], {0., normal(0), normal(1)});
+      dofs[at(9 + k)]              = on_rim(rims.of_edge[at(e)], {0., normal(0), normal(1)});
     }
     else
     {

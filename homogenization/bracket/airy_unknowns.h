@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
-// The unknowns of a periodic stress function on Clough-Tocher triangles, with holes on whose rims
-// it is known up to an affine function: which of them each triangle's twelve degrees of freedom are
-// made of.
+// The unknowns of a periodic stress function on Clough-Tocher triangles, with empty holes on whose
+// rims it is known up to an affine function, or rigid ones on whose rims it is free: which of them
+// each triangle's twelve degrees of freedom are made of.
 #pragma once
 
+#include "homogenization/bracket/holes.h"
 #include "homogenization/cell/torus_mesh.h"
 
 #include <Eigen/Core>
@@ -29,36 +30,32 @@ using AiryDofs = std::array<AiryDof, 12>;
 Eigen::Vector2d edge_normal(const TorusEdge &edge);
 
 /// Numbers phi of the three unit mean stresses: value and gradient at each vertex, normal
-/// derivative at each edge; on the rim of a hole phi is minus the mean stress's own stress function
-/// plus an affine function of three unknowns.
+/// derivative at each edge; on the rim of an empty hole phi is minus the mean stress's own stress
+/// function plus an affine function of three unknowns.
 class AiryUnknowns
 {
 public:
-  /// @throws BadInput where holes meet across the outline
-  explicit AiryUnknowns(const TorusMesh &mesh);
+  /// @throws BadInput where empty holes meet across the outline
+  explicit AiryUnknowns(const TorusMesh &mesh, Holes holes = Holes::empty);
 
   AiryDofs of_triangle(int t) const;
+
+  /// phi at a vertex of the mesh that was glued.
+  AiryDof value_at(int vertex) const;
 
   int number = 0;  ///< of unknowns, the pinned one among them
   int pinned = -1; ///< the value that takes out the constant
 
 private:
-  /// phi on the rim of a hole: value, d/dx, d/dy at a point.
-  struct RimPoint
-  {
-    int hole = -1;
-    Eigen::Vector2d position; ///< from the first vertex of the hole's rim [m]
-  };
-
-  void find_holes();
   void number_unknowns();
+  /// phi on the rim of a hole, of which the row takes a combination of value, d/dx and d/dy.
   AiryDof on_rim(const RimPoint &rim, const Eigen::RowVector3d &of_value_and_gradient) const;
 
   const TorusMesh &mesh;
   std::vector<int> first_unknown;   ///< of each vertex: value, d/dx, d/dy; -1 on rims
   std::vector<int> unknown_of_edge; ///< -1 on rims
   std::vector<int> centre_of;       ///< see number_unknowns(); -1 for most vertices
-  std::vector<RimPoint> rim_of_vertex, rim_of_edge;
+  Rims rims;                        ///< of empty holes
   std::vector<int> first_unknown_of_hole;
 };
 } // namespace homespun::homogenization

@@ -22,29 +22,134 @@ std::size_t at(const int index)
 {
   return static_cast<std::size_t>(index);
 }
+
+/// Triangles of a mesh, as a mesh.
+struct Part
+{
+  TorusMesh mesh;
+  std::vector<char> is_flat;
+  std::vector<int> number; ///< of each triangle of the whole, -1 where it is none of the part
+};
+
+Part whole(const DrawnMesh &drawing)
+{
+  Part part{drawing.mesh, drawing.is_flat, std::vector<int>(drawing.mesh.triangles.size())};
+  std::iota(part.number.begin(), part.number.end(), 0);
+  return part;
+}
+
+/// What is certainly in no hole.
+Part sure_part(const DrawnMesh &drawing)
+{
+  Part part{drawing.mesh, {}, std::vector<int>(drawing.mesh.triangles.size(), -1)};
+  std::vector<char> is_sure(drawing.mesh.triangles.size());
+  int n_sure = 0;
+  for (std::size_t t = 0; t < is_sure.size(); ++t)
+    if ((is_sure[t] = !drawing.is_void_below[t]))
+    {
+      part.is_flat.push_back(drawing.is_flat[t]);
+      part.number[t] = n_sure++;
+    }
+  if (n_sure < drawing.mesh.n_triangles())
+    part.mesh = with_only(drawing.mesh, is_sure);
+  return part;
+}
+
+/// Both problems, each on its part of a drawing. What may be a part of a hole belongs to the side
+/// that gains by it: there are no stresses where a hole is empty, no strains where it is rigid.
+struct Sides
+{
+  Sides(const TorusMesh &given, const std::vector<Eigen::Matrix3d> &stiffness_of_material,
+        const unsigned order, const Holes holes)
+      : both(drawn(given, stiffness_of_material))
+      , of_stress(holes == Holes::empty ? sure_part(both) : whole(both))
+      , of_strain(holes == Holes::rigid ? sure_part(both) : whole(both))
+      , below(of_stress.mesh, both.lower,
+              given.is_drawn() ? of_stress.is_flat : std::vector<char>{}, holes)
+      , above(of_strain.mesh, both.upper, order, holes)
+  {
+  }
+  Sides(const Sides &)            = delete; // the problems refer to the parts
+  Sides &operator=(const Sides &) = delete;
+
+  const DrawnMesh both;
+  const Part of_stress, of_strain;
+  const EquilibratedStress below;
+  const CompatibleStrain above;
+};
+
+/// The gaps, indicators and products of the fields of both sides.
+void compare(const TorusMesh &given, const Sides &sides, Bracket &result)
+{
+  const auto &[both, of_stress, of_strain, below, above] = sides;
+  const TorusMesh &mesh                                  = both.mesh;
+  // Of all mean stresses, compliance^-1 e comes closest to the strains of e.
+  const Eigen::Matrix3d mean_stress = below.compliance.inverse();
+  const Eigen::Matrix3d weights     = above.stiffness.inverse() / mesh.lattice.area();
+  const Eigen::VectorXd jumps_above = above.unbalanced_tractions(weights),
+                        jumps_below =
+                          below.incompatible_strains(mean_stress * weights * mean_stress);
+  std::vector<Eigen::Matrix3d> compliances, slack;
+  for (std::size_t m = 0; m < both.upper.size(); ++m)
+  {
+    compliances.emplace_back(both.upper[m].inverse());
+    slack.emplace_back(both.lower[m].inverse() - compliances[m]);
+  }
+  result.strain_products.assign(at(both.n_certain), FieldProducts::Zero());
+  result.stress_products = result.strain_products;
+  result.gaps.setZero(given.n_triangles());
+  result.indicators.setZero(given.n_triangles());
+  Eigen::VectorXd of_arcs = result.gaps;
+  for (int t = 0; t < mesh.n_triangles(); ++t)
+  {
+    const TorusTriangle &triangle = mesh.triangles[at(t)];
+    const auto shape              = triangle.shape(mesh.edges);
+    const double area             = 0.5 * (shape[1](0) * shape[2](1) - shape[1](1) * shape[2](0));
+    const int parent              = both.parent[at(t)];
+    const int of_given            = given.triangles[at(parent)].material;
+    const double weight           = area / n_field_points;
+    FieldOfLoads stress = FieldOfLoads::Zero(), strain = stress;
+    if (of_stress.number[at(t)] >= 0)
+      stress = below.stress(of_stress.number[at(t)]);
+    if (of_strain.number[at(t)] >= 0)
+      strain = above.strain(of_strain.number[at(t)]);
+    const auto energy = [&](const Eigen::Matrix3d &form, const Eigen::Matrix3d &field)
+    { return (field.transpose() * form * field).cwiseProduct(weights).sum(); };
+    double gap = 0.;
+    for (int q = 0; q < n_field_points; ++q)
+    {
+      const Eigen::Matrix3d of_unit = stress.middleRows<3>(3 * q), sigma = of_unit * mean_stress;
+      add_products(weight / mesh.lattice.area(), of_unit, result.stress_products[at(of_given)]);
+      add_products(weight / mesh.lattice.area(), strain.middleRows<3>(3 * q),
+                   result.strain_products[at(of_given)]);
+      const Eigen::Matrix3d differs =
+        sigma - both.upper[at(triangle.material)] * strain.middleRows<3>(3 * q);
+      gap += weight * energy(compliances[at(triangle.material)], differs);
+      if (both.is_uncertain(t))
+        gap += weight * energy(slack[at(triangle.material)], sigma);
+    }
+    result.gaps(parent) += gap;
+    if (both.is_uncertain(t))
+      of_arcs(parent) += gap;
+    if (of_strain.number[at(t)] >= 0)
+      result.indicators(parent) += jumps_above(of_strain.number[at(t)]);
+    if (of_stress.number[at(t)] >= 0)
+      result.indicators(parent) += jumps_below(of_stress.number[at(t)]);
+  }
+  // Jumps are errors but for a factor: that of the part of the gap which is not due to the curves.
+  const double rest = result.gaps.sum() - of_arcs.sum();
+  if (result.is_of_drawing && rest > 0.)
+    result.indicators += result.indicators.sum() / rest * of_arcs;
+}
 } // namespace
 
 Bracket bracket(const TorusMesh &given, const std::vector<Eigen::Matrix3d> &stiffness_of_material,
-                const unsigned order)
+                const unsigned order, const Holes holes)
 {
   Bracket result;
-  const DrawnMesh both  = drawn(given, stiffness_of_material);
-  const TorusMesh &mesh = both.mesh;
-  // Which triangles the stresses may use, and their numbers there.
-  std::vector<char> is_sure(mesh.triangles.size());
-  std::vector<char> is_flat;
-  std::vector<int> below_of(mesh.triangles.size(), -1);
-  int n_sure = 0;
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
-    if ((is_sure[t] = !both.is_void_below[t]))
-    {
-      is_flat.push_back(both.is_flat[t]);
-      below_of[t] = n_sure++;
-    }
-  const TorusMesh sure_mesh = n_sure < mesh.n_triangles() ? with_only(mesh, is_sure) : mesh;
-  const EquilibratedStress below(sure_mesh, both.lower,
-                                 given.is_drawn() ? is_flat : std::vector<char>{});
-  const CompatibleStrain above(mesh, both.upper, order);
+  const Sides sides(given, stiffness_of_material, order, holes);
+  const EquilibratedStress &below = sides.below;
+  const CompatibleStrain &above   = sides.above;
   // The vectors of the edges carry the shape to a few units of round-off.
   const double of_shape    = 16. * std::numeric_limits<double>::epsilon();
   const double below_error = below.round_off + of_shape, above_error = above.round_off + of_shape;
@@ -61,59 +166,12 @@ Bracket bracket(const TorusMesh &given, const std::vector<Eigen::Matrix3d> &stif
   result.stiffness           = above.stiffness;
   result.stiffness_by_flux   = above.stiffness_by_flux;
   result.chi                 = above.chi_at_given_vertices();
-  result.n_triangles         = static_cast<unsigned>(mesh.n_triangles());
+  result.stress_function     = below.stress_function_at_given_vertices();
+  result.n_triangles         = static_cast<unsigned>(sides.both.mesh.n_triangles());
   result.n_displacement_dofs = above.n_dofs;
   result.n_stress_dofs       = below.n_dofs;
   result.iterations          = std::max(above.iterations, below.iterations);
-
-  // Of all mean stresses, compliance^-1 e comes closest to the strains of e.
-  const Eigen::Matrix3d mean_stress = below.compliance.inverse();
-  const Eigen::Matrix3d weights     = above.stiffness.inverse() / mesh.lattice.area();
-  const Eigen::VectorXd jumps_above = above.unbalanced_tractions(weights),
-                        jumps_below =
-                          below.incompatible_strains(mean_stress * weights * mean_stress);
-  std::vector<Eigen::Matrix3d> compliances, slack;
-  for (std::size_t m = 0; m < both.upper.size(); ++m)
-  {
-    compliances.emplace_back(both.upper[m].inverse());
-    slack.emplace_back(both.lower[m].inverse() - compliances[m]);
-  }
-  result.gaps.setZero(given.n_triangles());
-  result.indicators.setZero(given.n_triangles());
-  Eigen::VectorXd of_arcs = result.gaps;
-  for (int t = 0; t < mesh.n_triangles(); ++t)
-  {
-    const TorusTriangle &triangle = mesh.triangles[at(t)];
-    const auto shape              = triangle.shape(mesh.edges);
-    const double area             = 0.5 * (shape[1](0) * shape[2](1) - shape[1](1) * shape[2](0));
-    FieldOfLoads stress           = FieldOfLoads::Zero();
-    if (is_sure[at(t)])
-      stress = below.stress(below_of[at(t)]) * mean_stress;
-    const FieldOfLoads strain = above.strain(t);
-    const auto energy         = [&](const Eigen::Matrix3d &form, const Eigen::Matrix3d &field)
-    { return (field.transpose() * form * field).cwiseProduct(weights).sum(); };
-    double gap = 0.;
-    for (int q = 0; q < n_field_points; ++q)
-    {
-      const Eigen::Matrix3d sigma = stress.middleRows<3>(3 * q);
-      const Eigen::Matrix3d differs =
-        sigma - both.upper[at(triangle.material)] * strain.middleRows<3>(3 * q);
-      gap += area / n_field_points * energy(compliances[at(triangle.material)], differs);
-      if (both.is_uncertain(t))
-        gap += area / n_field_points * energy(slack[at(triangle.material)], sigma);
-    }
-    const int parent = both.parent[at(t)];
-    result.gaps(parent) += gap;
-    if (both.is_uncertain(t))
-      of_arcs(parent) += gap;
-    result.indicators(parent) += jumps_above(t);
-    if (is_sure[at(t)])
-      result.indicators(parent) += jumps_below(below_of[at(t)]);
-  }
-  // Jumps are errors but for a factor: that of the part of the gap which is not due to the curves.
-  const double rest = result.gaps.sum() - of_arcs.sum();
-  if (result.is_of_drawing && rest > 0.)
-    result.indicators += result.indicators.sum() / rest * of_arcs;
+  compare(given, sides, result);
   return result;
 }
 
@@ -147,7 +205,7 @@ AdaptiveBracket adaptive_bracket(const TorusMesh &mesh,
   AdaptiveBracket result{{}, mesh, AdaptiveEnd::tolerance};
   while (true)
   {
-    result.bracket = bracket(result.mesh, stiffness_of_material, options.order);
+    result.bracket = bracket(result.mesh, stiffness_of_material, options.order, options.holes);
     observe(result.bracket);
     result.ending = AdaptiveEnd::tolerance;
     if (result.bracket.width <= options.tolerance)

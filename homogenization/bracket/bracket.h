@@ -4,6 +4,8 @@
 // on any mesh and however well either problem is solved. Where the two differ the mesh is refined.
 #pragma once
 
+#include "homogenization/bracket/field_products.h"
+#include "homogenization/bracket/holes.h"
 #include "homogenization/cell/torus_mesh.h"
 #include "meshes/plain/homogenized_cell.h"
 
@@ -28,6 +30,12 @@ struct Bracket
   Eigen::Matrix3d stiffness;         ///< energies of the displacements, nothing added [N/m]
   Eigen::Matrix3d stiffness_by_flux; ///< their mean stresses [N/m]
   meshes::Chi chi;                   ///< at the vertices of the given mesh [m]
+  /// phi under unit mean stresses at the vertices of the given mesh, shape (n,3).
+  Eigen::Matrix<double, Eigen::Dynamic, 3> stress_function;
+  /// Of each material of the given mesh, of the strains under unit macro strains [-] and of the
+  /// stresses under unit mean stresses [-]. What curves leave uncertain counts with the triangle
+  /// that it was carved from.
+  std::vector<FieldProducts> strain_products, stress_products;
   unsigned n_triangles = 0, n_displacement_dofs = 0, n_stress_dofs = 0, iterations = 0;
 
   /// Per triangle, 1/|Y| integral of c^-1 : (sigma − c : eps)^2 over it, summed over three macro
@@ -46,10 +54,12 @@ struct Bracket
 
 /// Brackets C^H on one mesh; where it has curved edges, the C^H of the drawing (drawn_mesh.h).
 /// @param order of the displacement elements, 1 or 2
+/// @param holes empty, or rigid: then a drawing's holes are inscribed for the lower side and
+///   circumscribed for the upper one
 /// @throws BadInput, NotConverged as EquilibratedStress and CompatibleStrain; std::logic_error
 ///   where the lower side lies above the upper one
 Bracket bracket(const TorusMesh &given, const std::vector<Eigen::Matrix3d> &stiffness_of_material,
-                unsigned order);
+                unsigned order, Holes holes = Holes::empty);
 
 /// Marks the fewest triangles that hold the given part of the sum of all values.
 /// Source: W. Doerfler, A convergent adaptive algorithm for Poisson's equation, 1996.
@@ -61,6 +71,7 @@ struct AdaptiveOptions
   double tolerance   = 1e-3;    ///< stop at this relative width
   unsigned max_dofs  = 1000000; ///< of the larger of the two problems: no finer mesh is solved
   double marked_part = 0.6;     ///< of the indicators, refined in each step
+  Holes holes        = Holes::empty;
 };
 
 /// Why an adaptive bracket ended.

@@ -56,10 +56,11 @@ gradients_of(const std::array<Eigen::Vector2d, 3> &shape)
 
 CompatibleStrain::CompatibleStrain(const TorusMesh &mesh,
                                    const std::vector<Eigen::Matrix3d> &stiffness_of_material,
-                                   const unsigned order)
+                                   const unsigned order, const Holes holes)
     : mesh(mesh)
     , stiffnesses(stiffness_of_material)
     , order(order)
+    , rims(holes == Holes::rigid ? std::optional<Rims>(rims_of(mesh)) : std::nullopt)
 {
   order == 1 ? assemble_and_solve<3>() : assemble_and_solve<6>();
   evaluate();
@@ -71,15 +72,22 @@ int CompatibleStrain::first_unknown(const int triangle, const int shape) const
   return shape < 3 ? 2 * its.vertices[at(shape)] : 2 * (mesh.n_vertices + its.edges[at(shape - 3)]);
 }
 
+/// The row of an unknown: both displacements of the anchor have none, -1, unless rigid holes choose
+/// the translation.
+int CompatibleStrain::row_or_pinned(const int unknown) const
+{
+  const int pinned = 2 * mesh.anchor;
+  if (has_rigid_holes() || unknown < pinned)
+    return unknown;
+  return unknown < pinned + 2 ? -1 : unknown - 2;
+}
+
 template <int n_shapes>
 void CompatibleStrain::assemble_and_solve()
 {
   const int n_unknowns = 2 * (mesh.n_vertices + (order == 2 ? mesh.n_edges() : 0));
-  const int pinned     = 2 * mesh.anchor;
-  n_dofs               = static_cast<unsigned>(n_unknowns - 2);
-  const auto row_of    = [pinned](const int unknown) {
-    return unknown < pinned ? unknown : unknown < pinned + 2 ? -1 : unknown - 2;
-  };
+  n_dofs               = static_cast<unsigned>(has_rigid_holes() ? n_unknowns : n_unknowns - 2);
+  const auto row_of    = [this](const int unknown) { return row_or_pinned(unknown); };
   std::vector<Eigen::Triplet<double>> entries;
   entries.reserve(static_cast<std::size_t>(n_shapes * (2 * n_shapes + 1)) * mesh.triangles.size());
   Eigen::MatrixXd loads        = Eigen::MatrixXd::Zero(n_dofs, 3);
@@ -121,14 +129,72 @@ void CompatibleStrain::assemble_and_solve()
   }
   Eigen::SparseMatrix<double> matrix(n_dofs, n_dofs);
   matrix.setFromTriplets(entries.begin(), entries.end());
-  entries                                 = {};
-  const CholeskySolver::Solution solution = CholeskySolver(matrix, "cell problems").solve(loads);
+  entries = {};
   unknowns.setZero(n_unknowns, 3);
+  if (has_rigid_holes())
+  {
+    solve_with_rigid_holes(matrix, loads);
+    return;
+  }
+  const CholeskySolver::Solution solution = CholeskySolver(matrix, "cell problems").solve(loads);
   for (int unknown = 0; unknown < n_unknowns; ++unknown)
     if (row_of(unknown) >= 0)
       unknowns.row(unknown) = solution.values.row(row_of(unknown));
   excess     = solution.excess;
   iterations = solution.iterations;
+}
+
+/// On rims chi = e.y − a − b (−y2, y1), with y from the first vertex of the rim; a of the first
+/// hole is zero in the place of chi at the anchor.
+void CompatibleStrain::solve_with_rigid_holes(const Eigen::SparseMatrix<double> &matrix,
+                                              const Eigen::MatrixXd &loads)
+{
+  const auto n_all = static_cast<int>(unknowns.rows());
+  // Unknowns of holes stand in front: a1, a2, b, without a of the first one.
+  int n_kept                  = 3 * rims->n_holes - 2;
+  const auto row_of_hole      = [](const int hole, const int k) { return 3 * hole + k - 2; };
+  Eigen::MatrixXd known       = Eigen::MatrixXd::Zero(n_all, 3);
+  const double length         = std::sqrt(mesh.lattice.area()); // b in parts of a over this
+  std::vector<char> is_on_rim = std::vector<char>(at(n_all), 0);
+  std::vector<Eigen::Triplet<double>> entries;
+  for (int node = 0; 2 * node < n_all; ++node)
+  {
+    const RimPoint &rim      = node < mesh.n_vertices ? rims->of_vertex[at(node)]
+                                                      : rims->of_edge[at(node - mesh.n_vertices)];
+    const Eigen::Vector2d &y = rim.position;
+    if (rim.hole < 0)
+    {
+      entries.emplace_back(2 * node, n_kept, 1.);
+      entries.emplace_back(2 * node + 1, n_kept + 1, 1.);
+      n_kept += 2;
+      continue;
+    }
+    known.middleRows<2>(2 * node) << y(0), 0., 0.5 * y(1), 0., y(1), 0.5 * y(0);
+    for (int c = 0; c < 2; ++c)
+    {
+      is_on_rim[at(2 * node + c)] = 1;
+      if (rim.hole > 0)
+        entries.emplace_back(2 * node + c, row_of_hole(rim.hole, c), -1.);
+      entries.emplace_back(2 * node + c, row_of_hole(rim.hole, 2),
+                           (c == 0 ? y(1) : -y(0)) / length);
+    }
+  }
+  Eigen::SparseMatrix<double> basis(n_all, n_kept);
+  basis.setFromTriplets(entries.begin(), entries.end());
+  const Eigen::SparseMatrix<double> full    = matrix.selfadjointView<Eigen::Lower>();
+  const Eigen::SparseMatrix<double> reduced = basis.transpose() * full * basis;
+  const CholeskySolver::Solution solution =
+    CholeskySolver(reduced.triangularView<Eigen::Lower>(), "cell problems with rigid holes")
+      .solve(basis.transpose() * (loads - full * known));
+  unknowns   = known + basis * solution.values;
+  n_dofs     = static_cast<unsigned>(n_kept);
+  excess     = solution.excess;
+  iterations = solution.iterations;
+  // A rigid motion that is rounded is none any more: other displacements may have any values.
+  roundings = 4. * epsilon * (known.cwiseAbs() + basis.cwiseAbs() * solution.values.cwiseAbs());
+  for (int k = 0; k < n_all; ++k)
+    if (!is_on_rim[at(k)])
+      roundings.row(k).setZero();
 }
 
 template <int n_shapes>
@@ -144,6 +210,16 @@ CompatibleStrain::displacements_from_first_vertex(const int t) const
 }
 
 template <int n_shapes>
+Eigen::Matrix<double, 2 * n_shapes, 3> CompatibleStrain::roundings_of(const int t) const
+{
+  Eigen::Matrix<double, 2 * n_shapes, 3> bar = Eigen::Matrix<double, 2 * n_shapes, 3>::Zero();
+  if (roundings.size() > 0)
+    for (int i = 0; i < n_shapes; ++i)
+      bar.template middleRows<2>(2 * i) = roundings.middleRows<2>(first_unknown(t, i));
+  return bar;
+}
+
+template <int n_shapes>
 FieldOfLoads CompatibleStrain::strain_of(const int t, FieldOfLoads *const bar) const
 {
   const auto gradients = gradients_of(mesh.triangles[at(t)].shape(mesh.edges)).first;
@@ -154,7 +230,8 @@ FieldOfLoads CompatibleStrain::strain_of(const int t, FieldOfLoads *const bar) c
     const auto B = strain_displacement<n_shapes>(gradients, field_points()[at(q)].in_triangle);
     field.middleRows<3>(3 * q) = Eigen::Matrix3d::Identity() - B * chi;
     if (bar)
-      bar->middleRows<3>(3 * q) = 12. * epsilon * B.cwiseAbs() * chi.cwiseAbs();
+      bar->middleRows<3>(3 * q) =
+        B.cwiseAbs() * (12. * epsilon * chi.cwiseAbs() + roundings_of<n_shapes>(t));
   }
   return field;
 }
@@ -162,6 +239,21 @@ FieldOfLoads CompatibleStrain::strain_of(const int t, FieldOfLoads *const bar) c
 FieldOfLoads CompatibleStrain::strain(const int triangle) const
 {
   return order == 1 ? strain_of<3>(triangle, nullptr) : strain_of<6>(triangle, nullptr);
+}
+
+std::vector<FieldProducts> CompatibleStrain::products() const
+{
+  std::vector<FieldProducts> products(stiffnesses.size(), FieldProducts::Zero());
+  for (int t = 0; t < mesh.n_triangles(); ++t)
+  {
+    const TorusTriangle &triangle = mesh.triangles[at(t)];
+    const double weight =
+      gradients_of(triangle.shape(mesh.edges)).second / (n_field_points * mesh.lattice.area());
+    const FieldOfLoads field = strain(t);
+    for (int q = 0; q < n_field_points; ++q)
+      add_products(weight, field.middleRows<3>(3 * q), products[at(triangle.material)]);
+  }
+  return products;
 }
 
 Eigen::VectorXd CompatibleStrain::unbalanced_tractions(const Eigen::Matrix3d &weights) const
@@ -209,6 +301,8 @@ Eigen::VectorXd CompatibleStrain::unbalanced_tractions_of(const Eigen::Matrix3d 
   std::vector<double> on_edge(mesh.edges.size());
   for (std::size_t e = 0; e < mesh.edges.size(); ++e)
   {
+    if (rims && rims->of_edge[e].hole >= 0)
+      continue; // a rigid hole holds any traction
     const Eigen::Matrix2d inverse = of_edge[e].stiffness.inverse();
     for (const auto &jump : of_edge[e].jumps)
       on_edge[e] += 0.5 * mesh.edges[e].vector.squaredNorm() *

@@ -58,9 +58,10 @@ const std::array<FieldPoint, n_field_points> &field_points()
 
 EquilibratedStress::EquilibratedStress(const TorusMesh &mesh,
                                        const std::vector<Eigen::Matrix3d> &stiffness_of_material,
-                                       std::vector<char> flat)
+                                       std::vector<char> flat, const Holes holes)
     : mesh(mesh)
-    , numbering(mesh)
+    , holes(holes)
+    , numbering(mesh, holes)
     , flat(std::move(flat))
 {
   for (const Eigen::Matrix3d &c : stiffness_of_material)
@@ -258,11 +259,28 @@ Eigen::VectorXd EquilibratedStress::incompatible_strains(const Eigen::Matrix3d &
   }
   for (int t = 0; t < mesh.n_triangles(); ++t)
     for (const int e : mesh.triangles[at(t)].edges)
-      if (of_edge[at(e)].n_sides == 2) // on a rim the strain is free
+      // On the rim of an empty hole the strain is free, on that of a rigid one it is zero.
+      if (of_edge[at(e)].n_sides == 2 || holes == Holes::rigid)
         for (const Eigen::RowVector3d &jump : of_edge[at(e)].jumps)
           of_triangle(t) += 0.25 * mesh.edges[at(e)].vector.squaredNorm() * jump_energy(jump) /
                             of_edge[at(e)].compliance;
   return of_triangle;
+}
+
+Eigen::Matrix<double, Eigen::Dynamic, 3>
+EquilibratedStress::stress_function_at_given_vertices() const
+{
+  const auto n = static_cast<Eigen::Index>(mesh.vertex_of_original.size());
+  Eigen::Matrix<double, Eigen::Dynamic, 3> phi(n, 3);
+  for (Eigen::Index v = 0; v < n; ++v)
+  {
+    const AiryDof dof = numbering.value_at(mesh.vertex_of_original[static_cast<std::size_t>(v)]);
+    phi.row(v)        = dof.known;
+    for (int a = 0; a < 3; ++a)
+      if (dof.unknowns[at(a)] >= 0)
+        phi.row(v) += dof.factors[at(a)] * unknowns.row(dof.unknowns[at(a)]);
+  }
+  return phi;
 }
 
 void EquilibratedStress::evaluate()

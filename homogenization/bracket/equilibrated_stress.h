@@ -33,19 +33,20 @@ const std::array<FieldPoint, n_field_points> &field_points();
 
 /// Minimises 1/|Y| integral sigma : c^-1 : sigma for the three unit mean stresses.
 ///
-/// Holes are exact: on the rim of a hole phi is −Sigma's own stress function plus an affine
+/// Holes are exact: on the rim of an empty hole phi is −Sigma's own stress function plus an affine
 /// function of three unknowns, so that the stress vanishes in the hole and its traction on the rim.
+/// On the rim of a rigid one phi is free: the hole may hold any stress.
 class EquilibratedStress
 {
 public:
   /// @param stiffness_of_material [N/m]
   /// @param flat whether vertex 2 of a triangle lies close to its edge 0 (and to that of no other);
   ///   empty: none does
-  /// @throws BadInput where holes meet across the outline; NotConverged where the matrix is
+  /// @throws BadInput where empty holes meet across the outline; NotConverged where the matrix is
   ///   singular
   EquilibratedStress(const TorusMesh &mesh,
                      const std::vector<Eigen::Matrix3d> &stiffness_of_material,
-                     std::vector<char> flat = {});
+                     std::vector<char> flat = {}, Holes holes = Holes::empty);
 
   /// Stress at the field points of a triangle under the three unit mean stresses.
   FieldOfLoads stress(int triangle) const;
@@ -55,6 +56,11 @@ public:
   /// exact solution does not have, against the compliance s along the edge on both sides.
   /// @param weights of products of loads
   Eigen::VectorXd incompatible_strains(const Eigen::Matrix3d &weights) const;
+
+  /// phi at the vertices of the mesh that was glued under the three unit mean stresses, shape (n,3)
+  /// [stress times m^2]; zero at the anchor, or known up to an affine function of the rim where
+  /// there are empty holes.
+  Eigen::Matrix<double, Eigen::Dynamic, 3> stress_function_at_given_vertices() const;
 
   Eigen::Matrix3d compliance; ///< S_h = 1/|Y| integral sigma_a : c^-1 : sigma_b [m/N]
   double round_off;           ///< bound on the error of its evaluation, relative to its diagonal
@@ -80,6 +86,7 @@ private:
   void evaluate();
 
   const TorusMesh &mesh;
+  const Holes holes;
   const AiryUnknowns numbering;
   std::vector<Eigen::Matrix3d> compliances; ///< c^-1 of each material
   const std::vector<char> flat;

@@ -36,6 +36,11 @@ Eigen::Matrix3d plane_stress_stiffness(const Phase &phase)
   return phase.thickness * (turn * own_axes * turn.transpose());
 }
 
+Eigen::Matrix3d bending_stiffness(const Phase &phase)
+{
+  return phase.thickness * phase.thickness / 12. * plane_stress_stiffness(phase);
+}
+
 std::vector<std::string> faults_of(const Phase &phase)
 {
   std::vector<std::string> faults;

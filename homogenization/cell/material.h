@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The phases of a unit cell and their membrane stiffness in plane stress.
+// The phases of a unit cell and their stiffness in plane stress, as membranes and as plates.
 #pragma once
 
 #include <Eigen/Core>
@@ -32,6 +32,10 @@ Phase isotropic(const std::string &name, double E, double nu, double thickness, 
 /// with nu21 = nu12 E2/E1; turned by the angle as c_ab = T_ap Q_pq T_bq.
 /// @return (3,3) [N/m], Voigt order 11, 22, 12 with engineering shear
 Eigen::Matrix3d plane_stress_stiffness(const Phase &phase);
+
+/// Stiffness of the phase as a thin plate, t^2/12 c: t^3/12 Q(angle).
+/// @return (3,3) [N m], moments 11, 22, 12 of the curvatures kappa11, kappa22, 2 kappa12
+Eigen::Matrix3d bending_stiffness(const Phase &phase);
 
 /// The matrix T that turns a stiffness in Voigt order by an angle: C' = T C T^T.
 /// @param angle from the old to the new first axis of the material [rad]

@@ -13,6 +13,14 @@ std::vector<Eigen::Matrix3d> UnitCell::stiffness_of_phase() const
   return stiffness;
 }
 
+std::vector<Eigen::Matrix3d> UnitCell::bending_stiffness_of_phase() const
+{
+  std::vector<Eigen::Matrix3d> stiffness;
+  for (const Phase &phase : phases)
+    stiffness.push_back(bending_stiffness(phase));
+  return stiffness;
+}
+
 std::vector<int> UnitCell::group_of_phase() const
 {
   std::map<std::string, int> group_of_name;

@@ -25,6 +25,9 @@ struct UnitCell
   /// Membrane stiffness of each phase, (3,3) [N/m].
   std::vector<Eigen::Matrix3d> stiffness_of_phase() const;
 
+  /// Bending stiffness of each phase, (3,3) [N m].
+  std::vector<Eigen::Matrix3d> bending_stiffness_of_phase() const;
+
   /// The group of each phase, 0, 1, ... as they first appear. Phases of one name differ in their
   /// angle alone, where the mesh has an angle per triangle; else each is a group of its own.
   std::vector<int> group_of_phase() const;

@@ -307,7 +307,7 @@ meshes::HomogenizedCell homogenized_cell(const UnitCell &cell, const Homogenizat
                                          const std::string &provenance)
 {
   return {cell.mesh,        cell.lattice,         result.chi, result.anchor,
-          result.stiffness, cell.areal_density(), provenance};
+          result.stiffness, cell.areal_density(), provenance, std::nullopt};
 }
 
 EngineeringConstants engineering_constants(const Eigen::Matrix3d &stiffness)

@@ -17,6 +17,22 @@ namespace homespun::meshes
 {
 namespace
 {
+/// What a stiffness of strains or curvatures fulfils.
+void add_faults_of(const Eigen::Matrix3d &stiffness, const std::string &name,
+                   std::vector<std::string> &faults)
+{
+  if (!stiffness.allFinite())
+  {
+    faults.push_back(name + " holds values that are not finite");
+    return;
+  }
+  const double scale = stiffness.cwiseAbs().maxCoeff();
+  if ((stiffness - stiffness.transpose()).cwiseAbs().maxCoeff() > 1e-9 * scale)
+    faults.push_back(name + " is not symmetric; expected an effective stiffness");
+  else if (!(Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(stiffness).eigenvalues()(0) > 0.))
+    faults.push_back(name + " is not positive definite; expected an effective stiffness");
+}
+
 /// What every cell fulfils, whoever made it.
 std::vector<std::string> faults_of(const HomogenizedCell &cell, const std::string &path)
 {
@@ -32,16 +48,15 @@ std::vector<std::string> faults_of(const HomogenizedCell &cell, const std::strin
   else if (cell.chi.row(cell.anchor).cwiseAbs().maxCoeff() >
            1e-12 * std::max(cell.chi.cwiseAbs().maxCoeff(), 1e-300))
     add("/chi is not zero at its anchor, vertex " + std::to_string(cell.anchor));
-  if (!cell.stiffness.allFinite())
-    add("/C holds values that are not finite");
-  else
+  add_faults_of(cell.stiffness, path + ": /C", faults);
+  if (cell.bending)
   {
-    const double scale = cell.stiffness.cwiseAbs().maxCoeff();
-    if ((cell.stiffness - cell.stiffness.transpose()).cwiseAbs().maxCoeff() > 1e-9 * scale)
-      add("/C is not symmetric; expected an effective stiffness");
-    else if (!(Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(cell.stiffness).eigenvalues()(0) >
-               0.))
-      add("/C is not positive definite; expected an effective stiffness");
+    add_faults_of(cell.bending->stiffness, path + ": /D", faults);
+    if (!cell.bending->deflection.allFinite())
+      add("/deflection holds values that are not finite");
+    if (cell.bending->deflection.rows() != cell.mesh.n_vertices())
+      add("/deflection has " + std::to_string(cell.bending->deflection.rows()) + " rows for " +
+          std::to_string(cell.mesh.n_vertices()) + " vertices");
   }
   if (!(cell.areal_density > 0.) || !(cell.areal_density < 1e300))
     add("/areal_density is " + std::to_string(cell.areal_density) +
@@ -82,6 +97,16 @@ void write_cell(const HomogenizedCell &cell, const std::string &path)
   file.write("/C", {3, 3}, stiffness.data(), "N/m");
   file.attribute("/C", "convention", "Voigt 11, 22, 12 with engineering shear");
   file.write("/areal_density", {1}, &cell.areal_density, "kg/m^2");
+  if (cell.bending)
+  {
+    const Eigen::Matrix<double, 3, 3, Eigen::RowMajor> bending = cell.bending->stiffness;
+    file.write("/D", {3, 3}, bending.data(), "N m");
+    file.attribute("/D", "convention", "Voigt 11, 22, 12; curvatures kappa11, kappa22, 2 kappa12");
+    file.write("/deflection", {n, 3}, cell.bending->deflection.data(), "m^2");
+    file.attribute("/deflection", "convention",
+                   "w3 = y.K.y/2 + K11 w_1 + K22 w_2 + 2 K12 w_3, kappa = +grad grad w3; axes: "
+                   "vertex, macro curvature (11, 22, 12)");
+  }
   file.attribute("/", "provenance", cell.provenance);
   file.finish();
 }
@@ -111,6 +136,13 @@ HomogenizedCell read_cell(const std::string &path)
     for (int a = 0; a < 3; ++a)
       for (int c = 0; c < 2; ++c)
         cell.chi(v, 2 * a + c) = chi[static_cast<std::size_t>(6 * v + 3 * c + a)];
+  if (file.has("/D"))
+  {
+    const std::vector<double> D          = file.numbers("/D", {3, 3}),
+                              deflection = file.numbers("/deflection", {n, 3});
+    cell.bending = {Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(D.data()),
+                    Eigen::Map<const Deflection>(deflection.data(), rows, 3)};
+  }
   const std::optional<int> anchor = file.integer_attribute("/chi", "anchor");
   if (!anchor)
     throw BadInput(path +

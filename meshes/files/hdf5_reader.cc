@@ -107,6 +107,11 @@ bool Hdf5Reader::is_here(const std::int64_t dataset) const
          H5Pget_layout(properties.id) != H5D_VIRTUAL;
 }
 
+bool Hdf5Reader::has(const std::string &name) const
+{
+  return H5Lexists(file, name.c_str(), H5P_DEFAULT) > 0;
+}
+
 Hdf5Reader::Shape Hdf5Reader::shape_of(const std::string &name, const Shape &expected) const
 {
   const Handle dataset(is_hard_link(name) ? H5Dopen2(file, name.c_str(), H5P_DEFAULT) : -1,

@@ -26,6 +26,9 @@ public:
   /// A size that read() takes as it finds it.
   static constexpr unsigned long long any = ~0ull;
 
+  /// Whether there is a link of this name, of whatever kind.
+  bool has(const std::string &name) const;
+
   /// The shape of a dataset of numbers.
   /// @param expected one entry per axis
   /// @throws BadInput where it is missing, lies in another file, does not hold numbers, has another

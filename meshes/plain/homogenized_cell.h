@@ -8,6 +8,7 @@
 
 #include <Eigen/Core>
 
+#include <optional>
 #include <string>
 
 namespace homespun::meshes
@@ -15,6 +16,18 @@ namespace homespun::meshes
 /// Characteristic displacements, one vertex per row. Column 2 a + c holds component c of chi_a,
 /// a = 0, 1, 2 for the unit macro strains 11, 22, 12 (engineering shear). Shape (n,6) [m].
 using Chi = Eigen::Matrix<double, Eigen::Dynamic, 6, Eigen::RowMajor>;
+
+/// Deflections of a sheet that is bent, one vertex per row: under the macro curvatures K the cell
+/// lies at w3 = ½ y.K.y + K11 w_1 + K22 w_2 + 2 K12 w_3, with kappa = +grad grad w3. Shape (n,3)
+/// [m^2].
+using Deflection = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>;
+
+/// How a homogenized cell bends. Voigt order 11, 22, 12 with kappa = (kappa11, kappa22, 2 kappa12).
+struct CellBendingModes
+{
+  Eigen::Matrix3d stiffness = Eigen::Matrix3d::Zero(); ///< D^H [N m]
+  Deflection deflection;                               ///< (n,3) [m^2], zero at the anchor
+};
 
 /// A homogenized periodic unit cell. Voigt order 11, 22, 12 with engineering shear.
 ///
@@ -30,5 +43,6 @@ struct HomogenizedCell
   Eigen::Matrix3d stiffness = Eigen::Matrix3d::Zero(); ///< C^H [N/m]
   double areal_density      = 0.;                      ///< [kg/m^2]
   std::string provenance;                              ///< how it was made, one line
+  std::optional<CellBendingModes> bending;             ///< nothing where it was not computed
 };
 } // namespace homespun::meshes

@@ -48,8 +48,10 @@ std::vector<std::string> faults_of(const meshes::ClothMesh &mesh,
     {
       std::ostringstream text;
       text << "stiffness of phase " << phase << " is D11 = " << D.D11 << ", D22 = " << D.D22
-           << ", D12 = " << D.D12 << ", D66 = " << D.D66
-           << " N m; expected D11, D22, D66 > 0 and D12^2 < D11 D22";
+           << ", D12 = " << D.D12 << ", D66 = " << D.D66 << ", D16 = " << D.D16
+           << ", D26 = " << D.D26
+           << " N m; expected a positive definite matrix: D11, D22, D66 > 0, D12^2 < D11 D22, and "
+              "D16, D26 small enough";
       fault(text.str());
     }
   }

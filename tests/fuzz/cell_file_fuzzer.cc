@@ -174,9 +174,9 @@ int LLVMFuzzerTestOneInput(const std::uint8_t *data, const std::size_t size)
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
   const hid_t file = H5Fopen(input.name.c_str(), H5F_ACC_RDWR, H5P_DEFAULT);
   tests::must_hold(file >= 0, "the sound file is there");
-  static constexpr std::array<const char *, 10> datasets = {
-    "/vertices", "/triangles",     "/material",  "/lattice",    "/chi",
-    "/C",        "/areal_density", "/positions", "/velocities", "/step_seconds"};
+  static constexpr std::array<const char *, 12> datasets = {
+    "/vertices",      "/triangles", "/material",   "/lattice",      "/chi", "/C",
+    "/areal_density", "/positions", "/velocities", "/step_seconds", "/D",   "/deflection"};
   static constexpr std::array<std::array<const char *, 2>, 5> attributes = {
     {{"/chi", "anchor"}, {"/", "provenance"}, {"/", "run"}, {"/", "time"}, {"/", "frame"}}};
   for (Bytes bytes(data, size); !bytes.is_empty();)
@@ -195,6 +195,10 @@ int LLVMFuzzerTestOneInput(const std::uint8_t *data, const std::size_t size)
       tests::must_hold(cell.chi.allFinite() && cell.stiffness.allFinite() &&
                          cell.mesh.vertices.allFinite() && cell.lattice.vectors.allFinite(),
                        "a cell is finite");
+      tests::must_hold(!cell.bending || (cell.bending->stiffness.allFinite() &&
+                                         cell.bending->deflection.allFinite() &&
+                                         cell.bending->deflection.rows() == cell.mesh.n_vertices()),
+                       "a cell bends by finite numbers");
       tests::must_hold(cell.chi.rows() == cell.mesh.n_vertices() && cell.anchor >= 0 &&
                          cell.anchor < cell.mesh.n_vertices(),
                        "a cell's shapes agree");

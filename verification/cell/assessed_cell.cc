@@ -191,4 +191,22 @@ void add_bracket(const UnitCell &cell, const BracketOptions &options,
        {of_bracket, checks_of_sampled_chi(cell, assessed.result, found)})
     assessed.checks.insert(assessed.checks.end(), some.begin(), some.end());
 }
+
+void add_bending(const UnitCell &cell, const BracketOptions &options,
+                 const std::function<void(const std::string &)> &report, AssessedCell &assessed)
+{
+  assessed.bending = bending_of(cell, options, report);
+  for (const Verdict &check : checks_of(*assessed.bending, options))
+    assessed.checks.push_back(check);
+}
+
+meshes::HomogenizedCell homogenized_cell(const UnitCell &cell, const AssessedCell &assessed,
+                                         const std::string &provenance)
+{
+  meshes::HomogenizedCell result =
+    homogenization::homogenized_cell(cell, assessed.result, provenance);
+  if (assessed.bending && assessed.bending->bracket)
+    result.bending = {assessed.bending->bracket->stiffness, assessed.bending->bracket->deflection};
+  return result;
+}
 } // namespace homespun::verification

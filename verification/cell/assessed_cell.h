@@ -3,6 +3,7 @@
 #pragma once
 
 #include "homogenization/fem/homogenize.h"
+#include "verification/cell/cell_bending.h"
 #include "verification/cell/cell_bracket.h"
 #include "verification/record/verdict.h"
 
@@ -27,6 +28,7 @@ struct AssessedCell
   /// Nothing where nobody asked for it. After adaptivity `result` holds the C^H, chi, DoFs and
   /// iterations of the last mesh.
   std::optional<CellBracket> bracket;
+  std::optional<CellBending> bending; ///< nothing where nobody asked for it
   /// Largest resident memory of each rank since the program began [bytes]; on the first rank alone.
   std::vector<double> peak_memory_of_rank;
 };
@@ -46,4 +48,14 @@ AssessedCell assess(const homogenization::UnitCell &cell,
 /// @param report is told of each step, one line
 void add_bracket(const homogenization::UnitCell &cell, const BracketOptions &options,
                  const std::function<void(const std::string &)> &report, AssessedCell &assessed);
+
+/// Brackets the D^H of an assessed cell and adds the verdicts. To be called on one rank.
+/// @param report is told of each step, one line
+void add_bending(const homogenization::UnitCell &cell, const BracketOptions &options,
+                 const std::function<void(const std::string &)> &report, AssessedCell &assessed);
+
+/// What the runtime needs of it, with its bending where that is known.
+meshes::HomogenizedCell homogenized_cell(const homogenization::UnitCell &cell,
+                                         const AssessedCell &assessed,
+                                         const std::string &provenance);
 } // namespace homespun::verification

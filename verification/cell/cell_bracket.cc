@@ -7,6 +7,7 @@
 #include "verification/cell/energy_order.h"
 
 #include <chrono>
+#include <cmath>
 #include <cstdio>
 #include <limits>
 #include <sstream>
@@ -15,20 +16,31 @@ namespace homespun::verification
 {
 using homogenization::Bracket;
 
-namespace
-{
-/// The mesh of a cell on the torus, as often refined as the cell problems; that of a drawing on its
-/// curves.
-homogenization::TorusMesh torus_of(const homogenization::UnitCell &cell,
-                                   const meshes::TriangleMesh &refined, const unsigned times)
+homogenization::TorusMesh torus_of(const homogenization::UnitCell &cell, const unsigned refine)
 {
   homogenization::TorusMesh torus =
     homogenization::glued(cell.mesh, cell.lattice, cell.curved_sides);
   if (!torus.is_drawn())
-    return homogenization::glued(refined, cell.lattice);
-  for (unsigned k = 0; k < times; ++k)
+    return homogenization::glued(meshes::refined(cell.mesh, static_cast<int>(refine)),
+                                 cell.lattice);
+  for (unsigned k = 0; k < refine; ++k)
     torus = homogenization::bisected(torus, std::vector<char>(torus.triangles.size(), 1));
   return torus;
+}
+
+std::string too_large_text(const homogenization::UnitCell &cell, const BracketOptions &options)
+{
+  // A periodic mesh has three edges to two triangles, and half as many vertices as triangles.
+  const double n_triangles = cell.mesh.n_triangles() * std::pow(4., options.refine);
+  const double n_dofs      = (options.order == 2 ? 4. : 3.) * n_triangles;
+  if (n_dofs <= static_cast<double>(options.max_dofs))
+    return "";
+  char text[160];
+  std::snprintf(text, sizeof(text),
+                "none: it would take %.0f DoFs on this mesh, more than %u: raise --max-dofs, or "
+                "refine less",
+                n_dofs, options.max_dofs);
+  return text;
 }
 
 std::string text_of(const homogenization::AdaptiveEnd ending, const BracketOptions &options)
@@ -48,24 +60,16 @@ std::string text_of(const homogenization::AdaptiveEnd ending, const BracketOptio
   }
   return "";
 }
-} // namespace
 
 CellBracket bracket_of(const homogenization::UnitCell &cell, const BracketOptions &options,
                        const std::function<void(const std::string &)> &report)
 {
-  const auto start                = std::chrono::steady_clock::now();
-  const meshes::TriangleMesh mesh = meshes::refined(cell.mesh, static_cast<int>(options.refine));
+  const auto start = std::chrono::steady_clock::now();
   CellBracket result;
-  // A periodic mesh has three edges to two triangles, and half as many vertices as triangles.
-  const int n_dofs = options.order == 2 ? 4 * mesh.n_triangles() : 3 * mesh.n_triangles();
-  if (n_dofs > static_cast<int>(options.max_dofs))
-  {
-    result.is_left_out = true;
-    result.remark      = "none: it would take " + std::to_string(n_dofs) +
-                    " DoFs on this mesh, more than " + std::to_string(options.max_dofs) +
-                    ": raise --max-dofs, or refine less";
+  result.remark      = too_large_text(cell, options);
+  result.is_left_out = !result.remark.empty();
+  if (result.is_left_out)
     return result;
-  }
   const auto observe = [&](const Bracket &bracket)
   {
     const double seconds =
@@ -84,11 +88,15 @@ CellBracket bracket_of(const homogenization::UnitCell &cell, const BracketOption
   try
   {
     const auto stiffness                  = cell.stiffness_of_phase();
-    const homogenization::TorusMesh torus = torus_of(cell, mesh, options.refine);
+    const homogenization::TorusMesh torus = torus_of(cell, options.refine);
     if (torus.is_drawn()) // whose displacements are others than those of the straight triangles
-      result.on_given_mesh = homogenization::CompatibleStrain(
-                               homogenization::glued(mesh, cell.lattice), stiffness, options.order)
-                               .stiffness;
+    {
+      const homogenization::TorusMesh straight = homogenization::glued(
+        meshes::refined(cell.mesh, static_cast<int>(options.refine)), cell.lattice);
+      const homogenization::CompatibleStrain its(straight, stiffness, options.order);
+      result.on_given_mesh = its.stiffness;
+      result.products      = its.products();
+    }
     if (options.tolerance)
     {
       homogenization::AdaptiveOptions adaptive;
@@ -105,6 +113,8 @@ CellBracket bracket_of(const homogenization::UnitCell &cell, const BracketOption
       observe(*result.bracket);
       result.remark = "on the mesh of the cell problems";
     }
+    if (!torus.is_drawn())
+      result.products = result.bracket->strain_products;
   }
   catch (const meshes::BadInput &bad)
   {

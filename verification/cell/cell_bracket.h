@@ -34,11 +34,23 @@ struct CellBracket
 {
   std::optional<homogenization::Bracket> bracket; ///< on the last mesh
   std::optional<Eigen::Matrix3d>
-    on_given_mesh;          ///< energies on the straight triangles as given [N/m]
+    on_given_mesh; ///< energies on the straight triangles as given [N/m]
+  std::vector<homogenization::FieldProducts>
+    products;               ///< of the strains that C is the energy of, phase by phase
   std::string remark;       ///< why there is none, or how adaptivity ended
   bool is_left_out = false; ///< the settings allow none on this mesh
   std::vector<BracketStep> history;
 };
+
+/// The mesh of a cell on the torus, as often refined as the cell problems; that of a drawing on its
+/// curves.
+homogenization::TorusMesh torus_of(const homogenization::UnitCell &cell, unsigned refine);
+
+/// Why the settings allow no bracket on the mesh of the cell problems; empty where they do.
+std::string too_large_text(const homogenization::UnitCell &cell, const BracketOptions &options);
+
+/// Why adaptivity ended, as a sentence.
+std::string text_of(homogenization::AdaptiveEnd ending, const BracketOptions &options);
 
 /// Brackets C^H on this process alone: direct solvers need no other.
 /// @param report is told of each step, one line

@@ -7,6 +7,7 @@
 #include "meshes/files/write_whole.h"
 #include "verification/cell/cell_bars.h"
 #include "verification/cell/energy_order.h"
+#include "verification/cell/shell_sections.h"
 #include "verification/record/json_files.h"
 #include "verification/record/provenance.h"
 
@@ -48,6 +49,16 @@ ordered_json json_moduli(const homogenization::EngineeringConstants &moduli)
           {"nu21", json_number(moduli.nu21)}};
 }
 
+/// Of narrow strips along the axes, and of their twist [N m].
+ordered_json json_bending_moduli(const homogenization::EngineeringConstants &moduli)
+{
+  return {{"strip_1", json_number(moduli.E1)},
+          {"strip_2", json_number(moduli.E2)},
+          {"twist", json_number(moduli.G12)},
+          {"nu12", json_number(moduli.nu12)},
+          {"nu21", json_number(moduli.nu21)}};
+}
+
 ordered_json bracket_json(const AssessedCell &assessed)
 {
   ordered_json json = {{"remark", assessed.bracket->remark}};
@@ -77,10 +88,11 @@ ordered_json history_json(const std::vector<BracketStep> &history)
   return rows;
 }
 
-/// chi as three vector fields, for ParaView.
-void write_vtu(const UnitCell &cell, const Homogenization &result, const std::string &path)
+/// chi as three vector fields, for ParaView, and the deflections as vectors along the third axis.
+void write_vtu(const UnitCell &cell, const AssessedCell &assessed, const std::string &path)
 {
-  const auto in_space = [](const auto &columns)
+  const Homogenization &result = assessed.result;
+  const auto in_space          = [](const auto &columns)
   {
     meshes::FloatPoints points = meshes::FloatPoints::Zero(columns.rows(), 3);
     points.leftCols<2>()       = columns.template cast<float>();
@@ -90,8 +102,46 @@ void write_vtu(const UnitCell &cell, const Homogenization &result, const std::st
   const std::array<const char *, 3> names = {"chi_11 [m]", "chi_22 [m]", "chi_12 [m]"};
   for (int a = 0; a < 3; ++a)
     data.push_back({names[static_cast<std::size_t>(a)], in_space(result.chi.middleCols<2>(2 * a))});
+  if (assessed.bending && assessed.bending->bracket)
+    for (int a = 0; a < 3; ++a)
+    {
+      const std::array<const char *, 3> modes = {"deflection_11 [m^2]", "deflection_22 [m^2]",
+                                                 "deflection_12 [m^2]"};
+      meshes::FloatPoints out = meshes::FloatPoints::Zero(cell.mesh.n_vertices(), 3);
+      out.col(2)              = assessed.bending->bracket->deflection.col(a).cast<float>();
+      data.push_back({modes[static_cast<std::size_t>(a)], out});
+    }
   meshes::write_vtu(path, in_space(cell.mesh.vertices), cell.mesh.triangles, data,
                     {{"material", cell.mesh.material.cast<float>()}});
+}
+
+/// What a homogenize.json says of bending, appended to it.
+void add_bending_json(const CellBending &bending, ordered_json &json)
+{
+  const bool is_known  = bending.bracket.has_value();
+  json["D"]            = is_known ? json_matrix(bending.bracket->stiffness) : ordered_json();
+  json["D_lower"]      = is_known ? json_matrix(bending.bracket->lower) : ordered_json();
+  json["D_upper"]      = is_known ? json_matrix(bending.bracket->upper) : ordered_json();
+  json["D_convention"] = "N m; moments 11, 22, 12 of the curvatures kappa11, kappa22, 2 kappa12; "
+                         "thin sheet, period much "
+                         "longer than the thickness";
+  ordered_json bracket = {{"remark", bending.remark}};
+  if (is_known)
+  {
+    const homogenization::BendingBracket &found = *bending.bracket;
+    bracket["of"]                               = found.is_of_drawing ? "drawing" : "mesh";
+    bracket["width"]                            = found.width;
+    bracket["round_off"]                        = found.round_off;
+    bracket["solver_excess"]                    = found.excess;
+    bracket["triangles"]                        = found.n_triangles;
+    bracket["deflection_dofs"]                  = found.n_deflection_dofs;
+    bracket["moment_dofs"]                      = found.n_moment_dofs;
+    bracket["entry_bars"]                       = json_matrix(bars_of(found));
+    json["bending_moduli"]                      = json_bending_moduli(bending_moduli(found));
+    json["bending_moduli_bars"] = json_bending_moduli(bars_of_bending_moduli(found));
+  }
+  json["bending_bracket"] = bracket;
+  json["bending_history"] = history_json(bending.history);
 }
 
 ordered_json cell_json(const UnitCell &cell)
@@ -114,8 +164,38 @@ ordered_json cell_json(const UnitCell &cell)
           {"phases", phases}};
 }
 
-ordered_json homogenize_json(const UnitCell &cell, const AssessedCell &assessed,
-                             const unsigned int n_ranks)
+/// What the inputs are worth, appended to a homogenize.json.
+void add_sensitivity_json(const UnitCell &cell, const AssessedCell &assessed,
+                          const std::vector<UncertainInput> &uncertain, ordered_json &json)
+{
+  const std::vector<Sensitivity> all = sensitivities(cell, assessed);
+  const bool bends                   = assessed.bending && assessed.bending->bracket;
+  ordered_json rows                  = ordered_json::array();
+  for (const Sensitivity &its : all)
+    rows.push_back({{"phase", its.group},
+                    {"constant", homogenization::name_of(its.constant)},
+                    {"value", its.value},
+                    {"unit", homogenization::unit_of(its.constant)},
+                    {"C", json_matrix(its.of_C)},
+                    {"D", bends ? json_matrix(its.of_D) : ordered_json()}});
+  json["sensitivity"] = rows; // per unit of the constant
+  if (uncertain.empty())
+    return;
+  ordered_json inputs = ordered_json::array();
+  for (const UncertainInput &input : uncertain)
+    inputs.push_back({{"phase", input.group},
+                      {"constant", homogenization::name_of(input.constant)},
+                      {"range", input.range},
+                      {"unit", homogenization::unit_of(input.constant)}});
+  const InputBars bars = input_bars(all, uncertain);
+  json["input_bars"]   = {{"inputs", inputs},
+                          {"C", all.empty() ? ordered_json() : json_matrix(bars.of_C)},
+                          {"D", all.empty() || !bends ? ordered_json() : json_matrix(bars.of_D)}};
+}
+
+/// All but bending and what the inputs are worth.
+ordered_json membrane_json(const UnitCell &cell, const AssessedCell &assessed,
+                           const unsigned int n_ranks)
 {
   const Homogenization &result = assessed.result;
   const auto engineering       = homogenization::engineering_constants(result.stiffness);
@@ -168,16 +248,43 @@ ordered_json homogenize_json(const UnitCell &cell, const AssessedCell &assessed,
       {"largest_gap_m", result.audit.largest_gap}}},
     {"provenance", provenance(n_ranks)}};
 }
+
+ordered_json homogenize_json(const UnitCell &cell, const AssessedCell &assessed,
+                             const std::vector<UncertainInput> &uncertain,
+                             const unsigned int n_ranks)
+{
+  ordered_json json = membrane_json(cell, assessed, n_ranks);
+  if (assessed.bending)
+    add_bending_json(*assessed.bending, json);
+  add_sensitivity_json(cell, assessed, uncertain, json);
+  return json;
+}
+
+ShellSection section_of(const UnitCell &cell, const AssessedCell &assessed)
+{
+  const Eigen::VectorXd areas = meshes::signed_areas(cell.mesh);
+  double volume               = 0.;
+  for (int t = 0; t < cell.mesh.n_triangles(); ++t)
+    volume += areas(t) * cell.phases[static_cast<std::size_t>(cell.mesh.material(t))].thickness;
+  return {cell.name, assessed.result.stiffness, assessed.bending->bracket->stiffness,
+          cell.areal_density(), volume / areas.sum()};
+}
 } // namespace
 
 void write_cell_results(const UnitCell &cell, const AssessedCell &assessed,
-                        const unsigned int n_ranks, const std::string &folder)
+                        const std::vector<UncertainInput> &uncertain, const unsigned int n_ranks,
+                        const std::string &folder)
 {
-  meshes::write_cell(homogenization::homogenized_cell(cell, assessed.result, provenance_line()),
-                     folder + "/cell.h5");
-  write_vtu(cell, assessed.result, folder + "/characteristic-displacements.vtu");
+  meshes::write_cell(homogenized_cell(cell, assessed, provenance_line()), folder + "/cell.h5");
+  write_vtu(cell, assessed, folder + "/characteristic-displacements.vtu");
   meshes::write_whole(folder + "/cell.json", json_text(cell_json(cell)));
+  if (assessed.bending && assessed.bending->bracket)
+  {
+    const ShellSection section = section_of(cell, assessed);
+    meshes::write_whole(folder + "/shell-section-abaqus.inp", abaqus_section(section));
+    meshes::write_whole(folder + "/shell-section-code_aster.comm", aster_section(section));
+  }
   meshes::write_whole(folder + "/homogenize.json",
-                      json_text(homogenize_json(cell, assessed, n_ranks)));
+                      json_text(homogenize_json(cell, assessed, uncertain, n_ranks)));
 }
 } // namespace homespun::verification

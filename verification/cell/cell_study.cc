@@ -31,6 +31,9 @@ nlohmann::ordered_json inputs_of(const homogenization::UnitCell &cell,
                                    {"bars", options.bars},
                                    {"pieces", options.pieces},
                                    {"max_dofs", options.bracket.max_dofs}};
+  for (const UncertainInput &input : options.uncertain)
+    inputs["uncertain " + input.group + "." + homogenization::name_of(input.constant)] =
+      input.range;
   if (options.bracket.tolerance)
     inputs["tolerance"] = *options.bracket.tolerance;
   return inputs;
@@ -55,7 +58,7 @@ AssessedCell run_cell_study(const homogenization::UnitCell &cell, const CellStud
           });
   AssessedCell assessed = [&]()
   {
-    Progress progress(is_root(communicator) && !options.quiet, options.bars ? 2 : 1);
+    Progress progress(is_root(communicator) && !options.quiet, options.bars ? 3 : 1);
     progress.begin(cell.name + (options.bars
                                   ? ": three cell problems, and once more refined for the error bar"
                                   : ": three cell problems"));
@@ -76,6 +79,17 @@ AssessedCell run_cell_study(const homogenization::UnitCell &cell, const CellStud
                 { bracket.tolerance ? progress.note(step) : progress.begin(step); },
                 its);
             });
+    progress.done();
+    progress.begin(cell.name + ": bracket on D^H");
+    on_root(communicator,
+            [&]()
+            {
+              add_bending(
+                cell, bracket,
+                [&](const std::string &step)
+                { bracket.tolerance ? progress.note(step) : progress.begin(step); },
+                its);
+            });
     return its;
   }();
   share_failure(assessed.checks, communicator);
@@ -86,7 +100,7 @@ AssessedCell run_cell_study(const homogenization::UnitCell &cell, const CellStud
   on_root(communicator,
           [&]()
           {
-            write_cell_results(cell, assessed,
+            write_cell_results(cell, assessed, options.uncertain,
                                dealii::Utilities::MPI::n_mpi_processes(communicator),
                                options.output);
             std::filesystem::remove_all(solve.checkpoint);
@@ -115,5 +129,36 @@ AssessedCell assess_for_study(const homogenization::UnitCell &cell, const MPI_Co
     verdicts.push_back(check);
   }
   return assessed;
+}
+
+void add_bending_for_study(const homogenization::UnitCell &cell, const MPI_Comm communicator,
+                           AssessedCell &assessed, std::vector<Verdict> &verdicts)
+{
+  on_root(communicator,
+          [&]()
+          {
+            const std::size_t n_before = assessed.checks.size();
+            add_bending(
+              cell, {}, [](const std::string &) {}, assessed);
+            for (std::size_t k = n_before; k < assessed.checks.size(); ++k)
+            {
+              verdicts.push_back(assessed.checks[k]);
+              verdicts.back().claim = cell.name + ": " + verdicts.back().claim;
+            }
+          });
+  int is_known = assessed.bending && assessed.bending->bracket;
+  MPI_Bcast(&is_known, 1, MPI_INT, 0, communicator);
+  if (!is_known)
+    return;
+  homogenization::BendingBracket found;
+  if (assessed.bending)
+    found = *assessed.bending->bracket;
+  found.deflection.conservativeResize(cell.mesh.n_vertices(), 3);
+  for (Eigen::Matrix3d *const matrix : {&found.stiffness, &found.lower, &found.upper})
+    MPI_Bcast(matrix->data(), 9, MPI_DOUBLE, 0, communicator);
+  MPI_Bcast(found.deflection.data(), static_cast<int>(found.deflection.size()), MPI_DOUBLE, 0,
+            communicator);
+  if (!assessed.bending)
+    assessed.bending = CellBending{found, "handed on by the first rank", false, {}};
 }
 } // namespace homespun::verification

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "verification/cell/assessed_cell.h"
+#include "verification/cell/sensitivity.h"
 #include "verification/record/run_folder.h"
 
 #include <mpi.h>
@@ -16,6 +17,7 @@ struct CellStudyOptions
 {
   homogenization::HomogenizationOptions solve; ///< its checkpoint and pieces are in `output`
   BracketOptions bracket;                      ///< its order and refinement are those of `solve`
+  std::vector<UncertainInput> uncertain;       ///< inputs that are known to a range alone
   bool bars   = true;  ///< false: the cell problems alone, with neither bracket nor a finer solve
   bool pieces = false; ///< characteristic-displacements-refined.pvtu, a piece from each rank
   std::string output;
@@ -23,9 +25,9 @@ struct CellStudyOptions
   bool quiet      = false;
 };
 
-/// Homogenizes a cell on all ranks, brackets C^H on the first one (direct solvers: the answer knows
-/// nothing of the number of ranks), and writes what write_cell_results() writes. The folder is one
-/// run.
+/// Homogenizes a cell on all ranks, brackets C^H and D^H on the first one (direct solvers: the
+/// answer knows nothing of the number of ranks), and writes what write_cell_results() writes. The
+/// folder is one run.
 /// @return checks on every rank; of other ranks than the first without those of the bracket, but
 ///   with a failed one where the first rank has one
 /// @throws BadInput, NotConverged
@@ -40,4 +42,10 @@ AssessedCell run_cell_study(const homogenization::UnitCell &cell, const CellStud
 /// @throws BadInput, NotConverged
 AssessedCell assess_for_study(const homogenization::UnitCell &cell, MPI_Comm communicator,
                               std::vector<Verdict> &verdicts);
+
+/// Brackets D^H on the first rank, by P2 on the given mesh, and hands its deflections on to all
+/// ranks.
+/// @param verdicts the checks are added to them on the first rank, named after the cell
+void add_bending_for_study(const homogenization::UnitCell &cell, MPI_Comm communicator,
+                           AssessedCell &assessed, std::vector<Verdict> &verdicts);
 } // namespace homespun::verification

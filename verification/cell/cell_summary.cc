@@ -15,7 +15,95 @@ namespace homespun::verification
 using homogenization::Homogenization;
 using homogenization::UnitCell;
 
-std::string summary(const UnitCell &cell, const AssessedCell &assessed)
+namespace
+{
+/// What solvers leave, relative.
+constexpr double digits_of_solvers = 1e-9;
+
+/// Rows of a matrix with its bars.
+std::string table(const Eigen::Matrix3d &matrix, const Eigen::Matrix3d &bars)
+{
+  // No more digits than round-off leaves.
+  const double least = digits_of_solvers * matrix.cwiseAbs().maxCoeff();
+  std::string text;
+  char line[80];
+  for (int i = 0; i < 3; ++i)
+  {
+    for (int j = 0; j < 3; ++j)
+    {
+      std::snprintf(line, sizeof(line), "  %26s",
+                    with_bar(matrix(i, j), larger(least, bars(i, j))).c_str());
+      text += line;
+    }
+    text += "\n";
+  }
+  return text;
+}
+
+/// D^H in millionths of N m: those of cloth are some ten.
+std::string bending_text(const CellBending &bending)
+{
+  if (!bending.bracket)
+    return "D^H: " + bending.remark + "\n";
+  constexpr double per_unit                   = 1e6;
+  const homogenization::BendingBracket &found = *bending.bracket;
+  const auto moduli = bending_moduli(found), bars = bars_of_bending_moduli(found);
+  const auto rigidity = [&](const double value, const double bar) {
+    return with_bar(per_unit * value, per_unit * larger(digits_of_solvers * std::abs(value), bar));
+  };
+  std::ostringstream text;
+  text << "D^H" << (found.is_of_drawing ? " of the drawing" : "")
+       << " [1e-6 N m], moments 11, 22, 12 of kappa11, kappa22, 2 kappa12, +- guaranteed:\n"
+       << table(per_unit * found.stiffness, per_unit * bars_of(found)) << "Narrow strips 1 "
+       << rigidity(moduli.E1, bars.E1) << ", 2 " << rigidity(moduli.E2, bars.E2) << ", twist "
+       << rigidity(moduli.G12, bars.G12) << " 1e-6 N m, nu12 "
+       << with_bar(moduli.nu12, larger(digits_of_solvers, bars.nu12)) << ", nu21 "
+       << with_bar(moduli.nu21, larger(digits_of_solvers, bars.nu21)) << "\n";
+  char line[160];
+  std::snprintf(line, sizeof(line),
+                "Bracket of bending, D_lower <= D^H <= D_upper of relative width %.2g, %s\n",
+                found.width, bending.remark.c_str());
+  text << line << range_text(found.stiffness);
+  return text.str();
+}
+
+/// How far the entries move while the inputs stay in their ranges.
+std::string inputs_text(const UnitCell &cell, const AssessedCell &assessed,
+                        const std::vector<UncertainInput> &uncertain)
+{
+  const std::vector<Sensitivity> all = sensitivities(cell, assessed);
+  if (uncertain.empty() || all.empty())
+    return uncertain.empty() ? "" : "Inputs: no bars, because there is no bracket\n";
+  const InputBars bars = input_bars(all, uncertain);
+  std::ostringstream text;
+  text << "Inputs";
+  for (const UncertainInput &input : uncertain)
+    text << (&input == &uncertain.front() ? " " : ", ") << input.group << "."
+         << homogenization::name_of(input.constant) << " +- " << short_text(input.range) << " "
+         << homogenization::unit_of(input.constant);
+  text << " move, to first order,\n";
+  const auto rows = [&](const char *what, const Eigen::Matrix3d &of)
+  {
+    text << "  " << what << " by";
+    const char *names[]   = {"11", "22", "12", "66", "16", "26"};
+    const double values[] = {of(0, 0), of(1, 1), of(0, 1), of(2, 2), of(0, 2), of(1, 2)};
+    char line[40];
+    for (int k = 0; k < 6; ++k)
+    {
+      std::snprintf(line, sizeof(line), " %s %.2g%s", names[k], values[k], k < 5 ? "," : "");
+      text << line;
+    }
+    text << "\n";
+  };
+  rows("C [N/m]", bars.of_C);
+  if (assessed.bending && assessed.bending->bracket)
+    rows("D [N m]", bars.of_D);
+  return text.str();
+}
+} // namespace
+
+std::string summary(const UnitCell &cell, const AssessedCell &assessed,
+                    const std::vector<UncertainInput> &uncertain)
 {
   const Homogenization &result = assessed.result;
   const bool is_bracketed      = assessed.bracket && assessed.bracket->bracket;
@@ -35,22 +123,13 @@ std::string summary(const UnitCell &cell, const AssessedCell &assessed)
            : assessed.uncertainty  ? ", +- distance to P2 on the refined mesh:\n"
                                    : " (no error bar: left out, or its mesh too large):\n");
   const auto &[stiffness, bars, moduli_bars] = shown(assessed);
-  // No more digits than round-off leaves.
-  constexpr double digits_of_solvers = 1e-9;
-  for (int i = 0; i < 3; ++i)
+  if (bars)
+    text << table(stiffness, *bars);
+  for (int i = 0; !bars && i < 3; ++i)
   {
-    for (int j = 0; j < 3; ++j)
-    {
-      const double scale = stiffness.cwiseAbs().maxCoeff();
-      if (bars)
-        std::snprintf(
-          line, sizeof(line), "  %26s",
-          with_bar(stiffness(i, j), larger(digits_of_solvers * scale, (*bars)(i, j))).c_str());
-      else
-        std::snprintf(line, sizeof(line), "  %16.6g", stiffness(i, j));
-      text << line;
-    }
-    text << "\n";
+    std::snprintf(line, sizeof(line), "  %16.6g  %16.6g  %16.6g\n", stiffness(i, 0),
+                  stiffness(i, 1), stiffness(i, 2));
+    text << line;
   }
   const auto moduli = homogenization::engineering_constants(stiffness);
   if (moduli_bars)
@@ -95,7 +174,9 @@ std::string summary(const UnitCell &cell, const AssessedCell &assessed)
                   energy_difference(result.stiffness, stiffness));
     text << line;
   }
-  text << geometry_text(cell, result);
+  if (assessed.bending)
+    text << bending_text(*assessed.bending);
+  text << inputs_text(cell, assessed, uncertain) << geometry_text(cell, result);
   for (const Verdict &check : assessed.checks)
   {
     std::snprintf(line, sizeof(line), "%-4s %s: %.2g (%s)\n", name_of(check.outcome).c_str(),

@@ -91,9 +91,10 @@ private:
   void study_cell(const UnitCell &cell)
   {
     progress.begin(cell.name + ": homogenization", true);
-    const AssessedCell assessed = assess_for_study(cell, communicator, verdicts);
-    const DrapedCell draped(
-      scene, cell, homogenization::homogenized_cell(cell, assessed.result, provenance_line()));
+    AssessedCell assessed = assess_for_study(cell, communicator, verdicts);
+    if (scene.has("bending") && !scene.bending)
+      add_bending_for_study(cell, communicator, assessed, verdicts);
+    const DrapedCell draped(scene, cell, homogenized_cell(cell, assessed, provenance_line()));
     nlohmann::ordered_json description = description_of(draped);
 
     std::vector<CoarseRun> runs;
@@ -127,7 +128,7 @@ private:
     nlohmann::ordered_json phases = nlohmann::ordered_json::array();
     for (const int phase : draped.cell.phase_of_group())
       phases.push_back(draped.cell.phases[static_cast<std::size_t>(phase)].name);
-    return {
+    nlohmann::ordered_json description = {
       {"cell", draped.cell.name},
       {"cell_side_m", draped.side},
       {"phases", phases},
@@ -136,6 +137,15 @@ private:
       {"areal_density", draped.homogenized.areal_density},
       {"runs", nlohmann::ordered_json::array()},
       {"references", nlohmann::ordered_json::array()}};
+    if (scene.has("bending"))
+    {
+      const Eigen::Matrix3d D =
+        (scene.bending ? *scene.bending : draped.effective.bending.front()).matrix();
+      description["D"] = {
+        {D(0, 0), D(0, 1), D(0, 2)}, {D(1, 0), D(1, 1), D(1, 2)}, {D(2, 0), D(2, 1), D(2, 2)}};
+      description["D_from"] = scene.bending ? "scene" : "cell";
+    }
+    return description;
   }
 
   /// obstacles.vtu, for pictures.

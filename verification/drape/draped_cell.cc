@@ -116,6 +116,16 @@ DrapedCell::DrapedCell(const Scene &given, const homogenization::UnitCell &cell,
   phases.stiffness = cell.stiffness_of_phase();
   for (const homogenization::Phase &phase : cell.phases)
     phases.areal_density.push_back(phase.thickness * phase.density);
+  if (scene.has("bending") && !scene.bending)
+  {
+    if (!homogenized.bending)
+      throw meshes::BadInput(scene.file + ": key `Bending stiffness` = cell: " + cell.file +
+                             " has no D^H; expected one with a bracket (`homespun homogenize` says "
+                             "why it has none), or numbers in N m");
+    effective.bending = {shell::PlateStiffness::from(homogenized.bending->stiffness)};
+    for (const Eigen::Matrix3d &D : cell.bending_stiffness_of_phase())
+      phases.bending.push_back(shell::PlateStiffness::from(D));
+  }
   CoarseCloth begin(scene, cell);
   coarse    = std::move(begin.mesh);
   placement = begin.placement;

@@ -43,7 +43,9 @@ struct CoarseCloth
 class DrapedCell
 {
 public:
-  /// @throws BadInput where the cloth of the scene or the cell cannot be used
+  /// @throws BadInput where the cloth of the scene or the cell cannot be used, or the scene bends
+  /// by
+  ///   the cell's D^H and there is none
   DrapedCell(const Scene &scene, const homogenization::UnitCell &cell,
              const meshes::HomogenizedCell &homogenized);
 

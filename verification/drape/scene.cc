@@ -205,15 +205,21 @@ private:
     scene.gravity      = in_space("Gravity", keys.gravity);
     scene.damping_rate = positive("Damping rate", keys.damping, true);
     scene.viscosity    = positive("Viscosity", keys.viscosity, true);
-    if (scene.has("bending"))
+    if (scene.has("bending") && trimmed(keys.bending) != "cell")
     {
-      const auto values = vector("Bending stiffness", keys.bending, {1, 4},
-                                 "one positive number, or D11 D22 D12 D66");
+      const auto values =
+        vector("Bending stiffness", keys.bending, {1, 4, 6},
+               "`cell`, one positive number, D11 D22 D12 D66, or these with D16 D26");
       if (values.size() == 1)
         scene.bending = shell::PlateStiffness::isotropic(values[0], 0.);
       else
         scene.bending = {values[0], values[1], values[2], values[3]};
-      if (!(values[0] > 0.))
+      if (values.size() == 6)
+      {
+        scene.bending->D16 = values[4];
+        scene.bending->D26 = values[5];
+      }
+      if (!scene.bending->is_positive_definite())
         fault("Bending stiffness", keys.bending, "a positive stiffness in N m");
     }
     scene.wind        = in_space("Wind velocity", keys.wind);

@@ -11,6 +11,7 @@
 #include <Eigen/Core>
 
 #include <map>
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
@@ -51,7 +52,7 @@ struct Scene
 
   Eigen::RowVector3d gravity = {0., 0., -9.81};         ///< [m/s^2]
   double damping_rate = 0., viscosity = 0.;             ///< [1/s], [s]
-  shell::PlateStiffness bending;                        ///< [N m]
+  std::optional<shell::PlateStiffness> bending;         ///< [N m]; nothing: that of the cell
   Eigen::RowVector3d wind = Eigen::RowVector3d::Zero(); ///< [m/s]
   double air_density = 1.2, drag = 1., pressure = 0.;   ///< [kg/m^3], [-], [Pa]
   std::vector<HeldPlace> held;

@@ -123,10 +123,12 @@ SceneCloth::SceneCloth(const Scene &scene, const meshes::ClothMesh &mesh,
     moving->add(shell::viscosity_term(mesh, material.stiffness, viscosity));
   if (scene.has("bending") || forces("bending"))
   {
-    const shell::PlateStiffness plate =
-      scene.has("bending") ? scene.bending : shell::PlateStiffness::isotropic(1e-30, 0.);
-    moving->add(shell::bending_term(
-      mesh, std::vector<shell::PlateStiffness>(material.stiffness.size(), plate)));
+    std::vector<shell::PlateStiffness> plates = material.bending;
+    if (!scene.has("bending") || scene.bending)
+      plates.assign(material.stiffness.size(), scene.has("bending")
+                                                 ? *scene.bending
+                                                 : shell::PlateStiffness::isotropic(1e-30, 0.));
+    moving->add(shell::bending_term(mesh, plates));
   }
   if (scene.has("gravity") || forces("gravity"))
     moving->add(shell::gravity_term(

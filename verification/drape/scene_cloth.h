@@ -31,6 +31,9 @@ struct ClothMaterial
 {
   std::vector<Eigen::Matrix3d> stiffness; ///< [N/m]
   std::vector<double> areal_density;      ///< [kg/m^2]
+  /// [N m], where the scene takes its bending from the cell; a stiffness of the scene's own is that
+  /// of all phases.
+  std::vector<shell::PlateStiffness> bending = {};
 };
 
 class SceneCloth

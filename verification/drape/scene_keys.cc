@@ -37,8 +37,11 @@ void SceneKeys::declare(dealii::ParameterHandler &keys, std::map<std::string, st
       "Stress per rate of strain, in units of the stiffness [s]. References of deal.II do not have "
       "it.",
       "damping");
-  add("Bending stiffness", bending,
-      "Of the plate [N m]: one number (isotropic, nu = 0), or D11 D22 D12 D66.", "bending");
+  add(
+    "Bending stiffness", bending,
+    "`cell`: D^H of the cell, all six entries; or of the plate [N m]: one number (isotropic, nu = "
+    "0), D11 D22 D12 D66, or D11 D22 D12 D66 D16 D26.",
+    "bending");
   add("Wind velocity", wind, "x y z [m/s].", "wind");
   add("Air density", air_density, "[kg/m^3].", "wind");
   add("Drag coefficient", drag, "Of the normal component [-].", "wind");

@@ -18,9 +18,9 @@ struct SceneKeys
               disturbance = "0";
   std::string integrator = "linearly implicit", time_step = "0.01", duration = "1",
               frame_interval = "0.05";
-  std::string gravity = "0 0 -9.81", damping = "0", viscosity = "0", bending = "0", wind = "0 0 0",
-              air_density = "1.2", drag = "1", pressure = "0", pins, handles, obstacles,
-              friction = "0", thickness = "0.001";
+  std::string gravity = "0 0 -9.81", damping = "0", viscosity = "0", bending = "cell",
+              wind = "0 0 0", air_density = "1.2", drag = "1", pressure = "0", pins, handles,
+              obstacles, friction = "0", thickness = "0.001";
 
   /// Declares all keys.
   /// @param term_of receives the term that a key belongs to

@@ -32,7 +32,7 @@ namespace
 {
 struct HomogenizeArguments
 {
-  std::string file;
+  std::string file, uncertain;
   CellStudyOptions study;
 };
 
@@ -40,12 +40,16 @@ int homogenize(HomogenizeArguments arguments)
 {
   const UnitCell cell     = homogenization::read_unit_cell(arguments.file);
   CellStudyOptions &study = arguments.study;
+  study.uncertain         = uncertain_inputs(cell, arguments.uncertain);
   if (study.output.empty())
     study.output = default_folder("homogenize", {cell.name}, false);
   const AssessedCell assessed = run_cell_study(cell, study, MPI_COMM_WORLD);
   if (is_root(MPI_COMM_WORLD) && !study.quiet)
-    std::cout << summary(cell, assessed) << "Written to " << study.output
+    std::cout << summary(cell, assessed, study.uncertain) << "Written to " << study.output
               << ": homogenize.json, cell.h5, cell.json, characteristic-displacements.vtu"
+              << (assessed.bending && assessed.bending->bracket
+                    ? ", shell-section-abaqus.inp, shell-section-code_aster.comm"
+                    : "")
               << (study.pieces ? ", characteristic-displacements-refined.pvtu\n" : "\n");
   return status_of(assessed.checks);
 }
@@ -111,8 +115,10 @@ int make(const CellVariant &variant)
 void add_homogenize_command(CLI::App &app, Action &action)
 {
   CLI::App *command = app.add_subcommand(
-    "homogenize", "C^H with its guaranteed bracket, characteristic displacements, moduli: cell.h5, "
-                  "homogenize.json, a .vtu for ParaView");
+    "homogenize",
+    "C^H and the bending stiffness D^H with their guaranteed brackets, characteristic "
+    "displacements, deflections, moduli: cell.h5, homogenize.json, a .vtu for "
+    "ParaView");
   const auto arguments = std::make_shared<HomogenizeArguments>();
   command->add_option("CELL.prm", arguments->file, "Cell file")->required();
   command
@@ -129,33 +135,43 @@ void add_homogenize_command(CLI::App &app, Action &action)
     command
       ->add_option(
         "--tolerance", arguments->study.bracket.tolerance,
-        "Refine adaptively until the bracket C_lower <= C^H <= C_upper has this relative width, "
-        "the largest v.(C_upper - C_lower).v / v.C_upper.v; without it the bracket is that of the "
-        "given mesh")
+        "Refine adaptively until the brackets C_lower <= C^H <= C_upper and D_lower <= D^H <= "
+        "D_upper both have this relative width, the largest v.(C_upper - C_lower).v / v.C_upper.v; "
+        "each has its own meshes; without it the brackets are those of the given mesh")
       ->check(CLI::Range(1e-12, 1.));
   CLI::Option *max_dofs =
     command
       ->add_option(
         "--max-dofs", arguments->study.bracket.max_dofs,
-        "DoFs up to which a bracket is made, of the larger of its two problems; adaptivity stops "
+        "DoFs up to which brackets are made, of the larger of its two problems; adaptivity stops "
         "before")
       ->check(CLI::Range(100u, 20000000u))
       ->capture_default_str();
+  CLI::Option *uncertain = command->add_option(
+    "--uncertain", arguments->uncertain,
+    "`phase.constant=range, ...`, such as soft.E=20%,hard.thickness=1e-5: inputs that "
+    "are known to a range alone, of their value or in Pa, m, deg; constants are E, nu "
+    "and thickness, or E1, E2, nu12, G12, thickness and angle of an orthotropic "
+    "phase. Their largest effect on C^H and D^H, to first order, stands beside the "
+    "brackets");
   command
     ->add_flag("!--no-bars", arguments->study.bars,
-               "Neither bracket nor the finer solve of the error bar: the cell problems alone, for "
-               "large meshes")
+               "Neither brackets nor the finer solve of the error bar: the cell problems alone, "
+               "without D^H, for large meshes")
     ->excludes(tolerance)
-    ->excludes(max_dofs);
+    ->excludes(max_dofs)
+    ->excludes(uncertain);
   command
     ->add_flag("--pieces", arguments->study.pieces,
                "Also characteristic-displacements-refined.pvtu: on the mesh of the solve, a piece "
                "from each rank")
     ->excludes(tolerance);
   add_folder_options(*command, arguments->study, "out/NAME/homogenize");
-  command->footer("Example:\n  homespun homogenize meshes/cells/layered.prm\n"
-                  "  homespun homogenize meshes/cells/three-stiffness.prm --tolerance 1e-3\n"
-                  "  mpirun -n 2 homespun homogenize mycell.prm --refine 2 --pieces");
+  command->footer(
+    "Example:\n  homespun homogenize meshes/cells/layered.prm\n"
+    "  homespun homogenize meshes/cells/three-stiffness.prm --tolerance 1e-3\n"
+    "  homespun homogenize meshes/cells/layered.prm --uncertain soft.E=20%,hard.E=20%\n"
+    "  mpirun -n 2 homespun homogenize mycell.prm --refine 2 --pieces");
   command->callback([&action, arguments]()
                     { action = [arguments]() { return homogenize(*arguments); }; });
 }

@@ -90,7 +90,7 @@ private:
             [&]()
             {
               std::filesystem::create_directories(folder);
-              write_cell_results(cell, assessed, n_ranks, folder);
+              write_cell_results(cell, assessed, {}, n_ranks, folder);
             });
     const meshes::HomogenizedCell homogenized =
       homogenization::homogenized_cell(cell, assessed.result, provenance_line());

@@ -259,7 +259,8 @@ TEST(bound_drawn_mesh, brackets_of_a_drawing_nest_and_hold_those_of_finer_polygo
   }
 }
 
-TEST(bound_drawn_mesh, holes_are_circumscribed_for_the_lower_side_and_inscribed_for_the_upper_one)
+TEST(bound_drawn_mesh,
+     empty_holes_are_circumscribed_below_and_inscribed_above_rigid_ones_vice_versa)
 {
   // A round hole, whose sides bulge into the phase, and one whose sides bulge into the hole.
   for (const double bulge : {1., -1.})
@@ -304,19 +305,23 @@ TEST(bound_drawn_mesh, holes_are_circumscribed_for_the_lower_side_and_inscribed_
     }
     drawing.sides = sides;
     ASSERT_EQ(drawing.mesh().n_arcs(), 16);
-    const Bracket polygon = bracket(as_mesh(halved(drawing.mesh(), 3)), drawing.cell.stiffness, 2);
-    double before         = 1.;
-    for (const int times : {0, 1, 2})
+    for (const Holes holes : {Holes::empty, Holes::rigid})
     {
-      const Bracket b = bracket(halved(drawing.mesh(), times), drawing.cell.stiffness, 2);
-      EXPECT_TRUE(b.is_of_drawing);
-      EXPECT_LE(excess(b.lower, polygon.upper), 0.) << times;
-      EXPECT_LE(excess(polygon.lower, b.upper), 0.) << times;
-      EXPECT_GE(b.gaps.minCoeff(), 0.);
-      const double gap = (b.stiffness.inverse() * (b.stiffness - b.compliance.inverse())).trace();
-      EXPECT_NEAR(b.gaps.sum(), gap, 1e-10 * gap);
-      EXPECT_LT(b.width, 0.6 * before) << times;
-      before = b.width;
+      const Bracket polygon =
+        bracket(as_mesh(halved(drawing.mesh(), 3)), drawing.cell.stiffness, 2, holes);
+      double before = 1.;
+      for (const int times : {0, 1, 2})
+      {
+        const Bracket b = bracket(halved(drawing.mesh(), times), drawing.cell.stiffness, 2, holes);
+        EXPECT_TRUE(b.is_of_drawing);
+        EXPECT_LE(excess(b.lower, polygon.upper), 0.) << times;
+        EXPECT_LE(excess(polygon.lower, b.upper), 0.) << times;
+        EXPECT_GE(b.gaps.minCoeff(), 0.);
+        const double gap = (b.stiffness.inverse() * (b.stiffness - b.compliance.inverse())).trace();
+        EXPECT_NEAR(b.gaps.sum(), gap, 1e-10 * gap);
+        EXPECT_LT(b.width, 0.6 * before) << times;
+        before = b.width;
+      }
     }
   }
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The library of cells: shapes that finite elements like, and stiffnesses with the symmetry of the
 // drawing.
+#include "homogenization/bracket/bending_bracket.h"
 #include "homogenization/bracket/bracket.h"
 #include "homogenization/lint/cell_reading.h"
 #include "tests/homogenization/cell/cells.h"
@@ -10,6 +11,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
+#include <map>
 
 using namespace homespun;
 using namespace homespun::homogenization;
@@ -130,4 +133,38 @@ TEST(exact_shipped_cells, stiff_dots_in_a_soft_ground_are_solved_for_the_ground)
                           bracket(glued(cell.mesh, cell.lattice), cell.stiffness_of_phase(), 1)
                             .stiffness;
   EXPECT_LT(tests::relative_difference(by_gradients, by_factors), 1e-6);
+}
+
+TEST(bound_shipped_cells, bending_stiffness_has_both_sides_within_a_thousandth)
+{
+  std::map<std::string, Eigen::Matrix3d> upper;
+  for (const auto &entry : std::filesystem::directory_iterator(CELLS))
+  {
+    if (entry.path().extension() != ".prm")
+      continue;
+    const UnitCell cell = read_unit_cell(entry.path().string());
+    AdaptiveOptions options;
+    options.tolerance                  = 1e-3;
+    const AdaptiveBendingBracket found = adaptive_bending_bracket(
+      glued(cell.mesh, cell.lattice, cell.curved_sides), cell.bending_stiffness_of_phase(), options,
+      [](const BendingBracket &) {});
+    EXPECT_EQ(found.ending, AdaptiveEnd::tolerance) << cell.name;
+    EXPECT_LE(found.bracket.width, options.tolerance) << cell.name;
+    upper[cell.name] = found.bracket.upper;
+  }
+  // Two sides of one thousandth apart: the bar of an entry D_ij of either is sqrt(D_ii D_jj)/1000.
+  for (const Symmetry &symmetry : symmetries)
+  {
+    const Eigen::Matrix3d D = upper.at(symmetry.name);
+    const double within     = (1e-3 + symmetry.within) * D.diagonal().maxCoeff();
+    if (symmetry.square)
+    {
+      EXPECT_NEAR(D(0, 0), D(1, 1), 2. * within) << symmetry.name;
+    }
+    EXPECT_NEAR(D(0, 2), symmetry.sign * D(1, 2), 2. * within) << symmetry.name;
+    if (symmetry.isotropic)
+    {
+      EXPECT_NEAR(D(2, 2), 0.5 * (D(0, 0) - D(0, 1)), 2. * within) << symmetry.name;
+    }
+  }
 }

@@ -30,6 +30,16 @@ HomogenizedCell some_cell()
   return cell;
 }
 
+HomogenizedCell bent_cell()
+{
+  HomogenizedCell cell = some_cell();
+  CellBendingModes bending;
+  bending.stiffness << 5e-6, 1e-6, 1e-7, 1e-6, 4e-6, 2e-7, 1e-7, 2e-7, 1e-6;
+  bending.deflection.setRandom(cell.mesh.n_vertices(), 3);
+  cell.bending = bending;
+  return cell;
+}
+
 std::string temporary(const std::string &name)
 {
   return (std::filesystem::temp_directory_path() / ("homespun-" + name)).string();
@@ -65,7 +75,19 @@ TEST(exact_cell_file, a_cell_comes_back_as_it_was_written)
   EXPECT_EQ(back.stiffness, cell.stiffness);
   EXPECT_EQ(back.areal_density, cell.areal_density);
   EXPECT_EQ(back.provenance, cell.provenance);
+  EXPECT_FALSE(back.bending.has_value()); // files of versions that did not know it
   EXPECT_FALSE(std::filesystem::exists(file + ".part"));
+}
+
+TEST(exact_cell_file, bending_comes_back_as_it_was_written)
+{
+  const HomogenizedCell cell = bent_cell();
+  const std::string file     = temporary("bent.h5");
+  write_cell(cell, file);
+  const HomogenizedCell back = read_cell(file);
+  ASSERT_TRUE(back.bending.has_value());
+  EXPECT_EQ(back.bending->stiffness, cell.bending->stiffness);
+  EXPECT_EQ(back.bending->deflection, cell.bending->deflection);
 }
 
 TEST(tripwire_cell_file, every_truncation_is_refused_by_name)
@@ -100,6 +122,12 @@ TEST(tripwire_cell_file, values_that_no_cell_has_are_not_written)
   HomogenizedCell indefinite = some_cell();
   indefinite.stiffness(2, 2) = -1.;
   EXPECT_THROW(write_cell(indefinite, file), BadInput);
+  HomogenizedCell bends_for_nothing          = bent_cell();
+  bends_for_nothing.bending->stiffness(1, 1) = 0.;
+  EXPECT_THROW(write_cell(bends_for_nothing, file), BadInput);
+  HomogenizedCell not_everywhere = bent_cell();
+  not_everywhere.bending->deflection.conservativeResize(2, 3);
+  EXPECT_THROW(write_cell(not_everywhere, file), BadInput);
   HomogenizedCell not_anchored = some_cell();
   not_anchored.anchor          = 1;
   EXPECT_THROW(write_cell(not_anchored, file), BadInput);

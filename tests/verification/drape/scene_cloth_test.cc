@@ -164,3 +164,31 @@ TEST(invariant_scene_cloth, a_garment_is_not_scaled)
   EXPECT_EQ(the_same.held[0].vertices, scene.held[0].vertices);
   EXPECT_EQ(the_same.held[0].motion.along, motion.along);
 }
+
+TEST(tripwire_scene_cloth, bending_asked_of_a_cell_without_it_is_refused_by_name)
+{
+  homogenization::UnitCell cell;
+  cell.name = "bare";
+  cell.file = "bare.prm";
+  cell.mesh = lying().rest;
+  cell.lattice.vectors << 0.01 * n, 0., 0., 0.01 * n;
+  cell.phases = {homogenization::isotropic("soft", 1e6, 0.3, 5e-4, 400.)};
+  meshes::HomogenizedCell homogenized{cell.mesh, cell.lattice, {}, 0, {}, 0.2, "", std::nullopt};
+  homogenized.chi.setZero(cell.mesh.n_vertices(), 6);
+  homogenized.stiffness = cell.stiffness_of_phase()[0];
+  Scene scene           = scene_with({"membrane", "bending"});
+  scene.file            = "scene.prm";
+  EXPECT_NE(tests::refusal([&]() { DrapedCell(scene, cell, homogenized); })
+              .find("scene.prm: key `Bending stiffness` = cell: bare.prm has no D^H"),
+            std::string::npos);
+  // What the scene has of its own is enough; of a cell with D^H the coarse cloth takes that, the
+  // fine one the plate of each phase.
+  scene.bending = shell::PlateStiffness::isotropic(1e-6, 0.);
+  EXPECT_EQ(tests::refusal([&]() { DrapedCell(scene, cell, homogenized); }), "");
+  scene.bending.reset();
+  const Eigen::Matrix3d D = cell.bending_stiffness_of_phase()[0];
+  homogenized.bending     = {2. * D, meshes::Deflection::Zero(cell.mesh.n_vertices(), 3)};
+  const DrapedCell draped(scene, cell, homogenized);
+  EXPECT_EQ(draped.effective.bending[0].matrix(), 2. * D);
+  EXPECT_EQ(draped.phases.bending[0].matrix(), D);
+}

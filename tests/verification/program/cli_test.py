@@ -3,6 +3,8 @@
 import json
 import unittest
 
+import h5py
+
 from cli import CELLS, InFolder, rows_of, run, status_of
 
 
@@ -111,6 +113,40 @@ class Homogenize(InFolder):
         self.assertEqual(result.returncode, 2)
         self.assertRegex(result.stderr,
                          "--no-bars excludes --tolerance|--tolerance excludes --no-bars")
+
+    def test_bending_stands_between_its_sides_beside_what_the_inputs_are_worth(self):
+        result = run("homogenize", CELLS / "layered.prm", "--uncertain",
+                     "soft.E=20%,hard.E=20%", "--output", self.folder)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        found = json.loads((self.folder / "homogenize.json").read_text())
+        # t^3/12 of E = 1 and 10 MPa at nu = 0.3: D22 harmonic, D66 arithmetic.
+        t3 = 5e-4**3 / 12
+        D22, D66 = 2e7 / 11 / 0.91 * t3, 5.5e6 / 2.6 * t3
+        for key in ("D", "D_lower", "D_upper"):
+            self.assertAlmostEqual(found[key][1][1] / D22, 1, delta=1e-9)
+            self.assertAlmostEqual(found[key][2][2] / D66, 1, delta=1e-9)
+        self.assertLess(found["bending_bracket"]["width"], 1e-9)
+        self.assertLess(found["bending_moduli_bars"]["strip_2"], 1e-8 * D22)
+        # Moduli scale stiffness: with both at 20 % all entries move by 20 %.
+        for key in ("C", "D"):
+            for i in range(3):
+                self.assertAlmostEqual(found["input_bars"][key][i][i] / found[key][i][i], 0.2,
+                                       delta=1e-9)
+        self.assertEqual({row["phase"] + "." + row["constant"] for row in found["sensitivity"]},
+                         {phase + "." + name for phase in ("soft", "hard")
+                          for name in ("E", "nu", "thickness")})
+        self.assertIn("D^H [1e-6 N m]", result.stdout)
+        self.assertIn("Inputs soft.E +- 200000 Pa", result.stdout)
+        with h5py.File(self.folder / "cell.h5") as cell:
+            self.assertAlmostEqual(cell["D"][1][1] / D22, 1, delta=1e-9)
+            self.assertEqual(cell["deflection"].shape, (len(cell["vertices"]), 3))
+            self.assertEqual(cell["deflection"].attrs["unit"], b"m^2")
+        for name in ("abaqus.inp", "code_aster.comm"):
+            self.assertTrue((self.folder / f"shell-section-{name}").exists())
+        result = run("homogenize", CELLS / "layered.prm", "--uncertain", "sfot.E=20%", "--output",
+                     self.folder / "misspelt")
+        self.assertEqual(result.returncode, 2)
+        self.assertIn("names the phase `sfot`", result.stderr)
 
     def test_every_check_says_of_whom_it_speaks_and_where_its_limit_comes_from(self):
         result = run("homogenize", CELLS / "layered.prm", "--max-dofs", "100", "--output",

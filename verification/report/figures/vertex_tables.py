@@ -22,3 +22,11 @@ def chi_table(cell):
         [i, *place, *chi.T.reshape(-1)]
         for i, (place, chi) in enumerate(zip(cell.vertices, cell.chi))
     ]
+
+
+def deflection_table(cell):
+    """(header, rows): each vertex [m] and the deflections of the three unit curvatures [m^2]."""
+    header = ["vertex", "x_m", "y_m"] + [f"w_{curvature}_m2" for curvature in ("11", "22", "12")]
+    return header, [
+        [i, *place, *w] for i, (place, w) in enumerate(zip(cell.vertices, cell.deflection))
+    ]

@@ -14,6 +14,7 @@ from figures.style import percent
 from figures.vertex_tables import cell_table, chi_table
 from figures.view_data import sheet_table, sheet_view
 from page import tables
+from page.bending_contents import bending_contents
 from page.budget_contents import budget_contents
 from page.gallery import file_name
 from read.cell_results import grouped, read_fields
@@ -128,6 +129,7 @@ def cell_contents(results, name, gallery):
                 "Full resolution stands at its own uncertainty, where that is known."
             ),
         )
+    contents.update(bending_contents(cell, gallery))
     contents.update(budget_contents(results, name, side, strains, gallery))
     contents["round_off"] = tables.round_off_sentences(rows)
     contents["error_tables"] = tables.error_tables(rows, methods)

@@ -29,6 +29,7 @@ class Cell:
     material: numpy.ndarray = None  # (m)
     lattice: numpy.ndarray = None  # (2,2) [m], rows a1, a2
     chi: numpy.ndarray = None  # (n,2,3) [m] per unit strain
+    deflection: numpy.ndarray = None  # (n,3) [m^2]; None where it is not stored
     field_files: list = field(default_factory=list)
 
     @property
@@ -40,7 +41,7 @@ class Cell:
         return area**0.5 if area else None
 
     def stiffness(self, key="C"):
-        """A 3 x 3 matrix of homogenize.json [N/m], or None."""
+        """A 3 x 3 matrix of homogenize.json [N/m, of bending N m], or None."""
         value = (self.homogenize or {}).get(key)
         return None if value is None else numpy.array(value, dtype=float)
 
@@ -93,6 +94,12 @@ def datasets(path, shapes, faults):
     return values
 
 
+def stores(path, name):
+    """Whether a file that was readable just now has a dataset that older ones lack."""
+    with h5py.File(path, "r") as file:
+        return name in file
+
+
 def triangles_in_range(path, name, triangles, vertices, faults):
     """Whether all triangles refer to vertices that exist."""
     if triangles.size and (triangles.min() < 0 or triangles.max() >= len(vertices)):
@@ -106,7 +113,7 @@ def triangles_in_range(path, name, triangles, vertices, faults):
 
 def check_homogenize(value, path, faults):
     """homogenize.json with matrices of shape 3 x 3; anything else in it is shown as it stands."""
-    for key in ("C", "C_lower", "C_upper", "voigt", "reuss"):
+    for key in ("C", "C_lower", "C_upper", "voigt", "reuss", "D", "D_lower", "D_upper"):
         if value.get(key) is not None and not is_stiffness(value[key]):
             faults.append(f"{path}: key `{key}` is not a 3 x 3 matrix of finite numbers. {AGAIN}")
             value = {**value, key: None}
@@ -127,7 +134,14 @@ def check_homogenize(value, path, faults):
             f" {AGAIN}"
         )
         value = {**value, "history": None}
-    for key, kind in (("engineering", dict), ("checks", list), ("bracket", dict)):
+    for key, kind in (
+        ("engineering", dict),
+        ("checks", list),
+        ("bracket", dict),
+        ("bending_bracket", dict),
+        ("sensitivity", list),
+        ("input_bars", dict),
+    ):
         if value.get(key) is not None and not isinstance(value[key], kind):
             faults.append(
                 f"{path}: key `{key}` is not {'an object' if kind is dict else 'a list'}. {AGAIN}"
@@ -207,6 +221,9 @@ def read_cell(name, run, inner, faults, missing):
         ):
             for key in ("vertices", "triangles", "material", "lattice", "chi"):
                 setattr(cell, key, values[key])
+            if stores(path, "deflection"):
+                more = datasets(path, {"deflection": ((len(cell.vertices), 3), "real")}, faults)
+                cell.deflection = more["deflection"] if more else None
     share_groups(cell)
     for file in run.names(os.path.join(inner, "fields-*.h5")):
         if path := path_of(os.path.relpath(file, inner or "."), "picture of the sheet"):

@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: MIT
+#include "verification/cell/cell_bending.h"
+
+#include "meshes/plain/errors.h"
+#include "verification/cell/energy_order.h"
+#include "verification/cell/moduli_bars.h"
+
+#include <Eigen/LU>
+
+#include <chrono>
+#include <cstdio>
+#include <limits>
+#include <sstream>
+
+namespace homespun::verification
+{
+using homogenization::BendingBracket;
+
+namespace
+{
+Verdict at_most(const std::string &claim, const double value, const double limit,
+                const std::string &derivation, const Kind kind)
+{
+  std::ostringstream text;
+  text << "<= " << limit;
+  return {claim, value <= limit ? Outcome::pass : Outcome::fail, value, text.str(), derivation,
+          kind};
+}
+} // namespace
+
+CellBending bending_of(const homogenization::UnitCell &cell, const BracketOptions &options,
+                       const std::function<void(const std::string &)> &report)
+{
+  const auto start = std::chrono::steady_clock::now();
+  CellBending result;
+  result.remark      = too_large_text(cell, options);
+  result.is_left_out = !result.remark.empty();
+  if (result.is_left_out)
+    return result;
+  const auto observe = [&](const BendingBracket &bracket)
+  {
+    const double seconds =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    result.history.push_back({bracket.n_triangles, bracket.n_moment_dofs, bracket.n_deflection_dofs,
+                              bracket.width, seconds});
+    char line[160];
+    std::snprintf(line, sizeof(line),
+                  "bracket of bending: %u triangles, %u + %u DoFs, relative width %.2g, %.1f s",
+                  bracket.n_triangles, bracket.n_moment_dofs, bracket.n_deflection_dofs,
+                  bracket.width, seconds);
+    report(line);
+  };
+  try
+  {
+    const auto stiffness                  = cell.bending_stiffness_of_phase();
+    const homogenization::TorusMesh torus = torus_of(cell, options.refine);
+    if (options.tolerance)
+    {
+      homogenization::AdaptiveOptions adaptive;
+      adaptive.order     = options.order;
+      adaptive.tolerance = *options.tolerance;
+      adaptive.max_dofs  = options.max_dofs;
+      auto reached = homogenization::adaptive_bending_bracket(torus, stiffness, adaptive, observe);
+      result.bracket = std::move(reached.bracket);
+      result.remark  = text_of(reached.ending, options);
+    }
+    else
+    {
+      result.bracket = homogenization::bending_bracket(torus, stiffness, options.order);
+      observe(*result.bracket);
+      result.remark = "on the mesh of the cell problems";
+    }
+  }
+  catch (const meshes::BadInput &bad)
+  {
+    result.remark = std::string("none: ") + bad.what();
+  }
+  catch (const meshes::NotConverged &failed)
+  {
+    result.remark = std::string("none: ") + failed.what();
+  }
+  return result;
+}
+
+std::vector<Verdict> checks_of(const CellBending &bending, const BracketOptions &options)
+{
+  const std::string asked_for = "--tolerance asks for it";
+  const std::string narrow    = "Bracket of D^H as narrow as --tolerance (relative width)";
+  if (!bending.bracket)
+  {
+    const double none = std::numeric_limits<double>::quiet_NaN();
+    if (options.tolerance)
+      return {{narrow, Outcome::fail, none, bending.remark, asked_for, Kind::input}};
+    if (!bending.is_left_out)
+      return {{"D^H has a bracket", Outcome::inconclusive, none, bending.remark,
+               "a cell whose analogous membrane has one", Kind::input}};
+    return {};
+  }
+  const BendingBracket &found = *bending.bracket;
+  std::vector<Verdict> checks = {
+    at_most("D_lower <= D <= D_upper (relative violation of the worst energy)",
+            larger(order_violation(found.lower, found.stiffness),
+                   order_violation(found.stiffness, found.upper)),
+            0., "theory; both sides carry their round-off on the outside", Kind::program)};
+  if (options.tolerance)
+    checks.push_back(at_most(narrow, found.width, *options.tolerance, asked_for, Kind::input));
+  return checks;
+}
+
+Eigen::Matrix3d bars_of(const BendingBracket &bracket)
+{
+  const Eigen::Vector3d root = (bracket.upper - bracket.lower).diagonal().cwiseMax(0.).cwiseSqrt();
+  return root * root.transpose();
+}
+
+homogenization::EngineeringConstants bending_moduli(const BendingBracket &bracket)
+{
+  return homogenization::engineering_constants(bracket.stiffness);
+}
+
+homogenization::EngineeringConstants bars_of_bending_moduli(const BendingBracket &bracket)
+{
+  return bars_of_moduli(bracket.stiffness.inverse(), compliance_bars(bracket.lower, bracket.upper));
+}
+
+std::string range_text(const Eigen::Matrix3d &bending_stiffness)
+{
+  std::string text;
+  for (int k = 0; k < 2; ++k)
+    if (!(bending_stiffness(k, k) >= softest_cloth && bending_stiffness(k, k) <= stiffest_cloth))
+    {
+      char line[240];
+      std::snprintf(line, sizeof(line),
+                    "warning: D%d%d = %.3g N m is outside of cloth, %g to %g N m: is a thickness "
+                    "not in metres, or a modulus not in Pa?\n",
+                    k + 1, k + 1, bending_stiffness(k, k), softest_cloth, stiffest_cloth);
+      text += line;
+    }
+  return text;
+}
+} // namespace homespun::verification

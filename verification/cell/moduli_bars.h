@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: MIT
+// Bars of moduli, which belong to the inverse of a stiffness.
+#pragma once
+
+#include "homogenization/fem/homogenize.h"
+
+#include <Eigen/Core>
+
+namespace homespun::verification
+{
+/// How far an entry of a compliance between the inverses of both sides of a stiffness may be from
+/// the exact one: with G their difference |S_ij − S^H_ij| <= sqrt(G_ii G_jj).
+Eigen::Matrix3d compliance_bars(const Eigen::Matrix3d &lower, const Eigen::Matrix3d &upper);
+
+/// Bars of moduli from those of the compliance S.
+homogenization::EngineeringConstants bars_of_moduli(const Eigen::Matrix3d &S,
+                                                    const Eigen::Matrix3d &bars);
+} // namespace homespun::verification

@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: MIT
+#include "verification/cell/sensitivity.h"
+
+#include "homogenization/cell/parameter_text.h"
+#include "meshes/plain/errors.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace homespun::verification
+{
+using homogenization::MaterialConstant;
+using homogenization::Phase;
+using homogenization::UnitCell;
+
+namespace
+{
+/// The phase and its constant that `group.constant` names.
+std::optional<MaterialConstant> constant_of(const Phase &phase, const std::string &name)
+{
+  for (const MaterialConstant constant : homogenization::constants_of(phase))
+    if (homogenization::name_of(constant) == name)
+      return constant;
+  return std::nullopt;
+}
+
+std::string names_of_constants(const Phase &phase)
+{
+  std::string names;
+  for (const MaterialConstant constant : homogenization::constants_of(phase))
+    names += (names.empty() ? "" : ", ") + homogenization::name_of(constant);
+  return names;
+}
+
+class InputReader
+{
+public:
+  explicit InputReader(const UnitCell &cell)
+      : cell(cell)
+  {
+    for (const int p : cell.phase_of_group())
+      groups.push_back(&cell.phases[static_cast<std::size_t>(p)]);
+  }
+
+  void read(const std::string &entry)
+  {
+    const std::size_t equal = entry.find('=');
+    const std::string name  = homogenization::trimmed(entry.substr(0, equal));
+    const std::size_t point = name.rfind('.');
+    if (equal == std::string::npos || point == std::string::npos)
+    {
+      faults.push_back("--uncertain: found `" + entry +
+                       "`; expected `group.constant=range` such as `" + groups[0]->name +
+                       ".thickness=10%`");
+      return;
+    }
+    const std::string group = name.substr(0, point), constant = name.substr(point + 1);
+    const auto phase = std::find_if(groups.begin(), groups.end(),
+                                    [&](const Phase *its) { return its->name == group; });
+    if (phase == groups.end())
+    {
+      std::string names;
+      for (const Phase *its : groups)
+        names += (names.empty() ? "`" : ", `") + its->name + "`";
+      faults.push_back("--uncertain: names the phase `" + group + "`, which " + cell.file +
+                       " does not have; expected one of " + names);
+      return;
+    }
+    const auto its_constant = constant_of(**phase, constant);
+    if (!its_constant)
+    {
+      faults.push_back("--uncertain: phase `" + group + "` of " + cell.file + " has no constant `" +
+                       constant + "`; expected one of " + names_of_constants(**phase));
+      return;
+    }
+    const bool is_known =
+      std::any_of(inputs.begin(), inputs.end(),
+                  [&](const UncertainInput &other)
+                  { return other.group == group && other.constant == *its_constant; });
+    const double range = range_of(homogenization::trimmed(entry.substr(equal + 1)),
+                                  std::abs(homogenization::value_of(**phase, *its_constant)));
+    if (is_known)
+      faults.push_back("--uncertain: `" + name + "` is given twice; expected once");
+    else if (!(range > 0.) || !std::isfinite(range))
+      faults.push_back("--uncertain: found `" + entry +
+                       "`; expected a positive range: a percentage of a value that is not zero, or "
+                       "a number in " +
+                       homogenization::unit_of(*its_constant));
+    else
+      inputs.push_back({group, *its_constant, range});
+  }
+
+  std::vector<UncertainInput> inputs;
+  std::vector<std::string> faults;
+
+private:
+  /// Not positive where the text is no range.
+  static double range_of(std::string text, const double value)
+  {
+    const bool is_part = !text.empty() && text.back() == '%';
+    if (is_part)
+      text.pop_back();
+    const auto numbers = homogenization::numbers(text);
+    if (!numbers || numbers->size() != 1)
+      return 0.;
+    return is_part ? 0.01 * (*numbers)[0] * value : (*numbers)[0];
+  }
+
+  const UnitCell &cell;
+  std::vector<const Phase *> groups;
+};
+} // namespace
+
+std::vector<Sensitivity> sensitivities(const UnitCell &cell, const AssessedCell &assessed)
+{
+  if (!assessed.bracket || !assessed.bracket->bracket)
+    return {};
+  const bool bends = assessed.bending && assessed.bending->bracket;
+  std::vector<Sensitivity> all;
+  const std::vector<int> group = cell.group_of_phase();
+  for (const int first : cell.phase_of_group())
+  {
+    const Phase &its = cell.phases[static_cast<std::size_t>(first)];
+    for (const MaterialConstant constant : homogenization::constants_of(its))
+    {
+      Sensitivity found{its.name, constant, homogenization::value_of(its, constant),
+                        Eigen::Matrix3d::Zero(), Eigen::Matrix3d::Zero()};
+      for (std::size_t p = 0; p < cell.phases.size(); ++p)
+        if (group[p] == group[static_cast<std::size_t>(first)])
+        {
+          found.of_C += homogenization::energies_of(
+            homogenization::plane_stress_derivative(cell.phases[p], constant),
+            assessed.bracket->products[p]);
+          if (bends)
+            found.of_D += homogenization::energies_of(
+              homogenization::bending_derivative(cell.phases[p], constant),
+              assessed.bending->bracket->curvature_products[p]);
+        }
+      found.of_C = (0.5 * (found.of_C + found.of_C.transpose())).eval();
+      found.of_D = (0.5 * (found.of_D + found.of_D.transpose())).eval();
+      all.push_back(found);
+    }
+  }
+  return all;
+}
+
+std::vector<UncertainInput> uncertain_inputs(const UnitCell &cell, const std::string &text)
+{
+  InputReader reader(cell);
+  for (const std::string &entry : homogenization::split(text, ','))
+    reader.read(entry);
+  if (!reader.faults.empty())
+    throw meshes::BadInput(reader.faults);
+  return reader.inputs;
+}
+
+InputBars input_bars(const std::vector<Sensitivity> &all, const std::vector<UncertainInput> &inputs)
+{
+  InputBars bars{Eigen::Matrix3d::Zero(), Eigen::Matrix3d::Zero()};
+  for (const UncertainInput &input : inputs)
+    for (const Sensitivity &its : all)
+      if (its.group == input.group && its.constant == input.constant)
+      {
+        bars.of_C += input.range * its.of_C.cwiseAbs();
+        bars.of_D += input.range * its.of_D.cwiseAbs();
+      }
+  return bars;
+}
+} // namespace homespun::verification

@@ -1,0 +1,109 @@
+# SPDX-License-Identifier: MIT
+"""Bending stiffness along each direction among measured fabrics, and the deflections of a cell."""
+import numpy
+from matplotlib import pyplot
+from matplotlib.collections import LineCollection
+
+from figures import fabrics, style
+from figures.cell import CM, LOADS, cell_axes, phase_edges
+from figures.plot_data import name_unseen
+from figures.stiffness import directional_modulus
+
+MICRO = 1e6  # bending stiffness is drawn in 1e-6 N m
+
+
+def bending_polar_figure(cell):
+    """Stiffness of narrow strips cut along each direction, 1/(m:S:m) with S = D^-1, between the
+    sides of its bracket, and the measured fabrics as a band.
+    """
+    angles = numpy.linspace(0.0, 2.0 * numpy.pi, 721)
+    figure, axes = pyplot.subplots(
+        figsize=(5.2, 4.4), subplot_kw={"projection": "polar"}, layout="constrained"
+    )
+    softest, stiffest = fabrics.band()
+    axes.fill_between(
+        angles,
+        MICRO * softest,
+        MICRO * stiffest,
+        color="#BDBDBD",
+        alpha=0.45,
+        lw=0,
+        label=f"{len(fabrics.BENDING)} measured fabrics",
+    )
+    for key, label, colour, line, width in (
+        ("D_upper", "upper side", style.VERMILLION, "--", 1.3),
+        ("D", "$D^H$", style.BLUE, "-", 2.2),
+        ("D_lower", "lower side", style.GREEN, "-.", 1.3),
+    ):
+        matrix = cell.stiffness(key)
+        if matrix is None or numpy.linalg.eigvalsh((matrix + matrix.T) / 2).min() <= 0:
+            continue
+        axes.plot(
+            angles,
+            MICRO * directional_modulus(matrix, angles),
+            line,
+            color=colour,
+            lw=width,
+            label=label,
+        )
+    # Cells may be softer and stiffer than all fabrics by orders of magnitude.
+    largest = MICRO * float(directional_modulus(cell.stiffness("D"), angles).max())
+    axes.set_rlim(0.0, 1.05 * max(largest, MICRO * softest))
+    axes.set_rlabel_position(67.5)
+    axes.yaxis.set_major_locator(pyplot.MaxNLocator(4, prune="lower"))
+    axes.tick_params(axis="y", labelsize=7.5, colors="#444444")
+    axes.set_thetagrids(
+        range(0, 360, 45),
+        ["0° = axis 1", "45°", "90° = axis 2", "135°", "180°", "225°", "270°", "315°"],
+    )
+    axes.get_xticklabels()[0].set_horizontalalignment("left")
+    axes.get_xticklabels()[4].set_horizontalalignment("right")
+    axes.spines["polar"].set_color("#BDBDBD")
+    name_unseen(axes.xaxis, "direction $\\theta$ [rad]")
+    name_unseen(axes.yaxis, "bending stiffness of a strip [10⁻⁶ N m]")
+    axes.text(
+        0.5,
+        -0.12,
+        "bending stiffness of a strip [10⁻⁶ N m]",
+        transform=axes.transAxes,
+        ha="center",
+    )
+    figure.legend(loc="upper left", bbox_to_anchor=(1.0, 0.95))
+    return figure
+
+
+def deflection_figure(cell):
+    """w_11, w_22, w_12: how far the cell leaves the parabola of its macro curvature, per unit
+    curvature, by colour.
+    """
+    figure, grid = pyplot.subplots(1, 3, figsize=(9.6, 3.7), layout="constrained")
+    for axes, a in zip(grid, range(3)):
+        w = cell.deflection[:, a]
+        largest = float(numpy.abs(w).max())
+        vanishes = largest < style.ROUND_OFF * cell.side**2
+        shade = axes.tripcolor(
+            CM * cell.vertices[:, 0],
+            CM * cell.vertices[:, 1],
+            cell.triangles,
+            CM * CM * (0.0 * w if vanishes else w),
+            shading="gouraud",
+            cmap="RdBu_r",
+            rasterized=True,
+        )
+        shade.set_clim(*((-1.0, 1.0) if vanishes else CM * CM * largest * numpy.array([-1, 1])))
+        axes.add_collection(
+            LineCollection(CM * cell.vertices[phase_edges(cell)], colors="#222222", linewidths=0.7)
+        )
+        cell_axes(axes, cell.vertices)
+        axes.set_title(f"$w_{{{LOADS[a]}}}$" + (": zero" if vanishes else ""), loc="left")
+        if axes is not grid[0]:
+            axes.set_ylabel("")
+        figure.colorbar(
+            shade,
+            ax=axes,
+            location="bottom",
+            shrink=0.9,
+            pad=0.02,
+            label="w [cm² = cm per unit curvature 1/cm]",
+        )
+    return figure

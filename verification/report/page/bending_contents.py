@@ -1,0 +1,131 @@
+# SPDX-License-Identifier: MIT
+"""What the page shows of the bending of a cell, and of what the inputs of a cell are worth."""
+import numpy
+
+from figures import fabrics
+from figures.bending import bending_polar_figure, deflection_figure
+from figures.style import three
+from figures.vertex_tables import deflection_table
+
+MICRO = 1e6
+SOFTEST, STIFFEST = 1e-7, 1e-3  # of cloth [N m]; outside a unit is wrong, or a thickness
+ENTRIES = (("11", 0, 0), ("22", 1, 1), ("12", 0, 1), ("66", 2, 2), ("16", 0, 2), ("26", 1, 2))
+
+
+def bending_contents(cell, gallery):
+    """Figures and tables; of a cell without D nothing but the reason."""
+    contents = {"bending": None, "bending_polar": None, "deflection": None, "worth": None}
+    contents["worth"] = worth_of_inputs(cell.homogenize or {})
+    D = cell.stiffness("D")
+    if D is None:
+        return contents
+    contents["bending"] = bending_table(cell, D)
+    if numpy.linalg.eigvalsh(D).min() > 0.0:
+        contents["bending_polar"] = gallery.add(
+            bending_polar_figure(cell),
+            f"{cell.name}-bending-stiffness",
+            f"{cell.name}: bending stiffness of narrow strips cut along each direction. Grey: from"
+            " the softest to the stiffest of ten measured fabrics (Wang et al. 2011).",
+        )
+    if cell.deflection is not None:
+        contents["deflection"] = gallery.add(
+            deflection_figure(cell),
+            f"{cell.name}-deflections",
+            f"{cell.name}: deflections per unit of the macro curvatures κ11, κ22 and 2 κ12, beside"
+            " the parabola of the curvature itself. Black lines: edges of the phases.",
+            as_image=True,
+            table=deflection_table(cell),
+        )
+    return contents
+
+
+def bending_table(cell, D):
+    """D^H with its bars, in N m and in what instruments print."""
+    value = cell.homogenize
+    bracket = value.get("bending_bracket") or {}
+    bars = bracket.get("entry_bars")
+    rows = []
+    for name, i, j in ENTRIES:
+        bar = bars[i][j] if bars else None
+        rows.append(
+            [
+                f"D{name}",
+                three(MICRO * D[i, j]) if abs(D[i, j]) > 1e-9 * numpy.abs(D).max() else "0",
+                "–" if bar is None else three(MICRO * bar),
+                three(D[i, j] / fabrics.KAWABATA),
+            ]
+        )
+    strips = numpy.linalg.inv(D)
+    density = value.get("areal_density")
+    lengths = [
+        (
+            f"axis {k + 1}",
+            three(MICRO / strips[k, k]),
+            three(1.0 / strips[k, k] / fabrics.KAWABATA),
+            three(1e3 * fabrics.bending_length(1.0 / strips[k, k], density)) if density else "–",
+        )
+        for k in range(2)
+    ]
+    outside = [
+        f"D{k + 1}{k + 1} = {three(D[k, k])} N m"
+        for k in range(2)
+        if not SOFTEST <= D[k, k] <= STIFFEST
+    ]
+    width = bracket.get("width")
+    return {
+        "rows": rows,
+        "strips": lengths,
+        "width": three(width) if isinstance(width, (int, float)) else None,
+        "of": bracket.get("of", "mesh"),
+        "remark": bracket.get("remark"),
+        "outside": " and ".join(outside),
+    }
+
+
+def worth_of_inputs(value):
+    """How entries change with the constants of the phases, in percent per percent, and the bars of
+    uncertain inputs.
+    """
+    rows = [row for row in value.get("sensitivity") or [] if isinstance(row, dict)]
+    matrices = {key: value.get(key) for key in ("C", "D")}
+    table = []
+    for row in rows:
+        for key in ("C", "D"):
+            if row.get(key) is None or matrices[key] is None:
+                continue
+            texts = []
+            for _, i, j in ENTRIES[:4]:
+                # Of the angle per degree; of the others per percent.
+                step = 1.0 if row["unit"] == "deg" else 0.01 * row["value"]
+                entry = matrices[key][i][j]
+                texts.append(three(100.0 * step * row[key][i][j] / entry) if entry else "–")
+            table.append(
+                [
+                    f"{row['phase']}.{row['constant']}",
+                    "1°" if row["unit"] == "deg" else "1 %",
+                    key,
+                    *texts,
+                ]
+            )
+    bars = value.get("input_bars") or {}
+    uncertain = []
+    for key in ("C", "D"):
+        if bars.get(key) is None or matrices[key] is None:
+            continue
+        guaranteed = (
+            (value.get("bracket") if key == "C" else value.get("bending_bracket")) or {}
+        ).get("entry_bars")
+        for name, i, j in ENTRIES:
+            uncertain.append(
+                [
+                    f"{key}{name} [{'N/m' if key == 'C' else 'N m'}]",
+                    three(matrices[key][i][j]),
+                    three(guaranteed[i][j]) if guaranteed else "–",
+                    three(bars[key][i][j]),
+                ]
+            )
+    inputs = ", ".join(
+        f"{one['phase']}.{one['constant']} ± {three(one['range'])} {one['unit']}"
+        for one in bars.get("inputs") or []
+    )
+    return {"rows": table, "uncertain": uncertain, "inputs": inputs} if table else None
