@@ -136,8 +136,7 @@ unsigned int ElasticSolver::solve(Vector &solution, const Vector &right_hand_sid
     matrix.vmult(image, direction);
     const double curvature = direction * image;
     if (!(curvature > 0.) || !std::isfinite(curvature))
-      throw meshes::NotConverged("conjugate gradients: the matrix is not positive definite",
-                                 history);
+      throw IndefiniteMatrix(history, direction);
     const double step = product / curvature;
     solution.add(step, direction);
     residual.add(-step, image);

@@ -5,6 +5,7 @@
 #pragma once
 
 #include "homogenization/fem/discretization.h"
+#include "meshes/plain/errors.h"
 
 #include <deal.II/lac/affine_constraints.h>
 #include <deal.II/lac/trilinos_precondition.h>
@@ -12,9 +13,25 @@
 #include <deal.II/lac/trilinos_vector.h>
 
 #include <limits>
+#include <memory>
+#include <utility>
+#include <vector>
 
 namespace homespun::homogenization
 {
+/// Conjugate gradients met a direction x with x·A x <= 0: A is not positive definite.
+class IndefiniteMatrix : public meshes::NotConverged
+{
+public:
+  IndefiniteMatrix(std::vector<double> history, dealii::TrilinosWrappers::MPI::Vector direction)
+      : NotConverged("conjugate gradients: the matrix is not positive definite", std::move(history))
+      , direction(std::move(direction))
+  {
+  }
+
+  const dealii::TrilinosWrappers::MPI::Vector direction;
+};
+
 /// Elasticity with the preconditioner kept between solves, because nearby matrices (the steps of
 /// Newton's method) can share one.
 class ElasticSolver
@@ -45,8 +62,8 @@ public:
   /// @param tolerance absolute, in the unit of the right-hand side
   /// @param energy_tolerance absolute [J]
   /// @return number of iterations
-  /// @throws NotConverged with the residual history after `max_iterations`, or where the matrix or
-  ///   the preconditioner turns out not to be positive definite
+  /// @throws NotConverged with the residual history after `max_iterations`, or where the
+  ///   preconditioner turns out not to be positive definite; IndefiniteMatrix where the matrix does
   unsigned int solve(Vector &solution, const Vector &right_hand_side, double tolerance,
                      unsigned int max_iterations = 2000,
                      double energy_tolerance     = std::numeric_limits<double>::infinity());

@@ -3,6 +3,7 @@
 
 #include "homogenization/cell/parameter_text.h"
 #include "meshes/plain/errors.h"
+#include "verification/drape/fabrics.h"
 #include "verification/drape/held_place_text.h"
 #include "verification/drape/scene_keys.h"
 
@@ -200,28 +201,36 @@ private:
       fault("Frame interval", keys.frame_interval, "a multiple of the time step " + keys.time_step);
   }
 
+  void read_bending()
+  {
+    scene.bending = bending_of_fabric(trimmed(keys.bending));
+    if (scene.bending)
+      return;
+    const auto values =
+      vector("Bending stiffness", keys.bending, {1, 4, 6},
+             "`cell`, one positive number, D11 D22 D12 D66, these with D16 D26, or "
+             "a measured fabric: " +
+               names_of_fabrics());
+    if (values.size() == 1)
+      scene.bending = shell::PlateStiffness::isotropic(values[0], 0.);
+    else
+      scene.bending = {values[0], values[1], values[2], values[3]};
+    if (values.size() == 6)
+    {
+      scene.bending->D16 = values[4];
+      scene.bending->D26 = values[5];
+    }
+    if (!scene.bending->is_positive_definite())
+      fault("Bending stiffness", keys.bending, "a positive stiffness in N m");
+  }
+
   void read_loads()
   {
     scene.gravity      = in_space("Gravity", keys.gravity);
     scene.damping_rate = positive("Damping rate", keys.damping, true);
     scene.viscosity    = positive("Viscosity", keys.viscosity, true);
     if (scene.has("bending") && trimmed(keys.bending) != "cell")
-    {
-      const auto values =
-        vector("Bending stiffness", keys.bending, {1, 4, 6},
-               "`cell`, one positive number, D11 D22 D12 D66, or these with D16 D26");
-      if (values.size() == 1)
-        scene.bending = shell::PlateStiffness::isotropic(values[0], 0.);
-      else
-        scene.bending = {values[0], values[1], values[2], values[3]};
-      if (values.size() == 6)
-      {
-        scene.bending->D16 = values[4];
-        scene.bending->D26 = values[5];
-      }
-      if (!scene.bending->is_positive_definite())
-        fault("Bending stiffness", keys.bending, "a positive stiffness in N m");
-    }
+      read_bending();
     scene.wind        = in_space("Wind velocity", keys.wind);
     scene.air_density = positive("Air density", keys.air_density, true);
     scene.drag        = positive("Drag coefficient", keys.drag, true);

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include "verification/drape/scene_keys.h"
 
+#include "verification/drape/fabrics.h"
+
 namespace homespun::verification
 {
 void SceneKeys::declare(dealii::ParameterHandler &keys, std::map<std::string, std::string> &term_of)
 {
-  const auto add = [&](const char *key, std::string &value, const char *text, const char *term = "")
+  const auto add =
+    [&](const char *key, std::string &value, const std::string &text, const char *term = "")
   {
     keys.add_parameter(key, value, text);
     if (*term)
@@ -40,7 +43,8 @@ void SceneKeys::declare(dealii::ParameterHandler &keys, std::map<std::string, st
   add(
     "Bending stiffness", bending,
     "`cell`: D^H of the cell, all six entries; or of the plate [N m]: one number (isotropic, nu = "
-    "0), D11 D22 D12 D66, or D11 D22 D12 D66 D16 D26.",
+    "0), D11 D22 D12 D66, or D11 D22 D12 D66 D16 D26; or a measured fabric (D12 = 0): " +
+      names_of_fabrics() + ".",
     "bending");
   add("Wind velocity", wind, "x y z [m/s].", "wind");
   add("Air density", air_density, "[kg/m^3].", "wind");

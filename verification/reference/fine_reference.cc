@@ -152,8 +152,7 @@ unsigned int FineReference::solve_linearized(Vector &increment, const Vector &fo
 void FineReference::solve(Vector &displacement, const double strain, const double tolerance,
                           ReferenceStep &step)
 {
-  const Eigen::Matrix2d mean_gradient =
-    load->is_periodic() ? load->gradient(strain) : Eigen::Matrix2d::Identity();
+  const Eigen::Matrix2d mean_gradient = mean_gradient_at(strain);
   if (body_force)
     body_load = load_vector(discretization, constraints,
                             [&](const Eigen::RowVector2d &point)
@@ -191,7 +190,9 @@ void FineReference::solve(Vector &displacement, const double strain, const doubl
     for (const bool projected : {false, true})
       try
       {
-        evaluate(displacement, mean_gradient, trial, true, projected);
+        const Evaluation assembled = evaluate(displacement, mean_gradient, trial, true, projected);
+        if (!projected)
+          step.n_indefinite = assembled.n_indefinite;
         step.n_linear += solve_linearized(increment, forces, target);
         break;
       }
@@ -301,6 +302,11 @@ ReferenceStep FineReference::tighten(const double tolerance)
   return step;
 }
 
+Eigen::Matrix2d FineReference::mean_gradient_at(const double strain) const
+{
+  return load->is_periodic() ? load->gradient(strain) : Eigen::Matrix2d::Identity();
+}
+
 meshes::Points FineReference::positions_of(const Vector &displacement, const double strain) const
 {
   const int n              = sheet.mesh.n_vertices(); // refinement keeps these in front
@@ -311,8 +317,7 @@ meshes::Points FineReference::positions_of(const Vector &displacement, const dou
         positions(v, c) = displacement(vertex_dofs(v, c));
   MPI_Allreduce(MPI_IN_PLACE, positions.data(), static_cast<int>(positions.size()), MPI_DOUBLE,
                 MPI_SUM, discretization.communicator);
-  const Eigen::Matrix2d mean_gradient =
-    load->is_periodic() ? load->gradient(strain) : Eigen::Matrix2d::Identity();
+  const Eigen::Matrix2d mean_gradient = mean_gradient_at(strain);
   for (int v = 0; v < n; ++v)
   {
     const Eigen::RowVector2d arm = sheet.mesh.vertices.row(v) - sheet.origin;

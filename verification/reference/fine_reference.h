@@ -24,17 +24,32 @@ namespace homespun::verification
 struct ReferenceStep
 {
   double strain = 0.;
-  bool reached  = false;         ///< false: no equilibrium found, `why` says where it stopped
-  std::string why;               ///< reason where it was not reached
-  meshes::Points positions;      ///< (n,2) at the vertices of the sheet, on every rank [m]
-  unsigned int n_newton    = 0;  ///< Newton steps
-  unsigned int n_linear    = 0;  ///< iterations of conjugate gradients, all Newton steps
-  double relative_residual = 0.; ///< |forces on free nodes| / size of the element forces
+  bool reached  = false;          ///< false: no equilibrium found, `why` says where it stopped
+  std::string why;                ///< reason where it was not reached
+  meshes::Points positions;       ///< (n,2) at the vertices of the sheet, on every rank [m]
+  unsigned int n_newton     = 0;  ///< Newton steps
+  unsigned int n_linear     = 0;  ///< iterations of conjugate gradients, all Newton steps
+  double relative_residual  = 0.; ///< |forces on free nodes| / size of the element forces
+  unsigned int n_indefinite = 0; ///< triangles whose tangent has a negative eigenvalue, at the last
+                                 ///< assembly of the exact tangent
   bool is_at_round_off =
     false; ///< that is more than the tolerance, but rounding alone makes as much
   unsigned int n_inverted = 0;  ///< triangles with det F <= 0, under biot and green
   double seconds          = 0.; ///< wall time of this level, slowest rank
 };
+
+/// What the second variation of the energy says of an equilibrium.
+enum class Stability
+{
+  every_triangle, ///< no triangle has a tangent with a negative eigenvalue: stable
+  stable,         ///< some have; the tangent of the sheet is positive definite
+  left,           ///< it was not: the state was left along its mode, and a stable one was found
+  unstable,       ///< it is not, and no stable state was found along its mode
+  unknown         ///< conjugate gradients gave no answer
+};
+
+/// As in steps.csv: "every triangle", "stable", "left", "unstable", "unknown".
+std::string name_of(Stability stability);
 
 /// What a reader has to know of a level that ended at round-off: empty unless it left more than a
 /// millionth of the forces.
@@ -82,18 +97,28 @@ public:
   /// @param tolerance of |residual| relative to the size of the element forces
   ReferenceStep tighten(double tolerance);
 
+  /// Whether the level solved last is a minimum of the energy, asked only where some triangle's
+  /// tangent has a negative eigenvalue. Conjugate gradients solve for a random force to 1e-6 of it:
+  /// a mode of negative curvature whose share of the force is larger than that would keep its part
+  /// of the residual, so they end without meeting one only if there is none, but for a chance of
+  /// about 1e-6 sqrt(n) for n unknowns. A direction of negative curvature that they meet is
+  /// followed to a lower energy, and the equilibrium sought from there, up to three times.
+  /// @param step the level as advance() returned it; gets the new positions where it was left
+  Stability stabilize(ReferenceStep &step);
+
   unsigned long n_dofs() const;
 
 private:
   using Vector = homogenization::ElasticSolver::Vector;
   struct Evaluation
   {
-    double energy           = 0.; ///< [J]
-    unsigned int n_inverted = 0;  ///< triangles with det F <= 0
-    double residual         = 0.; ///< norm over free DoFs [N]
-    double force_size       = 0.; ///< norm of the element forces before they cancel [N]
-    double round_off        = 0.; ///< norm of what rounded gradients do to the element forces [N]
-    double energy_round_off = 0.; ///< what they do to the energy at most [J]
+    double energy             = 0.; ///< [J]
+    unsigned int n_inverted   = 0;  ///< triangles with det F <= 0
+    unsigned int n_indefinite = 0;  ///< as in ReferenceStep, where the exact tangent is assembled
+    double residual           = 0.; ///< norm over free DoFs [N]
+    double force_size         = 0.; ///< norm of the element forces before they cancel [N]
+    double round_off          = 0.; ///< norm of what rounded gradients do to the element forces [N]
+    double energy_round_off   = 0.; ///< what they do to the energy at most [J]
 
     /// The residual that counts as none.
     double least_residual(const double tolerance) const
@@ -113,6 +138,9 @@ private:
   Evaluation assemble(const Vector &displacement, const Eigen::Matrix2d &mean_gradient,
                       Vector &residual, bool with_matrix, bool projected);
   meshes::Points positions_of(const Vector &displacement, double strain) const;
+  Eigen::Matrix2d mean_gradient_at(double strain) const;
+  Stability examine(const Vector &displacement, double strain, ReferenceStep &step, Vector &mode);
+  bool leave_along(const Vector &mode, Vector &displacement, double strain);
 
   const meshes::Sheet &sheet;
   const std::vector<Eigen::Matrix3d> stiffness_of_phase;

@@ -5,6 +5,7 @@
 
 #include <deal.II/base/mpi.h>
 
+#include <Eigen/Cholesky>
 #include <Eigen/LU>
 
 #include <algorithm>
@@ -17,6 +18,16 @@ using namespace dealii;
 using homogenization::AffineTriangle;
 using homogenization::Discretization;
 using homogenization::ReferenceElement;
+
+namespace
+{
+/// By more than round-off: a rotation has none of its own at rest.
+bool has_negative_eigenvalue(const Eigen::Matrix4d &tangent, const Eigen::Matrix3d &C)
+{
+  const double round_off = 1e-12 * C.cwiseAbs().maxCoeff();
+  return (tangent + round_off * Eigen::Matrix4d::Identity()).llt().info() != Eigen::Success;
+}
+} // namespace
 
 template <int n_shapes>
 FineReference::Evaluation
@@ -51,7 +62,7 @@ FineReference::assemble(const Vector &displacement, const Eigen::Matrix2d &mean_
     ghosted.extract_subvector_to(dofs, values);
 
     const double rounded = std::numeric_limits<double>::epsilon() * C.cwiseAbs().maxCoeff();
-    bool is_inverted     = false;
+    bool is_inverted = false, is_indefinite = false;
     Eigen::Matrix<double, n, n> K = Eigen::Matrix<double, n, n>::Zero();
     Eigen::Matrix<double, n, 1> f = Eigen::Matrix<double, n, 1>::Zero();
     for (std::size_t q = 0; q < reference.weights.size(); ++q)
@@ -86,11 +97,14 @@ FineReference::assemble(const Vector &displacement, const Eigen::Matrix2d &mean_
       state.energy_round_off +=
         weight * local.stress.norm() * std::numeric_limits<double>::epsilon() * size_of_terms;
       f.noalias() += weight * D.transpose() * local.stress;
+      if (with_matrix && !projected)
+        is_indefinite = is_indefinite || has_negative_eigenvalue(local.tangent, C);
       if (with_matrix)
         K.noalias() +=
           weight * D.transpose() * (projected ? positive_part(local.tangent) : local.tangent) * D;
     }
     state.n_inverted += is_inverted;
+    state.n_indefinite += is_indefinite;
     state.force_size += f.squaredNorm();
     for (unsigned int i = 0; i < n; ++i)
       element_residual(i) = f(static_cast<Eigen::Index>(i));
@@ -113,7 +127,8 @@ FineReference::assemble(const Vector &displacement, const Eigen::Matrix2d &mean_
     residual.add(-1., body_load);
     state.energy -= body_load * displacement;
   }
-  state.n_inverted = Utilities::MPI::sum(state.n_inverted, discretization.communicator);
+  state.n_inverted   = Utilities::MPI::sum(state.n_inverted, discretization.communicator);
+  state.n_indefinite = Utilities::MPI::sum(state.n_indefinite, discretization.communicator);
   state.force_size = std::sqrt(Utilities::MPI::sum(state.force_size, discretization.communicator));
   state.round_off  = std::sqrt(Utilities::MPI::sum(state.round_off, discretization.communicator));
   state.residual   = residual.l2_norm();

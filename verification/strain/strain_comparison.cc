@@ -61,6 +61,24 @@ bool is_pictured(const StrainStudyOptions &options, const Load &load, const Stra
 }
 } // namespace
 
+std::vector<std::string> notes_of(const ReferenceStep &fine, const Stability stability)
+{
+  std::vector<std::string> notes;
+  if (stability == Stability::left)
+    notes.emplace_back("the equilibrium that was found first is not stable; it was left along its "
+                       "mode, and the stable one that was found is compared");
+  if (stability == Stability::unstable)
+    notes.emplace_back(
+      "the equilibrium that is compared is not stable, and no stable one was found "
+      "along its mode");
+  if (fine.n_inverted > 0)
+    notes.push_back(std::to_string(fine.n_inverted) +
+                    " triangles of the fine reference are inverted (det F <= 0)");
+  if (const std::string note = note_of_round_off(fine); !note.empty())
+    notes.push_back(note);
+  return notes;
+}
+
 UpsampledLevel compare_methods(const StrainStudyOptions &options, const StrainLevel &level,
                                const ResolvedLevel &resolved, MethodOnSheet &method,
                                const Load &load, StrainOutput &output)
@@ -116,6 +134,8 @@ UpsampledLevel compare_methods(const StrainStudyOptions &options, const StrainLe
       step.fluctuation_bar     = fluctuation.bar;
       step.homogenized_law     = name_of(FluctuationMeasure::law_beside(level.law));
       step.seconds_homogenized = fluctuation.seconds;
+      step.stability           = name_of(resolved.stability);
+      step.seconds_stability   = resolved.seconds_stability;
       output.write_step(level, step);
     }
     output.write_errors(level, name, resolved.sheet, cloth.coarse.n_triangles(), errors);

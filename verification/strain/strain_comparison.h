@@ -10,6 +10,9 @@
 #include "verification/reference/fine_reference.h"
 #include "verification/strain/strain_output.h"
 
+#include <string>
+#include <vector>
+
 namespace homespun::verification
 {
 /// The resolved sheet at one level.
@@ -20,6 +23,8 @@ struct ResolvedLevel
   unsigned long n_dofs;
   unsigned int n_ranks;
   double uncertainty; ///< of its positions, mean over the vertices [m]
+  Stability stability;
+  double seconds_stability;
 };
 
 /// The method, and what its error is measured by.
@@ -38,6 +43,9 @@ bool has_biot(const StrainStudyOptions &options);
 
 /// The level nearest to 10 %: it is pictured, and its run times are measured.
 double pictured_strain(const StrainStudyOptions &options);
+
+/// What a reader has to know of a level of the reference. Ready sentences.
+std::vector<std::string> notes_of(const ReferenceStep &fine, Stability stability);
 
 /// Moves the coarse cloth to a level, up-samples it by every method, and writes the errors whose
 /// row is not there, the times, the picture if this is the level for one, and a note on the anchor

@@ -13,6 +13,7 @@
 #include "verification/record/on_root.h"
 #include "verification/record/progress.h"
 #include "verification/record/provenance.h"
+#include "verification/record/timing.h"
 #include "verification/reference/fine_reference.h"
 #include "verification/strain/budget_verdicts.h"
 #include "verification/strain/reference_uncertainty.h"
@@ -269,8 +270,8 @@ private:
                     const Law law, const double strain, FineReference &reference,
                     MethodOnSheet &method, const double uncertainty, const bool has_budget)
   {
-    const StrainLevel level  = {cell.name, load.name, law, strain};
-    const ReferenceStep fine = reference.advance(strain);
+    const StrainLevel level = {cell.name, load.name, law, strain};
+    ReferenceStep fine      = reference.advance(strain);
     if (!fine.reached)
     {
       on_root(communicator,
@@ -281,17 +282,12 @@ private:
               });
       return false;
     }
-    if (fine.n_inverted > 0)
-      on_root(communicator,
-              [&]()
-              {
-                write_note(level, std::to_string(fine.n_inverted) +
-                                    " triangles of the fine reference are inverted (det F <= 0)");
-              });
+    Stability stability            = Stability::every_triangle;
+    const double seconds_stability = seconds_of([&]() { stability = reference.stabilize(fine); });
     on_root(communicator,
             [&]()
             {
-              if (const std::string note = note_of_round_off(fine); !note.empty())
+              for (const std::string &note : notes_of(fine, stability))
                 write_note(level, note);
             });
     largest_residual = std::max(largest_residual, fine.relative_residual);
@@ -303,7 +299,8 @@ private:
               try
               {
                 solved    = compare_methods(options, level,
-                                            {sheet, fine, reference.n_dofs(), n_ranks, uncertainty},
+                                            {sheet, fine, reference.n_dofs(), n_ranks, uncertainty,
+                                             stability, seconds_stability},
                                             method, load, *output);
                 is_solved = 1;
               }
@@ -348,6 +345,7 @@ private:
               const auto add = [&](const std::vector<Verdict> &some)
               { verdicts.insert(verdicts.end(), some.begin(), some.end()); };
               add(strain_verdicts(output->strain_rows(), options.strains));
+              add(stability_verdicts(output->step_rows()));
               output->write_validity();
               std::vector<std::string> notes = output->notes();
               if (options.budget)

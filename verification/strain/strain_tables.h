@@ -77,6 +77,8 @@ struct StepRow
   double fluctuation_bar       = 0.; ///< its change from a homogenized sheet half as fine [m]
   std::string homogenized_law;       ///< of that sheet
   double seconds_homogenized = 0.;
+  std::string stability;         ///< of the reference, see Stability
+  double seconds_stability = 0.; ///< what it cost to find that out
 
   template <typename Column>
   static void columns(Column &&column)
@@ -96,6 +98,8 @@ struct StepRow
     column("fluctuation_bar_m", &StepRow::fluctuation_bar, Domain::not_negative);
     column("homogenized_law", &StepRow::homogenized_law, Domain::text);
     column("seconds_homogenized_sheet", &StepRow::seconds_homogenized, Domain::not_negative);
+    column("reference_stability", &StepRow::stability, Domain::text);
+    column("seconds_stability", &StepRow::seconds_stability, Domain::not_negative);
   }
 };
 

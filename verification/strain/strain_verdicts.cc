@@ -2,6 +2,7 @@
 #include "verification/strain/strain_verdicts.h"
 
 #include "verification/record/number_text.h"
+#include "verification/reference/fine_reference.h"
 
 #include <algorithm>
 #include <cmath>
@@ -219,6 +220,45 @@ std::vector<Verdict> strain_verdicts(const std::vector<StrainRow> &rows,
                                                  : sheet_verdict(rows, of_case, strains));
   for (const StrainRow &of_case : cases)
     verdicts.push_back(verdict_of_reach(rows, of_case, strains.size()));
+  return verdicts;
+}
+
+std::vector<Verdict> stability_verdicts(const std::vector<StepRow> &steps)
+{
+  std::vector<Verdict> verdicts;
+  std::vector<std::vector<std::string>> seen;
+  for (const StepRow &of_case : steps)
+  {
+    const std::vector<std::string> key = {of_case.cell, of_case.load, of_case.reference};
+    if (of_case.reference == name_of(Law::linear) ||
+        std::find(seen.begin(), seen.end(), key) != seen.end())
+      continue;
+    seen.push_back(key);
+    int n_levels = 0, n_not = 0;
+    std::string which;
+    for (const StepRow &step : steps)
+      if (std::vector<std::string>{step.cell, step.load, step.reference} == key)
+      {
+        ++n_levels;
+        if (step.stability != name_of(Stability::every_triangle) &&
+            step.stability != name_of(Stability::stable) &&
+            step.stability != name_of(Stability::left))
+        {
+          ++n_not;
+          which += (which.empty() ? "; " : ", ") + short_text(100. * step.strain) + " %";
+        }
+      }
+    verdicts.push_back({of_case.cell + ", " + of_case.load + ", " + of_case.reference +
+                          ": each of " + std::to_string(n_levels) +
+                          " equilibria is a minimum of the reference's energy (equilibria that are "
+                          "not, or not known to be" +
+                          which + ")",
+                        n_not == 0 ? Outcome::pass : Outcome::inconclusive,
+                        static_cast<double>(n_not), "0",
+                        "second variation of the energy: positive definite in every triangle, or "
+                        "in the sheet, by conjugate gradients for a random force to 1e-6",
+                        Kind::program});
+  }
   return verdicts;
 }
 } // namespace homespun::verification

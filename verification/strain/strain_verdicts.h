@@ -40,4 +40,9 @@ Verdict verdict_of_smallest(const std::string &claim, const std::vector<double> 
 /// @param strains that the study was asked for: what they cannot decide is no claim
 std::vector<Verdict> strain_verdicts(const std::vector<StrainRow> &rows,
                                      const std::vector<double> &strains);
+
+/// For every cell, load and nonlinear reference among the rows of steps.csv: each equilibrium that
+/// is compared is a minimum of the reference's energy. Open where one is not, or is not known to
+/// be: what the cloth does there is not what it is compared with.
+std::vector<Verdict> stability_verdicts(const std::vector<StepRow> &steps);
 } // namespace homespun::verification

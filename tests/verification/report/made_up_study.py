@@ -99,6 +99,8 @@ def write_results(folder):
                 "fluctuation_m": 2e-5,
                 "fluctuation_bar_m": 1e-7,
                 "homogenized_law": "biot",
+                "reference_stability": "every triangle",
+                "seconds_stability": 0.1,
                 "seconds_homogenized_sheet": 0.4,
             }
         ],
