@@ -79,6 +79,9 @@ CellBending bending_of(const homogenization::UnitCell &cell, const BracketOption
   {
     result.remark = std::string("none: ") + failed.what();
   }
+  // A refined mesh has the vertices of the cell in front.
+  if (result.bracket)
+    result.bracket->deflection.conservativeResize(cell.mesh.n_vertices(), 3);
   return result;
 }
 

@@ -44,7 +44,8 @@ class Ranks(InFolder):
             result = run("strain", CELLS / "three-stiffness.prm", "--cells", 2, "--strains",
                          "0.01,0.1", "--loads", "periodic-12,strip-2", "--no-report", "--quiet",
                          "--output", output, ranks=ranks)
-            self.assertEqual(result.returncode, 0, result.stderr)
+            # At 10 % the budget of a sheet may be open.
+            self.assertIn(result.returncode, (0, 4), result.stderr)
             with open(output / "strain.csv", newline="", encoding="utf-8") as file:
                 rows[ranks] = list(csv.DictReader(file))
         self.assertEqual(len(rows[1]), len(rows[2]))
