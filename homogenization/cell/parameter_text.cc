@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "homogenization/cell/parameter_text.h"
 
+#include <deal.II/base/parameter_handler.h>
+
 #include <fstream>
 #include <set>
 #include <sstream>

@@ -2,11 +2,14 @@
 // Reading .prm files: flat lists of `set KEY = VALUE`, all faults of a file at once.
 #pragma once
 
-#include <deal.II/base/parameter_handler.h>
-
 #include <optional>
 #include <string>
 #include <vector>
+
+namespace dealii
+{
+class ParameterHandler;
+}
 
 namespace homespun::homogenization
 {

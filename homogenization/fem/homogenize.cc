@@ -4,6 +4,7 @@
 #include "homogenization/fem/cell_forces.h"
 #include "homogenization/fem/elastic_solver.h"
 #include "homogenization/fem/load_checkpoint.h"
+#include "homogenization/fem/periodic_constraints.h"
 #include "homogenization/fem/solution_pieces.h"
 #include "meshes/plain/refine.h"
 

@@ -4,7 +4,7 @@
 #pragma once
 
 #include "homogenization/cell/unit_cell.h"
-#include "homogenization/fem/periodic_constraints.h"
+#include "homogenization/fem/constraint_audit.h"
 #include "meshes/plain/homogenized_cell.h"
 
 #include <mpi.h>

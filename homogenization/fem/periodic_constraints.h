@@ -4,6 +4,7 @@
 // nearly all of the boundary together, without an error; hence this file, and hence the audit.
 #pragma once
 
+#include "homogenization/fem/constraint_audit.h"
 #include "homogenization/fem/discretization.h"
 #include "meshes/plain/lattice.h"
 
@@ -11,13 +12,6 @@
 
 namespace homespun::homogenization
 {
-/// What the audit counted; every entry came out of comparing constraints with coordinates.
-struct ConstraintAudit
-{
-  unsigned int n_constrained = 0;  ///< DoFs tied to an image
-  double largest_gap         = 0.; ///< between tied nodes, modulo the lattice [m]
-};
-
 /// Ties every boundary node to its lattice image with the lowest DoF, u(x + n1 a1 + n2 a2) = u(x),
 /// and holds the anchor and its images at zero, which takes out the two translations (periodicity
 /// takes out the rotation). Corners end in one class. Nodes on the rims of holes stay free.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "homogenization/fem/solution_pieces.h"
 
+#include "homogenization/fem/elastic_solver.h"
 #include "meshes/files/surface_files.h"
 #include "meshes/plain/errors.h"
 

@@ -7,6 +7,8 @@
 #include "meshes/plain/errors.h"
 #include "meshes/plain/lattice.h"
 
+#include <deal.II/base/parameter_handler.h>
+
 #include <cmath>
 #include <filesystem>
 #include <sstream>

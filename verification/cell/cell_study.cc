@@ -5,9 +5,8 @@
 #include "verification/cell/cell_files.h"
 #include "verification/cell/study_inputs.h"
 #include "verification/record/on_root.h"
+#include "verification/record/peak_memory.h"
 #include "verification/record/progress.h"
-
-#include <deal.II/base/utilities.h>
 
 #include <filesystem>
 #include <memory>
@@ -93,15 +92,11 @@ AssessedCell run_cell_study(const homogenization::UnitCell &cell, const CellStud
     return its;
   }();
   share_failure(assessed.checks, communicator);
-  dealii::Utilities::System::MemoryStats memory;
-  dealii::Utilities::System::get_memory_stats(memory);
-  assessed.peak_memory_of_rank =
-    dealii::Utilities::MPI::gather(communicator, 1024. * static_cast<double>(memory.VmHWM));
+  assessed.peak_memory_of_rank = peak_memory_of_ranks(communicator);
   on_root(communicator,
           [&]()
           {
-            write_cell_results(cell, assessed, options.uncertain,
-                               dealii::Utilities::MPI::n_mpi_processes(communicator),
+            write_cell_results(cell, assessed, options.uncertain, n_ranks_of(communicator),
                                options.output);
             std::filesystem::remove_all(solve.checkpoint);
             folder->finish();

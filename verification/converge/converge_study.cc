@@ -255,7 +255,7 @@ private:
               nlohmann::ordered_json all_notes = notes(options);
               for (const std::string &note : unfinished)
                 all_notes.push_back(note);
-              const unsigned int n_ranks = dealii::Utilities::MPI::n_mpi_processes(communicator);
+              const unsigned int n_ranks = n_ranks_of(communicator);
               meshes::write_whole(
                 options.output + "/study.json",
                 json_text({{"command", options.command},

@@ -12,7 +12,7 @@
 #include "localization/options.h"
 #include "verification/converge/manufactured_motions.h"
 #include "verification/record/convergence.h"
-#include "verification/reference/field_integrals.h"
+#include "verification/reference/known_field.h"
 
 #include <Eigen/Core>
 #include <mpi.h>

@@ -12,6 +12,7 @@
 #include "meshes/plain/refine.h"
 #include "verification/converge/manufactured.h"
 #include "verification/converge/manufactured_cases.h"
+#include "verification/reference/field_integrals.h"
 
 #include <Eigen/LU>
 

@@ -4,7 +4,7 @@
 #pragma once
 
 #include "meshes/plain/triangle_mesh.h"
-#include "verification/reference/field_integrals.h"
+#include "verification/reference/known_field.h"
 
 #include <Eigen/Core>
 

@@ -5,7 +5,7 @@
 #pragma once
 
 #include "meshes/cloth/cloth_mesh.h"
-#include "verification/reference/field_integrals.h"
+#include "verification/reference/known_field.h"
 
 #include <Eigen/Core>
 

@@ -38,7 +38,7 @@ public:
   DrapeStudy(const DrapeOptions &options, const MPI_Comm communicator)
       : options(options)
       , communicator(communicator)
-      , n_ranks(dealii::Utilities::MPI::n_mpi_processes(communicator))
+      , n_ranks(n_ranks_of(communicator))
       , is_root(verification::is_root(communicator))
       , scene(scene_of(options))
       , schedule(scene)

@@ -7,6 +7,8 @@
 #include "verification/drape/held_place_text.h"
 #include "verification/drape/scene_keys.h"
 
+#include <deal.II/base/parameter_handler.h>
+
 #include <algorithm>
 #include <cmath>
 #include <filesystem>

@@ -3,6 +3,8 @@
 
 #include "verification/drape/fabrics.h"
 
+#include <deal.II/base/parameter_handler.h>
+
 namespace homespun::verification
 {
 void SceneKeys::declare(dealii::ParameterHandler &keys, std::map<std::string, std::string> &term_of)

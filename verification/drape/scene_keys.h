@@ -3,10 +3,13 @@
 // them.
 #pragma once
 
-#include <deal.II/base/parameter_handler.h>
-
 #include <map>
 #include <string>
+
+namespace dealii
+{
+class ParameterHandler;
+}
 
 namespace homespun::verification
 {

@@ -16,8 +16,6 @@
 #include "verification/record/provenance.h"
 #include "verification/record/table.h"
 
-#include <deal.II/base/mpi.h>
-
 #include <chrono>
 #include <memory>
 #include <set>
@@ -155,7 +153,7 @@ private:
 
   int n_ranks() const
   {
-    return static_cast<int>(dealii::Utilities::MPI::n_mpi_processes(communicator));
+    return static_cast<int>(n_ranks_of(communicator));
   }
 
   void collect()

@@ -12,8 +12,6 @@
 #include "verification/record/on_root.h"
 #include "verification/record/progress.h"
 
-#include <deal.II/base/mpi.h>
-
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
 #include <CLI/Option.hpp>

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
 // homespun scaling: time and memory against mesh and ranks.
 #include "verification/program/study_arguments.h"
+#include "verification/record/on_root.h"
 #include "verification/scaling/scaling_study.h"
-
-#include <deal.II/base/mpi.h>
 
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
@@ -18,7 +17,7 @@ namespace
 int prepare(ScalingOptions options, AfterMpi &afterwards)
 {
   ArgumentFaults faults;
-  if (dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD) > 1)
+  if (n_ranks_of(MPI_COMM_WORLD) > 1)
     faults.add("scaling starts its ranks itself; expected it without mpirun: use --ranks, and "
                "--launcher for another way to start them");
   const auto check_list =

@@ -16,8 +16,6 @@
 #include "verification/record/on_root.h"
 #include "verification/strain/strain_study.h"
 
-#include <deal.II/base/mpi.h>
-
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>

@@ -5,7 +5,7 @@
 #include "meshes/plain/errors.h"
 #include "verification/record/verdict.h"
 
-#include <deal.II/base/mpi.h>
+#include <mpi.h>
 
 #include <exception>
 #include <vector>
@@ -14,7 +14,16 @@ namespace homespun::verification
 {
 inline bool is_root(const MPI_Comm communicator)
 {
-  return dealii::Utilities::MPI::this_mpi_process(communicator) == 0;
+  int rank = 0;
+  MPI_Comm_rank(communicator, &rank);
+  return rank == 0;
+}
+
+inline unsigned int n_ranks_of(const MPI_Comm communicator)
+{
+  int n = 0;
+  MPI_Comm_size(communicator, &n);
+  return static_cast<unsigned int>(n);
 }
 
 /// Runs `work` on the first rank. All ranks must call this; where the work throws, all throw: the

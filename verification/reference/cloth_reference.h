@@ -13,10 +13,9 @@
 // consistent mass only.
 #pragma once
 
-#include "homogenization/fem/elastic_solver.h"
 #include "meshes/cloth/cloth_mesh.h"
 #include "verification/reference/cloth_reference_options.h"
-#include "verification/reference/field_integrals.h"
+#include "verification/reference/known_field.h"
 #include "verification/reference/space_laws.h"
 
 #include <mpi.h>
@@ -70,6 +69,7 @@ public:
   ClothReference(const meshes::TriangleMesh &rest, std::vector<Eigen::Matrix3d> stiffness_of_phase,
                  std::vector<double> areal_density_of_phase, const ClothReferenceOptions &options,
                  MPI_Comm communicator);
+  ~ClothReference();
 
   /// Puts the cloth at rest at time 0. Held nodes are where `held` says.
   /// @throws BadInput where a position or a load is not finite or the damping negative
@@ -107,75 +107,7 @@ public:
   unsigned long n_dofs() const;
 
 private:
-  using Vector = homogenization::ElasticSolver::Vector;
-
-  /// A triangle that this rank or a neighbour owns.
-  struct Element
-  {
-    std::vector<int> nodes; ///< local node of each shape
-    Eigen::Matrix2d inverse_transpose;
-    double determinant; ///< [m^2]
-    int phase;
-    bool is_owned;
-  };
-  /// Quadratic form that is added to the energy: ½ factor |x − centre|²_M.
-  struct Inertia
-  {
-    double factor; ///< [1/s^2]
-    Vector centre; ///< [m]
-  };
-  struct Evaluation
-  {
-    double energy      = 0.; ///< what is minimised; gravity's since the start of the step [J]
-    double energy_size = 0.; ///< sum of the absolute values of its terms [J]
-    double residual    = 0.; ///< norm over free DoFs [N]
-    double force_size  = 0.; ///< norm of the element forces before they cancel [N]
-    double round_off   = 0.; ///< norm of what one rounding of the positions changes them by [N]
-    bool is_converged(double tolerance) const;
-  };
-
-  void lay_out();
-  void hold(double new_time);
-  void put_held(Vector &positions) const;
-  void lay_out_matrix();
-  template <int n_shapes>
-  Evaluation assemble(const Vector &positions, const Inertia &inertia, Vector &residual,
-                      Tangent tangent, double tension);
-  Evaluation evaluate(const Vector &positions, const Inertia &inertia, Vector &residual,
-                      Tangent tangent, double tension);
-  void solve_linearized(Vector &increment, const Vector &forces, double target, ClothStep &step);
-  void minimize(Vector &positions, const Inertia &inertia, double tension, ClothStep &step);
-  void advance(double dt, unsigned int cuts, ClothStep &step);
-  meshes::SpacePoints at_vertices(const Vector &values) const;
-
-  const ClothReferenceOptions options;
-  const std::vector<Eigen::Matrix3d> stiffness_of_phase;
-  const std::vector<double> areal_density_of_phase;
-  const int n_rest_vertices;
-  const homogenization::Discretization discretization;
-  const homogenization::DofTable vertex_dofs;
-  const Eigen::MatrixXd reference_mass; ///< (shape, shape) of a triangle of area 1 and density 1
-
-  std::vector<Element> elements;
-  std::vector<Eigen::RowVector2d> node_points; ///< of the local nodes, in the order of their DoFs
-  std::vector<dealii::types::global_dof_index> node_dofs; ///< their first DoFs
-  std::vector<int>
-    owned_row; ///< of the local nodes: first row on this rank, −1 where another owns it
-
-  Held held;
-  ClothLoads loads;
-  double present_time = 0.;
-  std::vector<std::optional<Eigen::RowVector3d>> held_at; ///< of the local nodes
-  std::vector<char> is_held;                              ///< what the matrix is laid out for
-  dealii::AffineConstraints<double> constraints;
-  std::unique_ptr<homogenization::ElasticSolver> solver;
-  std::vector<double *> row_values; ///< of the owned rows
-  std::vector<int> block_offset;    ///< (element, shape, shape): where in a row, −1 where nowhere
-  bool preconditioner_is_old           = true;
-  double iterations_per_digit_when_new = 0.;
-
-  Vector position, velocity, load_origin;
-  Vector body_load; ///< at the end of the step; empty without a body force
-  meshes::SpacePoints positions_at_vertices;
+  class Solver; ///< with the finite elements, of which users of this header see nothing
+  const std::unique_ptr<Solver> solver;
 };
 } // namespace homespun::verification

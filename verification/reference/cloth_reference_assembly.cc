@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The element loops of the resolved cloth: residual, matrix and energies.
-#include "verification/reference/cloth_reference.h"
+#include "verification/reference/cloth_reference_solver.h"
 
 #include <deal.II/base/mpi.h>
 
@@ -48,7 +48,7 @@ double sum_over_triangles(const homogenization::Discretization &discretization,
 
 /// The matrix, and where each 3x3 block of each element goes in the rows of this rank, so that an
 /// assembly need not search for it.
-void ClothReference::lay_out_matrix()
+void ClothReference::Solver::lay_out_matrix()
 {
   solver.reset(); // before its constraints change
   constraints.clear();
@@ -96,9 +96,9 @@ void ClothReference::lay_out_matrix()
 /// Energy, residual and, where asked for, the matrix, whose tangent has `tension` added to its
 /// stress (a fictitious isotropic one, for continuation; neither energy nor residual know of it).
 template <int n_shapes>
-ClothReference::Evaluation ClothReference::assemble(const Vector &positions, const Inertia &inertia,
-                                                    Vector &residual, const Tangent tangent,
-                                                    const double tension)
+ClothReference::Solver::Evaluation
+ClothReference::Solver::assemble(const Vector &positions, const Inertia &inertia, Vector &residual,
+                                 const Tangent tangent, const double tension)
 {
   using NodeVectors                 = Eigen::Matrix<double, n_shapes, 3, Eigen::RowMajor>;
   const ReferenceElement &reference = discretization.nonlinear_quadrature;
@@ -249,15 +249,15 @@ ClothReference::Evaluation ClothReference::assemble(const Vector &positions, con
   return state;
 }
 
-ClothReference::Evaluation ClothReference::evaluate(const Vector &positions, const Inertia &inertia,
-                                                    Vector &residual, const Tangent tangent,
-                                                    const double tension)
+ClothReference::Solver::Evaluation
+ClothReference::Solver::evaluate(const Vector &positions, const Inertia &inertia, Vector &residual,
+                                 const Tangent tangent, const double tension)
 {
   return options.order == 1 ? assemble<3>(positions, inertia, residual, tangent, tension)
                             : assemble<6>(positions, inertia, residual, tangent, tension);
 }
 
-double ClothReference::stored_energy() const
+double ClothReference::Solver::stored_energy() const
 {
   const ReferenceElement &reference = discretization.nonlinear_quadrature;
   return sum_over_triangles(
@@ -281,7 +281,7 @@ double ClothReference::stored_energy() const
     });
 }
 
-double ClothReference::kinetic_energy() const
+double ClothReference::Solver::kinetic_energy() const
 {
   return sum_over_triangles(
     discretization, elements, velocity,

@@ -2,7 +2,7 @@
 // How one step, or an equilibrium, of the resolved cloth is solved: Newton's method with line
 // search, inexact linear solves, a multigrid hierarchy that is kept.
 #include "meshes/plain/errors.h"
-#include "verification/reference/cloth_reference.h"
+#include "verification/reference/cloth_reference_solver.h"
 
 #include <algorithm>
 #include <cmath>
@@ -15,15 +15,15 @@ namespace
 constexpr unsigned int most_linear_iterations = 300;
 } // namespace
 
-bool ClothReference::Evaluation::is_converged(const double tolerance) const
+bool ClothReference::Solver::Evaluation::is_converged(const double tolerance) const
 {
   // A cloth without loads has forces from rounding only.
   return residual <= std::max(tolerance * force_size, round_off);
 }
 
 /// Conjugate gradients with the multigrid hierarchy of an earlier matrix, as long as that serves.
-void ClothReference::solve_linearized(Vector &increment, const Vector &forces, const double target,
-                                      ClothStep &step)
+void ClothReference::Solver::solve_linearized(Vector &increment, const Vector &forces,
+                                              const double target, ClothStep &step)
 {
   const bool is_new = preconditioner_is_old || !solver->has_preconditioner();
   if (is_new)
@@ -52,8 +52,8 @@ void ClothReference::solve_linearized(Vector &increment, const Vector &forces, c
 /// Newton's method from `positions`, in which the held nodes are where they belong.
 /// @param tension of the continuation at its begin [N/m], 0 for none
 /// @throws NotConverged
-void ClothReference::minimize(Vector &positions, const Inertia &inertia, double tension,
-                              ClothStep &step)
+void ClothReference::Solver::minimize(Vector &positions, const Inertia &inertia, double tension,
+                                      ClothStep &step)
 {
   Vector residual = solver->owned_vector(), increment = solver->owned_vector();
   Vector trial = positions, unused = solver->owned_vector();

@@ -4,32 +4,12 @@
 #pragma once
 
 #include "homogenization/fem/elastic_solver.h"
-
-#include <Eigen/Core>
+#include "verification/reference/known_field.h"
 
 #include <functional>
 
 namespace homespun::verification
 {
-/// A vector; of fields in the plane the third component is not read.
-using FieldValue = Eigen::Vector3d;
-/// Derivatives of a field by the two rest coordinates.
-using FieldGradient = Eigen::Matrix<double, 3, 2>;
-
-/// A known field.
-struct KnownField
-{
-  std::function<FieldValue(const Eigen::RowVector2d &rest_point)> value;
-  std::function<FieldGradient(const Eigen::RowVector2d &rest_point)> gradient;
-};
-
-/// Norms of a difference of fields over the rest area.
-struct FieldDistance
-{
-  double L2 = 0.; ///< sqrt(integral |v|²) [m · m]
-  double H1 = 0.; ///< sqrt(integral |grad v|²), the seminorm [m]
-};
-
 /// Integral of f N_i for every shape, by a formula of degree 5, with held degrees of freedom left
 /// out and periodic images added up as the constraints say.
 /// @param force per rest area [N/m^2]

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Energy, forces and tangent of a resolved sheet.
 #include "meshes/plain/errors.h"
-#include "verification/reference/fine_reference.h"
+#include "verification/reference/fine_reference_solver.h"
 
 #include <deal.II/base/mpi.h>
 
@@ -30,9 +30,9 @@ bool has_negative_eigenvalue(const Eigen::Matrix4d &tangent, const Eigen::Matrix
 } // namespace
 
 template <int n_shapes>
-FineReference::Evaluation
-FineReference::assemble(const Vector &displacement, const Eigen::Matrix2d &mean_gradient,
-                        Vector &residual, const bool with_matrix, const bool projected)
+FineReference::Solver::Evaluation
+FineReference::Solver::assemble(const Vector &displacement, const Eigen::Matrix2d &mean_gradient,
+                                Vector &residual, const bool with_matrix, const bool projected)
 {
   constexpr int n = 2 * n_shapes;
   const ReferenceElement &reference =
@@ -135,10 +135,9 @@ FineReference::assemble(const Vector &displacement, const Eigen::Matrix2d &mean_
   return state;
 }
 
-FineReference::Evaluation FineReference::evaluate(const Vector &displacement,
-                                                  const Eigen::Matrix2d &mean_gradient,
-                                                  Vector &residual, const bool with_matrix,
-                                                  const bool projected)
+FineReference::Solver::Evaluation
+FineReference::Solver::evaluate(const Vector &displacement, const Eigen::Matrix2d &mean_gradient,
+                                Vector &residual, const bool with_matrix, const bool projected)
 {
   return options.order == 1
            ? assemble<3>(displacement, mean_gradient, residual, with_matrix, projected)

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Whether an equilibrium of a resolved sheet is a minimum of its energy.
 #include "meshes/plain/errors.h"
-#include "verification/reference/fine_reference.h"
+#include "verification/reference/fine_reference_solver.h"
 
 #include <deal.II/base/mpi.h>
 
@@ -19,27 +19,9 @@ constexpr double reduction               = 1e-6;
 constexpr unsigned int most_mode_changes = 3;
 } // namespace
 
-std::string name_of(const Stability stability)
-{
-  switch (stability)
-  {
-  case Stability::every_triangle:
-    return "every triangle";
-  case Stability::stable:
-    return "stable";
-  case Stability::left:
-    return "left";
-  case Stability::unstable:
-    return "unstable";
-  case Stability::unknown:
-    break;
-  }
-  return "unknown";
-}
-
 /// @param mode receives a direction of negative curvature where the state is unstable
-Stability FineReference::examine(const Vector &displacement, const double strain,
-                                 ReferenceStep &step, Vector &mode)
+Stability FineReference::Solver::examine(const Vector &displacement, const double strain,
+                                         ReferenceStep &step, Vector &mode)
 {
   Vector forces = solver->owned_vector(), answer = solver->owned_vector();
   const Eigen::Matrix2d mean_gradient = mean_gradient_at(strain);
@@ -79,7 +61,8 @@ Stability FineReference::examine(const Vector &displacement, const double strain
 
 /// Goes along a mode, either way, as far as lowers the energy by more than round-off, at most a
 /// tenth of a cell.
-bool FineReference::leave_along(const Vector &mode, Vector &displacement, const double strain)
+bool FineReference::Solver::leave_along(const Vector &mode, Vector &displacement,
+                                        const double strain)
 {
   const Eigen::Matrix2d mean_gradient = mean_gradient_at(strain);
   Vector residual = solver->owned_vector(), trial = solver->owned_vector();
@@ -101,7 +84,7 @@ bool FineReference::leave_along(const Vector &mode, Vector &displacement, const 
   return false;
 }
 
-Stability FineReference::stabilize(ReferenceStep &step)
+Stability FineReference::Solver::stabilize(ReferenceStep &step)
 {
   if (law == Law::linear)
     return Stability::every_triangle;

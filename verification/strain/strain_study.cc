@@ -11,6 +11,7 @@
 #include "verification/record/json_files.h"
 #include "verification/record/number_text.h"
 #include "verification/record/on_root.h"
+#include "verification/record/peak_memory.h"
 #include "verification/record/progress.h"
 #include "verification/record/provenance.h"
 #include "verification/record/timing.h"
@@ -23,15 +24,12 @@
 #include "verification/strain/strain_verdicts.h"
 #include "verification/strain/study_description.h"
 
-#include <deal.II/base/mpi.h>
-
 #include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <filesystem>
 #include <memory>
-
-#include <sys/resource.h>
+#include <numeric>
 
 namespace homespun::verification
 {
@@ -45,7 +43,7 @@ public:
   StrainStudy(const StrainStudyOptions &options, const MPI_Comm communicator)
       : options(options)
       , communicator(communicator)
-      , n_ranks(dealii::Utilities::MPI::n_mpi_processes(communicator))
+      , n_ranks(n_ranks_of(communicator))
       , is_root(verification::is_root(communicator))
       , begin(std::chrono::steady_clock::now())
       , progress(is_root && !options.quiet,
@@ -335,10 +333,8 @@ private:
   {
     const double seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-    rusage usage;
-    getrusage(RUSAGE_SELF, &usage);
-    const double peak_memory =
-      dealii::Utilities::MPI::sum(static_cast<double>(usage.ru_maxrss) * 1024., communicator);
+    const std::vector<double> memory = peak_memory_of_ranks(communicator);
+    const double peak_memory         = std::accumulate(memory.begin(), memory.end(), 0.);
     on_root(communicator,
             [&]()
             {

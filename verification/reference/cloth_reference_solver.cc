@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "verification/reference/cloth_reference.h"
+#include "verification/reference/cloth_reference_solver.h"
 
 #include "meshes/plain/errors.h"
 #include "meshes/plain/refine.h"
 #include "verification/record/number_text.h"
 #include "verification/reference/cloth_reference_faults.h"
+#include "verification/reference/field_integrals.h"
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/timer.h>
@@ -71,7 +72,7 @@ std::string not_finite(const std::string &what, const Eigen::RowVector2d &point)
 }
 } // namespace
 
-ClothReference::ClothReference(const meshes::TriangleMesh &rest,
+ClothReference::Solver::Solver(const meshes::TriangleMesh &rest,
                                std::vector<Eigen::Matrix3d> stiffness_of_phase,
                                std::vector<double> areal_density_of_phase,
                                const ClothReferenceOptions &options, const MPI_Comm communicator)
@@ -89,7 +90,7 @@ ClothReference::ClothReference(const meshes::TriangleMesh &rest,
 
 /// Elements and nodes. A rank computes all triangles that touch one of its nodes, its neighbours'
 /// too: each row of the matrix is then complete without sending any.
-void ClothReference::lay_out()
+void ClothReference::Solver::lay_out()
 {
   const IndexSet &relevant = discretization.locally_relevant;
   const IndexSet &owned    = discretization.locally_owned;
@@ -133,13 +134,13 @@ void ClothReference::lay_out()
   load_origin = position;
 }
 
-unsigned long ClothReference::n_dofs() const
+unsigned long ClothReference::Solver::n_dofs() const
 {
   return discretization.dof_handler.n_dofs();
 }
 
-void ClothReference::start(const Placement &initial_position, const Held &new_held,
-                           const ClothLoads &new_loads)
+void ClothReference::Solver::start(const Placement &initial_position, const Held &new_held,
+                                   const ClothLoads &new_loads)
 {
   if (!new_loads.gravity.allFinite() || !(new_loads.mass_damping >= 0.) ||
       !std::isfinite(new_loads.mass_damping))
@@ -164,8 +165,8 @@ void ClothReference::start(const Placement &initial_position, const Held &new_he
   positions_at_vertices = at_vertices(position);
 }
 
-void ClothReference::resume(const meshes::SpacePoints &positions,
-                            const meshes::SpacePoints &velocities, const double time)
+void ClothReference::Solver::resume(const meshes::SpacePoints &positions,
+                                    const meshes::SpacePoints &velocities, const double time)
 {
   if (options.order != 1 || options.refine != 0 || positions.rows() != n_rest_vertices ||
       velocities.rows() != n_rest_vertices || !positions.allFinite() || !velocities.allFinite() ||
@@ -191,7 +192,7 @@ void ClothReference::resume(const meshes::SpacePoints &positions,
 
 /// Takes up what is held at a time, and the body force; the matrix is laid out anew where that has
 /// changed.
-void ClothReference::hold(const double new_time)
+void ClothReference::Solver::hold(const double new_time)
 {
   const std::size_t n = node_points.size();
   std::string fault;
@@ -217,7 +218,7 @@ void ClothReference::hold(const double new_time)
                             { return loads.body_force(point, new_time).transpose(); });
 }
 
-void ClothReference::put_held(Vector &positions) const
+void ClothReference::Solver::put_held(Vector &positions) const
 {
   for (std::size_t node = 0; node < node_points.size(); ++node)
     if (owned_row[node] >= 0 && held_at[node])
@@ -225,7 +226,7 @@ void ClothReference::put_held(Vector &positions) const
         positions.begin()[owned_row[node] + c] = (*held_at[node])(c);
 }
 
-void ClothReference::advance(const double dt, const unsigned int cuts, ClothStep &step)
+void ClothReference::Solver::advance(const double dt, const unsigned int cuts, ClothStep &step)
 {
   const double new_time = present_time + dt;
   try
@@ -254,7 +255,7 @@ void ClothReference::advance(const double dt, const unsigned int cuts, ClothStep
   }
 }
 
-ClothStep ClothReference::step(const double dt)
+ClothStep ClothReference::Solver::step(const double dt)
 {
   if (!(dt > 0.) || !std::isfinite(dt))
     throw meshes::BadInput("the time step is " + std::to_string(dt) +
@@ -283,7 +284,7 @@ ClothStep ClothReference::step(const double dt)
   return step;
 }
 
-ClothStep ClothReference::solve_equilibrium(const double time)
+ClothStep ClothReference::Solver::solve_equilibrium(const double time)
 {
   Timer timer(discretization.communicator, true);
   ClothStep step;
@@ -318,7 +319,7 @@ ClothStep ClothReference::solve_equilibrium(const double time)
   return step;
 }
 
-meshes::SpacePoints ClothReference::at_vertices(const Vector &values) const
+meshes::SpacePoints ClothReference::Solver::at_vertices(const Vector &values) const
 {
   meshes::SpacePoints points = meshes::SpacePoints::Zero(n_rest_vertices, 3);
   for (int v = 0; v < n_rest_vertices; ++v) // refinement keeps these in front
@@ -330,22 +331,22 @@ meshes::SpacePoints ClothReference::at_vertices(const Vector &values) const
   return points;
 }
 
-const meshes::SpacePoints &ClothReference::positions() const
+const meshes::SpacePoints &ClothReference::Solver::positions() const
 {
   return positions_at_vertices;
 }
 
-meshes::SpacePoints ClothReference::velocities() const
+meshes::SpacePoints ClothReference::Solver::velocities() const
 {
   return at_vertices(velocity);
 }
 
-double ClothReference::time() const
+double ClothReference::Solver::time() const
 {
   return present_time;
 }
 
-FieldDistance ClothReference::distance_from(const KnownField &known) const
+FieldDistance ClothReference::Solver::distance_from(const KnownField &known) const
 {
   return distance(discretization, position, known);
 }

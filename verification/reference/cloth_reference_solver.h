@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: MIT
+// What solves a ClothReference: its finite elements, mass, constraints and Newton's method.
+#pragma once
+
+#include "homogenization/fem/elastic_solver.h"
+#include "verification/reference/cloth_reference.h"
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+namespace homespun::verification
+{
+/// Member functions that ClothReference has too are what those call.
+class ClothReference::Solver
+{
+public:
+  Solver(const meshes::TriangleMesh &rest, std::vector<Eigen::Matrix3d> stiffness_of_phase,
+         std::vector<double> areal_density_of_phase, const ClothReferenceOptions &options,
+         MPI_Comm communicator);
+
+  void start(const Placement &initial_position, const Held &held, const ClothLoads &loads);
+  void resume(const meshes::SpacePoints &positions, const meshes::SpacePoints &velocities,
+              double time);
+  ClothStep step(double dt);
+  ClothStep solve_equilibrium(double time);
+  const meshes::SpacePoints &positions() const;
+  meshes::SpacePoints velocities() const;
+  double time() const;
+  double stored_energy() const;
+  double kinetic_energy() const;
+  FieldDistance distance_from(const KnownField &known) const;
+  unsigned long n_dofs() const;
+
+private:
+  using Vector = homogenization::ElasticSolver::Vector;
+
+  /// A triangle that this rank or a neighbour owns.
+  struct Element
+  {
+    std::vector<int> nodes; ///< local node of each shape
+    Eigen::Matrix2d inverse_transpose;
+    double determinant; ///< [m^2]
+    int phase;
+    bool is_owned;
+  };
+  /// Quadratic form that is added to the energy: ½ factor |x − centre|²_M.
+  struct Inertia
+  {
+    double factor; ///< [1/s^2]
+    Vector centre; ///< [m]
+  };
+  struct Evaluation
+  {
+    double energy      = 0.; ///< what is minimised; gravity's since the start of the step [J]
+    double energy_size = 0.; ///< sum of the absolute values of its terms [J]
+    double residual    = 0.; ///< norm over free DoFs [N]
+    double force_size  = 0.; ///< norm of the element forces before they cancel [N]
+    double round_off   = 0.; ///< norm of what one rounding of the positions changes them by [N]
+    bool is_converged(double tolerance) const;
+  };
+
+  void lay_out();
+  void hold(double new_time);
+  void put_held(Vector &positions) const;
+  void lay_out_matrix();
+  template <int n_shapes>
+  Evaluation assemble(const Vector &positions, const Inertia &inertia, Vector &residual,
+                      Tangent tangent, double tension);
+  Evaluation evaluate(const Vector &positions, const Inertia &inertia, Vector &residual,
+                      Tangent tangent, double tension);
+  void solve_linearized(Vector &increment, const Vector &forces, double target, ClothStep &step);
+  void minimize(Vector &positions, const Inertia &inertia, double tension, ClothStep &step);
+  void advance(double dt, unsigned int cuts, ClothStep &step);
+  meshes::SpacePoints at_vertices(const Vector &values) const;
+
+  const ClothReferenceOptions options;
+  const std::vector<Eigen::Matrix3d> stiffness_of_phase;
+  const std::vector<double> areal_density_of_phase;
+  const int n_rest_vertices;
+  const homogenization::Discretization discretization;
+  const homogenization::DofTable vertex_dofs;
+  const Eigen::MatrixXd reference_mass; ///< (shape, shape) of a triangle of area 1 and density 1
+
+  std::vector<Element> elements;
+  std::vector<Eigen::RowVector2d> node_points; ///< of the local nodes, in the order of their DoFs
+  std::vector<dealii::types::global_dof_index> node_dofs; ///< their first DoFs
+  std::vector<int>
+    owned_row; ///< of the local nodes: first row on this rank, −1 where another owns it
+
+  Held held;
+  ClothLoads loads;
+  double present_time = 0.;
+  std::vector<std::optional<Eigen::RowVector3d>> held_at; ///< of the local nodes
+  std::vector<char> is_held;                              ///< what the matrix is laid out for
+  dealii::AffineConstraints<double> constraints;
+  std::unique_ptr<homogenization::ElasticSolver> solver;
+  std::vector<double *> row_values; ///< of the owned rows
+  std::vector<int> block_offset;    ///< (element, shape, shape): where in a row, −1 where nowhere
+  bool preconditioner_is_old           = true;
+  double iterations_per_digit_when_new = 0.;
+
+  Vector position, velocity, load_origin;
+  Vector body_load; ///< at the end of the step; empty without a body force
+  meshes::SpacePoints positions_at_vertices;
+};
+} // namespace homespun::verification

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: MIT
+// FineReference, which hands on to its solver.
+#include "verification/reference/fine_reference_solver.h"
+
+namespace homespun::verification
+{
+FineReference::FineReference(const meshes::Sheet &sheet,
+                             std::vector<Eigen::Matrix3d> stiffness_of_phase,
+                             const ReferenceOptions &options, const MPI_Comm communicator)
+    : solver(std::make_unique<Solver>(sheet, std::move(stiffness_of_phase), options, communicator))
+{
+}
+
+FineReference::~FineReference() = default;
+
+void FineReference::start(const Load &load, const Law law, BodyForce body_force)
+{
+  solver->start(load, law, std::move(body_force));
+}
+
+ReferenceStep FineReference::advance(const double strain)
+{
+  return solver->advance(strain);
+}
+
+FieldDistance FineReference::distance_from(const KnownField &known) const
+{
+  return solver->distance_from(known);
+}
+
+ReferenceStep FineReference::tighten(const double tolerance)
+{
+  return solver->tighten(tolerance);
+}
+
+Stability FineReference::stabilize(ReferenceStep &step)
+{
+  return solver->stabilize(step);
+}
+
+unsigned long FineReference::n_dofs() const
+{
+  return solver->n_dofs();
+}
+} // namespace homespun::verification

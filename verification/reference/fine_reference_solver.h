@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: MIT
+// What solves a FineReference: its finite elements, constraints and Newton's method.
+#pragma once
+
+#include "homogenization/fem/elastic_solver.h"
+#include "verification/reference/fine_reference.h"
+
+#include <algorithm>
+#include <memory>
+#include <vector>
+
+namespace homespun::verification
+{
+/// Member functions that FineReference has too are what those call.
+class FineReference::Solver
+{
+public:
+  Solver(const meshes::Sheet &sheet, std::vector<Eigen::Matrix3d> stiffness_of_phase,
+         const ReferenceOptions &options, MPI_Comm communicator);
+
+  void start(const Load &load, Law law, BodyForce body_force);
+  ReferenceStep advance(double strain);
+  FieldDistance distance_from(const KnownField &known) const;
+  ReferenceStep tighten(double tolerance);
+  Stability stabilize(ReferenceStep &step);
+  unsigned long n_dofs() const;
+
+private:
+  using Vector = homogenization::ElasticSolver::Vector;
+  struct Evaluation
+  {
+    double energy             = 0.; ///< [J]
+    unsigned int n_inverted   = 0;  ///< triangles with det F <= 0
+    unsigned int n_indefinite = 0;  ///< as in ReferenceStep, where the exact tangent is assembled
+    double residual           = 0.; ///< norm over free DoFs [N]
+    double force_size         = 0.; ///< norm of the element forces before they cancel [N]
+    double round_off          = 0.; ///< norm of what rounded gradients do to the element forces [N]
+    double energy_round_off   = 0.; ///< what they do to the energy at most [J]
+
+    /// The residual that counts as none.
+    double least_residual(const double tolerance) const
+    {
+      return std::max(tolerance * force_size, round_off);
+    }
+  };
+
+  void constrain(const Load &load);
+  Vector affine(double strain) const;
+  Vector guess(double strain) const;
+  void solve(Vector &displacement, double strain, double tolerance, ReferenceStep &step);
+  unsigned int solve_linearized(Vector &increment, const Vector &forces, double target);
+  Evaluation evaluate(const Vector &displacement, const Eigen::Matrix2d &mean_gradient,
+                      Vector &residual, bool with_matrix, bool projected);
+  template <int n_shapes>
+  Evaluation assemble(const Vector &displacement, const Eigen::Matrix2d &mean_gradient,
+                      Vector &residual, bool with_matrix, bool projected);
+  meshes::Points positions_of(const Vector &displacement, double strain) const;
+  Eigen::Matrix2d mean_gradient_at(double strain) const;
+  Stability examine(const Vector &displacement, double strain, ReferenceStep &step, Vector &mode);
+  bool leave_along(const Vector &mode, Vector &displacement, double strain);
+
+  const meshes::Sheet &sheet;
+  const std::vector<Eigen::Matrix3d> stiffness_of_phase;
+  const ReferenceOptions options;
+  const homogenization::Discretization discretization;
+  homogenization::DofTable vertex_dofs;
+  std::vector<homogenization::Node> boundary;
+
+  std::unique_ptr<Load> load;
+  Law law = Law::linear;
+  BodyForce body_force;
+  Vector body_load; ///< at the strain that is being solved; empty without a body force
+  dealii::AffineConstraints<double> constraints; ///< homogeneous: held nodes, periodic images
+  std::unique_ptr<homogenization::ElasticSolver> solver;
+  double seconds_of_linear_solve       = 0.;
+  bool preconditioner_is_old           = false;
+  double iterations_per_digit_when_new = 0.; ///< of the present preconditioner
+
+  struct Level
+  {
+    double strain;
+    Vector displacement;
+  };
+  std::vector<Level> levels; ///< the last two
+};
+} // namespace homespun::verification
