@@ -4,128 +4,222 @@
 #include "verification/reference/fine_reference.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <iterator>
 #include <limits>
 
 namespace homespun::verification
 {
 namespace
 {
-double mean_distance(const meshes::Points &a, const meshes::Points &b)
+constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+
+/// Sets one distance, of the means and of the largest.
+void set_distance(double DiscretizationDistance::*which, const meshes::Points &a,
+                  const meshes::Points &b, DiscretizationDistance &mean,
+                  DiscretizationDistance &max)
 {
-  return (a - b).rowwise().norm().mean();
+  const Eigen::VectorXd distance = (a - b).rowwise().norm();
+  mean.*which                    = distance.mean();
+  max.*which                     = distance.maxCoeff();
+}
+
+/// Linear in strain through two measured values, never below `least`.
+double on_line(const std::pair<double, double> &a, const std::pair<double, double> &b,
+               const double strain, const double least)
+{
+  return std::max(a.second + (b.second - a.second) * (strain - a.first) / (b.first - a.first),
+                  least);
 }
 } // namespace
 
-DiscretizationDistance ReferenceUncertainty::measure(const int n, const Law law,
-                                                     const double strain, const bool with_refined)
+ReferenceBar ReferenceBar::operator*(const double factor) const
 {
-  const meshes::Sheet sheet = meshes::tile(cell.mesh, cell.lattice, n, n);
-  std::vector<meshes::Points> positions;
-  const std::vector<ReferenceOptions> ladder = {{1, 0}, {2, 0}, {2, 1}};
-  for (std::size_t k = 0; k < (with_refined ? 3u : 2u); ++k)
+  return {factor * mean, factor * max, factor * to_refined};
+}
+
+/// One level after another on each discretization, each from where the last one ended.
+std::vector<ReferenceUncertainty::Distances>
+ReferenceUncertainty::measure(const Measurement &what) const
+{
+  const meshes::Sheet sheet = meshes::tile(cell.mesh, cell.lattice, what.n_cells, what.n_cells);
+  std::vector<ReferenceOptions> ladder = {{1, 0}, {2, 0}};
+  if (what.ladder == Ladder::with_refined_p2)
+    ladder.push_back({2, 1});
+  std::vector<std::vector<meshes::Points>> positions(what.strains.size());
+  for (const ReferenceOptions &discretization : ladder)
   {
-    FineReference reference(sheet, cell.stiffness_of_phase(), ladder[k], communicator);
-    reference.start(load, law);
-    const ReferenceStep step = reference.advance(strain);
-    if (!step.reached)
-      return {};
-    positions.push_back(step.positions);
+    FineReference reference(sheet, cell.stiffness_of_phase(), discretization, communicator);
+    reference.start(load, what.law);
+    for (std::size_t k = 0; k < what.strains.size(); ++k)
+    {
+      const ReferenceStep step = reference.advance(what.strains[k]);
+      if (!step.reached)
+        break;
+      positions[k].push_back(step.positions);
+    }
   }
-  const double unit = strain * side;
-  DiscretizationDistance distance;
-  distance.reached  = true;
-  distance.p1_to_p2 = mean_distance(positions[0], positions[1]) / unit;
-  if (with_refined)
+  std::vector<Distances> distances(what.strains.size());
+  for (std::size_t k = 0; k < what.strains.size(); ++k)
   {
-    distance.p1_to_refined = mean_distance(positions[0], positions[2]) / unit;
-    distance.p2_to_refined = mean_distance(positions[1], positions[2]) / unit;
+    const std::vector<meshes::Points> &of = positions[k];
+    auto &[mean, max]                     = distances[k];
+    if (of.size() < ladder.size())
+      continue;
+    mean.reached = max.reached = true;
+    set_distance(&DiscretizationDistance::p1_to_p2, of[0], of[1], mean, max);
+    if (what.ladder == Ladder::with_refined_p2)
+    {
+      set_distance(&DiscretizationDistance::p1_to_refined, of[0], of[2], mean, max);
+      set_distance(&DiscretizationDistance::p2_to_refined, of[1], of[2], mean, max);
+    }
   }
-  return distance;
+  return distances;
+}
+
+/// Rank 0 keeps the table; whether a row is there is told to all.
+bool ReferenceUncertainty::look_up(const Measurement &what, const double strain,
+                                   Distances &known) const
+{
+  const UncertaintyRow wanted  = {cell.name, load.name, name_of(what.law), strain, what.n_cells};
+  std::array<double, 7> stored = {};
+  if (table && table->contains(wanted))
+    for (const UncertaintyRow &row : table->rows())
+      // A row without refined P2 does not answer a request with it, unless P1 was not reached.
+      if (keys_of_row(row) == keys_of_row(wanted) &&
+          (what.ladder == Ladder::p1_p2 || std::isfinite(row.p1_to_refined) ||
+           !std::isfinite(row.p1_to_p2)))
+        stored = {1.,
+                  row.p1_to_p2,
+                  row.p1_to_refined,
+                  row.p2_to_refined,
+                  row.p1_to_p2_max,
+                  row.p1_to_refined_max,
+                  row.p2_to_refined_max};
+  MPI_Bcast(stored.data(), static_cast<int>(stored.size()), MPI_DOUBLE, 0, communicator);
+  if (!(stored[0] > 0.))
+    return false;
+  const bool reached = std::isfinite(stored[1]);
+  known.mean         = {stored[1], stored[2], stored[3], reached};
+  known.max          = {stored[4], stored[5], stored[6], reached};
+  return true;
+}
+
+void ReferenceUncertainty::keep(const Measurement &what, const double strain,
+                                const Distances &measured) const
+{
+  if (!table)
+    return;
+  UncertaintyRow row = {cell.name, load.name, name_of(what.law), strain, what.n_cells};
+  if (measured.mean.reached)
+  {
+    row.p1_to_p2     = measured.mean.p1_to_p2;
+    row.p1_to_p2_max = measured.max.p1_to_p2;
+    if (what.ladder == Ladder::with_refined_p2)
+    {
+      row.p1_to_refined      = measured.mean.p1_to_refined;
+      row.p2_to_refined      = measured.mean.p2_to_refined;
+      row.p1_to_refined_max  = measured.max.p1_to_refined;
+      row.p2_to_refined_max  = measured.max.p2_to_refined;
+      const ReferenceBar bar = bar_of(measured, strain);
+      row.bar                = bar.mean;
+      row.bar_max            = bar.max;
+    }
+  }
+  table->append(row);
+}
+
+std::vector<ReferenceUncertainty::Distances>
+ReferenceUncertainty::known_or_measured(const Measurement &what) const
+{
+  std::vector<Distances> known(what.strains.size());
+  std::vector<char> is_known(what.strains.size());
+  for (std::size_t k = 0; k < what.strains.size(); ++k)
+    is_known[k] = look_up(what, what.strains[k], known[k]);
+  if (std::all_of(is_known.begin(), is_known.end(), [](const char is) { return is; }))
+    return known;
+  tell("error bar of " + name_of(what.law) + ", " + std::to_string(what.n_cells) + " x " +
+       std::to_string(what.n_cells) + " cells: P1, P2" +
+       (what.ladder == Ladder::with_refined_p2 ? ", refined P2" : ""));
+  const std::vector<Distances> measured = measure(what);
+  for (std::size_t k = 0; k < what.strains.size(); ++k)
+    if (!is_known[k])
+      keep(what, what.strains[k], measured[k]);
+  return measured;
+}
+
+ReferenceBar ReferenceUncertainty::bar_of(const Distances &distances, const double strain) const
+{
+  if (!distances.mean.reached)
+    return {unknown, unknown, unknown};
+  return ReferenceBar{distances.mean.uncertainty(order), distances.max.uncertainty(order),
+                      distances.mean.p1_to_refined} *
+         (1. / (strain * side));
 }
 
 ReferenceUncertainty::ReferenceUncertainty(const homogenization::UnitCell &cell, const Load &load,
-                                           const std::vector<Law> &laws, const int n_cells,
-                                           const int n_small, Table<UncertaintyRow> *table,
+                                           const std::vector<Law> &laws, const Sizes &sizes,
+                                           Table<UncertaintyRow> *table,
                                            const MPI_Comm communicator,
                                            const std::function<void(const std::string &)> &tell)
     : cell(cell)
     , load(load)
+    , table(table)
     , communicator(communicator)
+    , tell(tell)
     , side(std::sqrt(cell.lattice.area()))
     , order(order_of_p2(cell, load.is_periodic() ? order_of_p2_smooth : order_of_p2_sheet))
 {
-  const int n_full     = load.is_periodic() ? 1 : n_cells;
-  const int n_measured = load.is_periodic() ? 1 : std::min(n_small, n_cells);
-  // Rank 0 keeps the table; whether a row is there is told to all.
-  const auto distance =
-    [&](const int n, const Law law, const double strain, const bool with_refined)
-  {
-    UncertaintyRow row = {cell.name, load.name, name_of(law), strain, n};
-    double stored[4]   = {0., 0., 0., 0.};
-    if (table && table->contains(row))
-      for (const UncertaintyRow &known : table->rows())
-        // A row without refined P2 does not answer a request with it, unless P1 was not reached.
-        if (keys_of_row(known) == keys_of_row(row) &&
-            (!with_refined || std::isfinite(known.p1_to_refined) || !std::isfinite(known.p1_to_p2)))
-        {
-          stored[0] = 1.;
-          stored[1] = known.p1_to_p2;
-          stored[2] = known.p1_to_refined;
-          stored[3] = known.p2_to_refined;
-        }
-    MPI_Bcast(stored, 4, MPI_DOUBLE, 0, communicator);
-    const double unit = strain * side;
-    if (stored[0] > 0.)
-    {
-      DiscretizationDistance known;
-      known.reached       = std::isfinite(stored[1]);
-      known.p1_to_p2      = stored[1] / unit;
-      known.p1_to_refined = stored[2] / unit;
-      known.p2_to_refined = stored[3] / unit;
-      return known;
-    }
-    tell("error bar of " + name_of(law) + ", " + std::to_string(n) + " x " + std::to_string(n) +
-         " cells: P1, P2" + (with_refined ? ", refined P2" : ""));
-    const DiscretizationDistance measured = measure(n, law, strain, with_refined);
-    if (measured.reached)
-    {
-      row.p1_to_p2 = measured.p1_to_p2 * unit;
-      if (with_refined)
-      {
-        row.p1_to_refined = measured.p1_to_refined * unit;
-        row.p2_to_refined = measured.p2_to_refined * unit;
-        row.bar           = measured.uncertainty(order);
-      }
-    }
-    if (table)
-      table->append(row);
-    return measured;
-  };
-
-  const DiscretizationDistance small = distance(n_measured, Law::linear, small_strain, true);
-  const double unknown               = std::numeric_limits<double>::quiet_NaN();
-  linear_bar                         = small.reached ? small.uncertainty(order) : unknown;
+  const int n_full     = load.is_periodic() ? 1 : sizes.n_cells;
+  const int n_measured = load.is_periodic() ? 1 : std::min(sizes.n_small, sizes.n_cells);
+  const Distances small =
+    known_or_measured({n_measured, Law::linear, {small_strain}, Ladder::with_refined_p2})[0];
+  const ReferenceBar linear_bar  = bar_of(small, small_strain);
+  measured_bars[Law::linear][0.] = linear_bar;
   if (n_full != n_measured)
   {
-    const DiscretizationDistance full = distance(n_full, Law::linear, small_strain, false);
-    carry_over = full.reached && small.p1_to_p2 > 0. ? full.p1_to_p2 / small.p1_to_p2 : unknown;
+    const Distances full =
+      known_or_measured({n_full, Law::linear, {small_strain}, Ladder::p1_p2})[0];
+    const auto ratio = [](const DiscretizationDistance &at_full, const DiscretizationDistance &of)
+    { return at_full.reached && of.p1_to_p2 > 0. ? at_full.p1_to_p2 / of.p1_to_p2 : unknown; };
+    carry_over.mean = carry_over.to_refined = ratio(full.mean, small.mean);
+    carry_over.max                          = ratio(full.max, small.max);
   }
+  std::vector<double> strains = {large_strain};
+  if (sizes.largest_strain > large_strain)
+    strains.push_back(sizes.largest_strain);
   for (const Law law : laws)
     if (law != Law::linear)
     {
-      const DiscretizationDistance large = distance(n_measured, law, large_strain, true);
-      large_bars.emplace_back(law, large.reached ? large.uncertainty(order) : linear_bar);
+      measured_bars[law][0.] = linear_bar;
+      const std::vector<Distances> large =
+        known_or_measured({n_measured, law, strains, Ladder::with_refined_p2});
+      for (std::size_t k = 0; k < strains.size(); ++k)
+        if (large[k].mean.reached)
+          measured_bars[law][strains[k]] = bar_of(large[k], strains[k]);
     }
 }
 
-double ReferenceUncertainty::at(const Law law, const double strain) const
+ReferenceBar ReferenceUncertainty::at(const Law law, const double strain) const
 {
-  double bar = linear_bar;
-  for (const auto &[its_law, large_bar] : large_bars)
-    if (its_law == law)
-      bar = std::max(linear_bar + (large_bar - linear_bar) * strain / large_strain,
-                     0.5 * std::min(linear_bar, large_bar));
-  return bar * carry_over * strain * side;
+  const std::map<double, ReferenceBar> &bars = measured_bars.at(law);
+  const auto value                           = [&](const double ReferenceBar::*which)
+  {
+    if (bars.size() == 1)
+      return bars.begin()->second.*which;
+    auto right      = std::find_if(std::next(bars.begin()), std::prev(bars.end()),
+                                   [&](const auto &measured) { return measured.first >= strain; });
+    auto left       = std::prev(right);
+    double smallest = left->second.*which;
+    for (const auto &[its_strain, bar] : bars)
+      smallest = std::min(smallest, bar.*which);
+    return on_line({left->first, left->second.*which}, {right->first, right->second.*which}, strain,
+                   0.5 * smallest);
+  };
+  const double unit = strain * side;
+  return {value(&ReferenceBar::mean) * carry_over.mean * unit,
+          value(&ReferenceBar::max) * carry_over.max * unit,
+          value(&ReferenceBar::to_refined) * carry_over.to_refined * unit};
 }
 } // namespace homespun::verification

@@ -101,7 +101,7 @@ UpsampledLevel compare_methods(const StrainStudyOptions &options, const StrainLe
   const Fluctuation fluctuation = fluctuation_of(level, fine.positions, method.fluctuation, output);
   errors.fluctuation            = fluctuation.mean;
   errors.side                   = std::sqrt(resolved.sheet.lattice.area());
-  errors.uncertainty            = resolved.uncertainty;
+  errors.reference_bar          = resolved.bar;
   errors.seconds_reference      = fine.seconds;
   // All methods before the first row: a level has the errors of all, or is unreached.
   std::vector<std::pair<std::string, UpsampledSheet>> missing;
@@ -145,7 +145,7 @@ UpsampledLevel compare_methods(const StrainStudyOptions &options, const StrainLe
           note_of_anchor(errors_of_other_anchors(method.cell, cloth.coarse, resolved.sheet,
                                                  level.law, coarse.positions, fine.positions),
                          distance_of(localized.positions).mean(),
-                         distance_of(affine.positions).mean(), resolved.uncertainty);
+                         distance_of(affine.positions).mean(), resolved.bar.mean);
         !note.empty())
       output.write_note(level, note);
   return {coarse.positions, localized.positions};

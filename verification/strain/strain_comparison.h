@@ -22,7 +22,7 @@ struct ResolvedLevel
   const ReferenceStep &fine;
   unsigned long n_dofs;
   unsigned int n_ranks;
-  double uncertainty; ///< of its positions, mean over the vertices [m]
+  ReferenceBar bar; ///< of its positions [m]
   Stability stability;
   double seconds_stability;
 };

@@ -75,7 +75,9 @@ void StrainOutput::write_errors(const StrainLevel &level, const std::string &met
   row.per_cell = row.mean / errors.side;
   if (errors.fluctuation > 0.)
     row.per_fluctuation = row.mean / errors.fluctuation;
-  row.uncertainty       = errors.uncertainty;
+  row.uncertainty       = errors.reference_bar.mean;
+  row.uncertainty_max   = errors.reference_bar.max;
+  row.to_refined        = errors.reference_bar.to_refined;
   row.seconds           = errors.seconds;
   row.seconds_reference = errors.seconds_reference;
   strain.append(row);

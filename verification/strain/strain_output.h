@@ -7,6 +7,7 @@
 #include "meshes/plain/sheet.h"
 #include "verification/budget/budget_tables.h"
 #include "verification/reference/laws.h"
+#include "verification/strain/reference_uncertainty.h"
 #include "verification/strain/strain_options.h"
 #include "verification/strain/strain_tables.h"
 
@@ -31,9 +32,9 @@ struct StrainLevel
 struct StrainErrors
 {
   Eigen::VectorXd distance;      ///< from the reference, per fine vertex [m]
-  double fluctuation       = 0.; ///< of the reference, mean over the vertices [m]
-  double side              = 0.; ///< of the cell [m]
-  double uncertainty       = 0.; ///< of the reference [m]
+  double fluctuation = 0.;       ///< of the reference, mean over the vertices [m]
+  double side        = 0.;       ///< of the cell [m]
+  ReferenceBar reference_bar;    ///< [m]
   double seconds           = 0.; ///< of the method
   double seconds_reference = 0.;
 };

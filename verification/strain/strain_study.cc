@@ -164,7 +164,9 @@ private:
 
     progress.begin(cell.name + ", " + load.name + ": error bar of the reference", true);
     const ReferenceUncertainty uncertainty(
-      cell, load, laws, options.n_cells, options.n_cells_of_error_bar,
+      cell, load, laws,
+      {options.n_cells, options.n_cells_of_error_bar,
+       *std::max_element(options.strains.begin(), options.strains.end())},
       output ? &output->uncertainty : nullptr, communicator,
       [&](const std::string &what) { progress.begin(cell.name + ", " + load.name + ": " + what); });
     progress.done();
@@ -266,7 +268,7 @@ private:
   ///   start from it
   bool study_strain(const UnitCell &cell, const meshes::Sheet &sheet, const Load &load,
                     const Law law, const double strain, FineReference &reference,
-                    MethodOnSheet &method, const double uncertainty, const bool has_budget)
+                    MethodOnSheet &method, const ReferenceBar &bar, const bool has_budget)
   {
     const StrainLevel level = {cell.name, load.name, law, strain};
     ReferenceStep fine      = reference.advance(strain);
@@ -296,10 +298,10 @@ private:
             {
               try
               {
-                solved    = compare_methods(options, level,
-                                            {sheet, fine, reference.n_dofs(), n_ranks, uncertainty,
-                                             stability, seconds_stability},
-                                            method, load, *output);
+                solved = compare_methods(
+                  options, level,
+                  {sheet, fine, reference.n_dofs(), n_ranks, bar, stability, seconds_stability},
+                  method, load, *output);
                 is_solved = 1;
               }
               catch (const meshes::NotConverged &failure)

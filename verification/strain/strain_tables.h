@@ -30,8 +30,10 @@ struct StrainRow
   double max             = none; ///< [m]
   double per_cell        = none; ///< mean over the cell side
   double per_fluctuation = none; ///< mean over the mean of |reference − resolved homogenized sheet|
-  double uncertainty     = none; ///< of the reference, mean over the vertices [m]
-  double seconds         = none; ///< of the method
+  double uncertainty     = none;   ///< of the reference, mean over the vertices [m]
+  double uncertainty_max   = none; ///< of the reference, at its worst vertex [m]
+  double to_refined        = none; ///< of the reference from refined P2, mean over the vertices [m]
+  double seconds           = none; ///< of the method
   double seconds_reference = none;
 
   bool is_reached() const
@@ -56,6 +58,8 @@ struct StrainRow
     column("error_mean_per_cell", &StrainRow::per_cell, Domain::not_negative);
     column("error_mean_per_fluctuation", &StrainRow::per_fluctuation, Domain::not_negative);
     column("reference_uncertainty_m", &StrainRow::uncertainty, Domain::not_negative);
+    column("reference_uncertainty_max_m", &StrainRow::uncertainty_max, Domain::not_negative);
+    column("reference_to_refined_m", &StrainRow::to_refined, Domain::not_negative);
     column("seconds_method", &StrainRow::seconds, Domain::not_negative);
     column("seconds_reference", &StrainRow::seconds_reference, Domain::not_negative);
   }
@@ -124,8 +128,8 @@ struct NoteRow
   }
 };
 
-/// uncertainty.csv: distances between discretizations of one reference, means over the vertices.
-/// Not a number where one of them was not reached or not asked for.
+/// uncertainty.csv: distances between discretizations of one reference, means over the vertices and
+/// largest. Not a number where one of them was not reached or not asked for.
 struct UncertaintyRow
 {
   static constexpr const char *file   = "uncertainty.csv";
@@ -138,7 +142,8 @@ struct UncertaintyRow
   double p1_to_p2      = none; ///< |P1 − P2| [m]
   double p1_to_refined = none; ///< |P1 − refined P2| [m]
   double p2_to_refined = none; ///< |P2 − refined P2| [m]
-  double bar           = none; ///< per strain and cell side
+  double p1_to_p2_max = none, p1_to_refined_max = none, p2_to_refined_max = none; ///< [m]
+  double bar = none, bar_max = none; ///< per strain and cell side
 
   template <typename Column>
   static void columns(Column &&column)
@@ -151,7 +156,11 @@ struct UncertaintyRow
     column("p1_minus_p2_m", &UncertaintyRow::p1_to_p2, Domain::not_negative);
     column("p1_minus_refined_p2_m", &UncertaintyRow::p1_to_refined, Domain::not_negative);
     column("p2_minus_refined_p2_m", &UncertaintyRow::p2_to_refined, Domain::not_negative);
+    column("p1_minus_p2_max_m", &UncertaintyRow::p1_to_p2_max, Domain::not_negative);
+    column("p1_minus_refined_p2_max_m", &UncertaintyRow::p1_to_refined_max, Domain::not_negative);
+    column("p2_minus_refined_p2_max_m", &UncertaintyRow::p2_to_refined_max, Domain::not_negative);
     column("uncertainty_per_strain_and_side", &UncertaintyRow::bar, Domain::not_negative);
+    column("uncertainty_max_per_strain_and_side", &UncertaintyRow::bar_max, Domain::not_negative);
   }
 };
 

@@ -193,6 +193,7 @@ def uncertainty_rows(rows):
             length(row["p1_minus_refined_p2_m"]),
             length(row["p2_minus_refined_p2_m"]),
             three(row["uncertainty_per_strain_and_side"]),
+            three(row["uncertainty_max_per_strain_and_side"]),
         ]
         for row in rows
     ]
