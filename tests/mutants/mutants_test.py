@@ -10,6 +10,7 @@ import tempfile
 import unittest
 
 import draw
+import executed
 import patches
 import run
 
@@ -194,6 +195,25 @@ class Running(InFolder):
                                          (-11, [], "exit status -11, usually 4"),
                                          (None, [], "exit status None, usually 4")]:
             self.assertEqual(run.what_the_program_says(status, claims, usual), expected)
+
+    def test_lines_that_are_executed(self):
+        old = "".join(f"line {k}\n" for k in range(1, 10))
+        text = patches.patch_of("shell/a.cc", old, old.replace("line 5\n", "fault\n"), "A fault.")
+        mutant = patches.parsed(text, "a", "chosen")
+        self.assertEqual(executed.changed_lines_of(mutant, "moved\n" + old), [6])
+        self.assertTrue(executed.is_executed([6], {3: 0, 6: 2, 7: 0}))
+        self.assertTrue(executed.is_executed([6], {3: 0, 5: 2, 7: 0}))
+        self.assertFalse(executed.is_executed([6], {3: 4, 5: 0, 7: 5}))
+        self.assertFalse(executed.is_executed([2], {3: 4}))
+
+    def test_the_score_counts_what_the_program_could_notice(self):
+        rows = [row_of("a", builds="true", noticed_by_test="x"),
+                row_of("b", builds="true", noticed_by_program="claim"),
+                row_of("c", builds="true"), row_of("d", builds="false")]
+        self.assertIn("3 mutants build; tests notice 1, the program 1 of 3; unnoticed: c",
+                      run.score(rows, None))
+        self.assertIn("the program 1 of 2 in lines that it executes; unnoticed: c",
+                      run.score(rows, {"b", "c", "d"}))
 
     def test_settings_and_seconds_of_a_build_are_read(self):
         (self.folder / "Testing/Temporary").mkdir(parents=True)

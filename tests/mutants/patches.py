@@ -19,6 +19,15 @@ class Hunk:
     old: list
     new: list
 
+    def changed(self):
+        """Which of the old lines go, or stand before those that come."""
+        places = []
+        for part, a, b, _, _ in difflib.SequenceMatcher(a=self.old, b=self.new,
+                                                        autojunk=False).get_opcodes():
+            if part != "equal":
+                places += list(range(a, max(b, a + 1)))
+        return places
+
 
 @dataclasses.dataclass
 class Mutant:

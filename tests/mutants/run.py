@@ -11,6 +11,7 @@ A row of WORK/mutants.csv per mutant (with --dry WORK/dry.csv); rows that are th
 again. It takes hours, and may be killed at any time.
 """
 import argparse
+import concurrent.futures
 import csv
 import json
 import os
@@ -264,10 +265,13 @@ class Workshop:
         with Fault(self.copy, mutant):
             if self.builds():
                 row["builds"] = "true"
-                test, seconds = self.ask_tests()
+                with concurrent.futures.ThreadPoolExecutor() as both:
+                    tests = both.submit(self.ask_tests)
+                    program = both.submit(self.ask_program)
+                test, seconds = tests.result()
                 if test:
                     row.update(noticed_by_test=test, seconds_to_notice=f"{seconds:.1f}")
-                row["noticed_by_program"] = what_the_program_says(*self.ask_program(), self.usual)
+                row["noticed_by_program"] = what_the_program_says(*program.result(), self.usual)
         return row
 
     def tried(self, mutant):
@@ -290,6 +294,28 @@ def measure(mutants, table, row_of):
             row = row_of(mutant)
             table.add(row)
             print(", ".join(f"{name} {row[name]}" for name in COLUMNS if row[name]), flush=True)
+
+
+def executed_in(work):
+    """Names of the mutants in lines that the program executes, as executed.py found; or None."""
+    path = pathlib.Path(work) / "executed.csv"
+    if not path.exists():
+        return None
+    with open(path, newline="", encoding="utf-8") as file:
+        return {row["mutant"] for row in csv.DictReader(file) if row["executed"] == "true"}
+
+
+def score(rows, executed):
+    """How many mutants tests and program notice, and which none of them."""
+    rows = [row for row in rows if row["builds"] == "true"]
+    asked = [row for row in rows if executed is None or row["mutant"] in executed]
+    where = "" if executed is None else " in lines that it executes"
+    quiet = [row["mutant"] for row in rows
+             if not row["noticed_by_test"] and not row["noticed_by_program"]]
+    return (f"{len(rows)} mutants build; tests notice "
+            f"{sum(bool(row['noticed_by_test']) for row in rows)}, the program "
+            f"{sum(bool(row['noticed_by_program']) for row in asked)} of {len(asked)}{where}; "
+            f"unnoticed: {', '.join(quiet) or 'none'}")
 
 
 def main():
@@ -320,13 +346,7 @@ def main():
     table = Table(workshop.work / "mutants.csv")
     workshop.prepare()
     measure(mutants, table, workshop.measured)
-    rows = [row for row in table.rows.values() if row["builds"] == "true"]
-    quiet = [row["mutant"] for row in rows
-             if not row["noticed_by_test"] and not row["noticed_by_program"]]
-    print(f"{len(rows)} mutants build; tests notice "
-          f"{sum(bool(row['noticed_by_test']) for row in rows)}, the program "
-          f"{sum(bool(row['noticed_by_program']) for row in rows)}; unnoticed: "
-          f"{', '.join(quiet) or 'none'}")
+    print(score(list(table.rows.values()), executed_in(workshop.work)))
 
 
 if __name__ == "__main__":
