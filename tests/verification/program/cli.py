@@ -20,7 +20,7 @@ def run(*arguments, ranks=1, **options):
     command = [PROGRAM, *map(str, arguments)]
     if ranks > 1:
         command = [MPIEXEC, "--oversubscribe", "-n", str(ranks), *command]
-    return subprocess.run(command, capture_output=True, text=True, timeout=240 * PATIENCE,
+    return subprocess.run(command, capture_output=True, text=True, timeout=600 * PATIENCE,
                           check=False, **options)
 
 

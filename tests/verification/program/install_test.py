@@ -20,7 +20,7 @@ class Install(InFolder):
     def run_installed(self, *arguments):
         return subprocess.run([self.prefix / "bin" / "homespun", *map(str, arguments)],
                               cwd=self.folder, capture_output=True, text=True,
-                              timeout=240 * PATIENCE, check=False)
+                              timeout=600 * PATIENCE, check=False)
 
     def test_everything_is_there(self):
         share = self.prefix / "share"

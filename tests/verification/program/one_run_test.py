@@ -130,7 +130,7 @@ class OneRun(InFolder):
         study = [PROGRAM, "strain", str(LAYERED), "--quick", "--no-report", "--quiet", "--output",
                  str(output)]
         with subprocess.Popen(study, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL) as first:
-            deadline = time.monotonic() + 120 * PATIENCE
+            deadline = time.monotonic() + 300 * PATIENCE
             while not (output / "strain.csv").exists() and time.monotonic() < deadline:
                 time.sleep(0.01)
             result = run(*study[1:])

@@ -125,11 +125,11 @@ class Homogenize(InFolder):
         study = [PROGRAM, "homogenize", self.CELL, "--refine", "5", "--order", "1", "--no-bars",
                  "--quiet", "--output"]
         whole, killed = self.folder / "whole", self.folder / "killed"
-        subprocess.run([*map(str, study), str(whole)], check=True, timeout=240 * PATIENCE)
+        subprocess.run([*map(str, study), str(whole)], check=True, timeout=600 * PATIENCE)
         self.assertFalse((whole / ".homespun-loads").exists())
         with subprocess.Popen([*map(str, study), str(killed)]) as process:
             first = killed / ".homespun-loads" / "load-0-rank-0-of-1"
-            deadline = time.monotonic() + 240 * PATIENCE
+            deadline = time.monotonic() + 600 * PATIENCE
             while not first.exists() and process.poll() is None and time.monotonic() < deadline:
                 time.sleep(0.01)
             process.send_signal(signal.SIGKILL)
@@ -137,7 +137,7 @@ class Homogenize(InFolder):
                         "it was killed before the first load was solved, or ended before")
         self.assertFalse((killed / "homogenize.json").exists())
         resumed = subprocess.run([*map(str, study), str(killed)], capture_output=True, text=True,
-                                 check=False, timeout=240 * PATIENCE)
+                                 check=False, timeout=600 * PATIENCE)
         self.assertEqual(resumed.returncode, 0, resumed.stderr)
         expected = self.stiffness(whole)
         numpy.testing.assert_allclose(self.stiffness(killed), expected, rtol=0,
