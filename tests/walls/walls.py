@@ -30,6 +30,8 @@ MAY_INCLUDE = {
     "shell/solver": {"meshes/plain", "shell/algebra", "shell/membrane", "shell/terms"},
     "shell/contact": {"meshes/plain", "meshes/cloth", "shell/algebra", "shell/terms"},
     "localization": {"meshes/plain", "meshes/cloth", "meshes/garment"},
+    "python": {"meshes/plain", "meshes/files", "meshes/cloth", "localization", "shell/solver",
+               "shell/terms", "homogenization/fem", "homogenization/lint"},
     "verification/record": {"meshes/plain", "meshes/files"},
     "verification/reference": {"meshes/plain", "meshes/cloth", "homogenization/fem",
                                "verification/record"},
