@@ -89,7 +89,7 @@ OTHER_NOTES = r"METHOD [0-9]|FRONTIER|DESIGN"  # documents that are not part of 
 def wing_of(path):
     """The wing of a file, or None where it stands in none."""
     parts = path.split("/")
-    wing = parts[0] if parts[0] == "localization" else "/".join(parts[:2])
+    wing = parts[0] if parts[0] in ("localization", "python") else "/".join(parts[:2])
     return wing if wing in MAY_INCLUDE and len(parts) == wing.count("/") + 2 else None
 
 
