@@ -8,6 +8,7 @@
 
 #include <mpi.h>
 
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -56,25 +57,28 @@ meshes::HomogenizedCell homogenize_file(const std::string &file, const unsigned 
   return homogenized(homogenization::read_unit_cell(file), order, "homespun for Python, " + file);
 }
 
-double constant_of(const py::dict &phase, const std::string &name, const std::string &key)
-{
-  if (!phase.contains(key))
-    throw meshes::BadInput(name + ": has no `" + key +
-                           "`; expected E, nu, thickness, density, or E1, E2, nu12, G12, angle, "
-                           "thickness, density");
-  return phase[py::str(key)].cast<double>();
-}
-
 Phase phase_of(const py::dict &phase, const std::string &name)
 {
-  const auto at = [&](const std::string &key) { return constant_of(phase, name, key); };
-  Phase result;
-  if (phase.contains("E1"))
-    result = {name,      at("E1"),    at("E2"),        at("nu12"),
-              at("G12"), at("angle"), at("thickness"), at("density")};
-  else
-    result = homogenization::isotropic(name, at("E"), at("nu"), at("thickness"), at("density"));
-  if (const std::vector<std::string> faults = faults_of(result); !faults.empty())
+  const bool has_axes = phase.contains("E1");
+  const std::vector<std::string> keys =
+    has_axes ? std::vector<std::string>{"E1", "E2", "nu12", "G12", "angle", "thickness", "density"}
+             : std::vector<std::string>{"E", "nu", "thickness", "density"};
+  std::vector<std::string> faults;
+  std::map<std::string, double> at;
+  for (const std::string &key : keys)
+    if (phase.contains(key))
+      at[key] = phase[py::str(key)].cast<double>();
+    else
+      faults.push_back(name + ": has no `" + key +
+                       "`; expected E, nu, thickness, density, or E1, E2, nu12, G12, angle, "
+                       "thickness, density");
+  if (!faults.empty())
+    throw meshes::BadInput(faults);
+  const Phase result =
+    has_axes ? Phase{name,      at["E1"],    at["E2"],        at["nu12"],
+                     at["G12"], at["angle"], at["thickness"], at["density"]}
+             : homogenization::isotropic(name, at["E"], at["nu"], at["thickness"], at["density"]);
+  if (faults = faults_of(result); !faults.empty())
     throw meshes::BadInput(faults);
   return result;
 }

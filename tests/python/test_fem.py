@@ -40,7 +40,7 @@ class Homogenize(unittest.TestCase):
 
     def test_a_file_gives_the_numbers_of_the_program_bit_for_bit(self):
         with tempfile.TemporaryDirectory(prefix="homespun-python-") as folder:
-            subprocess.run([BUILD / "homespun", "homogenize", "--no-bars", "--no-report", "--quiet",
+            subprocess.run([BUILD / "homespun", "homogenize", "--no-bars", "--quiet",
                             "--order", "2", "--output", folder, CELL], check=True)
             program = homespun.Cell.read(str(pathlib.Path(folder, "cell.h5")))
         cell = homespun.homogenize(CELL)
@@ -74,7 +74,7 @@ class Homogenize(unittest.TestCase):
         self.refused(call(order=3), "order: found 3; expected 1 or 2")
         self.refused(call(groups=groups[:-1]), "groups", str(len(triangles)))
         self.refused(call(groups=groups + 1), "groups: triangle", "expected 0 to 1")
-        self.refused(call(phases=[SOFT, {"E": 1.}]), "phase 1: has no `nu`")
+        self.refused(call(phases=[SOFT, {"E": 1.}]), "phase 1: has no `nu`", "`thickness`")
         self.refused(call(phases=[SOFT, {**HARD, "E": -1.}]), "phase 1")
         self.refused(call(triangles=triangles[:-1], groups=groups[:-1]), "outline")
         self.refused(call(vertices=vertices.astype("f4")), "vertices", "float32", "float64")
