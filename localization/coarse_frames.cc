@@ -174,7 +174,7 @@ CoarseFrames<dim>::CoarseFrames(const meshes::TriangleMesh &coarse_rest,
 }
 
 template <int dim>
-void CoarseFrames<dim>::evaluate_triangles(const Positions<dim> &current) const
+void CoarseFrames<dim>::evaluate_triangles(const PositionsOf<dim> current) const
 {
   // First the edges, which must be collected one by one; then arithmetic on consecutive numbers.
   const auto m                        = static_cast<std::size_t>(mesh.n_triangles());
@@ -213,7 +213,7 @@ void CoarseFrames<dim>::evaluate_triangles(const Positions<dim> &current) const
 
 template <int dim>
 const Eigen::Matrix<double, Eigen::Dynamic, CoarseFrames<dim>::n_components, Eigen::RowMajor> &
-CoarseFrames<dim>::values(const Positions<dim> &current) const
+CoarseFrames<dim>::values(const PositionsOf<dim> current) const
 {
   evaluate_triangles(current);
   const auto m              = static_cast<std::size_t>(mesh.n_triangles());

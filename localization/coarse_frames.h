@@ -46,7 +46,12 @@ public:
   /// @param current (n,dim) [m], finite
   /// @return (rows, n_components), valid until the next call
   const Eigen::Matrix<double, Eigen::Dynamic, n_components, Eigen::RowMajor> &
-  values(const Positions<dim> &current) const;
+  values(PositionsOf<dim> current) const;
+  const Eigen::Matrix<double, Eigen::Dynamic, n_components, Eigen::RowMajor> &
+  values(const Positions<dim> &current) const
+  {
+    return values(PositionsOf<dim>(current.data(), current.rows(), dim));
+  }
 
   /// What values() returned last.
   const Eigen::Matrix<double, Eigen::Dynamic, n_components, Eigen::RowMajor> &last_values() const
@@ -67,7 +72,7 @@ public:
   }
 
 private:
-  void evaluate_triangles(const Positions<dim> &current) const;
+  void evaluate_triangles(PositionsOf<dim> current) const;
 
   meshes::TriangleMesh mesh;
   UpsamplerOptions options;

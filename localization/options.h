@@ -11,6 +11,10 @@ namespace homespun::localization
 template <int dim>
 using Positions = Eigen::Matrix<double, Eigen::Dynamic, dim, Eigen::RowMajor>;
 
+/// The same where they lie, row after row, whoever owns them.
+template <int dim>
+using PositionsOf = Eigen::Map<const Positions<dim>>;
+
 /// Macro strain of a coarse triangle, Voigt (E11, E22, gamma12 = 2 E12) in the sheet's rest frame.
 enum class Strain
 {

@@ -177,15 +177,15 @@ std::size_t Upsampler<dim, Scalar>::table_bytes() const
 }
 
 template <int dim, typename Scalar>
-const Positions<dim> &Upsampler<dim, Scalar>::gathered(const Positions<dim> &coarse_current) const
+PositionsOf<dim> Upsampler<dim, Scalar>::gathered(const PositionsOf<dim> coarse_current) const
 {
   for (std::size_t v = 0; v < space_of_rest.size(); ++v)
     at_rest_vertices.row(static_cast<Eigen::Index>(v)) = coarse_current.row(space_of_rest[v]);
-  return at_rest_vertices;
+  return PositionsOf<dim>(at_rest_vertices.data(), at_rest_vertices.rows(), dim);
 }
 
 template <int dim, typename Scalar>
-void Upsampler<dim, Scalar>::fill_records(const Positions<dim> &coarse_current) const
+void Upsampler<dim, Scalar>::fill_records(const PositionsOf<dim> coarse_current) const
 {
   const Eigen::Index n = coarse_current.rows();
   for (Eigen::Index v = 0; v < n; ++v)
@@ -271,6 +271,18 @@ template <int dim, typename Scalar>
 void Upsampler<dim, Scalar>::upsample(const Positions<dim> &coarse_current,
                                       Fine &fine_current) const
 {
+  fine_current.resize(n_total, dim);
+  upsample(PositionsOf<dim>(coarse_current.data(), coarse_current.rows(), dim),
+           Eigen::Map<Fine>(fine_current.data(), n_total, dim));
+}
+
+template <int dim, typename Scalar>
+void Upsampler<dim, Scalar>::upsample(const PositionsOf<dim> coarse_current,
+                                      Eigen::Map<Fine> fine_current) const
+{
+  if (fine_current.rows() != n_total)
+    throw meshes::BadInput("fine positions: room for " + std::to_string(fine_current.rows()) +
+                           " rows; expected " + std::to_string(n_total) + ", one per fine vertex");
   if (coarse_current.rows() != n_space)
     throw meshes::BadInput("coarse positions: have " + std::to_string(coarse_current.rows()) +
                            " rows; expected " + std::to_string(n_space) +
@@ -281,7 +293,6 @@ void Upsampler<dim, Scalar>::upsample(const Positions<dim> &coarse_current,
         throw meshes::BadInput(
           "coarse vertex " + std::to_string(v) +
           ": its position is not finite; the coarse solver should have refused it");
-  fine_current.resize(n_total, dim);
   fill_records(space_of_rest.empty() ? coarse_current : gathered(coarse_current));
   const bool in_plane  = options.lift == Lift::identity || options.strain == Strain::linear;
   const bool is_smooth = options.blend == Blend::continuous;

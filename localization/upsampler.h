@@ -74,6 +74,10 @@ public:
   /// @throws BadInput where a coarse position is not finite or their number is wrong
   void upsample(const Positions<dim> &coarse_current, Fine &fine_current) const;
 
+  /// The same from and into memory of the caller's.
+  /// @throws BadInput where there is no room for (n_fine,dim)
+  void upsample(PositionsOf<dim> coarse_current, Eigen::Map<Fine> fine_current) const;
+
   /// Bytes of the constants that a frame reads, for benchmarks.
   std::size_t table_bytes() const;
 
@@ -94,8 +98,8 @@ private:
   void place(const meshes::Chi &chi, const meshes::Sheet &fine, int from);
   template <typename ChiAt>
   void tabulate(const std::vector<std::vector<Member>> &in_triangle, const ChiAt &chi_at);
-  const Positions<dim> &gathered(const Positions<dim> &coarse_current) const;
-  void fill_records(const Positions<dim> &coarse_current) const;
+  PositionsOf<dim> gathered(PositionsOf<dim> coarse_current) const;
+  void fill_records(PositionsOf<dim> coarse_current) const;
   template <int terms>
   void run(Scalar *fine_current) const;
   template <int terms>

@@ -30,6 +30,8 @@ MAY_INCLUDE = {
     "shell/solver": {"meshes/plain", "shell/algebra", "shell/membrane", "shell/terms"},
     "shell/contact": {"meshes/plain", "meshes/cloth", "shell/algebra", "shell/terms"},
     "localization": {"meshes/plain", "meshes/cloth", "meshes/garment"},
+    "python": {"meshes/plain", "meshes/files", "meshes/cloth", "localization", "shell/solver",
+               "shell/terms", "homogenization/fem", "homogenization/lint"},
     "verification/record": {"meshes/plain", "meshes/files"},
     "verification/reference": {"meshes/plain", "meshes/cloth", "homogenization/fem",
                                "verification/record"},
@@ -87,7 +89,7 @@ OTHER_NOTES = r"METHOD [0-9]|FRONTIER|DESIGN"  # documents that are not part of 
 def wing_of(path):
     """The wing of a file, or None where it stands in none."""
     parts = path.split("/")
-    wing = parts[0] if parts[0] == "localization" else "/".join(parts[:2])
+    wing = parts[0] if parts[0] in ("localization", "python") else "/".join(parts[:2])
     return wing if wing in MAY_INCLUDE and len(parts) == wing.count("/") + 2 else None
 
 

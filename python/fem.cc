@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: MIT
+// Homogenization for Python, on one rank. MPI starts with the first call and ends with the
+// interpreter.
+#include "homogenization/fem/homogenize.h"
+#include "homogenization/lint/cell_reading.h"
+#include "meshes/plain/general_lattice.h"
+#include "python/arrays.h"
+
+#include <mpi.h>
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace homespun::python
+{
+namespace
+{
+using homogenization::Phase;
+using homogenization::UnitCell;
+
+/// Whoever else uses MPI in this process may have started it.
+void start_mpi()
+{
+  int is_started = 0;
+  MPI_Initialized(&is_started);
+  if (is_started)
+    return;
+  int granted = 0;
+  MPI_Init_thread(nullptr, nullptr, MPI_THREAD_SERIALIZED, &granted);
+  py::module_::import("atexit").attr("register")(py::cpp_function(
+    []()
+    {
+      int is_over = 0;
+      MPI_Finalized(&is_over);
+      if (!is_over)
+        MPI_Finalize();
+    }));
+}
+
+meshes::HomogenizedCell homogenized(const UnitCell &cell, const unsigned int order,
+                                    const std::string &provenance)
+{
+  if (order != 1 && order != 2)
+    throw meshes::BadInput("order: found " + std::to_string(order) + "; expected 1 or 2");
+  start_mpi();
+  const py::gil_scoped_release others_run;
+  homogenization::HomogenizationOptions options;
+  options.order = order;
+  return homogenized_cell(cell, homogenization::homogenize(cell, options, MPI_COMM_SELF),
+                          provenance);
+}
+
+meshes::HomogenizedCell homogenize_file(const std::string &file, const unsigned int order)
+{
+  return homogenized(homogenization::read_unit_cell(file), order, "homespun for Python, " + file);
+}
+
+Phase phase_of(const py::dict &phase, const std::string &name)
+{
+  const bool has_axes = phase.contains("E1");
+  const std::vector<std::string> keys =
+    has_axes ? std::vector<std::string>{"E1", "E2", "nu12", "G12", "angle", "thickness", "density"}
+             : std::vector<std::string>{"E", "nu", "thickness", "density"};
+  std::vector<std::string> faults;
+  std::map<std::string, double> at;
+  for (const std::string &key : keys)
+    if (phase.contains(key))
+      at[key] = phase[py::str(key)].cast<double>();
+    else
+      faults.push_back(name + ": has no `" + key +
+                       "`; expected E, nu, thickness, density, or E1, E2, nu12, G12, angle, "
+                       "thickness, density");
+  if (!faults.empty())
+    throw meshes::BadInput(faults);
+  const Phase result =
+    has_axes ? Phase{name,      at["E1"],    at["E2"],        at["nu12"],
+                     at["G12"], at["angle"], at["thickness"], at["density"]}
+             : homogenization::isotropic(name, at["E"], at["nu"], at["thickness"], at["density"]);
+  if (faults = faults_of(result); !faults.empty())
+    throw meshes::BadInput(faults);
+  return result;
+}
+
+Eigen::VectorXi materials_of(const py::object &groups, const Eigen::Index n_triangles,
+                             const std::size_t n_phases)
+{
+  const auto numbers = py::array_t<long, py::array::c_style | py::array::forcecast>::ensure(groups);
+  if (!numbers || numbers.ndim() != 1 || numbers.shape(0) != n_triangles)
+    throw meshes::BadInput("groups: expected one number per triangle, " +
+                           std::to_string(n_triangles));
+  Eigen::VectorXi materials(n_triangles);
+  for (Eigen::Index t = 0; t < n_triangles; ++t)
+  {
+    const long number = numbers.at(t);
+    if (number < 0 || number >= static_cast<long>(n_phases))
+      throw meshes::BadInput("groups: triangle " + std::to_string(t) + " has " +
+                             std::to_string(number) + "; expected 0 to " +
+                             std::to_string(n_phases - 1) + ", the index of a phase");
+    materials(t) = static_cast<int>(number);
+  }
+  return materials;
+}
+
+meshes::HomogenizedCell homogenize_arrays(const py::object &vertices, const py::object &triangles,
+                                          const py::object &groups, const py::list &phases,
+                                          const unsigned int order)
+{
+  UnitCell cell;
+  cell.name           = "arrays";
+  cell.mesh.vertices  = matrix_of<meshes::Points>(vertices, "vertices");
+  cell.mesh.triangles = matrix_of<meshes::Triangles>(triangles, "triangles");
+  for (std::size_t k = 0; k < phases.size(); ++k)
+    cell.phases.push_back(phase_of(phases[k].cast<py::dict>(), "phase " + std::to_string(k)));
+  cell.mesh.material = materials_of(groups, cell.mesh.n_triangles(), cell.phases.size());
+  std::vector<std::string> faults = meshes::faults_of(cell.mesh, cell.name);
+  if (!faults.empty())
+    throw meshes::BadInput(faults);
+  try
+  {
+    cell.lattice = meshes::lattice_of_outline(cell.mesh);
+  }
+  catch (const meshes::BadInput &)
+  {
+    const std::optional<meshes::Lattice> found = meshes::lattice_by_matching(cell.mesh);
+    if (!found)
+      throw;
+    cell.lattice = *found;
+  }
+  faults = meshes::periodicity_faults(cell.mesh, cell.lattice, cell.name);
+  if (!faults.empty())
+    throw meshes::BadInput(faults);
+  return homogenized(cell, order, "homespun for Python, from arrays");
+}
+} // namespace
+
+PYBIND11_MODULE(_fem, module)
+{
+  py::module_::import("homespun._light"); // which knows Cell and the exceptions
+  module.def("homogenize_file", &homogenize_file, py::arg("file"), py::arg("order"));
+  module.def("homogenize_arrays", &homogenize_arrays, py::arg("vertices"), py::arg("triangles"),
+             py::arg("groups"), py::arg("phases"), py::arg("order"));
+}
+} // namespace homespun::python

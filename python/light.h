@@ -1,0 +1,11 @@
+// SPDX-License-Identifier: MIT
+// The parts of the module _light.
+#pragma once
+
+#include <pybind11/pybind11.h>
+
+namespace homespun::python
+{
+/// The class Cloth.
+void declare_cloth(pybind11::module_ &module);
+} // namespace homespun::python

@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: MIT
+// A moving cloth for Python: membrane of a cell, gravity, damping, bending.
+#include "meshes/cloth/cloth_mesh.h"
+#include "meshes/plain/homogenized_cell.h"
+#include "python/arrays.h"
+#include "python/light.h"
+#include "shell/solver/cloth.h"
+#include "shell/terms/bending.h"
+#include "shell/terms/inertial_terms.h"
+#include "shell/terms/membrane_term.h"
+
+#include <pybind11/stl.h>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace homespun::python
+{
+namespace
+{
+using meshes::HomogenizedCell;
+
+/// What a cloth is made of beside its mesh.
+struct ClothChoices
+{
+  std::vector<int> held;
+  std::array<double, 3> gravity;
+  double damping, viscosity;
+  bool bends;
+  std::string integrator;
+};
+
+shell::Integrator integrator_of(const std::string &name)
+{
+  if (name == "linearly implicit")
+    return shell::Integrator::linearly_implicit;
+  if (name == "implicit")
+    return shell::Integrator::implicit;
+  if (name == "conserving")
+    return shell::Integrator::conserving;
+  throw meshes::BadInput("integrator: found `" + name +
+                         "`; expected `linearly implicit`, `implicit` or `conserving`");
+}
+
+void add_bending(const HomogenizedCell &cell, const meshes::ClothMesh &mesh, shell::Cloth &cloth)
+{
+  if (!cell.bending)
+    throw meshes::BadInput("bending: the cell has no D^H; expected one that `homespun homogenize` "
+                           "gave both stiffnesses: homogenize it again without --no-bars");
+  cloth.add(shell::bending_term(mesh, {shell::PlateStiffness::from(cell.bending->stiffness)}));
+}
+
+/// A cloth of one cell's stiffness: all triangles are phase 0.
+std::unique_ptr<shell::Cloth> make_cloth(const HomogenizedCell &cell, const meshes::ClothMesh &mesh,
+                                         const ClothChoices &choices)
+{
+  const Eigen::VectorXd masses = shell::lumped_masses(mesh, {cell.areal_density});
+  shell::ClothOptions options;
+  options.integrator = integrator_of(choices.integrator);
+  auto cloth = std::make_unique<shell::Cloth>(mesh.positions, masses, choices.held, options);
+  cloth->add(shell::membrane_term(mesh, {cell.stiffness}, choices.viscosity));
+  const Eigen::RowVector3d gravity(choices.gravity[0], choices.gravity[1], choices.gravity[2]);
+  if (!gravity.isZero(0.))
+    cloth->add(shell::gravity_term(masses, gravity));
+  if (choices.damping != 0.)
+    cloth->add(shell::mass_damping_term(masses, choices.damping));
+  if (choices.bends)
+    add_bending(cell, mesh, *cloth);
+  return cloth;
+}
+
+meshes::ClothMesh cloth_mesh(const py::object &rest, const py::object &triangles,
+                             const py::object &positions)
+{
+  meshes::ClothMesh mesh;
+  mesh.rest.vertices  = matrix_of<meshes::Points>(rest, "rest");
+  mesh.rest.triangles = matrix_of<meshes::Triangles>(triangles, "triangles");
+  mesh.rest.material  = Eigen::VectorXi::Zero(mesh.rest.n_triangles());
+  mesh.triangles      = mesh.rest.triangles;
+  mesh.positions      = meshes::SpacePoints::Zero(mesh.rest.n_vertices(), 3);
+  if (positions.is_none())
+    mesh.positions.leftCols<2>() = mesh.rest.vertices;
+  else
+    mesh.positions = matrix_of<meshes::SpacePoints>(positions, "positions");
+  if (mesh.positions.rows() != mesh.rest.n_vertices())
+    throw meshes::BadInput("positions: found " + std::to_string(mesh.positions.rows()) +
+                           " rows; expected " + std::to_string(mesh.rest.n_vertices()) +
+                           ", one per row of `rest`");
+  const std::vector<std::string> faults = meshes::faults_of(mesh.rest, "rest mesh");
+  if (!faults.empty())
+    throw meshes::BadInput(faults);
+  return mesh;
+}
+
+Eigen::RowVector3d point_of(const std::array<double, 3> &point)
+{
+  return {point[0], point[1], point[2]};
+}
+} // namespace
+
+void declare_cloth(py::module_ &module)
+{
+  using shell::Cloth;
+  py::class_<Cloth>(module, "Cloth",
+                    "A cloth in motion with the effective stiffness of a cell. rest (n, 2) and "
+                    "triangles (m, 3) are the flat mesh, positions (n, 3) where it begins (rest, "
+                    "with z = 0); held vertices stay or are moved by prescribe().")
+    .def(
+      py::init(
+        [](const HomogenizedCell &cell, const py::object &rest, const py::object &triangles,
+           const py::object &positions, const std::vector<int> &held,
+           const std::array<double, 3> &gravity, const double damping, const double viscosity,
+           const bool bending, const std::string &integrator)
+        {
+          const meshes::ClothMesh mesh = cloth_mesh(rest, triangles, positions);
+          const py::gil_scoped_release others_run;
+          return make_cloth(cell, mesh, {held, gravity, damping, viscosity, bending, integrator});
+        }),
+      py::arg("cell"), py::arg("rest"), py::arg("triangles"), py::kw_only(),
+      py::arg("positions") = py::none(), py::arg("held") = std::vector<int>(),
+      py::arg("gravity") = std::array<double, 3>{0., 0., -9.81}, py::arg("damping") = 0.,
+      py::arg("viscosity") = 0., py::arg("bending") = false,
+      py::arg("integrator") = "linearly implicit",
+      "gravity [m/s^2], damping [1/s], viscosity [s]; bending takes D^H of the cell.")
+    .def(
+      "step", [](Cloth &cloth, const double h) { cloth.step(h); }, py::arg("h"),
+      py::call_guard<py::gil_scoped_release>(), "One time step of h [s].")
+    .def(
+      "solve_equilibrium",
+      [](Cloth &cloth, const double tolerance) { cloth.solve_equilibrium(tolerance); },
+      py::arg("tolerance") = 1e-8, py::call_guard<py::gil_scoped_release>(),
+      "Static equilibrium under the prescribed positions, to |forces| below the tolerance times "
+      "their sum.")
+    .def(
+      "prescribe",
+      [](Cloth &cloth, const int vertex, const std::array<double, 3> &position)
+      { cloth.prescribe(vertex, point_of(position)); },
+      py::arg("vertex"), py::arg("position"),
+      "Where a held vertex is to be at the end of the next step [m].")
+    .def_property_readonly(
+      "positions",
+      [](const py::object &self) { return view(self.cast<const Cloth &>().positions(), self); },
+      "(n, 3) [m], not copied: changes with the next step")
+    .def_property_readonly(
+      "velocities",
+      [](const py::object &self) { return view(self.cast<const Cloth &>().velocities(), self); },
+      "(n, 3) [m/s], not copied: changes with the next step")
+    .def_property_readonly(
+      "masses",
+      [](const py::object &self) { return view(self.cast<const Cloth &>().masses(), self); },
+      "(n) [kg], not copied")
+    .def_property_readonly("time", &Cloth::time, "[s]")
+    .def_property_readonly("kinetic_energy", &Cloth::kinetic_energy, "[J]")
+    .def_property_readonly("stored_energy", &Cloth::stored_energy, "[J]");
+}
+} // namespace homespun::python

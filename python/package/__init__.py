@@ -1,0 +1,43 @@
+# SPDX-License-Identifier: MIT
+"""homespun: periodic cloth homogenized, moved coarsely and up-sampled.
+
+    cell = homespun.Cell.read("cell.h5")           # or homespun.homogenize("cell.prm")
+    sheet = homespun.Sheet(cell, 20, 20)
+    cloth = homespun.Cloth(cell, sheet.coarse_vertices, sheet.coarse_triangles, held=[0, 20])
+    upsampler = homespun.Upsampler(cell, sheet)
+    cloth.step(0.01)
+    fine = upsampler.upsample(cloth.positions)     # (n, 3) float32
+
+Arrays are NumPy's and are not copied. What cannot be used raises BadInput, a ValueError, with the
+text of the program; what does not converge raises NotConverged.
+"""
+from ._light import BadInput, Cell, Cloth, NotConverged, Sheet, Upsampler
+from .results import results
+
+__all__ = ["BadInput", "Cell", "Cloth", "NotConverged", "Sheet", "Upsampler", "homogenize",
+           "results"]
+
+
+def homogenize(cell=None, *, vertices=None, triangles=None, groups=None, phases=None, order=2):
+    """The Cell of a cell file, or of arrays, homogenized on one rank.
+
+    cell: the path of a .prm file; or
+    vertices (n, 2) [m], triangles (m, 3), groups (m) numbers of the phases,
+    phases: a list of dict(E=, nu=, thickness=, density=) [Pa, -, m, kg/m^3], or for a fabric with
+    axes dict(E1=, E2=, nu12=, G12=, angle=, thickness=, density=), angle in degrees.
+    order: 1 or 2, of the displacement elements.
+    """
+    from . import _fem  # loads deal.II, and starts MPI when it is called
+
+    arrays = {"vertices": vertices, "triangles": triangles, "groups": groups, "phases": phases}
+    if cell is not None:
+        given = [name for name, value in arrays.items() if value is not None]
+        if given:
+            raise BadInput(f"homogenize: found a file and {', '.join(given)}; expected one or the "
+                           "other")
+        return _fem.homogenize_file(str(cell), order)
+    missing = [name for name, value in arrays.items() if value is None]
+    if missing:
+        raise BadInput(f"homogenize: {', '.join(missing)} missing; expected a cell file, or all of "
+                       "vertices, triangles, groups and phases")
+    return _fem.homogenize_arrays(vertices, triangles, groups, phases, order)

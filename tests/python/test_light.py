@@ -1,0 +1,266 @@
+# SPDX-License-Identifier: MIT
+"""Cells, cloths and up-sampling from Python: addresses, refusals, and what a step costs."""
+import os
+import pathlib
+import resource
+import subprocess
+import sys
+import tempfile
+import threading
+import time
+import unittest
+
+import numpy
+
+import homespun
+
+SIDE = 0.01
+
+
+def address(array):
+    return array.__array_interface__["data"][0]
+
+
+def made_cell(folder):
+    """Two stripes across axis 1, the laminate in closed form."""
+    path = os.path.join(folder, "cell.h5")
+    subprocess.run([os.environ["HOMESPUN_MAKE_CELL"], path], check=True)
+    return path
+
+
+class WithCell(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        folder = tempfile.TemporaryDirectory(prefix="homespun-python-")
+        cls.addClassCleanup(folder.cleanup)
+        cls.folder = folder.name
+        cls.file = made_cell(folder.name)
+        cls.cell = homespun.Cell.read(cls.file)
+
+    def refused(self, call, *texts, kind=ValueError):
+        with self.assertRaises(kind) as caught:
+            call()
+        for text in texts:
+            self.assertIn(text, str(caught.exception))
+
+
+class Cells(WithCell):
+    def test_arrays_are_views_of_the_cell(self):
+        for name, columns in [("vertices", 2), ("triangles", 3), ("chi", 6), ("material", None)]:
+            array = getattr(self.cell, name)
+            self.assertEqual(address(array), address(getattr(self.cell, name)), name)
+            self.assertFalse(array.flags.writeable, name)
+            if columns:
+                self.assertEqual(array.shape[1], columns)
+
+    def test_a_view_keeps_its_cell_alive(self):
+        vertices = homespun.Cell.read(self.file).vertices
+        numpy.testing.assert_array_equal(vertices, self.cell.vertices)
+
+    def test_numbers_are_those_of_the_file(self):
+        import h5py
+        with h5py.File(self.file) as file:
+            numpy.testing.assert_array_equal(file["C"][:], self.cell.stiffness)
+            # The file has (vertex, component, load), the cell a row of three loads per vertex.
+            chi = file["chi"][:].transpose(0, 2, 1).reshape(-1, 6)
+            numpy.testing.assert_array_equal(chi, self.cell.chi)
+        # Two stripes of equal width, 500 and 5000 N/m over 1 − nu²: C11 is their harmonic mean.
+        D = numpy.array([500., 5000.]) / (1 - 0.3**2)
+        self.assertAlmostEqual(self.cell.stiffness[0, 0] / (2 / (1 / D).sum()), 1., 14)
+        self.assertIsNone(self.cell.bending_stiffness)
+
+    def test_what_is_written_is_read(self):
+        path = os.path.join(self.folder, "copy.h5")
+        self.cell.write(path)
+        again = homespun.Cell.read(path)
+        numpy.testing.assert_array_equal(again.chi, self.cell.chi)
+        numpy.testing.assert_array_equal(again.stiffness, self.cell.stiffness)
+
+    def test_refusals_have_the_text_of_the_program(self):
+        self.refused(lambda: homespun.Cell.read("nowhere.h5"), "nowhere.h5")
+        self.refused(lambda: homespun.Cell.read(__file__), "test_light.py",
+                     kind=homespun.BadInput)
+
+
+class Upsampling(WithCell):
+    n = 6
+
+    def setUp(self):
+        self.sheet = homespun.Sheet(self.cell, self.n, self.n)
+        self.upsampler = homespun.Upsampler(self.cell, self.sheet)
+        self.positions = numpy.zeros((self.upsampler.n_coarse, 3))
+        self.positions[:, :2] = self.sheet.coarse_vertices
+
+    def stretched(self, strain):
+        moved = self.positions.copy()
+        moved[:, 0] *= 1 + strain
+        return moved
+
+    def test_at_rest_the_fine_mesh_is_at_rest(self):
+        fine = self.upsampler.upsample(self.positions)
+        self.assertEqual((fine.dtype, fine.shape), (numpy.float32, (self.upsampler.n_fine, 3)))
+        # Positions are single.
+        numpy.testing.assert_allclose(fine[:, :2], self.sheet.vertices,
+                                      atol=2 * numpy.finfo("f4").eps * self.n * SIDE)
+
+    def test_stretch_adds_chi(self):
+        strain = 0.01
+        fine = self.upsampler.upsample(self.stretched(strain))
+        affine = homespun.Upsampler(self.cell, self.sheet, microscopic=False).upsample(
+            self.stretched(strain))
+        fluctuation = (fine - affine)[:, 0]
+        # w = −E11 chi_11, chi a tent of the soft stripe's slope, 1 − C11/D11, over half a cell.
+        D = 500 / (1 - 0.3**2)
+        height = strain * abs(1 - self.cell.stiffness[0, 0] / D) * SIDE / 2
+        self.assertAlmostEqual(abs(fluctuation).max() / height, 1., 3)
+
+    def test_out_is_written_where_it_lies(self):
+        out = numpy.empty((self.upsampler.n_fine, 3), dtype=numpy.float32)
+        place = address(out)
+        given = self.upsampler.upsample(self.stretched(0.02), out=out)
+        self.assertIs(given, out)
+        self.assertEqual(address(given), place)
+        numpy.testing.assert_array_equal(out, self.upsampler.upsample(self.stretched(0.02)))
+
+    def test_upsampling_into_an_array_takes_no_memory(self):
+        sheet = homespun.Sheet(self.cell, 60, 60)
+        upsampler = homespun.Upsampler(self.cell, sheet)
+        positions = numpy.zeros((upsampler.n_coarse, 3))
+        positions[:, :2] = sheet.coarse_vertices
+        out = numpy.zeros((upsampler.n_fine, 3), dtype=numpy.float32)
+        upsampler.upsample(positions, out=out)
+        before = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
+        for _ in range(50):
+            upsampler.upsample(positions, out=out)
+        # A copy of either array would be more than a megabyte each time.
+        self.assertLess(resource.getrusage(resource.RUSAGE_SELF).ru_maxrss - before, 512)
+
+    def test_refusals_name_argument_dtype_and_shape(self):
+        good = self.positions
+        out = numpy.empty((self.upsampler.n_fine, 3), dtype=numpy.float32)
+        upsample = self.upsampler.upsample
+        self.refused(lambda: upsample(good.astype("f4")), "positions", "float32", "float64")
+        self.refused(lambda: upsample(good[:, :2].copy()), "positions", "(n, 3)", f"({len(good)}, 2)")
+        self.refused(lambda: upsample(good.tolist()), "positions", "list", "numpy.asarray")
+        self.refused(lambda: upsample(numpy.asfortranarray(good)), "positions", "not contiguous")
+        self.refused(lambda: upsample(good[:-1]), f"have {len(good) - 1} rows; expected {len(good)}")
+        self.refused(lambda: upsample(good, out=out.astype("f8")), "out", "float64", "float32")
+        self.refused(lambda: upsample(good, out=out[:-1]), f"expected {len(out)}")
+        out.flags.writeable = False
+        self.refused(lambda: upsample(good, out=out), "out: is read-only")
+        bad = good.copy()
+        bad[3, 1] = numpy.nan
+        self.refused(lambda: upsample(bad), "coarse vertex 3", "not finite")
+
+    def test_others_run_meanwhile(self):
+        # With the interpreter held, the counter of another thread would stand still.
+        sheet = homespun.Sheet(self.cell, 150, 150)
+        count, stop = [0], threading.Event()
+
+        def counting():
+            while not stop.is_set():
+                count[0] += 1
+                time.sleep(0)
+
+        thread = threading.Thread(target=counting)
+        thread.start()
+        try:
+            before = count[0]
+            homespun.Upsampler(self.cell, sheet)
+            self.assertGreater(count[0] - before, 3)
+        finally:
+            stop.set()
+            thread.join()
+
+
+class Cloths(WithCell):
+    def hanging(self, **choices):
+        sheet = homespun.Sheet(self.cell, 5, 5)
+        top = numpy.flatnonzero(sheet.coarse_vertices[:, 1] > 5 * SIDE - 1e-9)
+        return homespun.Cloth(self.cell, sheet.coarse_vertices, sheet.coarse_triangles,
+                              held=top.tolist(), **choices), top
+
+    def test_a_free_cloth_falls_as_everything_does(self):
+        sheet = homespun.Sheet(self.cell, 4, 4)
+        cloth = homespun.Cloth(self.cell, sheet.coarse_vertices, sheet.coarse_triangles)
+        h, steps = 0.01, 10
+        for _ in range(steps):
+            cloth.step(h)
+        # Implicit Euler: z = −g h² n (n + 1) / 2.
+        numpy.testing.assert_allclose(cloth.positions[:, 2],
+                                      -9.81 * h * h * steps * (steps + 1) / 2, rtol=1e-9)
+        self.assertAlmostEqual(cloth.time, 0.1)
+
+    def test_positions_are_a_view_that_moves_with_the_cloth(self):
+        cloth, top = self.hanging()
+        positions = cloth.positions
+        before = positions.copy()
+        cloth.step(0.01)
+        self.assertEqual(address(positions), address(cloth.positions))
+        self.assertLess(positions[:, 2].min(), before[:, 2].min())
+        numpy.testing.assert_array_equal(positions[top], before[top])
+        self.assertFalse(positions.flags.writeable)
+
+    def test_held_vertices_go_where_they_are_told(self):
+        cloth, top = self.hanging(gravity=[0., 0., 0.])
+        target = cloth.positions[top[0]] + [0., 0.001, 0.]
+        cloth.prescribe(int(top[0]), target.tolist())
+        cloth.step(0.01)
+        numpy.testing.assert_array_equal(cloth.positions[top[0]], target)
+        self.assertGreater(cloth.stored_energy, 0.)
+
+    def test_refusals(self):
+        sheet = homespun.Sheet(self.cell, 2, 2)
+        rest, triangles = sheet.coarse_vertices, sheet.coarse_triangles
+        make = lambda **more: homespun.Cloth(self.cell, rest, triangles, **more)
+        self.refused(lambda: make(held=[99]), "99")
+        self.refused(lambda: make(bending=True), "no D^H")
+        self.refused(lambda: make(integrator="leapfrog"), "leapfrog", "linearly implicit")
+        self.refused(lambda: make(positions=numpy.zeros((3, 3))), "positions", "found 3 rows")
+        self.refused(lambda: homespun.Cloth(self.cell, rest, triangles.astype("i8")), "triangles",
+                     "int64", "int32")
+        self.refused(lambda: make().step(0.), "0")
+
+
+class Importing(unittest.TestCase):
+    def run_python(self, code):
+        return subprocess.run([sys.executable, "-B", "-c", code], check=True, text=True,
+                              stdout=subprocess.PIPE, env=dict(os.environ)).stdout
+
+    def test_beside_h5py_in_both_orders(self):
+        with tempfile.TemporaryDirectory(prefix="homespun-python-") as folder:
+            path = made_cell(folder)
+            for modules in ("h5py, homespun", "homespun, h5py"):
+                out = self.run_python(
+                    f"import {modules}\ncell = homespun.Cell.read({path!r})\n"
+                    f"with h5py.File({path!r}) as file:\n"
+                    "    print((file['C'][:] == cell.stiffness).all())\n")
+                self.assertEqual(out.split(), ["True"], modules)
+
+    def test_starts_no_mpi_and_loads_no_finite_elements(self):
+        out = self.run_python("import homespun, ctypes, sys\n"
+                              "libraries = open('/proc/self/maps').read()\n"
+                              "print('libdeal' in libraries, 'Trilinos' in libraries)\n"
+                              "if 'libmpi.so' in libraries:\n"
+                              "    flag = ctypes.c_int(0)\n"
+                              "    ctypes.CDLL('libmpi.so.40').MPI_Initialized(ctypes.byref(flag))\n"
+                              "    print(bool(flag.value))\n")
+        self.assertNotIn("True", out)
+
+
+class Results(unittest.TestCase):
+    def test_tables_of_a_folder(self):
+        with tempfile.TemporaryDirectory(prefix="homespun-python-") as folder:
+            self.assertRaises(ValueError, homespun.results, folder)
+            pathlib.Path(folder, "strain.csv").write_text(
+                "load,strain,error_mean_m\nstrip-1,0.01,1.2345678901234567e-05\nstrip-2,0.1,\n",
+                encoding="utf-8")
+            table = homespun.results(folder)["strain"]
+            self.assertEqual(list(table["load"]), ["strip-1", "strip-2"])
+            self.assertEqual(table["error_mean_m"][0], 1.2345678901234567e-05)
+            self.assertTrue(numpy.isnan(table["error_mean_m"][1]))
+            self.assertEqual(table[table["load"] == "strip-2"]["strain"], [0.1])
+
+
+if __name__ == "__main__":
+    unittest.main()
