@@ -32,7 +32,7 @@ MAY_INCLUDE = {
     "localization": {"meshes/plain", "meshes/cloth", "meshes/garment"},
     "verification/record": {"meshes/plain", "meshes/files"},
     "verification/reference": {"meshes/plain", "meshes/cloth", "homogenization/fem",
-                               "verification/record"},
+                               "homogenization/bracket", "verification/record"},
     "verification/cell": {"meshes/plain", "meshes/files", "homogenization/bracket",
                           "verification/record"} | CELLS,
     "verification/method": {"meshes/plain", "localization", "shell/algebra", "shell/membrane",
