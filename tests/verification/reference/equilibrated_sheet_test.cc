@@ -58,7 +58,8 @@ void expect_known(const meshes::Sheet &sheet, const std::vector<Eigen::Matrix3d>
   EXPECT_NEAR(upper.energy, exact, upper.round_off + 1e-14 * exact);
   EXPECT_NEAR(lower.energy, exact, lower.round_off + 1e-14 * exact);
   EXPECT_NEAR(upper.affine_work, upper.energy, upper.round_off_of_work);
-  EXPECT_NEAR(0.5 * lower.work, lower.energy, lower.round_off);
+  // Of first order in what conjugate gradients leave, 1e-18 of the energy; the energy is of second.
+  EXPECT_NEAR(0.5 * lower.work, lower.energy, 1e-9 * lower.energy);
 }
 
 /// The same sheet with each triangle cut into four.
@@ -231,9 +232,8 @@ TEST(exact_energies, the_stress_is_in_equilibrium_and_does_the_work_of_its_tract
   {
     const Load load(name);
     const EquilibratedSheet stress(sheet, stiffness, load, strain);
-    const double length = std::sqrt(sheet.sides().determinant()),
-                 unit   = std::sqrt(stress.energy * stiffness[0](0, 0)); // of a force
-    double work         = 0.;
+    const double unit = std::sqrt(stress.energy * stiffness[0](0, 0)); // of a force
+    double work       = 0.;
     Eigen::RowVector2d force(0., 0.);
     int n_free = 0;
     for (const auto &[ends, sides] : edges)
@@ -263,7 +263,7 @@ TEST(exact_energies, the_stress_is_in_equilibrium_and_does_the_work_of_its_tract
     }
     EXPECT_EQ(n_free, 2 * 2 * 8) << name; // two free edges of 2 x 4 sides
     EXPECT_LT(force.norm(), 1e-9 * unit) << name;
-    EXPECT_NEAR(stress.work, work, 1e-9 * stress.work) << name << " " << length;
+    EXPECT_NEAR(stress.work, work, 1e-9 * stress.work) << name;
     EXPECT_GT(stress.work, 0.) << name;
   }
 }
@@ -275,7 +275,7 @@ TEST(bound_energies, stresses_lie_below_and_displacements_above_for_every_cell)
         "plain-weave", "printed-patch", "random-dots", "satin", "three-stiffness", "twill"})
   {
     const UnitCell cell       = homogenization::read_unit_cell(std::string(CELLS) + name + ".prm");
-    const meshes::Sheet sheet = meshes::tile(cell.mesh, cell.lattice, 2, 2);
+    const meshes::Sheet sheet = meshes::tile(cell.mesh, cell.lattice, 1, 1);
     const auto stiffness      = cell.stiffness_of_phase();
     for (const char *load_name : the_loads)
     {
@@ -293,12 +293,6 @@ TEST(bound_energies, stresses_lie_below_and_displacements_above_for_every_cell)
       EXPECT_NEAR(p1.energy, upper.energy, upper.round_off) << name << " " << load_name;
       EXPECT_NEAR(upper.affine_work, upper.energy, upper.largest_misfit(p1.relative_residual))
         << name << " " << load_name;
-      std::printf(
-        "%s, %s: gap %.3g of the energy, P2 %.3g, bars %.1e and %.1e, misfit %.1e of %.1e\n", name,
-        load_name, 1. - lower.energy / upper.energy, 1. - lower.energy / p2.energy,
-        upper.round_off / upper.energy, lower.round_off / upper.energy,
-        std::abs(upper.affine_work / upper.energy - 1.),
-        upper.largest_misfit(p1.relative_residual) / upper.energy);
     }
   }
 }
@@ -316,10 +310,7 @@ TEST(order_energies, the_gap_closes_as_the_corners_of_clamped_and_free_edges_all
   for (const char *name : the_loads)
   {
     const std::vector<double> all = gaps(sheet, cell, Load(name), 4);
-    for (std::size_t level = 1; level < all.size(); ++level)
-      std::printf("%s: gap %.4g, order %.3f\n", name, all[level],
-                  std::log2(all[level - 1] / all[level]));
-    const double order = std::log2(all[2] / all[3]);
+    const double order            = std::log2(all[2] / all[3]);
     EXPECT_GT(order, slowest - 0.1) << name;
     EXPECT_LT(order, 2. + 0.1) << name;
   }
