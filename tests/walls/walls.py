@@ -34,7 +34,7 @@ MAY_INCLUDE = {
                "shell/terms", "homogenization/fem", "homogenization/lint"},
     "verification/record": {"meshes/plain", "meshes/files"},
     "verification/reference": {"meshes/plain", "meshes/cloth", "homogenization/fem",
-                               "verification/record"},
+                               "homogenization/bracket", "verification/record"},
     "verification/cell": {"meshes/plain", "meshes/files", "homogenization/bracket",
                           "verification/record"} | CELLS,
     "verification/method": {"meshes/plain", "localization", "shell/algebra", "shell/membrane",

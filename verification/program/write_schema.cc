@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Writes schema.json, the columns of every table, for the report: run by the build.
 #include "verification/budget/budget_tables.h"
+#include "verification/budget/energy_tables.h"
 #include "verification/converge/converge_tables.h"
 #include "verification/drape/drape_tables.h"
 #include "verification/extremes/stress_tables.h"
@@ -26,6 +27,7 @@ int main(int argc, char **argv)
   add_to_schema<UncertaintyRow>(schema);
   add_to_schema<BudgetRow>(schema);
   add_to_schema<SecondCodeRow>(schema);
+  add_to_schema<EnergyRow>(schema);
   add_to_schema<RunTimeRow>(schema);
   add_to_schema<ValidityRow>(schema);
   add_to_schema<ConvergeRow>(schema);

@@ -22,12 +22,13 @@ namespace homespun::verification
 struct ReferenceStep
 {
   double strain = 0.;
-  bool reached  = false;          ///< false: no equilibrium found, `why` says where it stopped
-  std::string why;                ///< reason where it was not reached
-  meshes::Points positions;       ///< (n,2) at the vertices of the sheet, on every rank [m]
-  unsigned int n_newton     = 0;  ///< Newton steps
-  unsigned int n_linear     = 0;  ///< iterations of conjugate gradients, all Newton steps
-  double relative_residual  = 0.; ///< |forces on free nodes| / size of the element forces
+  bool reached  = false;         ///< false: no equilibrium found, `why` says where it stopped
+  std::string why;               ///< reason where it was not reached
+  meshes::Points positions;      ///< (n,2) at the vertices of the sheet, on every rank [m]
+  unsigned int n_newton    = 0;  ///< Newton steps
+  unsigned int n_linear    = 0;  ///< iterations of conjugate gradients, all Newton steps
+  double relative_residual = 0.; ///< |forces on free nodes| / size of the element forces
+  double energy = 0.; ///< of the level, in all elements; less the work of a body force [J]
   unsigned int n_indefinite = 0; ///< triangles whose tangent has a negative eigenvalue, at the last
                                  ///< assembly of the exact tangent
   bool is_at_round_off =

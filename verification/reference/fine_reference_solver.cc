@@ -161,6 +161,7 @@ void FineReference::Solver::solve(Vector &displacement, const double strain, con
   {
     history.push_back(state.residual / state.force_size);
     step.relative_residual = history.back();
+    step.energy            = state.energy;
     if (!std::isfinite(state.residual) || !std::isfinite(state.energy))
       throw meshes::NotConverged("the sheet collapsed under the load step", history);
     // A sheet without load has no forces at all.

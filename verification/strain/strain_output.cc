@@ -31,6 +31,7 @@ StrainOutput::StrainOutput(const StrainStudyOptions &options,
     : uncertainty(options.output)
     , budget(table_if<BudgetRow>(options.budget, options.output))
     , second(table_if<SecondCodeRow>(options.budget, options.output))
+    , energies(table_if<EnergyRow>(options.budget, options.output))
     , run_time(table_if<RunTimeRow>(options.run_time, options.output))
     , folder(options.output)
     , methods(options.methods)

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
 // What a strain study leaves on the disk as it goes on: the tables strain.csv (errors), steps.csv
-// (times), uncertainty.csv, notes.csv, budget.csv, second-code.csv and runtime.csv, and at its end
-// validity.csv. First rank alone.
+// (times), uncertainty.csv, notes.csv, budget.csv, second-code.csv, energies.csv and runtime.csv,
+// and at its end validity.csv. First rank alone.
 #pragma once
 
 #include "meshes/plain/sheet.h"
 #include "verification/budget/budget_tables.h"
+#include "verification/budget/energy_tables.h"
 #include "verification/reference/laws.h"
 #include "verification/strain/reference_uncertainty.h"
 #include "verification/strain/strain_options.h"
@@ -87,6 +88,7 @@ public:
   Table<UncertaintyRow> uncertainty;
   std::unique_ptr<Table<BudgetRow>> budget;     ///< none where it is left out
   std::unique_ptr<Table<SecondCodeRow>> second; ///< with the budget
+  std::unique_ptr<Table<EnergyRow>> energies;   ///< with the budget
   std::unique_ptr<Table<RunTimeRow>> run_time;  ///< none where it is left out
 
 private:

@@ -5,6 +5,7 @@
 #include "meshes/plain/errors.h"
 #include "verification/budget/budget_study.h"
 #include "verification/budget/budget_tables.h"
+#include "verification/budget/energy_sides.h"
 #include "verification/cell/cell_files.h"
 #include "verification/cell/cell_study.h"
 #include "verification/cell/study_inputs.h"
@@ -147,6 +148,12 @@ private:
                   const meshes::Sheet &sheet, const Load &load,
                   std::unique_ptr<FineReference> &reference)
   {
+    if (options.budget && !load.is_periodic())
+    {
+      progress.begin(cell.name + ", " + load.name + ": energy of the reference between two sides");
+      measure_energies(cell, load, options.n_cells, output ? output->energies.get() : nullptr,
+                       communicator);
+    }
     std::vector<Law> laws;
     for (const std::string &name : options.references)
       laws.push_back(law_of(name));
@@ -351,6 +358,7 @@ private:
                 const std::vector<BudgetRow> &rows = output->budget->rows();
                 add(budget_verdicts(output->strain_rows(), rows, options.strains));
                 add(second_code_verdicts(output->second->rows()));
+                add(energy_verdicts(output->energies->rows()));
                 for (const std::string &note : budget_notes(output->strain_rows(), rows))
                   notes.push_back(note);
               }

@@ -32,6 +32,19 @@ class Budget(InFolder):
             self.assertAlmostEqual(total[row["load"], row["strain"]] / float(row["error_mean_m"]),
                                    1., delta=1e-4)
 
+        energies = rows_of(self.folder / "energies.csv")
+        self.assertEqual([row["load"] for row in energies], ["shear-frame"])
+        for row in energies:
+            lower, p2, upper = (float(row[f"energy_{side}_J"]) for side in ("lower", "p2", "upper"))
+            self.assertTrue(0. < lower < p2 < upper, row)
+            bar = float(row["error_bar_energy_norm"])
+            self.assertAlmostEqual(bar, math.sqrt(1. - lower / upper), delta=1e-4 * bar)
+            self.assertEqual((row["cells"], row["fault"]), ("2", ""))
+            self.assertLess(float(row["seconds_lower"]), float(row["seconds"]))
+        claims = [v for v in json.loads((self.folder / "verdicts.json").read_text())["verdicts"]
+                  if "in linear theory on 2 x 2 cells" in v["claim"]]
+        self.assertEqual([v["verdict"] for v in claims], ["PASS"] * 3)
+
         ways = {row["way"]: row for row in rows_of(self.folder / "runtime.csv")}
         for way in ("fine-p1", "fine-p2", "fine-corotational", "affine-5", "localized-40", "voigt",
                     "reuss", "nodal-warping"):
@@ -87,6 +100,7 @@ class Budget(InFolder):
         result = run(*STUDY, "--no-budget", "--no-runtime", "--quiet", "--output", self.folder)
         self.assertEqual(result.returncode, 0, result.stderr)
         self.assertFalse((self.folder / "budget.csv").exists())
+        self.assertFalse((self.folder / "energies.csv").exists())
         self.assertFalse((self.folder / "runtime.csv").exists())
         self.assertTrue((self.folder / "validity.csv").exists())
 

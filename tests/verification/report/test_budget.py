@@ -4,6 +4,7 @@ tests/verification/report
 """
 import math
 import os
+import re
 import unittest
 
 from matplotlib import pyplot
@@ -69,6 +70,36 @@ def write_budget(folder):
             for region in ("all", "interior", "corner")
             for part in (*budget_results.PARTS, "sum", "unexplained", "unexplained-bar", "total")
             for share in [shares.get(part, 0.0)]
+        ],
+    )
+    write_table(
+        folder,
+        "energies.csv",
+        [
+            {
+                "cell": "stripes",
+                "load": "shear-frame",
+                "cells": 4,
+                "strain": 0.01,
+                "energy_upper_J": 2e-6,
+                "energy_lower_J": 1.98e-6,
+                "energy_round_off_J": 1e-15,
+                "error_bar_energy_norm": 0.1,
+                "energy_p2_J": 1.99e-6,
+                "p1_minus_p2_energy_norm": 0.0707,
+                "work_misfit_J": 1e-16,
+                "largest_work_misfit_J": 1e-14,
+                "seconds": 2.0,
+                "seconds_lower": 0.5,
+            },
+            {
+                "cell": "stripes",
+                "load": "strip-1",
+                "cells": 4,
+                "strain": 0.01,
+                "energy_upper_J": 2e-6,
+                "fault": "stresses: the matrix is not positive definite",
+            },
         ],
     )
     write_table(
@@ -243,6 +274,20 @@ class BudgetReport(PageTest):
             "a note, with a comma",
         ):
             self.assertIn(text, page)
+
+    def test_the_energy_of_the_reference_stands_between_its_sides(self):
+        self.assertEqual(self.run_report(), (0, ""))
+        cells = re.findall(r"<td[^>]*>([^<]*)</td>", self.page())
+        energy = "2.00 × 10⁻⁶"
+        known = ["stripes", "shear-frame", "4", energy, "99.5 %", "99.0 %", "10.0 %", "7.07 %"]
+        unknown = ["stripes", "strip-1", "4", energy, "–", "–", "–", "–"]
+        for row in (known, unknown):
+            places = [i for i in range(len(cells)) if cells[i : i + len(row)] == row]
+            self.assertEqual(len(places), 1, row)
+        self.remove("energies.csv")
+        self.assertEqual(self.run_report(), (0, ""))
+        self.assertIn("Left out: energy of the reference between two sides", self.page())
+        self.assertNotIn("Prager and Synge", self.page())
 
     def test_what_was_left_out_is_said(self):
         self.remove("budget.csv", "runtime.csv", "validity.csv")

@@ -79,6 +79,9 @@ def page_contents(results, gallery, output):
     words = {"verdicts": "verdicts", "strain": "error against strain", "uncertainty": "error bar"}
     for key, word in words.items():
         reasons[key] = [item for item in results.missing if item["what"].startswith(word)]
+    reasons["uncertainty"] += [
+        item for item in results.missing if item["what"].startswith("energy of the reference")
+    ]
     reasons["strain"] += [item for item in results.missing if item["what"] == "time per load step"]
     short = [s for s in (tables.in_short(results, name) for name in results.cells) if s]
     if not short:
@@ -126,6 +129,7 @@ def page_contents(results, gallery, output):
         "steps": tables.step_rows(results.steps),
         "fluctuation": tables.fluctuation_sentence(results.steps),
         "uncertainty": tables.uncertainty_rows(results.uncertainty),
+        "energies": tables.energy_rows(results.energies),
         "all_left_out": (
             [item for s in results.studies for item in s.info.get("left_out") or []]
             + unreached

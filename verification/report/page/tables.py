@@ -199,6 +199,27 @@ def uncertainty_rows(rows):
     ]
 
 
+def energy_rows(rows):
+    """energies.csv as text: the lower side and distances in percent of the upper one."""
+
+    def in_percent(value):
+        return "–" if math.isnan(value) else f"{three(100.0 * value)} %"
+
+    return [
+        [
+            row["cell"],
+            row["load"],
+            integer(row["cells"]),
+            three(row["energy_upper_J"]),
+            in_percent(row["energy_p2_J"] / row["energy_upper_J"]),
+            in_percent(row["energy_lower_J"] / row["energy_upper_J"]),
+            in_percent(row["error_bar_energy_norm"]),
+            in_percent(row["p1_minus_p2_energy_norm"]),
+        ]
+        for row in rows
+    ]
+
+
 def step_rows(rows):
     """steps.csv as text, medians over its strains, with the ratio of fine step to the coarse one.
     """

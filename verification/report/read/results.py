@@ -50,6 +50,7 @@ class Results:
     cells: dict = field(default_factory=dict)  # name -> Cell, in the order they were found
     strain: list = field(default_factory=list)
     uncertainty: list = field(default_factory=list)
+    energies: list = field(default_factory=list)
     steps: list = field(default_factory=list)
     budget: list = field(default_factory=list)
     run_time: list = field(default_factory=list)
@@ -202,6 +203,8 @@ def read_strain(run, cell_folders, path_of, results, faults):
             )
     if path := path_of("uncertainty.csv", "error bar of the references from P1, P2 and refined P2"):
         results.uncertainty += read_csv(path, faults, results.missing)
+    if path := path_of("energies.csv", "energy of the reference between two sides"):
+        results.energies += read_csv(path, faults, results.missing)
     if path := path_of("steps.csv", "time per load step"):
         results.steps += read_csv(path, faults, results.missing)
     read_budget(path_of, results, faults)

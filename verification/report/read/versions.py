@@ -8,7 +8,7 @@ another, unless both are parts of one verify, which has one list of cells and on
 import dataclasses
 import os
 
-TABLES = ("strain", "uncertainty", "steps", "budget", "run_time", "validity")
+TABLES = ("strain", "uncertainty", "energies", "steps", "budget", "run_time", "validity")
 
 
 @dataclasses.dataclass
