@@ -232,10 +232,10 @@ private:
                 motion.step_seconds = median(seconds);
                 // The error belongs to method and reference, and stands with the frame that comes
                 // once for both.
-                std::vector<meshes::VertexData> data = draped.fine_data();
+                meshes::SurfaceData data = draped.fine_data();
                 for (meshes::VertexData &error :
                      comparison->compare(reference, frame, positions, bar, *output))
-                  data.push_back(std::move(error));
+                  data.on_vertices.push_back(std::move(error));
                 output->write(motion);
                 output->write_frame(name, "fine", frame, positions.cast<float>(),
                                     draped.fine_triangles(), data, list.get());

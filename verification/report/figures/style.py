@@ -150,6 +150,22 @@ def three(value):
     return f"{value / 10 ** exponent:.2f} × 10{superscript}".replace("-", "−")
 
 
+def beside_bar(value, bar):
+    """A number with as many digits as its error bar justifies, two of the bar, but at most six:
+    1001.5633 ± 0.31 as 1001.56, 1001.56 ± 11 as 1002; zero where the bar says no more.
+    """
+    if math.isnan(bar) or not bar > 0.0:
+        return three(value)
+    last = math.floor(math.log10(bar)) - 1  # place of the last digit
+    if abs(value) < 0.5 * 10.0**last:
+        return "0"
+    first = math.floor(math.log10(abs(value)))
+    if not -4 < first < 6:
+        return three(value)
+    digits = min(6, max(1, first - last + 1))
+    return f"{value:.{max(0, digits - 1 - first)}f}".replace("-", "−")
+
+
 def percent(strain):
     """A strain as a percentage without trailing zeros: 0.1 gives 10 %."""
     return f"{100 * strain:.6g} %"

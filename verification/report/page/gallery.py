@@ -108,7 +108,7 @@ class Gallery:
         self.names.add(name)
         return name
 
-    def add(self, figure, name, caption, as_image=False, table=None, view=None):
+    def add(self, figure, name, caption, as_image=False, table=None, view=None, plotted=True):
         """Saves `name`.pdf, `name`.svg and, of figures with numbers, `name`.csv, and closes the
         figure.
 
@@ -116,6 +116,7 @@ class Gallery:
             pictures; else the SVG
         @param table (header, rows) of the CSV file; None: the numbers of the curves and bars
         @param view what the page needs to show the same cloth in space, or None
+        @param plotted whether the page draws its curves again as an interactive plot
         @return Picture
         """
         name = self.own_name(name)
@@ -136,7 +137,7 @@ class Gallery:
             with open(os.path.join(self.folder, name + ".svg"), encoding="utf-8") as file:
                 # Without quotes and ampersands.
                 source = Markup(svg_address(short_svg(file.read())))
-        panels = None if as_image else plot_data.panels_of(figure)
+        panels = None if as_image or not plotted else plot_data.panels_of(figure)
         header, rows = table or (plot_data.HEADER, [] if as_image else plot_data.rows_of(figure))
         endings = ("pdf", "svg") + (("csv",) if rows else ())
         if rows:
