@@ -125,13 +125,13 @@ void write_vtu(const UnitCell &cell, const AssessedCell &assessed, const std::st
       0.f;
     second_axes.row(t) << -first_axes(t, 1), first_axes(t, 0), 0.f;
   }
-  meshes::WordList names{"material names", {}};
+  meshes::WordList groups{"material names", {}};
   for (const int phase : cell.phase_of_group())
-    names.words.push_back(cell.phases[static_cast<std::size_t>(phase)].name);
+    groups.words.push_back(cell.phases[static_cast<std::size_t>(phase)].name);
   meshes::write_vtu(
     path, in_space(cell.mesh.vertices), cell.mesh.triangles, data,
     {{"material", material}, {"material axis 1", first_axes}, {"material axis 2", second_axes}},
-    {names});
+    {groups});
 }
 
 /// What a homogenize.json says of bending, appended to it.

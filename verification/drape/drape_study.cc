@@ -125,13 +125,17 @@ private:
                                      {"fine_triangles", draped.fine.n_triangles()},
                                      {"fine_vertices", draped.n_fine()}};
     const Eigen::Matrix3d C       = draped.homogenized.stiffness;
-    nlohmann::ordered_json phases = nlohmann::ordered_json::array();
+    nlohmann::ordered_json phases = nlohmann::ordered_json::array(), stiffness = phases;
     for (const int phase : draped.cell.phase_of_group())
+    {
       phases.push_back(draped.cell.phases[static_cast<std::size_t>(phase)].name);
+      stiffness.push_back(draped.phases.stiffness[static_cast<std::size_t>(phase)].trace());
+    }
     nlohmann::ordered_json description = {
       {"cell", draped.cell.name},
       {"cell_side_m", draped.side},
       {"phases", phases},
+      {"phase_stiffness", stiffness}, // trace [N/m]: by it pictures are coloured, light is soft
       {"C",
        {{C(0, 0), C(0, 1), C(0, 2)}, {C(1, 0), C(1, 1), C(1, 2)}, {C(2, 0), C(2, 1), C(2, 2)}}},
       {"areal_density", draped.homogenized.areal_density},

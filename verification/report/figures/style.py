@@ -122,6 +122,18 @@ def phase_colours(stiffnesses):
     return result
 
 
+def colours_of_materials(numbers, stiffnesses=None):
+    """Material number -> colour, the same in every picture of a cell.
+
+    @param stiffnesses of the materials in the order of their numbers; without them, or where a
+        number has none, darker with the number
+    """
+    if not stiffnesses or any(not 0 <= n < len(stiffnesses) for n in numbers):
+        return dict(zip(numbers, phase_colours(numbers)))
+    every = phase_colours(stiffnesses)
+    return {n: every[n] for n in numbers}
+
+
 def log_axes(axes):
     """Logarithmic on both axes, strain or time in plain numbers where that is short."""
     axes.set(xscale="log", yscale="log")
