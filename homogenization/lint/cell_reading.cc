@@ -243,6 +243,7 @@ CellReading inspect_cell(const std::string &prm_file)
   {
     append(findings, prm_file, lint_sides(cell.mesh, cell.lattice, reading.metres_per_unit));
     append(findings, prm_file, lint_phases(cell, side));
+    append(findings, prm_file, lint_continuity(cell, reading.metres_per_unit));
     append(findings, prm_file, lint_thin_parts(cell, reading.metres_per_unit));
     append(findings, prm_file, lint_facets(cell, reading.metres_per_unit));
   }

@@ -15,6 +15,7 @@ from made_up_run import list_again, verdict, write_run, write_verdicts
 from made_up_study import LAMINATE, write_results
 from page import answer, claims, entries, tables
 from page.glossary import GLOSSARY
+from page.run_contents import self_tests
 from page_case import PageTest
 from read.cell_results import Cell
 from read.results import read_results
@@ -211,6 +212,26 @@ class AnswerPageTest(PageTest):
         )
         self.assertEqual(found["rows"][0], ["C11", "2700", "2840"])
         self.assertEqual(found["rows"][1], ["C22", "999", "999"])
+
+    def test_self_tests_of_the_same_revision_are_linked_and_no_others(self):
+        whole = os.path.join(self.place, "stripes", "verify")
+        os.makedirs(os.path.dirname(whole))
+        os.rename(self.folder, whole)
+        tests = os.path.join(self.place, "verify")
+        os.makedirs(tests)
+        write_verdicts(tests, [])
+        with open(os.path.join(tests, "report.html"), "w", encoding="utf-8") as file:
+            file.write("<h1>self-tests</h1>")
+        found = read_results([whole])
+        for inputs, revision, is_linked in (
+            ({"parts": ["converge", "stress"]}, "abc1234", True),
+            ({"parts": ["converge", "stress"]}, "def5678", False),
+            ({"parts": ["converge"], "cell stripes": "0"}, "abc1234", False),
+        ):
+            write_run(tests, "verify", revision, inputs=inputs)
+            told = self_tests(found, whole)
+            self.assertEqual(told["link"], "../../verify/report.html" if is_linked else "")
+            self.assertEqual("made once by `homespun verify`" in told["sentence"], not is_linked)
 
     @unittest.skipUnless(browser.CHROMIUM, "needs chromium")
     def test_the_answer_is_on_the_first_screen_and_the_page_is_short_until_it_is_opened(self):

@@ -15,7 +15,7 @@ from page.converge_contents import convergence_contents
 from page.drape_contents import drape_contents
 from page.entries import stiffness_rows
 from page.glossary import GLOSSARY
-from page.run_contents import run_rows, run_sentences, whole_sentence
+from page.run_contents import run_rows, run_sentences, self_tests, whole_sentence
 from page.stress_contents import stress_contents
 
 HEADINGS = {
@@ -132,6 +132,7 @@ def page_contents(results, gallery, output):
         "runs": run_sentences(results),
         "run_rows": run_rows(results),
         "whole": whole_sentence(results),
+        "self_tests": self_tests(results, output) if strain_shown else None,
         "claim_groups": claim_groups(claims),
         "claim_sentence": claim_sentence(claims),
         "in_short": short,

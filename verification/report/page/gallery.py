@@ -7,6 +7,7 @@ import io
 import json
 import os
 import re
+import sys
 import urllib.parse
 from dataclasses import dataclass
 
@@ -92,13 +93,20 @@ def in_page(value):
 class Gallery:
     """Saves figures into a folder and keeps them as data URIs for the page."""
 
-    def __init__(self, folder, images=0):
+    def __init__(self, folder, images=0, tells=False):
         """@param images how many images of dots will come: with many of them each is kept smaller
+        @param tells whether a terminal shows what is drawn
         """
+        self.tells = tells
         self.folder = folder
         self.dpi = PAGE_DPI * min(1.0, (FULL_IMAGES / max(1, images)) ** 0.5)
         os.makedirs(folder, exist_ok=True)
         self.names = set()
+
+    def tell(self, name):
+        """What is drawn now, on a line that rewrites itself; nothing where no terminal shows it."""
+        if self.tells:
+            print(f"\r\033[Kdrawing {name}", end="", file=sys.stderr, flush=True)
 
     def own_name(self, name):
         """A file name that no other figure has."""
@@ -120,6 +128,7 @@ class Gallery:
         @return Picture
         """
         name = self.own_name(name)
+        self.tell(name)
         figure.draw_without_rendering()  # lays the figure out, once for all formats
         figure.set_layout_engine("none")
         box = figure.get_tightbbox().padded(PAD)

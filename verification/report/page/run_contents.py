@@ -1,6 +1,10 @@
 # SPDX-License-Identifier: MIT
 """Which runs a page shows, and what of them it does not."""
+import os
+
 from figures.style import seconds
+from read.runs import LIST
+from read.stored import read_json
 from read.versions import tags
 
 
@@ -35,6 +39,35 @@ def run_sentences(results):
         if not run.finished
     ]
     return sentences
+
+
+def self_tests(results, output):
+    """Where the self-tests of the program are: {"link", "sentence"} of those that `homespun verify`
+    made without a cell beside these results, of the same revision; a sentence alone where there are
+    none.
+
+    @param output folder of the page, for the link
+    """
+    revisions = {study.run.revision for study in results.studies}
+    for place in dict.fromkeys(study.run.place for study in results.studies):
+        for folder in ("verify", "verify-quick"):
+            found = os.path.normpath(os.path.join(place, "..", "..", folder))
+            value = read_json(os.path.join(found, LIST), []) if found != place else None
+            if (
+                value
+                and value.get("command") == "verify"
+                and value.get("finished") is True
+                and {value.get("revision")} == revisions
+                and not any(key.startswith("cell ") for key in value.get("inputs") or {})
+                and os.path.isfile(os.path.join(found, "report.html"))
+            ):
+                link = os.path.relpath(os.path.join(found, "report.html"), output)
+                return {"link": link, "sentence": "Self-tests of this revision of the program"}
+    return {
+        "link": "",
+        "sentence": "Self-tests of the program (manufactured solutions, stress cases) are made once"
+        " by `homespun verify` without a cell; none of this revision lies beside these results.",
+    }
 
 
 def whole_sentence(results):
