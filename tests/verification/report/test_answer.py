@@ -92,12 +92,29 @@ class DigitsTest(unittest.TestCase):
         ):
             self.assertEqual(style.beside_bar(value, bar), text, (value, bar))
 
+    def test_a_guaranteed_bar_covers_what_is_printed(self):
+        """The printed value ± the printed bar holds the value ± its bar."""
+        for value, bar in (
+            (1001.5633, 11.05),
+            (503.32912, 0.2525),
+            (2839.91009, 9.6e-10),
+            (-4.3e-5, 2.505),
+            (22.339, 0.0599),
+            (7.36e-5, 9.96e-7),
+            (1.23e7, 4.5e4),
+        ):
+            text = style.beside_bar(value, bar)
+            printed = style.number_of(style.bar_beside(text, value, bar))
+            off = abs(style.number_of(text) - value)
+            self.assertGreaterEqual(printed, (bar + off) * (1.0 - 1e-9), (value, bar))
+            self.assertLessEqual(printed, 1.11 * (bar + off), (value, bar))
+
     def test_all_six_entries_have_one_name_and_a_bar(self):
         bars = numpy.full((3, 3), 0.3).tolist()
         cell = Cell("a", homogenize={"C": LAMINATE.tolist(), "bracket": {"entry_bars": bars}})
         rows = entries.stiffness_rows(cell)
         self.assertEqual([one[0] for one in rows], ["11", "22", "12", "66", "16", "26"])
-        self.assertEqual(rows[0][1:3], ["2839.91", "0.300"])
+        self.assertEqual(rows[0][1:3], ["2839.91", "0.30"])
         self.assertEqual(rows[0][3:], ["–", "–"])  # no bending
 
     def test_a_step_of_an_endless_cloth_is_not_called_faster(self):
@@ -188,6 +205,16 @@ class AnswerPageTest(PageTest):
             self.assertTrue(meaning, word)
         for word in ("anchor", "lift", "localized", "linear, biot, green"):
             self.assertIn(f"<dt>{word}</dt>", page)
+
+    def test_a_cell_without_a_study_answers_with_its_stiffness(self):
+        alone = os.path.join(self.place, "homogenize")
+        os.rename(os.path.join(self.folder, "stripes"), alone)
+        write_run(alone, "homogenize")
+        self.assertEqual(self.run_report(alone), (0, ""))
+        page = self.page()
+        first = page[page.index("<h1>") : page.index("<nav")]
+        self.assertIn("C<sup>H</sup> [N/m]", first)
+        self.assertIn("`homespun strain` makes them", first)
 
     def test_two_stiffnesses_of_one_cell_are_both_shown_and_named(self):
         whole = os.path.join(self.place, "verify")

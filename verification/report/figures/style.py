@@ -162,6 +162,27 @@ def three(value):
     return f"{value / 10 ** exponent:.2f} × 10{superscript}".replace("-", "−")
 
 
+def number_of(text):
+    """The number that three() and beside_bar() print."""
+    digits = str.maketrans("⁻⁰¹²³⁴⁵⁶⁷⁸⁹−", "-0123456789-", "\u202f")
+    plain = text.translate(digits).replace(" × 10", "e")
+    return float(plain)
+
+
+def bar_beside(text, value, bar):
+    """A guaranteed bar with two digits, rounded upwards, of what is printed in place of a value."""
+    bar += abs(number_of(text) - value)
+    if not 0.0 < bar < math.inf:
+        return three(bar)
+    last = math.floor(math.log10(bar)) - 1
+    units = math.ceil(round(bar / 10.0**last, 9))
+    last, units = (last + 1, 10) if units == 100 else (last, units)
+    if -6 < last < 5:
+        return f"{units * 10.0**last:.{max(0, -last)}f}"
+    superscript = str(last + 1).translate(str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹"))
+    return f"{units / 10.0:.1f} × 10{superscript}"
+
+
 def beside_bar(value, bar):
     """A number with as many digits as its error bar justifies, two of the bar, but at most six:
     1001.5633 ± 0.31 as 1001.56, 1001.56 ± 11 as 1002; zero where the bar says no more.

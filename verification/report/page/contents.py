@@ -83,7 +83,7 @@ def page_contents(results, gallery, output):
     short = [answer for answer in (answer_of(results, name, gallery) for name in results.cells)]
     short = [
         {
-            **(answer or {"name": name, "lines": []}),
+            **(answer or {"name": name, "lines": [], "ratio": None, "side": None}),
             "stiffness": stiffness_rows(results.cells[name]) if is_homogenized(results, name) else [],
             "has_bending": results.cells[name].stiffness("D") is not None,
             "table": short_table(results, name) if answer and not comparison else [],

@@ -4,7 +4,7 @@ import math
 
 import numpy
 
-from figures.style import beside_bar, three
+from figures.style import bar_beside, beside_bar
 
 # All six of a symmetric matrix in Voigt order 11, 22, 12, for all tables of the report.
 ENTRIES = (("11", 0, 0), ("22", 1, 1), ("12", 0, 1), ("66", 2, 2), ("16", 0, 2), ("26", 1, 2))
@@ -28,9 +28,10 @@ def entry_texts(homogenize, key, factor=1.0):
     for name, i, j in ENTRIES:
         value = matrix[i][j] if abs(matrix[i][j]) > 1e-9 * largest else 0.0
         bar = bars[i][j] if bars else math.nan
+        text = beside_bar(factor * value, factor * bar)
         texts[name] = (
-            beside_bar(factor * value, factor * bar),
-            "–" if math.isnan(bar) else three(float(f"{factor * bar:.1e}")),
+            text,
+            "–" if math.isnan(bar) else bar_beside(text, factor * matrix[i][j], factor * bar),
         )
     return texts
 
