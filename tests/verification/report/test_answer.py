@@ -271,14 +271,39 @@ class AnswerPageTest(PageTest):
             .getBoundingClientRect().bottom, page.querySelector(".entries table")
             .getBoundingClientRect().bottom];
           const height = page.body.scrollHeight;
+          const ground = page.defaultView.getComputedStyle(page.querySelector("div.claim"))
+            .backgroundColor;
           page.defaultView.location.hash = "#provenance";
-          setTimeout(() => send({ answer, height, folds,
+          setTimeout(() => send({ answer, height, folds, ground,
             open: page.getElementById("provenance").closest("details").open }), 500); });"""
         found, _ = browser.ask(self.output, "report.html", script, width=1280)
         self.assertLess(max(found["answer"]), 900)
         self.assertLess(found["height"], 12 * 900)
         self.assertGreater(found["folds"], 5)
+        self.assertEqual(found["ground"], "rgba(0, 0, 0, 0)")  # what is open can be read
         self.assertTrue(found["open"])  # a link opens what it leads to
+
+    @unittest.skipUnless(browser.CHROMIUM, "needs chromium")
+    def test_on_a_phone_nothing_is_covered_hidden_or_cut_and_figures_are_framed_when_it_is_dark(self):
+        self.assertEqual(self.run_report(), (0, ""))
+        script = """when((page) => page.querySelector("button.theme"), (page, their) => {
+          const box = (one) => page.querySelector(one).getBoundingClientRect();
+          const style = (one) => their.getComputedStyle(page.querySelector(one));
+          const button = box("button.theme"), text = page.createRange();
+          text.selectNodeContents(page.querySelector("h1"));
+          const apart = [...text.getClientRects()].every((line) =>
+            line.right <= button.left || line.top >= button.bottom || line.bottom <= button.top);
+          const nav = page.querySelector("nav ol");
+          send({ apart, position: style("button.theme").position, row: style(".lines tr").display,
+            names: their.getComputedStyle(page.querySelector(".lines td.number"), "::before").content,
+            links: nav.scrollHeight <= nav.clientHeight + 1, wide: page.documentElement.scrollWidth,
+            frame: style("#stripes-answer img").padding }); });"""
+        found, _ = browser.ask(self.output, "report.html?theme=dark", script, width=390)
+        self.assertTrue(found["apart"] and found["links"], found)
+        self.assertEqual((found["position"], found["row"]), ("absolute", "block"))  # scrolls away
+        self.assertIn("up to a strain of", found["names"])
+        self.assertLessEqual(found["wide"], 390)
+        self.assertEqual(found["frame"], "8px")
 
 
 if __name__ == "__main__":
