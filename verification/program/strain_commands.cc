@@ -10,6 +10,7 @@
 #include <CLI/Formatter.hpp>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <cstdio>
 #include <memory>
@@ -40,11 +41,14 @@ std::string fraction_of(const std::string &text)
     std::snprintf(fraction, sizeof(fraction), "%.17g", value(text.size() - 1) / 100.);
     return fraction;
   }
+  // Commas part the list: of 0,01 this is the second entry.
+  if (text.size() > 1 && text[0] == '0' && std::isdigit(static_cast<unsigned char>(text[1])))
+    throw CLI::ValidationError("found `" + text +
+                               "` behind a comma; numbers have a decimal point: 0." + text);
   if (const double strain = value(text.size()); strain >= 0.5)
-    throw CLI::ValidationError("--strains", "found " + text + ", which is " +
-                                              short_text(100. * strain) +
-                                              " %; if percent was meant, write " + text +
-                                              "%, and else " + short_text(100. * strain) + "%");
+    throw CLI::ValidationError("found " + text + ", which is " + short_text(100. * strain) +
+                               " %; if percent was meant, write " + text + "%, and else " +
+                               short_text(100. * strain) + "%");
   return text;
 }
 
