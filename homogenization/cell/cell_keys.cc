@@ -24,18 +24,25 @@ std::map<std::string, std::vector<double>> group_values(const std::string &file,
                                                         const std::size_t n_values, Faults &faults)
 {
   std::map<std::string, std::vector<double>> values;
+  std::string before;
   for (const std::string &entry : split(text, ','))
   {
     const std::size_t colon = entry.rfind(':');
     const std::string group = trimmed(entry.substr(0, colon));
     const auto parsed =
       colon == std::string::npos ? std::nullopt : numbers(entry.substr(colon + 1));
-    if (group.empty() || !parsed || parsed->size() != n_values)
+    const auto lone = colon == std::string::npos ? numbers(entry) : std::nullopt;
+    if (lone && lone->size() == 1)
+      faults.push_back(file + ": key `" + key + "`: found `" + before + "," + entry +
+                       "`; expected a decimal point, not a comma: commas part the groups");
+    else if (group.empty() || !parsed || parsed->size() != n_values)
       faults.push_back(file + ": key `" + key + "`: found `" + entry + "`; expected `group: " +
-                       (n_values == 1 ? "value" : "E1 E2 nu12 G12 angle") + "`");
+                       (n_values == 1 ? "value" : "E1 E2 nu12 G12 angle") + "`" +
+                       (colon == std::string::npos ? "" : number_hint(entry.substr(colon + 1))));
     else if (!values.emplace(group, *parsed).second)
       faults.push_back(file + ": key `" + key + "`: group `" + group +
                        "` is given twice; expected once");
+    before = entry;
   }
   return values;
 }
@@ -171,8 +178,22 @@ std::vector<Phase> assign_phases(const std::string &file, const CellKeys &keys,
     return std::to_string(number);
   };
   std::string groups;
+  std::vector<std::string> names;
   for (const int number : present)
+  {
     groups += (groups.empty() ? "`" : ", `") + name_of(number) + "`";
+    names.push_back(name_of(number));
+  }
+  // Gmsh writes 0 where no physical group was given.
+  if (mesh_file.number_of_name.empty() && present == std::set<int>{0} && young.count("0") == 0 &&
+      orthotropic.count("0") == 0)
+  {
+    faults.push_back(file + ": the mesh " + keys.mesh +
+                     " has no physical groups, so that no triangle has a material; expected one "
+                     "per material: in Gmsh `Physical Surface(\"ground\", 1) = {...};`, or give "
+                     "all of it the values of group `0`");
+    return {};
+  }
 
   // A group may be called by its name or by its number.
   const auto find = [&](const auto &values, const int number)
@@ -197,7 +218,8 @@ std::vector<Phase> assign_phases(const std::string &file, const CellKeys &keys,
                                      });
       if (!known)
         faults.push_back(file + ": key `" + key + "` names the group `" + entry.first +
-                         "`, which no triangle of the mesh has; expected one of " + groups);
+                         "`, which no triangle of the mesh has; expected one of " + groups +
+                         did_you_mean(entry.first, names));
     }
 
   std::vector<Phase> phases;

@@ -65,7 +65,10 @@ std::vector<std::string> faults_of(const Phase &phase)
     text << "phase `" << phase.name << "` has Poisson's ratio " << phase.nu12
          << "; expected a number strictly between " << -std::sqrt(phase.E1 / phase.E2) << " and "
          << std::sqrt(phase.E1 / phase.E2)
-         << ", outside of which plane stress stores negative energy (0.5 is fine)";
+         << ", outside of which plane stress stores negative energy"
+         << (phase.E1 / phase.E2 > 0.25
+               ? " (0.5 is fine)"
+               : ": E1 is small beside E2, and nu12 = nu21 E1/E2 with it; was nu21 given?");
     faults.push_back(text.str());
   }
   else if (phase.E1 != phase.E2 || faults.empty())

@@ -3,6 +3,8 @@
 
 #include <deal.II/base/parameter_handler.h>
 
+#include <algorithm>
+#include <cctype>
 #include <fstream>
 #include <set>
 #include <sstream>
@@ -47,8 +49,80 @@ std::optional<std::vector<double>> numbers(const std::string &text)
   return values;
 }
 
+std::string number_hint(const std::string &text)
+{
+  const auto reads = [](const std::string &word)
+  {
+    const auto values = numbers(word);
+    return values && values->size() == 1;
+  };
+  const std::string word = trimmed(text);
+  if (std::string with_point = word; std::count(word.begin(), word.end(), ',') == 1)
+  {
+    std::replace(with_point.begin(), with_point.end(), ',', '.');
+    if (reads(with_point))
+      return "; numbers have a decimal point: `" + with_point + "`";
+  }
+  if (!word.empty() && word.back() == '%' && reads(word.substr(0, word.size() - 1)))
+  {
+    std::ostringstream fraction;
+    fraction << (*numbers(word.substr(0, word.size() - 1)))[0] / 100.;
+    return "; a percentage is written as a fraction: `" + fraction.str() + "`";
+  }
+  return "";
+}
+
+std::string did_you_mean(const std::string &found, const std::vector<std::string> &names)
+{
+  // Letters to change, insert, remove or exchange with their neighbour.
+  const auto distance = [](const std::string &a, const std::string &b)
+  {
+    std::vector<std::vector<std::size_t>> d(a.size() + 1, std::vector<std::size_t>(b.size() + 1));
+    for (std::size_t i = 0; i <= a.size(); ++i)
+      for (std::size_t j = 0; j <= b.size(); ++j)
+      {
+        d[i][j] = i == 0 ? j : j == 0 ? i : d[i - 1][j - 1] + (a[i - 1] != b[j - 1]);
+        if (i > 0 && j > 0)
+          d[i][j] = std::min({d[i][j], d[i - 1][j] + 1, d[i][j - 1] + 1});
+        if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1])
+          d[i][j] = std::min(d[i][j], d[i - 2][j - 2] + 1);
+      }
+    return d[a.size()][b.size()];
+  };
+  const auto lower = [](std::string text)
+  {
+    std::transform(text.begin(), text.end(), text.begin(),
+                   [](const unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    return text;
+  };
+  std::string best;
+  std::size_t least = 1 + found.size() / 3; // a third of its letters and one
+  for (const std::string &name : names)
+    if (const std::size_t its = distance(lower(found), lower(name));
+        its < least || (its == least && best.empty() && its < name.size()))
+    {
+      best  = name;
+      least = its;
+    }
+  return best.empty() ? "" : "; did you mean `" + best + "`?";
+}
+
 namespace
 {
+constexpr const char *byte_order_mark = "\xEF\xBB\xBF";
+
+/// The whole file, without a byte order mark.
+std::string text_of_file(const std::string &file)
+{
+  std::ifstream input(file, std::ios::binary);
+  std::ostringstream text;
+  text << input.rdbuf();
+  std::string content = text.str();
+  if (content.rfind(byte_order_mark, 0) == 0)
+    content.erase(0, 3);
+  return content;
+}
+
 /// The key of a line `set KEY = VALUE`, with single blanks; empty where the line is none.
 std::string key_of(const std::string &line)
 {
@@ -64,8 +138,8 @@ std::string key_of(const std::string &line)
 }
 
 /// deal.II stops at the first unknown key; this finds all, with their lines.
-void find_unknown_keys(const std::string &file, const dealii::ParameterHandler &keys,
-                       Faults &faults)
+void find_unknown_keys(const std::string &file, const std::string &content,
+                       const dealii::ParameterHandler &keys, Faults &faults)
 {
   std::stringstream declared;
   keys.print_parameters(declared, dealii::ParameterHandler::ShortPRM);
@@ -77,7 +151,7 @@ void find_unknown_keys(const std::string &file, const dealii::ParameterHandler &
   for (const std::string &key : known)
     expected += (expected.empty() ? "" : ", ") + key;
 
-  std::ifstream input(file);
+  std::istringstream input(content);
   for (int number = 1; std::getline(input, line); ++number)
   {
     line = trimmed(line.substr(0, line.find('#')));
@@ -88,7 +162,8 @@ void find_unknown_keys(const std::string &file, const dealii::ParameterHandler &
     if (key.empty())
       faults.push_back(place + "found `" + line + "`; expected `set KEY = VALUE` or a # comment");
     else if (known.count(key) == 0)
-      faults.push_back(place + "unknown key `" + key + "`; expected one of " + expected);
+      faults.push_back(place + "unknown key `" + key + "`; expected one of " + expected +
+                       did_you_mean(key, {known.begin(), known.end()}));
   }
 }
 
@@ -112,13 +187,70 @@ std::string reason_of(const std::exception &exception)
 }
 } // namespace
 
+std::string kind_of_other_file(const std::string &file)
+{
+  const std::string content = text_of_file(file), start = content.substr(0, 4096);
+  const auto begins = [&](const std::string &words) { return start.rfind(words, 0) == 0; };
+  if (begins("\x89HDF"))
+    return "an HDF5 file, like cell.h5 of a run";
+  if (begins("$MeshFormat"))
+    return "a Gmsh mesh";
+  if (begins("# vtk DataFile") || begins("<?xml") || begins("<VTKFile"))
+    return "a VTK file";
+  if (begins("\x7f"
+             "ELF") ||
+      begins("PK") || begins("\x1f\x8b") || begins("%PDF"))
+    return "no text";
+  if (begins("\xff\xfe") || begins("\xfe\xff"))
+    return "text in UTF-16; save it as UTF-8";
+  if (std::any_of(start.begin(), start.end(),
+                  [](const unsigned char c)
+                  { return c < 32 && c != '\t' && c != '\n' && c != '\r' && c != '\f'; }))
+    return "no text";
+  if (begins("{") || begins("["))
+    return "a JSON file";
+  std::istringstream lines(content);
+  std::string line;
+  bool is_empty = true;
+  while (std::getline(lines, line))
+  {
+    if (!key_of(trimmed(line.substr(0, line.find('#')))).empty())
+      return "";
+    is_empty = is_empty && trimmed(line).empty();
+  }
+  // A line or two that are no keys are named one by one.
+  return is_empty                                                ? ""
+         : std::count(content.begin(), content.end(), '\n') > 40 ? "no list of keys"
+                                                                 : "";
+}
+
+std::set<std::string> keys_set_in(const std::string &file)
+{
+  std::set<std::string> keys;
+  std::istringstream lines(text_of_file(file));
+  std::string line;
+  while (std::getline(lines, line))
+    if (const std::string key = key_of(trimmed(line.substr(0, line.find('#')))); !key.empty())
+      keys.insert(key);
+  return keys;
+}
+
 void parse_parameters(const std::string &file, dealii::ParameterHandler &keys, Faults &faults)
 {
-  find_unknown_keys(file, keys, faults);
+  if (const std::string kind = kind_of_other_file(file); !kind.empty())
+  {
+    faults.push_back(file + ": is " + kind +
+                     "; expected a file of lines `set KEY = VALUE` (.prm): `homespun cells` lists "
+                     "examples");
+    return;
+  }
+  const std::string content = text_of_file(file);
+  find_unknown_keys(file, content, keys, faults);
   if (faults.empty())
     try
     {
-      keys.parse_input(file, "", true);
+      std::istringstream input(content);
+      keys.parse_input(input, file, "", true);
     }
     catch (const std::exception &exception)
     {

@@ -34,6 +34,10 @@ std::vector<Finding> lint_size(double side, double metres_per_unit);
 /// @param side of the cell [m]
 std::vector<Finding> lint_phases(const UnitCell &cell, double side);
 
+/// Borders of phases that meet a side of the cell where its image has none: the repeated cloth has
+/// a phase that ends there.
+std::vector<Finding> lint_continuity(const UnitCell &cell, double metres_per_unit);
+
 /// Contrast beyond double precision: an error where no digit is left.
 std::vector<Finding> lint_contrast(const UnitCell &cell);
 

@@ -11,6 +11,7 @@
 
 #include <cmath>
 #include <filesystem>
+#include <set>
 #include <sstream>
 
 namespace homespun::homogenization
@@ -91,7 +92,7 @@ std::string file_beside(const std::string &prm_file, const std::string &name)
                               path   = folder / name;
   const std::filesystem::path within = std::filesystem::weakly_canonical(path).lexically_relative(
     std::filesystem::weakly_canonical(folder.empty() ? "." : folder));
-  if (std::filesystem::path(name).is_absolute() || within.empty() || *within.begin() == "..")
+  if (within.empty() || *within.begin() == "..")
     throw meshes::BadInput(
       prm_file + ": key `Mesh`: found `" + name +
       "`, which lies outside of the folder of the cell file; expected a file in it or below: copy "
@@ -106,13 +107,30 @@ CellKeys read_keys(const std::string &prm_file, CellReading &reading)
   CellKeys keys;
   dealii::ParameterHandler handler;
   keys.declare(handler);
+  const std::set<std::string> found = keys_set_in(prm_file);
+  if (found.count("Terms") + found.count("Cells") > 0)
+  {
+    add(reading.findings, "key",
+        {prm_file + ": is a scene; expected a cell file: `homespun drape " + prm_file +
+         "` runs it, its key `Cells` names the cells"});
+    return keys;
+  }
   parse_parameters(prm_file, handler, faults);
+  if (!faults.empty())
+  {
+    add(reading.findings, "key", faults);
+    return keys;
+  }
+  if (found.count("Length unit") == 0)
+    faults.push_back(prm_file + ": key `Length unit` is missing; expected metres per mesh unit, "
+                                "such as `set Length unit = 0.01` of a mesh in centimetres");
   const auto unit = numbers(keys.length_unit);
   if (unit && unit->size() == 1 && (*unit)[0] > 0. && std::isfinite((*unit)[0]))
     reading.metres_per_unit = (*unit)[0];
   else
     faults.push_back(prm_file + ": key `Length unit`: found `" + keys.length_unit +
-                     "`; expected metres per mesh unit as one positive number like `0.01`");
+                     "`; expected metres per mesh unit as one positive number like `0.01`" +
+                     number_hint(keys.length_unit));
   if (faults.empty() && trimmed(keys.mesh).empty())
     faults.push_back(prm_file + ": key `Mesh` is missing; expected the mesh of one cell");
   add(reading.findings, "key", faults);
@@ -227,6 +245,7 @@ CellReading inspect_cell(const std::string &prm_file)
   {
     append(findings, prm_file, lint_sides(cell.mesh, cell.lattice, reading.metres_per_unit));
     append(findings, prm_file, lint_phases(cell, side));
+    append(findings, prm_file, lint_continuity(cell, reading.metres_per_unit));
     append(findings, prm_file, lint_thin_parts(cell, reading.metres_per_unit));
     append(findings, prm_file, lint_facets(cell, reading.metres_per_unit));
   }

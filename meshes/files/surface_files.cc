@@ -72,6 +72,24 @@ std::string escaped(const std::string &text)
                          : std::string(1, c);
   return result;
 }
+/// Lists of words as VTK's ASCII strings: the code of each letter, a zero behind each word.
+std::string field_data(const std::vector<WordList> &lists)
+{
+  std::string text;
+  for (const WordList &list : lists)
+  {
+    text += "<Array type=\"String\" Name=\"" + escaped(list.name) + "\" NumberOfTuples=\"" +
+            std::to_string(list.words.size()) + "\" format=\"ascii\">";
+    for (const std::string &word : list.words)
+    {
+      for (const char c : word)
+        text += std::to_string(static_cast<unsigned char>(c)) + " ";
+      text += "0 ";
+    }
+    text += "</Array>\n";
+  }
+  return text.empty() ? "" : "<FieldData>\n" + text + "</FieldData>\n";
+}
 } // namespace
 
 void write_ply(const std::string &file, const FloatPoints &positions, const Triangles &triangles,
@@ -110,7 +128,8 @@ void write_ply(const std::string &file, const FloatPoints &positions, const Tria
 }
 
 void write_vtu(const std::string &file, const FloatPoints &positions, const Triangles &triangles,
-               const std::vector<VertexData> &data, const std::vector<VertexData> &cell_data)
+               const std::vector<VertexData> &data, const std::vector<VertexData> &cell_data,
+               const std::vector<WordList> &words)
 {
   check(file, positions, triangles, data);
   check_values(file, cell_data, triangles.rows(), "triangle");
@@ -131,9 +150,9 @@ void write_vtu(const std::string &file, const FloatPoints &positions, const Tria
     append_bytes(appended, numbers, count);
   };
   head = "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" "
-         "byte_order=\"LittleEndian\" header_type=\"UInt64\">\n<UnstructuredGrid>\n"
-         "<Piece NumberOfPoints=\"" +
-         std::to_string(n) + "\" NumberOfCells=\"" + std::to_string(m) + "\">\n<PointData>\n";
+         "byte_order=\"LittleEndian\" header_type=\"UInt64\">\n<UnstructuredGrid>\n" +
+         field_data(words) + "<Piece NumberOfPoints=\"" + std::to_string(n) +
+         "\" NumberOfCells=\"" + std::to_string(m) + "\">\n<PointData>\n";
   for (const VertexData &array : data)
     put("Float32", array.name, array.values.cols(), array.values.data(),
         static_cast<std::size_t>(array.values.size()));

@@ -33,12 +33,27 @@ struct VertexData
 void write_ply(const std::string &file, const FloatPoints &positions, const Triangles &triangles,
                const std::vector<VertexData> &scalars = {});
 
+/// What a surface carries beside its positions.
+struct SurfaceData
+{
+  std::vector<VertexData> on_vertices, on_triangles;
+};
+
+/// A list of words of a file as a whole, such as what the numbers of its materials mean.
+struct WordList
+{
+  std::string name;
+  std::vector<std::string> words;
+};
+
 /// Writes a VTK XML unstructured grid of triangles, appended raw binary, float.
 /// @param cell_data (m,1) or (m,3) on the triangles
+/// @param words field data, which ParaView shows in its spreadsheet and annotations
 /// @throws BadInput as write_ply()
 void write_vtu(const std::string &file, const FloatPoints &positions, const Triangles &triangles,
                const std::vector<VertexData> &data      = {},
-               const std::vector<VertexData> &cell_data = {});
+               const std::vector<VertexData> &cell_data = {},
+               const std::vector<WordList> &words       = {});
 
 /// Writes the .pvtu file that makes one of .vtu pieces with the same data.
 /// @param pieces relative to the folder of the file

@@ -244,18 +244,23 @@ class Workshop:
         return "", time.monotonic() - start
 
     def ask_program(self):
-        """The exit status of a quick verification, and the claims on the program that failed."""
-        output = self.work / "verify"
-        shutil.rmtree(output, ignore_errors=True)
-        status = self.run(str(self.build / "homespun"), "verify", "--quick", "--no-report",
-                          "--output", str(output), CELL, log="verify.log", cwd=self.copy,
-                          seconds=MOST_SECONDS_OF_PROGRAM)
-        try:
-            verdicts = json.loads((output / "verdicts.json").read_text())["verdicts"]
-        except (OSError, ValueError, KeyError):
-            verdicts = []
-        return status, [one["claim"] for one in verdicts
-                        if one["kind"] == "program" and one["verdict"] == "FAIL"]
+        """The worst exit status of a quick verification of a cell and of the self-tests, and the
+        claims on the program that failed."""
+        worst, claims = 0, []
+        for name, cells in (("verify", [CELL]), ("self-tests", [])):
+            output = self.work / name
+            shutil.rmtree(output, ignore_errors=True)
+            status = self.run(str(self.build / "homespun"), "verify", "--quick", "--no-report",
+                              "--output", str(output), *cells, log=f"{name}.log", cwd=self.copy,
+                              seconds=MOST_SECONDS_OF_PROGRAM)
+            worst = status if abs(status) > abs(worst) else worst
+            try:
+                verdicts = json.loads((output / "verdicts.json").read_text())["verdicts"]
+            except (OSError, ValueError, KeyError):
+                verdicts = []
+            claims += [one["claim"] for one in verdicts
+                       if one["kind"] == "program" and one["verdict"] == "FAIL"]
+        return worst, claims
 
     def measured(self, mutant):
         """The row of a mutant."""

@@ -111,8 +111,27 @@ void write_vtu(const UnitCell &cell, const AssessedCell &assessed, const std::st
       out.col(2)              = assessed.bending->bracket->deflection.col(a).cast<float>();
       data.push_back({modes[static_cast<std::size_t>(a)], out});
     }
-  meshes::write_vtu(path, in_space(cell.mesh.vertices), cell.mesh.triangles, data,
-                    {{"material", cell.mesh.material.cast<float>()}});
+  // A group whose angle differs from triangle to triangle is one material in many directions.
+  const std::vector<int> group_of_phase = cell.group_of_phase();
+  meshes::FloatPoints first_axes        = meshes::FloatPoints::Zero(cell.mesh.n_triangles(), 3);
+  meshes::FloatPoints second_axes       = first_axes;
+  Eigen::VectorXf material(cell.mesh.n_triangles());
+  for (int t = 0; t < cell.mesh.n_triangles(); ++t)
+  {
+    const auto phase   = static_cast<std::size_t>(cell.mesh.material(t));
+    const double angle = cell.phases[phase].angle * M_PI / 180.;
+    material(t)        = static_cast<float>(group_of_phase[phase]);
+    first_axes.row(t) << static_cast<float>(std::cos(angle)), static_cast<float>(std::sin(angle)),
+      0.f;
+    second_axes.row(t) << -first_axes(t, 1), first_axes(t, 0), 0.f;
+  }
+  meshes::WordList groups{"material names", {}};
+  for (const int phase : cell.phase_of_group())
+    groups.words.push_back(cell.phases[static_cast<std::size_t>(phase)].name);
+  meshes::write_vtu(
+    path, in_space(cell.mesh.vertices), cell.mesh.triangles, data,
+    {{"material", material}, {"material axis 1", first_axes}, {"material axis 2", second_axes}},
+    {groups});
 }
 
 /// What a homogenize.json says of bending, appended to it.

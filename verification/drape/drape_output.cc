@@ -76,8 +76,7 @@ TermRow DrapeOutput::term_row(const std::string &cell, const std::string &term) 
 
 void DrapeOutput::write_frame(const std::string &run, const std::string &what, const int frame,
                               const meshes::FloatPoints &positions,
-                              const meshes::Triangles &triangles,
-                              const std::vector<meshes::VertexData> &data,
+                              const meshes::Triangles &triangles, const meshes::SurfaceData &data,
                               meshes::FrameCollection *collection) const
 {
   for (const std::string &format : formats)
@@ -90,7 +89,7 @@ void DrapeOutput::write_frame(const std::string &run, const std::string &what, c
       meshes::write_obj(path, positions.cast<double>(), triangles);
     else
     {
-      meshes::write_vtu(path, positions, triangles, data);
+      meshes::write_vtu(path, positions, triangles, data.on_vertices, data.on_triangles);
       if (collection)
         collection->append(frame * interval, name);
     }

@@ -71,8 +71,7 @@ public:
   /// @param what coarse or fine
   void write_frame(const std::string &run, const std::string &what, int frame,
                    const meshes::FloatPoints &positions, const meshes::Triangles &triangles,
-                   const std::vector<meshes::VertexData> &data,
-                   meshes::FrameCollection *collection) const;
+                   const meshes::SurfaceData &data, meshes::FrameCollection *collection) const;
 
   /// Lists the frames that an earlier run wrote.
   void list_earlier_frames(const std::string &run, int n,

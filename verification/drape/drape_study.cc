@@ -70,6 +70,8 @@ public:
       note(scene.name + ": runs for " + short_text(schedule.duration()) + " s of the " +
            short_text(scene.duration) + " s asked for, whole frames of " +
            short_text(schedule.interval) + " s");
+    for (const std::string &warning : scene_warnings(scene))
+      note(warning);
     for (const UnitCell &cell : cells)
       study_cell(cell);
     return conclude();
@@ -124,25 +126,25 @@ private:
     sizes                         = {{"coarse_triangles", draped.coarse.n_triangles()},
                                      {"fine_triangles", draped.fine.n_triangles()},
                                      {"fine_vertices", draped.n_fine()}};
-    const Eigen::Matrix3d C       = draped.homogenized.stiffness;
-    nlohmann::ordered_json phases = nlohmann::ordered_json::array();
+    nlohmann::ordered_json phases = nlohmann::ordered_json::array(), stiffness = phases;
     for (const int phase : draped.cell.phase_of_group())
+    {
       phases.push_back(draped.cell.phases[static_cast<std::size_t>(phase)].name);
+      stiffness.push_back(draped.phases.stiffness[static_cast<std::size_t>(phase)].trace());
+    }
     nlohmann::ordered_json description = {
       {"cell", draped.cell.name},
       {"cell_side_m", draped.side},
       {"phases", phases},
-      {"C",
-       {{C(0, 0), C(0, 1), C(0, 2)}, {C(1, 0), C(1, 1), C(1, 2)}, {C(2, 0), C(2, 1), C(2, 2)}}},
+      {"phase_stiffness", stiffness}, // trace [N/m]: pictures are darker with it
+      {"C", rows_of(draped.homogenized.stiffness)},
       {"areal_density", draped.homogenized.areal_density},
       {"runs", nlohmann::ordered_json::array()},
       {"references", nlohmann::ordered_json::array()}};
     if (scene.has("bending"))
     {
-      const Eigen::Matrix3d D =
-        (scene.bending ? *scene.bending : draped.effective.bending.front()).matrix();
-      description["D"] = {
-        {D(0, 0), D(0, 1), D(0, 2)}, {D(1, 0), D(1, 1), D(1, 2)}, {D(2, 0), D(2, 1), D(2, 2)}};
+      description["D"] =
+        rows_of((scene.bending ? *scene.bending : draped.effective.bending.front()).matrix());
       description["D_from"] = scene.bending ? "scene" : "cell";
     }
     return description;
@@ -232,10 +234,10 @@ private:
                 motion.step_seconds = median(seconds);
                 // The error belongs to method and reference, and stands with the frame that comes
                 // once for both.
-                std::vector<meshes::VertexData> data = draped.fine_data();
+                meshes::SurfaceData data = draped.fine_data();
                 for (meshes::VertexData &error :
                      comparison->compare(reference, frame, positions, bar, *output))
-                  data.push_back(std::move(error));
+                  data.on_vertices.push_back(std::move(error));
                 output->write(motion);
                 output->write_frame(name, "fine", frame, positions.cast<float>(),
                                     draped.fine_triangles(), data, list.get());

@@ -170,24 +170,12 @@ DrapedCell::DrapedCell(const Scene &given, const homogenization::UnitCell &cell,
   centre_vertex      = nearest_to_middle(coarse.positions);
   fine_centre_vertex = nearest_to_middle(at_fine_vertices(fine.positions));
 
-  // A vertex belongs to the group of most of its triangles.
   const std::vector<int> group_of_phase = cell.group_of_phase();
-  Eigen::MatrixXf share =
-    Eigen::MatrixXf::Zero(n_fine(), static_cast<Eigen::Index>(cell.phase_of_group().size()));
-  const meshes::TriangleMesh &rest = sheet ? sheet->mesh : garment->rest;
+  const meshes::TriangleMesh &rest      = sheet ? sheet->mesh : garment->rest;
+  Eigen::VectorXf material(rest.n_triangles());
   for (int t = 0; t < rest.n_triangles(); ++t)
-    for (int k = 0; k < 3; ++k)
-      share(rest.triangles(t, k), group_of_phase[static_cast<std::size_t>(rest.material(t))]) +=
-        1.f;
-  meshes::VertexData material{"material", {}};
-  material.values.resize(n_fine(), 1);
-  for (int v = 0; v < n_fine(); ++v)
-  {
-    Eigen::Index phase = 0;
-    share.row(v).maxCoeff(&phase);
-    material.values(v, 0) = static_cast<float>(phase);
-  }
-  data = {material};
+    material(t) = static_cast<float>(group_of_phase[static_cast<std::size_t>(rest.material(t))]);
+  data.on_triangles = {{"material", material}};
 }
 
 HeldMotion DrapedCell::coarse_motion() const

@@ -68,8 +68,8 @@ public:
   /// Triangles between those.
   meshes::Triangles fine_triangles() const;
 
-  /// The phases, for pictures.
-  const std::vector<meshes::VertexData> &fine_data() const
+  /// The phases of fine_triangles(), for pictures.
+  const meshes::SurfaceData &fine_data() const
   {
     return data;
   }
@@ -89,7 +89,7 @@ public:
   std::optional<SheetPlacement> placement;
 
 private:
-  std::vector<meshes::VertexData> data;
+  meshes::SurfaceData data;
   std::vector<int> space_vertex; ///< of a garment's fine vertex
   std::vector<int>
     fine_of_coarse; ///< vertex of `fine` at each of `coarse` of a garment, −1 where there is none

@@ -38,6 +38,15 @@ public:
       throw meshes::BadInput(file +
                              ": no such file; expected a scene file (.prm): the shipped ones are "
                              "in meshes/scenes");
+    const auto found  = homogenization::keys_set_in(file);
+    const auto is_set = [&](const char *key) { return found.count(key) > 0; };
+    if (!is_set("Cells") && !is_set("Terms") &&
+        (is_set("Young's modulus") || is_set("Orthotropic") || is_set("Length unit")))
+      throw meshes::BadInput(file +
+                             ": is a cell; expected a scene file (.prm), whose key `Cells` names "
+                             "cells: with a shipped scene, `homespun drape meshes/scenes/hang.prm "
+                             "--unit-cells " +
+                             file + "`");
     dealii::ParameterHandler handler;
     std::map<std::string, std::string> term_of;
     keys.declare(handler, term_of);
@@ -80,7 +89,7 @@ private:
       good = std::isfinite((*values)[k]);
     if (good)
       return *values;
-    fault(key, text, expected);
+    fault(key, text, expected + homogenization::number_hint(text));
     return std::vector<double>(sizes.front(), 1.);
   }
 

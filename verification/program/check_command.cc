@@ -142,6 +142,7 @@ void write_results(const std::vector<CellReading> &readings, const std::string &
                            {"metres_per_unit", reading.metres_per_unit},
                            {"mesh", nullptr},
                            {"phases", nlohmann::json::array()},
+                           {"phase_stiffness", nlohmann::json::array()},
                            {"findings", nlohmann::json::array()}};
     for (const Finding &finding : reading.findings)
       cell["findings"].push_back(json_of(finding, reading.metres_per_unit));
@@ -151,8 +152,14 @@ void write_results(const std::vector<CellReading> &readings, const std::string &
       write_mesh(reading, output + "/" + name + "-mesh.h5");
     }
     if (reading.has_phases)
+    {
+      const std::vector<Eigen::Matrix3d> stiffness = reading.cell.stiffness_of_phase();
       for (const int phase : reading.cell.phase_of_group())
+      {
         cell["phases"].push_back(reading.cell.phases[static_cast<std::size_t>(phase)].name);
+        cell["phase_stiffness"].push_back(stiffness[static_cast<std::size_t>(phase)].trace());
+      }
+    }
     cells.push_back(cell);
   }
   const std::string text =

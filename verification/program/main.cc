@@ -2,6 +2,7 @@
 // The program: a command line, and what its exit status means.
 #include "meshes/plain/errors.h"
 #include "verification/program/commands.h"
+#include "verification/program/study_arguments.h"
 #include "verification/record/provenance.h"
 #include "verification/record/verdict.h"
 
@@ -11,6 +12,7 @@
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
 
+#include <algorithm>
 #include <filesystem>
 #include <iostream>
 
@@ -84,7 +86,9 @@ int run(int argc, char **argv, homespun::verification::AfterMpi &afterwards)
   add_scaling_command(app, action, afterwards, command_line);
   try
   {
-    app.parse(argc, argv);
+    std::vector<std::string> words = joined_lists({argv + 1, argv + argc});
+    std::reverse(words.begin(), words.end()); // as CLI11 takes them
+    app.parse(words);
   }
   catch (const CLI::ParseError &error)
   {

@@ -46,6 +46,11 @@ void make_report(const std::vector<std::string> &folders, const std::string &out
 {
   std::vector<std::string> arguments = folders;
   arguments.insert(arguments.end(), {"--output", output});
+  if (quiet)
+    arguments.push_back("--quiet");
+  else
+    std::fprintf(stderr, "Making the page %s/report.html: drawing takes a minute or more\n",
+                 output.c_str());
   if (run_report_script("report.py", arguments) != 0)
     throw meshes::BadInput("the report could not be made, see above; the results are in " +
                            folders[0] + ": mend them, then `homespun report " + folders[0] + "`");

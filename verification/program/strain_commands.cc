@@ -1,13 +1,18 @@
 // SPDX-License-Identifier: MIT
 // homespun strain: error against strain and its page.
+#include "homogenization/cell/parameter_text.h"
 #include "verification/method/lightweight_cloth.h"
 #include "verification/program/study_arguments.h"
+#include "verification/record/number_text.h"
 #include "verification/strain/strain_study.h"
 
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
 
 #include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <cstdio>
 #include <memory>
 
 namespace homespun::verification
@@ -21,14 +26,40 @@ struct StrainArguments
   bool quick = false;
 };
 
+/// A strain as a fraction: `10%` is 0.1. A plain number from 0.5 on is asked about, because whoever
+/// thinks in percent writes 1 for 1 %.
+std::string fraction_of(const std::string &text)
+{
+  const auto value = [&](const std::size_t length) -> double
+  {
+    const auto found = homogenization::numbers(text.substr(0, length));
+    return found && found->size() == 1 ? (*found)[0] : std::nan("");
+  };
+  if (!text.empty() && text.back() == '%' && std::isfinite(value(text.size() - 1)))
+  {
+    char fraction[32];
+    std::snprintf(fraction, sizeof(fraction), "%.17g", value(text.size() - 1) / 100.);
+    return fraction;
+  }
+  // Commas part the list: of 0,01 this is the second entry.
+  if (text.size() > 1 && text[0] == '0' && std::isdigit(static_cast<unsigned char>(text[1])))
+    throw CLI::ValidationError("found `" + text +
+                               "` behind a comma; numbers have a decimal point: 0." + text);
+  if (const double strain = value(text.size()); strain >= 0.5)
+    throw CLI::ValidationError("found " + text + ", which is " + short_text(100. * strain) +
+                               " %; if percent was meant, write " + text + "%, and else " +
+                               short_text(100. * strain) + "%");
+  return text;
+}
+
 /// Ascending strains; the references walk up the ladder.
 void check_arguments(StrainStudyOptions &study)
 {
   ArgumentFaults faults;
   for (const double strain : study.strains)
     if (!(strain > 0. && strain <= 1.))
-      faults.add("--strains: found " + std::to_string(strain) +
-                 "; expected fractions between 0 and 1, 0.1 is 10 %");
+      faults.add("--strains: found " + short_text(strain) +
+                 "; expected fractions between 0 and 1 with a decimal point, 0.1 or 10% for 10 %");
   std::sort(study.strains.begin(), study.strains.end());
   study.strains.erase(std::unique(study.strains.begin(), study.strains.end()), study.strains.end());
   for (const auto &[option, is_empty] : {std::make_pair("--strains", study.strains.empty()),
@@ -71,7 +102,9 @@ void add_strain_command(CLI::App &app, Action &action, AfterMpi &afterwards,
       ->check(CLI::Range(1, 200))
       ->capture_default_str();
   CLI::Option *strains = add_list(*command, "--strains", study.strains,
-                                  "Strains as fractions, 0.1 is 10 %, comma-separated");
+                                  "Strains as fractions or percentages, 0.1 or 10%, "
+                                  "comma-separated")
+                           ->transform(fraction_of);
   add_list(*command, "--loads", study.loads, "Loads, comma-separated");
   add_list(*command, "--references", study.references, "Laws of the fine reference");
   add_list(*command, "--methods", study.methods, "Ways to the fine positions");

@@ -24,6 +24,27 @@ void ArgumentFaults::check_names(const std::string &option, const std::vector<st
               });
 }
 
+std::vector<std::string> joined_lists(const std::vector<std::string> &words)
+{
+  std::vector<std::string> joined;
+  bool in_list = false; // of an option: the last word is its value, or names it and has one
+  for (std::size_t k = 0; k < words.size(); ++k)
+  {
+    const std::string &word = words[k];
+    const bool is_option    = word.rfind("--", 0) == 0;
+    if (in_list && !is_option && !word.empty() && !joined.back().empty() &&
+        (joined.back().back() == ',' || word.front() == ','))
+      joined.back() += word;
+    else
+    {
+      in_list =
+        is_option ? word.find('=') != std::string::npos : k > 0 && words[k - 1].rfind("--", 0) == 0;
+      joined.push_back(word);
+    }
+  }
+  return joined;
+}
+
 std::vector<std::string> stems(const std::vector<std::string> &files)
 {
   std::vector<std::string> names;

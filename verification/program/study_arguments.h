@@ -87,6 +87,11 @@ void add_folder_options(CLI::App &command, Study &study, const std::string &plac
   command.add_flag("--quiet", study.quiet, "Print nothing but faults");
 }
 
+/// The words of a command line, with lists that blanks parted joined again: `--loads a, b` is
+/// `--loads a,b`.
+/// @param words without the name of the program
+std::vector<std::string> joined_lists(const std::vector<std::string> &words);
+
 /// The names of files without folders and endings.
 std::vector<std::string> stems(const std::vector<std::string> &files);
 

@@ -30,6 +30,7 @@ class Verifier
 public:
   Verifier(const VerifyOptions &options, const MPI_Comm communicator)
       : options(options)
+      , parts(options.parts.empty() ? default_parts(!options.cell_files.empty()) : options.parts)
       , communicator(communicator)
   {
   }
@@ -44,7 +45,7 @@ public:
                                        options.quiet);
             });
     for (const std::string &part : verify_parts())
-      if (std::find(options.parts.begin(), options.parts.end(), part) != options.parts.end())
+      if (std::find(parts.begin(), parts.end(), part) != parts.end())
         run_part(part);
     on_root(communicator,
             [&]()
@@ -60,7 +61,7 @@ public:
 private:
   nlohmann::ordered_json inputs() const
   {
-    nlohmann::ordered_json all = {{"parts", options.parts}, {"quick", options.quick}};
+    nlohmann::ordered_json all = {{"parts", parts}, {"quick", options.quick}};
     for (const homogenization::UnitCell &cell : cells)
       all["cell " + cell.name] = fingerprint(cell);
     return all;
@@ -153,12 +154,15 @@ private:
   {
     ConvergenceStudyOptions study;
     study.cell_files = options.cell_files;
-    study.studies    = convergence_studies();
-    study.quick      = options.quick;
-    study.output     = folder;
-    study.command    = options.command;
-    study.earlier    = Earlier::keep_work;
-    study.quiet      = options.quiet;
+    // Manufactured solutions know no cell: they are made once, with the self-tests.
+    for (const std::string &name : convergence_studies())
+      if ((name == "manufactured") == cells.empty())
+        study.studies.push_back(name);
+    study.quick   = options.quick;
+    study.output  = folder;
+    study.command = options.command;
+    study.earlier = Earlier::keep_work;
+    study.quiet   = options.quiet;
     return run_convergence_study(study, communicator);
   }
 
@@ -212,6 +216,7 @@ private:
   }
 
   const VerifyOptions options;
+  const std::vector<std::string> parts;
   const MPI_Comm communicator;
   std::vector<homogenization::UnitCell> cells;
   std::unique_ptr<RunFolder> folder; ///< first rank
@@ -224,6 +229,13 @@ const std::vector<std::string> &verify_parts()
   static const std::vector<std::string> parts = {"homogenize", "strain", "converge", "stress",
                                                  "drape"};
   return parts;
+}
+
+std::vector<std::string> default_parts(const bool has_cells)
+{
+  if (has_cells)
+    return {"homogenize", "strain", "converge", "drape"};
+  return {"converge", "stress"};
 }
 
 Verification verify(const VerifyOptions &options, const MPI_Comm communicator)

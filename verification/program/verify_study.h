@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// homespun verify: every study of some cells, and one page with all their claims.
+// homespun verify: every study of some cells, and one page with all their claims; without a cell
+// the self-tests of the program.
 #pragma once
 
 #include "verification/record/run_folder.h"
@@ -14,9 +15,9 @@ namespace homespun::verification
 {
 struct VerifyOptions
 {
-  std::vector<std::string> cell_files;
-  std::vector<std::string> parts; ///< of verify_parts(), in any order
-  bool quick = false;             ///< small sizes, minutes
+  std::vector<std::string> cell_files; ///< none: self-tests alone
+  std::vector<std::string> parts;      ///< of verify_parts(), in any order; none: default_parts()
+  bool quick = false;                  ///< small sizes, minutes
   std::string output;
   std::string command; ///< that reproduces the whole
   Earlier earlier = Earlier::keep_work;
@@ -32,6 +33,10 @@ struct Verification
 
 /// The parts: homogenize, strain, converge, stress, drape.
 const std::vector<std::string> &verify_parts();
+
+/// What runs where nothing was asked for: of cells all that speaks of them; without a cell what
+/// speaks of the program alone, manufactured solutions and stress cases.
+std::vector<std::string> default_parts(bool has_cells);
 
 /// Runs the parts one after the other, each into a folder of its own below the output, and writes
 /// verdicts.json with all claims. A part whose solver does not converge is a claim that failed, the

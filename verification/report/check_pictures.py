@@ -57,7 +57,7 @@ def draw(cell, vertices, triangles, material):
     figure, axes = pyplot.subplots(figsize=(7.0, 5.2 + 0.15 * lines), layout="constrained")
     keep = usable(vertices, triangles)
     numbers = [int(k) for k in numpy.unique(material[keep])]
-    colours = dict(zip(numbers, style.phase_colours(numbers)))
+    colours = style.colours_of_materials(numbers, cell.get("phase_stiffness"))
     corners = vertices[triangles[keep]]
     axes.add_collection(
         PolyCollection(

@@ -29,8 +29,10 @@ from page.page_size import fitted  # noqa: E402
 from read.results import BadResults, read_results  # noqa: E402
 
 
-def write_report(folders, output):
+def write_report(folders, output, tells=False):
     """Reads result folders and writes the report.
+
+    @param tells whether a terminal shows what is drawn
 
     @return the path of report.html
     @throws BadResults naming every file, line or key that is wrong
@@ -48,7 +50,7 @@ def write_report(folders, output):
         ) from error
     try:
         sheets = sum(len(cell.field_files) for cell in results.cells.values())
-        gallery = Gallery(os.path.join(workplace, "figures"), sheets)
+        gallery = Gallery(os.path.join(workplace, "figures"), sheets, tells)
         html = render(page_contents(results, gallery, output))
         html = fitted(
             html, {name[:-5] for name in os.listdir(gallery.folder) if name.endswith(".webp")}
@@ -102,7 +104,10 @@ def main(arguments=None):
     )
     options = parser.parse_args(arguments)
     try:
-        path = write_report(options.folders, options.output)
+        tells = not options.quiet and sys.stderr.isatty()
+        path = write_report(options.folders, options.output, tells)
+        if tells:
+            print("\r\033[K", end="", file=sys.stderr)
     except BadResults as error:
         for fault in error.faults:
             print(f"error: {fault}", file=sys.stderr)

@@ -49,14 +49,20 @@ class Verify(InFolder):
         self.assertFalse((self.folder / "out").exists())
 
     def test_one_part_of_one_cell_ends_with_its_outcome_and_one_file_of_claims(self):
-        result = run("verify", CELLS / "layered.prm", "--parts", "homogenize", "--quiet",
-                     "--no-report", "--output", self.folder)
+        result = run("verify", CELLS / "layered.prm", "--parts", "homogenize", "--no-report",
+                     "--output", self.folder)
         self.assertEqual(result.returncode, 0, result.stderr)
-        self.assertRegex(result.stdout, r"^PASS: (\d+) of \1 claims hold\n$")
+        self.assertRegex(result.stdout, r"^PASS: (\d+) of \1 claims hold\n")
         claims = json.loads((self.folder / "verdicts.json").read_text())["verdicts"]
         self.assertTrue(all(claim["claim"].startswith("homogenize cells/layered: ")
                             for claim in claims))
         self.assertTrue((self.folder / "cells" / "layered" / "homogenize.json").exists())
+
+    def test_without_a_cell_only_self_tests_can_be_asked_for(self):
+        result = run("verify", "--parts", "strain", "--output", self.folder / "out")
+        self.assertEqual(result.returncode, 2)
+        self.assertIn("--parts: strain needs a cell", result.stderr)
+        self.assertFalse((self.folder / "out").exists())
 
     def test_an_unknown_part_is_refused(self):
         result = run("verify", CELLS / "layered.prm", "--parts", "weave", "--output", self.folder)

@@ -23,7 +23,7 @@ class OneRun(InFolder):
 
     def test_a_load_of_which_no_level_has_an_equilibrium_fails(self):
         result = run("strain", LAYERED, "--cells", "2", "--loads", "shear-frame", "--references",
-                     "green", "--strains", "0.6,0.8", "--no-budget", "--no-runtime", "--no-report",
+                     "green", "--strains", "60%,80%", "--no-budget", "--no-runtime", "--no-report",
                      "--output", self.folder / "run")
         self.assertEqual(result.returncode, 1, result.stderr)
         self.assertRegex(result.stdout,
@@ -33,7 +33,7 @@ class OneRun(InFolder):
     def test_on_two_ranks_the_page_is_made_also_where_a_claim_failed(self):
         output = self.folder / "run"
         result = run("strain", LAYERED, "--cells", "2", "--loads", "periodic-12,shear-frame",
-                     "--references", "green", "--strains", "0.6,0.8", "--no-budget", "--no-runtime",
+                     "--references", "green", "--strains", "60%,80%", "--no-budget", "--no-runtime",
                      "--output", output, ranks=2)
         self.assertEqual(result.returncode, 1, result.stderr)
         self.assertTrue((output / "report.html").exists(), result.stderr)

@@ -27,8 +27,8 @@ class DrapePageTest(PageTest):
         self.assertEqual(self.run_report(), (0, ""))
         page = self.page()
         sections = (
-            "verdicts",
             "drape-short",
+            "verdicts",
             "scene-1",
             "scene-1-1",
             "scene-1-1-error",
@@ -43,7 +43,7 @@ class DrapePageTest(PageTest):
         places = [page.index(f'id="{key}"') for key in sections]
         self.assertEqual(places, sorted(places))
         # The command before the verdicts.
-        self.assertLess(page.index("homespun drape swing.prm"), places[0])
+        self.assertLess(page.index("homespun drape swing.prm"), places[1])
         figures = set(os.listdir(os.path.join(self.output, "figures")))
         for name in ("cloth", "error-time", "height", "energies", "step"):
             self.assertLessEqual(
@@ -136,8 +136,8 @@ class DrapePageTest(PageTest):
         page = self.page()
         for key in ("drape-short", "scene-1", "scene-2", "stress-1", "strain", "stiffness", "chi"):
             self.assertEqual(page.count(f'<h2 id="{key}">'), 1)
-        self.assertIn("homespun: swing, swing, stress, stripes", page)
-        self.assertIn(f"Drape: swing ({folders[1]})", page)
+        self.assertIn("<h1>homespun: stripes</h1>", page)
+        self.assertIn(f"Cloth in motion: swing ({folders[1]})", page)
         self.assertIn("stress: every case ends finite or refused", page)
 
     def test_the_same_results_give_the_same_page(self):

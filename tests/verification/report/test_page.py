@@ -126,8 +126,8 @@ class WholePageTest(PageTest):
         self.assertFalse(re.findall(r"CONSOLE.*(?:Error|error).*", messages))
         self.assertEqual(found["theme"], "dark")
         self.assertEqual(found["plots"], len(page_checks.data_of(self.text, "plot-data")))
-        # Corners of all triangles.
-        self.assertEqual([corners for corners in found["corners"] if corners], [str(3 * 72)])
+        # Corners of all triangles of the sheet, which comes before the scene.
+        self.assertEqual([corners for corners in found["corners"] if corners], [str(3 * 32)])
 
     @unittest.skipUnless(browser.CHROMIUM and HAS_CHART, "needs chromium and libjs-chart.js")
     def test_page_does_not_scroll_sideways_on_a_phone(self):

@@ -90,11 +90,11 @@ def error_of(surface, reference):
     )
 
 
-def phase_colour_map(surfaces, names):
-    """Material number -> (colour, label), light to dark in the order of the numbers; empty without
-    materials.
+def phase_colour_map(surfaces, names, stiffnesses=None):
+    """Material number -> (colour, label), light is soft; empty without materials.
 
     @param names of the phases in the order of the numbers, or None
+    @param stiffnesses of the phases in that order, or None: darker with the number
     """
     numbers = sorted(
         {int(n) for s in surfaces if s.material() is not None for n in numpy.unique(s.material())}
@@ -104,7 +104,7 @@ def phase_colour_map(surfaces, names):
             numpy.array(to_rgb(colour)) * (1.0 - PALER) + PALER,
             names[n] if names and n < len(names) else f"material {n}",
         )
-        for n, colour in zip(numbers, style.phase_colours(numbers))
+        for n, colour in style.colours_of_materials(numbers, stiffnesses).items()
     }
 
 
@@ -150,12 +150,12 @@ def moving_shots(film):
     )
 
 
-def cloth_figure(film, up, side, pool, names=None, bodies=None):
+def cloth_figure(film, up, side, pool, cell=None, bodies=None):
     """Rows are times, columns are coarse, up-sampled, reference and error, all through one camera;
     last a close-up.
 
     @param side of a cell [m], or None: no close-up
-    @param names of the phases
+    @param cell what drape.json says of it: `phases`, `phase_stiffness`
     @param bodies that the cloth meets, as a surface, or None
     @return (figure, camera, phases, {"largest" [m], "capped": whether errors exceed the colour bar,
             "close": whether there is a close-up})
@@ -168,7 +168,8 @@ def cloth_figure(film, up, side, pool, names=None, bodies=None):
     paths = {shot[kind] for shot in shots + moving_shots(film) for kind in KINDS if shot[kind]}
     camera = camera_around(axes, list(pool.map(bounds_of, sorted(paths), [axes] * len(paths))))
     fine = [kinds[kind] for kinds in surfaces for kind in ("fine", "reference") if kind in kinds]
-    phases = phase_colour_map(fine, names)
+    cell = cell or {}
+    phases = phase_colour_map(fine, cell.get("phases"), cell.get("phase_stiffness"))
     errors = [
         error_of(kinds["fine"], kinds.get("reference")) if "fine" in kinds else None
         for kinds in surfaces

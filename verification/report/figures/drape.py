@@ -11,6 +11,7 @@ from figures import style
 from figures.plot_data import band, name_unseen
 from figures.sheet import unit_of
 
+ENERGY_ROUND_OFF = 1e-14  # of the largest energy: sums of squares of positions carry 16 digits
 BLOWN = 1e3  # times the largest value of the first cloth
 VARIANTS = ("corotational", "triangle-warping", "nodal-warping")
 VARIANT_COLOURS = dict(zip(VARIANTS, (style.BLUE, style.GREEN, style.ORANGE, style.VERMILLION)))
@@ -244,8 +245,10 @@ def height_figure(rows, up, gravity):
 
 
 def energy_figure(rows):
-    """Kinetic and elastic energy, that of the weight, and the largest stretch, against time; None
-    without numbers.
+    """Kinetic and elastic energy, that of the weight, and the largest stretch, against time.
+
+    @return (figure, names of the energies that are zero to round-off and not drawn), or None
+        without numbers
 
     Energies stand on logarithmic axes where they are positive; that of the weight is not. A curve
     is missing where the cloth has no such energy.
@@ -257,6 +260,11 @@ def energy_figure(rows):
         ("max_stretch", "largest stretch [1]"),
     ]
     panels = [(key, label) for key, label in panels if any(abs(row[key]) > 0.0 for row in rows)]
+    largest = {key: max(known_sizes(rows, key)) for key, _ in panels}
+    scale = max((value for key, value in largest.items() if key.endswith("_J")), default=0.0)
+    zero = [k for k, value in largest.items() if k.endswith("_J") and value < ENERGY_ROUND_OFF * scale]
+    names = [label.split(" [")[0] for key, label in panels if key in zero]
+    panels = [(key, label) for key, label in panels if key not in zero]
     if not panels:
         return None
     figure, grid = pyplot.subplots(
@@ -282,13 +290,19 @@ def energy_figure(rows):
             if min(value for value in every if value > 0.0) < 1e-8 * top:
                 axes.set_ylim(bottom=1e-8 * top)
         else:
-            axes.yaxis.set_major_formatter(ticker.FormatStrFormatter("%.4g"))
+            # Four digits where they tell the ticks apart; else what they have in common goes apart.
+            axes.yaxis.set_major_formatter(ticker.ScalarFormatter(useOffset=True))
+            axes.yaxis.get_major_formatter().set_powerlimits((-4, 5))
             if blown:
                 axes.set_ylim(min(calm) - 0.5 * largest, max(calm) + 0.5 * largest)
     figure.legend(
         handles=member_handles(rows), loc="lower center", bbox_to_anchor=(0.5, 1.0), ncol=4
     )
-    return figure
+    return figure, names
+
+
+def known_sizes(rows, key):
+    return [abs(row[key]) for row in rows if not math.isnan(row[key])] or [0.0]
 
 
 def number(item, key):

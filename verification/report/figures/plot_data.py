@@ -14,6 +14,7 @@ import re
 
 import numpy
 from matplotlib.colors import to_hex
+from matplotlib.text import Annotation
 from matplotlib.ticker import FixedLocator
 
 ROUND_OFF_NOTE = "zero to round-off"
@@ -118,6 +119,26 @@ def curve_of(line, axes):
     return curve
 
 
+def words_of(axes):
+    """Words that stand at a point of a panel, such as the slope of a triangle: what the page writes
+    there too.
+    """
+    return [
+        {
+            "text": plain(note.get_text()),
+            "at": [number(value) for value in note.xy],
+            "shift": [number(value) for value in note.xyann],  # points, up is positive
+            "side": [note.get_ha(), note.get_va()],
+            "colour": to_hex(note.get_color()),
+        }
+        for note in axes.texts
+        if isinstance(note, Annotation)
+        and note.get_text()
+        and note.xycoords == "data"
+        and note.anncoords == "offset points"
+    ]
+
+
 def panel_of(axes):
     curves = [curve_of(line, axes) for line in axes.lines]
     for area in axes.collections:
@@ -146,6 +167,7 @@ def panel_of(axes):
             for key in "xy"
         },
         "curves": [curve for curve in curves if curve],
+        "words": words_of(axes),
     }
 
 

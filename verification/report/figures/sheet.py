@@ -17,7 +17,7 @@ from matplotlib.patches import Patch, Rectangle
 from matplotlib.transforms import Affine2D
 
 from figures import style
-from figures.cell import CM, phase_edges, phase_legend
+from figures.cell import CM, boundary, phase_edges, phase_legend
 
 PIXELS = 760  # along the longer side of a panel
 CELLS_IN_CLOSE_UP = 3
@@ -198,6 +198,13 @@ def sheet_figure(cell, sheet, side):
     }
 
 
+def hole_edges(every, some):
+    """Edges (k,2) of some triangles that are an edge of the whole sheet: its outline and holes."""
+    whole = {tuple(edge) for edge in numpy.sort(boundary(every), axis=1)}
+    edges = numpy.sort(boundary(some), axis=1)
+    return numpy.array([e for e in edges if tuple(e) in whole], dtype=int).reshape(-1, 2)
+
+
 def draw_close_up(figure, line, cell, sheet, close, extent):
     """A few cells coloured by phase, and the outlines of phases and coarse triangles of both."""
     triangles = sheet["triangles"][close]
@@ -205,6 +212,7 @@ def draw_close_up(figure, line, cell, sheet, close, extent):
     colour = {number: value for number, value, _ in legend}
     faces = [colour[int(k)] for k in sheet["material"][close]]
     edges = phase_edges(SimpleNamespace(triangles=triangles, material=sheet["material"][close]))
+    edges = numpy.vstack([edges, hole_edges(sheet["triangles"], triangles)])
     for axes, key, title in zip(
         line, ("reference", "upsampled"), ("close-up: reference", "close-up: up-sampled")
     ):
@@ -216,6 +224,9 @@ def draw_close_up(figure, line, cell, sheet, close, extent):
                 linewidths=0.5,
                 rasterized=True,
             )
+        )
+        axes.add_collection(
+            LineCollection(CM * sheet[key][edges], colors="#444444", linewidths=0.6)
         )
         axes.set_title(title, loc="left")
     line[2].add_collection(
@@ -234,7 +245,7 @@ def draw_close_up(figure, line, cell, sheet, close, extent):
             zorder=0,
         )
     )
-    line[2].set_title("edges of the phases, both", loc="left")
+    line[2].set_title("edges of phases and holes, both", loc="left")
     for axes in line:
         axes.set(
             xlim=(CM * extent[0], CM * extent[1]),

@@ -9,6 +9,9 @@ from figures import style
 from figures.plot_data import name_unseen
 
 
+RIM = 2.0  # times the largest modulus of C^H: a bound beyond it would flatten what is shown
+
+
 def directional_modulus(stiffness, angles):
     """Modulus E(theta) of uniaxial tension along the direction theta.
 
@@ -40,6 +43,7 @@ def polar_figure(cell):
     figure, axes = pyplot.subplots(
         figsize=(5.2, 4.4), subplot_kw={"projection": "polar"}, layout="constrained"
     )
+    rim = RIM * float(directional_modulus(cell.stiffness(), angles).max())
     for key, label, colour, line, width in (
         ("voigt", "Voigt (upper bound)", style.VERMILLION, "--", 1.3),
         ("C", "$C^H$", style.BLUE, "-", 2.2),
@@ -48,9 +52,11 @@ def polar_figure(cell):
         matrix = cell.stiffness(key)
         if matrix is None or numpy.linalg.eigvalsh((matrix + matrix.T) / 2).min() <= 0:
             continue
-        axes.plot(
-            angles, directional_modulus(matrix, angles), line, color=colour, lw=width, label=label
-        )
+        modulus = directional_modulus(matrix, angles)
+        if modulus.max() > rim > 0.0:
+            label += f"\nbeyond the rim, up to {style.three(float(modulus.max()))} N/m"
+            modulus = numpy.where(modulus > rim, numpy.nan, modulus)
+        axes.plot(angles, modulus, line, color=colour, lw=width, label=label)
     axes.set_rlim(bottom=0.0)
     axes.set_rlabel_position(67.5)
     axes.yaxis.set_major_locator(pyplot.MaxNLocator(4, prune="lower"))

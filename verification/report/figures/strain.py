@@ -182,8 +182,12 @@ def legend(figure, methods, references, uncertainty, at_floor):
     )
 
 
-def error_figure(rows, methods, references, side, key="error_mean_per_cell"):
+def error_figure(
+    rows, methods, references, side, key="error_mean_per_cell", panel=(2.9, 2.55)
+):
     """Error against strain for all loads of one cell.
+
+    @param panel width and height of each panel [inches]
 
     @param key error_mean_per_cell, or error_mean_per_fluctuation, which is drawn in percent
     @return (figure, whether round-off was drawn at the floor)
@@ -202,7 +206,7 @@ def error_figure(rows, methods, references, side, key="error_mean_per_cell"):
         columns,
         squeeze=False,
         sharex=True,
-        figsize=(0.9 + 2.9 * columns, 0.5 + 2.55 * len(groups)),
+        figsize=(0.9 + panel[0] * columns, 0.5 + panel[1] * len(groups)),
         layout="constrained",
     )
     at_floor = False

@@ -122,6 +122,18 @@ def phase_colours(stiffnesses):
     return result
 
 
+def colours_of_materials(numbers, stiffnesses=None):
+    """Material number -> colour, the same in every picture of a cell.
+
+    @param stiffnesses of the materials in the order of their numbers; without them, or where a
+        number has none, darker with the number
+    """
+    if not stiffnesses or any(not 0 <= n < len(stiffnesses) for n in numbers):
+        return dict(zip(numbers, phase_colours(numbers)))
+    every = phase_colours(stiffnesses)
+    return {n: every[n] for n in numbers}
+
+
 def log_axes(axes):
     """Logarithmic on both axes, strain or time in plain numbers where that is short."""
     axes.set(xscale="log", yscale="log")
@@ -148,6 +160,43 @@ def three(value):
         return f"{value:.{max(0, 2 - exponent)}f}".replace("-", "−")
     superscript = str(exponent).translate(str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹"))
     return f"{value / 10 ** exponent:.2f} × 10{superscript}".replace("-", "−")
+
+
+def number_of(text):
+    """The number that three() and beside_bar() print."""
+    digits = str.maketrans("⁻⁰¹²³⁴⁵⁶⁷⁸⁹−", "-0123456789-", "\u202f")
+    plain = text.translate(digits).replace(" × 10", "e")
+    return float(plain)
+
+
+def bar_beside(text, value, bar):
+    """A guaranteed bar with two digits, rounded upwards, of what is printed in place of a value."""
+    bar += abs(number_of(text) - value)
+    if not 0.0 < bar < math.inf:
+        return three(bar)
+    last = math.floor(math.log10(bar)) - 1
+    units = math.ceil(round(bar / 10.0**last, 9))
+    last, units = (last + 1, 10) if units == 100 else (last, units)
+    if -6 < last < 5:
+        return f"{units * 10.0**last:.{max(0, -last)}f}"
+    superscript = str(last + 1).translate(str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹"))
+    return f"{units / 10.0:.1f} × 10{superscript}"
+
+
+def beside_bar(value, bar):
+    """A number with as many digits as its error bar justifies, two of the bar, but at most six:
+    1001.5633 ± 0.31 as 1001.56, 1001.56 ± 11 as 1002; zero where the bar says no more.
+    """
+    if math.isnan(bar) or not bar > 0.0:
+        return three(value)
+    last = math.floor(math.log10(bar)) - 1  # place of the last digit
+    if abs(value) < 0.5 * 10.0**last:
+        return "0"
+    first = math.floor(math.log10(abs(value)))
+    if not -4 < first < 6:
+        return three(value)
+    digits = min(6, max(1, first - last + 1))
+    return f"{value:.{max(0, digits - 1 - first)}f}".replace("-", "−")
 
 
 def percent(strain):

@@ -12,7 +12,7 @@ import numpy
 from matplotlib import colormaps
 from matplotlib.colors import to_hex
 
-from figures.cloth import ERROR_MAP, phase_colour_map, spread
+from figures.cloth import ERROR_MAP, spread
 from figures.decimation import decimate
 from figures.sheet import unit_of
 from read.vtu import read_vtu
@@ -137,7 +137,7 @@ def sheet_table(sheet, few):
     return header, [[int(n), *row] for n, row in zip(few.vertices, values)]
 
 
-def film_view(film, camera, up, films):
+def film_view(film, camera, phases, up, films):
     """A cloth in motion: some of the frames that have an up-sampled cloth; None with fewer than
     two.
 
@@ -176,7 +176,7 @@ def film_view(film, camera, up, films):
         difference = numpy.array([f.points - r.points for f, r in zip(fine, references)])
         view["error"] = colour_scale(difference)
         arrays["difference"] = difference[:, few.vertices] @ axes.T
-    material, phases = fine[0].material(), phase_colour_map(fine[:1], None)
+    material = fine[0].material()
     if material is not None and phases:
         palette = sorted(phases)
         view["phases"] = [to_hex(phases[number][0]) for number in palette]

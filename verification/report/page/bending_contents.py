@@ -6,10 +6,9 @@ from figures import fabrics
 from figures.bending import bending_polar_figure, deflection_figure
 from figures.style import three
 from figures.vertex_tables import deflection_table
+from page.entries import ENTRIES, MICRO, entry_texts
 
-MICRO = 1e6
 SOFTEST, STIFFEST = 1e-7, 1e-3  # of cloth [N m]; outside a unit is wrong, or a thickness
-ENTRIES = (("11", 0, 0), ("22", 1, 1), ("12", 0, 1), ("66", 2, 2), ("16", 0, 2), ("26", 1, 2))
 
 
 def bending_contents(cell, gallery):
@@ -43,18 +42,10 @@ def bending_table(cell, D):
     """D^H with its bars, in N m and in what instruments print."""
     value = cell.homogenize
     bracket = value.get("bending_bracket") or {}
-    bars = bracket.get("entry_bars")
-    rows = []
-    for name, i, j in ENTRIES:
-        bar = bars[i][j] if bars else None
-        rows.append(
-            [
-                f"D{name}",
-                three(MICRO * D[i, j]) if abs(D[i, j]) > 1e-9 * numpy.abs(D).max() else "0",
-                "–" if bar is None else three(MICRO * bar),
-                three(D[i, j] / fabrics.KAWABATA),
-            ]
-        )
+    texts = entry_texts(value, "D", MICRO)
+    rows = [
+        [f"D{name}", *texts[name], three(D[i, j] / fabrics.KAWABATA)] for name, i, j in ENTRIES
+    ]
     strips = numpy.linalg.inv(D)
     density = value.get("areal_density")
     lengths = [

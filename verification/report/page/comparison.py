@@ -12,10 +12,10 @@ from figures.run_time import METHOD
 from figures.style import percent, seconds, three
 from page import tables
 from page.budget_contents import validity_text
+from page.entries import ENTRIES, MICRO, entry_texts, with_bar
 from read.verdicts import WORDS
 from read.versions import tags
 
-ENTRIES = (("C11", 0, 0), ("C22", 1, 1), ("C12", 0, 1), ("C33 (shear)", 2, 2))
 VALIDITY_LIMIT = 0.01  # of a cell side
 STEP_PARTS = (
     ("coarse solve", "seconds_coarse_solve"),
@@ -49,11 +49,27 @@ def comparison_contents(results, gallery):
     return contents
 
 
+def short_table(results, name):
+    """The same table of a single cell, without its stiffness: what errors and times come to."""
+    subjects = [s for s in results.subjects if s.name == name]
+    return kept_of(measure_groups(results, subjects)) if subjects else []
+
+
 def groups_of(results, subjects):
     """[(heading, [(row name, [text per subject])])], rows in which no subject has a value left out.
     """
+    return kept_of(
+        [
+            ("Effective stiffness [N/m]", stiffness_rows(results, subjects)),
+            ("Bending stiffness [10⁻⁶ N m]", bending_rows(results, subjects)),
+        ]
+        + measure_groups(results, subjects)
+    )
+
+
+def measure_groups(results, subjects):
+    """Range of validity, errors at the chosen strains, times."""
     groups = [
-        ("Effective stiffness [N/m]", stiffness_rows(results, subjects)),
         (
             "Largest strain whose mean error stays within 1 % of the cell side",
             validity_rows(results, subjects),
@@ -70,6 +86,11 @@ def groups_of(results, subjects):
             )
         )
     groups.append(("Median time per load step of the sheets", time_rows(results, subjects)))
+    return groups
+
+
+def kept_of(groups):
+    """Groups without the rows in which no subject has a value."""
     kept = [
         (heading, [row for row in rows if any(text != "–" for text in row[1])])
         for heading, rows in groups
@@ -78,10 +99,10 @@ def groups_of(results, subjects):
 
 
 def stiffness_rows(results, subjects):
+    """All six entries of C^H with their bars, what they rest on, and the areal density."""
     cells = [results.cells[s.name] for s in subjects]
-    rows = []
-    for name, i, j in ENTRIES:
-        rows.append((name, [entry(cell.stiffness(), i, j) for cell in cells]))
+    texts = [entry_texts(cell.homogenize, "C") for cell in cells]
+    rows = [(f"C{name}", [with_bar(text[name]) for text in texts]) for name, _, _ in ENTRIES]
     brackets = [tables.stiffness_table(cell)["bracket"] for cell in cells]
     rows.append(
         (
@@ -96,10 +117,10 @@ def stiffness_rows(results, subjects):
     return rows
 
 
-def entry(matrix, i, j):
-    if matrix is None:
-        return "–"
-    return "0" if abs(matrix[i, j]) <= 1e-9 * abs(matrix).max() else three(float(matrix[i, j]))
+def bending_rows(results, subjects):
+    """All six entries of D^H with their bars."""
+    texts = [entry_texts(results.cells[s.name].homogenize, "D", MICRO) for s in subjects]
+    return [(f"D{name}", [with_bar(text[name]) for text in texts]) for name, _, _ in ENTRIES]
 
 
 def loads_of(results, subjects):

@@ -7,40 +7,40 @@ from figures.animation import MOVING_BYTES
 from figures.cloth import workers
 from figures.style import seconds, three
 from page import tables
+from page.answer import answer_of
 from page.cell_contents import contents_of_cells
-from page.comparison import comparison_contents
+from page.claims import claim_contents, claim_groups, claim_sentence
+from page.comparison import comparison_contents, short_table
 from page.converge_contents import convergence_contents
 from page.drape_contents import drape_contents
-from page.run_contents import (
-    run_rows,
-    run_sentences,
-    verdict_contents,
-    verdict_groups,
-    verdict_sentence,
-)
+from page.entries import stiffness_rows
+from page.glossary import GLOSSARY
+from page.run_contents import run_rows, run_sentences, self_tests, whole_sentence
 from page.stress_contents import stress_contents
 
 HEADINGS = {
-    "verdicts": "Verdicts",
-    "comparison": "Comparison",
     "short": "In short",
-    "strain": "Error and run time against strain",
+    "verdicts": "What holds, and what does not",
+    "comparison": "Comparison",
+    "strain": "Error against strain",
     "stiffness": "Effective stiffness",
     "cells": "The unit cells",
-    "chi": "Characteristic displacements",
     "sheets": "Reference, up-sampled sheet and error per vertex",
-    "budget": "Error budget",
+    "budget": "Where the error comes from",
     "validity": "Range of validity",
+    "chi": "Characteristic displacements",
     "time": "Error against run time",
     "errors": "Errors at chosen strains",
-    "uncertainty": "Uncertainty of the references",
+    "uncertainty": "Error bars of the references",
+    "checks": "Checks of the homogenization",
     "notes": "Notes of the run",
     "left-out": "What was left out, and why",
-    "checks": "Checks of the homogenization",
-    "provenance": "Provenance",
+    "glossary": "Glossary",
+    "provenance": "Runs, versions, machine",
 }
 # Headings of every page; the others are those of `homespun strain`.
-COMMON = ("verdicts", "notes", "left-out", "provenance")
+COMMON = ("verdicts", "notes", "left-out", "glossary", "provenance")
+LAST = ("notes", "left-out", "glossary", "provenance")  # behind all scenes and self-tests
 
 
 def page_contents(results, gallery, output):
@@ -83,19 +83,32 @@ def page_contents(results, gallery, output):
         item for item in results.missing if item["what"].startswith("energy of the reference")
     ]
     reasons["strain"] += [item for item in results.missing if item["what"] == "time per load step"]
-    short = [s for s in (tables.in_short(results, name) for name in results.cells) if s]
-    if not short:
+    short = [answer for answer in (answer_of(results, name, gallery) for name in results.cells)]
+    short = [
+        {
+            **(answer or {"name": name, "lines": [], "ratio": None, "side": None}),
+            "stiffness": stiffness_rows(results.cells[name]) if is_homogenized(results, name) else [],
+            "has_bending": results.cells[name].stiffness("D") is not None,
+            "table": short_table(results, name) if answer and not comparison else [],
+        }
+        for name, answer in zip(results.cells, short)
+    ]
+    if not any(answer["lines"] for answer in short):
         reasons["short"] = [
             {
-                "what": "the summary of errors",
-                "why": "it needs rows of `affine` and `localized` in strain.csv",
+                "what": "what up-sampling does to the error",
+                "why": "it needs rows of `affine` and `localized` in strain.csv: `homespun strain`"
+                " makes them",
             }
         ]
     commands = list(dict.fromkeys(c for c in map(command_of, results.studies) if c))
     of_one_verify = len({study.place for study in results.studies}) == 1
-    verdicts = [
-        verdict_contents(
-            v, commands, study.name if several and not (study.lists_all and of_one_verify) else ""
+    claims = [
+        claim_contents(
+            v,
+            commands,
+            study.name if several and not (study.lists_all and of_one_verify) else "",
+            results.budget,
         )
         for study, v in results.claims()
     ]
@@ -103,10 +116,10 @@ def page_contents(results, gallery, output):
     return {
         "title": "homespun: "
         + ", ".join(
-            [d["scene"] for d in drapes]
+            list(results.cells)
+            or [d["scene"] for d in drapes]
             + ["stress"] * bool(stress)
             + ["convergence"] * bool(convergence)
-            + list(results.cells)
         ),
         "lead": lead(bool(drapes), bool(stress), bool(convergence), strain_shown),
         "comparison": comparison,
@@ -114,16 +127,19 @@ def page_contents(results, gallery, output):
         "stress": stress,
         "convergence": convergence,
         "strain_shown": strain_shown,
-        "summary": summary(results),
+        "summary": summary(results, "strain" if strain_shown and of_one_verify else ""),
         "commands": commands,
         "headings": HEADINGS,
         "shown_headings": headings,
         "contents": list(headings.items()),
         "runs": run_sentences(results),
         "run_rows": run_rows(results),
-        "verdict_groups": verdict_groups(verdicts),
-        "verdict_sentence": verdict_sentence(verdicts),
+        "whole": whole_sentence(results),
+        "self_tests": self_tests(results, output) if strain_shown else None,
+        "claim_groups": claim_groups(claims),
+        "claim_sentence": claim_sentence(claims),
         "in_short": short,
+        "glossary": GLOSSARY,
         "cells": cells,
         "notes": notes,
         "steps": tables.step_rows(results.steps),
@@ -157,44 +173,52 @@ def contents_of_drapes(results, gallery, output):
         ]
 
 
+def is_homogenized(results, name):
+    return results.cells[name].stiffness() is not None
+
+
 def headings_of(drapes, stress, convergence, strain_shown, comparison, notes):
-    """id -> heading of the sections that this page has, in their order."""
-    headings = {
-        key: HEADINGS[key] for key in ("verdicts", "comparison") if key == "verdicts" or comparison
+    """id -> heading of the sections that this page has, in their order: what speaks of the reader's
+    cell, then scenes, then self-tests of the program.
+    """
+    hidden = {key for key, shown in (("comparison", comparison), ("notes", notes)) if not shown}
+    shown = {
+        key: text
+        for key, text in HEADINGS.items()
+        if (strain_shown or key in COMMON + ("comparison",)) and key not in hidden
     }
+    headings = {key: text for key, text in shown.items() if key not in LAST}
     if drapes:
-        headings["drape-short"] = "In short: cloth in motion" if strain_shown else "In short"
-    headings.update((d["id"], f"Drape: {d['name']}") for d in drapes)
+        words = "In short: cloth in motion" if strain_shown else "In short"
+        if strain_shown:
+            headings["drape-short"] = words
+        else:  # it is the answer of this page
+            headings = {"drape-short": words, **headings}
+    headings.update((d["id"], f"Cloth in motion: {d['name']}") for d in drapes)
+    headings.update(
+        (c["id"], "Observed orders" + (f": {c['name']}" if len(convergence) > 1 else ""))
+        for c in convergence
+    )
     headings.update(
         (s["id"], "Stress cases" + (f": {s['name']}" if len(stress) > 1 else "")) for s in stress
     )
-    headings.update(
-        (c["id"], "Convergence" + (f": {c['name']}" if len(convergence) > 1 else ""))
-        for c in convergence
-    )
-    hidden = {key for key, shown in (("comparison", comparison), ("notes", notes)) if not shown}
-    headings.update(
-        (key, text)
-        for key, text in HEADINGS.items()
-        if (strain_shown or key in COMMON) and key not in hidden
-    )
+    headings.update((key, text) for key, text in shown.items() if key in LAST)
     return headings
 
 
 def lead(drape, stress, convergence, strain):
     """What the page is about."""
-    sentences = []
     if strain:
-        sentences.append(
-            "How far an up-sampled cloth is from the resolved one: a coarse sheet with homogenized"
-            " stiffness, its fine mesh restored by characteristic displacements, held against"
-            " fine-scale finite elements, vertex by vertex."
+        return (
+            "How far an up-sampled cloth is from the resolved one: a coarse sheet with the effective"
+            " stiffness of its cell, its fine mesh restored from it, held against fine finite"
+            " elements vertex by vertex."
         )
+    sentences = []
     if drape:
         sentences.append(
-            "Cloth in motion: a coarse cloth with homogenized stiffness is run through time,"
-            " up-sampled, and held against a cloth that is resolved by fine-scale finite elements,"
-            " vertex by vertex."
+            "Cloth in motion: a coarse cloth is run through time, its fine mesh restored from it,"
+            " and held against a cloth that is resolved, vertex by vertex."
         )
     if stress:
         sentences.append(
@@ -203,16 +227,19 @@ def lead(drape, stress, convergence, strain):
         )
     if convergence:
         sentences.append(
-            "Convergence: observed orders in mesh width, cells per sheet, coarse mesh, strain and"
-            " time step, held against the orders that theory says."
+            "Convergence: how fast errors fall as meshes, cells, strains and time steps become"
+            " finer, held against theory."
         )
     return " ".join(sentences)
 
 
-def summary(results):
-    """Size and cost of the studies, in one sentence each."""
+def summary(results, command=""):
+    """Size and cost of the studies, in one sentence each.
+
+    @param command of the only ones that are named, empty: all
+    """
     sentences = []
-    for study in results.studies:
+    for study in (s for s in results.studies if not command or s.run.command == command):
         info, parts = study.info, []
         rows = [r for r in results.strain if r["fine_triangles"] > 0]
         if info.get("cells_per_side") is not None:
@@ -233,7 +260,7 @@ def summary(results):
                 + (" since then" if info.get("resumed") else "")
             )
         if parts:
-            name = f"{study.name}: " if len(results.studies) > 1 else ""
+            name = f"{study.name}: " if len(results.studies) > 1 and not command else ""
             sentences.append(name + ", ".join(parts) + ".")
     return " ".join(sentences)
 

@@ -81,7 +81,7 @@ def draw_cloth(contents, drape, cell, gallery, limit, pool, scenes):
     try:
         bodies = read_vtu(drape.obstacles) if drape.obstacles else None
         figure, camera, phases, numbers = cloth_figure(
-            film, drape.up(), cell.info.get("cell_side_m"), pool, cell.info.get("phases"), bodies
+            film, drape.up(), cell.info.get("cell_side_m"), pool, cell.info, bodies
         )
         # Rendered while this process saves the figure.
         jobs = moving_jobs(film, camera, phases, pool, bodies)
@@ -104,7 +104,7 @@ def draw_cloth(contents, drape, cell, gallery, limit, pool, scenes):
                 f"true scale, not exaggerated.{words}"
             ),
             as_image="shaded",
-            view=film_view(film, camera, drape.up(), len(drape.cells) * scenes),
+            view=film_view(film, camera, phases, drape.up(), len(drape.cells) * scenes),
         )
         if moving := animation(film, camera, jobs, limit):
             data, width, loop, (first, last) = moving
@@ -150,7 +150,9 @@ def draw_curves(contents, drape, cell, gallery):
         contents["height"] = gallery.add(
             figure, f"{file}-height", f"{title}: height of the middle vertex.{words}"
         )
-    if figure := energy_figure(cell.motion):
+    if drawn := energy_figure(cell.motion):
+        figure, zero = drawn
+        words = f" Zero to round-off, not drawn: {', '.join(zero)}." if zero else ""
         contents["energies"] = gallery.add(
             figure,
             f"{file}-energies",
@@ -158,7 +160,7 @@ def draw_curves(contents, drape, cell, gallery):
                 f"{title}: energies of the cloth and its largest stretch (deformed over rest"
                 " length). The weight's energy is zero at the origin; forces that have no energy"
                 " (nodal warping) have no elastic one. A curve that leaves its panel grows beyond"
-                " a thousand times the first cloth's largest value."
+                f" a thousand times the first cloth's largest value.{words}"
             ),
         )
     if figure := step_bars(cell):

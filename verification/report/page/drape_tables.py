@@ -104,15 +104,13 @@ def error_sentence(cell, variant, reference):
         return f"Its error against {escape(reference)} is not known."
     last, worst = rows[-1], max(rows, key=lambda row: row["error_mean_m"])
     bar, sides = last["reference_uncertainty_m"], last["error_mean_per_cell"]
-    text = (
-        f"The mean error per vertex at the end ({three(last['time_s'])} s) is"
-        f" <b>{length(last['error_mean_m'])}</b>"
-    )
+    moved, step = last["displacement_mean_m"], last["time_step_uncertainty_m"]
+    text = f"The mean error per vertex at the end ({three(last['time_s'])} s) is"
+    if moved > 0.0:  # what a length is worth, the motion says
+        text += f" <b>{three(100.0 * last['error_mean_m'] / moved)} % of the mean displacement</b>,"
+    text += f" <b>{length(last['error_mean_m'])}</b>"
     text += "" if math.isnan(sides) else f" ({three(sides)} cell sides)"
     text += f", at most {length(worst['error_mean_m'])} at {three(worst['time_s'])} s"
-    moved, step = last["displacement_mean_m"], last["time_step_uncertainty_m"]
-    if moved > 0.0:
-        text += f"; that is {three(100.0 * last['error_mean_m'] / moved)} % of the mean displacement"
     text += "; the uncertainty of the reference's mesh is "
     text += "not known" if math.isnan(bar) else length(bar)
     if not math.isnan(step):

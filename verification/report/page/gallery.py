@@ -7,6 +7,7 @@ import io
 import json
 import os
 import re
+import sys
 import urllib.parse
 from dataclasses import dataclass
 
@@ -92,13 +93,20 @@ def in_page(value):
 class Gallery:
     """Saves figures into a folder and keeps them as data URIs for the page."""
 
-    def __init__(self, folder, images=0):
+    def __init__(self, folder, images=0, tells=False):
         """@param images how many images of dots will come: with many of them each is kept smaller
+        @param tells whether a terminal shows what is drawn
         """
+        self.tells = tells
         self.folder = folder
         self.dpi = PAGE_DPI * min(1.0, (FULL_IMAGES / max(1, images)) ** 0.5)
         os.makedirs(folder, exist_ok=True)
         self.names = set()
+
+    def tell(self, name):
+        """What is drawn now, on a line that rewrites itself; nothing where no terminal shows it."""
+        if self.tells:
+            print(f"\r\033[Kdrawing {name}", end="", file=sys.stderr, flush=True)
 
     def own_name(self, name):
         """A file name that no other figure has."""
@@ -108,7 +116,7 @@ class Gallery:
         self.names.add(name)
         return name
 
-    def add(self, figure, name, caption, as_image=False, table=None, view=None):
+    def add(self, figure, name, caption, as_image=False, table=None, view=None, plotted=True):
         """Saves `name`.pdf, `name`.svg and, of figures with numbers, `name`.csv, and closes the
         figure.
 
@@ -116,9 +124,11 @@ class Gallery:
             pictures; else the SVG
         @param table (header, rows) of the CSV file; None: the numbers of the curves and bars
         @param view what the page needs to show the same cloth in space, or None
+        @param plotted whether the page draws its curves again as an interactive plot
         @return Picture
         """
         name = self.own_name(name)
+        self.tell(name)
         figure.draw_without_rendering()  # lays the figure out, once for all formats
         figure.set_layout_engine("none")
         box = figure.get_tightbbox().padded(PAD)
@@ -136,7 +146,7 @@ class Gallery:
             with open(os.path.join(self.folder, name + ".svg"), encoding="utf-8") as file:
                 # Without quotes and ampersands.
                 source = Markup(svg_address(short_svg(file.read())))
-        panels = None if as_image else plot_data.panels_of(figure)
+        panels = None if as_image or not plotted else plot_data.panels_of(figure)
         header, rows = table or (plot_data.HEADER, [] if as_image else plot_data.rows_of(figure))
         endings = ("pdf", "svg") + (("csv",) if rows else ())
         if rows:

@@ -33,7 +33,8 @@
       callback(value) {
         const is_power = (v) => Math.abs(Math.log10(v) - Math.round(Math.log10(v))) < 1e-9;
         const long = (this.min < 2e-3 || this.max > 2e4) && this.ticks.every((tick) => is_power(tick.value));
-        return is_log && long ? style.power(Math.round(Math.log10(value))) : style.number(value);
+        if (is_log) return long ? style.power(Math.round(Math.log10(value))) : style.number(value);
+        return style.linear_tick(value, this.ticks.map((tick) => tick.value));
       } },
     afterBuildTicks: (scale) => {
       if (is_log) scale.ticks = style.log_ticks(scale.min, scale.max).map((value) => ({ value }));
@@ -50,8 +51,23 @@
     return words;
   };
 
+  // Words that stand at a point of the picture: the number of a slope, the size of a mesh.
+  const words = (panel) => ({ id: "words", afterDatasetsDraw({ ctx, scales, chartArea }) {
+    ctx.save();
+    ctx.font = "11px sans-serif";
+    for (const { text, at, shift, side, colour } of panel.words || []) {
+      const x = scales.x.getPixelForValue(at[0]), y = scales.y.getPixelForValue(at[1]);
+      if (!(x >= chartArea.left && x <= chartArea.right && y >= chartArea.top && y <= chartArea.bottom)) continue;
+      ctx.fillStyle = style.colour(colour);
+      ctx.textAlign = side[0];
+      ctx.textBaseline = { center: "middle", baseline: "alphabetic", center_baseline: "middle" }[side[1]] || side[1];
+      ctx.fillText(text, x + 1.33 * shift[0], y - 1.33 * shift[1]);
+    }
+    ctx.restore();
+  } });
+
   const draw = (canvas, panel, logs, hidden) => new Chart(canvas, {
-    type: "scatter",
+    type: "scatter", plugins: [words(panel)],
     data: { datasets: panel.curves.map((curve, i) => ({ ...dataset(curve, panel, i), hidden: !!curve.label && hidden.has(curve.label) })) },
     options: { responsive: true, maintainAspectRatio: false, animation: false, devicePixelRatio: Math.max(2, devicePixelRatio),
       interaction: { mode: "nearest", intersect: false, axis: "xy" },

@@ -36,7 +36,27 @@ const plot_style = (() => {
     for (let k = Math.floor(Math.log10(low)); k <= Math.log10(high); ++k)
       for (const factor of [1, 2, 5])
         if (factor * 10 ** k >= low * (1 - 1e-9) && factor * 10 ** k <= high * (1 + 1e-9)) finer.push(factor * 10 ** k);
-    return finer.length > 1 ? finer : [low, high];
+    return finer.length > 1 ? finer : linear_ticks(low, high);
+  };
+
+  // Round numbers of an interval that holds less than two of 1, 2 and 5 times a power of ten.
+  const linear_ticks = (low, high) => {
+    const power = 10 ** Math.floor(Math.log10((high - low) / 2)), ticks = [];
+    const step = [5, 2, 1].map((factor) => factor * power).find((one) => (high - low) / one >= 2) || power;
+    for (let k = Math.ceil(low / step - 1e-9); k * step <= high * (1 + 1e-12); ++k) ticks.push(k * step);
+    return ticks;
+  };
+
+  // A tick of a linear axis with as many digits as tell it from its neighbours; where that is more than five, all but
+  // the first say what they add to it.
+  const linear_tick = (value, ticks) => {
+    const gaps = ticks.slice(1).map((tick, i) => Math.abs(tick - ticks[i])).filter((gap) => gap > 0);
+    const largest = Math.max(...ticks.map(Math.abs)), step = Math.min(...gaps);
+    if (!gaps.length || !(largest > 0)) return number(value);
+    if (Math.abs(value) < 1e-6 * step) return "0";
+    const digits = Math.ceil(Math.log10(largest / step)) + 1;
+    if (digits <= 5) return number(value, Math.max(4, digits));
+    return value === ticks[0] ? number(value, Math.min(15, digits)) : `+${number(value - ticks[0], 3)}`;
   };
 
   // A quantity and its unit: "strain [%]" gives ["strain", "%"].
@@ -68,5 +88,5 @@ const plot_style = (() => {
     return `<svg width="26" height="12">${dash}${mark}</svg>`;
   };
 
-  return { MARKS, TURNED, colour, faint, ink, is_dark, lines, log_ticks, number, power, quantity, sample };
+  return { MARKS, TURNED, colour, faint, ink, is_dark, lines, linear_tick, log_ticks, number, power, quantity, sample };
 })();

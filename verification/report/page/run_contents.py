@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: MIT
-"""Which runs a page shows, what of them it does not, and their claims by what they speak of."""
-from collections import Counter
+"""Which runs a page shows, and what of them it does not."""
+import os
 
 from figures.style import seconds
-from page import tables
-from read.verdicts import KINDS, MARKS, ORDER, WORDS, words_of
+from read.runs import LIST
+from read.stored import read_json
 from read.versions import tags
 
 
@@ -32,12 +32,6 @@ def run_sentences(results):
                 "They were made by different revisions of homespun, so that a difference between"
                 " them may come from the program."
             )
-    elif len(runs) > 1:
-        whole = next(run.whole for run in runs if run.whole)
-        sentences.append(
-            f"One run of `homespun verify` (revision {whole.revision}, run {whole.fingerprint})"
-            f" with its parts {', '.join(run.name for run in runs if run.whole)}."
-        )
     sentences += [
         f"The run in {run.folder} did not come to its end: the tables it wrote so far are shown."
         " Begun again, it goes on."
@@ -45,6 +39,47 @@ def run_sentences(results):
         if not run.finished
     ]
     return sentences
+
+
+def self_tests(results, output):
+    """Where the self-tests of the program are: {"link", "sentence"} of those that `homespun verify`
+    made without a cell beside these results, of the same revision; a sentence alone where there are
+    none.
+
+    @param output folder of the page, for the link
+    """
+    revisions = {study.run.revision for study in results.studies}
+    for place in dict.fromkeys(study.run.place for study in results.studies):
+        for folder in ("verify", "verify-quick"):
+            found = os.path.normpath(os.path.join(place, "..", "..", folder))
+            value = read_json(os.path.join(found, LIST), []) if found != place else None
+            if (
+                value
+                and value.get("command") == "verify"
+                and value.get("finished") is True
+                and {value.get("revision")} == revisions
+                and not any(key.startswith("cell ") for key in value.get("inputs") or {})
+                and os.path.isfile(os.path.join(found, "report.html"))
+            ):
+                link = os.path.relpath(os.path.join(found, "report.html"), output)
+                return {"link": link, "sentence": "Self-tests of this revision of the program"}
+    return {
+        "link": "",
+        "sentence": "Self-tests of the program (manufactured solutions, stress cases) are made once"
+        " by `homespun verify` without a cell; none of this revision lies beside these results.",
+    }
+
+
+def whole_sentence(results):
+    """Of a page of one `verify`, which run it is and of what parts; else empty."""
+    runs = [study.run for study in results.studies]
+    if len(runs) < 2 or len({run.place for run in runs}) > 1:
+        return ""
+    whole = next(run.whole for run in runs if run.whole)
+    return (
+        f"One run of `homespun verify` (revision {whole.revision}, run {whole.fingerprint})"
+        f" with its parts {', '.join(run.name for run in runs if run.whole)}."
+    )
 
 
 def run_rows(results):
@@ -60,49 +95,3 @@ def run_rows(results):
         ]
         for run in (study.run for study in results.studies)
     ]
-
-
-def verdict_contents(verdict, commands, study):
-    """One row; its command only where it is not among those at the head of the page.
-
-    @param study name of its folder, where there are several
-    """
-    value = verdict.get("value")
-    return {
-        "claim": f"{study}: {verdict['claim']}" if study else verdict["claim"],
-        "kind": verdict["kind"],
-        "verdict": verdict["verdict"],
-        "mark": MARKS[verdict["verdict"]],
-        "word": WORDS[verdict["verdict"]],
-        "value": "–" if value is None else tables.shown(value),
-        "limit": tables.shown(verdict.get("limit", "")),
-        "derivation": verdict["derivation"],
-        "command": "" if verdict.get("command") in commands else verdict.get("command", ""),
-    }
-
-
-def verdict_groups(verdicts):
-    """[{"kind", "heading", "sentence", "verdicts"}]; in each group what failed comes first, then
-    what is open.
-    """
-    groups = []
-    for kind, heading in KINDS.items():
-        some = sorted((v for v in verdicts if v["kind"] == kind), key=lambda v: ORDER[v["verdict"]])
-        if some:
-            groups.append(
-                {"kind": kind, "heading": heading, "sentence": counted(some), "verdicts": some}
-            )
-    return groups
-
-
-def counted(verdicts):
-    """12 of 15 claims hold, 2 fail, 1 is open."""
-    return words_of(Counter(v["verdict"] for v in verdicts), "claim")
-
-
-def verdict_sentence(verdicts):
-    """Counts of all claims, then of each kind."""
-    groups = verdict_groups(verdicts)
-    return (
-        counted(verdicts) + ": " + "; ".join(f"{g['kind']}: {g['sentence']}" for g in groups) + "."
-    )

@@ -6,9 +6,10 @@ from statistics import median
 import numpy
 
 from figures import style
-from figures.run_time import METHOD, speed_ratio
+from figures.run_time import METHOD
 from figures.strain import errors_are_round_off
 from figures.style import percent, seconds, three
+from page.entries import ENTRIES, entry_texts, other_stiffnesses, source_of
 from read.cell_results import relative_width
 from read.results import cell_side
 
@@ -100,6 +101,7 @@ def stiffness_table(cell):
     value = cell.homogenize or {}
     engineering = value.get("engineering") or {}
     units = {"E1": "N/m", "E2": "N/m", "G12": "N/m"}
+    texts = entry_texts(value, "C")
     lower, upper = cell.stiffness("C_lower"), cell.stiffness("C_upper")
     bracket = None
     if (
@@ -128,6 +130,9 @@ def stiffness_table(cell):
             )
             if rows
         ],
+        "entries": [[f"C{name}", *texts[name]] for name, _, _ in ENTRIES],
+        "source": source_of(value, cell.command),
+        "others": other_stiffnesses(cell),
         "bracket": bracket,
         "bracket_of": value.get("bracket_of", "mesh"),
         "bracket_remark": (value.get("bracket") or {}).get("remark"),
@@ -234,7 +239,9 @@ def step_rows(rows):
             return median(values) if values else math.nan
 
         light = middle("seconds_coarse_solve") + middle("seconds_upsample")
-        ratio = middle("seconds_fine_step") / light if light > 0 else math.nan
+        # An endless cloth has no coarse solve: nothing was computed that could be faster.
+        both = middle("seconds_coarse_solve") > 0
+        ratio = middle("seconds_fine_step") / light if both else math.nan
         result.append(
             [
                 cell,
@@ -332,44 +339,3 @@ def round_off_sentences(rows):
                 f"{style.ROUND_OFF_TEXT}) against {', '.join(zero)}."
             )
     return sentences
-
-
-def in_short(results, name):
-    """The finding for one cell: errors with and without microscopic displacement at the first
-    chosen strain.
-    """
-    rows = results.reached(name)
-    reference = main_reference(rows)
-    strains = nearest_strains([row for row in rows if row["reference"] == reference])
-    if not strains:
-        return None
-    here = [row for row in rows if row["strain"] == strains[0] and row["reference"] == reference]
-    lines = []
-    for load in style.ordered_loads(row["load"] for row in here):
-        some = {row["method"]: row for row in here if row["load"] == load}
-        if METHOD in some and "affine" in some:
-            gain = math.nan
-            if some[METHOD]["error_mean_per_cell"] >= style.ROUND_OFF:
-                gain = some["affine"]["error_mean_m"] / some[METHOD]["error_mean_m"]
-            lines.append(
-                [
-                    load,
-                    error_entry(some["affine"], math.nan),
-                    error_entry(some[METHOD], math.nan),
-                    three(gain),
-                ]
-            )
-    ratio = speed_ratio(rows, reference)
-    side = cell_side(results, name)
-    return (
-        {
-            "name": name,
-            "strain": percent(strains[0]),
-            "reference": reference,
-            "lines": lines,
-            "side": length(side) if side else None,
-            "ratio": None if ratio is None else three(ratio),
-        }
-        if lines
-        else None
-    )

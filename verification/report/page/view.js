@@ -215,5 +215,8 @@
     return button;
   });
   const asked = Number(new URLSearchParams(location.search).get("view")); // ?view=1 opens the first
-  if (figures[asked - 1]) show(figures[asked - 1], buttons[asked - 1]);
+  if (figures[asked - 1]) {
+    for (let fold = figures[asked - 1].closest("details"); fold; fold = fold.parentElement.closest("details")) fold.open = true;
+    show(figures[asked - 1], buttons[asked - 1]);
+  }
 })();

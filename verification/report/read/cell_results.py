@@ -23,6 +23,9 @@ class Cell:
     # `angles`.
     phases: list = None
     group_of: numpy.ndarray = None  # of each phase in the files, its place in `phases`
+    command: str = ""  # of the run that homogenized it
+    # (command, homogenize.json) of other runs of the page with another C^H of the same cell
+    others: list = field(default_factory=list)
     file: str = ""  # the .prm it came from
     vertices: numpy.ndarray = None  # (n,2) [m]
     triangles: numpy.ndarray = None  # (m,3)
@@ -185,7 +188,7 @@ def read_cell(name, run, inner, faults, missing):
 
     @param inner folder of the cell in that of the run, empty where they are one
     """
-    cell = Cell(name, os.path.join(run.folder, inner))
+    cell = Cell(name, os.path.join(run.folder, inner), command=run.command)
 
     def path_of(file, consequence):
         path, why = run.take(os.path.join(inner, file))

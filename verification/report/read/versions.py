@@ -8,6 +8,8 @@ another, unless both are parts of one verify, which has one list of cells and on
 import dataclasses
 import os
 
+import numpy
+
 TABLES = ("strain", "uncertainty", "energies", "steps", "budget", "run_time", "validity")
 
 
@@ -43,8 +45,19 @@ def tags(places):
     }
 
 
+def differ(one, other):
+    """Whether two homogenize.json say another C^H, by more than round-off."""
+    a, b = (numpy.array(value["C"], dtype=float) for value in (one, other))
+    return numpy.abs(a - b).max() > 1e-9 * numpy.abs(a).max()
+
+
 def joined(one, other):
-    """A cell with what either of two knows, the first first."""
+    """A cell with what either of two knows, the first first; where both know C^H and differ, that
+    of the second stands among the others.
+    """
+    both = [cell.homogenize for cell in (one, other)]
+    if all(value and value.get("C") is not None for value in both) and differ(*both):
+        one.others.append((other.command, other.homogenize))
     values = {f.name: getattr(one, f.name) for f in dataclasses.fields(one)}
     for name, value in values.items():
         if value is None or (isinstance(value, (str, list)) and not value):

@@ -1,0 +1,216 @@
+# SPDX-License-Identifier: MIT
+"""What people type and save: files of another kind, other ways to write numbers and lists, each
+understood or refused in words that say what to do.
+"""
+import json
+import pathlib
+import re
+import shutil
+import sys
+import unittest
+
+from broken_cells_test import Cell, N, vertex
+from cli import CELLS, InFolder, run
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[3] / "verification" / "report"))
+from read.vtu import read_vtu  # noqa: E402
+
+SCENES = CELLS.parent / "scenes"
+QUICK = ["--cells", "1", "--references", "linear", "--no-budget", "--no-runtime", "--no-report",
+         "--quiet"]
+
+
+def words_of(path, name):
+    """The words of a string array of field data, which VTK stores as codes with a zero behind each.
+    """
+    text = path.read_bytes().split(f'Name="{name}"'.encode(), 1)[1]
+    codes = bytes(int(code) for code in text.split(b">", 1)[1].split(b"<", 1)[0].split())
+    return codes.decode().split("\0")[:-1]
+
+
+class OtherFiles(InFolder):
+    def refused_in_one_line(self, command, path, *words):
+        result = run(command, path)
+        self.assertEqual(result.returncode, 2)
+        lines = result.stderr.splitlines()
+        self.assertEqual(len(lines), 1, result.stderr[:2000])
+        self.assertTrue(lines[0].isprintable(), lines[0])
+        for word in words:
+            self.assertIn(word, lines[0])
+
+    def test_a_mesh_in_the_place_of_a_cell_is_one_line(self):
+        self.refused_in_one_line("check", CELLS / "layered.msh", "is a Gmsh mesh",
+                                 "expected a file of lines `set KEY = VALUE`")
+
+    def test_an_hdf5_file_in_the_place_of_a_cell_is_one_line(self):
+        path = self.folder / "cell.h5"
+        path.write_bytes(b"\x89HDF\r\n\x1a\n" + bytes(range(256)) * 20)
+        self.refused_in_one_line("homogenize", path, "is an HDF5 file")
+
+    def test_what_is_no_text_is_one_line(self):
+        path = self.folder / "cell.prm"
+        path.write_bytes(bytes(range(256)) * 20)
+        self.refused_in_one_line("check", path, "is no text")
+        path.write_text("set Mesh = a.msh\n", encoding="utf-16")
+        self.refused_in_one_line("check", path, "UTF-16")
+
+    def test_a_scene_given_to_homogenize_and_a_cell_given_to_drape_are_called_so(self):
+        self.refused_in_one_line("homogenize", SCENES / "hang.prm", "is a scene",
+                                 "homespun drape")
+        self.refused_in_one_line("drape", CELLS / "layered.prm", "is a cell", "--unit-cells")
+
+
+class WaysToWrite(InFolder):
+    def setUp(self):
+        super().setUp()
+        self.cell = Cell()
+
+    def check(self, change=lambda text: text):
+        path = self.cell.write(self.folder)
+        path.write_bytes(change(path.read_bytes()))
+        return run("check", path)
+
+    def refused(self, *words, **keys):
+        self.cell.keys.update(keys)
+        result = self.check()
+        self.assertEqual(result.returncode, 2, result.stdout)
+        for word in words:
+            self.assertIn(word, result.stderr)
+
+    def test_a_byte_order_mark_is_understood(self):
+        result = self.check(lambda text: b"\xef\xbb\xbf" + text)
+        self.assertEqual(result.returncode, 0, result.stderr)
+
+    def test_a_decimal_comma_is_refused_in_these_words(self):
+        self.refused("numbers have a decimal point: `0.01`", **{"Length unit": "0,01"})
+        self.cell = Cell()
+        self.refused("found `soft: 0,3`; expected a decimal point, not a comma",
+                     **{"Poisson's ratio": "soft: 0,3, hard: 0.3"})
+
+    def test_a_percentage_is_refused_in_these_words(self):
+        self.refused("a percentage is written as a fraction: `0.3`",
+                     **{"Poisson's ratio": "soft: 30%, hard: 0.3"})
+
+    def test_a_length_unit_that_is_left_out_is_refused(self):
+        del self.cell.keys["Length unit"]
+        self.refused("key `Length unit` is missing; expected metres per mesh unit")
+
+    def test_an_unknown_group_or_key_asks_whether_another_was_meant(self):
+        self.refused("names the group `hrad`", "did you mean `hard`?",
+                     Thickness="soft: 5e-4, hrad: 5e-4")
+        self.cell = Cell()
+        del self.cell.keys["Thickness"]
+        self.refused("unknown key `Thicknes`", "did you mean `Thickness`?",
+                     Thicknes="soft: 5e-4, hard: 5e-4")
+
+    def test_a_group_like_no_other_is_not_guessed(self):
+        self.cell.keys["Thickness"] = "soft: 5e-4, hard: 5e-4, embroidery: 1"
+        result = self.check()
+        self.assertIn("names the group `embroidery`", result.stderr)
+        self.assertNotIn("did you mean", result.stderr)
+
+    def test_a_mesh_without_physical_groups_is_called_that(self):
+        self.cell.groups = [0] * len(self.cell.groups)
+        path = self.cell.write(self.folder)
+        mesh = self.folder / "cell.msh"
+        text = re.sub(r"\$PhysicalNames.*\$EndPhysicalNames\n", "", mesh.read_text(), flags=re.S)
+        mesh.write_text(text)
+        result = run("check", path)
+        self.assertEqual(result.returncode, 2)
+        self.assertIn("has no physical groups", result.stderr)
+        self.assertIn("Physical Surface", result.stderr)
+        self.assertEqual(len(result.stderr.splitlines()), 1, result.stderr)
+
+    def test_an_absolute_path_within_the_folder_is_taken_and_one_outside_is_not(self):
+        self.cell.keys["Mesh"] = str(self.folder / "cell.msh")
+        self.assertEqual(self.check().returncode, 0)
+        self.cell.keys["Mesh"] = str(CELLS / "layered.msh")
+        self.assertIn("lies outside of the folder", self.check().stderr)
+
+    def test_a_message_on_nu12_does_not_contradict_its_range(self):
+        for key in ("Young's modulus", "Poisson's ratio"):
+            del self.cell.keys[key]
+        self.refused("strictly between -0.1 and 0.1", "was nu21 given?",
+                     Orthotropic="soft: 1e5 1e7 0.3 1e5 0, hard: 1e7 1e7 0.3 4e6 0")
+        self.assertNotIn("0.5 is fine", self.check().stderr)
+
+    def test_a_phase_that_does_not_continue_across_the_sides_is_a_warning_with_its_place(self):
+        sound = self.check()
+        self.assertNotIn("does not continue", sound.stdout)
+        # One square at the left side of the soft half is hard; that at the right side is not.
+        for triangle in range(len(self.cell.triangles)):
+            if self.cell.square_of(triangle) == (0, 1):
+                self.cell.groups[triangle] = 2
+        result = self.check()
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertIn("a phase does not continue across the sides", result.stdout)
+        self.assertIn(f"vertex {vertex(0, 1)} at (0, {1 / N:g})", result.stdout)
+        self.assertIn(f"vertex {vertex(N, 1)}", result.stdout)
+
+
+class Options(InFolder):
+    def test_lists_that_blanks_part_are_understood(self):
+        for words in (["--loads", "strip-1,", "strip-2"], ["--loads", "strip-1", ",strip-2"],
+                      ["--loads=strip-1,", "strip-2"]):
+            shutil.rmtree(self.folder / "out", ignore_errors=True)
+            result = run("strain", CELLS / "layered.prm", *words, "--strains", "0.01", *QUICK,
+                         "--output", self.folder / "out")
+            self.assertNotEqual(result.returncode, 2, result.stderr)
+            self.assertEqual(json.loads((self.folder / "out/study.json").read_text())["loads"],
+                             ["strip-1", "strip-2"])
+
+    def test_percentages_are_strains_and_a_large_number_asks_whether_percent_was_meant(self):
+        result = run("strain", CELLS / "layered.prm", "--loads", "periodic-11", "--strains",
+                     "1%,60%", *QUICK, "--output", self.folder)
+        self.assertNotEqual(result.returncode, 2, result.stderr)
+        self.assertEqual(json.loads((self.folder / "study.json").read_text())["strains"],
+                         [0.01, 0.6])
+        for strain, words in (("0.5", "if percent was meant, write 0.5%, and else 50%"),
+                              ("1", "which is 100 %; if percent was meant, write 1%"),
+                              ("0,01", "decimal point")):
+            result = run("strain", CELLS / "layered.prm", "--strains", strain)
+            self.assertEqual(result.returncode, 2)
+            self.assertIn(words, result.stderr)
+
+    def test_quiet_is_silent(self):
+        for words in (["homogenize", CELLS / "layered.prm"],
+                      ["verify", CELLS / "layered.prm", "--parts", "homogenize"]):
+            result = run(*words, "--quiet", "--output", self.folder / words[0])
+            self.assertEqual((result.returncode, result.stdout, result.stderr), (0, "", ""))
+
+
+class Frames(InFolder):
+    def test_materials_of_a_cell_file_are_its_groups_with_names_and_axes(self):
+        result = run("homogenize", CELLS / "plain-weave.prm", "--no-bars", "--output", self.folder)
+        self.assertIn(result.returncode, (0, 4), result.stderr)
+        path = self.folder / "characteristic-displacements.vtu"
+        surface, names = read_vtu(path), words_of(path, "material names")
+        numbers = set(surface.cell_data["material"].astype(int).reshape(-1))
+        groups = {p["name"] for p in json.loads((self.folder / "cell.json").read_text())["phases"]}
+        self.assertEqual(set(names), groups)
+        self.assertEqual(numbers, set(range(len(groups))))
+        first, second = (surface.cell_data[f"material axis {k}"] for k in (1, 2))
+        self.assertLess(abs((first * second).sum(axis=1)).max(), 1e-6)
+        self.assertLess(abs((first**2).sum(axis=1) - 1).max(), 1e-6)
+        self.assertLess(abs(first[:, 0] * second[:, 1] - first[:, 1] * second[:, 0] - 1).max(),
+                        1e-6)
+
+    def test_frames_hold_materials_of_triangles_and_warn_of_pins_at_points(self):
+        result = run("drape", SCENES / "hang-corner.prm", "--quick", "--unit-cells",
+                     CELLS / "layered.prm", "--no-report", "--duration", "0.02", "--output",
+                     self.folder)
+        self.assertNotEqual(result.returncode, 2, result.stderr)
+        self.assertIn("held at single points (`top left`)", result.stderr)
+        study = json.loads((self.folder / "drape.json").read_text())
+        self.assertTrue(any("logarithm of the mesh width" in note for note in study["notes"]))
+        frame = sorted((self.folder / "layered-corotational").glob("fine_*.vtu"))[-1]
+        surface = read_vtu(frame)
+        self.assertNotIn("material", surface.point_data)
+        material = surface.cell_data["material"].astype(int).reshape(-1)
+        # Two halves: as many triangles of one as of the other, in two numbers alone.
+        self.assertEqual(sorted(set(material)), [0, 1])
+        self.assertEqual((material == 0).sum(), (material == 1).sum())
+
+
+if __name__ == "__main__":
+    unittest.main()

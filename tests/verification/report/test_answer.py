@@ -1,0 +1,310 @@
+# SPDX-License-Identifier: MIT
+"""Tests of what the page answers first: what up-sampling does to the error, why, with which C^H."""
+import json
+import math
+import os
+import re
+import unittest
+
+import numpy
+
+import report_path  # noqa: F401
+import browser
+from figures import style
+from made_up_run import list_again, verdict, write_run, write_verdicts
+from made_up_study import LAMINATE, write_results
+from page import answer, claims, entries, tables
+from page.glossary import GLOSSARY
+from page.run_contents import self_tests
+from page_case import PageTest
+from read.cell_results import Cell
+from read.results import read_results
+from test_budget import write_budget
+
+BAR = 1e-6  # of the reference, cell sides of 1 cm
+
+
+def row(error, bar=BAR):
+    return {
+        "error_mean_per_cell": error,
+        "error_mean_m": 0.01 * error,
+        "reference_uncertainty_m": 0.01 * bar,
+    }
+
+
+def parts(**shares):
+    return {part.replace("_", "-"): {"share": value} for part, value in shares.items()}
+
+
+class SentenceTest(unittest.TestCase):
+    def line(self, before, after, budget=None):
+        return answer.line_of("strip-1", row(before), row(after), budget)
+
+    def test_a_gain_says_how_much_goes_and_why_the_rest_stays(self):
+        line = self.line(1e-2, 0.26e-2, parts(scale=0.1, coarse_mesh=0.6, convention=0.3))
+        self.assertEqual((line["change"], line["mark"]), ("−74 %", "better"))
+        self.assertEqual(
+            line["sentence"],
+            "Up-sampling takes away 74 % of the error; 26.0 µm (0.260 % of a cell side) are left"
+            " because the coarse mesh is too coarse (60 % of it) and the anchor holds the corners"
+            " of the cell still (30 % of it).",
+        )
+
+    def test_a_loss_says_how_much_worse_and_why(self):
+        line = self.line(1e-2, 1.58e-2, parts(scale=0.9, blending=-0.2, convention=0.1))
+        self.assertEqual((line["change"], line["mark"]), ("+58 %", "worse"))
+        self.assertIn("makes the error 58 % worse", line["sentence"])
+        self.assertTrue(line["sentence"].endswith("the cells do not repeat (90 % of it)."))
+
+    def test_what_the_reference_cannot_tell_is_not_called_a_gain(self):
+        line = self.line(1e-2, 1e-2 - 0.5 * BAR)
+        self.assertEqual(line["mark"], "open")
+        self.assertIn("no difference that the error bar", line["sentence"])
+        self.assertEqual(self.line(1e-2, 1e-2 - 2.0 * BAR)["mark"], "better")
+
+    def test_zero_is_said_to_round_off(self):
+        self.assertIn("all of the error", self.line(1e-2, 1e-15)["sentence"])
+        self.assertIn("nothing is to be added".capitalize(), self.line(1e-15, 1e-15)["sentence"])
+
+    def test_without_a_budget_no_cause_is_made_up(self):
+        self.assertIn("the error budget did not run", self.line(1e-2, 5e-3)["sentence"])
+        # Parts beside the sum are no causes.
+        self.assertIn("compensate", answer.why(parts(reference=0.9, cell=0.9)))
+
+    def test_shares_keep_a_digit_where_none_would_say_nothing_or_all(self):
+        for value, text in ((0.7412, "74"), (0.9989, "99.89"), (0.001, "0.1"), (0.5, "50")):
+            self.assertEqual(answer.share(value), text)
+
+
+class DigitsTest(unittest.TestCase):
+    def test_digits_end_where_the_bar_says_no_more(self):
+        for value, bar, text in (
+            (1001.5633, 11.05, "1002"),
+            (1001.5633, 0.31, "1001.56"),
+            (1001.5633, 1e-9, "1001.56"),
+            (222.034, 1.67, "222.0"),
+            (-4.3e-5, 2.5, "0"),
+            (0.00179, 0.096, "0.002"),
+            (0.0, 2.5, "0"),
+            (-12.345, 0.2, "−12.35"),
+            (2839.91, math.nan, "2840"),
+            (1.5e7, 10.0, "1.50 × 10⁷"),
+        ):
+            self.assertEqual(style.beside_bar(value, bar), text, (value, bar))
+
+    def test_a_guaranteed_bar_covers_what_is_printed(self):
+        """The printed value ± the printed bar holds the value ± its bar."""
+        for value, bar in (
+            (1001.5633, 11.05),
+            (503.32912, 0.2525),
+            (2839.91009, 9.6e-10),
+            (-4.3e-5, 2.505),
+            (22.339, 0.0599),
+            (7.36e-5, 9.96e-7),
+            (1.23e7, 4.5e4),
+        ):
+            text = style.beside_bar(value, bar)
+            printed = style.number_of(style.bar_beside(text, value, bar))
+            off = abs(style.number_of(text) - value)
+            self.assertGreaterEqual(printed, (bar + off) * (1.0 - 1e-9), (value, bar))
+            self.assertLessEqual(printed, 1.11 * (bar + off), (value, bar))
+
+    def test_all_six_entries_have_one_name_and_a_bar(self):
+        bars = numpy.full((3, 3), 0.3).tolist()
+        cell = Cell("a", homogenize={"C": LAMINATE.tolist(), "bracket": {"entry_bars": bars}})
+        rows = entries.stiffness_rows(cell)
+        self.assertEqual([one[0] for one in rows], ["11", "22", "12", "66", "16", "26"])
+        self.assertEqual(rows[0][1:3], ["2839.91", "0.30"])
+        self.assertEqual(rows[0][3:], ["–", "–"])  # no bending
+
+    def test_a_step_of_an_endless_cloth_is_not_called_faster(self):
+        step = {
+            "cell": "a",
+            "load": "periodic-11",
+            "reference": "biot",
+            "seconds_coarse_solve": 0.0,
+            "seconds_upsample": 1e-7,
+            "seconds_fine_step": 1.0,
+            "coarse_iterations": 0,
+            "fine_iterations": 3,
+            "fine_dofs": 100,
+            "ranks": 1,
+        }
+        self.assertEqual(tables.step_rows([step])[0][7], "–")
+        sheet = {**step, "load": "strip-1", "seconds_coarse_solve": 1e-3}
+        self.assertEqual(tables.step_rows([sheet])[0][7], "1000")
+
+
+class ClaimTest(unittest.TestCase):
+    BUDGET = [
+        {
+            "cell": "a",
+            "load": "strip-2",
+            "strain": 0.01,
+            "reference": "biot",
+            "region": "all",
+            "part": part,
+            "share": value,
+        }
+        for part, value in (("convention", 0.8), ("scale", 0.2), ("total", 1.0))
+    ]
+
+    def claim(self, text, outcome, kind):
+        made = verdict(text, outcome, 1.58, "< 1", kind)
+        return claims.claim_contents(made, [], "", self.BUDGET)
+
+    def test_a_claim_on_the_method_that_fails_says_why_and_what_to_do(self):
+        text = "a, strip-2: localized is closer to biot than affine at strain 0.01 (ratio)"
+        row = self.claim(text, "FAIL", "method")
+        self.assertIn("the anchor holds the corners of the cell still (80 % of it)", row["why"])
+        self.assertIn("coarse mesh alone", row["advice"])
+        self.assertEqual(self.claim(text, "PASS", "method")["advice"], "")
+
+    def test_every_kind_says_what_to_do_where_nothing_else_is_known(self):
+        for kind, words in (
+            ("program", "report it"),
+            ("input", "homespun check"),
+            ("method", "do not use it"),
+        ):
+            self.assertIn(words, self.claim("something else", "FAIL", kind)["advice"])
+
+    def test_what_does_not_hold_stands_apart_from_what_holds(self):
+        rows = [
+            self.claim(str(i), outcome, "program")
+            for i, outcome in enumerate(("PASS", "INCONCLUSIVE", "FAIL", "PASS"))
+        ]
+        (group,) = claims.claim_groups(rows)
+        self.assertEqual([v["claim"] for v in group["open"]], ["2", "1"])
+        self.assertEqual([v["claim"] for v in group["held"]], ["0", "3"])
+        self.assertEqual(group["worst"]["verdict"], "FAIL")
+
+
+class AnswerPageTest(PageTest):
+    def setUp(self):
+        super().setUp()
+        write_results(self.folder)
+        write_budget(self.folder)
+        list_again(self.folder)
+        os.remove(os.path.join(self.folder, "stripes", "fields-shear-frame.h5"))
+        list_again(self.folder)
+
+    def test_the_answer_comes_first_and_words_are_explained(self):
+        self.assertEqual(self.run_report(), (0, ""))
+        page = self.page()
+        first = page[page.index("<h1>") : page.index("<nav")]
+        for words in (
+            "Up-sampling takes away 96 % of the error",
+            "because near the edges the cells do not repeat (70 % of it)",
+            'id="stripes-answer"',
+            "C<sup>H</sup> [N/m]",
+            "program: ",
+            "method: ",
+        ):
+            self.assertIn(words, first)
+        for word, meaning in GLOSSARY:
+            self.assertTrue(meaning, word)
+        for word in ("anchor", "lift", "localized", "linear, biot, green"):
+            self.assertIn(f"<dt>{word}</dt>", page)
+
+    def test_a_cell_without_a_study_answers_with_its_stiffness(self):
+        alone = os.path.join(self.place, "homogenize")
+        os.rename(os.path.join(self.folder, "stripes"), alone)
+        write_run(alone, "homogenize")
+        self.assertEqual(self.run_report(alone), (0, ""))
+        page = self.page()
+        first = page[page.index("<h1>") : page.index("<nav")]
+        self.assertIn("C<sup>H</sup> [N/m]", first)
+        self.assertIn("`homespun strain` makes them", first)
+
+    def test_two_stiffnesses_of_one_cell_are_both_shown_and_named(self):
+        whole = os.path.join(self.place, "verify")
+        os.makedirs(os.path.join(whole, "cells"))
+        os.rename(self.folder, os.path.join(whole, "strain"))
+        alone = os.path.join(whole, "cells", "stripes")
+        write_results(os.path.join(self.place, "made"))
+        os.rename(os.path.join(self.place, "made", "stripes"), alone)
+        path = os.path.join(alone, "homogenize.json")
+        with open(path, encoding="utf-8") as file:
+            value = json.load(file)
+        value["C"][0][0], value["order"] = 2700.0, 1
+        with open(path, "w", encoding="utf-8") as file:
+            json.dump(value, file)
+        write_run(alone, "homogenize")
+        write_verdicts(whole, [])
+        write_run(whole, "verify")
+        cell = read_results([whole]).cells["stripes"]
+        found = entries.other_stiffnesses(cell)
+        self.assertEqual(
+            found["names"], ["homogenize, linear triangles", "strain, quadratic triangles"]
+        )
+        self.assertEqual(found["rows"][0], ["C11", "2700", "2840"])
+        self.assertEqual(found["rows"][1], ["C22", "999", "999"])
+
+    def test_self_tests_of_the_same_revision_are_linked_and_no_others(self):
+        whole = os.path.join(self.place, "stripes", "verify")
+        os.makedirs(os.path.dirname(whole))
+        os.rename(self.folder, whole)
+        tests = os.path.join(self.place, "verify")
+        os.makedirs(tests)
+        write_verdicts(tests, [])
+        with open(os.path.join(tests, "report.html"), "w", encoding="utf-8") as file:
+            file.write("<h1>self-tests</h1>")
+        found = read_results([whole])
+        for inputs, revision, is_linked in (
+            ({"parts": ["converge", "stress"]}, "abc1234", True),
+            ({"parts": ["converge", "stress"]}, "def5678", False),
+            ({"parts": ["converge"], "cell stripes": "0"}, "abc1234", False),
+        ):
+            write_run(tests, "verify", revision, inputs=inputs)
+            told = self_tests(found, whole)
+            self.assertEqual(told["link"], "../../verify/report.html" if is_linked else "")
+            self.assertEqual("made once by `homespun verify`" in told["sentence"], not is_linked)
+
+    @unittest.skipUnless(browser.CHROMIUM, "needs chromium")
+    def test_the_answer_is_on_the_first_screen_and_the_page_is_short_until_it_is_opened(self):
+        self.assertEqual(self.run_report(), (0, ""))
+        script = """when((page) => page.querySelector("main h1"), (page) => {
+          const top = (id) => page.getElementById(id).getBoundingClientRect().top;
+          const bottom = (id) => page.getElementById(id).getBoundingClientRect().bottom;
+          const folds = page.querySelectorAll("details:not([open])").length;
+          const answer = [top("short"), page.querySelector("#stripes-answer img")
+            .getBoundingClientRect().bottom, page.querySelector(".entries table")
+            .getBoundingClientRect().bottom];
+          const height = page.body.scrollHeight;
+          const ground = page.defaultView.getComputedStyle(page.querySelector("div.claim"))
+            .backgroundColor;
+          page.defaultView.location.hash = "#provenance";
+          setTimeout(() => send({ answer, height, folds, ground,
+            open: page.getElementById("provenance").closest("details").open }), 500); });"""
+        found, _ = browser.ask(self.output, "report.html", script, width=1280)
+        self.assertLess(max(found["answer"]), 900)
+        self.assertLess(found["height"], 12 * 900)
+        self.assertGreater(found["folds"], 5)
+        self.assertEqual(found["ground"], "rgba(0, 0, 0, 0)")  # what is open can be read
+        self.assertTrue(found["open"])  # a link opens what it leads to
+
+    @unittest.skipUnless(browser.CHROMIUM, "needs chromium")
+    def test_on_a_phone_nothing_is_covered_hidden_or_cut_and_figures_are_framed_when_it_is_dark(self):
+        self.assertEqual(self.run_report(), (0, ""))
+        script = """when((page) => page.querySelector("button.theme"), (page, their) => {
+          const box = (one) => page.querySelector(one).getBoundingClientRect();
+          const style = (one) => their.getComputedStyle(page.querySelector(one));
+          const button = box("button.theme"), text = page.createRange();
+          text.selectNodeContents(page.querySelector("h1"));
+          const apart = [...text.getClientRects()].every((line) =>
+            line.right <= button.left || line.top >= button.bottom || line.bottom <= button.top);
+          const nav = page.querySelector("nav ol");
+          send({ apart, position: style("button.theme").position, row: style(".lines tr").display,
+            names: their.getComputedStyle(page.querySelector(".lines td.number"), "::before").content,
+            links: nav.scrollHeight <= nav.clientHeight + 1, wide: page.documentElement.scrollWidth,
+            frame: style("#stripes-answer img").padding }); });"""
+        found, _ = browser.ask(self.output, "report.html?theme=dark", script, width=390)
+        self.assertTrue(found["apart"] and found["links"], found)
+        self.assertEqual((found["position"], found["row"]), ("absolute", "block"))  # scrolls away
+        self.assertIn("up to a strain of", found["names"])
+        self.assertLessEqual(found["wide"], 390)
+        self.assertEqual(found["frame"], "8px")
+
+
+if __name__ == "__main__":
+    unittest.main()

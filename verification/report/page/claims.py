@@ -1,0 +1,144 @@
+# SPDX-License-Identifier: MIT
+"""Claims by what they speak of, and under each that fails or is open why, and what to do."""
+import re
+from collections import Counter
+
+from page import tables
+from page.answer import why
+from read.budget_results import levels
+from read.verdicts import KINDS, MARKS, ORDER, WORDS, words_of
+
+# What to do, by words of the claim; the first that is found counts.
+ADVICE = (
+    (
+        "closer to biot than affine",
+        "Under this load take the coarse mesh alone (`affine`), or remove the cause: a finer coarse"
+        " mesh, a cell cut at another place (see the notes on the place of the cut), a smaller"
+        " strain.",
+    ),
+    (
+        "find an equilibrium",
+        "Read the table only up to the last strain that was reached; `--strains` with smaller steps"
+        " may get further. Soft shear beside stiff tension loses its equilibrium early: that is the"
+        " cell, not the solver.",
+    ),
+    (
+        "is a minimum of the reference's energy",
+        "Do not rest a decision on the levels named: the reference may have found one equilibrium"
+        " of several. Smaller strains have one.",
+    ),
+    (
+        "what the parts leave of the error",
+        "Take the causes from the smaller strain. Where the bar is above a fifth of the error, the"
+        " budget cannot say at this strain what the error is made of; the error itself stands.",
+    ),
+    (
+        "error bar of the reference covers",
+        "Take the distance as the error bar: solve the reference finer (`--order 2`), or with more"
+        " cells in its error bar.",
+    ),
+    ("what the solvers leave undone", "Run again: a solve ended early; its row in steps.csv says which."),
+    (
+        "strain squared",
+        "Give `--strains` with three or more small levels, such as 1e-4,1e-3,1e-2; if it stays, the"
+        " cell or the law is at fault at these strains, or the program is.",
+    ),
+    ("second code", "Two programs differ on one problem: report it, with the cell."),
+    ("second solver", "Two programs differ on one problem: report it, with the cell."),
+    ("runs to its end", "Read the message in the claim; other parts are not touched by it."),
+    ("bracket", "Narrow it: `homespun homogenize CELL.prm --tolerance 1e-4`."),
+    ("faceted", "Give the triangles curved sides: `Mesh.ElementOrder = 2` in Gmsh."),
+    ("single element across", "Mesh finer there, or compute with `--order 2`."),
+    ("observed order", "Let it refine further: leave out `--quick`."),
+)
+OF_KIND = {
+    "program": "The program, not the cell, is in question here: report it, with the cell and this"
+    " page.",
+    "input": "Mend cell, mesh or scene: `homespun check CELL.prm --output out/check` shows the"
+    " places.",
+    "method": "Up-sampling is not good enough here: do not use it under this load and strain.",
+}
+LEVEL = re.compile(r"([\w.-]+), (periodic-\d\d|strip-\d|shear-frame)\b")
+STRAIN = re.compile(r"at (?:strain )?([\d.e-]+)( %)?")
+
+
+def claim_contents(verdict, commands, study, budget):
+    """One row; its command only where it is not among those of the page.
+
+    @param study name of its folder, where there are several
+    @param budget rows of budget.csv
+    """
+    value = verdict.get("value")
+    row = {
+        "claim": f"{study}: {verdict['claim']}" if study else verdict["claim"],
+        "kind": verdict["kind"],
+        "verdict": verdict["verdict"],
+        "mark": MARKS[verdict["verdict"]],
+        "word": WORDS[verdict["verdict"]],
+        "value": "–" if value is None else tables.shown(value),
+        "limit": tables.shown(verdict.get("limit", "")),
+        "derivation": verdict["derivation"],
+        "command": "" if verdict.get("command") in commands else verdict.get("command", ""),
+        "why": "",
+        "advice": "",
+    }
+    if verdict["verdict"] != "PASS":
+        row["why"] = cause_of(verdict, budget)
+        row["advice"] = advice_of(verdict)
+    return row
+
+
+def cause_of(verdict, budget):
+    """Why a claim on the method does not hold, from the budget; of other claims their limit says
+    it.
+    """
+    if verdict["kind"] != "method":
+        return ""
+    case, strain = LEVEL.search(verdict["claim"]), STRAIN.search(verdict["claim"])
+    if not case or not strain:
+        return ""
+    known = levels([row for row in budget if row["cell"] == case[1]])
+    value = float(strain[1]) / (100.0 if strain[2] else 1.0)
+    near = [key for key in known if key[0] == case[2] and abs(key[1] / value - 1.0) < 1e-6]
+    return f"The error is left {why(known[near[0]]['all'] if near else None)}."
+
+
+def advice_of(verdict):
+    """What a reader can do about a claim that does not hold."""
+    return next(
+        (advice for words, advice in ADVICE if words in verdict["claim"]), OF_KIND[verdict["kind"]]
+    )
+
+
+def claim_groups(claims):
+    """[{"kind", "heading", "sentence", "count", "open", "held"}], by kind in their order: what does
+    not hold, failures first, and what holds.
+    """
+    groups = []
+    for kind, heading in KINDS.items():
+        some = sorted((v for v in claims if v["kind"] == kind), key=lambda v: ORDER[v["verdict"]])
+        if some:
+            groups.append(
+                {
+                    "kind": kind,
+                    "heading": heading,
+                    "sentence": counted(some),
+                    "worst": some[0],
+                    "open": [v for v in some if v["verdict"] != "PASS"],
+                    "held": [v for v in some if v["verdict"] == "PASS"],
+                }
+            )
+    return groups
+
+
+def counted(claims):
+    """12 of 15 claims hold, 2 fail, 1 is open."""
+    return words_of(Counter(v["verdict"] for v in claims), "claim")
+
+
+def claim_sentence(claims):
+    """Counts of all claims, then of each kind."""
+    groups = claim_groups(claims)
+    return (
+        counted(claims) + ": " + "; ".join(f"{g['kind']}: {g['sentence']}" for g in groups) + "."
+    )

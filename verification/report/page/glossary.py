@@ -1,0 +1,41 @@
+# SPDX-License-Identifier: MIT
+"""The words of the page that a reader may not know, in the order of the way from cell to cloth."""
+
+GLOSSARY = (
+    ("cell", "one period of the cloth: a mesh with a few materials that repeats along two lattice"
+     " vectors"),
+    ("macro strain", "the strain of the cloth seen from afar, the same over a whole cell; 11 and 22"
+     " along the axes, 12 in shear (engineering shear γ12 = 2 E12)"),
+    ("C^H", "effective membrane stiffness: what an even sheet must have to answer like the cloth"
+     " [N/m], in the order 11, 22, 12"),
+    ("D^H", "effective bending stiffness [N m], of the curvatures κ11, κ22, 2 κ12"),
+    ("bracket", "two stiffnesses of which it is proven that C^H (D^H) lies between them; the bars"
+     " ± are read off it"),
+    ("characteristic displacements, χ", "how the vertices of a cell move beside an even strain,"
+     " for a unit of each macro strain; computed once per cell"),
+    ("anchor", "χ is known up to a constant; it is fixed by holding the corners of the cell still,"
+     " which makes the place of the cut matter. `localized-mean-anchor` takes mean zero instead"),
+    ("affine", "the coarse mesh alone: fine vertices follow their coarse triangle; the baseline"),
+    ("localized", "up-sampling as the paper has it: affine plus χ times the strain of the coarse"
+     " triangle, blended between triangles"),
+    ("lift", "how a fine vertex is carried with the coarse cloth before χ is added; the affine lift"
+     " is the plain one"),
+    ("blending", "averaging the strain of neighbouring coarse triangles so that χ has no jumps;"
+     " `localized-piecewise` leaves it out"),
+    ("reference", "the fine mesh solved by finite elements: what counts as the truth, with an error"
+     " bar of its own"),
+    ("linear, biot, green", "laws of the reference: small strain; ½ (U−I):C:(U−I), which is also"
+     " the law of the coarse cloth; St. Venant-Kirchhoff"),
+    ("fluctuation", "what the cloth does beside an even sheet of stiffness C^H: the part that"
+     " up-sampling is to restore"),
+    ("cell side", "square root of the area of the cell; errors are given in it"),
+    ("periodic-11, -22, -12", "loads of an endless cloth, by one macro strain; no edges, no coarse"
+     " mesh to solve"),
+    ("strip-1, strip-2, shear-frame", "sheets that are clamped at two sides and pulled along an"
+     " axis, or sheared in a frame; they have edges"),
+    ("claim", "a sentence that may fail, with a limit that was known before the figure: of the"
+     " program (it computes what it says), of the input (cell, mesh, scene are fit) or of the"
+     " method (up-sampling is good enough here). Open: it could not be decided"),
+    ("order", "by which power an error falls with mesh width, strain or time step"),
+    ("degrees of freedom (DoFs)", "unknowns of a solve"),
+)
