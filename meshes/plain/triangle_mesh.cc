@@ -7,10 +7,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <map>
 #include <numeric>
 #include <set>
 #include <sstream>
+#include <tuple>
 #include <unordered_map>
 
 namespace homespun::meshes
@@ -36,6 +36,33 @@ Place place_of_triangle(const TriangleMesh &mesh, const int t)
            mesh.vertices.row(mesh.triangles(t, 2))) /
             3.,
           t, -1};
+}
+
+/// Of each triangle the first one that has the same vertices, in any order: mostly itself.
+std::vector<int> first_with_same_vertices(const TriangleMesh &mesh)
+{
+  struct Sorted
+  {
+    std::array<int, 3> corners;
+    int triangle;
+  };
+  std::vector<Sorted> all(static_cast<std::size_t>(mesh.n_triangles()));
+  for (int t = 0; t < mesh.n_triangles(); ++t)
+  {
+    Sorted &its = all[static_cast<std::size_t>(t)];
+    its         = {{mesh.triangles(t, 0), mesh.triangles(t, 1), mesh.triangles(t, 2)}, t};
+    std::sort(its.corners.begin(), its.corners.end());
+  }
+  std::sort(all.begin(), all.end(),
+            [](const Sorted &a, const Sorted &b)
+            { return std::tie(a.corners, a.triangle) < std::tie(b.corners, b.triangle); });
+  std::vector<int> first(all.size());
+  for (std::size_t k = 0; k < all.size(); ++k)
+    first[static_cast<std::size_t>(all[k].triangle)] =
+      k > 0 && all[k].corners == all[k - 1].corners
+        ? first[static_cast<std::size_t>(all[k - 1].triangle)]
+        : all[k].triangle;
+  return first;
 }
 } // namespace
 
@@ -185,17 +212,21 @@ std::vector<MeshFault> placed_faults_of(const TriangleMesh &mesh, const std::str
       longest = std::max(longest, (mesh.vertices.row(mesh.triangles(t, (k + 1) % 3)) -
                                    mesh.vertices.row(mesh.triangles(t, k)))
                                     .squaredNorm());
-    std::ostringstream text;
-    text << "triangle " << t << " near " << at(mesh, mesh.triangles(t, 0));
+    const auto begin = [&](std::ostringstream &text) // of faults alone: it takes its time
+    { text << "triangle " << t << " near " << at(mesh, mesh.triangles(t, 0)); };
     // 1e-10 of the square of its longest edge: beyond that, gradients lose half their digits.
     if (std::abs(areas(t)) <= 1e-10 * longest)
     {
+      std::ostringstream text;
+      begin(text);
       text << " has area " << areas(t) << " m^2 with a longest edge of " << std::sqrt(longest)
            << " m; expected a proper triangle: merge its vertices or remesh";
       faults.add("triangles without area", text.str(), place_of_triangle(mesh, t));
     }
     else if (areas(t) < 0.)
     {
+      std::ostringstream text;
+      begin(text);
       text << " is inverted (area " << areas(t)
            << " m^2); expected vertices in counter-clockwise order: reverse it, or untangle "
               "the mesh there";
@@ -203,7 +234,7 @@ std::vector<MeshFault> placed_faults_of(const TriangleMesh &mesh, const std::str
     }
   }
 
-  std::map<std::array<int, 3>, int> first_with;
+  const std::vector<int> first_with = first_with_same_vertices(mesh);
   /// Triangles at an edge: how many, how many of them from the lower vertex to the higher, the
   /// first.
   struct Sharing
@@ -211,35 +242,39 @@ std::vector<MeshFault> placed_faults_of(const TriangleMesh &mesh, const std::str
     int n = 0, upwards = 0, first = -1;
   };
   std::unordered_map<std::uint64_t, Sharing> sharing;
+  sharing.reserve(static_cast<std::size_t>(mesh.n_vertices() + mesh.n_triangles())); // Euler
   std::vector<char> is_used(static_cast<std::size_t>(mesh.n_vertices()), 0);
   for (int t = 0; t < mesh.n_triangles(); ++t)
   {
-    std::array<int, 3> corners = {mesh.triangles(t, 0), mesh.triangles(t, 1), mesh.triangles(t, 2)};
-    std::sort(corners.begin(), corners.end());
-    const auto [place, is_new] = first_with.emplace(corners, t);
+    const int first   = first_with[static_cast<std::size_t>(t)];
+    const bool is_new = first == t;
     if (!is_new)
       faults.add("duplicate triangles",
-                 "triangle " + std::to_string(t) + " repeats triangle " +
-                   std::to_string(place->second) + "; expected each once: delete one",
+                 "triangle " + std::to_string(t) + " repeats triangle " + std::to_string(first) +
+                   "; expected each once: delete one",
                  place_of_triangle(mesh, t));
     for (int k = 0; k < 3; ++k)
     {
-      is_used[static_cast<std::size_t>(corners[static_cast<std::size_t>(k)])] = 1;
+      is_used[static_cast<std::size_t>(mesh.triangles(t, k))] = 1;
       const int from = mesh.triangles(t, k), to = mesh.triangles(t, (k + 1) % 3);
       Sharing &edge = sharing[key(std::min(from, to), std::max(from, to))];
       edge.first    = edge.n == 0 ? t : edge.first;
       edge.upwards += from < to ? 1 : 0;
       const Place place_of_edge{0.5 * (mesh.vertices.row(from) + mesh.vertices.row(to)), t, -1};
-      const std::string its_name = "the edge between vertices " + std::to_string(from) + " and " +
-                                   std::to_string(to) + " near " + at(mesh, from);
+      const auto its_name = [&]()
+      {
+        return "the edge between vertices " + std::to_string(from) + " and " + std::to_string(to) +
+               " near " + at(mesh, from);
+      };
       if (++edge.n == 3)
         faults.add("edges with more than two triangles",
-                   its_name + " belongs to more than two triangles; expected one or two: triangles "
-                              "overlap there",
+                   its_name() +
+                     " belongs to more than two triangles; expected one or two: triangles "
+                     "overlap there",
                    place_of_edge);
       else if (is_new && edge.n == 2 && edge.upwards != 1)
         faults.add("edges with both triangles on one side",
-                   its_name + " has triangles " + std::to_string(edge.first) + " and " +
+                   its_name() + " has triangles " + std::to_string(edge.first) + " and " +
                      std::to_string(t) +
                      " on the same side; expected one on each: the mesh folds over itself there, "
                      "untangle it",
