@@ -215,6 +215,9 @@ class Running(InFolder):
         self.assertIn("the program 1 of 2 in lines that it executes; unnoticed: c",
                       run.score(rows, {"b", "c", "d"}))
 
+    def test_a_program_that_did_not_end_is_the_worst(self):
+        self.assertEqual(sorted([0, 4, None, 1, 2, -11, 3], key=run.place_of)[2:], [2, 3, 1, 4, 0])
+
     def test_settings_and_seconds_of_a_build_are_read(self):
         (self.folder / "Testing/Temporary").mkdir(parents=True)
         (self.folder / "CMakeCache.txt").write_text(

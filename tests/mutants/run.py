@@ -156,6 +156,11 @@ def batches_of(names, seconds, not_asked=NOT_ASKED):
                                                     if of_it >= low]
 
 
+def place_of(status):
+    """Of an exit status among the others, the worst first; no status, or a signal, is worse."""
+    return WORST_FIRST.index(status) if status in WORST_FIRST else -1
+
+
 def what_the_program_says(status, claims, usual):
     """A claim that fails and usually does not, else a worse exit status, else nothing."""
     for claim in claims:
@@ -163,8 +168,7 @@ def what_the_program_says(status, claims, usual):
             return claim
     if status == usual["status"]:
         return ""
-    rank = {of_it: place for place, of_it in enumerate(WORST_FIRST)}
-    if rank.get(status, -1) < rank.get(usual["status"], -1):
+    if place_of(status) < place_of(usual["status"]):
         return f"exit status {status}, usually {usual['status']}"
     return ""
 
@@ -253,7 +257,7 @@ class Workshop:
             status = self.run(str(self.build / "homespun"), "verify", "--quick", "--no-report",
                               "--output", str(output), *cells, log=f"{name}.log", cwd=self.copy,
                               seconds=MOST_SECONDS_OF_PROGRAM)
-            worst = status if abs(status) > abs(worst) else worst
+            worst = min(worst, status, key=place_of)
             try:
                 verdicts = json.loads((output / "verdicts.json").read_text())["verdicts"]
             except (OSError, ValueError, KeyError):
