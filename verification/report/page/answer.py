@@ -33,7 +33,7 @@ CAUSES = {
 }
 SECOND_CAUSE = 0.25  # share of the error from which a second cause is named
 VALIDITY_LIMIT = 0.01  # of a cell side
-PANEL = (1.78, 1.42)  # inches of a panel of the small Figure 3
+PANEL = (1.78, 1.32)  # inches of a panel of the small Figure 3
 
 
 def answer_of(results, name, gallery):
