@@ -181,7 +181,7 @@ def whole(value):
 
 
 # Abaqus -------------------------------------------------------------------------------------------
-# meshio 5.3 passes over in silence what makes or moves points, the points of all parts but the last
+# meshio 5 passes over in silence what makes or moves points, the points of all parts but the last
 # and sets in front of their elements, and knows neither sets of sets nor most flat elements.
 
 LINES = re.compile(r"t2d2|t3d2|b2|b3|mass|spring|dashpot|conn")
@@ -230,7 +230,8 @@ class Deck:
     """Points, elements and sets of Abaqus, by their numbers there."""
 
     def __init__(self, text):
-        self.points, self.elements, self.own_set, self.sets = {}, {}, {}, {}
+        self.points, self.elements, self.sets = {}, {}, {}
+        self.own_set, self.elements_of = {}, {}  # sets of *ELEMENT, either way
         for keyword, parameters, lines in sections(text):
             refuse_rules(keyword, parameters, lines)
             if keyword == "node":
@@ -266,17 +267,17 @@ class Deck:
                 raise Refusal(f"element {number} has {len(corners)} corners; {WHOLE}")
             self.put_new("element", self.elements, number, corners)
             self.own_set[number] = parameters.get("elset")
+            self.elements_of.setdefault(self.own_set[number], []).append(number)
 
     def members(self, name, seen):
         """Numbers of the elements of a set and of the sets in it."""
         if name in seen:
             return
         seen.add(name)
-        own = [number for number, its in self.own_set.items() if its == name]
-        if name not in self.sets and not own:
+        if name not in self.sets and name not in self.elements_of:
             raise Refusal(f"an *ELSET holds `{name}`, which is neither a number nor a set; "
                           "expected elements or sets of them")
-        yield from own
+        yield from self.elements_of.get(name, ())
         for its in self.sets.get(name, ()):
             if isinstance(its, str):
                 yield from self.members(its, seen)
