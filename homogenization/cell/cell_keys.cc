@@ -91,8 +91,8 @@ void CellKeys::declare(dealii::ParameterHandler &keys)
 {
   keys.add_parameter(
     "Mesh", mesh,
-    "Mesh of one periodic cell, a file in the folder of this one or below: .msh, .vtk, .vtu, "
-    ".ucd, .inp or .unv, with triangles or quadrilaterals.");
+    "Mesh of one periodic cell, a file in the folder of this one or below, with triangles or "
+    "quadrilaterals: .msh, .vtk, .vtu, .ucd, .inp, .unv, .med or any other that meshio reads.");
   keys.add_parameter("Length unit", length_unit,
                      "Metres per mesh unit [m], positive; 0.01 for a mesh in centimetres.");
   keys.add_parameter(
@@ -107,7 +107,7 @@ void CellKeys::declare(dealii::ParameterHandler &keys)
     "Orthotropic", orthotropic,
     "`group: E1 E2 nu12 G12 angle, ...` in [Pa], [Pa], [-], [Pa] and [deg] from the x axis to "
     "the first axis of the material; replaces Young's modulus and Poisson's ratio for that "
-    "group. Cell data `angle` [deg] of a .vtk or .vtu mesh, one value per triangle, is added.");
+    "group. Cell data `angle` [deg] of the mesh, one value per triangle, is added.");
   keys.add_parameter(
     "Lattice vectors", lattice,
     "`auto` finds the sides of a parallelogram, or the translations that match any other "

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "homogenization/cell/cell_mesh_file.h"
 
+#include "homogenization/cell/converted_mesh.h"
 #include "homogenization/cell/mesh_formats.h"
-#include "homogenization/cell/parameter_text.h"
 #include "meshes/plain/errors.h"
 
 #include <algorithm>
@@ -13,30 +13,15 @@ namespace homespun::homogenization
 {
 namespace
 {
-constexpr const char *known_formats =
-  "Gmsh .msh 2 or 4, .vtk, .vtu, .inp, .ucd or .unv with triangles or quadrilaterals";
-
-RawMesh read_any(const std::string &file)
+RawMesh read_any(const std::string &file, const MPI_Comm communicator)
 {
-  const std::string ending = lower(std::filesystem::path(file).extension().string());
-  if (ending == ".vtu")
-    return read_vtu(file);
-  if (ending != ".msh" && ending != ".vtk" && ending != ".unv" && ending != ".ucd" &&
-      ending != ".inp")
-    throw meshes::BadInput(
-      unreadable(file) + "its ending is `" + ending + "`; expected " + known_formats +
-      ": convert it, in ParaView by Save Data as .vtu, with Gmsh by -save -o cell.msh");
-  MeshText text(file);
-  if (ending == ".msh")
+  if (lower(std::filesystem::path(file).extension().string()) == ".msh")
+  {
+    MeshText text(file);
     return read_msh(text);
-  if (ending == ".vtk")
-    return read_vtk(text);
-  if (ending == ".unv")
-    return read_unv(text);
-  // Both AVS and Abaqus write .inp: Abaqus' keywords and comments begin with stars.
-  const std::size_t first = text.content.find_first_not_of(" \t\r\n");
-  const bool is_abaqus    = first != std::string::npos && text.content[first] == '*';
-  return is_abaqus ? read_abaqus(text) : read_ucd(text);
+  }
+  MeshText text(file + ", converted to .msh", converted_to_msh(file, communicator));
+  return read_msh(text);
 }
 
 void require_flat(const std::string &file, const RawMesh &raw)
@@ -120,13 +105,13 @@ std::vector<std::array<int, 3>> triangles_of(const RawMesh &raw, const RawMesh::
 }
 } // namespace
 
-CellMeshFile read_cell_mesh(const std::string &file)
+CellMeshFile read_cell_mesh(const std::string &file, const MPI_Comm communicator)
 {
   if (!std::filesystem::is_regular_file(file))
     throw meshes::BadInput(file +
                            ": no such file; expected a mesh: mend the key `Mesh`, whose path is "
                            "relative to the .prm file");
-  const RawMesh raw = read_any(file);
+  const RawMesh raw = read_any(file, communicator);
   if (raw.cells.empty())
     throw meshes::BadInput(
       file + ": holds no triangles or quadrilaterals; expected the cell's mesh: in Gmsh, "

@@ -5,6 +5,8 @@
 #include "homogenization/cell/curved_sides.h"
 #include "meshes/plain/triangle_mesh.h"
 
+#include <mpi.h>
+
 #include <map>
 #include <string>
 
@@ -14,7 +16,7 @@ namespace homespun::homogenization
 struct CellMeshFile
 {
   meshes::TriangleMesh mesh;                 ///< mesh.material holds the file's numbers
-  std::map<std::string, int> number_of_name; ///< names of groups, where the format has them
+  std::map<std::string, int> number_of_name; ///< names of groups, where the file has them
   Eigen::VectorXd angle;                     ///< (m) cell data `angle` of the file [deg], or empty
   std::vector<CurvedSide> curved_sides;      ///< of six-node triangles, in the file's unit
 };
@@ -22,7 +24,8 @@ struct CellMeshFile
 /// Reads a mesh. Quadrilaterals are cut in two along their shorter diagonal (along the one that
 /// lies inside, where they are not convex); elements are turned counter-clockwise; points that no
 /// element has as a corner are left out, the middle nodes of six-node triangles among them. Text
-/// .msh 1, 2 and 4, .vtk, .vtu, .ucd, .inp (AVS or Abaqus) and .unv are known.
+/// .msh 1, 2 and 4 is read here, any other format converted to it first.
+/// @param communicator as of converted_to_msh()
 /// @throws BadInput naming the file, the line, what was found and what was expected
-CellMeshFile read_cell_mesh(const std::string &file);
+CellMeshFile read_cell_mesh(const std::string &file, MPI_Comm communicator = MPI_COMM_NULL);
 } // namespace homespun::homogenization

@@ -57,17 +57,8 @@ bool to_number(std::string_view word, double &value)
 {
   if (!word.empty() && word[0] == '+')
     word.remove_prefix(1);
-  const char *end               = word.data() + word.size();
-  std::from_chars_result parsed = std::from_chars(word.data(), end, value);
-  const bool is_fortran =
-    parsed.ec == std::errc() && parsed.ptr != end && (*parsed.ptr == 'D' || *parsed.ptr == 'd');
-  if (!is_fortran)
-    return parsed.ec == std::errc() && parsed.ptr == end;
-  std::string rewritten(word);
-  rewritten[static_cast<std::size_t>(parsed.ptr - word.data())] = 'e';
-  // from_chars takes no sign + in front of a number, but one in its exponent.
-  end    = rewritten.data() + rewritten.size();
-  parsed = std::from_chars(rewritten.data(), end, value);
+  const char *end   = word.data() + word.size();
+  const auto parsed = std::from_chars(word.data(), end, value);
   return parsed.ec == std::errc() && parsed.ptr == end;
 }
 

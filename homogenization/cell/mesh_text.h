@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A mesh file as words and lines with their place, for the readers of all text formats: whatever
-// does not fit is refused with file, line, what was found and what was expected.
+// A mesh file as words and lines with their place, for its reader: whatever does not fit is refused
+// with file, line, what was found and what was expected.
 #pragma once
 
 #include <string>
@@ -15,7 +15,7 @@ public:
   /// @throws BadInput where the file cannot be opened
   explicit MeshText(const std::string &file);
 
-  /// A text that is already at hand, for parts of a file.
+  /// A text that is already at hand.
   MeshText(std::string file, std::string content);
 
   /// The rest of the present line, without its end; the cursor moves to the next one. False at the
@@ -67,7 +67,7 @@ std::string unreadable(const std::string &file);
 /// Lower case, for keywords that may be written either way.
 std::string lower(std::string_view text);
 
-/// A whole word as a number, with Fortran's exponents D as well; false where it is none.
+/// A whole word as a number; false where it is none.
 bool to_number(std::string_view word, double &value);
 bool to_integer(std::string_view word, long &value);
 } // namespace homespun::homogenization

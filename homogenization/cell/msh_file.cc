@@ -49,6 +49,8 @@ public:
         version < 4. ? elements() : element_blocks();
         has_elements = true;
       }
+      else if (word == "$ElementData")
+        element_data();
       else if (word[0] == '$')
         pass_over(std::string(word.substr(1)));
       else
@@ -57,6 +59,8 @@ public:
     if (!has_elements)
       text.fail(
         "found the end of the file; expected the section $Elements: it is cut off, write it again");
+    if (!angle_of_element.empty())
+      assign_angles();
     return std::move(mesh);
   }
 
@@ -231,7 +235,7 @@ private:
     return nodes_of_type[static_cast<std::size_t>(type - 1)];
   }
 
-  void add(const long type, const long group)
+  void add(const long element, const long type, const long group)
   {
     const int n = nodes_of(type);
     Nodes nodes{};
@@ -246,6 +250,7 @@ private:
     for (std::size_t k = 0; type == six_node_triangle && k < 3; ++k)
       cell.middles[k] = numbers.index(text, nodes[k + 3]);
     mesh.cells.push_back(cell);
+    element_of_cell.push_back(element);
   }
 
   void elements()
@@ -253,9 +258,9 @@ private:
     const long n = text.count("elements");
     for (long k = 0; k < n; ++k)
     {
-      text.integer("the number of an element");
-      const long type = text.integer("the type of an element");
-      long group      = 0;
+      const long element = text.integer("the number of an element");
+      const long type    = text.integer("the type of an element");
+      long group         = 0;
       if (version < 2.)
       {
         group = text.integer("the physical number of an element");
@@ -270,7 +275,7 @@ private:
           group            = tag == 0 ? value : group;
         }
       }
-      add(type, std::abs(group));
+      add(element, type, std::abs(group));
     }
     close(version < 2. ? "$ENDELM" : "$EndElements");
   }
@@ -283,11 +288,59 @@ private:
       const auto group                        = group_of_surface.find(entity);
       for (long k = 0; k < n; ++k)
       {
-        text.integer("the number of an element");
-        add(type, dimension == 2 && group != group_of_surface.end() ? group->second : 0);
+        const long element = text.integer("the number of an element");
+        add(element, type, dimension == 2 && group != group_of_surface.end() ? group->second : 0);
       }
     }
     close("$EndElements");
+  }
+
+  /// Data of elements: names, real numbers (the time), whole numbers (the step, the components, the
+  /// number of elements), then a line per element. Those called `angle` are kept.
+  void element_data()
+  {
+    const long n_names = text.count("names of data");
+    std::string_view line, name;
+    text.line(line);
+    for (long k = 0; k < n_names && text.line(line); ++k)
+      name = k == 0 ? line : name;
+    const std::size_t first = name.find('"'), last = name.rfind('"');
+    if (first == last || lower(name.substr(first + 1, last - first - 1)) != "angle")
+      return pass_over("ElementData");
+    text.skip(text.count("real numbers of data"), "the time of data");
+    const long n_integers = text.count("whole numbers of data");
+    if (n_integers < 3)
+      text.fail("found " + std::to_string(n_integers) +
+                " whole numbers of `angle`; expected 3: step, components and number of elements");
+    text.skip(1, "the step of data");
+    const long components = text.integer("the components of data");
+    if (components != 1)
+      text.fail("found `angle` with " + std::to_string(components) +
+                " components; expected one number [deg] per element");
+    const long n = text.count("elements with data");
+    text.skip(n_integers - 3, "a partition");
+    for (long k = 0; k < n; ++k)
+    {
+      const long element = text.integer("the number of an element");
+      if (!angle_of_element.emplace(element, text.number("an angle")).second)
+        text.fail("element " + std::to_string(element) +
+                  " has two values of `angle`; expected one: leave other time steps out");
+    }
+    close("$EndElementData");
+  }
+
+  /// Only at the end: data may stand before their elements.
+  void assign_angles()
+  {
+    for (const long element : element_of_cell)
+    {
+      const auto angle = angle_of_element.find(element);
+      if (angle == angle_of_element.end())
+        text.fail("element " + std::to_string(element) +
+                  " has no value in $ElementData `angle`; expected one for every triangle and "
+                  "quadrilateral: 0 where a group has no direction");
+      mesh.angles.push_back(angle->second);
+    }
   }
 
   MeshText &text;
@@ -295,6 +348,8 @@ private:
   RawMesh mesh;
   PointNumbers numbers;
   std::unordered_map<long, int> group_of_surface;
+  std::vector<long> element_of_cell;
+  std::unordered_map<long, double> angle_of_element; ///< [deg]
 };
 } // namespace
 

@@ -138,7 +138,7 @@ CellKeys read_keys(const std::string &prm_file, CellReading &reading)
 }
 } // namespace
 
-CellReading read_unit_cell_with_findings(const std::string &prm_file)
+CellReading read_unit_cell_with_findings(const std::string &prm_file, const MPI_Comm communicator)
 {
   CellReading reading;
   UnitCell &cell                 = reading.cell;
@@ -161,7 +161,7 @@ CellReading read_unit_cell_with_findings(const std::string &prm_file)
   try
   {
     mesh_path = file_beside(prm_file, trimmed(keys.mesh));
-    mesh_file = read_cell_mesh(mesh_path);
+    mesh_file = read_cell_mesh(mesh_path, communicator);
   }
   catch (const meshes::BadInput &bad)
   {
@@ -229,7 +229,7 @@ CellReading read_unit_cell_with_findings(const std::string &prm_file)
 
 CellReading inspect_cell(const std::string &prm_file)
 {
-  CellReading reading  = read_unit_cell_with_findings(prm_file);
+  CellReading reading  = read_unit_cell_with_findings(prm_file, MPI_COMM_NULL);
   const UnitCell &cell = reading.cell;
   if (!reading.has_mesh || !cell.mesh.vertices.allFinite())
     return reading;
@@ -252,9 +252,9 @@ CellReading inspect_cell(const std::string &prm_file)
   return reading;
 }
 
-UnitCell read_unit_cell(const std::string &prm_file)
+UnitCell read_unit_cell(const std::string &prm_file, const MPI_Comm communicator)
 {
-  CellReading reading = read_unit_cell_with_findings(prm_file);
+  CellReading reading = read_unit_cell_with_findings(prm_file, communicator);
   std::vector<std::string> faults;
   for (const Finding &finding : reading.findings)
     if (finding.severity == Severity::error)

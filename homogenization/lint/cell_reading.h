@@ -6,6 +6,8 @@
 #include "homogenization/cell/finding.h"
 #include "homogenization/cell/unit_cell.h"
 
+#include <mpi.h>
+
 #include <string>
 #include <vector>
 
@@ -25,12 +27,15 @@ struct CellReading
 
 /// Reads a cell; parts that move freely and contrasts that leave no digit are errors here already,
 /// because no solver could answer.
-CellReading read_unit_cell_with_findings(const std::string &prm_file);
+/// @param communicator reads together: its first rank converts a mesh of another format than .msh
+///   for all, which must all call this; MPI_COMM_NULL: this process reads alone
+CellReading read_unit_cell_with_findings(const std::string &prm_file, MPI_Comm communicator);
 
-/// Reads a cell and adds the findings of the linter, as many as the state of the cell allows.
+/// Reads a cell alone and adds the findings of the linter, as many as the state of the cell allows.
 CellReading inspect_cell(const std::string &prm_file);
 
 /// Reads and validates a cell file.
+/// @param communicator as of read_unit_cell_with_findings()
 /// @throws BadInput with one message per fault, each naming the file and the key, group or element
-UnitCell read_unit_cell(const std::string &prm_file);
+UnitCell read_unit_cell(const std::string &prm_file, MPI_Comm communicator = MPI_COMM_NULL);
 } // namespace homespun::homogenization

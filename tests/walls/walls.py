@@ -20,7 +20,7 @@ MAY_INCLUDE = {
     "meshes/cloth": {"meshes/plain"},
     "meshes/files": {"meshes/plain", "meshes/cloth"},
     "meshes/garment": {"meshes/plain", "meshes/cloth"},
-    "homogenization/cell": {"meshes/plain"},
+    "homogenization/cell": {"meshes/plain", "meshes/files"},
     "homogenization/lint": {"meshes/plain", "homogenization/cell"},
     "homogenization/fem": {"meshes/plain", "meshes/files", "homogenization/cell"},
     "homogenization/bracket": {"meshes/plain", "homogenization/cell"},

@@ -53,7 +53,7 @@ public:
     check_references(options, scene);
     std::vector<UnitCell> cells;
     for (const std::string &file : scene.cell_files)
-      cells.push_back(homogenization::read_unit_cell(file));
+      cells.push_back(homogenization::read_unit_cell(file, communicator));
     check_names(cells);
     check_cloth(options, scene, cells);
     const nlohmann::ordered_json inputs = drape_inputs(options, scene, schedule, cells);

@@ -100,7 +100,7 @@ private:
   void read_cells()
   {
     for (const std::string &file : options.cell_files)
-      unit_cells.push_back(homogenization::read_unit_cell(file));
+      unit_cells.push_back(homogenization::read_unit_cell(file, communicator));
     check_names(unit_cells);
     for (const homogenization::UnitCell &cell : unit_cells)
       meshes::tile(cell.mesh, cell.lattice, 1, 1); // refuses cells that make no sheet

@@ -36,7 +36,7 @@ struct HomogenizeArguments
 
 int homogenize(HomogenizeArguments arguments)
 {
-  const UnitCell cell     = homogenization::read_unit_cell(arguments.file);
+  const UnitCell cell     = homogenization::read_unit_cell(arguments.file, MPI_COMM_WORLD);
   CellStudyOptions &study = arguments.study;
   study.uncertain         = uncertain_inputs(cell, arguments.uncertain);
   if (study.output.empty())

@@ -4,11 +4,11 @@
 #include "homogenization/cell/parameter_text.h"
 #include "homogenization/cell/unit_cell.h"
 #include "homogenization/lint/cell_reading.h"
+#include "meshes/files/child_process.h"
+#include "meshes/files/temporary_folder.h"
 #include "meshes/files/write_whole.h"
 #include "meshes/plain/errors.h"
 #include "verification/program/data_folder.h"
-#include "verification/record/child_process.h"
-#include "verification/record/temporary_folder.h"
 
 #include <cmath>
 #include <filesystem>
@@ -150,11 +150,11 @@ void run_gmsh(const std::string &folder, const std::string &name)
 {
   const std::string geo = folder + "/" + name + ".geo", msh = folder + "/" + name + ".msh",
                     log = folder + "/gmsh.log";
-  const int status      = run_child({"gmsh", "-2", "-format", "msh41", geo, "-o", msh}, log);
+  const int status = meshes::run_child({"gmsh", "-2", "-format", "msh41", geo, "-o", msh}, log);
   if (status == 127)
     throw meshes::BadInput("gmsh: cannot be run; expected Gmsh, which makes the mesh: install the "
                            "package gmsh (apt install gmsh)");
-  if (const std::string killed = text_of_signal(status); !killed.empty())
+  if (const std::string killed = meshes::text_of_signal(status); !killed.empty())
     throw meshes::BadInput("gmsh could not make the mesh: " + killed);
   if (status != 0)
   {
@@ -235,7 +235,7 @@ std::string make_cell(const CellVariant &variant)
     throw meshes::BadInput(faults);
 
   fs::create_directories(variant.output);
-  const TemporaryFolder passing(variant.output);
+  const meshes::TemporaryFolder passing(variant.output);
   const std::string trial = passing.path + "/" + name;
   const std::string geo   = with_defaults(content_of(source + ".geo"), settings);
   const std::string prm   = with_mesh(content_of(source + ".prm"), name, variant, settings);

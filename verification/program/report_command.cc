@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 // homespun report: the pages of stored results, made by Debian's Python.
+#include "meshes/files/child_process.h"
 #include "meshes/plain/errors.h"
 #include "verification/build_info.h"
 #include "verification/program/commands.h"
 #include "verification/program/data_folder.h"
 #include "verification/program/report_script.h"
-#include "verification/record/child_process.h"
 #include "verification/record/on_root.h"
 #include "verification/record/run_folder.h"
 
@@ -30,13 +30,13 @@ int run_report_script(const std::string &name, const std::vector<std::string> &a
   // -B: no __pycache__ in a folder that a package manager keeps.
   std::vector<std::string> words = {HOMESPUN_PYTHON, "-B", script};
   words.insert(words.end(), arguments.begin(), arguments.end());
-  const int status = run_child(words, "", {"HOMESPUN_SCHEMA=" + schema});
+  const int status = meshes::run_child(words, "", {"HOMESPUN_SCHEMA=" + schema});
   if (status == 127)
     throw meshes::BadInput(
       std::string(HOMESPUN_PYTHON) + " " + script +
       ": cannot be run; expected Debian's Python with numpy, h5py, matplotlib and jinja2: "
       "./bootstrap installs them");
-  if (const std::string killed = text_of_signal(status); !killed.empty())
+  if (const std::string killed = meshes::text_of_signal(status); !killed.empty())
     throw meshes::BadInput(name + " did not end: " + killed);
   return status;
 }

@@ -75,7 +75,7 @@ private:
     for (const std::string &file : options.cell_files)
       try
       {
-        cells.push_back(homogenization::read_unit_cell(file));
+        cells.push_back(homogenization::read_unit_cell(file, communicator));
         meshes::tile(cells.back().mesh, cells.back().lattice, 1, 1);
       }
       catch (const meshes::BadInput &bad)

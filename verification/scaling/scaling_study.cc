@@ -3,15 +3,15 @@
 
 #include "homogenization/cell/unit_cell.h"
 #include "homogenization/lint/cell_reading.h"
+#include "meshes/files/child_process.h"
+#include "meshes/files/temporary_folder.h"
 #include "meshes/files/write_whole.h"
 #include "meshes/plain/errors.h"
 #include "verification/cell/study_inputs.h"
-#include "verification/record/child_process.h"
 #include "verification/record/json_files.h"
 #include "verification/record/number_text.h"
 #include "verification/record/progress.h"
 #include "verification/record/provenance.h"
-#include "verification/record/temporary_folder.h"
 
 #include <Eigen/QR>
 
@@ -57,7 +57,7 @@ ScalingRun run_from(const std::string &file)
 
 ScalingRun measure(const ScalingOptions &options, const int refine, const int ranks)
 {
-  const TemporaryFolder passing(options.output);
+  const meshes::TemporaryFolder passing(options.output);
   const std::string folder = passing.path + "/run", log = passing.path + "/run.log";
   std::vector<std::string> words;
   std::istringstream launcher(options.launcher);
@@ -73,7 +73,7 @@ ScalingRun measure(const ScalingOptions &options, const int refine, const int ra
         std::string("--refine"), std::to_string(refine), std::string("--no-bars"),
         std::string("--quiet"), std::string("--output"), folder})
     words.push_back(word);
-  const int status = run_child(words, log);
+  const int status = meshes::run_child(words, log);
   if (status != 0 || !std::filesystem::exists(folder + "/homogenize.json"))
   {
     std::ifstream input(log);
@@ -82,7 +82,7 @@ ScalingRun measure(const ScalingOptions &options, const int refine, const int ra
     const std::string what = "refine " + std::to_string(refine) + " on " + std::to_string(ranks) +
                              " ranks ended with status " + std::to_string(status) + ": " +
                              said.str().substr(0, 2000);
-    if (const std::string killed = text_of_signal(status); !killed.empty())
+    if (const std::string killed = meshes::text_of_signal(status); !killed.empty())
       throw meshes::BadInput(what + killed);
     if (status == 3)
       throw meshes::NotConverged(what, {});

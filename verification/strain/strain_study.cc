@@ -56,7 +56,7 @@ public:
   std::vector<Verdict> run()
   {
     for (const std::string &file : options.cell_files)
-      cells.push_back(homogenization::read_unit_cell(file));
+      cells.push_back(homogenization::read_unit_cell(file, communicator));
     check_names(cells);
     for (const UnitCell &cell : cells)
       meshes::tile(cell.mesh, cell.lattice, 1,

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // One cell in every format: what Gmsh and VTK wrote of data/halves.geo holds the same areas by
-// group.
+// group, and the same vertices, triangles, groups and angles where the format keeps their order.
 #include "homogenization/cell/cell_mesh_file.h"
 #include "meshes/plain/lattice.h"
 #include "tests/refusal.h"
@@ -99,14 +99,68 @@ TEST(exact_cell_mesh_file, gmsh_formats_hold_the_same_groups_by_name_and_number)
 TEST(exact_cell_mesh_file, vtk_formats_hold_the_same_groups_in_every_encoding)
 {
   expect_halves("halves.vtk", 7, 3);
-  for (const char *name : {"version-5.vtk", "text.vtu", "base64.vtu", "base64-zlib.vtu",
-                           "appended-raw.vtu", "appended-raw-zlib.vtu", "appended-base64.vtu"})
+  for (const char *name :
+       {"version-5.vtk", "binary.vtk", "text.vtu", "base64.vtu", "base64-zlib.vtu",
+        "appended-raw.vtu", "appended-raw-zlib.vtu", "appended-base64.vtu"})
   {
     expect_halves(name, 7, 3);
     const CellMeshFile file = read_cell_mesh(data + name);
     ASSERT_EQ(file.angle.size(), 16) << name;
     for (int t = 0; t < 16; ++t)
       EXPECT_EQ(file.angle(t), 10. * t) << name;
+  }
+}
+
+TEST(exact_cell_mesh_file, a_converted_mesh_is_the_same_to_the_last_bit)
+{
+  const CellMeshFile ours = read_cell_mesh(data + "halves-msh41.msh");
+  // Gmsh numbers the points of .unv in the order in which .msh holds them.
+  const CellMeshFile unv = read_cell_mesh(data + "halves.unv");
+  EXPECT_EQ(unv.mesh.material, ours.mesh.material);
+  EXPECT_EQ(unv.number_of_name, ours.number_of_name);
+  EXPECT_EQ(unv.mesh.vertices, ours.mesh.vertices);
+  EXPECT_EQ(unv.mesh.triangles, ours.mesh.triangles);
+  // Gmsh writes fewer digits to Abaqus' decks.
+  EXPECT_EQ(read_cell_mesh(data + "halves-abaqus.inp").mesh.triangles, ours.mesh.triangles);
+  const CellMeshFile vtk = read_cell_mesh(data + "binary.vtk");
+  for (const char *name : {"base64.vtu", "appended-raw-zlib.vtu"})
+  {
+    const CellMeshFile vtu = read_cell_mesh(data + name);
+    EXPECT_EQ(vtu.mesh.triangles, vtk.mesh.triangles) << name;
+    EXPECT_EQ(vtu.mesh.material, vtk.mesh.material) << name;
+    EXPECT_EQ(vtu.angle, vtk.angle) << name;
+  }
+}
+
+TEST(exact_cell_mesh_file, msh_gives_angles_as_element_data)
+{
+  const Folder folder;
+  std::ostringstream block;
+  block << "$ElementData\n1\n\"angle\"\n1\n0.0\n3\n0\n1\n16\n";
+  for (int t = 16; t >= 1; --t) // in any order
+    block << t << " " << 10 * t << "\n";
+  block << "$EndElementData\n";
+  for (const char *name : {"halves-msh22.msh", "halves-msh40.msh", "halves-msh41.msh"})
+  {
+    const std::string whole = content_of(data + name);
+    // The elements of halves.geo are numbered from 1 on in their order.
+    const CellMeshFile file = read_cell_mesh(folder.file(name, whole + block.str()));
+    ASSERT_EQ(file.angle.size(), 16) << name;
+    for (int t = 0; t < 16; ++t)
+      EXPECT_EQ(file.angle(t), 10. * (t + 1)) << name;
+    std::string other = block.str();
+    other.replace(other.find("angle"), 5, "speed");
+    EXPECT_EQ(read_cell_mesh(folder.file("other.msh", whole + other)).angle.size(), 0);
+    const auto refused = [&](const std::string &from, const std::string &to)
+    {
+      std::string changed = block.str();
+      changed.replace(changed.find(from), from.size(), to);
+      return tests::refusal([&]() { read_cell_mesh(folder.file("changed.msh", whole + changed)); });
+    };
+    EXPECT_NE(refused("\n7 70", "\n99 70").find("element 7 has no value"), std::string::npos);
+    EXPECT_NE(refused("\n7 70", "\n8 70").find("element 8 has two values"), std::string::npos);
+    EXPECT_NE(refused("\n0\n1\n16", "\n0\n3\n16").find("3 components"), std::string::npos);
+    EXPECT_NE(refused("70", "x").find("expected an angle"), std::string::npos);
   }
 }
 
@@ -206,15 +260,12 @@ TEST(exact_cell_mesh_file, a_file_without_groups_is_group_zero)
 TEST(tripwire_cell_mesh_file, every_format_cut_off_anywhere_is_refused_or_read_as_less)
 {
   const Folder folder;
-  for (const char *name :
-       {"halves-msh22.msh", "halves-msh40.msh", "halves-msh41.msh", "halves.vtk", "version-5.vtk",
-        "text.vtu", "base64.vtu", "base64-zlib.vtu", "appended-raw.vtu", "appended-raw-zlib.vtu",
-        "appended-base64.vtu", "halves.unv", "halves-abaqus.inp"})
+  const auto expect_refused = [&](const std::string &name, const std::size_t step)
   {
     const std::string whole  = content_of(data + name);
     const std::string ending = std::filesystem::path(name).extension().string();
-    int refused              = 0;
-    for (std::size_t length = 0; length < whole.size(); length += 37)
+    int refused = 0, tried = 0;
+    for (std::size_t length = 0; length < whole.size(); length += step, ++tried)
     {
       const std::string path = folder.file("cut" + ending, whole.substr(0, length));
       // Nothing but BadInput leaves; its message names the file.
@@ -222,8 +273,14 @@ TEST(tripwire_cell_mesh_file, every_format_cut_off_anywhere_is_refused_or_read_a
       refused += message.empty() ? 0 : 1;
       EXPECT_TRUE(message.empty() || message.find("cut" + ending) != std::string::npos) << message;
     }
-    EXPECT_GT(refused, static_cast<int>(whole.size() / 37) / 2) << name;
-  }
+    EXPECT_GT(refused, tried / 2) << name;
+  };
+  for (const char *name : {"halves-msh22.msh", "halves-msh40.msh", "halves-msh41.msh"})
+    expect_refused(name, 37);
+  // Python is begun for each of these.
+  for (const char *name :
+       {"halves.vtk", "binary.vtk", "appended-raw-zlib.vtu", "halves.unv", "halves-abaqus.inp"})
+    expect_refused(name, content_of(data + name).size() / 5);
 }
 
 TEST(tripwire_cell_mesh_file, what_cannot_be_a_cell_is_refused_with_what_to_do)
@@ -235,20 +292,33 @@ TEST(tripwire_cell_mesh_file, what_cannot_be_a_cell_is_refused_with_what_to_do)
     const std::string message =
       tests::refusal([&]() { read_cell_mesh(folder.file(name, content)); });
     EXPECT_NE(message.find(part), std::string::npos) << name << ": " << message;
+    EXPECT_NE(message.find(name), std::string::npos) << message;
+    EXPECT_EQ(message.find('\n'), std::string::npos) << message;
   };
-  says("a.exo", "CDF", "its ending is `.exo`; expected Gmsh .msh");
-  says("a.ucd", "1 1 0 0 0\n1 0 0 0\n1 0 tet 1 1 1 1\n", "mesh the surface alone");
-  says("b.ucd", "3 1 0 0 0\n1 0 0 0\n2 1 0 0\n3 0 1 0\n1 0 tri 1 2 4\n", "names point 4");
-  says("c.ucd", "3 1 0 0 0\n1 0 0 0\n2 1 0 1\n3 0 1 0\n1 0 tri 1 2 3\n",
-       "not flat: z reaches from 0 to 1");
-  says("d.ucd", "999999999 1 0 0 0\n", "at most what the rest of the file can hold");
   says("a.msh", "$MeshFormat\n4.1 1 8\n", "binary .msh; expected text");
   says("b.msh", "$MeshFormat\n3.0 0 8\n$EndMeshFormat\n", "expected 2, 4.0 or 4.1");
   says("c.msh",
        "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n0\n$EndNodes\n$Elements\n1\n1 10 2 0 0 1 2 3 "
        "4 5 6 7 8 9\n$EndElements\n",
        "-order 1");
-  says("a.vtk", "# vtk DataFile Version 3.0\nx\nBINARY\n", "expected ASCII");
+  says("d.msh", "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n999999999\n",
+       "at most what the rest of the file can hold");
+  says("a.foo", "CDF", "its ending is `.foo`; expected .msh");
+  const std::string points = "4 1 0 0 0\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0 0 1\n";
+  says("a.ucd", points + "1 0 tet 1 2 3 4\n", "mesh the surface alone");
+  says("b.ucd", points + "1 0 tri 1 2 9\n", "expected a whole mesh");
+  says("c.ucd", points + "1 0 tri 1 2 4\n", "not flat: z reaches from 0 to 1");
+  says("d.ucd", points + "1 -1 tri 1 2 3\n", "expected a whole number from 0 to 1e9");
+  const std::string vtk =
+    "# vtk DataFile Version 3.0\nx\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 6 double\n"
+    "0 0 0 1 0 0 0 1 0 .5 0 0 .5 .5 0 0 .5 0\n";
+  says("a.vtk", vtk + "CELLS 1 4\n3 0 1 7\nCELL_TYPES 1\n5\n", "names point 7; expected 0 to 5");
+  says("b.vtk", vtk + "CELLS 1 7\n6 0 1 2 3 4 5\nCELL_TYPES 1\n22\n", "are read from .msh alone");
+  says("c.vtk", vtk + "CELLS 1 7\n6 0 1 2 3 4 5\nCELL_TYPES 1\n6\n", "mesh the surface alone");
+  says("d.vtk",
+       vtk + "CELLS 1 4\n3 0 1 2\nCELL_TYPES 1\n5\nCELL_DATA 1\nSCALARS phase int 1\n"
+             "LOOKUP_TABLE default\n1\nSCALARS material int 1\nLOOKUP_TABLE default\n2\n",
+       "`phase` and `material`, which differ");
   says("a.inp", "*NODE\n1, 0, 0\n*ELEMENT, TYPE=C3D8\n", "Abaqus' type `C3D8`");
   says("b.inp", "*NODE, SYSTEM=C\n1, 1, 90\n", "cylindrical or spherical coordinates");
   says("c.inp", "*SYSTEM\n0, 0, 0, 1, 1, 0\n", "found *system, which makes or moves points");
@@ -259,5 +329,14 @@ TEST(tripwire_cell_mesh_file, what_cannot_be_a_cell_is_refused_with_what_to_do)
   says("g.inp", "*ELSET, ELSET=a, GENERATE\n-9223372036854775800, 5, 1\n",
        "expected `first, last, step`");
   says("h.inp", "*ELSET, ELSET=a\nb\n", "neither a number nor a set");
-  says("a.vtu", "<VTKFile type=\"PolyData\">", "expected UnstructuredGrid");
+  const std::string triangle = "*NODE\n1, 0, 0\n2, 1, 0\n3, 0, 1\n*ELEMENT, TYPE=S3\n1, 1, 2, ";
+  says("i.inp", triangle + "3\n*ELSET, ELSET=a\n1\n*ELSET, ELSET=b\n1\n",
+       "element 1 is in the sets `a` and `b`");
+  says("j.inp", triangle + "4\n", "names point 4, which the file does not give");
+  says("k.inp", triangle + "3\n*NODE\n1, 5, 5\n", "point 1 is given twice");
+  std::string unv         = content_of(data + "halves.unv");
+  const std::string seven = "         8         7         0";
+  says("a.unv", unv.replace(unv.find(seven), seven.size(), "         8         9         0"),
+       "in the sets `hard` and `soft`");
+  says("a.vtu", "<VTKFile type=\"PolyData\">", "meshio cannot read as .vtu");
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "verification/record/temporary_folder.h"
+#include "meshes/files/temporary_folder.h"
 #include "verification/strain/strain_output.h"
 
 #include <gtest/gtest.h>
@@ -26,7 +26,7 @@ meshes::Sheet one_triangle()
 
 TEST(exact_strain_output, a_fluctuation_that_is_not_known_is_empty_and_never_zero)
 {
-  const TemporaryFolder folder(testing::TempDir());
+  const meshes::TemporaryFolder folder(testing::TempDir());
   StrainStudyOptions options;
   options.output = folder.path;
   options.budget = options.run_time = false;

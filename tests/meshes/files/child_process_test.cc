@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "verification/record/child_process.h"
+#include "meshes/files/child_process.h"
 
 #include <gtest/gtest.h>
 
 #include <filesystem>
 #include <fstream>
 
-using homespun::verification::run_child;
+using homespun::meshes::run_child;
 
 TEST(exact_child_process, how_it_ended_is_told_as_a_shell_tells_it)
 {

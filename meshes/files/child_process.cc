@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "verification/record/child_process.h"
+#include "meshes/files/child_process.h"
 
 #include <algorithm>
 #include <cerrno>
@@ -13,7 +13,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-namespace homespun::verification
+namespace homespun::meshes
 {
 namespace
 {
@@ -57,7 +57,8 @@ int run_child(const std::vector<std::string> &words, const std::string &log,
                       environment.end());
   environment.insert(environment.begin(), variables.begin(), variables.end());
 
-  cpu_set_t all_cores;
+  cpu_set_t own_cores, all_cores;
+  const bool is_bound = sched_getaffinity(0, sizeof(own_cores), &own_cores) == 0;
   std::memset(&all_cores, 0xff, sizeof(all_cores));
   sched_setaffinity(0, sizeof(all_cores), &all_cores);
 
@@ -74,6 +75,8 @@ int run_child(const std::vector<std::string> &words, const std::string &log,
   const int spawned = posix_spawnp(&child, arguments[0].c_str(), &actions, nullptr,
                                    pointers_to(arguments).data(), pointers_to(environment).data());
   posix_spawn_file_actions_destroy(&actions);
+  if (is_bound)
+    sched_setaffinity(0, sizeof(own_cores), &own_cores);
   if (spawned != 0)
     return 127;
   int status   = 0;
@@ -93,4 +96,4 @@ std::string text_of_signal(const int status)
   return "it was killed by signal " + std::to_string(status - 128) +
          (status == 128 + SIGKILL ? ": is there enough memory?" : "");
 }
-} // namespace homespun::verification
+} // namespace homespun::meshes

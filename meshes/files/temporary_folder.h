@@ -9,7 +9,7 @@
 #include <string>
 #include <system_error>
 
-namespace homespun::verification
+namespace homespun::meshes
 {
 /// A new folder that goes away with all that is in it.
 class TemporaryFolder
@@ -20,8 +20,9 @@ public:
       : path(parent + "/.homespun-XXXXXX")
   {
     if (!mkdtemp(path.data()))
-      throw meshes::BadInput(
-        parent + ": cannot be written; expected a folder that can: choose another --output");
+      throw BadInput(parent +
+                     ": cannot be written; expected a folder that can: choose another --output, or "
+                     "for temporary files another TMPDIR");
   }
   TemporaryFolder(const TemporaryFolder &)            = delete;
   TemporaryFolder &operator=(const TemporaryFolder &) = delete;
@@ -33,4 +34,4 @@ public:
 
   std::string path;
 };
-} // namespace homespun::verification
+} // namespace homespun::meshes

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-// Other programs that homespun runs: Python for the report, Gmsh for cells, mpirun for its own
-// ranks.
+// Other programs that homespun runs: Python for the report and for meshes, Gmsh for cells, mpirun
+// for its own ranks.
 #pragma once
 
 #include <string>
 #include <vector>
 
-namespace homespun::verification
+namespace homespun::meshes
 {
 /// Runs a program, found by its name as a shell would, without a shell, on all cores (mpirun binds
 /// a rank to one, and a child inherits that), and without the variables that MPI gives a rank, by
@@ -20,4 +20,4 @@ int run_child(const std::vector<std::string> &words, const std::string &log = ""
 
 /// What to tell of a status of run_child() that means a signal; empty of any other.
 std::string text_of_signal(int status);
-} // namespace homespun::verification
+} // namespace homespun::meshes
