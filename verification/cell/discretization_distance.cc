@@ -10,7 +10,8 @@ namespace homespun::verification
 {
 double DiscretizationDistance::uncertainty(const double order) const
 {
-  return 1.25 * (p1_to_refined + p2_to_refined / (std::pow(2., order) - 1.));
+  const double safety = p2_to_refined < p1_to_p2 ? 1.25 : 3.;
+  return safety * (p1_to_refined + p2_to_refined / (std::pow(2., order) - 1.));
 }
 
 double order_of_p2(const homogenization::UnitCell &cell, const double highest)

@@ -13,9 +13,11 @@ struct DiscretizationDistance
   double p1_to_p2 = 0., p1_to_refined = 0., p2_to_refined = 0.;
   bool reached = false; ///< false where one of them found no equilibrium
 
-  /// 1.25 (|P1 − refined P2| + |P2 − refined P2| / (2^q − 1)): the distance to the best solution,
-  /// and by Richardson how far that one is from the limit; 1.25 as in the grid convergence index
-  /// (record/convergence.h).
+  /// F (|P1 − refined P2| + |P2 − refined P2| / (2^q − 1)): the distance to the best solution, and
+  /// by Richardson how far that one is from the limit. F = 1.25 as in the grid convergence index
+  /// (record/convergence.h) where the distances fall along the ladder; where |P2 − refined P2| is
+  /// not smaller than |P1 − P2| no convergence is seen, and F = 3, as Roache (1994) asks of two
+  /// meshes whose order is not confirmed.
   /// @param order q of P2 on uniformly refined meshes
   double uncertainty(double order) const;
 };

@@ -123,7 +123,9 @@ std::vector<std::string> notes_on_the_method(const StrainStudyOptions &options,
       "Error bar of the reference: 1.25 (|P1 - refined P2| + |P2 - refined P2| / (2^q - 1)) at the "
       "same vertices on a small sheet, q the order of P2 by the corners of the cell and of the "
       "sheet; carried to the full sheet by the measured ratio of |P1 - P2| (linear law) of the two "
-      "sizes; measured at small strain, 5 % and the largest strain, on lines per strain between.");
+      "sizes; 3 in place of 1.25 where |P2 - refined P2| is not smaller than |P1 - P2|; measured "
+      "at "
+      "small strain, 5 % and the largest strain, on lines per strain between.");
   if (options.budget)
     notes.emplace_back(
       "Error budget: every part is measured on its own; none is what others leave. Part 1 and the "
