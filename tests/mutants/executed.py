@@ -73,7 +73,7 @@ def main():
         raise SystemExit(f"the counters do not build; see {workshop.work}/coverage-build.log")
     for data in workshop.build.rglob("*.gcda"):
         data.unlink()
-    status, _ = workshop.ask_program()
+    status, *_ = workshop.ask_program()
     print(f"the program ends with {status}")
     mutants = patches.read()
     counts = counts_of(workshop.build, workshop.copy, {mutant.file for mutant in mutants})

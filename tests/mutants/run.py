@@ -215,8 +215,8 @@ class Workshop:
         if not usual.exists():
             print("the sound program: all tests", flush=True)
             self.failed_log().unlink(missing_ok=True)
-            self.run("ctest", log="tests.log")
-            status, claims = self.ask_program()
+            self.run("ctest", "--parallel", str(JOBS), log="tests.log")
+            status, claims, _ = self.ask_program()
             unfinished = usual.with_suffix(".unfinished")
             unfinished.write_text(json.dumps({"status": status, "claims": claims,
                                               "failing_tests": self.failed_tests()}, indent=2))
@@ -247,11 +247,14 @@ class Workshop:
                 return (self.failed_tests() or ["ctest"])[0], time.monotonic() - start
         return "", time.monotonic() - start
 
-    def ask_program(self):
-        """The worst exit status of a quick verification of a cell and of the self-tests, and the
-        claims on the program that failed."""
-        worst, claims = 0, []
+    def ask_program(self, usual=None):
+        """The worst exit status of a quick verification of a cell and of the self-tests, the
+        claims on the program that failed, and what is unusual of it: when something is, the rest
+        is not asked."""
+        worst, claims, unusual = 0, [], ""
         for name, cells in (("verify", [CELL]), ("self-tests", [])):
+            if unusual:
+                break
             output = self.work / name
             shutil.rmtree(output, ignore_errors=True)
             status = self.run(str(self.build / "homespun"), "verify", "--quick", "--no-report",
@@ -264,7 +267,8 @@ class Workshop:
                 verdicts = []
             claims += [one["claim"] for one in verdicts
                        if one["kind"] == "program" and one["verdict"] == "FAIL"]
-        return worst, claims
+            unusual = what_the_program_says(worst, claims, usual) if usual else ""
+        return worst, claims, unusual
 
     def measured(self, mutant):
         """The row of a mutant."""
@@ -276,11 +280,11 @@ class Workshop:
                 row["builds"] = "true"
                 with concurrent.futures.ThreadPoolExecutor() as both:
                     tests = both.submit(self.ask_tests)
-                    program = both.submit(self.ask_program)
+                    program = both.submit(self.ask_program, self.usual)
                 test, seconds = tests.result()
                 if test:
                     row.update(noticed_by_test=test, seconds_to_notice=f"{seconds:.1f}")
-                row["noticed_by_program"] = what_the_program_says(*program.result(), self.usual)
+                row["noticed_by_program"] = program.result()[2]
         return row
 
     def tried(self, mutant):
