@@ -9,6 +9,7 @@ import csv
 import json
 import os
 import pathlib
+import shutil
 import subprocess
 import sys
 
@@ -41,6 +42,15 @@ def is_executed(changed, counts):
     return False
 
 
+def launcher_of(counted):
+    """A shell script that compiles as it is told, and these files with gcov's counters. What a
+    header holds is counted where one of them includes it."""
+    ccache = shutil.which("ccache") or ""
+    return ("#!/bin/sh\nfor word; do\n  case $word in\n    " +
+            "|".join(f"*/{file}" for file in sorted(counted)) +
+            f") exec {ccache} \"$@\" --coverage -O1 ;;\n  esac\ndone\nexec {ccache} \"$@\"\n")
+
+
 def counts_of(build, copy, wanted):
     """{file: {line: times}} of the wanted files, over all objects that were run."""
     counts = {file: {} for file in wanted}
@@ -63,11 +73,15 @@ def main():
     workshop = run.Workshop(*sys.argv[1:])
     workshop.build = workshop.copy / TREE
     workshop.build.mkdir(parents=True, exist_ok=True)
-    flags = "-DCMAKE_CXX_FLAGS=--coverage -O1"
-    settings = [entry for entry in run.settings_of(workshop.given)
-                if not entry.startswith("-DCMAKE_CXX_FLAGS:")]
-    if workshop.run("cmake", "-S", str(workshop.copy), "-B", ".", *settings, flags,
-                    "-DHOMESPUN_BUILD_TESTS=OFF", log="coverage-configure.log") != 0 or \
+    mutants = patches.read()
+    launcher = workshop.work / "counting-compiler"
+    launcher.write_text(launcher_of({mutant.file for mutant in mutants}), encoding="utf-8")
+    launcher.chmod(0o755)
+    if workshop.run("cmake", "-S", str(workshop.copy), "-B", ".",
+                    *run.settings_of(workshop.given), "-DHOMESPUN_BUILD_TESTS=OFF",
+                    "-DCMAKE_EXE_LINKER_FLAGS=--coverage",
+                    f"-DCMAKE_CXX_COMPILER_LAUNCHER={launcher}",
+                    log="coverage-configure.log") != 0 or \
        workshop.run("cmake", "--build", ".", "--parallel", str(run.JOBS), "--target", "homespun",
                     log="coverage-build.log") != 0:
         raise SystemExit(f"the counters do not build; see {workshop.work}/coverage-build.log")
@@ -75,7 +89,6 @@ def main():
         data.unlink()
     status, *_ = workshop.ask_program()
     print(f"the program ends with {status}")
-    mutants = patches.read()
     counts = counts_of(workshop.build, workshop.copy, {mutant.file for mutant in mutants})
     with open(workshop.work / "executed.csv", "w", newline="", encoding="utf-8") as file:
         writer = csv.writer(file, lineterminator="\n")

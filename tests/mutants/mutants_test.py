@@ -6,6 +6,7 @@ import os
 import pathlib
 import re
 import shutil
+import subprocess
 import tempfile
 import unittest
 
@@ -205,6 +206,17 @@ class Running(InFolder):
         self.assertTrue(executed.is_executed([6], {3: 0, 5: 2, 7: 0}))
         self.assertFalse(executed.is_executed([6], {3: 4, 5: 0, 7: 5}))
         self.assertFalse(executed.is_executed([2], {3: 4}))
+
+    def test_only_files_with_mutants_are_counted(self):
+        script = self.folder / "compiler"
+        script.write_text(executed.launcher_of({"shell/a.cc", "meshes/b.h"}), encoding="utf-8")
+        script.chmod(0o755)
+        for file, expected in (("../../shell/a.cc", "--coverage -O1"), ("../../shell/aa.cc", ""),
+                               ("/x/shell/a.cc", "--coverage -O1"), ("../../shell/b.cc", "")):
+            command = [str(script), "/bin/echo", "-c", file]
+            answer = subprocess.run(command, capture_output=True, text=True, check=True,
+                                    env={**os.environ, "CCACHE_DISABLE": "1"})
+            self.assertEqual(answer.stdout.split(file)[1].strip(), expected)
 
     def test_the_score_counts_what_the_program_could_notice(self):
         rows = [row_of("a", builds="true", noticed_by_test="x"),
