@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "homogenization/bracket/equilibrated_stress.h"
 
-#include "homogenization/bracket/cholesky_solver.h"
+#include "homogenization/algebra/cholesky_solver.h"
 
 #include <Eigen/LU>
 

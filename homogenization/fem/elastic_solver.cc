@@ -1,17 +1,20 @@
 // SPDX-License-Identifier: MIT
 #include "homogenization/fem/elastic_solver.h"
 
+#include "homogenization/algebra/cholesky_factor.h"
 #include "meshes/plain/errors.h"
 
 #include <deal.II/dofs/dof_tools.h>
 #include <deal.II/lac/dynamic_sparsity_pattern.h>
 #include <deal.II/lac/sparsity_tools.h>
+#include <deal.II/lac/trilinos_precondition.h>
 #include <deal.II/lac/trilinos_sparsity_pattern.h>
 
 #include <Epetra_CrsMatrix.h>
 #include <Epetra_MultiVector.h>
 #include <Teuchos_ParameterList.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <sstream>
 
@@ -49,7 +52,205 @@ std::vector<double> rigid_body_modes(const Discretization &discretization)
   }
   return modes;
 }
+
+using Block = Epetra_MultiVector; ///< a column for each right-hand side
+
+/// Some columns of a block.
+Block columns_of(const Block &block, std::vector<int> &columns)
+{
+  return {View, block, columns.data(), static_cast<int>(columns.size())};
+}
+
+void copy(const ElasticSolver::Vector &from, Block &to, const int column)
+{
+  std::copy(from.begin(), from.end(), to[column]);
+}
+
+void copy(const Block &from, const int column, ElasticSolver::Vector &to)
+{
+  std::copy(from[column], from[column] + from.MyLength(), to.begin());
+}
+
+/// That conjugate gradients have not met their target.
+meshes::NotConverged not_converged(const ElasticSolver::Target &target, const double energy,
+                                   const std::vector<double> &history)
+{
+  std::ostringstream text;
+  text << "conjugate gradients did not reach a residual of " << target.residual;
+  if (!std::isinf(target.energy))
+    text << " and an energy of the error of " << 0.5 * target.energy << " J";
+  text << " in " << history.size() - 1 << " iterations; the last are " << history.back();
+  if (!std::isinf(target.energy))
+    text << " and " << 0.5 * energy << " J";
+  return {text.str(), history};
+}
+
+/// Conjugate gradients of several right-hand sides, of which those that are solved drop out.
+class LoadsAbreast
+{
+public:
+  using Vector = ElasticSolver::Vector;
+
+  LoadsAbreast(const Epetra_CrsMatrix &A,
+               const std::function<void(const Block &, Block &)> &preconditioner,
+               std::vector<Vector> &solutions, const std::vector<Vector> &right_hand_sides,
+               const std::vector<ElasticSolver::Target> &targets,
+               const std::function<void(std::size_t)> &done)
+      : A(A)
+      , preconditioner(preconditioner)
+      , solutions(solutions)
+      , targets(targets)
+      , done(done)
+      , x(A.DomainMap(), static_cast<int>(right_hand_sides.size()))
+      , residual(x)
+      , image(x)
+      , direction(x)
+      , preconditioned(x)
+      , product(targets.size(), 0.)
+      , found(targets.size(), 0.)
+      , histories(targets.size())
+      , iterations(targets.size(), 0)
+  {
+    for (int k = 0; k < x.NumVectors(); ++k)
+    {
+      copy(solutions[static_cast<std::size_t>(k)], x, k);
+      copy(right_hand_sides[static_cast<std::size_t>(k)], residual, k);
+      open.push_back(k);
+    }
+    A.Apply(x, image);
+    residual.Update(-1., image, 1.);
+    note_residuals();
+    close([this](const std::size_t load) { return is_small(load); });
+  }
+
+  std::vector<unsigned int> run(const unsigned int max_iterations)
+  {
+    for (unsigned int iteration = 0; !open.empty(); ++iteration)
+    {
+      const std::vector<double> old_product = product;
+      precondition();
+      close([this](const std::size_t load)
+            { return is_small(load) && std::abs(product[load]) <= targets[load].energy; });
+      for (const int k : open)
+      {
+        const auto load = static_cast<std::size_t>(k);
+        if (iteration == max_iterations)
+          throw not_converged(targets[load], product[load], histories[load]);
+        if (!(product[load] > 0.) || !std::isfinite(product[load]))
+          throw meshes::NotConverged(
+            "conjugate gradients: the preconditioner is not positive definite", histories[load]);
+        direction(k)->Update(1., *preconditioned(k),
+                             iteration == 0 ? 0. : product[load] / old_product[load]);
+      }
+      if (!open.empty())
+        step();
+      close([this](const std::size_t load)
+            { return std::isinf(targets[load].energy) && is_small(load); });
+    }
+    return iterations;
+  }
+
+private:
+  bool is_small(const std::size_t load) const
+  {
+    return histories[load].back() <= targets[load].residual;
+  }
+
+  void note_residuals()
+  {
+    columns_of(residual, open).Norm2(found.data());
+    for (std::size_t k = 0; k < open.size(); ++k)
+      histories[static_cast<std::size_t>(open[k])].push_back(found[k]);
+  }
+
+  /// Those that have met their target are handed out.
+  template <typename IsMet>
+  void close(const IsMet &is_met)
+  {
+    std::vector<int> left;
+    for (const int k : open)
+    {
+      const auto load = static_cast<std::size_t>(k);
+      if (!is_met(load))
+      {
+        left.push_back(k);
+        continue;
+      }
+      copy(x, k, solutions[load]);
+      iterations[load] = static_cast<unsigned int>(histories[load].size()) - 1;
+      done(load);
+    }
+    open = left;
+  }
+
+  void precondition()
+  {
+    const Block from = columns_of(residual, open);
+    Block to         = columns_of(preconditioned, open);
+    preconditioner(from, to);
+    from.Dot(to, found.data());
+    for (std::size_t k = 0; k < open.size(); ++k)
+      product[static_cast<std::size_t>(open[k])] = found[k];
+  }
+
+  void step()
+  {
+    const Block from = columns_of(direction, open);
+    Block to         = columns_of(image, open);
+    A.Apply(from, to);
+    from.Dot(to, found.data());
+    for (std::size_t k = 0; k < open.size(); ++k)
+    {
+      const auto load        = static_cast<std::size_t>(open[k]);
+      const double curvature = found[k];
+      if (!(curvature > 0.) || !std::isfinite(curvature))
+      {
+        Vector flat = solutions[load];
+        copy(direction, open[k], flat);
+        throw IndefiniteMatrix(histories[load], flat);
+      }
+      const double length = product[load] / curvature;
+      x(open[k])->Update(length, *direction(open[k]), 1.);
+      residual(open[k])->Update(-length, *image(open[k]), 1.);
+    }
+    note_residuals();
+  }
+
+  const Epetra_CrsMatrix &A;
+  const std::function<void(const Block &, Block &)> &preconditioner;
+  std::vector<Vector> &solutions;
+  const std::vector<ElasticSolver::Target> &targets;
+  const std::function<void(std::size_t)> &done;
+  Block x, residual, image, direction, preconditioned;
+  std::vector<double> product; ///< r . M^-1 r of each
+  std::vector<double> found;   ///< of each that is open
+  std::vector<std::vector<double>> histories;
+  std::vector<unsigned int> iterations;
+  std::vector<int> open; ///< columns of those that are not solved
+};
 } // namespace
+
+/// One of the two.
+struct ElasticSolver::Preconditioner
+{
+  TrilinosWrappers::PreconditionAMG multigrid;
+  std::unique_ptr<CholeskyFactor> factor;
+
+  void apply(const Block &residual, Block &preconditioned)
+  {
+    if (!factor)
+    {
+      multigrid.trilinos_operator().ApplyInverse(residual, preconditioned);
+      return;
+    }
+    Eigen::MatrixXd columns(residual.MyLength(), residual.NumVectors());
+    for (int k = 0; k < residual.NumVectors(); ++k)
+      columns.col(k) = Eigen::Map<const Eigen::VectorXd>(residual[k], columns.rows());
+    columns = factor->solve(columns);
+    for (int k = 0; k < residual.NumVectors(); ++k)
+      Eigen::Map<Eigen::VectorXd>(preconditioned[k], columns.rows()) = columns.col(k);
+  }
+};
 
 ElasticSolver::ElasticSolver(const Discretization &discretization,
                              const AffineConstraints<double> &constraints)
@@ -64,6 +265,13 @@ ElasticSolver::ElasticSolver(const Discretization &discretization,
   matrix.reinit(discretization.locally_owned, discretization.locally_owned, pattern,
                 discretization.communicator);
   rigid_modes = rigid_body_modes(discretization);
+}
+
+ElasticSolver::~ElasticSolver() = default;
+
+bool ElasticSolver::has_preconditioner() const
+{
+  return preconditioner != nullptr;
 }
 
 ElasticSolver::Vector ElasticSolver::owned_vector() const
@@ -99,8 +307,25 @@ void ElasticSolver::build_preconditioner()
     parameters.set("smoother: Chebyshev alpha", 20.);
     parameters.set("prec type", "MGV");
   }
-  preconditioner = std::make_unique<TrilinosWrappers::PreconditionAMG>();
-  preconditioner->initialize(matrix, parameters);
+  preconditioner = std::make_unique<Preconditioner>();
+  preconditioner->multigrid.initialize(matrix, parameters);
+}
+
+void ElasticSolver::factorize()
+{
+  const Epetra_CrsMatrix &stored = matrix.trilinos_matrix();
+  const int n                    = stored.NumMyRows();
+  AssertThrow(n == stored.NumGlobalRows() && stored.ColMap().SameAs(stored.RowMap()),
+              ExcMessage("a factorization is made on one rank"));
+  int *first = nullptr, *columns = nullptr;
+  double *values = nullptr;
+  stored.ExtractCrsDataPointers(first, columns, values);
+  const Eigen::Map<const Eigen::SparseMatrix<double, Eigen::RowMajor>> rows(n, n, first[n], first,
+                                                                            columns, values);
+  preconditioner         = std::make_unique<Preconditioner>();
+  preconditioner->factor = std::make_unique<CholeskyFactor>(
+    Eigen::SparseMatrix<double>(Eigen::SparseMatrix<double>(rows).triangularView<Eigen::Lower>()),
+    "cell problems");
 }
 
 unsigned int ElasticSolver::solve(Vector &solution, const Vector &right_hand_side,
@@ -121,7 +346,7 @@ unsigned int ElasticSolver::solve(Vector &solution, const Vector &right_hand_sid
   double product = 0.;
   for (unsigned int iteration = 1; iteration <= max_iterations; ++iteration)
   {
-    preconditioner->vmult(preconditioned, residual);
+    preconditioner->multigrid.vmult(preconditioned, residual);
     const double old_product = product;
     product                  = residual * preconditioned;
     if (history.back() <= tolerance && std::abs(product) <= energy_tolerance)
@@ -144,14 +369,19 @@ unsigned int ElasticSolver::solve(Vector &solution, const Vector &right_hand_sid
     if (is_by_residual && history.back() <= tolerance)
       return iteration;
   }
-  std::ostringstream text;
-  text << "conjugate gradients did not reach a residual of " << tolerance;
-  if (!is_by_residual)
-    text << " and an energy of the error of " << 0.5 * energy_tolerance << " J";
-  text << " in " << max_iterations << " iterations; the last are " << history.back();
-  if (!is_by_residual)
-    text << " and " << 0.5 * product << " J";
-  throw meshes::NotConverged(text.str(), history);
+  throw not_converged({tolerance, energy_tolerance}, product, history);
+}
+
+std::vector<unsigned int> ElasticSolver::solve_abreast(std::vector<Vector> &solutions,
+                                                       const std::vector<Vector> &right_hand_sides,
+                                                       const std::vector<Target> &targets,
+                                                       const unsigned int max_iterations,
+                                                       const std::function<void(std::size_t)> &done)
+{
+  const std::function<void(const Block &, Block &)> apply = [this](const Block &from, Block &to)
+  { preconditioner->apply(from, to); };
+  return LoadsAbreast(matrix.trilinos_matrix(), apply, solutions, right_hand_sides, targets, done)
+    .run(max_iterations);
 }
 
 ElasticSolver::MatrixRow ElasticSolver::matrix_row(const int row) const

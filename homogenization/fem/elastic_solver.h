@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: MIT
 // The linear algebra that cell problems and references share: a distributed stiffness matrix,
-// Trilinos' algebraic multigrid with the rigid body modes (in space: the translations), conjugate
-// gradients.
+// Trilinos' algebraic multigrid with the rigid body modes (in space: the translations) or, on one
+// rank, a Cholesky factorization, and conjugate gradients.
 #pragma once
 
 #include "homogenization/fem/discretization.h"
 #include "meshes/plain/errors.h"
 
 #include <deal.II/lac/affine_constraints.h>
-#include <deal.II/lac/trilinos_precondition.h>
 #include <deal.II/lac/trilinos_sparse_matrix.h>
 #include <deal.II/lac/trilinos_vector.h>
 
+#include <functional>
 #include <limits>
 #include <memory>
 #include <utility>
@@ -42,6 +42,7 @@ public:
   /// Lays out the matrix for the given constraints (whose masters may live on another rank).
   ElasticSolver(const Discretization &discretization,
                 const dealii::AffineConstraints<double> &constraints);
+  ~ElasticSolver();
 
   /// A vector of the DoFs that this rank owns, zero.
   Vector owned_vector() const;
@@ -49,10 +50,12 @@ public:
   /// Builds the multigrid hierarchy from the present matrix.
   void build_preconditioner();
 
-  bool has_preconditioner() const
-  {
-    return preconditioner != nullptr;
-  }
+  /// Factors the present matrix in the place of a multigrid hierarchy: then solve_abreast() has a
+  /// few iterations, which refine the answer to round-off. On one rank alone.
+  /// @throws NotConverged where the matrix is not positive definite
+  void factorize();
+
+  bool has_preconditioner() const;
 
   /// Conjugate gradients from the given start until the residual r = b − A x has |r| <= tolerance
   /// and, with the preconditioner M, r . M^-1 r <= energy_tolerance. The latter is about twice the
@@ -67,6 +70,26 @@ public:
   unsigned int solve(Vector &solution, const Vector &right_hand_side, double tolerance,
                      unsigned int max_iterations = 2000,
                      double energy_tolerance     = std::numeric_limits<double>::infinity());
+
+  /// Where conjugate gradients stop, see solve().
+  struct Target
+  {
+    double residual;                                         ///< in the unit of the right-hand side
+    double energy = std::numeric_limits<double>::infinity(); ///< [J]
+  };
+
+  /// solve() for several right-hand sides abreast: conjugate gradients of each by itself, whose
+  /// iterations pass over the matrix once for all of them. One that has met its target is left as
+  /// it is.
+  /// @param solutions the starts, and the answers
+  /// @param done is told the place of each, once it is solved
+  /// @return number of iterations of each
+  /// @throws as solve()
+  std::vector<unsigned int> solve_abreast(std::vector<Vector> &solutions,
+                                          const std::vector<Vector> &right_hand_sides,
+                                          const std::vector<Target> &targets,
+                                          unsigned int max_iterations,
+                                          const std::function<void(std::size_t)> &done);
 
   /// What is stored of a row of the matrix that this rank owns.
   struct MatrixRow
@@ -87,6 +110,7 @@ public:
 private:
   const Discretization &discretization;
   std::vector<double> rigid_modes;
-  std::unique_ptr<dealii::TrilinosWrappers::PreconditionAMG> preconditioner;
+  struct Preconditioner;
+  std::unique_ptr<Preconditioner> preconditioner;
 };
 } // namespace homespun::homogenization

@@ -14,6 +14,17 @@
 
 namespace homespun::homogenization
 {
+/// What solves the linear systems of the cell problems.
+enum class CellSolver
+{
+  fastest,  ///< `direct` on one rank up to a measured size, else `multigrid`
+  direct,   ///< Cholesky factorization; on one rank alone
+  multigrid ///< preconditions conjugate gradients
+};
+
+/// `fastest`, `direct` or `multigrid`.
+const char *name_of(CellSolver solver);
+
 struct HomogenizationOptions
 {
   unsigned int order  = 2;     ///< 1 or 2, of the displacement elements
@@ -21,6 +32,7 @@ struct HomogenizationOptions
   double tolerance    = 1e-11; ///< of |residual|, relative to the summed size of the element loads
   std::string checkpoint; ///< folder of the loads that are done (LoadCheckpoint), of this problem
                           ///< alone; empty: none
+  CellSolver solver = CellSolver::multigrid;
   std::string pieces; ///< path without ending of .pvtu and its pieces (write_pieces()); empty: none
 };
 
@@ -42,6 +54,7 @@ struct Homogenization
   std::array<unsigned int, 3>
     iterations; ///< of the conjugate gradients, per load, since the start of this run
   unsigned int loads_taken_up = 0; ///< of a run before, see LoadCheckpoint
+  CellSolver solver;               ///< the one that was taken
   ConstraintAudit audit;
   HomogenizationSeconds seconds;
 };
@@ -55,8 +68,9 @@ struct Homogenization
 /// Discretization error: O(h^2) for P1, O(h^4) for P2 on smooth solutions; at corners of a phase
 /// less.
 ///
-/// @throws NotConverged with the residual history; BadInput where the cell is not periodic;
-///   std::logic_error where the audit of the constraints fails
+/// @throws NotConverged with the residual history; BadInput where the cell is not periodic, or a
+///   direct solver is asked for on several ranks; std::logic_error where the audit of the
+///   constraints fails
 /// Source: the paper, Eqs. 2-4, with I as diag(1,1,1) on strains with engineering shear.
 Homogenization homogenize(const UnitCell &cell, const HomogenizationOptions &options,
                           MPI_Comm communicator);

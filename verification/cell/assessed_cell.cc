@@ -146,23 +146,32 @@ bool is_of_drawing(const AssessedCell &assessed)
 }
 
 AssessedCell assess(const UnitCell &cell, const homogenization::HomogenizationOptions &options,
-                    const unsigned long max_dofs_of_estimate, const MPI_Comm communicator)
+                    const MPI_Comm communicator)
 {
   AssessedCell assessed;
   assessed.result  = homogenization::homogenize(cell, options, communicator);
   assessed.options = options;
-  homogenization::HomogenizationOptions finer = options;
+  assessed.checks  = checks_of(cell, assessed.result);
+  return assessed;
+}
+
+void add_estimate(const UnitCell &cell, const unsigned long max_dofs, const MPI_Comm communicator,
+                  AssessedCell &assessed)
+{
+  int is_bracketed = assessed.bracket && assessed.bracket->bracket;
+  MPI_Bcast(&is_bracketed, 1, MPI_INT, 0, communicator);
+  const unsigned long growth = assessed.options.order == 1 ? 16 : 4;
+  if (is_bracketed || growth * assessed.result.n_dofs > max_dofs)
+    return;
+  homogenization::HomogenizationOptions finer = assessed.options;
   finer.order                                 = 2;
+  finer.solver                                = homogenization::CellSolver::fastest;
   finer.checkpoint.clear();
   finer.pieces.clear();
   ++finer.refine;
-  const unsigned long growth = options.order == 1 ? 16 : 4;
-  if (growth * assessed.result.n_dofs <= max_dofs_of_estimate)
-    assessed.uncertainty =
-      (homogenization::homogenize(cell, finer, communicator).stiffness - assessed.result.stiffness)
-        .cwiseAbs();
-  assessed.checks = checks_of(cell, assessed.result);
-  return assessed;
+  assessed.uncertainty =
+    (homogenization::homogenize(cell, finer, communicator).stiffness - assessed.result.stiffness)
+      .cwiseAbs();
 }
 
 void add_bracket(const UnitCell &cell, const BracketOptions &options,

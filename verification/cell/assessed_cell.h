@@ -21,8 +21,8 @@ struct AssessedCell
 {
   homogenization::Homogenization result;
   homogenization::HomogenizationOptions options;
-  /// |C − C of P2 on the once more refined mesh|, entry by entry [N/m]; nothing where that mesh
-  /// would exceed the limit of DoFs.
+  /// |C − C of P2 on the once more refined mesh|, entry by entry [N/m]: the bar of a cell without a
+  /// bracket; nothing where there is one, or where that mesh would exceed the limit of DoFs.
   std::optional<Eigen::Matrix3d> uncertainty;
   std::vector<Verdict> checks;
   /// Nothing where nobody asked for it. After adaptivity `result` holds the C^H, chi, DoFs and
@@ -38,16 +38,20 @@ bool is_of_drawing(const AssessedCell &assessed);
 
 /// Homogenizes a cell and judges the result: Hill-Mandel gap, Voigt and Reuss as matrix
 /// inequalities.
-/// @param max_dofs_of_estimate a finer solve for the error bar is made up to this size
 AssessedCell assess(const homogenization::UnitCell &cell,
-                    const homogenization::HomogenizationOptions &options,
-                    unsigned long max_dofs_of_estimate, MPI_Comm communicator);
+                    const homogenization::HomogenizationOptions &options, MPI_Comm communicator);
 
 /// Brackets the C^H of an assessed cell and adds the verdicts; an adaptive bracket replaces C^H and
 /// chi by its better ones. To be called on one rank.
 /// @param report is told of each step, one line
 void add_bracket(const homogenization::UnitCell &cell, const BracketOptions &options,
                  const std::function<void(const std::string &)> &report, AssessedCell &assessed);
+
+/// The error bar of a cell that has no bracket: the distance to P2 on the once more refined mesh,
+/// where that has no more than `max_dofs` DoFs. A cell with a bracket has its bar, and is left as
+/// it is. All ranks must call this; the first one knows of the bracket.
+void add_estimate(const homogenization::UnitCell &cell, unsigned long max_dofs,
+                  MPI_Comm communicator, AssessedCell &assessed);
 
 /// Brackets the D^H of an assessed cell and adds the verdicts. To be called on one rank.
 /// @param report is told of each step, one line

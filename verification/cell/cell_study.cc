@@ -15,8 +15,9 @@ namespace homespun::verification
 {
 namespace
 {
-/// DoFs up to which the finer problem of the error bar is solved.
-constexpr unsigned long largest_error_bar = 4000000;
+/// DoFs up to which the finer problem of the error bar is solved where there is no bracket.
+constexpr unsigned long largest_error_bar            = 4000000;
+constexpr unsigned long largest_error_bar_of_studies = 300000;
 
 constexpr const char *name_of_pieces = "characteristic-displacements-refined";
 
@@ -29,7 +30,8 @@ nlohmann::ordered_json inputs_of(const homogenization::UnitCell &cell,
                                    {"refine", options.solve.refine},
                                    {"bars", options.bars},
                                    {"pieces", options.pieces},
-                                   {"max_dofs", options.bracket.max_dofs}};
+                                   {"max_dofs", options.bracket.max_dofs},
+                                   {"solver", homogenization::name_of(options.solve.solver)}};
   for (const UncertainInput &input : options.uncertain)
     inputs["uncertain " + input.group + "." + homogenization::name_of(input.constant)] =
       input.range;
@@ -58,10 +60,8 @@ AssessedCell run_cell_study(const homogenization::UnitCell &cell, const CellStud
   AssessedCell assessed = [&]()
   {
     Progress progress(is_root(communicator) && !options.quiet, options.bars ? 3 : 1);
-    progress.begin(cell.name + (options.bars
-                                  ? ": three cell problems, and once more refined for the error bar"
-                                  : ": three cell problems"));
-    AssessedCell its = assess(cell, solve, options.bars ? largest_error_bar : 0, communicator);
+    progress.begin(cell.name + ": three cell problems");
+    AssessedCell its = assess(cell, solve, communicator);
     progress.done();
     if (!options.bars)
       return its;
@@ -78,6 +78,7 @@ AssessedCell run_cell_study(const homogenization::UnitCell &cell, const CellStud
                 { bracket.tolerance ? progress.note(step) : progress.begin(step); },
                 its);
             });
+    add_estimate(cell, largest_error_bar, communicator, its);
     progress.done();
     progress.begin(cell.name + ": bracket on D^H");
     on_root(communicator,
@@ -109,7 +110,8 @@ AssessedCell assess_for_study(const homogenization::UnitCell &cell, const MPI_Co
 {
   homogenization::HomogenizationOptions p1;
   p1.order              = 1;
-  AssessedCell assessed = assess(cell, p1, 300000, communicator);
+  p1.solver             = homogenization::CellSolver::fastest;
+  AssessedCell assessed = assess(cell, p1, communicator);
   BracketOptions bracket;
   bracket.order = p1.order;
   on_root(communicator,
@@ -118,6 +120,7 @@ AssessedCell assess_for_study(const homogenization::UnitCell &cell, const MPI_Co
             add_bracket(
               cell, bracket, [](const std::string &) {}, assessed);
           });
+  add_estimate(cell, largest_error_bar_of_studies, communicator, assessed);
   for (Verdict check : assessed.checks)
   {
     check.claim = cell.name + ": " + check.claim;

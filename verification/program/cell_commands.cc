@@ -20,6 +20,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iostream>
+#include <map>
 #include <memory>
 
 namespace homespun::verification
@@ -129,6 +130,18 @@ void add_homogenize_command(CLI::App &app, Action &action)
                  "Uniform refinements of the mesh; each makes four triangles of one")
     ->check(CLI::Range(0, 8))
     ->capture_default_str();
+  using homogenization::CellSolver;
+  arguments->study.solve.solver = CellSolver::fastest;
+  std::map<std::string, CellSolver> solvers;
+  for (const CellSolver solver : {CellSolver::fastest, CellSolver::direct, CellSolver::multigrid})
+    solvers[homogenization::name_of(solver)] = solver;
+  command
+    ->add_option(
+      "--solver", arguments->study.solve.solver,
+      "Of the cell problems: fastest, direct (one rank), multigrid; fastest is direct on "
+      "one rank up to 600,000 DoFs")
+    ->transform(CLI::CheckedTransformer(solvers).description(""))
+    ->default_str(homogenization::name_of(CellSolver::fastest));
   CLI::Option *tolerance =
     command
       ->add_option(
@@ -154,8 +167,8 @@ void add_homogenize_command(CLI::App &app, Action &action)
     "brackets");
   command
     ->add_flag("!--no-bars", arguments->study.bars,
-               "Neither brackets nor the finer solve of the error bar: the cell problems alone, "
-               "without D^H, for large meshes")
+               "Neither brackets nor, where there are none, the finer solve of the error bar: the "
+               "cell problems alone, without D^H, for large meshes")
     ->excludes(tolerance)
     ->excludes(max_dofs)
     ->excludes(uncertain);

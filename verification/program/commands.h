@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The commands of the program. Each adds itself to the command line and, when chosen, leaves what
-// is to be run; the exit status is what that returns.
+// is to be run; the exit status is what that returns. Those whose action has `without_mpi` in its
+// name run on one process without MPI, on the ranks of a launcher with it.
 #pragma once
 
 #include <CLI/App.hpp>
@@ -17,7 +18,7 @@ using Action = std::function<int()>;
 /// exit status.
 using AfterMpi = std::function<int()>;
 
-void add_check_command(CLI::App &app, Action &action, AfterMpi &afterwards);
+void add_check_command(CLI::App &app, Action &action_without_mpi, AfterMpi &afterwards);
 void add_homogenize_command(CLI::App &app, Action &action);
 void add_strain_command(CLI::App &app, Action &action, AfterMpi &afterwards,
                         const std::string &command_line);
@@ -29,9 +30,9 @@ void add_converge_command(CLI::App &app, Action &action, AfterMpi &afterwards,
                           const std::string &command_line);
 void add_verify_command(CLI::App &app, Action &action, AfterMpi &afterwards,
                         const std::string &command_line);
-void add_report_command(CLI::App &app, Action &action, AfterMpi &afterwards);
-void add_cells_command(CLI::App &app, Action &action, AfterMpi &afterwards);
-void add_scaling_command(CLI::App &app, Action &action, AfterMpi &afterwards,
+void add_report_command(CLI::App &app, Action &action_without_mpi, AfterMpi &afterwards);
+void add_cells_command(CLI::App &app, Action &action_without_mpi, AfterMpi &afterwards);
+void add_scaling_command(CLI::App &app, Action &action_without_mpi, AfterMpi &afterwards,
                          const std::string &command_line);
 
 /// Makes report.html from folders of results, with Debian's Python.

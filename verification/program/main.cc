@@ -3,6 +3,8 @@
 #include "meshes/plain/errors.h"
 #include "verification/program/commands.h"
 #include "verification/program/study_arguments.h"
+#include "verification/record/blas.h"
+#include "verification/record/on_root.h"
 #include "verification/record/provenance.h"
 #include "verification/record/verdict.h"
 
@@ -13,8 +15,10 @@
 #include <CLI/Formatter.hpp>
 
 #include <algorithm>
+#include <cstdlib>
 #include <filesystem>
 #include <iostream>
+#include <optional>
 
 namespace
 {
@@ -47,18 +51,51 @@ int guarded(const homespun::verification::Action &action, const bool tells)
     return homespun::verification::exit_status::not_converged;
   }
 }
+
+/// Whether mpirun, srun or the like started this process, as one of several perhaps.
+bool is_launched()
+{
+  for (const char *name : {"OMPI_COMM_WORLD_SIZE", "PMIX_RANK", "PMI_RANK", "SLURM_PROCID"})
+    if (std::getenv(name))
+      return true;
+  return false;
+}
+
+/// MPI, for as long as it runs. With one thread per rank.
+class Mpi
+{
+public:
+  void start(int &argc, char **&argv)
+  {
+    if (running)
+      return;
+    // A process by itself needs no daemon of Open MPI, whose start takes longer than all else in
+    // MPI_Init; only processes that start others by MPI do.
+    if (!is_launched())
+      setenv("OMPI_MCA_ess_singleton_isolated", "1", 0);
+    running.emplace(argc, argv, 1);
+  }
+
+private:
+  std::optional<dealii::Utilities::MPI::MPI_InitFinalize> running;
+};
+
 /// All that happens while MPI runs.
 /// @param afterwards receives what is left to do when it has ended
 int run(int argc, char **argv, homespun::verification::AfterMpi &afterwards)
 {
   using namespace homespun::verification;
-  dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
-  const bool is_root = dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0;
+  // Under a launcher at once: the first rank alone prints, and a launcher waits for MPI. A process
+  // by itself starts it where a command needs it.
+  Mpi mpi;
+  if (is_launched())
+    mpi.start(argc, argv);
+  const bool is_root = homespun::verification::is_root(MPI_COMM_WORLD);
 
   std::string command_line = "homespun";
   for (int k = 1; k < argc; ++k)
     command_line += std::string(" ") + argv[k];
-  const unsigned int n_ranks = dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD);
+  const unsigned int n_ranks = n_ranks_of(MPI_COMM_WORLD);
   if (n_ranks > 1)
     command_line = "mpirun -n " + std::to_string(n_ranks) + " " + command_line;
 
@@ -73,17 +110,17 @@ int run(int argc, char **argv, homespun::verification::AfterMpi &afterwards)
              "it had to; 1 a claim failed;\n4 a claim is open; 0 all claims hold. Claims are of "
              "the program, of the input, or of the method.\n`homespun COMMAND --help` teaches a "
              "command; `mpirun -n N homespun ...` works for every command that solves.");
-  Action action;
-  add_check_command(app, action, afterwards);
+  Action action, action_without_mpi;
+  add_check_command(app, action_without_mpi, afterwards);
   add_homogenize_command(app, action);
   add_strain_command(app, action, afterwards, command_line);
   add_drape_command(app, action, afterwards, command_line);
   add_stress_command(app, action, afterwards, command_line);
   add_converge_command(app, action, afterwards, command_line);
   add_verify_command(app, action, afterwards, command_line);
-  add_report_command(app, action, afterwards);
-  add_cells_command(app, action, afterwards);
-  add_scaling_command(app, action, afterwards, command_line);
+  add_report_command(app, action_without_mpi, afterwards);
+  add_cells_command(app, action_without_mpi, afterwards);
+  add_scaling_command(app, action_without_mpi, afterwards, command_line);
   try
   {
     std::vector<std::string> words = joined_lists({argv + 1, argv + argc});
@@ -97,7 +134,9 @@ int run(int argc, char **argv, homespun::verification::AfterMpi &afterwards)
       app.exit(error, std::cout, std::cerr);
     return is_fault ? 2 : 0;
   }
-  const int status = guarded(action, is_root);
+  if (action)
+    mpi.start(argc, argv);
+  const int status = guarded(action ? action : action_without_mpi, is_root);
   // A launcher ends all ranks when one of them ends with another status than zero, and the first
   // one may have a report to make yet: what the claims come to is its word alone.
   const bool is_of_claims =
@@ -108,6 +147,8 @@ int run(int argc, char **argv, homespun::verification::AfterMpi &afterwards)
 
 int main(int argc, char **argv)
 {
+  homespun::verification::choose_blas_kernels();
+  homespun::verification::limit_blas_threads();
   homespun::verification::AfterMpi afterwards;
   const int status = run(argc, argv, afterwards);
   return afterwards

@@ -12,22 +12,34 @@
 
 namespace homespun::verification
 {
+/// Whether MPI runs: commands that solve nothing do not start it, and are one process.
+inline bool is_mpi_running()
+{
+  int is_started = 0, is_ended = 0;
+  MPI_Initialized(&is_started);
+  MPI_Finalized(&is_ended);
+  return is_started != 0 && is_ended == 0;
+}
+
 inline bool is_root(const MPI_Comm communicator)
 {
   int rank = 0;
-  MPI_Comm_rank(communicator, &rank);
+  if (is_mpi_running())
+    MPI_Comm_rank(communicator, &rank);
   return rank == 0;
 }
 
 inline unsigned int n_ranks_of(const MPI_Comm communicator)
 {
-  int n = 0;
-  MPI_Comm_size(communicator, &n);
+  int n = 1;
+  if (is_mpi_running())
+    MPI_Comm_size(communicator, &n);
   return static_cast<unsigned int>(n);
 }
 
-/// Runs `work` on the first rank. All ranks must call this; where the work throws, all throw: the
-/// first rank what it caught, the others the same kind (NotConverged, else BadInput).
+/// Runs `work` on the first rank, or on the only process of a program that has not started MPI.
+/// All ranks must call this; where the work throws, all throw: the first rank what it caught, the
+/// others the same kind (NotConverged, else BadInput).
 template <typename Work>
 void on_root(const MPI_Comm communicator, Work &&work)
 {
@@ -54,7 +66,8 @@ void on_root(const MPI_Comm communicator, Work &&work)
       status  = bad_input;
       failure = std::current_exception();
     }
-  MPI_Bcast(&status, 1, MPI_INT, 0, communicator);
+  if (is_mpi_running())
+    MPI_Bcast(&status, 1, MPI_INT, 0, communicator);
   if (failure)
     std::rethrow_exception(failure);
   if (status == not_converged)

@@ -2,6 +2,7 @@
 #include "verification/record/provenance.h"
 
 #include "verification/build_info.h"
+#include "verification/record/blas.h"
 #include "verification/record/checksum.h"
 
 #include <deal.II/base/config.h>
@@ -63,6 +64,7 @@ std::string revision()
 
 nlohmann::ordered_json provenance(const unsigned int n_ranks)
 {
+  const Blas blas = loaded_blas();
   return {{"homespun", HOMESPUN_VERSION},
           {"git", revision()},
           {"dealii", DEAL_II_PACKAGE_VERSION},
@@ -76,6 +78,9 @@ nlohmann::ordered_json provenance(const unsigned int n_ranks)
           {"processor", processor()},
           {"ranks", n_ranks},
           {"threads_per_rank", 1},
+          {"blas", blas.library},
+          {"blas_threads",
+           blas.threads > 0 ? nlohmann::ordered_json(blas.threads) : nlohmann::ordered_json()},
           {"date", now()}};
 }
 
@@ -91,6 +96,12 @@ std::string version_text()
   std::string text;
   for (const char *key : {"homespun", "git", "dealii", "trilinos", "hdf5", "eigen"})
     text += std::string(key) + " " + all[key].get<std::string>() + "\n";
+  const Blas blas = loaded_blas();
+  text += "blas " + blas.library +
+          (blas.threads == 1  ? ", 1 thread"
+           : blas.threads > 1 ? ", " + std::to_string(blas.threads) + " threads"
+                              : "") +
+          "\n";
   return text + "CLI11 " + HOMESPUN_CLI11_VERSION + "\nnlohmann-json " +
          dotted(NLOHMANN_JSON_VERSION_MAJOR, NLOHMANN_JSON_VERSION_MINOR,
                 NLOHMANN_JSON_VERSION_PATCH) +

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "verification/reference/equilibrated_sheet.h"
 
-#include "homogenization/bracket/cholesky_solver.h"
+#include "homogenization/algebra/cholesky_solver.h"
 #include "homogenization/bracket/equilibrated_stress.h"
 #include "verification/reference/displacement_energy.h"
 

@@ -71,7 +71,8 @@ ScalingRun measure(const ScalingOptions &options, const int refine, const int ra
        {std::filesystem::read_symlink("/proc/self/exe").string(), std::string("homogenize"),
         options.cell_file, std::string("--order"), std::to_string(options.order),
         std::string("--refine"), std::to_string(refine), std::string("--no-bars"),
-        std::string("--quiet"), std::string("--output"), folder})
+        std::string("--solver"), std::string("multigrid"), std::string("--quiet"),
+        std::string("--output"), folder})
     words.push_back(word);
   const int status = meshes::run_child(words, log);
   if (status != 0 || !std::filesystem::exists(folder + "/homogenize.json"))

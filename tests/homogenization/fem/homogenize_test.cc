@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 #include <random>
 
 using namespace homespun;
@@ -231,6 +232,41 @@ TEST(order_homogenize, equal_shear_moduli_converge_to_hills_exact_value_from_abo
   EXPECT_LT(errors.back(), 1e-3);
 }
 
+TEST(exact_homogenize, direct_and_multigrid_solvers_agree_on_stiffness_and_displacements)
+{
+  for (const unsigned int order : {1u, 2u})
+    for (const double contrast : {10., 1e6})
+    {
+      std::vector<Phase> phases = tests::soft_and_hard();
+      phases[1]                 = isotropic("hard", contrast, 0.3, 1., 1.);
+      const UnitCell cell =
+        tests::cell_of(tests::skewed_lattice(), 64, 64, phases, tests::square_inclusion);
+      HomogenizationOptions options;
+      options.order                   = order;
+      options.solver                  = CellSolver::fastest;
+      const Homogenization of_fastest = homogenize(cell, options, MPI_COMM_SELF);
+      options.solver                  = CellSolver::direct;
+      const Homogenization direct     = homogenize(cell, options, MPI_COMM_SELF);
+      options.solver                  = CellSolver::multigrid;
+      const Homogenization multigrid  = homogenize(cell, options, MPI_COMM_SELF);
+      EXPECT_EQ(of_fastest.solver, CellSolver::direct); // on one rank, of a small cell
+      EXPECT_EQ(direct.solver, CellSolver::direct);
+      EXPECT_EQ(multigrid.solver, CellSolver::multigrid);
+      for (const unsigned int iterations : direct.iterations)
+        EXPECT_LE(iterations, 3u); // one, and what round-off at this contrast costs
+      for (const unsigned int iterations : multigrid.iterations)
+        EXPECT_GT(iterations, 5u); // several levels
+      // Each leaves 1e-9 of the displacements in the energy norm as its preconditioner measures it,
+      // whose root of the condition is at most ten; in C^H that is squared. Besides, a stiff
+      // inclusion moves as a whole by what the sums of its large forces lose, however small the
+      // tolerance: per row of nodes a rounding of the absolute sum of a row of the matrix, of some
+      // eight stiffnesses, against the stiffness of what holds it.
+      const double lost = 8. * 64. * order * std::numeric_limits<double>::epsilon() * contrast;
+      EXPECT_LT(relative_difference(direct.stiffness, multigrid.stiffness), 1e-10);
+      EXPECT_LT((direct.chi - multigrid.chi).norm(), 2. * (1e-8 + lost) * multigrid.chi.norm());
+    }
+}
+
 // At 1e8 the soft phases hold a part of 1e-8 of the energy, to be solved as exactly: half as many
 // digits more.
 TEST(invariant_homogenize, iterations_hardly_grow_with_contrast)
@@ -241,7 +277,8 @@ TEST(invariant_homogenize, iterations_hardly_grow_with_contrast)
     std::vector<Phase> phases = tests::soft_and_hard();
     phases[1]                 = isotropic("hard", contrast, 0.3, 1., 1.);
     HomogenizationOptions options;
-    options.order = 1;
+    options.order  = 1;
+    options.solver = CellSolver::multigrid;
     const auto result =
       homogenize(tests::cell_of(tests::square_lattice(1.), 64, 64, phases, odd_pattern), options,
                  MPI_COMM_SELF);

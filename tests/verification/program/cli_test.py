@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: MIT
 """The program as a user meets it: help, results, and what it says to broken input."""
 import json
+import os
+import tempfile
 import unittest
 
 import h5py
@@ -27,6 +29,20 @@ class Help(unittest.TestCase):
         for word in ("homespun", "dealii", "trilinos", "hdf5", "eigen", "CLI11", "nlohmann-json",
                      "flags"):
             self.assertIn(word, text)
+        self.assertRegex(text, r"(?m)^blas .*(OpenBLAS .*, \d+ threads?|/.*)$")
+
+    def test_what_solves_nothing_starts_no_mpi(self):
+        without = dict(os.environ, OMPI_MCA_pml="absent")  # with which MPI does not start
+        cell = CELLS / "layered.prm"
+        with tempfile.TemporaryDirectory() as folder:
+            self.assertNotEqual(run("homogenize", cell, "--no-bars", "--output", folder + "/cell",
+                                    env=without).returncode, 0)
+            for command in (("--version",), ("--help",), ("homogenize", "--help"), ("cells",),
+                            ("check", cell), ("check", cell, "--output", folder + "/check")):
+                result = run(*command, env=without)
+                self.assertEqual(result.returncode, 0, result.stderr)
+                self.assertTrue(result.stdout)
+            self.assertEqual(run("report", folder + "/absent", env=without).returncode, 2)
 
     def test_an_unknown_command_or_option_is_bad_input(self):
         self.assertEqual(run("knit").returncode, 2)
@@ -75,6 +91,8 @@ class Homogenize(InFolder):
         result = run("homogenize", CELLS / "layered.prm", "--output", self.folder)
         self.assertEqual(result.returncode, 0, result.stderr)
         found = json.loads((self.folder / "homogenize.json").read_text())
+        self.assertEqual(found["C_bar"], "bracket")
+        self.assertIsNone(found["C_uncertainty"])
         for key in ("C", "C_lower", "C_upper", "bracket_of", "geometry", "voigt", "reuss", "area",
                     "areal_density", "engineering", "dofs", "iterations", "seconds", "checks",
                     "provenance"):
@@ -162,6 +180,10 @@ class Homogenize(InFolder):
         self.assertIn("raise --max-dofs", result.stdout)
         found = json.loads((self.folder / "homogenize.json").read_text())
         self.assertIn("raise --max-dofs", found["bracket"]["remark"])
+        self.assertRegex(found["bracket"]["remark"], r"2880 DoFs on this mesh, more than 100, "
+                                                     r"which is about \S+ s and \S+ GB:")
+        # The finer solve is the bar of a cell without a bracket.
+        self.assertIsNotNone(found["C_uncertainty"])
         self.assertEqual(len(found["checks"]), 3)
         for check in found["checks"]:
             self.assertEqual(sorted(check), ["derivation", "kind", "limit", "name", "value",

@@ -136,13 +136,16 @@ class Homogenize(InFolder):
         self.assertTrue(first.exists(),
                         "it was killed before the first load was solved, or ended before")
         self.assertFalse((killed / "homogenize.json").exists())
+        # The loads run abreast: others may have been solved in the same iteration.
+        n_done = len(list(first.parent.glob("load-?-rank-0-of-1")))
         resumed = subprocess.run([*map(str, study), str(killed)], capture_output=True, text=True,
                                  check=False, timeout=600 * PATIENCE)
         self.assertEqual(resumed.returncode, 0, resumed.stderr)
         expected = self.stiffness(whole)
         numpy.testing.assert_allclose(self.stiffness(killed), expected, rtol=0,
                                       atol=1e-10 * numpy.abs(expected).max())
-        self.assertEqual(json.loads((killed / "homogenize.json").read_text())["loads_taken_up"], 1)
+        self.assertEqual(json.loads((killed / "homogenize.json").read_text())["loads_taken_up"],
+                         n_done)
         self.assertFalse((killed / ".homespun-loads").exists())
 
     def test_what_another_cell_left_is_refused_and_goes_when_it_begins_anew(self):

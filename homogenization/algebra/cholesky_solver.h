@@ -4,10 +4,12 @@
 // multigrid stalls.
 #pragma once
 
+#include "homogenization/algebra/cholesky_factor.h"
+
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
 
-#include <memory>
+#include <string>
 
 namespace homespun::homogenization
 {
@@ -21,23 +23,18 @@ public:
     unsigned iterations = 0; ///< of the conjugate gradients, the largest of all loads
   };
 
-  /// Factors a matrix, scaled to a unit diagonal: then a mesh that is graded towards a corner costs
-  /// the factorization no digits.
   /// @param lower_triangle of the matrix
   /// @param what the unknowns are, for messages
-  /// @throws NotConverged where the matrix is singular or indefinite beyond round-off
+  /// @throws as CholeskyFactor
   CholeskySolver(const Eigen::SparseMatrix<double> &lower_triangle, const std::string &what);
-  ~CholeskySolver();
 
   /// Solves for all right-hand sides.
   /// @throws NotConverged with the residual history where the energy does not settle
   Solution solve(const Eigen::MatrixXd &right_hand_sides) const;
 
 private:
-  struct Factorization;
   std::string what;
-  Eigen::VectorXd scale; ///< 1 / sqrt(diagonal)
-  Eigen::SparseMatrix<double> scaled;
-  std::unique_ptr<Factorization> factorization;
+  Eigen::SparseMatrix<double> matrix; ///< its lower triangle
+  CholeskyFactor factor;
 };
 } // namespace homespun::homogenization
