@@ -47,7 +47,8 @@ meshes::HomogenizedCell homogenized(const UnitCell &cell, const unsigned int ord
   start_mpi();
   const py::gil_scoped_release others_run;
   homogenization::HomogenizationOptions options;
-  options.order = order;
+  options.order  = order;
+  options.solver = homogenization::CellSolver::fastest;
   return homogenized_cell(cell, homogenization::homogenize(cell, options, MPI_COMM_SELF),
                           provenance);
 }
