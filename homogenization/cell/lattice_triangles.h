@@ -64,6 +64,12 @@ struct Rim
   std::vector<Eigen::RowVector2d> reach;  ///< beside them what a curved edge stays within
   Eigen::RowVector2i period = {0, 0};     ///< not zero where it ends at an image of its beginning
   double area               = 0.;         ///< enclosed, in parts of the cell, negative of a hole
+
+  /// Where the edge that begins at a point ends.
+  Eigen::RowVector2d end_of(const std::size_t k) const
+  {
+    return k + 1 < points.size() ? points[k + 1] : points[0] + period.cast<double>();
+  }
 };
 
 /// Glues a mesh whose outline may cut holes: boundary vertices that are lattice images are one.

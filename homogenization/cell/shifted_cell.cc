@@ -73,8 +73,7 @@ bool has_slit(const std::vector<Rim> &rims, const meshes::Lattice &lattice)
   for (const Rim &rim : rims)
     for (std::size_t k = 0; k < rim.points.size(); ++k)
     {
-      const bool is_last         = k + 1 == rim.points.size();
-      const Eigen::RowVector2d a = rim.points[k], b = is_last ? rim.points[0] : rim.points[k + 1];
+      const Eigen::RowVector2d a = rim.points[k], b = rim.end_of(k);
       edges.push_back({0.5 * (a + b) * lattice.vectors, (b - a) * lattice.vectors});
     }
   const double tolerance = meshes::image_tolerance * std::sqrt(lattice.area());
@@ -94,23 +93,55 @@ bool has_slit(const std::vector<Rim> &rims, const meshes::Lattice &lattice)
   return false;
 }
 
-/// Whether triangles and holes make up the cell.
-bool is_cloth(const LatticeTriangles &mesh, const std::vector<Rim> &rims)
+/// A way to glue the mesh.
+struct Gluing
+{
+  LatticeTriangles cloth;
+  std::vector<Rim> rims;
+  double length = 0.; ///< of rims [m]
+};
+
+/// Whether triangles and holes make up the cell, as far as the rims close.
+bool fills_the_cell(const Gluing &gluing)
 {
   double covered = 0.;
-  for (const LatticeTriangle &triangle : mesh.triangles)
+  for (const LatticeTriangle &triangle : gluing.cloth.triangles)
   {
-    const Eigen::RowVector2d u = mesh.at(triangle.corners[1]) - mesh.at(triangle.corners[0]),
-                             v = mesh.at(triangle.corners[2]) - mesh.at(triangle.corners[0]);
+    const Eigen::RowVector2d a = gluing.cloth.at(triangle.corners[0]),
+                             u = gluing.cloth.at(triangle.corners[1]) - a,
+                             v = gluing.cloth.at(triangle.corners[2]) - a;
     covered += 0.5 * (u(0) * v(1) - u(1) * v(0));
   }
-  for (const Rim &rim : rims)
+  bool is_closed = true;
+  for (const Rim &rim : gluing.rims)
   {
-    if (!rim.period.isZero())
-      return false;
+    is_closed = is_closed && rim.period.isZero();
     covered -= rim.area;
   }
-  return !rims.empty() && std::abs(covered - 1.) < no_area;
+  return is_closed ? std::abs(covered - 1.) < no_area : true;
+}
+
+/// Of the lattices the one that leaves the least rim: less likely ones would hide sides that were
+/// not meshed alike in a hole.
+std::optional<Gluing> best_gluing(const meshes::TriangleMesh &mesh, const Eigen::VectorXi &group,
+                                  const std::vector<CurvedSide> &curved_sides,
+                                  const std::vector<meshes::Lattice> &lattices)
+{
+  std::optional<Gluing> best;
+  for (const meshes::Lattice &lattice : lattices)
+  {
+    auto cloth = glued_with_rims(mesh, lattice, group, curved_sides);
+    if (!cloth)
+      continue;
+    Gluing gluing{std::move(*cloth), {}};
+    gluing.rims = rims_of(gluing.cloth);
+    for (const Rim &rim : gluing.rims)
+      for (std::size_t k = 0; k < rim.points.size(); ++k)
+        gluing.length += ((rim.end_of(k) - rim.points[k]) * lattice.vectors).norm();
+    if (fills_the_cell(gluing) && (!best || gluing.length < best->length * (1. - 1e-9)))
+      best = std::move(gluing);
+  }
+  return best;
 }
 
 /// Levels to try, that of the given cell first, then lines of the mesh.
@@ -261,22 +292,15 @@ std::optional<CellCutAnew> cut_anew(const meshes::TriangleMesh &mesh, const Eige
 {
   const std::vector<meshes::Lattice> lattices =
     lattice ? std::vector<meshes::Lattice>{*lattice} : meshes::lattices_by_length(mesh);
-  for (const meshes::Lattice &candidate : lattices)
-  {
-    const auto cloth = glued_with_rims(mesh, candidate, group, curved_sides);
-    if (!cloth)
-      continue;
-    const std::vector<Rim> rims = rims_of(*cloth);
-    if (!is_cloth(*cloth, rims))
-      continue;
-    // Of sides that were not meshed alike; a less likely lattice would hide that in a hole.
-    if (has_slit(rims, candidate))
-      return std::nullopt;
-    Eigen::RowVector2d drawn = candidate.fractional(mesh.vertices.row(0));
-    for (int v = 0; v < mesh.n_vertices(); ++v)
-      drawn = drawn.cwiseMin(candidate.fractional(mesh.vertices.row(v)));
-    return cut(*cloth, rims, drawn);
-  }
-  return std::nullopt;
+  const auto gluing = best_gluing(mesh, group, curved_sides, lattices);
+  if (!gluing || gluing->rims.empty() || has_slit(gluing->rims, gluing->cloth.lattice) ||
+      std::any_of(gluing->rims.begin(), gluing->rims.end(),
+                  [](const Rim &rim) { return !rim.period.isZero(); }))
+    return std::nullopt;
+  const meshes::Lattice &its = gluing->cloth.lattice;
+  Eigen::RowVector2d drawn   = its.fractional(mesh.vertices.row(0));
+  for (int v = 0; v < mesh.n_vertices(); ++v)
+    drawn = drawn.cwiseMin(its.fractional(mesh.vertices.row(v)));
+  return cut(gluing->cloth, gluing->rims, drawn);
 }
 } // namespace homespun::homogenization

@@ -20,7 +20,7 @@ constexpr std::size_t n_starts = 8;
 constexpr std::size_t most_translations = 40;
 
 /// Of a mesh with cut holes: pairs that are tried for each of the likeliest first vectors.
-constexpr std::size_t most_first_vectors = 12, most_partners = 4;
+constexpr std::size_t most_first_vectors = 6, most_partners = 3;
 
 /// a1 nearest to the x axis, a1 x a2 > 0.
 Lattice ordered(const Eigen::RowVector2d &one, const Eigen::RowVector2d &other)
@@ -32,6 +32,7 @@ Lattice ordered(const Eigen::RowVector2d &one, const Eigen::RowVector2d &other)
     lattice.vectors.row(0).swap(lattice.vectors.row(1));
   if (lattice.vectors.determinant() < 0.)
     lattice.vectors.row(1) *= -1.;
+  lattice.vectors.array() += 0.; // prints 0, not -0
   return lattice;
 }
 
