@@ -102,7 +102,9 @@ void declare_cell(py::module_ &module)
       "rows a1, a2 [m]")
     .def_readonly("anchor", &HomogenizedCell::anchor, "vertex where chi is zero")
     .def_readonly("areal_density", &HomogenizedCell::areal_density, "[kg/m^2]")
-    .def_readonly("provenance", &HomogenizedCell::provenance);
+    .def_readonly("provenance", &HomogenizedCell::provenance)
+    .def_readonly("place_of_cut", &HomogenizedCell::place_of_cut,
+                  "In words, where the cell is not cut from the cloth as it is drawn; else empty.");
 }
 
 void declare_sheet(py::module_ &module)

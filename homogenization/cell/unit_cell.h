@@ -4,9 +4,11 @@
 
 #include "homogenization/cell/curved_sides.h"
 #include "homogenization/cell/material.h"
+#include "homogenization/cell/shifted_cell.h"
 #include "meshes/plain/lattice.h"
 #include "meshes/plain/triangle_mesh.h"
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -21,6 +23,7 @@ struct UnitCell
   meshes::Lattice lattice;
   std::vector<Phase> phases;
   std::vector<CurvedSide> curved_sides; ///< of the mesh, where the drawing has arcs
+  std::optional<CellShift> shift;       ///< where the cell is cut from another place than drawn
 
   /// Membrane stiffness of each phase, (3,3) [N/m].
   std::vector<Eigen::Matrix3d> stiffness_of_phase() const;

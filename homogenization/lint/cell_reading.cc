@@ -83,6 +83,56 @@ std::vector<meshes::MeshFault> piece_faults(const meshes::TriangleMesh &mesh,
   return {{text.str(), place}};
 }
 
+/// Whether the cell is periodic; faults become findings.
+bool matches_its_images(CellReading &reading, const std::string &mesh_path)
+{
+  const auto faults =
+    meshes::placed_periodicity_faults(reading.cell.mesh, reading.cell.lattice, mesh_path);
+  add(reading.findings, "periodicity", faults);
+  return faults.empty();
+}
+
+/// Where the outline cuts holes, and nothing else is wrong with it: cuts the cell anew, or says
+/// first why not.
+/// @param geometry begins what was found of pieces, lattice and periodicity
+/// @return whether the cell is another one now
+bool cut_anew_if_holes_are_cut(CellReading &reading, const std::string &mesh_path,
+                               const bool lattice_is_given, const std::size_t geometry)
+{
+  UnitCell &cell = reading.cell;
+  if (lattice_is_given && !reading.has_lattice)
+    return false;
+  Eigen::VectorXi group = cell.mesh.material;
+  if (!cell.phases.empty() && group.maxCoeff() < static_cast<int>(cell.phases.size()))
+    for (int &its : group)
+      its = cell.group_of_phase()[static_cast<std::size_t>(its)];
+  auto anew =
+    cut_anew(cell.mesh, group, cell.curved_sides,
+             lattice_is_given ? std::optional<meshes::Lattice>(cell.lattice) : std::nullopt);
+  if (!anew)
+    return false;
+  std::vector<Finding> &findings = reading.findings;
+  const auto begin               = findings.begin() + static_cast<std::ptrdiff_t>(geometry);
+  if (!anew->shift)
+  {
+    findings.erase(begin, findings.end());
+    findings.insert(findings.begin(), finding_of("cut hole", mesh_path + ": " + anew->obstacle));
+    return false;
+  }
+  findings.erase(begin, findings.end());
+  findings.insert(findings.begin(),
+                  {Severity::warning, "shifted cell", mesh_path + ": " + sentence_of(*anew->shift),
+                   "expected holes inside: nothing is to be done where the place of the cut does "
+                   "not matter; else draw the cell from the place that is meant",
+                   meshes::Place()});
+  cell.mesh           = std::move(anew->mesh);
+  cell.curved_sides   = std::move(anew->curved_sides);
+  cell.lattice        = anew->lattice;
+  cell.shift          = anew->shift;
+  reading.has_lattice = true;
+  return true;
+}
+
 /// The path of a file that a cell file names. It stays in the folder of the cell file, links
 /// followed, so that a cell from elsewhere opens nothing but what came with it.
 /// @throws BadInput where it leads out of the folder
@@ -183,24 +233,27 @@ CellReading read_unit_cell_with_findings(const std::string &prm_file, const MPI_
     cell.mesh.material = groups;
   add(findings, "phases", of_phases);
 
-  bool fits = false;
+  bool fits                  = false;
+  const std::size_t geometry = findings.size();
   try
   {
     const auto pieces = piece_faults(cell.mesh, mesh_path);
     add(findings, "pieces", pieces);
     Faults of_lattice;
     std::optional<meshes::Lattice> lattice;
-    if (pieces.empty())
+    const bool is_given = trimmed(keys.lattice) != "auto";
+    if (pieces.empty() || is_given)
       lattice = lattice_from(prm_file, keys, reading.metres_per_unit, cell.mesh, of_lattice);
     add(findings, "lattice", of_lattice);
     if (lattice)
     {
       reading.has_lattice = true;
       cell.lattice        = *lattice;
-      const auto faults   = meshes::placed_periodicity_faults(cell.mesh, cell.lattice, mesh_path);
-      add(findings, "periodicity", faults);
-      fits = faults.empty();
     }
+    if (lattice && pieces.empty())
+      fits = matches_its_images(reading, mesh_path);
+    if (!fits && mesh_is_sound && cut_anew_if_holes_are_cut(reading, mesh_path, is_given, geometry))
+      fits = matches_its_images(reading, mesh_path);
     if (fits && mesh_is_sound && may_move(cell.mesh))
       append(findings, mesh_path,
              lint_mechanisms(cell.mesh, cell.lattice, reading.metres_per_unit));

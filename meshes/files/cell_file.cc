@@ -108,6 +108,8 @@ void write_cell(const HomogenizedCell &cell, const std::string &path)
                    "vertex, macro curvature (11, 22, 12)");
   }
   file.attribute("/", "provenance", cell.provenance);
+  if (!cell.place_of_cut.empty())
+    file.attribute("/", "place_of_cut", cell.place_of_cut);
   file.finish();
 }
 
@@ -149,6 +151,7 @@ HomogenizedCell read_cell(const std::string &path)
                    ": attribute anchor of /chi is missing; expected the vertex where chi is zero");
   cell.anchor                           = *anchor;
   cell.provenance                       = file.text_attribute("/", "provenance").value_or("");
+  cell.place_of_cut                     = file.text_attribute("/", "place_of_cut").value_or("");
   const std::vector<std::string> faults = faults_of(cell, path);
   if (!faults.empty())
     throw BadInput(faults);

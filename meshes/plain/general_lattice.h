@@ -6,6 +6,7 @@
 #include "meshes/plain/lattice.h"
 
 #include <optional>
+#include <vector>
 
 namespace homespun::meshes
 {
@@ -14,4 +15,9 @@ namespace homespun::meshes
 /// x axis, a1 x a2 > 0.
 /// @return nothing where there is no such pair
 std::optional<Lattice> lattice_by_matching(const TriangleMesh &mesh);
+
+/// Lattices that a mesh may have whose outline cuts holes, the likeliest first: pairs of the
+/// translations that carry the greatest lengths of its boundary onto other pieces of it, and that
+/// span no less than its triangles cover. Which of them is right the caller has to find out.
+std::vector<Lattice> lattices_by_length(const TriangleMesh &mesh);
 } // namespace homespun::meshes

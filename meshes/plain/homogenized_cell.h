@@ -44,5 +44,6 @@ struct HomogenizedCell
   double areal_density      = 0.;                      ///< [kg/m^2]
   std::string provenance;                              ///< how it was made, one line
   std::optional<CellBendingModes> bending;             ///< nothing where it was not computed
+  std::string place_of_cut; ///< in words, where the cell is not cut from the cloth as it is drawn
 };
 } // namespace homespun::meshes

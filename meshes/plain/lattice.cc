@@ -233,8 +233,8 @@ std::vector<MeshFault> placed_periodicity_faults(const TriangleMesh &mesh, const
     text << name << ": the outline of the mesh encloses " << enclosed
          << " m^2, but the lattice vectors (" << lattice.vectors.row(0) << ") and ("
          << lattice.vectors.row(1) << ") m span " << lattice.area()
-         << " m^2; expected equal areas: mend `Lattice vectors`, or mesh exactly one cell (a hole "
-            "must not cut the outline: shift the cell so that it lies inside)";
+         << " m^2; expected equal areas: mend `Lattice vectors`, or mesh exactly one cell; where "
+            "holes cut the outline, mesh what is left of opposite sides alike";
     faults.push_back({text.str(), Place()});
   }
   const double covered = signed_areas(mesh).cwiseAbs().sum();

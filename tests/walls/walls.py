@@ -86,6 +86,9 @@ MOST_COLUMNS = 100
 # Other files that are held to MOST_COLUMNS, with the sources: of the build, and in Python.
 OTHER_TEXTS = (r"(.*/)?CMakeLists\.txt|.*\.cmake(\.in)?|bootstrap|"
                r"tests/(mutants|walls|verification/program)/\w+\.py")
+# A limit says where it comes from, not how somebody came to it.
+DIARY = (r'"[^"]*\b(beforehand|before any|set before|what was asked for|until now|formerly|'
+         r'previously)\b')
 OTHER_NOTES = r"METHOD [0-9]|FRONTIER|DESIGN"  # documents that are not part of the repository
 
 
@@ -227,13 +230,17 @@ def sizes(house):
 
 
 def texts(house):
-    """Lines that are too long, and mentions of documents that a reader does not have."""
+    """Lines that are too long, mentions of documents that a reader does not have, and texts of the
+    program that tell its own story.
+    """
     for path, text in {**house.product, **house.tests, **house.others}.items():
         for number, line in enumerate(text.split("\n"), 1):
             if len(line) > MOST_COLUMNS:
                 yield f"{path}:{number}: {len(line)} columns; at most {MOST_COLUMNS}"
             if path not in house.others and re.search(OTHER_NOTES, line):
                 yield f"{path}:{number}: names a document that is not part of the repository"
+            if path in house.product and re.search(DIARY, line):
+                yield f"{path}:{number}: tells how a limit came about, not what it follows from"
 
 
 RULES = [arrows, unused_arrows, circles, places, rows, test_headers, sizes, texts]

@@ -130,6 +130,10 @@ class Planted(unittest.TestCase):
         self.append("shell/solver/cloth.cc", "// see " + "METHOD" + " 3\n")
         self.expect(walls.texts, "not part of the repository")
 
+    def test_diary_of_a_limit(self):
+        self.append("verification/strain/validity.cc", '// "limit set ' + 'before any run"\n')
+        self.expect(walls.texts, "tells how a limit came about")
+
 
 if __name__ == "__main__":
     unittest.main()

@@ -163,6 +163,16 @@ void add_bending_json(const CellBending &bending, ordered_json &json)
   json["bending_history"] = history_json(bending.history);
 }
 
+/// Null where the cell is cut from the cloth as it is drawn.
+ordered_json shift_json(const UnitCell &cell)
+{
+  if (!cell.shift)
+    return {};
+  return {{"parts", {cell.shift->parts(0), cell.shift->parts(1)}},
+          {"metres", {cell.shift->metres(0), cell.shift->metres(1)}},
+          {"remark", homogenization::sentence_of(*cell.shift)}};
+}
+
 ordered_json cell_json(const UnitCell &cell)
 {
   ordered_json phases = ordered_json::array();
@@ -180,6 +190,7 @@ ordered_json cell_json(const UnitCell &cell)
           {"file", cell.file},
           {"vertices", cell.mesh.n_vertices()},
           {"triangles", cell.mesh.n_triangles()},
+          {"shift", shift_json(cell)},
           {"phases", phases}};
 }
 
@@ -247,6 +258,7 @@ ordered_json membrane_json(const UnitCell &cell, const AssessedCell &assessed,
     {"geometry", geometry_json(cell, result)},
     {"voigt", json_matrix(result.voigt)},
     {"reuss", json_matrix(result.reuss)},
+    {"shift", shift_json(cell)},
     {"area", cell.lattice.area()},
     {"areal_density", cell.areal_density()},
     {"engineering", json_moduli(engineering)},

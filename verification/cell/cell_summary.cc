@@ -3,6 +3,7 @@
 
 #include "verification/cell/cell_bars.h"
 #include "verification/cell/energy_order.h"
+#include "verification/cell/study_inputs.h"
 #include "verification/record/number_text.h"
 
 #include <Eigen/LU>
@@ -116,6 +117,8 @@ std::string summary(const UnitCell &cell, const AssessedCell &assessed,
        << " triangles, " << cell.phases.size() << " phases, P" << assessed.options.order << ", "
        << result.n_dofs << " DoFs, " << result.iterations[0] << "/" << result.iterations[1] << "/"
        << result.iterations[2] << " iterations\n";
+  for (const std::string &note : notes_on_cuts({cell}))
+    text << note << "\n";
   text << "C^H" << (is_of_drawing(assessed) ? " of the drawing" : "")
        << " [N/m], Voigt 11, 22, 12 with engineering shear";
   text << (is_of_drawing(assessed) ? ", middle of its bracket, +- guaranteed:\n"

@@ -49,6 +49,15 @@ std::string fingerprint(const UnitCell &cell)
   return printed(hash);
 }
 
+std::vector<std::string> notes_on_cuts(const std::vector<UnitCell> &cells)
+{
+  std::vector<std::string> notes;
+  for (const UnitCell &cell : cells)
+    if (cell.shift)
+      notes.push_back(cell.name + ": " + homogenization::sentence_of(*cell.shift) + ".");
+  return notes;
+}
+
 std::string fingerprint(const std::string &text)
 {
   return printed(hashed(start_of_hash, Eigen::Map<const Eigen::Matrix<char, Eigen::Dynamic, 1>>(

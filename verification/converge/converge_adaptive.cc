@@ -134,7 +134,7 @@ void narrow(const UnitCell &cell, const unsigned int order, const ConvergenceSiz
     {"P" + std::to_string(order) + ": the width of the adaptive bracket falls as DoFs^-" +
        std::to_string(order) + "; order " + std::to_string(2 * order) + " in DoFs^-1/2",
      "optimal order of adaptive meshes: both sides have the order p of smooth solutions in DoFs, "
-     "whose width is an energy; +- 0.2 in DoFs was asked for beforehand"});
+     "whose width is an energy; requirement: to +- 0.2 in DoFs"});
   result.add(uniform);
   if (uniform.levels.size() >= 2 && !adaptive.levels.empty())
     result.verdicts.push_back(is_narrower(adaptive, uniform));

@@ -253,6 +253,8 @@ private:
               const double seconds =
                 std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
               nlohmann::ordered_json all_notes = notes(options);
+              for (const std::string &note : notes_on_cuts(cells))
+                all_notes.push_back(note);
               for (const std::string &note : unfinished)
                 all_notes.push_back(note);
               const unsigned int n_ranks = n_ranks_of(communicator);

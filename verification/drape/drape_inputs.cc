@@ -129,19 +129,21 @@ nlohmann::ordered_json rows_of(const Eigen::Matrix3d &m)
   return {{m(0, 0), m(0, 1), m(0, 2)}, {m(1, 0), m(1, 1), m(1, 2)}, {m(2, 0), m(2, 1), m(2, 2)}};
 }
 
-std::vector<std::string> scene_warnings(const Scene &scene)
+std::vector<std::string> scene_warnings(const Scene &scene, const std::vector<UnitCell> &cells)
 {
+  std::vector<std::string> warnings = notes_on_cuts(cells);
   std::string points;
   for (const HeldPlace &held : scene.held)
     // A corner is named by two words, an edge by one.
     if (held.vertices.size() == 1 ||
         (held.vertices.empty() && held.place.find(' ') != std::string::npos))
       points += (points.empty() ? "`" : ", `") + held.place + "`";
-  if (points.empty())
-    return {};
-  return {scene.name + ": held at single points (" + points +
-          "): a membrane yields to a point force by the logarithm of the mesh width, so that its "
-          "motion near them depends on the mesh; hold an edge, or several vertices side by side"};
+  if (!points.empty())
+    warnings.push_back(
+      scene.name + ": held at single points (" + points +
+      "): a membrane yields to a point force by the logarithm of the mesh width, so that its "
+      "motion near them depends on the mesh; hold an edge, or several vertices side by side");
+  return warnings;
 }
 
 nlohmann::ordered_json drape_inputs(const DrapeOptions &options, const Scene &scene,

@@ -33,9 +33,11 @@ void check_cloth(const DrapeOptions &options, const Scene &scene,
 /// The rows of a matrix, for drape.json.
 nlohmann::ordered_json rows_of(const Eigen::Matrix3d &m);
 
-/// What hurts in a scene that can be run: single points that are held, at which a membrane yields
-/// without bound as the mesh becomes finer.
-std::vector<std::string> scene_warnings(const Scene &scene);
+/// What is to be known of a scene that can be run: cells that are not cut from the cloth as they
+/// are drawn, and single points that are held, at which a membrane yields without bound as the mesh
+/// becomes finer.
+std::vector<std::string> scene_warnings(const Scene &scene,
+                                        const std::vector<homogenization::UnitCell> &cells);
 
 /// All that the rows, frames and states of a run depend on.
 nlohmann::ordered_json drape_inputs(const DrapeOptions &options, const Scene &scene,

@@ -70,7 +70,7 @@ public:
       note(scene.name + ": runs for " + short_text(schedule.duration()) + " s of the " +
            short_text(scene.duration) + " s asked for, whole frames of " +
            short_text(schedule.interval) + " s");
-    for (const std::string &warning : scene_warnings(scene))
+    for (const std::string &warning : scene_warnings(scene, cells))
       note(warning);
     for (const UnitCell &cell : cells)
       study_cell(cell);

@@ -45,7 +45,7 @@ nlohmann::ordered_json what_was_left_out(const int most_triangles, const int n_r
   return all;
 }
 
-nlohmann::ordered_json notes(const bool has_cells)
+nlohmann::ordered_json notes(const std::vector<homogenization::UnitCell> &cells)
 {
   nlohmann::ordered_json all = {
     "A case is repeated with different seeds where it has random numbers; else every repetition "
@@ -60,7 +60,9 @@ nlohmann::ordered_json notes(const bool has_cells)
     "The figure of a case is the largest of its repetitions; the time is that of all of them.",
     "Each limit stands in stress.csv with where it comes from: theory, round-off, or a "
     "requirement. Iterations and times of the solver have none: they are reported."};
-  if (!has_cells)
+  for (const std::string &note : notes_on_cuts(cells))
+    all.push_back(note);
+  if (cells.empty())
     all.push_back(
       "No cell was given: the cloths are sheets of three built-in stiffnesses, and up-sampling "
       "takes a cell of smooth modes.");
@@ -237,7 +239,7 @@ private:
       {"seconds_total", seconds},
       {"resumed", folder->is_taken_up()},
       {"left_out", what_was_left_out(options.most_triangles, n_ranks())},
-      {"notes", notes(!unit_cells.empty())},
+      {"notes", notes(unit_cells)},
       {"provenance", provenance(static_cast<unsigned int>(n_ranks()))}};
     meshes::write_whole(options.output + "/study.json", json_text(study));
     folder->finish();

@@ -125,8 +125,7 @@ private:
     {
       result.verdicts.push_back({title + ": runs to its end; " + failure.what(), Outcome::fail, 0.,
                                  "every solver converges",
-                                 "what was asked for: a part that does not end has no results",
-                                 Kind::program});
+                                 "a part that does not end has no results", Kind::program});
       result.status = exit_status::not_converged;
     }
   }

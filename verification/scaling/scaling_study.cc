@@ -194,7 +194,7 @@ std::vector<Verdict> verdicts_of(const std::vector<ScalingRun> &runs)
           difference, 1e-10,
           "the solver leaves 1e-9 of the displacements, which enter an energy squared; sums in "
           "another order differ by about 2e-16 times the root of the number of triangles: 1e-12 "
-          "at 1e7; a hundred times that was asked for beforehand");
+          "at 1e7; requirement: no more than a hundred times that");
   // On the finest mesh, from each number of ranks to the next.
   auto entry  = repeats.lower_bound({repeats.rbegin()->first.first, 0});
   double rise = 0., before = median(entry->second).largest_rank;

@@ -98,14 +98,14 @@ void judge_level(const std::vector<BudgetRow> &rows, const BudgetRow &level,
     verdicts.push_back({what + "the error bar of the reference covers its distance from P2 on the "
                                "same mesh (distance over bar)",
                         outcome_of(covered, covered <= 1.), covered, "<= 1",
-                        "what an error bar is: this one was measured on a small sheet and at other "
-                        "strains, and carried",
+                        "what an error bar promises; this one is measured on a small sheet and at "
+                        "other strains, and carried to this one",
                         Kind::program});
   const double solver = mean_of(rows, level, "solver") / total;
   verdicts.push_back({what + "what the solvers leave undone, over the measured error",
                       outcome_of(solver, solver <= 0.01), solver, "<= 0.01",
-                      "acceptance limit set before any budget was measured: algebraic errors are a "
-                      "hundred times below what is measured",
+                      "requirement: what solvers leave is a hundred times smaller than what is "
+                      "measured with them, so that no part of the error is theirs",
                       Kind::program});
 }
 

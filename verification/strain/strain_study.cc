@@ -352,7 +352,9 @@ private:
               add(strain_verdicts(output->strain_rows(), options.strains));
               add(stability_verdicts(output->step_rows()));
               output->write_validity();
-              std::vector<std::string> notes = output->notes();
+              std::vector<std::string> notes = notes_on_cuts(cells);
+              for (const std::string &note : output->notes())
+                notes.push_back(note);
               if (options.budget)
               {
                 const std::vector<BudgetRow> &rows = output->budget->rows();

@@ -48,18 +48,18 @@ Verdict verdict_of_reach(const std::vector<StrainRow> &rows, const StrainRow &of
     missing.empty() ? ""
                     : "; none from strain " +
                         short_text(*std::min_element(missing.begin(), missing.end())) + " on";
-  return {of_case.cell + ", " + of_case.load + ", " + of_case.reference +
-            ": reference and coarse cloth find an equilibrium at each of " +
-            std::to_string(n_levels) + " levels (levels without" + from + ")",
-          missing.empty()              ? Outcome::pass
-          : missing.size() == n_levels ? Outcome::fail
-                                       : Outcome::inconclusive,
-          static_cast<double>(missing.size()),
-          "0",
-          "what was asked for; a level without equilibrium is open until it is shown to be a limit "
-          "point or the end of the law's ellipticity, and a load without a single level was not "
-          "studied",
-          Kind::program};
+  return {
+    of_case.cell + ", " + of_case.load + ", " + of_case.reference +
+      ": reference and coarse cloth find an equilibrium at each of " + std::to_string(n_levels) +
+      " levels (levels without" + from + ")",
+    missing.empty()              ? Outcome::pass
+    : missing.size() == n_levels ? Outcome::fail
+                                 : Outcome::inconclusive,
+    static_cast<double>(missing.size()),
+    "0",
+    "every level of --strains is to be compared; one without equilibrium is open, because the "
+    "cloth itself may have none there, and a load without a single level says nothing",
+    Kind::program};
 }
 
 bool is_in_window(const double strain)

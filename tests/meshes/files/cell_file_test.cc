@@ -27,6 +27,7 @@ HomogenizedCell some_cell()
   cell.stiffness << 5., 1., 0.1, 1., 4., 0.2, 0.1, 0.2, 1.;
   cell.areal_density = 0.2;
   cell.provenance    = "made for a test";
+  cell.place_of_cut  = "half of a side away from where it is drawn";
   return cell;
 }
 
@@ -75,6 +76,7 @@ TEST(exact_cell_file, a_cell_comes_back_as_it_was_written)
   EXPECT_EQ(back.stiffness, cell.stiffness);
   EXPECT_EQ(back.areal_density, cell.areal_density);
   EXPECT_EQ(back.provenance, cell.provenance);
+  EXPECT_EQ(back.place_of_cut, cell.place_of_cut);
   EXPECT_FALSE(back.bending.has_value()); // files of versions that did not know it
   EXPECT_FALSE(std::filesystem::exists(file + ".part"));
 }

@@ -9,6 +9,9 @@ import shutil
 import sys
 import unittest
 
+import h5py
+import numpy
+
 from broken_cells_test import Cell, N, vertex
 from cli import CELLS, InFolder, run
 
@@ -146,6 +149,63 @@ class WaysToWrite(InFolder):
         self.assertIn("a phase does not continue across the sides", result.stdout)
         self.assertIn(f"vertex {vertex(0, 1)} at (0, {1 / N:g})", result.stdout)
         self.assertIn(f"vertex {vertex(N, 1)}", result.stdout)
+
+
+class CutHoles(InFolder):
+    """Holes that the outline of the cell cuts."""
+
+    def cell_without(self, is_void):
+        cell = Cell()
+        cell.keep(lambda i, j: not is_void(i, j))
+        return cell
+
+    def homogenized(self, cell, name):
+        folder = self.folder / name
+        folder.mkdir()
+        result = run("homogenize", cell.write(folder), "--order", "1", "--output", folder / "out")
+        self.assertIn(result.returncode, (0, 4), result.stderr)
+        return json.loads((folder / "out/homogenize.json").read_text()), result.stdout
+
+    def test_the_cell_is_cut_at_another_place_and_every_result_says_so(self):
+        ends = (0, N - 1)
+        cut = self.cell_without(lambda i, j: i in ends and j in ends)
+        sentence = "the outline of the mesh cuts holes: the cell is cut from the cloth"
+        found, printed = self.homogenized(cut, "cut")
+        self.assertIn(sentence, printed)
+        self.assertIn(sentence, found["shift"]["remark"])
+        for part, metres in zip(found["shift"]["parts"], found["shift"]["metres"]):
+            self.assertAlmostEqual(0.01 * part, metres, delta=1e-15)
+            self.assertIn(round(N * part, 9), range(1, N), "a line of the mesh between the holes")
+        with h5py.File(self.folder / "cut/out/cell.h5") as file:
+            self.assertIn(sentence, file.attrs["place_of_cut"].decode())
+            corner = file["vertices"][...].min(axis=0)
+        numpy.testing.assert_allclose(corner, found["shift"]["metres"], atol=1e-15)
+        result = run("check", self.folder / "cut/cell.prm")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertIn(sentence, result.stdout)
+        result = run("strain", self.folder / "cut/cell.prm", "--loads", "strip-1", "--strains",
+                     "0.01", *QUICK, "--output", self.folder / "strain")
+        self.assertNotEqual(result.returncode, 2, result.stderr)
+        notes = json.loads((self.folder / "strain/study.json").read_text())["notes"]
+        self.assertTrue(any(note.startswith(f"cell: {sentence}") for note in notes), notes)
+        # Drawn with the hole inside it is the same cloth.
+        half = N // 2
+        drawn = self.cell_without(lambda i, j: {i, j} <= {half - 1, half})
+        drawn.groups = [3 - group for group in drawn.groups]
+        other, printed = self.homogenized(drawn, "drawn")
+        self.assertNotIn("cuts holes", printed)
+        self.assertIsNone(other["shift"])
+        numpy.testing.assert_allclose(found["C"], other["C"], rtol=0, atol=1e-9 * other["C"][0][0])
+
+    def test_a_hole_that_every_line_meets_is_named_first(self):
+        cell = self.cell_without(lambda i, j: j in (2, 3) and i != 4 or
+                                 j in (5, 6) and i in (3, 4, 5))
+        cell.keys["Lattice vectors"] = "1 0; 0 1"
+        result = run("check", cell.write(self.folder))
+        self.assertEqual(result.returncode, 2)
+        first = (result.stdout + result.stderr).splitlines()[0]
+        self.assertIn("the outline cuts holes", first)
+        self.assertIn("every straight line along a2 meets a hole: ", first)
 
 
 class Options(InFolder):

@@ -167,6 +167,9 @@ class ClaimTest(unittest.TestCase):
             ("method", "do not use it"),
         ):
             self.assertIn(words, self.claim("something else", "FAIL", kind)["advice"])
+            # What is open condemns nothing.
+            advice = self.claim("something else", "INCONCLUSIVE", kind)["advice"]
+            self.assertTrue(advice.startswith("Not decided"), advice)
 
     def test_what_does_not_hold_stands_apart_from_what_holds(self):
         rows = [
@@ -216,6 +219,21 @@ class AnswerPageTest(PageTest):
         self.assertIn("C<sup>H</sup> [N/m]", first)
         self.assertIn("`homespun strain` makes them", first)
 
+    def test_a_cell_that_is_not_cut_as_it_is_drawn_says_so_on_the_first_screen(self):
+        self.assertEqual(self.run_report(), (0, ""))
+        self.assertNotIn("The cell is not the one that is drawn", self.page())
+        path = os.path.join(self.folder, "stripes", "homogenize.json")
+        with open(path, encoding="utf-8") as file:
+            value = json.load(file)
+        value["shift"] = {"parts": [0.25, 0], "metres": [0.0025, 0], "remark": "cut <0.25 a1> away"}
+        with open(path, "w", encoding="utf-8") as file:
+            json.dump(value, file)
+        list_again(self.folder)
+        self.assertEqual(self.run_report(), (0, ""))
+        page = self.page()
+        first = page[page.index("<h1>") : page.index("<nav")]
+        self.assertIn("The cell is not the one that is drawn: cut &lt;0.25 a1&gt; away.", first)
+
     def test_two_stiffnesses_of_one_cell_are_both_shown_and_named(self):
         whole = os.path.join(self.place, "verify")
         os.makedirs(os.path.join(whole, "cells"))
@@ -232,7 +250,11 @@ class AnswerPageTest(PageTest):
         write_run(alone, "homogenize")
         write_verdicts(whole, [])
         write_run(whole, "verify")
-        cell = read_results([whole]).cells["stripes"]
+        results = read_results([whole])
+        cell = results.cells["stripes"]
+        missing = [item["what"] for item in results.missing]
+        self.assertNotIn("error against strain", missing, "the study beside it has it")
+        self.assertNotIn("time per load step", missing)
         found = entries.other_stiffnesses(cell)
         self.assertEqual(
             found["names"], ["homogenize, linear triangles", "strain, quadratic triangles"]

@@ -16,7 +16,7 @@ from made_up_run import list_again
 from made_up_study import write_results
 from page_case import PageTest
 
-BENDING = numpy.array([[5e-5, 6e-6, 0.0], [6e-6, 2e-5, 0.0], [0.0, 0.0, 2.2e-5]])
+BENDING = numpy.array([[5e-5, 6e-6, 1e-20], [6e-6, 2e-5, 0.0], [1e-20, 0.0, 2.2e-5]])
 
 
 class BendingTest(PageTest):
@@ -31,7 +31,7 @@ class BendingTest(PageTest):
                     "width": 0.01,
                     "of": "mesh",
                     "remark": "made up",
-                    "entry_bars": (0.01 * numpy.abs(D)).tolist(),
+                    "entry_bars": numpy.maximum(0.01 * numpy.abs(D), 1e-18).tolist(),
                 },
                 sensitivity=[
                     {
@@ -60,6 +60,8 @@ class BendingTest(PageTest):
         self.assertRegex(
             page, r"<td[^>]*>D11</td><td[^>]*>50\.00</td><td[^>]*>0\.50</td><td[^>]*>0\.510</td>"
         )
+        # Zero to its bar in every unit.
+        self.assertRegex(page, r"<td[^>]*>D16</td><td[^>]*>0</td><td[^>]*>[^<]*</td><td[^>]*>0</td>")
         self.assertIn('id="stripes-bending-stiffness"', page)
         self.assertIn('id="stripes-deflections"', page)
         self.assertNotIn("Outside of cloth", page)

@@ -2,11 +2,12 @@
 """Tests of the comparison of several cells and of several versions of one."""
 import os
 import unittest
+from types import SimpleNamespace
 
 import report_path  # noqa: F401
 from made_up_run import verdict, write_run, write_verdicts
 from made_up_study import write_results
-from page.comparison import claims_side_by_side, key_of
+from page.comparison import claims_side_by_side, key_of, time_rows
 from page_case import PageTest
 from read import results, runs, versions
 from read.results import read_results
@@ -84,6 +85,24 @@ class ComparisonTest(PageTest):
         self.assertEqual(
             {row["strain"] for row in found.reached("stripes (new)")}, {0.001, 0.02, 0.1}
         )
+
+    def test_times_are_of_the_law_that_the_first_screen_speaks_of(self):
+        def step(reference, seconds):
+            return {
+                "cell": "stripes",
+                "load": "strip-1",
+                "reference": reference,
+                "seconds_coarse_solve": 1e-3,
+                "seconds_upsample": 1e-3,
+                "seconds_fine_step": seconds,
+            }
+
+        of_laws = SimpleNamespace(
+            steps=[step("linear", 1.0), step("biot", 3.0), step("green", 9.0)],
+            reached=lambda name: [{"reference": law} for law in ("linear", "biot", "green")],
+        )
+        rows = dict(time_rows(of_laws, [SimpleNamespace(name="stripes")]))
+        self.assertEqual(rows["full resolution over the other two"], ["1500"])
 
     def test_one_cell_is_not_compared(self):
         self.assertEqual(self.run_report(self.write("alone")), (0, ""))

@@ -1,10 +1,12 @@
 # SPDX-License-Identifier: MIT
 """Tests of the page of `homespun drape`, on a made-up cloth that swings down on an edge."""
 import json
+import math
 import os
 import re
 import shutil
 import unittest
+from types import SimpleNamespace
 
 import numpy
 from PIL import Image
@@ -13,6 +15,7 @@ import report_path  # noqa: F401
 from made_up_drape import REFERENCES, VARIANTS, write_drape, write_vtu
 from made_up_run import list_again
 from made_up_study import write_results, write_stress
+from page import drape_tables
 from page_case import PageTest, draw_small_cloth
 from read import vtu
 
@@ -76,6 +79,31 @@ class DrapePageTest(PageTest):
             self.assertTrue(os.path.isfile(os.path.join(self.output, link)), link)
         self.assertFalse(re.search(r'src="(?!data:)', page), "the page must stand alone")
         self.assertLess(os.path.getsize(os.path.join(self.output, "report.html")), 8e6)
+
+    def test_an_error_is_said_over_the_displacement_of_the_reference(self):
+        def cell_of(moved, error=2e-3):
+            row = {
+                **dict.fromkeys(("reference_uncertainty_m", "time_step_uncertainty_m"), 1e-5),
+                "variant": "corotational",
+                "reference": "biot",
+                "method": drape_tables.METHOD,
+                "time_s": 1.0,
+                "error_mean_m": error,
+                "error_mean_per_cell": error / 0.01,
+                "displacement_mean_m": moved,
+            }
+            return SimpleNamespace(errors=[row])
+
+        def sentence(moved, error=2e-3):
+            return drape_tables.error_sentence(cell_of(moved, error), "corotational", "biot")
+
+        # Whether the motion is larger than the error or smaller: the same words.
+        self.assertIn("<b>10.0 % of the mean displacement</b>, <b>2.00 mm</b>", sentence(0.02))
+        self.assertIn("<b>200 % of the mean displacement</b>, <b>2.00 mm</b>", sentence(0.001))
+        # A cloth that rests has no displacement to divide by, nor one that is not known.
+        for moved in (0.0, math.nan):
+            self.assertNotIn("displacement", sentence(moved))
+            self.assertIn("is <b>2.00 mm</b>", sentence(moved))
 
     def test_scene_without_references_frames_and_terms_is_reported_and_what_is_absent_is_named(
         self,

@@ -44,7 +44,13 @@ def bending_table(cell, D):
     bracket = value.get("bending_bracket") or {}
     texts = entry_texts(value, "D", MICRO)
     rows = [
-        [f"D{name}", *texts[name], three(D[i, j] / fabrics.KAWABATA)] for name, i, j in ENTRIES
+        # What is zero to its bar is zero in every unit.
+        [
+            f"D{name}",
+            *texts[name],
+            "0" if texts[name][0] == "0" else three(D[i, j] / fabrics.KAWABATA),
+        ]
+        for name, i, j in ENTRIES
     ]
     strips = numpy.linalg.inv(D)
     density = value.get("areal_density")

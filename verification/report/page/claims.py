@@ -58,6 +58,13 @@ OF_KIND = {
     " places.",
     "method": "Up-sampling is not good enough here: do not use it under this load and strain.",
 }
+OPEN = {
+    "program": "Not decided, and nothing says that the program is wrong: let it run further, without"
+    " `--quick` or with more levels.",
+    "input": "Not decided: a finer mesh, or a run without `--quick`, narrows the bar.",
+    "method": "Not decided: let it run further, without `--quick`, or with a reference that is"
+    " solved finer.",
+}
 LEVEL = re.compile(r"([\w.-]+), (periodic-\d\d|strip-\d|shear-frame)\b")
 STRAIN = re.compile(r"at (?:strain )?([\d.e-]+)( %)?")
 
@@ -105,8 +112,10 @@ def cause_of(verdict, budget):
 
 def advice_of(verdict):
     """What a reader can do about a claim that does not hold."""
+    otherwise = OPEN if verdict["verdict"] == "INCONCLUSIVE" else OF_KIND
     return next(
-        (advice for words, advice in ADVICE if words in verdict["claim"]), OF_KIND[verdict["kind"]]
+        (advice for words, advice in ADVICE if words in verdict["claim"]),
+        otherwise[verdict["kind"]],
     )
 
 

@@ -178,11 +178,15 @@ def thousandths(value):
 
 
 def time_rows(results, subjects):
+    """Of the law that the first screen speaks of."""
+    law = {s.name: tables.main_reference(results.reached(s.name)) for s in subjects}
     steps = {
         s.name: [
             row
             for row in results.steps
-            if row["cell"] == s.name and not row["load"].startswith("periodic")
+            if row["cell"] == s.name
+            and row["reference"] == law[s.name]
+            and not row["load"].startswith("periodic")
         ]
         for s in subjects
     }

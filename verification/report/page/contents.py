@@ -88,6 +88,7 @@ def page_contents(results, gallery, output):
         {
             **(answer or {"name": name, "lines": [], "ratio": None, "side": None}),
             "stiffness": stiffness_rows(results.cells[name]) if is_homogenized(results, name) else [],
+            "cut": results.cells[name].place_of_cut(),
             "has_bending": results.cells[name].stiffness("D") is not None,
             "table": short_table(results, name) if answer and not comparison else [],
         }

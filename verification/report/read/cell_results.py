@@ -43,6 +43,11 @@ class Cell:
         area = (self.homogenize or {}).get("area")
         return area**0.5 if area else None
 
+    def place_of_cut(self):
+        """In words, where the cell is not cut from the cloth as it is drawn; else empty."""
+        shift = (self.homogenize or {}).get("shift")
+        return str(shift.get("remark", "")) if isinstance(shift, dict) else ""
+
     def stiffness(self, key="C"):
         """A 3 x 3 matrix of homogenize.json [N/m, of bending N m], or None."""
         value = (self.homogenize or {}).get(key)

@@ -42,6 +42,18 @@ class Study:
         return self.run is not None and self.run.command == "verify"
 
 
+# What a study of strain has beside its cells.
+OF_STRAIN = (
+    "error against strain",
+    "error bar of the references from P1, P2 and refined P2",
+    "energy of the reference between two sides",
+    "time per load step",
+    "the error budget",
+    "error against run time of every way",
+    "the range of validity",
+)
+
+
 @dataclass
 class Results:
     """Everything that is reported. Rows are dictionaries with the columns of their file."""
@@ -167,7 +179,9 @@ def read_folder(run, name, results, faults, is_listed=False):
     if has_drape and (drape := read_drape(run, path_of, faults, results.missing)):
         results.drapes.append(drape)
         study.info = {
-            key: drape.info[key] for key in ("command", "provenance") if drape.info.get(key)
+            key: drape.info[key]
+            for key in ("command", "provenance", "notes")
+            if drape.info.get(key)
         }
     if has_stress and (path := path_of("stress.csv", f"stress cases of {study.name}")):
         results.stress.append(
@@ -195,17 +209,17 @@ def read_folder(run, name, results, faults, is_listed=False):
 
 def read_strain(run, cell_folders, path_of, results, faults):
     """Adds the tables of `homespun strain` and its cells to the results."""
-    if path := path_of("strain.csv", "error against strain"):
+    if path := path_of("strain.csv", OF_STRAIN[0]):
         results.strain += read_csv(path, faults, results.missing)
         if not results.strain:
             results.missing.append(
-                {"what": "error against strain", "why": f"{path} has no complete row"}
+                {"what": OF_STRAIN[0], "why": f"{path} has no complete row"}
             )
-    if path := path_of("uncertainty.csv", "error bar of the references from P1, P2 and refined P2"):
+    if path := path_of("uncertainty.csv", OF_STRAIN[1]):
         results.uncertainty += read_csv(path, faults, results.missing)
-    if path := path_of("energies.csv", "energy of the reference between two sides"):
+    if path := path_of("energies.csv", OF_STRAIN[2]):
         results.energies += read_csv(path, faults, results.missing)
-    if path := path_of("steps.csv", "time per load step"):
+    if path := path_of("steps.csv", OF_STRAIN[3]):
         results.steps += read_csv(path, faults, results.missing)
     read_budget(path_of, results, faults)
     for name, inner in cell_folders.items():
@@ -232,6 +246,10 @@ def read_results(folders):
         raise BadResults([str(error)]) from error
     if faults:
         raise BadResults(faults)
+    if any(part.strain for _, part in parts):
+        for run, part in parts:  # a homogenized cell beside its study lacks nothing
+            if run.command == "homogenize":
+                part.missing = [m for m in part.missing if m["what"] not in OF_STRAIN]
     results = merged(parts, Results, Cell)
     results.missing += missing
     return results

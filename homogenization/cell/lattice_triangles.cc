@@ -1,0 +1,218 @@
+// SPDX-License-Identifier: MIT
+#include "homogenization/cell/lattice_triangles.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <tuple>
+
+namespace homespun::homogenization
+{
+namespace
+{
+std::size_t at(const int index)
+{
+  return static_cast<std::size_t>(index);
+}
+
+double cross(const Eigen::RowVector2d &u, const Eigen::RowVector2d &v)
+{
+  return u(0) * v(1) - u(1) * v(0);
+}
+
+/// The edge between two corners, and whether it runs from the first of them.
+std::pair<LatticeEdge, bool> directed_edge(const LatticeCorner &from, const LatticeCorner &to)
+{
+  const Eigen::RowVector2i step = to.offset - from.offset;
+  const bool is_forwards =
+    std::make_tuple(to.vertex - from.vertex, step(0), step(1)) > std::make_tuple(0, 0, 0);
+  if (is_forwards)
+    return {{from.vertex, to.vertex, step(0), step(1)}, true};
+  return {{to.vertex, from.vertex, -step(0), -step(1)}, false};
+}
+
+/// What lies on either side of an edge.
+struct EdgeSides
+{
+  int n_forwards = 0, n_backwards = 0; ///< triangles that run along it from its first vertex, to it
+  int first_group = -1;
+  bool is_inside  = false; ///< of one group
+};
+
+std::map<LatticeEdge, EdgeSides> sides_of_edges(const LatticeTriangles &mesh)
+{
+  std::map<LatticeEdge, EdgeSides> sides;
+  for (const LatticeTriangle &triangle : mesh.triangles)
+    for (std::size_t k = 0; k < 3; ++k)
+    {
+      const auto [edge, is_forwards] =
+        directed_edge(triangle.corners[k], triangle.corners[(k + 1) % 3]);
+      EdgeSides &its = sides[edge];
+      ++(is_forwards ? its.n_forwards : its.n_backwards);
+      its.is_inside   = its.n_forwards + its.n_backwards == 2 && its.first_group == triangle.group;
+      its.first_group = triangle.group;
+    }
+  return sides;
+}
+} // namespace
+
+LatticeEdge edge_between(const LatticeCorner &from, const LatticeCorner &to)
+{
+  return directed_edge(from, to).first;
+}
+
+std::optional<LatticeTriangles> glued_with_rims(const meshes::TriangleMesh &mesh,
+                                                const meshes::Lattice &lattice,
+                                                const Eigen::VectorXi &group,
+                                                const std::vector<CurvedSide> &curved_sides)
+{
+  std::vector<int> boundary;
+  for (const std::array<int, 2> &edge : meshes::boundary_edges(mesh))
+    boundary.insert(boundary.end(), edge.begin(), edge.end());
+  std::sort(boundary.begin(), boundary.end());
+  boundary.erase(std::unique(boundary.begin(), boundary.end()), boundary.end());
+  meshes::Points points(static_cast<Eigen::Index>(boundary.size()), 2);
+  for (std::size_t k = 0; k < boundary.size(); ++k)
+    points.row(static_cast<Eigen::Index>(k)) = mesh.vertices.row(boundary[k]);
+  const meshes::ImageClasses classes = meshes::match_images(points, lattice);
+
+  LatticeTriangles glued;
+  glued.lattice = lattice;
+  for (int v = 0; v < mesh.n_vertices(); ++v)
+    glued.places.push_back(lattice.fractional(mesh.vertices.row(v)));
+  std::vector<LatticeCorner> corner_of(at(mesh.n_vertices()));
+  for (int v = 0; v < mesh.n_vertices(); ++v)
+    corner_of[at(v)] = {v, {0, 0}};
+  std::map<std::array<int, 3>, int> vertex_at;
+  for (std::size_t k = 0; k < boundary.size(); ++k)
+  {
+    const int first                    = boundary[at(classes.representative[k])];
+    const Eigen::RowVector2i offset    = classes.offset.row(static_cast<Eigen::Index>(k));
+    corner_of[at(boundary[k])]         = {first, offset};
+    const std::array<int, 3> its_place = {first, offset(0), offset(1)};
+    if (!vertex_at.emplace(its_place, boundary[k]).second)
+      return std::nullopt;
+  }
+  for (int t = 0; t < mesh.n_triangles(); ++t)
+    glued.triangles.push_back(
+      {{corner_of[at(mesh.triangles(t, 0))], corner_of[at(mesh.triangles(t, 1))],
+        corner_of[at(mesh.triangles(t, 2))]},
+       mesh.material(t),
+       group(t)});
+  const auto sides = sides_of_edges(glued);
+  for (const auto &[edge, its] : sides)
+    if (its.n_forwards > 1 || its.n_backwards > 1)
+      return std::nullopt;
+  for (const CurvedSide &side : curved_sides)
+  {
+    const LatticeEdge edge = edge_between(corner_of[at(side.a)], corner_of[at(side.b)]);
+    const auto its         = sides.find(edge);
+    if (its != sides.end() && !its->second.is_inside)
+      glued.bulges[edge] = lattice.fractional(side.sagitta.transpose());
+  }
+  return glued;
+}
+
+std::vector<Rim> rims_of(const LatticeTriangles &mesh)
+{
+  struct RimEdge
+  {
+    LatticeCorner from, to;
+    bool is_left = true;
+  };
+  const auto sides = sides_of_edges(mesh);
+  std::vector<RimEdge> edges;
+  std::map<int, std::vector<std::size_t>> leaving;
+  for (const LatticeTriangle &triangle : mesh.triangles)
+    for (std::size_t k = 0; k < 3; ++k)
+    {
+      const LatticeCorner &from = triangle.corners[k], &to = triangle.corners[(k + 1) % 3];
+      const EdgeSides &its = sides.at(edge_between(from, to));
+      if (its.n_forwards + its.n_backwards > 1)
+        continue;
+      leaving[from.vertex].push_back(edges.size());
+      edges.push_back({from, to});
+    }
+  std::vector<Rim> rims;
+  for (const RimEdge &first : edges)
+  {
+    if (!first.is_left)
+      continue;
+    Rim rim;
+    const int begin                 = first.from.vertex;
+    const Eigen::RowVector2d origin = mesh.at(first.from);
+    Eigen::RowVector2d place        = origin;
+    int vertex                      = begin;
+    do
+    {
+      const auto next = std::find_if(leaving[vertex].begin(), leaving[vertex].end(),
+                                     [&](const std::size_t e) { return edges[e].is_left; });
+      if (next == leaving[vertex].end())
+        return {}; // a rim that does not close: no mesh has one
+      RimEdge &edge               = edges[*next];
+      edge.is_left                = false;
+      const Eigen::RowVector2d to = place + mesh.at(edge.to) - mesh.at(edge.from);
+      rim.points.push_back(place);
+      rim.reach.push_back(place);
+      if (const auto bulge = mesh.bulges.find(edge_between(edge.from, edge.to));
+          bulge != mesh.bulges.end())
+        rim.reach.push_back(0.5 * (place + to) + 2. * bulge->second);
+      rim.area += 0.5 * cross(place - origin, to - origin);
+      place  = to;
+      vertex = edge.to.vertex;
+    } while (vertex != begin);
+    rim.period = (place - origin).array().round().cast<int>();
+    rims.push_back(rim);
+  }
+  return rims;
+}
+
+meshes::TriangleMesh unfolded_at(const LatticeTriangles &mesh, const Eigen::RowVector2d &corner,
+                                 std::vector<CurvedSide> &curved_sides)
+{
+  meshes::TriangleMesh plane;
+  const auto n = static_cast<Eigen::Index>(mesh.triangles.size());
+  plane.triangles.resize(n, 3);
+  plane.material.resize(n);
+  std::map<std::array<int, 3>, int> vertex_of;
+  std::vector<Eigen::RowVector2d> points;
+  std::map<std::array<int, 2>, Eigen::RowVector2d> bulge_of;
+  for (Eigen::Index t = 0; t < n; ++t)
+  {
+    const LatticeTriangle &triangle = mesh.triangles[static_cast<std::size_t>(t)];
+    const auto &corners             = triangle.corners;
+    const Eigen::RowVector2d centre =
+      (mesh.at(corners[0]) + mesh.at(corners[1]) + mesh.at(corners[2])) / 3. - corner;
+    const Eigen::RowVector2i cell(static_cast<int>(std::floor(centre(0))),
+                                  static_cast<int>(std::floor(centre(1))));
+    for (std::size_t k = 0; k < 3; ++k)
+    {
+      const Eigen::RowVector2i offset = corners[k].offset - cell;
+      const auto [place, is_new] =
+        vertex_of.emplace(std::array<int, 3>{corners[k].vertex, offset(0), offset(1)},
+                          static_cast<int>(points.size()));
+      if (is_new) // images exactly a lattice vector apart
+        points.push_back(mesh.places[at(corners[k].vertex)] * mesh.lattice.vectors +
+                         offset.cast<double>() * mesh.lattice.vectors);
+      plane.triangles(t, static_cast<Eigen::Index>(k)) = place->second;
+    }
+    plane.material(t) = triangle.material;
+    for (std::size_t k = 0; k < 3; ++k)
+      if (const auto bulge = mesh.bulges.find(edge_between(corners[k], corners[(k + 1) % 3]));
+          bulge != mesh.bulges.end())
+      {
+        const auto [low, high] =
+          std::minmax(plane.triangles(t, static_cast<Eigen::Index>(k)),
+                      plane.triangles(t, static_cast<Eigen::Index>((k + 1) % 3)));
+        bulge_of[{low, high}] = bulge->second;
+      }
+  }
+  plane.vertices.resize(static_cast<Eigen::Index>(points.size()), 2);
+  for (std::size_t p = 0; p < points.size(); ++p)
+    plane.vertices.row(static_cast<Eigen::Index>(p)) = points[p];
+  curved_sides.clear();
+  for (const auto &[ends, bulge] : bulge_of)
+    curved_sides.push_back({ends[0], ends[1], (bulge * mesh.lattice.vectors).transpose()});
+  return plane;
+}
+} // namespace homespun::homogenization

@@ -1,0 +1,306 @@
+// SPDX-License-Identifier: MIT
+#include "homogenization/cell/shifted_cell.h"
+
+#include "homogenization/cell/lattice_triangles.h"
+#include "meshes/plain/general_lattice.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <sstream>
+
+namespace homespun::homogenization
+{
+namespace
+{
+/// Levels that are tried: of lines of the mesh, and evenly between the holes.
+constexpr std::size_t most_mesh_lines = 8;
+constexpr double even_levels          = 24.;
+
+/// Lines that meet no hole, with this distance from it, in parts of a lattice vector.
+constexpr double clearance = 1e-6;
+
+/// Areas that are this part of the cell are nothing, as in placed_periodicity_faults().
+constexpr double no_area = 1e-6;
+
+struct Interval
+{
+  double begin, end;
+};
+
+/// How far a rim reaches along an axis.
+Interval extent(const Rim &rim, const int axis)
+{
+  Interval its{rim.reach[0](axis), rim.reach[0](axis)};
+  for (const Eigen::RowVector2d &point : rim.reach)
+    its = {std::min(its.begin, point(axis)), std::max(its.end, point(axis))};
+  return its;
+}
+
+/// Where lines meet no rim, one period of it.
+std::vector<Interval> free_intervals(const std::vector<Rim> &rims, const int axis)
+{
+  std::vector<Interval> taken;
+  double reach = -1.; // of what is taken, from the period before
+  for (const Rim &rim : rims)
+  {
+    Interval its        = extent(rim, axis);
+    const double period = std::floor(its.begin);
+    its                 = {its.begin - period - clearance, its.end - period + clearance};
+    taken.push_back(its);
+    reach = std::max(reach, its.end - 1.);
+  }
+  std::sort(taken.begin(), taken.end(),
+            [](const Interval &a, const Interval &b) { return a.begin < b.begin; });
+  std::vector<Interval> free;
+  for (const Interval &its : taken)
+  {
+    if (its.begin > reach)
+      free.push_back({reach, its.begin});
+    reach = std::max(reach, its.end);
+  }
+  return free;
+}
+
+/// Whether two pieces of rim lie on each other, face to face: a slit, not a hole.
+bool has_slit(const std::vector<Rim> &rims, const meshes::Lattice &lattice)
+{
+  struct Edge
+  {
+    Eigen::RowVector2d middle, vector;
+  };
+  std::vector<Edge> edges;
+  for (const Rim &rim : rims)
+    for (std::size_t k = 0; k < rim.points.size(); ++k)
+    {
+      const Eigen::RowVector2d a = rim.points[k], b = rim.end_of(k);
+      edges.push_back({0.5 * (a + b) * lattice.vectors, (b - a) * lattice.vectors});
+    }
+  const double tolerance = meshes::image_tolerance * std::sqrt(lattice.area());
+  for (std::size_t i = 0; i < edges.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j)
+    {
+      const double mine = edges[i].vector.norm(), other = edges[j].vector.norm();
+      const Eigen::RowVector2d along = edges[i].vector / mine;
+      const auto beside              = [&](const Eigen::RowVector2d &v)
+      { return std::abs(along(0) * v(1) - along(1) * v(0)); };
+      if (along.dot(edges[j].vector) > 0. || beside(edges[j].vector) > tolerance)
+        continue;
+      const Eigen::RowVector2d d = lattice.shortest(edges[j].middle - edges[i].middle);
+      if (beside(d) < tolerance && std::abs(along.dot(d)) < 0.5 * (mine + other) - tolerance)
+        return true;
+    }
+  return false;
+}
+
+/// A way to glue the mesh.
+struct Gluing
+{
+  LatticeTriangles cloth;
+  std::vector<Rim> rims;
+  double length = 0.; ///< of rims [m]
+};
+
+/// Whether triangles and holes make up the cell, as far as the rims close.
+bool fills_the_cell(const Gluing &gluing)
+{
+  double covered = 0.;
+  for (const LatticeTriangle &triangle : gluing.cloth.triangles)
+  {
+    const Eigen::RowVector2d a = gluing.cloth.at(triangle.corners[0]),
+                             u = gluing.cloth.at(triangle.corners[1]) - a,
+                             v = gluing.cloth.at(triangle.corners[2]) - a;
+    covered += 0.5 * (u(0) * v(1) - u(1) * v(0));
+  }
+  bool is_closed = true;
+  for (const Rim &rim : gluing.rims)
+  {
+    is_closed = is_closed && rim.period.isZero();
+    covered -= rim.area;
+  }
+  return is_closed ? std::abs(covered - 1.) < no_area : true;
+}
+
+/// Of the lattices the one that leaves the least rim: less likely ones would hide sides that were
+/// not meshed alike in a hole.
+std::optional<Gluing> best_gluing(const meshes::TriangleMesh &mesh, const Eigen::VectorXi &group,
+                                  const std::vector<CurvedSide> &curved_sides,
+                                  const std::vector<meshes::Lattice> &lattices)
+{
+  std::optional<Gluing> best;
+  for (const meshes::Lattice &lattice : lattices)
+  {
+    auto cloth = glued_with_rims(mesh, lattice, group, curved_sides);
+    if (!cloth)
+      continue;
+    Gluing gluing{std::move(*cloth), {}};
+    gluing.rims = rims_of(gluing.cloth);
+    for (const Rim &rim : gluing.rims)
+      for (std::size_t k = 0; k < rim.points.size(); ++k)
+        gluing.length += ((rim.end_of(k) - rim.points[k]) * lattice.vectors).norm();
+    if (fills_the_cell(gluing) && (!best || gluing.length < best->length * (1. - 1e-9)))
+      best = std::move(gluing);
+  }
+  return best;
+}
+
+/// Levels to try, that of the given cell first, then lines of the mesh.
+std::vector<double> levels_in(const LatticeTriangles &mesh, const std::vector<Interval> &free,
+                              const int axis, const double given)
+{
+  const auto is_free = [&](const double level)
+  {
+    return std::any_of(free.begin(), free.end(),
+                       [&](const Interval &its)
+                       {
+                         const double c = level - std::floor(level - its.begin);
+                         return c < its.end;
+                       });
+  };
+  std::vector<double> levels;
+  if (is_free(given))
+    levels.push_back(given);
+  struct MeshLine
+  {
+    int n        = 0; // corners of triangles on it
+    double level = 0.;
+  };
+  std::map<long, MeshLine> line_at; // in boxes of ten tolerances
+  const double box = 10. * meshes::image_tolerance;
+  for (const LatticeTriangle &triangle : mesh.triangles)
+    for (const LatticeCorner &corner : triangle.corners)
+    {
+      const double c = mesh.places[static_cast<std::size_t>(corner.vertex)](axis);
+      MeshLine &line = line_at[std::lround((c - std::floor(c)) / box)];
+      if (line.n++ == 0)
+        line.level = c;
+    }
+  std::vector<std::pair<int, double>> lines;
+  for (const auto &[place, line] : line_at)
+    if (is_free(line.level))
+      lines.emplace_back(-line.n, line.level);
+  std::stable_sort(lines.begin(), lines.end(),
+                   [](const auto &a, const auto &b) { return a.first < b.first; });
+  for (std::size_t k = 0; k < std::min(lines.size(), most_mesh_lines); ++k)
+    levels.push_back(lines[k].second);
+  double width = 0.;
+  for (const Interval &its : free)
+    width += its.end - its.begin;
+  for (const Interval &its : free)
+  {
+    const double n = std::max(3., std::round(even_levels * (its.end - its.begin) / width));
+    for (double k = 0.5; k < n; ++k)
+      levels.push_back(its.begin + k / n * (its.end - its.begin));
+  }
+  return levels;
+}
+
+/// Which holes stand in the way of lines at a constant coordinate `axis`.
+std::string obstacle_of(const std::vector<Rim> &rims, const int axis,
+                        const meshes::Lattice &lattice)
+{
+  std::vector<std::pair<double, Eigen::RowVector2d>> holes; // width, centre
+  for (const Rim &rim : rims)
+  {
+    Eigen::RowVector2d centre(0., 0.);
+    for (const Eigen::RowVector2d &point : rim.points)
+      centre += point / static_cast<double>(rim.points.size());
+    const Interval its = extent(rim, axis);
+    holes.emplace_back(its.end - its.begin, centre * lattice.vectors);
+  }
+  std::stable_sort(holes.begin(), holes.end(),
+                   [](const auto &a, const auto &b) { return a.first > b.first; });
+  const bool is_one      = holes[0].first >= 1. - 2. * clearance;
+  const std::string mine = axis == 0 ? "a1" : "a2", other = axis == 0 ? "a2" : "a1";
+  std::ostringstream text;
+  text.precision(3);
+  text << "every straight line along " << other << " meets a hole: ";
+  for (std::size_t k = 0; k < (is_one ? 1 : std::min<std::size_t>(holes.size(), 3)); ++k)
+    text << (k == 0 ? "the one around (" : ", that around (") << holes[k].second(0) << ", "
+         << holes[k].second(1) << ") m reaches over " << holes[k].first << " of " << mine;
+  if (!is_one && holes.size() > 3)
+    text << ", and " << holes.size() - 3 << " more";
+  return text.str();
+}
+
+/// Cuts along both axes, or says what is in the way.
+CellCutAnew cut(LatticeTriangles cloth, const std::vector<Rim> &rims,
+                const Eigen::RowVector2d &drawn)
+{
+  CellCutAnew result;
+  result.lattice = cloth.lattice;
+  Eigen::RowVector2d corner;
+  std::string in_the_way;
+  for (int axis = 0; axis < 2; ++axis)
+  {
+    const std::vector<Interval> free = free_intervals(rims, axis);
+    if (free.empty())
+    {
+      in_the_way += (in_the_way.empty() ? "" : "; ") + obstacle_of(rims, axis, cloth.lattice);
+      continue;
+    }
+    auto line = cut_along(cloth, axis, levels_in(cloth, free, axis, drawn(axis)));
+    if (!line)
+      in_the_way += std::string(in_the_way.empty() ? "" : "; ") +
+                    "curved sides of triangles touch every line along " +
+                    (axis == 0 ? "a2" : "a1") + " that was tried";
+    else
+    {
+      cloth        = std::move(line->mesh);
+      corner(axis) = line->level;
+    }
+  }
+  if (!in_the_way.empty())
+  {
+    result.obstacle =
+      "the outline cuts holes, and the cell cannot be cut from the cloth at another "
+      "place: " +
+      in_the_way +
+      "; expected a straight line along each lattice vector that meets no hole: "
+      "draw the cell along other `Lattice vectors` of the same cloth between whose "
+      "lines the holes lie, or fill the holes with a soft phase";
+    return result;
+  }
+  result.mesh = unfolded_at(cloth, corner, result.curved_sides);
+  CellShift shift;
+  for (int axis = 0; axis < 2; ++axis)
+  {
+    const double part = corner(axis) - drawn(axis);
+    shift.parts(axis) = part - std::floor(part + meshes::image_tolerance);
+  }
+  shift.metres = shift.parts * cloth.lattice.vectors;
+  result.shift = shift;
+  return result;
+}
+} // namespace
+
+std::string sentence_of(const CellShift &shift)
+{
+  std::ostringstream text;
+  text.precision(4);
+  text
+    << "the outline of the mesh cuts holes: the cell is cut from the cloth " << shift.parts(0)
+    << " a1 + " << shift.parts(1) << " a2 = (" << shift.metres(0) << ", " << shift.metres(1)
+    << ") m away from where it is drawn, where its holes lie inside; all results are of the cell "
+       "there";
+  return text.str();
+}
+
+std::optional<CellCutAnew> cut_anew(const meshes::TriangleMesh &mesh, const Eigen::VectorXi &group,
+                                    const std::vector<CurvedSide> &curved_sides,
+                                    const std::optional<meshes::Lattice> &lattice)
+{
+  const std::vector<meshes::Lattice> lattices =
+    lattice ? std::vector<meshes::Lattice>{*lattice} : meshes::lattices_by_length(mesh);
+  const auto gluing = best_gluing(mesh, group, curved_sides, lattices);
+  if (!gluing || gluing->rims.empty() || has_slit(gluing->rims, gluing->cloth.lattice) ||
+      std::any_of(gluing->rims.begin(), gluing->rims.end(),
+                  [](const Rim &rim) { return !rim.period.isZero(); }))
+    return std::nullopt;
+  const meshes::Lattice &its = gluing->cloth.lattice;
+  Eigen::RowVector2d drawn   = its.fractional(mesh.vertices.row(0));
+  for (int v = 0; v < mesh.n_vertices(); ++v)
+    drawn = drawn.cwiseMin(its.fractional(mesh.vertices.row(v)));
+  return cut(gluing->cloth, gluing->rims, drawn);
+}
+} // namespace homespun::homogenization
