@@ -57,12 +57,15 @@ MAY_INCLUDE = {
     | MESHES | CELLS | SHELL,
     "verification/extremes": {"verification/record", "verification/cell", "localization",
                               "shell/contact"} | MESHES | CELLS | SHELL,
+    "verification/load": {"verification/record", "verification/reference", "verification/cell",
+                          "meshes/plain", "meshes/files"} | CELLS,
     "verification/scaling": {"meshes/plain", "meshes/files", "verification/record",
                              "verification/cell"} | CELLS,
     "verification/program": {"verification/record", "verification/cell", "verification/method",
                              "verification/budget", "verification/strain",
                              "verification/converge", "verification/drape",
-                             "verification/extremes", "verification/scaling",
+                             "verification/extremes", "verification/load",
+                             "verification/scaling",
                              "meshes/plain", "meshes/files"} | CELLS,
 }
 FOLDERS = sorted({wing.split("/")[0] for wing in MAY_INCLUDE})

@@ -5,6 +5,7 @@
 #include "verification/converge/converge_tables.h"
 #include "verification/drape/drape_tables.h"
 #include "verification/extremes/stress_tables.h"
+#include "verification/load/load_tables.h"
 #include "verification/record/json_files.h"
 #include "verification/record/schema.h"
 #include "verification/scaling/scaling_tables.h"
@@ -38,6 +39,8 @@ int main(int argc, char **argv)
   add_to_schema<TermRow>(schema);
   add_to_schema<StressRow>(schema);
   add_to_schema<SolverRow>(schema);
+  add_to_schema<LoadRow>(schema);
+  add_to_schema<MeasuredRow>(schema);
   add_to_schema<ScalingRun>(schema);
   write_whole(argv[1], json_text(schema));
   return exit_status::good;

@@ -11,11 +11,11 @@
 #pragma once
 
 #include "meshes/plain/homogenized_cell.h"
+#include "verification/reference/cell_assembly.h"
+#include "verification/reference/cell_equilibrium.h"
 #include "verification/reference/laws.h"
 
 #include <Eigen/Core>
-#include <Eigen/SparseCholesky>
-#include <Eigen/SparseCore>
 
 #include <vector>
 
@@ -43,27 +43,7 @@ public:
   CellState solve(const Eigen::Vector3d &strain) const;
 
 private:
-  using Sparse = Eigen::SparseMatrix<double>;
-  struct Assembled
-  {
-    double energy = 0., force_size = 0.;
-    double energy_round_off = 0.; ///< what rounded gradients do to the energy at most
-    double round_off = 0.; ///< norm of what rounded gradients do to the forces of the triangles
-    Eigen::VectorXd residual;
-    Eigen::Vector3d stress = Eigen::Vector3d::Zero();
-    Sparse matrix;
-  };
-  Assembled assemble(const Eigen::Matrix2d &U, const meshes::Points &w, bool with_matrix,
-                     bool projected) const;
-  meshes::Points spread(const Eigen::VectorXd &unknowns) const;
-
-  const meshes::HomogenizedCell &cell;
-  const std::vector<Eigen::Matrix3d> stiffness_of_phase;
-  const Law law;
-  std::vector<int> unknown; ///< (n) first unknown of a vertex, −1 at the anchor
-  std::vector<Eigen::Matrix<double, 3, 2>> hats; ///< gradients of the hats of each triangle [1/m]
-  Eigen::VectorXd areas;                         ///< [m^2]
-  int n_unknowns = 0;
+  const CellAssembly assembly;
 };
 
 /// What the linear theory misses, S(e) − C^H e and w(e) + chi : e, as polynomials of degree three

@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: MIT
+#include "verification/load/load_path.h"
+
+#include "meshes/plain/errors.h"
+
+#include <Eigen/Cholesky>
+
+#include <array>
+#include <cmath>
+#include <limits>
+
+namespace homespun::verification
+{
+namespace
+{
+constexpr int most_halvings = 3;
+
+/// Points of the path, by their factor.
+struct Point
+{
+  double factor;
+  CellEquilibrium state;
+};
+
+CellEquilibrium at_rest(const CellAssembly &assembly)
+{
+  return {Eigen::Matrix2d::Identity(), meshes::Points::Zero(assembly.cell.mesh.n_vertices(), 2)};
+}
+
+/// On the line through two points; strains that are prescribed have their own value.
+CellEquilibrium extrapolated(const Point &before, const Point &last, const LoadControl &control,
+                             const double factor)
+{
+  CellEquilibrium state = last.state;
+  if (last.factor > before.factor)
+  {
+    const double part = (factor - last.factor) / (last.factor - before.factor);
+    state.gradient += part * (last.state.gradient - before.state.gradient);
+    state.fluctuation += part * (last.state.fluctuation - before.state.fluctuation);
+  }
+  Eigen::Vector3d strain = control.strain(state.gradient);
+  for (std::size_t k = 0; k < 3; ++k)
+    if (const auto place = static_cast<long>(k); !control.is_stress[k])
+      strain(place) = factor * control.value(place);
+  state.gradient = control.gradient(strain);
+  return state;
+}
+
+bool is_stable(const CellAssembly &assembly, const DeadLoads &loads, const CellEquilibrium &state)
+{
+  const Eigen::Matrix4d tangent = macro_tangent(assembly, state);
+  if (!tangent.allFinite())
+    return false;
+  const Eigen::MatrixXd free = loads.directions.transpose() * tangent * loads.directions;
+  return free.size() == 0 || Eigen::LLT<Eigen::MatrixXd>(free).info() == Eigen::Success;
+}
+} // namespace
+
+LoadPath load_path(const CellAssembly &assembly, const LoadControl &control, const int n_steps)
+{
+  LoadPath path;
+  Point last{0., at_rest(assembly)};
+  Point before = last;
+  for (int step = 1; step <= n_steps; ++step)
+  {
+    const double goal = static_cast<double>(step) / n_steps;
+    int halvings      = 0;
+    while (last.factor < goal)
+    {
+      const double full   = goal - static_cast<double>(step - 1) / n_steps;
+      const double length = full / (1 << halvings);
+      // The goal itself at the last part, free of rounding.
+      const double next = last.factor + 1.5 * length > goal ? goal : last.factor + length;
+      Point trial{next, extrapolated(before, last, control, next)};
+      try
+      {
+        find_equilibrium(assembly, control.dead_loads(next), trial.state);
+        before = last;
+        last   = trial;
+      }
+      catch (const meshes::NotConverged &failure)
+      {
+        if (++halvings > most_halvings)
+        {
+          path.why = failure.what();
+          return path;
+        }
+      }
+    }
+    path.levels.push_back({goal, control.strain(last.state.gradient),
+                           control.stress(last.state.stress), last.state.energy,
+                           is_stable(assembly, control.dead_loads(goal), last.state)});
+  }
+  return path;
+}
+
+WorkCheck check_work(const CellAssembly &assembly, const LoadControl &control,
+                     const LoadLevel &level)
+{
+  // Along the line from rest to the level's strain, whose derivative by the factor is the strain.
+  const auto energy = [&](const double factor)
+  {
+    LoadControl strains = control;
+    strains.is_stress   = {false, false, false};
+    strains.value       = factor * level.strain;
+    const LoadPath path = load_path(assembly, strains, 8);
+    return path.why.empty() ? path.levels.back().energy : std::numeric_limits<double>::quiet_NaN();
+  };
+  constexpr double h  = 1e-3;
+  const double narrow = (energy(1. + h) - energy(1. - h)) / (2. * h);
+  const double wide   = (energy(1. + 2. * h) - energy(1. - 2. * h)) / (4. * h);
+  const double work   = level.stress.dot(level.strain);
+  // Energies are sums over the triangles, known to 1e-14 of their size.
+  return {work, std::abs(narrow - work), std::abs(wide - narrow) + 1e-14 * level.energy / h};
+}
+
+Eigen::Matrix3d stiffness_at_rest(const CellAssembly &assembly)
+{
+  CellEquilibrium state              = at_rest(assembly);
+  const Eigen::Matrix4d tangent      = macro_tangent(assembly, state);
+  constexpr std::array<int, 3> place = {0, 3, 1};
+  Eigen::Matrix3d C;
+  for (std::size_t a = 0; a < 3; ++a)
+    for (std::size_t b = 0; b < 3; ++b)
+      C(static_cast<long>(a), static_cast<long>(b)) = tangent(place[a], place[b]);
+  return C;
+}
+} // namespace homespun::verification

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+// An infinite cloth under stresses and strains that are prescribed component by component: its
+// curve, against that of a cloth that has C^H in place of the microstructure.
+#pragma once
+
+#include "verification/load/load_control.h"
+#include "verification/record/run_folder.h"
+#include "verification/record/verdict.h"
+
+#include <mpi.h>
+
+#include <string>
+#include <vector>
+
+namespace homespun::verification
+{
+struct LoadStudyOptions
+{
+  std::vector<std::string> cell_files;
+  LoadControl control;
+  int n_steps                   = 20;
+  std::vector<std::string> laws = {"biot"}; ///< beside `linear`, which is always there
+  std::vector<std::string> measured;        ///< CSV files
+  std::string output;
+  std::string command;
+  Earlier earlier = Earlier::keep_work;
+  bool quiet      = false;
+};
+
+/// Solves all paths on the first rank, writes load.csv, measured.csv where there is any, study.json
+/// and verdicts.json. A law that is taken up is not solved again.
+/// @throws BadInput, NotConverged where the cell cannot be homogenized
+std::vector<Verdict> run_load_study(const LoadStudyOptions &options, MPI_Comm communicator);
+} // namespace homespun::verification

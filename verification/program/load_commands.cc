@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: MIT
+// homespun load: an infinite cloth under prescribed stresses and strains.
+#include "verification/load/load_study.h"
+#include "verification/program/study_arguments.h"
+#include "verification/record/on_root.h"
+
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+
+#include <iostream>
+#include <memory>
+
+namespace homespun::verification
+{
+namespace
+{
+struct LoadArguments
+{
+  LoadStudyOptions study;
+  std::vector<std::string> stresses, strains;
+  int axis = 1;
+  StudyEnd end;
+};
+
+int run_load(LoadArguments arguments, AfterMpi &afterwards)
+{
+  LoadStudyOptions &study = arguments.study;
+  ArgumentFaults faults;
+  try
+  {
+    study.control = load_control(arguments.stresses, arguments.strains, arguments.axis);
+  }
+  catch (const meshes::BadInput &bad)
+  {
+    for (const std::string &fault : bad.faults())
+      faults.add(fault);
+  }
+  faults.check_names("--law", study.laws, law_of);
+  faults.throw_if_any();
+  if (study.output.empty())
+    study.output = default_folder("load", stems(study.cell_files), false);
+  if (!study.quiet && is_root(MPI_COMM_WORLD))
+    std::cout << "Prescribed: " << study.control.text() << "\n";
+  return arguments.end.conclude(run_load_study(study, MPI_COMM_WORLD), study.output, study.quiet,
+                                afterwards);
+}
+} // namespace
+
+void add_load_command(CLI::App &app, Action &action, AfterMpi &afterwards,
+                      const std::string &command_line)
+{
+  CLI::App *command = app.add_subcommand(
+    "load", "An infinite cloth under given stresses and strains: its curve (load.csv)");
+  const auto arguments    = std::make_shared<LoadArguments>();
+  LoadStudyOptions &study = arguments->study;
+  study.command           = command_line;
+  command->add_option("CELL.prm", study.cell_files, "Cell files")->required();
+  add_list(*command, "--stress", arguments->stresses,
+           "Nominal stresses by component, N per metre of rest width: 11=50,12=0");
+  add_list(*command, "--strain", arguments->strains,
+           "Strains by component, as fractions or percentages, also negative: 22=0.02 or 22=2%");
+  command
+    ->add_option("--axis", arguments->axis,
+                 "Material axis that keeps its direction, 1 or 2: that of the pull")
+    ->check(CLI::Range(1, 2))
+    ->capture_default_str();
+  command->add_option("--steps", study.n_steps, "Even steps from rest")
+    ->check(CLI::Range(1, 10000))
+    ->capture_default_str();
+  add_list(*command, "--law", study.laws,
+           "Laws of the phases, linear, biot or green; linear is always there");
+  add_list(*command, "--measured", study.measured,
+           "CSV files with curves to draw on the same axes: columns strain_11, "
+           "stress_11_N_per_m and so on");
+  arguments->end.add_options(*command);
+  add_folder_options(*command, study, "out/NAME/load");
+  command->footer(
+    "A component is given once, its stress or its strain; one that is not given is free of "
+    "stress.\n"
+    "Examples:\n"
+    "  homespun load dots.prm --strain 11=10%                          uniaxial, sides free\n"
+    "  homespun load dots.prm --strain 11=10%,22=10%                   equibiaxial\n"
+    "  homespun load dots.prm --stress 11=50,22=100                    biaxial 1:2\n"
+    "  homespun load dots.prm --stress 11=50,12=0 --strain 22=0.02 --steps 40 --law biot,green\n"
+    "  homespun load dots.prm --strain 22=-2% --axis 2                 compression");
+  command->callback(
+    [&action, &afterwards, arguments]()
+    { action = [&afterwards, arguments]() { return run_load(*arguments, afterwards); }; });
+}
+} // namespace homespun::verification
