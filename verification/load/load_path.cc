@@ -87,6 +87,7 @@ LoadPath load_path(const CellAssembly &assembly, const LoadControl &control, con
         }
       }
     }
+    path.last = last.state;
     path.levels.push_back({goal, control.strain(last.state.gradient),
                            control.stress(last.state.stress), last.state.energy,
                            is_stable(assembly, control.dead_loads(goal), last.state)});
@@ -94,17 +95,23 @@ LoadPath load_path(const CellAssembly &assembly, const LoadControl &control, con
   return path;
 }
 
-WorkCheck check_work(const CellAssembly &assembly, const LoadControl &control,
-                     const LoadLevel &level)
+WorkCheck check_work(const CellAssembly &assembly, const LoadControl &control, const LoadPath &path)
 {
-  // Along the line from rest to the level's strain, whose derivative by the factor is the strain.
+  const LoadLevel &level = path.levels.back();
+  // Along the strains, whose derivative by their factor they are themselves.
   const auto energy = [&](const double factor)
   {
-    LoadControl strains = control;
-    strains.is_stress   = {false, false, false};
-    strains.value       = factor * level.strain;
-    const LoadPath path = load_path(assembly, strains, 8);
-    return path.why.empty() ? path.levels.back().energy : std::numeric_limits<double>::quiet_NaN();
+    CellEquilibrium state = path.last;
+    state.gradient        = control.gradient(factor * level.strain);
+    try
+    {
+      find_equilibrium(assembly, {}, state);
+      return state.energy;
+    }
+    catch (const meshes::NotConverged &)
+    {
+      return std::numeric_limits<double>::quiet_NaN();
+    }
   };
   constexpr double h  = 1e-3;
   const double narrow = (energy(1. + h) - energy(1. - h)) / (2. * h);

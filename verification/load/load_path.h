@@ -26,6 +26,7 @@ struct LoadLevel
 struct LoadPath
 {
   std::vector<LoadLevel> levels; ///< from the first step on, as many as were reached
+  CellEquilibrium last;          ///< the state of the last of them
   std::string why;               ///< the next one was not; empty where all were
 };
 
@@ -43,10 +44,11 @@ struct WorkCheck
   double bar        = 0.; ///< of the central difference: twice the step against once, and rounding
 };
 
-/// The energy at strains a little smaller and larger than those of a level, all prescribed, against
-/// the stress of the level.
+/// The energy at strains a little smaller and larger than those of the last level, all prescribed,
+/// against its stress. Where it lies beside another equilibrium, or its fluctuation is no minimum,
+/// the energies may be those of other states, which the bar shows.
 WorkCheck check_work(const CellAssembly &assembly, const LoadControl &control,
-                     const LoadLevel &level);
+                     const LoadPath &path);
 
 /// C^H of the cell: the second derivative of the energy by the strains at rest, P1, Voigt [N/m].
 Eigen::Matrix3d stiffness_at_rest(const CellAssembly &assembly);

@@ -134,7 +134,7 @@ Verdict verdict_on_rest(const UnitCell &cell, const Cloths &cloths, const Assess
 Verdict verdict_on_work(const std::string &what, const WorkCheck &check)
 {
   // Where the energy jumps from one equilibrium to another, its differences say nothing.
-  const bool says_something = check.bar <= 1e-3 * check.work;
+  const bool says_something = check.bar <= 1e-3 * std::abs(check.work);
   const Outcome outcome     = check.difference <= check.bar ? Outcome::pass : Outcome::fail;
   return {what + "the stress is the derivative of the energy at the last level (distance of the "
                  "work from a central difference along the strains, N/m)",
@@ -269,8 +269,7 @@ private:
       table->append(row);
     verdicts.push_back(verdict_on_reaching(what, path.levels.size(), options.n_steps, path.why));
     if (!path.levels.empty())
-      verdicts.push_back(
-        verdict_on_work(what, check_work(given, options.control, path.levels.back())));
+      verdicts.push_back(verdict_on_work(what, check_work(given, options.control, path)));
     verdicts.push_back(verdict_on_stability(what, path));
   }
 

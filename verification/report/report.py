@@ -92,8 +92,8 @@ def main(arguments=None):
         nargs="+",
         metavar="DIR",
         help=(
-            "output folder of `homespun strain`, `homogenize`, `drape`, `stress`, `converge` or"
-            " `verify`; of several the page compares cells and versions"
+            "output folder of `homespun strain`, `homogenize`, `drape`, `stress`, `converge`,"
+            " `load` or `verify`; of several the page compares cells and versions"
         ),
     )
     parser.add_argument(

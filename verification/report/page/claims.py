@@ -23,6 +23,16 @@ ADVICE = (
         " cell, not the solver.",
     ),
     (
+        "every level has an equilibrium",
+        "Read the curve up to the last level that was reached; more `--steps` may get further. A"
+        " stress may be more than the cloth bears: prescribe the strain instead.",
+    ),
+    (
+        "is a minimum of the energy",
+        "From the first such level on (`stable` of load.csv) the cloth takes another way than this"
+        " curve.",
+    ),
+    (
         "is a minimum of the reference's energy",
         "Do not rest a decision on the levels named: the reference may have found one equilibrium"
         " of several. Smaller strains have one.",

@@ -15,6 +15,7 @@ from page.converge_contents import convergence_contents
 from page.drape_contents import drape_contents
 from page.entries import stiffness_rows
 from page.glossary import GLOSSARY
+from page.load_contents import load_contents
 from page.run_contents import run_rows, run_sentences, self_tests, whole_sentence
 from page.stress_contents import stress_contents
 
@@ -58,6 +59,7 @@ def page_contents(results, gallery, output):
         {**convergence_contents(c, gallery), "id": f"converge-{i}"}
         for i, c in enumerate(results.convergence, 1)
     ]
+    loads = [{**load_contents(l, gallery), "id": f"load-{i}"} for i, l in enumerate(results.loads, 1)]
     drapes = contents_of_drapes(results, gallery, output)
     scenes = [d["scene"] for d in drapes]
     for d, drape in zip(drapes, results.drapes):  # one scene may have been run into two folders
@@ -65,7 +67,9 @@ def page_contents(results, gallery, output):
             d["scene"] if scenes.count(d["scene"]) == 1 else f"{d['scene']} ({drape.folder})"
         )
     lists_all = any(study.lists_all for study in results.studies)
-    strain_shown = bool(results.cells) or not (drapes or stress or convergence or lists_all)
+    strain_shown = bool(results.cells) or not (
+        drapes or stress or convergence or loads or lists_all
+    )
     comparison = comparison_contents(results, gallery)
     several = len(results.studies) > 1
     notes = [
@@ -73,7 +77,7 @@ def page_contents(results, gallery, output):
         for study in results.studies
         for note in study.info.get("notes") or []
     ]
-    headings = headings_of(drapes, stress, convergence, strain_shown, comparison, notes)
+    headings = headings_of(drapes, stress, convergence, loads, strain_shown, comparison, notes)
     cells = contents_of_cells(results, gallery)
     reasons = {key: [] for key in ("verdicts", "short", "strain", "uncertainty")}
     words = {"verdicts": "verdicts", "strain": "error against strain", "uncertainty": "error bar"}
@@ -119,14 +123,16 @@ def page_contents(results, gallery, output):
         + ", ".join(
             list(results.cells)
             or [d["scene"] for d in drapes]
+            + list(dict.fromkeys(c["name"] for load in loads for c in load["cells"]))
             + ["stress"] * bool(stress)
             + ["convergence"] * bool(convergence)
         ),
-        "lead": lead(bool(drapes), bool(stress), bool(convergence), strain_shown),
+        "lead": lead(bool(drapes), bool(stress), bool(convergence), bool(loads), strain_shown),
         "comparison": comparison,
         "drapes": drapes,
         "stress": stress,
         "convergence": convergence,
+        "loads": loads,
         "strain_shown": strain_shown,
         "summary": summary(results, "strain" if strain_shown and of_one_verify else ""),
         "commands": commands,
@@ -178,7 +184,7 @@ def is_homogenized(results, name):
     return results.cells[name].stiffness() is not None
 
 
-def headings_of(drapes, stress, convergence, strain_shown, comparison, notes):
+def headings_of(drapes, stress, convergence, loads, strain_shown, comparison, notes):
     """id -> heading of the sections that this page has, in their order: what speaks of the reader's
     cell, then scenes, then self-tests of the program.
     """
@@ -195,6 +201,10 @@ def headings_of(drapes, stress, convergence, strain_shown, comparison, notes):
             headings["drape-short"] = words
         else:  # it is the answer of this page
             headings = {"drape-short": words, **headings}
+    headings.update(
+        (load["id"], "Given stresses and strains" + (f": {load['name']}" if len(loads) > 1 else ""))
+        for load in loads
+    )
     headings.update((d["id"], f"Cloth in motion: {d['name']}") for d in drapes)
     headings.update(
         (c["id"], "Observed orders" + (f": {c['name']}" if len(convergence) > 1 else ""))
@@ -207,7 +217,7 @@ def headings_of(drapes, stress, convergence, strain_shown, comparison, notes):
     return headings
 
 
-def lead(drape, stress, convergence, strain):
+def lead(drape, stress, convergence, load, strain):
     """What the page is about."""
     if strain:
         return (
@@ -230,6 +240,11 @@ def lead(drape, stress, convergence, strain):
         sentences.append(
             "Convergence: how fast errors fall as meshes, cells, strains and time steps become"
             " finer, held against theory."
+        )
+    if load:
+        sentences.append(
+            "An infinite cloth under given stresses and strains: the cell with its phases, and the"
+            " coarse cloth that has its effective stiffness."
         )
     return " ".join(sentences)
 

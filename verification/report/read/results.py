@@ -15,6 +15,7 @@ from read.budget_results import read_budget
 from read.cell_results import Cell, read_cell, read_fields
 from read.converge_results import read_convergence
 from read.drape_results import read_drape
+from read.load_results import read_load
 from read.runs import COMMANDS, LIST, with_parts
 from read.schema import NoSchema
 from read.stored import BadResults, check_verdicts, read_csv, read_json
@@ -70,6 +71,7 @@ class Results:
     drapes: list = field(default_factory=list)  # Drape, one per scene
     stress: list = field(default_factory=list)  # Stress, one per folder
     convergence: list = field(default_factory=list)  # Convergence, one per folder
+    loads: list = field(default_factory=list)  # LoadRun, one per folder
     missing: list = field(default_factory=list)  # {"what", "why"}
     subjects: list = field(default_factory=list)  # Subject: each cell in each version
 
@@ -163,16 +165,19 @@ def read_folder(run, name, results, faults, is_listed=False):
         "stress.csv"
     )
     has_convergence = run.holds("converge.csv")
+    has_load = run.holds("load.csv")
     # A draped or stressed cell has a folder of its own too; its page is about motion, not about
     # strain.
     has_strain = run.holds("strain.csv") or (
-        bool(cell_folders) and not has_drape and not has_stress and not has_convergence
+        bool(cell_folders)
+        and not (has_drape or has_stress or has_convergence or has_load)
     )
-    if not (study.lists_all or has_drape or has_stress or has_strain or has_convergence):
+    shows = (has_drape, has_stress, has_strain, has_convergence, has_load)
+    if not (study.lists_all or any(shows)):
         faults.append(
             f"{run.folder}: holds no results that a page shows: {LIST} says it is of `homespun"
             f" {run.command}`, and lists neither strain.csv nor homogenize.json nor drape.json nor"
-            f" stress.csv nor converge.csv. Give the --output folder of {COMMANDS}."
+            f" stress.csv nor converge.csv nor load.csv. Give the --output folder of {COMMANDS}."
         )
         return
     results.studies.append(study)
@@ -200,6 +205,10 @@ def read_folder(run, name, results, faults, is_listed=False):
     ):
         if value := read_json(path, faults):
             study.verdicts = check_verdicts(value, path, faults)
+    if has_load:
+        results.loads.append(
+            read_load(run, study.name, path_of, study.info, faults, results.missing)
+        )
     if has_strain:
         read_strain(run, cell_folders, path_of, results, faults)
     run.look_for_strays()

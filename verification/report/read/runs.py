@@ -19,7 +19,7 @@ from read.stored import lies_within, read_json
 FORMAT = 1
 LIST = "run.json"
 KINDS = {"format": int, "command": str, "revision": str, "fingerprint": str, "finished": bool}
-COMMANDS = "`homespun strain`, `homogenize`, `drape`, `stress`, `converge` or `verify`"
+COMMANDS = "`homespun strain`, `homogenize`, `drape`, `stress`, `converge`, `load` or `verify`"
 # What pages read besides tables; the CSV files of figures have other names.
 READ = (
     "study.json",

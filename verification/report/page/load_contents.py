@@ -1,0 +1,99 @@
+# SPDX-License-Identifier: MIT
+"""What the report shows of `homespun load`: curves, where they end, and what the coarse cloth, which
+has C^H in place of the cell, makes of the same stresses and strains.
+"""
+import math
+
+from markupsafe import Markup
+
+from figures.load import bar_key, known, load_figure
+from figures.style import three
+from read.load_results import COMPONENTS
+
+CAPTION = (
+    "An infinite cloth of `{cell}`. Prescribed: {control}. Full lines: the cell with its phases"
+    " (shaded: how far its mesh may be from the limit of fine ones); dashed: C<sup>H</sup> in place"
+    " of the cell, as a coarse cloth has it; dotted: linear theory, where both are the same.{measured}"
+)
+
+
+def with_bar(value, bar, factor=1.0):
+    if math.isnan(value):
+        return "–"
+    text = three(factor * value)
+    return f"{text} ± {three(factor * bar)}" if not math.isnan(bar) and bar > 0 else text
+
+
+def end_row(path):
+    """The last level of a path, component by component."""
+    row = path.rows[-1]
+    cells = [path.law, path.method, f"{three(100.0 * row['factor'])} %"]
+    for c in COMPONENTS:
+        cells.append(with_bar(row[f"strain_{c}"], row[f"strain_{c}_bar"], 100.0))
+    for c in COMPONENTS:
+        key = f"stress_{c}_N_per_m"
+        cells.append(with_bar(row[key], row[bar_key(key)]))
+    return cells + ["yes" if row["stable"] else "no"]
+
+
+def found(paths):
+    """Components that are strained or stressed by more than their bars."""
+    some = known(paths, "strain_{}").keys() | known(paths, "stress_{}_N_per_m").keys()
+    return [c for c in COMPONENTS if c in some]
+
+
+def coarse_sentence(paths):
+    """How far the coarse cloth is from the cell at the last level that both reach, per law."""
+    sentences = []
+    keys = {(path.law, path.method): path for path in paths}
+    for law in dict.fromkeys(path.law for path in paths):
+        resolved, coarse = keys.get((law, "resolved")), keys.get((law, "coarse"))
+        if not resolved or not coarse:
+            continue
+        a, b = resolved.rows[-1], {row["step"]: row for row in coarse.rows}.get(
+            resolved.rows[-1]["step"]
+        )
+        if b is None:
+            continue
+        for c in found(paths):
+            # What was prescribed is equal; the other one of the pair is what the cloths differ in.
+            what, y = f"stress {c}", f"stress_{c}_N_per_m"
+            if a[bar_key(y)] == 0:
+                what, y = f"strain {c}", f"strain_{c}"
+            size, bar = abs(a[y]), a[bar_key(y)]
+            if size == 0 or not bar > 0:
+                continue
+            difference, mesh = abs(b[y] - a[y]) / size, bar / size
+            if difference <= mesh:
+                sentences.append(
+                    f"{law}: {what} of the coarse cloth differs from that of the cell by less than"
+                    f" the mesh may ({three(100.0 * difference)} %, the mesh {three(100.0 * mesh)} %)."
+                )
+            else:
+                sentences.append(
+                    f"{law}: {what} of the coarse cloth is {three(100.0 * difference)} %"
+                    f" {'larger' if abs(b[y]) > size else 'smaller'} than that of the cell, on the"
+                    f" mesh that both share, which leaves {three(100.0 * mesh)} % itself."
+                )
+    return sentences
+
+
+def load_contents(load, gallery):
+    """Per cell a figure, sentences, and the ends of its paths."""
+    cells = []
+    for cell in load.cells():
+        paths = [path for path in load.of(cell) if path.rows]
+        if not paths:
+            continue
+        measured = f" Signs: measured ({', '.join(load.measured)})." if load.measured else ""
+        caption = CAPTION.format(cell=cell, control=load.control, measured=measured)
+        caption = caption.replace(f"`{cell}`", f"<code>{cell}</code>")
+        cells.append(
+            {
+                "name": cell,
+                "picture": gallery.add(load_figure(load, cell), f"load-{cell}", Markup(caption)),
+                "sentences": coarse_sentence(paths),
+                "rows": [end_row(path) for path in paths],
+            }
+        )
+    return {"name": load.name, "control": load.control, "cells": cells}
