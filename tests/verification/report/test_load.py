@@ -1,0 +1,108 @@
+# SPDX-License-Identifier: MIT
+"""Tests of the page of `homespun load`, on made-up curves."""
+import json
+import os
+import unittest
+
+import report_path  # noqa: F401
+from figures.load import load_figure, panels
+from made_up_run import verdict, write_run, write_table, write_verdicts
+from page_case import PageTest
+from read.load_results import LoadRun, Path
+
+
+def row(law, method, step, stress_per_strain, bar=0.01):
+    """A pull along axis 1: strain prescribed, sides free."""
+    e = 0.02 * step
+    return {
+        "cell": "stripes",
+        "law": law,
+        "method": method,
+        "step": step,
+        "factor": step / 5,
+        "strain_11": e,
+        "strain_22": -0.3 * e,
+        "strain_12": 1e-19,
+        "stress_11_N_per_m": stress_per_strain * e,
+        "stress_22_N_per_m": 0.0,
+        "stress_12_N_per_m": 0.0,
+        "strain_11_bar": 0.0,
+        "strain_22_bar": 0.3 * e * bar,
+        "strain_12_bar": 1e-19,
+        "stress_11_bar_N_per_m": stress_per_strain * e * bar,
+        "stress_22_bar_N_per_m": 0.0,
+        "stress_12_bar_N_per_m": 0.0,
+        "energy_N_per_m": 0.5 * stress_per_strain * e * e,
+        "stable": step < 5,
+    }
+
+
+ROWS = [
+    row(law, method, step, modulus)
+    for law, method, modulus in (
+        ("linear", "resolved", 1000.0),
+        ("biot", "resolved", 1100.0),
+        ("biot", "coarse", 1000.0),
+        ("green", "resolved", 1200.0),
+        ("green", "coarse", 1205.0),
+    )
+    for step in range(1, 6)
+]
+
+
+class LoadPage(PageTest):
+    def setUp(self):
+        super().setUp()
+        os.makedirs(self.folder)
+        write_table(self.folder, "load.csv", ROWS)
+        write_table(
+            self.folder,
+            "measured.csv",
+            [
+                {"curve": "lab", "point": 1, "strain_11": 0.03, "stress_11_N_per_m": 31.0},
+                {"curve": "lab", "point": 2, "strain_11": 0.06, "strain_22": -0.02},
+            ],
+        )
+        with open(os.path.join(self.folder, "study.json"), "w", encoding="utf-8") as file:
+            json.dump({"command": "homespun load x.prm", "control": "strain 11 = 0.1"}, file)
+        write_verdicts(self.folder, [verdict("stripes: every level has an equilibrium", "PASS")])
+        write_run(self.folder, "load")
+
+    def test_the_page_has_curves_and_says_what_the_coarse_cloth_makes_of_them(self):
+        status, errors = self.run_report()
+        self.assertEqual(status, 0, errors)
+        page = self.page()
+        self.assertIn("homespun: stripes", page)
+        self.assertIn("Given stresses and strains", page)
+        self.assertIn("Prescribed: strain 11 = 0.1.", page)
+        self.assertIn("biot: stress 11 of the coarse cloth is 9.09 % smaller than that of the cell",
+                      page)
+        self.assertIn("green: stress 11 of the coarse cloth differs from that of the cell by less"
+                      " than the mesh may (0.417 %, the mesh 1.00 %)", page)
+        self.assertIn("110 ± 1.10", page)
+        self.assertIn("measured: lab", page)
+        self.assertTrue(os.path.isfile(os.path.join(self.output, "figures", "load-stripes.csv")))
+
+    def test_what_lies_within_its_bar_or_round_off_has_no_panel(self):
+        paths = {}
+        for one in ROWS:
+            key = (one["cell"], one["law"], one["method"])
+            paths.setdefault(key, Path(*key)).rows.append(one)
+        shown = panels(list(paths.values()))
+        self.assertEqual([(x, y) for x, _, y, _ in shown],
+                         [("strain_11", "stress_11_N_per_m"), ("strain_11", "strain_22")])
+        figure = load_figure(LoadRun("x", "x", "", list(paths.values())), "stripes")
+        first = figure.axes[0]
+        self.assertEqual(len(first.lines), 6)  # five paths and the line of zero
+        self.assertEqual([line.get_xdata()[0] for line in first.lines[:5]], [0.0] * 5)
+        self.assertEqual(len(first.collections), 2)  # bars of the resolved biot and green
+
+    def test_a_damaged_row_is_refused_by_line_and_column(self):
+        self.edit("load.csv", lambda text: text.replace("linear,resolved,2,", "linear,resolved,x,"))
+        status, errors = self.run_report()
+        self.assertEqual(status, 2)
+        self.assertIn("load.csv, line 3", errors)
+
+
+if __name__ == "__main__":
+    unittest.main()
