@@ -36,6 +36,7 @@ int main(int argc, char **argv)
   add_to_schema<CaseRow>(schema);
   add_to_schema<DrapeRow>(schema);
   add_to_schema<MotionRow>(schema);
+  add_to_schema<HeldForceRow>(schema);
   add_to_schema<TermRow>(schema);
   add_to_schema<StressRow>(schema);
   add_to_schema<SolverRow>(schema);
