@@ -258,6 +258,7 @@ private:
     std::vector<Eigen::Matrix3d> compliance_of_phase;
     for (const Eigen::Matrix3d &c : stiffness_of_phase)
       compliance_of_phase.push_back(inverse_of(c));
+    result.strains.setZero(cell.mesh.n_triangles(), 9);
     for (const auto &dealii_cell : discretization.dof_handler.active_cell_iterators())
     {
       if (!dealii_cell->is_locally_owned())
@@ -280,6 +281,8 @@ private:
         flux += weight * c * strain;
         mean += weight * c;
         mean_compliance += weight * compliance_of_phase[phase];
+        result.strains.row(static_cast<Eigen::Index>(t >> 2 * options.refine)) +=
+          weight * Eigen::Map<const Eigen::Matrix<double, 1, 9>>(strain.data());
       }
     }
     const auto averaged = [&](Eigen::Matrix3d matrix) -> Eigen::Matrix3d
@@ -288,12 +291,16 @@ private:
                     discretization.communicator);
       return matrix / cell.lattice.area();
     };
+    MPI_Allreduce(MPI_IN_PLACE, result.strains.data(), static_cast<int>(result.strains.size()),
+                  MPI_DOUBLE, MPI_SUM, discretization.communicator);
+    const Eigen::VectorXd areas = meshes::signed_areas(cell.mesh);
+    result.strains.array().colwise() /= areas.array();
     const Eigen::Matrix3d unsymmetric = averaged(energy);
     result.stiffness                  = 0.5 * (unsymmetric + unsymmetric.transpose());
     result.stiffness_by_flux          = averaged(flux);
     result.voigt                      = averaged(mean);
     // With holes the mean compliance is infinite and the bound is zero.
-    const double covered = meshes::signed_areas(cell.mesh).sum() / cell.lattice.area();
+    const double covered = areas.sum() / cell.lattice.area();
     result.reuss =
       covered < 1. - 1e-9 ? Eigen::Matrix3d::Zero() : inverse_of(averaged(mean_compliance));
   }

@@ -42,11 +42,16 @@ struct HomogenizationSeconds
   double setup = 0., assembly = 0., preconditioner = 0., solve = 0., evaluation = 0.;
 };
 
+/// Strains (m,9) of triangles under the unit macro strains 11, 22, 12: of each the components 11,
+/// 22, 12 with engineering shear [-].
+using UnitStrains = Eigen::Matrix<double, Eigen::Dynamic, 9, Eigen::RowMajor>;
+
 struct Homogenization
 {
-  meshes::Chi chi;                   ///< (n,6) at the vertices of the given mesh [m]
-  int anchor;                        ///< vertex where chi = 0
-  Eigen::Matrix3d stiffness;         ///< C^H from the energies [N/m]
+  meshes::Chi chi;           ///< (n,6) at the vertices of the given mesh [m]
+  UnitStrains strains;       ///< means of e_a − eps(chi_a) over the triangles of that mesh
+  int anchor;                ///< vertex where chi = 0
+  Eigen::Matrix3d stiffness; ///< C^H from the energies [N/m]
   Eigen::Matrix3d stiffness_by_flux; ///< C^H from Eq. 4, the mean stress [N/m]
   Eigen::Matrix3d voigt;             ///< mean of c [N/m]
   Eigen::Matrix3d reuss;             ///< inverse of the mean of c^-1 [N/m]

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Uniform refinement of a plain mesh: each triangle into four alike. The vertices of the given mesh
-// keep their indices, so that a refined solution is read off at them without any search.
+// keep their indices, so that a refined solution is read off at them without any search; triangle t
+// becomes triangles 4 t ... 4 t + 3.
 #pragma once
 
 #include "meshes/plain/triangle_mesh.h"

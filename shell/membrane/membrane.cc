@@ -164,6 +164,26 @@ MembraneGradient<dim> membrane_gradient(const Membrane &membrane, const Position
   return result;
 }
 
+Positions<2> linear_membrane_gradient(const Membrane &membrane, const Positions<2> &displacement)
+{
+  Positions<2> gradient = Positions<2>::Zero(displacement.rows(), 2);
+  for (int t = 0; t < static_cast<int>(membrane.triangles.rows()); ++t)
+  {
+    const RestTriangle &rest       = membrane.rest[static_cast<std::size_t>(t)];
+    const DeformationGradient<2> G = // of the displacement
+      deformation_gradient<2>(rest, corners_of<2>(membrane, displacement, t));
+    const Eigen::Vector3d stress =
+      rest.area *
+      (stiffness_of(membrane, t).D * Eigen::Vector3d(G(0, 0), G(1, 1), G(0, 1) + G(1, 0)));
+    Eigen::Matrix2d tensor;
+    tensor << stress(0), stress(2), stress(2), stress(1);
+    const Eigen::Matrix<double, 3, 2> forces = rest.shape_gradients * tensor;
+    for (int k = 0; k < 3; ++k)
+      gradient.row(membrane.triangles(t, k)) += forces.row(k);
+  }
+  return gradient;
+}
+
 template <int dim>
 void add_membrane_hessian(const Membrane &membrane, const Positions<dim> &positions,
                           const Hessian kind, FreeVertexMatrix<dim> &matrix)

@@ -59,6 +59,11 @@ struct MembraneGradient
 template <int dim>
 MembraneGradient<dim> membrane_gradient(const Membrane &membrane, const Positions<dim> &positions);
 
+/// K u, the gradient of the small-strain energy ½ u·K u with K the Hessian at rest.
+/// @param displacement u (n,2) [m]
+/// @return (n,2) [N]
+Positions<2> linear_membrane_gradient(const Membrane &membrane, const Positions<2> &displacement);
+
 /// Adds the Hessian of membrane_energy() to a matrix over the free vertices.
 /// @param matrix whose elements are the membrane's triangles
 template <int dim>

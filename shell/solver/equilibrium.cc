@@ -171,25 +171,7 @@ Positions<dim> MembraneSolver<dim>::linear_equilibrium(const Positions<dim> &pre
   // second pass refines the first, which matters at high stiffness contrast.
   for (int pass = 0; pass < 2; ++pass)
   {
-    Positions<dim> force = -all;
-    for (int t = 0; t < static_cast<int>(membrane.triangles.rows()); ++t)
-    {
-      const RestTriangle &rest = membrane.rest[static_cast<std::size_t>(t)];
-      Eigen::Matrix<double, 3, dim> corners;
-      for (int k = 0; k < 3; ++k)
-        corners.row(k) = displacement.row(membrane.triangles(t, k));
-      const DeformationGradient<dim> G = deformation_gradient<dim>(rest, corners);
-      const Eigen::Vector3d stress =
-        rest.area *
-        (membrane.stiffness[static_cast<std::size_t>(membrane.phase[static_cast<std::size_t>(t)])]
-           .D *
-         Eigen::Vector3d(G(0, 0), G(1, 1), G(0, 1) + G(1, 0)));
-      Eigen::Matrix2d tensor;
-      tensor << stress(0), stress(2), stress(2), stress(1);
-      const Eigen::Matrix<double, 3, 2> forces = rest.shape_gradients * tensor;
-      for (int k = 0; k < 3; ++k)
-        force.row(membrane.triangles(t, k)) += forces.row(k);
-    }
+    const Positions<dim> force = linear_membrane_gradient(membrane, displacement) - all;
     displacement -= linear_matrix->solve(force);
   }
   return membrane.vertices + displacement;

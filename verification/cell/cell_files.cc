@@ -7,11 +7,13 @@
 #include "meshes/files/write_whole.h"
 #include "verification/cell/cell_bars.h"
 #include "verification/cell/energy_order.h"
+#include "verification/cell/phase_fields.h"
 #include "verification/cell/shell_sections.h"
 #include "verification/record/json_files.h"
 #include "verification/record/provenance.h"
 
 #include <array>
+#include <utility>
 
 namespace homespun::verification
 {
@@ -88,7 +90,8 @@ ordered_json history_json(const std::vector<BracketStep> &history)
   return rows;
 }
 
-/// chi as three vector fields, for ParaView, and the deflections as vectors along the third axis.
+/// chi as three vector fields, for ParaView, the deflections as vectors along the third axis, and
+/// strains and stresses of the triangles per unit macro strain.
 void write_vtu(const UnitCell &cell, const AssessedCell &assessed, const std::string &path)
 {
   const Homogenization &result = assessed.result;
@@ -128,10 +131,12 @@ void write_vtu(const UnitCell &cell, const AssessedCell &assessed, const std::st
   meshes::WordList groups{"material names", {}};
   for (const int phase : cell.phase_of_group())
     groups.words.push_back(cell.phases[static_cast<std::size_t>(phase)].name);
-  meshes::write_vtu(
-    path, in_space(cell.mesh.vertices), cell.mesh.triangles, data,
-    {{"material", material}, {"material axis 1", first_axes}, {"material axis 2", second_axes}},
-    {groups});
+  std::vector<meshes::VertexData> on_triangles = {
+    {"material", material}, {"material axis 1", first_axes}, {"material axis 2", second_axes}};
+  for (meshes::VertexData &field : phase_field_data(cell, result.strains))
+    on_triangles.push_back(std::move(field));
+  meshes::write_vtu(path, in_space(cell.mesh.vertices), cell.mesh.triangles, data, on_triangles,
+                    {groups});
 }
 
 /// What a homogenize.json says of bending, appended to it.

@@ -26,6 +26,10 @@ struct DiscretizationDistance
 /// edges meet, where the exponent of the corner lies above ½.
 constexpr double order_of_p2_smooth = 3., order_of_p2_sheet = 1.;
 
+/// That of an energy, and of what is its derivative, where the solution is smooth; twice the
+/// exponent of a corner bounds it like that of displacements.
+constexpr double order_of_p2_energy = 4.;
+
 /// The order in which P2 displacements converge on uniformly refined meshes, in the mean: twice the
 /// exponent of the strongest corner of the cell, and at most `highest`.
 double order_of_p2(const homogenization::UnitCell &cell, double highest);

@@ -92,7 +92,8 @@ CoarseRun run_coarse(const DrapedCell &draped, const std::string &variant,
   std::vector<double> step_seconds, upsampling_seconds;
   int cuts = 0;
   Upsampler3f::Fine fine;
-  SceneCloth moving(draped.scene, draped.coarse, draped.effective, draped.coarse_motion(),
+  const HeldMotion held = draped.coarse_motion();
+  SceneCloth moving(draped.scene, draped.coarse, draped.effective, held,
                     membrane_model_of(variant));
   const auto upsample = [&]() { upsampler.upsample(moving.cloth().positions(), fine); };
   for (int frame = 0; frame <= schedule.n_frames; ++frame)
@@ -123,6 +124,11 @@ CoarseRun run_coarse(const DrapedCell &draped, const std::string &variant,
       break;
     }
     run.frames.push_back(moving.cloth().positions());
+    if (frame > 0)
+      output.write_held_forces(
+        draped.cell.name, variant, frame,
+        held_forces(held, {draped.coarse, moving.cloth().masses(), moving.cloth().gradient(),
+                           schedule.time_of(frame), schedule.step_of_forces()}));
     MotionRow row    = output.motion_row(draped.cell.name, variant, frame,
                                          run.frames.back().row(draped.centre_vertex));
     row.kinetic      = moving.cloth().kinetic_energy();

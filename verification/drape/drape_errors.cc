@@ -19,6 +19,7 @@ DrapeComparison::DrapeComparison(const DrapedCell &draped, const std::vector<std
                                  const std::vector<CoarseRun> &runs)
     : draped(draped)
     , methods(methods)
+    , places(draped.coarse_motion().names())
     , runs(runs)
 {
   upsamplers.emplace("affine", draped.upsampler<double>(Method("affine")));
@@ -89,6 +90,9 @@ bool DrapeComparison::has_rows(const std::string &reference, const int frame,
   const std::string &cell = draped.cell.name;
   if (!output.has(output.motion_row(cell, reference, frame, Eigen::RowVector3d::Zero())))
     return false;
+  for (const std::string &place : places)
+    if (frame > 0 && !output.has_held_force(cell, reference, frame, place))
+      return false;
   for (const CoarseRun &run : runs)
     if (run.frames.size() > static_cast<std::size_t>(frame))
       for (const std::string &method : methods)

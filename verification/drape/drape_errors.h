@@ -31,8 +31,8 @@ public:
                                           const meshes::SpacePoints &positions,
                                           const DrapeErrorBar &bar, DrapeOutput &output) const;
 
-  /// Whether the rows of a frame are on the disk: those that compare() writes, and that of the
-  /// reference's motion.
+  /// Whether the rows of a frame are on the disk: those that compare() writes, and those of the
+  /// reference's motion and of what is held.
   bool has_rows(const std::string &reference, int frame, const DrapeOutput &output) const;
 
 private:
@@ -40,6 +40,7 @@ private:
 
   const DrapedCell &draped;
   const std::vector<std::string> methods;
+  const std::vector<std::string> places; ///< that are held
   const std::vector<CoarseRun> &runs;
   std::map<std::string, Upsampler3d> upsamplers; ///< of the methods, and `affine` in any case
 };

@@ -170,4 +170,27 @@ nlohmann::ordered_json drape_inputs(const DrapeOptions &options, const Scene &sc
     inputs["cells"][cell.name] = fingerprint(cell);
   return inputs;
 }
+
+nlohmann::ordered_json what_was_left_out(const DrapeOptions &options, const Scene &scene)
+{
+  nlohmann::ordered_json all = nlohmann::ordered_json::array();
+  const auto add             = [&](const std::string &what, const std::string &why) {
+    all.push_back({{"what", what}, {"why", why}});
+  };
+  if (options.references.empty())
+    add(scene.name + ": full-resolution cloth",
+        "--references was not given: nothing is said of the error");
+  for (const std::string &reference : options.references)
+    if (!is_dealii(reference))
+      add(scene.name + ": error bar of the reference " + reference,
+          "it has none, and its accuracy is not judged: its meshes have no quadratic elements");
+    else if (options.n_cells_of_error_bar == 0)
+      add(scene.name + ": error bar of the reference " + reference,
+          "--quick leaves it out: accuracy is not judged");
+  if (options.frames.empty())
+    add(scene.name + ": frames", "--no-frames was given");
+  if (!options.costs)
+    add(scene.name + ": what absent terms would cost", "--costs was not given");
+  return all;
+}
 } // namespace homespun::verification

@@ -43,4 +43,6 @@ std::vector<std::string> scene_warnings(const Scene &scene,
 nlohmann::ordered_json drape_inputs(const DrapeOptions &options, const Scene &scene,
                                     const DrapeSchedule &schedule,
                                     const std::vector<homogenization::UnitCell> &cells);
+/// What was not asked for, and what that leaves open, for drape.json.
+nlohmann::ordered_json what_was_left_out(const DrapeOptions &options, const Scene &scene);
 } // namespace homespun::verification

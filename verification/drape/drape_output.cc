@@ -31,6 +31,7 @@ DrapeOutput::DrapeOutput(std::string folder, std::string scene, const double int
     , formats(std::move(formats))
     , errors(this->folder)
     , motion(this->folder)
+    , held(this->folder)
     , terms(with_terms ? std::make_unique<Table<TermRow>>(this->folder) : nullptr)
 {
 }
@@ -63,6 +64,14 @@ MotionRow DrapeOutput::motion_row(const std::string &cell, const std::string &va
   row.centre_y = centre(1);
   row.centre_z = centre(2);
   return row;
+}
+
+void DrapeOutput::write_held_forces(const std::string &cell, const std::string &variant,
+                                    const int frame, const std::vector<HeldForce> &forces)
+{
+  for (const HeldForce &its : forces)
+    held.append_if_missing({scene, cell, variant, its.place, frame, frame * interval, its.force(0),
+                            its.force(1), its.force(2)});
 }
 
 TermRow DrapeOutput::term_row(const std::string &cell, const std::string &term) const

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT
 // What a scene run leaves on the disk as it goes on: the tables drape.csv (errors), motion.csv
-// (motion and energies) and terms.csv (what absent terms would cost), and the frames.
+// (motion and energies), held-forces.csv and terms.csv (what absent terms would cost), and the
+// frames.
 #pragma once
 
 #include "meshes/files/surface_files.h"
 #include "verification/drape/drape_tables.h"
+#include "verification/drape/held_forces.h"
 #include "verification/record/table.h"
 
 #include <Eigen/Core>
@@ -42,6 +44,10 @@ public:
   {
     motion.append_if_missing(row);
   }
+  /// The forces of what is held at a frame.
+  /// @param variant or the name of a reference
+  void write_held_forces(const std::string &cell, const std::string &variant, int frame,
+                         const std::vector<HeldForce> &forces);
   void write(const TermRow &row)
   {
     terms->append_if_missing(row);
@@ -60,6 +66,11 @@ public:
   bool has(const MotionRow &row) const
   {
     return motion.contains(row);
+  }
+  bool has_held_force(const std::string &cell, const std::string &variant, const int frame,
+                      const std::string &place) const
+  {
+    return held.contains({scene, cell, variant, place, frame});
   }
   bool has(const TermRow &row) const
   {
@@ -89,6 +100,7 @@ private:
   const std::vector<std::string> formats;
   Table<DrapeRow> errors;
   Table<MotionRow> motion;
+  Table<HeldForceRow> held;
   std::unique_ptr<Table<TermRow>> terms; ///< where costs are measured
 };
 } // namespace homespun::verification

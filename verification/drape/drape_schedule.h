@@ -5,6 +5,8 @@
 
 #include "verification/drape/scene.h"
 
+#include <limits>
+
 namespace homespun::verification
 {
 struct DrapeSchedule
@@ -22,6 +24,12 @@ struct DrapeSchedule
   double time_of(const int frame) const
   {
     return frame * interval;
+  }
+
+  /// The step over which held vertices are accelerated; infinity where nothing has inertia [s].
+  double step_of_forces() const
+  {
+    return is_static ? std::numeric_limits<double>::infinity() : step;
   }
 
   /// What is run [s].

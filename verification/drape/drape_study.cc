@@ -211,6 +211,7 @@ private:
               output->list_earlier_frames(name, first, *list);
             });
     const Eigen::VectorXd masses = shell::lumped_masses(draped.fine, draped.phases.areal_density);
+    const HeldMotion held        = draped.fine_motion();
     int n_frames                 = first; ///< reached
     for (int frame = first; frame <= schedule.n_frames; ++frame)
     {
@@ -223,6 +224,7 @@ private:
       const SpacePoints positions  = draped.at_fine_vertices(fine->positions());
       const SpacePoints velocities = fine->velocities();
       const double kinetic = fine->kinetic_energy(), elastic = fine->elastic_energy();
+      const SpacePoints gradient = fine->gradient();
       on_root(communicator,
               [&]()
               {
@@ -232,6 +234,11 @@ private:
                 motion.elastic      = elastic;
                 motion.gravity      = gravity_energy(scene, masses, fine->positions());
                 motion.step_seconds = median(seconds);
+                if (frame > 0)
+                  output->write_held_forces(
+                    draped.cell.name, reference, frame,
+                    held_forces(held, {draped.fine, masses, gradient, schedule.time_of(frame),
+                                       schedule.step_of_forces()}));
                 // The error belongs to method and reference, and stands with the frame that comes
                 // once for both.
                 meshes::SurfaceData data = draped.fine_data();
@@ -297,8 +304,9 @@ private:
     MPI_Bcast(&first_without_rows, 1, MPI_INT, 0, communicator);
     if (!state || first_without_rows > state->frame)
       return state;
-    progress.note(name + ": rows of frame " + std::to_string(first_without_rows) +
-                  " are missing in drape.csv or motion.csv: the reference begins anew");
+    progress.note(
+      name + ": rows of frame " + std::to_string(first_without_rows) +
+      " are missing in drape.csv, motion.csv or held-forces.csv: the reference begins anew");
     return std::nullopt;
   }
 
@@ -314,30 +322,6 @@ private:
       seconds.push_back(step.seconds);
     }
     return "";
-  }
-
-  /// What was not asked for, and what that leaves open.
-  nlohmann::ordered_json left_out() const
-  {
-    nlohmann::ordered_json all = nlohmann::ordered_json::array();
-    const auto add             = [&](const std::string &what, const std::string &why) {
-      all.push_back({{"what", what}, {"why", why}});
-    };
-    if (options.references.empty())
-      add(scene.name + ": full-resolution cloth",
-          "--references was not given: nothing is said of the error");
-    for (const std::string &reference : options.references)
-      if (!is_dealii(reference))
-        add(scene.name + ": error bar of the reference " + reference,
-            "it has none, and its accuracy is not judged: its meshes have no quadratic elements");
-      else if (options.n_cells_of_error_bar == 0)
-        add(scene.name + ": error bar of the reference " + reference,
-            "--quick leaves it out: accuracy is not judged");
-    if (options.frames.empty())
-      add(scene.name + ": frames", "--no-frames was given");
-    if (!options.costs)
-      add(scene.name + ": what absent terms would cost", "--costs was not given");
-    return all;
   }
 
   std::vector<Verdict> conclude()
@@ -362,7 +346,7 @@ private:
                 {"duration_s", schedule.duration()},
                 {"integrator", scene.echo.count("Integrator") ? scene.echo.at("Integrator") : ""},
                 {"terms", terms},
-                {"left_out", left_out()},
+                {"left_out", what_was_left_out(options, scene)},
                 {"notes", notes},
                 {"cells", cell_descriptions},
                 {"parameters", scene.echo}};

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The tables of a scene run: errors against the references, motion and energies, and what terms
-// cost.
+// The tables of a scene run: errors against the references, motion and energies, forces of what is
+// held, and what terms cost.
 #pragma once
 
 #include "verification/record/fields.h"
@@ -84,6 +84,33 @@ struct MotionRow
     column("max_stretch", &MotionRow::stretch, Domain::not_negative);
     column("seconds_coarse_step", &MotionRow::step_seconds, Domain::not_negative);
     column("seconds_upsampling", &MotionRow::upsampling_seconds, Domain::not_negative);
+  }
+};
+
+/// held-forces.csv: what a pin or a handle exerts on a cloth at a frame, from the first step on.
+struct HeldForceRow
+{
+  static constexpr const char *file   = "held-forces.csv";
+  static constexpr std::size_t n_keys = 5;
+
+  std::string scene, cell, variant; ///< the name of a reference stands in place of a variant
+  std::string place;                ///< as the scene calls it
+  int frame      = 0;
+  double time    = 0.;                             ///< [s]
+  double force_x = 0., force_y = 0., force_z = 0.; ///< [N]
+
+  template <typename Column>
+  static void columns(Column &&column)
+  {
+    column("scene", &HeldForceRow::scene, Domain::name);
+    column("cell", &HeldForceRow::cell, Domain::name);
+    column("variant", &HeldForceRow::variant, Domain::name);
+    column("place", &HeldForceRow::place, Domain::name);
+    column("frame", &HeldForceRow::frame, Domain::needed_not_negative);
+    column("time_s", &HeldForceRow::time, Domain::needed_not_negative);
+    column("force_x_N", &HeldForceRow::force_x, Domain::real);
+    column("force_y_N", &HeldForceRow::force_y, Domain::real);
+    column("force_z_N", &HeldForceRow::force_z, Domain::real);
   }
 };
 

@@ -2,8 +2,10 @@
 #include "verification/drape/fine_run.h"
 
 #include "meshes/plain/errors.h"
+#include "shell/terms/membrane_term.h"
 #include "verification/record/on_root.h"
 #include "verification/reference/cloth_reference.h"
+#include "verification/reference/space_gradient.h"
 
 #include <chrono>
 
@@ -20,8 +22,11 @@ public:
       , reference(draped.fine.rest, draped.phases.stiffness, draped.phases.areal_density,
                   options_of(law, discretization), communicator)
       , n(draped.fine.n_vertices())
+      , law(law)
+      , rest(draped.fine.rest)
+      , stiffness(draped.phases.stiffness)
+      , masses(shell::lumped_masses(draped.fine, draped.phases.areal_density))
   {
-    ClothLoads loads;
     if (draped.scene.has("gravity"))
       loads.gravity = draped.scene.gravity;
     if (draped.scene.has("damping"))
@@ -61,6 +66,11 @@ public:
   {
     return reference.stored_energy();
   }
+  meshes::SpacePoints gradient() const override
+  {
+    return space_gradient(rest, stiffness, law, positions()) +
+           masses.asDiagonal() * ((loads.mass_damping * velocities()).rowwise() - loads.gravity);
+  }
   int n_vertices() const override
   {
     return n;
@@ -84,6 +94,11 @@ private:
   const HeldMotion motion;
   ClothReference reference;
   const int n;
+  const Law law;
+  ClothLoads loads;
+  const meshes::TriangleMesh &rest;
+  const std::vector<Eigen::Matrix3d> &stiffness;
+  const Eigen::VectorXd masses; ///< of P1 on the mesh as given [kg]
 };
 
 class ShellRun : public FineRun
@@ -155,6 +170,10 @@ public:
   double elastic_energy() const override
   {
     return run ? run->elastic_energy() : 0.;
+  }
+  meshes::SpacePoints gradient() const override
+  {
+    return run ? run->cloth().gradient() : meshes::SpacePoints::Zero(n, 3).eval();
   }
   int n_vertices() const override
   {

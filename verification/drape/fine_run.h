@@ -33,8 +33,10 @@ public:
   virtual double kinetic_energy() const                                   = 0;
   /// Of membrane and plate [J].
   virtual double elastic_energy() const = 0;
-  virtual int n_vertices() const        = 0;
-  virtual unsigned long n_dofs() const  = 0;
+  /// dE/dx of all that acts on the vertices but inertia (n,3), on the first rank [N].
+  virtual meshes::SpacePoints gradient() const = 0;
+  virtual int n_vertices() const               = 0;
+  virtual unsigned long n_dofs() const         = 0;
 };
 
 /// Degree of the elements, and how often the mesh is refined uniformly.

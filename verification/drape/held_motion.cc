@@ -179,6 +179,18 @@ Eigen::RowVector3d HeldMotion::position(const int vertex, const meshes::ClothMes
   return moved(place.held.motion, cloth.positions.row(vertex), place.centre, time);
 }
 
+std::vector<std::string> HeldMotion::names() const
+{
+  std::vector<std::string> all;
+  for (const HeldPart &part : places)
+  {
+    all.push_back(part.held.place);
+    for (const int v : part.held.vertices)
+      all.back() += " " + std::to_string(v);
+  }
+  return all;
+}
+
 bool HeldMotion::moves_after(const double time) const
 {
   return std::any_of(places.begin(), places.end(),

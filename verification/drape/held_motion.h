@@ -53,6 +53,12 @@ public:
   /// Positions of these vertices at a time.
   Eigen::RowVector3d position(int vertex, const meshes::ClothMesh &cloth, double time) const;
 
+  /// The place that holds a vertex, −1 where none does; later places win.
+  int place_of_vertex(int vertex, const meshes::ClothMesh &cloth) const;
+
+  /// The places as the scene calls them, such as `top left` or `vertices 0 20`.
+  std::vector<std::string> names() const;
+
   /// Whether anything moves at or after a time.
   bool moves_after(double time) const;
 
@@ -67,8 +73,6 @@ private:
     std::vector<int> vertices;                 ///< of `vertices ...` on this garment
     std::vector<Eigen::RowVector2d> fractions; ///< of `vertices ...` on a sheet
   };
-  /// The place that holds a vertex, −1 where none does; later places win.
-  int place_of_vertex(int vertex, const meshes::ClothMesh &cloth) const;
   bool holds(const HeldPart &place, const Eigen::RowVector2d &fraction) const;
   bool holds(const HeldPart &place, int vertex, const meshes::ClothMesh &garment) const;
 

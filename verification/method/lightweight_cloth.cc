@@ -52,6 +52,7 @@ LightweightCloth::LightweightCloth(const meshes::HomogenizedCell &cell, const me
     , cell(cell)
     , sheet(sheet)
     , load(load)
+    , membrane(shell::membrane(coarse, {cell.stiffness}))
 {
   if (load.is_periodic())
     return;
@@ -77,21 +78,49 @@ shell::Positions<2> LightweightCloth::prescribed(const double strain) const
   return positions;
 }
 
+void LightweightCloth::put_held(const shell::Positions<2> &prescribed,
+                                shell::Positions<2> &positions) const
+{
+  for (int v = 0; v < coarse.n_vertices(); ++v)
+    if (load.holds(sheet.fraction(coarse.vertices.row(v))))
+      positions.row(v) = prescribed.row(v);
+}
+
+LoadForces LightweightCloth::forces_at(const Law law, const shell::Positions<2> &positions) const
+{
+  return load_forces(load, sheet, coarse.vertices,
+                     law == Law::linear
+                       ? shell::linear_membrane_gradient(membrane, positions - coarse.vertices)
+                       : shell::membrane_gradient<2>(membrane, positions).gradient);
+}
+
+shell::Positions<2> LightweightCloth::near(const CoarseStep &step, const Law law,
+                                           const double strain) const
+{
+  shell::Positions<2> moved = prescribed(strain);
+  if (load.is_periodic())
+    return moved;
+  shell::Positions<2> start = step.positions;
+  put_held(moved, start);
+  return law == Law::linear ? solver->solve_linear(start)
+                            : solver->solve_equilibrium(start).positions;
+}
+
 CoarseStep LightweightCloth::solve(const Law law, const double strain)
 {
   CoarseStep step;
   step.positions = prescribed(strain);
   if (load.is_periodic())
+  {
+    step.forces = forces_at(law, step.positions);
     return step;
-
+  }
   shell::Positions<2> start = step.positions;
   if (last_strain > 0. && last_law == law)
   {
     // The prescribed motion is proportional to strain, so held vertices end where they should.
     start = coarse.vertices + strain / last_strain * last_displacement;
-    for (int v = 0; v < coarse.n_vertices(); ++v)
-      if (load.holds(sheet.fraction(coarse.vertices.row(v))))
-        start.row(v) = step.positions.row(v);
+    put_held(step.positions, start);
   }
   step.seconds = median_seconds(
     [&]()
@@ -108,6 +137,7 @@ CoarseStep LightweightCloth::solve(const Law law, const double strain)
         step.iterations                         = equilibrium.iterations;
       }
     });
+  step.forces       = forces_at(law, step.positions);
   last_displacement = step.positions - coarse.vertices;
   last_strain       = strain;
   last_law          = law;

@@ -10,6 +10,7 @@
 #include "shell/solver/equilibrium.h"
 #include "verification/record/timing.h"
 #include "verification/reference/laws.h"
+#include "verification/reference/load_forces.h"
 #include "verification/reference/loads.h"
 
 #include <memory>
@@ -46,6 +47,7 @@ struct CoarseStep
   shell::Positions<2> positions; ///< (n_coarse,2) [m]
   int iterations = 0;  ///< Newton steps, 1 for a linear solve, 0 where the motion is given
   double seconds = 0.; ///< median of five runs, one thread
+  LoadForces forces;   ///< of its own clamps, and its mean stress: up-sampling changes neither
 };
 
 /// Fine positions of a method.
@@ -67,6 +69,10 @@ public:
   /// @throws NotConverged
   CoarseStep solve(Law law, double strain);
 
+  /// The equilibrium at a strain near to that of a step, from which it starts; nothing is timed.
+  /// @throws NotConverged
+  shell::Positions<2> near(const CoarseStep &step, Law law, double strain) const;
+
   UpsampledSheet upsample(const Method &method, Law law,
                           const shell::Positions<2> &coarse_positions) const;
 
@@ -74,10 +80,13 @@ public:
 
 private:
   shell::Positions<2> prescribed(double strain) const;
+  void put_held(const shell::Positions<2> &prescribed, shell::Positions<2> &positions) const;
+  LoadForces forces_at(Law law, const shell::Positions<2> &positions) const;
 
   const meshes::HomogenizedCell &cell;
   const meshes::Sheet &sheet;
   const Load load;
+  const shell::Membrane membrane; ///< for the forces, under periodic loads too
   std::unique_ptr<shell::MembraneSolver<2>> solver;
   shell::Positions<2> last_displacement;
   double last_strain = 0.;

@@ -116,8 +116,8 @@ void add_homogenize_command(CLI::App &app, Action &action)
   CLI::App *command = app.add_subcommand(
     "homogenize",
     "C^H and the bending stiffness D^H with their guaranteed brackets, characteristic "
-    "displacements, deflections, moduli: cell.h5, homogenize.json, a .vtu for "
-    "ParaView");
+    "displacements, deflections, strains and stresses of the phases, moduli: cell.h5, "
+    "homogenize.json, a .vtu for ParaView");
   const auto arguments = std::make_shared<HomogenizeArguments>();
   command->add_option("CELL.prm", arguments->file, "Cell file")->required();
   command

@@ -91,6 +91,8 @@ void add_drape_command(CLI::App &app, Action &action, AfterMpi &afterwards,
     "best; biot and green are finite elements (deal.II), on all ranks, for sheets under gravity "
     "that are\n"
     "held by edges, corners or vertices.\n"
+    "Of each frame: errors (drape.csv), motion and energies (motion.csv), what each pin and handle\n"
+    "exerts (held-forces.csv), the cloth for ParaView.\n"
     "Examples:\n  homespun drape meshes/scenes/hang.prm\n"
     "  mpirun -n 2 homespun drape meshes/scenes/pull.prm --references biot\n"
     "  homespun drape meshes/scenes/clamp-four.prm --variants corotational,nodal-warping\n\n"

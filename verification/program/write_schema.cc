@@ -24,6 +24,7 @@ int main(int argc, char **argv)
   nlohmann::ordered_json schema;
   add_to_schema<StrainRow>(schema);
   add_to_schema<StepRow>(schema);
+  add_to_schema<ForceRow>(schema);
   add_to_schema<NoteRow>(schema);
   add_to_schema<UncertaintyRow>(schema);
   add_to_schema<BudgetRow>(schema);
@@ -36,6 +37,7 @@ int main(int argc, char **argv)
   add_to_schema<CaseRow>(schema);
   add_to_schema<DrapeRow>(schema);
   add_to_schema<MotionRow>(schema);
+  add_to_schema<HeldForceRow>(schema);
   add_to_schema<TermRow>(schema);
   add_to_schema<StressRow>(schema);
   add_to_schema<SolverRow>(schema);

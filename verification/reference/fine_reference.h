@@ -7,6 +7,7 @@
 #include "meshes/plain/sheet.h"
 #include "verification/reference/known_field.h"
 #include "verification/reference/laws.h"
+#include "verification/reference/load_forces.h"
 #include "verification/reference/loads.h"
 
 #include <mpi.h>
@@ -29,6 +30,7 @@ struct ReferenceStep
   unsigned int n_linear    = 0;  ///< iterations of conjugate gradients, all Newton steps
   double relative_residual = 0.; ///< |forces on free nodes| / size of the element forces
   double energy = 0.; ///< of the level, in all elements; less the work of a body force [J]
+  LoadForces forces;  ///< of the clamps, and the mean stress, from the elements themselves
   unsigned int n_indefinite = 0; ///< triangles whose tangent has a negative eigenvalue, at the last
                                  ///< assembly of the exact tangent
   bool is_at_round_off =

@@ -97,6 +97,8 @@ FineReference::Solver::assemble(const Vector &displacement, const Eigen::Matrix2
       state.energy_round_off +=
         weight * local.stress.norm() * std::numeric_limits<double>::epsilon() * size_of_terms;
       f.noalias() += weight * D.transpose() * local.stress;
+      state.forces.stress +=
+        weight * Eigen::Map<const Eigen::Matrix2d>(local.stress.data()).transpose();
       if (with_matrix && !projected)
         is_indefinite = is_indefinite || has_negative_eigenvalue(local.tangent, C);
       if (with_matrix)
@@ -109,6 +111,10 @@ FineReference::Solver::assemble(const Vector &displacement, const Eigen::Matrix2
     for (unsigned int i = 0; i < n; ++i)
       element_residual(i) = f(static_cast<Eigen::Index>(i));
     constraints.distribute_local_to_global(element_residual, dofs, residual);
+    for (unsigned int i = 0; i < n; i += 2)
+      if (const auto held = clamp_of_node.find(dofs[i]); held != clamp_of_node.end())
+        state.forces.on_clamps.row(held->second) +=
+          f.template segment<2>(static_cast<Eigen::Index>(i)).transpose();
     if (with_matrix)
     {
       for (unsigned int i = 0; i < n; ++i)
@@ -122,6 +128,9 @@ FineReference::Solver::assemble(const Vector &displacement, const Eigen::Matrix2
     solver->matrix.compress(VectorOperation::add);
   state.energy           = Utilities::MPI::sum(state.energy, discretization.communicator);
   state.energy_round_off = Utilities::MPI::sum(state.energy_round_off, discretization.communicator);
+  state.forces.stress /= std::abs(sheet.sides().determinant());
+  for (Eigen::Matrix2d *const part : {&state.forces.on_clamps, &state.forces.stress})
+    MPI_Allreduce(MPI_IN_PLACE, part->data(), 4, MPI_DOUBLE, MPI_SUM, discretization.communicator);
   if (body_force)
   {
     residual.add(-1., body_load);

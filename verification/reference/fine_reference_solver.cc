@@ -49,6 +49,7 @@ unsigned long FineReference::Solver::n_dofs() const
 
 void FineReference::Solver::constrain(const Load &load)
 {
+  clamp_of_node.clear();
   if (load.is_periodic())
   {
     homogenization::make_periodic_constraints(discretization, sheet.lattice, sheet.origin, boundary,
@@ -60,11 +61,12 @@ void FineReference::Solver::constrain(const Load &load)
   constraints.clear();
   constraints.reinit(discretization.locally_relevant);
   for (const homogenization::Node &node : boundary)
-    if (load.holds(sheet.fraction(node.point)) &&
-        discretization.locally_relevant.is_element(node.first_dof))
+    if (const Eigen::RowVector2d f = sheet.fraction(node.point);
+        load.holds(f) && discretization.locally_relevant.is_element(node.first_dof))
     {
       constraints.add_line(node.first_dof);
       constraints.add_line(node.second_dof);
+      clamp_of_node[node.first_dof] = f(load.clamped_axis()) < 0.5 ? 0 : 1;
     }
   constraints.close();
 }
@@ -162,6 +164,7 @@ void FineReference::Solver::solve(Vector &displacement, const double strain, con
     history.push_back(state.residual / state.force_size);
     step.relative_residual = history.back();
     step.energy            = state.energy;
+    step.forces            = state.forces;
     if (!std::isfinite(state.residual) || !std::isfinite(state.energy))
       throw meshes::NotConverged("the sheet collapsed under the load step", history);
     // A sheet without load has no forces at all.

@@ -6,6 +6,7 @@
 #include "verification/reference/fine_reference.h"
 
 #include <algorithm>
+#include <map>
 #include <memory>
 #include <vector>
 
@@ -36,6 +37,7 @@ private:
     double force_size         = 0.; ///< norm of the element forces before they cancel [N]
     double round_off          = 0.; ///< norm of what rounded gradients do to the element forces [N]
     double energy_round_off   = 0.; ///< what they do to the energy at most [J]
+    LoadForces forces;
 
     /// The residual that counts as none.
     double least_residual(const double tolerance) const
@@ -71,6 +73,7 @@ private:
   BodyForce body_force;
   Vector body_load; ///< at the strain that is being solved; empty without a body force
   dealii::AffineConstraints<double> constraints; ///< homogeneous: held nodes, periodic images
+  std::map<dealii::types::global_dof_index, int> clamp_of_node; ///< by the first DoF; 1 moves
   std::unique_ptr<homogenization::ElasticSolver> solver;
   double seconds_of_linear_solve       = 0.;
   bool preconditioner_is_old           = false;

@@ -44,9 +44,10 @@ public:
   Eigen::RowVector2d displacement(const Eigen::RowVector2d &fraction, const Eigen::Matrix2d &sides,
                                   double strain) const;
 
-  const std::string name;
-
-private:
+  /// Of a sheet, the axis of its fractions along which the clamps are apart: the one at 0 stays,
+  /// the one at 1 moves.
   int clamped_axis() const;
+
+  const std::string name;
 };
 } // namespace homespun::verification

@@ -36,7 +36,7 @@ double on_line(const std::pair<double, double> &a, const std::pair<double, doubl
 
 ReferenceBar ReferenceBar::operator*(const double factor) const
 {
-  return {factor * mean, factor * max, factor * to_refined};
+  return {factor * mean, factor * max, factor * to_refined, force};
 }
 
 /// One level after another on each discretization, each from where the last one ended.
@@ -48,6 +48,7 @@ ReferenceUncertainty::measure(const Measurement &what) const
   if (what.ladder == Ladder::with_refined_p2)
     ladder.push_back({2, 1});
   std::vector<std::vector<meshes::Points>> positions(what.strains.size());
+  std::vector<std::vector<double>> forces(what.strains.size());
   for (const ReferenceOptions &discretization : ladder)
   {
     FineReference reference(sheet, cell.stiffness_of_phase(), discretization, communicator);
@@ -58,21 +59,27 @@ ReferenceUncertainty::measure(const Measurement &what) const
       if (!step.reached)
         break;
       positions[k].push_back(step.positions);
+      forces[k].push_back(force_per_width(load, sheet.sides(), step.forces));
     }
   }
   std::vector<Distances> distances(what.strains.size());
   for (std::size_t k = 0; k < what.strains.size(); ++k)
   {
     const std::vector<meshes::Points> &of = positions[k];
-    auto &[mean, max]                     = distances[k];
+    auto &[mean, max, force]              = distances[k];
     if (of.size() < ladder.size())
       continue;
-    mean.reached = max.reached = true;
+    mean.reached = max.reached = force.reached = true;
+    const auto between                         = [&](const std::size_t a, const std::size_t b)
+    { return std::abs(forces[k][a] - forces[k][b]) / std::abs(forces[k][0]); };
     set_distance(&DiscretizationDistance::p1_to_p2, of[0], of[1], mean, max);
+    force.p1_to_p2 = between(0, 1);
     if (what.ladder == Ladder::with_refined_p2)
     {
       set_distance(&DiscretizationDistance::p1_to_refined, of[0], of[2], mean, max);
       set_distance(&DiscretizationDistance::p2_to_refined, of[1], of[2], mean, max);
+      force.p1_to_refined = between(0, 2);
+      force.p2_to_refined = between(1, 2);
     }
   }
   return distances;
@@ -82,8 +89,8 @@ ReferenceUncertainty::measure(const Measurement &what) const
 bool ReferenceUncertainty::look_up(const Measurement &what, const double strain,
                                    Distances &known) const
 {
-  const UncertaintyRow wanted  = {cell.name, load.name, name_of(what.law), strain, what.n_cells};
-  std::array<double, 7> stored = {};
+  const UncertaintyRow wanted   = {cell.name, load.name, name_of(what.law), strain, what.n_cells};
+  std::array<double, 10> stored = {};
   if (table && table->contains(wanted))
     for (const UncertaintyRow &row : table->rows())
       // A row without refined P2 does not answer a request with it, unless P1 was not reached.
@@ -96,13 +103,17 @@ bool ReferenceUncertainty::look_up(const Measurement &what, const double strain,
                   row.p2_to_refined,
                   row.p1_to_p2_max,
                   row.p1_to_refined_max,
-                  row.p2_to_refined_max};
+                  row.p2_to_refined_max,
+                  row.force_p1_to_p2,
+                  row.force_p1_to_refined,
+                  row.force_p2_to_refined};
   MPI_Bcast(stored.data(), static_cast<int>(stored.size()), MPI_DOUBLE, 0, communicator);
   if (!(stored[0] > 0.))
     return false;
   const bool reached = std::isfinite(stored[1]);
   known.mean         = {stored[1], stored[2], stored[3], reached};
   known.max          = {stored[4], stored[5], stored[6], reached};
+  known.force        = {stored[7], stored[8], stored[9], reached};
   return true;
 }
 
@@ -114,17 +125,21 @@ void ReferenceUncertainty::keep(const Measurement &what, const double strain,
   UncertaintyRow row = {cell.name, load.name, name_of(what.law), strain, what.n_cells};
   if (measured.mean.reached)
   {
-    row.p1_to_p2     = measured.mean.p1_to_p2;
-    row.p1_to_p2_max = measured.max.p1_to_p2;
+    row.p1_to_p2       = measured.mean.p1_to_p2;
+    row.p1_to_p2_max   = measured.max.p1_to_p2;
+    row.force_p1_to_p2 = measured.force.p1_to_p2;
     if (what.ladder == Ladder::with_refined_p2)
     {
-      row.p1_to_refined      = measured.mean.p1_to_refined;
-      row.p2_to_refined      = measured.mean.p2_to_refined;
-      row.p1_to_refined_max  = measured.max.p1_to_refined;
-      row.p2_to_refined_max  = measured.max.p2_to_refined;
-      const ReferenceBar bar = bar_of(measured, strain);
-      row.bar                = bar.mean;
-      row.bar_max            = bar.max;
+      row.p1_to_refined       = measured.mean.p1_to_refined;
+      row.p2_to_refined       = measured.mean.p2_to_refined;
+      row.p1_to_refined_max   = measured.max.p1_to_refined;
+      row.p2_to_refined_max   = measured.max.p2_to_refined;
+      row.force_p1_to_refined = measured.force.p1_to_refined;
+      row.force_p2_to_refined = measured.force.p2_to_refined;
+      const ReferenceBar bar  = bar_of(measured, strain);
+      row.bar                 = bar.mean;
+      row.bar_max             = bar.max;
+      row.force_bar           = bar.force;
     }
   }
   table->append(row);
@@ -152,9 +167,9 @@ ReferenceUncertainty::known_or_measured(const Measurement &what) const
 ReferenceBar ReferenceUncertainty::bar_of(const Distances &distances, const double strain) const
 {
   if (!distances.mean.reached)
-    return {unknown, unknown, unknown};
+    return {unknown, unknown, unknown, unknown};
   return ReferenceBar{distances.mean.uncertainty(order), distances.max.uncertainty(order),
-                      distances.mean.p1_to_refined} *
+                      distances.mean.p1_to_refined, distances.force.uncertainty(order_of_force)} *
          (1. / (strain * side));
 }
 
@@ -170,6 +185,7 @@ ReferenceUncertainty::ReferenceUncertainty(const homogenization::UnitCell &cell,
     , tell(tell)
     , side(std::sqrt(cell.lattice.area()))
     , order(order_of_p2(cell, load.is_periodic() ? order_of_p2_smooth : order_of_p2_sheet))
+    , order_of_force(order_of_p2(cell, load.is_periodic() ? order_of_p2_energy : order_of_p2_sheet))
 {
   const int n_full     = load.is_periodic() ? 1 : sizes.n_cells;
   const int n_measured = load.is_periodic() ? 1 : std::min(sizes.n_small, sizes.n_cells);
@@ -185,6 +201,7 @@ ReferenceUncertainty::ReferenceUncertainty(const homogenization::UnitCell &cell,
     { return at_full.reached && of.p1_to_p2 > 0. ? at_full.p1_to_p2 / of.p1_to_p2 : unknown; };
     carry_over.mean = carry_over.to_refined = ratio(full.mean, small.mean);
     carry_over.max                          = ratio(full.max, small.max);
+    carry_over.force                        = ratio(full.force, small.force);
   }
   std::vector<double> strains = {large_strain};
   if (sizes.largest_strain > large_strain)
@@ -220,6 +237,7 @@ ReferenceBar ReferenceUncertainty::at(const Law law, const double strain) const
   const double unit = strain * side;
   return {value(&ReferenceBar::mean) * carry_over.mean * unit,
           value(&ReferenceBar::max) * carry_over.max * unit,
-          value(&ReferenceBar::to_refined) * carry_over.to_refined * unit};
+          value(&ReferenceBar::to_refined) * carry_over.to_refined * unit,
+          value(&ReferenceBar::force) * carry_over.force};
 }
 } // namespace homespun::verification

@@ -24,7 +24,9 @@ struct ReferenceBar
   double mean       = 0.; ///< error bar on the mean over the vertices
   double max        = 0.; ///< error bar at the worst vertex
   double to_refined = 0.; ///< |P1 − refined P2|, mean over the vertices
+  double force      = 0.; ///< error bar on the force along the load, over that force [-]
 
+  /// Another unit of length; that of the force has none.
   ReferenceBar operator*(double factor) const;
 };
 
@@ -39,6 +41,11 @@ struct ReferenceBar
 /// |P1 − P2|, linear law, at full size and on the small sheet, both measured; the mean by that of
 /// the means, the largest by that of the largest. Of periodic loads the cell itself is measured and
 /// nothing carries over.
+///
+/// The force along the load has a bar of its own by the same rule, relative to the force, and
+/// carried over by the ratio of its own |P1 − P2|. A force is the derivative of an energy by the
+/// motion of the clamp, so that its order is that of the energy: twice the exponent of the
+/// strongest corner, and 4 where there is none.
 class ReferenceUncertainty
 {
 public:
@@ -59,14 +66,15 @@ public:
                        Table<UncertaintyRow> *table, MPI_Comm communicator,
                        const std::function<void(const std::string &)> &tell);
 
-  /// Over the vertices of the sheet [m].
+  /// Over the vertices of the sheet [m], and of the force [-].
   ReferenceBar at(Law law, double strain) const;
 
 private:
-  /// Distances [m], of the means and of the largest over the vertices.
+  /// Distances, of the means and of the largest over the vertices [m], and of the force over that
+  /// of P1 [-].
   struct Distances
   {
-    DiscretizationDistance mean, max;
+    DiscretizationDistance mean, max, force;
   };
   enum class Ladder
   {
@@ -92,9 +100,10 @@ private:
   Table<UncertaintyRow> *const table;
   const MPI_Comm communicator;
   const std::function<void(const std::string &)> tell;
-  ReferenceBar carry_over = {1., 1., 1.};
+  ReferenceBar carry_over = {1., 1., 1., 1.};
   double side             = 0.; ///< sqrt(|Y|) [m]
   double order            = 1.; ///< order_of_p2()
+  double order_of_force   = 1.;
   /// Per strain and side, by the strain at which it was measured; the linear law's at 0.
   std::map<Law, std::map<double, ReferenceBar>> measured_bars;
 };

@@ -2,6 +2,10 @@
 #include "verification/strain/sheet_fields.h"
 
 #include "meshes/files/hdf5_writer.h"
+#include "meshes/files/surface_files.h"
+#include "verification/record/number_text.h"
+
+#include <vector>
 
 namespace homespun::verification
 {
@@ -32,5 +36,34 @@ void write_sheet_fields(const std::string &path, const meshes::Sheet &sheet,
   file.attribute("/", "reference", fields.reference);
   file.attribute("/", "method", fields.method);
   file.finish();
+}
+
+void write_sheet_vtu(const std::string &path, const meshes::Sheet &sheet, const SheetFields &fields)
+{
+  const meshes::Points &rest = sheet.mesh.vertices;
+  const auto in_space        = [](const meshes::Points &points)
+  {
+    meshes::FloatPoints all = meshes::FloatPoints::Zero(points.rows(), 3);
+    all.leftCols<2>()       = points.cast<float>();
+    return all;
+  };
+  std::vector<meshes::VertexData> data;
+  const auto displacement = [&](const std::string &of, const meshes::Points &positions) {
+    data.push_back({"displacement " + of + " [m]", in_space(positions - rest)});
+  };
+  const auto error = [&](const std::string &of, const meshes::Points &positions)
+  {
+    const Eigen::VectorXf distance = (positions - fields.fine).rowwise().norm().cast<float>();
+    data.push_back({"error " + of + " [m]", distance});
+  };
+  displacement("reference", fields.fine);
+  displacement("affine", fields.affine);
+  displacement(fields.method, fields.upsampled);
+  error("affine", fields.affine);
+  error(fields.method, fields.upsampled);
+  const Eigen::VectorXf phase = sheet.mesh.material.cast<float>();
+  meshes::write_vtu(
+    path, in_space(rest), sheet.mesh.triangles, data, {{"phase", phase}},
+    {{"load, strain, reference", {fields.load, short_text(fields.strain), fields.reference}}});
 }
 } // namespace homespun::verification

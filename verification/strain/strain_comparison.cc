@@ -3,6 +3,8 @@
 
 #include "meshes/plain/errors.h"
 #include "verification/method/anchor_choice.h"
+#include "verification/record/number_text.h"
+#include "verification/strain/force_rows.h"
 #include "verification/strain/sheet_fields.h"
 
 #include <algorithm>
@@ -52,12 +54,27 @@ Fluctuation fluctuation_of(const StrainLevel &level, const meshes::Points &refer
   }
 }
 
-/// One picture per sheet load, against biot if it is there.
-bool is_pictured(const StrainStudyOptions &options, const Load &load, const StrainLevel &level)
+/// Pictures are of sheets, against biot if it is there.
+bool has_pictures(const StrainStudyOptions &options, const Load &load, const StrainLevel &level)
 {
-  return !load.is_periodic() && level.strain == pictured_strain(options) &&
+  return !load.is_periodic() &&
          (has_biot(options) ? level.law == Law::biot
                             : name_of(level.law) == options.references.front());
+}
+
+/// One picture for the report, and for ParaView that level and the largest.
+void write_pictures(const StrainStudyOptions &options, const StrainLevel &level,
+                    const meshes::Sheet &sheet, const meshes::TriangleMesh &coarse_rest,
+                    const SheetFields &fields)
+{
+  const bool is_pictured   = level.strain == pictured_strain(options);
+  const std::string folder = options.output + "/" + level.cell + "/";
+  if (is_pictured)
+    write_sheet_fields(folder + "fields-" + level.load + ".h5", sheet, coarse_rest, fields);
+  if (is_pictured ||
+      level.strain == *std::max_element(options.strains.begin(), options.strains.end()))
+    write_sheet_vtu(folder + "sheet-" + level.load + "-" + short_text(level.strain) + ".vtu", sheet,
+                    fields);
 }
 } // namespace
 
@@ -110,6 +127,9 @@ UpsampledLevel compare_methods(const StrainStudyOptions &options, const StrainLe
       missing.emplace_back(name, name == "affine"      ? affine
                                  : name == "localized" ? localized
                                                        : upsampled_with(name));
+  if (!missing.empty())
+    for (const ForceRow &row : force_rows(level, resolved, method, load, coarse))
+      output.write_forces(row);
   for (const auto &[name, upsampled] : missing)
   {
     errors.distance = distance_of(upsampled.positions);
@@ -117,11 +137,10 @@ UpsampledLevel compare_methods(const StrainStudyOptions &options, const StrainLe
     // The row comes last: where it is there, so is all that belongs to it.
     if (name == "localized")
     {
-      if (is_pictured(options, load, level))
-        write_sheet_fields(options.output + "/" + level.cell + "/fields-" + load.name + ".h5",
-                           resolved.sheet, cloth.coarse,
-                           {load.name, level.strain, name_of(level.law), name, fine.positions,
-                            upsampled.positions, coarse.positions});
+      if (has_pictures(options, load, level))
+        write_pictures(options, level, resolved.sheet, cloth.coarse,
+                       {load.name, level.strain, name_of(level.law), name, fine.positions,
+                        upsampled.positions, affine.positions, coarse.positions});
       StepRow step;
       step.seconds_coarse      = coarse.seconds;
       step.seconds_upsample    = upsampled.seconds;

@@ -22,7 +22,7 @@ struct ResolvedLevel
   const ReferenceStep &fine;
   unsigned long n_dofs;
   unsigned int n_ranks;
-  ReferenceBar bar; ///< of its positions [m]
+  ReferenceBar bar; ///< of its positions [m] and of its force
   Stability stability;
   double seconds_stability;
 };
@@ -33,6 +33,7 @@ struct MethodOnSheet
   const meshes::HomogenizedCell &cell;
   LightweightCloth cloth;
   FluctuationMeasure fluctuation;
+  std::vector<Eigen::Matrix3d> stiffness_of_phase; ///< of the resolved sheet [N/m]
 };
 
 /// The level nearest to 1 %, at which methods are compared.
@@ -48,8 +49,8 @@ double pictured_strain(const StrainStudyOptions &options);
 std::vector<std::string> notes_of(const ReferenceStep &fine, Stability stability);
 
 /// Moves the coarse cloth to a level, up-samples it by every method, and writes the errors whose
-/// row is not there, the times, the picture if this is the level for one, and a note on the anchor
-/// at the compared strain. First rank.
+/// row is not there, the forces, the times, the pictures if this is a level for them, and a note on
+/// the anchor at the compared strain. First rank.
 /// @return the coarse cloth, and the fine positions of `localized`
 /// @throws NotConverged where the coarse cloth finds no equilibrium, or positions are not finite
 UpsampledLevel compare_methods(const StrainStudyOptions &options, const StrainLevel &level,

@@ -38,6 +38,7 @@ StrainOutput::StrainOutput(const StrainStudyOptions &options,
     , tell(std::move(tell))
     , strain(options.output)
     , steps(options.output)
+    , forces(options.output)
     , note_table(options.output)
 {
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// What a strain study leaves on the disk as it goes on: the tables strain.csv (errors), steps.csv
-// (times), uncertainty.csv, notes.csv, budget.csv, second-code.csv, energies.csv and runtime.csv,
-// and at its end validity.csv. First rank alone.
+// What a strain study leaves on the disk as it goes on: the tables strain.csv (errors), forces.csv,
+// steps.csv (times), uncertainty.csv, notes.csv, budget.csv, second-code.csv, energies.csv and
+// runtime.csv, and at its end validity.csv. First rank alone.
 #pragma once
 
 #include "meshes/plain/sheet.h"
@@ -63,6 +63,11 @@ public:
   /// @param step its keys are those of the level
   void write_step(const StrainLevel &level, StepRow step);
 
+  void write_forces(const ForceRow &row)
+  {
+    forces.append_if_missing(row);
+  }
+
   /// A level without equilibrium.
   void write_unreached(const StrainLevel &level, const meshes::Sheet &sheet);
 
@@ -97,6 +102,7 @@ private:
   const std::function<void(const std::string &)> tell;
   Table<StrainRow> strain;
   Table<StepRow> steps;
+  Table<ForceRow> forces;
   Table<NoteRow> note_table;
 };
 } // namespace homespun::verification

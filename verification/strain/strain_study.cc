@@ -157,11 +157,10 @@ private:
     std::vector<Law> laws;
     for (const std::string &name : options.references)
       laws.push_back(law_of(name));
-    std::vector<bool> law_is_done;
-    for (const Law law : laws)
-      law_is_done.push_back(missing_strains(cell, load, law).empty());
     const int n_steps = 1 + static_cast<int>(laws.size() * options.strains.size());
-    if (std::all_of(law_is_done.begin(), law_is_done.end(), [](const bool done) { return done; }))
+    // What is missing is told to all ranks, so that they ask for the same laws.
+    if (std::all_of(laws.begin(), laws.end(),
+                    [&](const Law law) { return missing_strains(cell, load, law).empty(); }))
     {
       progress.begin(cell.name + ", " + load.name + ": all rows are there", true);
       for (int k = 0; k < n_steps; ++k)
@@ -182,7 +181,8 @@ private:
       reference = std::make_unique<FineReference>(sheet, cell.stiffness_of_phase(),
                                                   ReferenceOptions(), communicator);
     MethodOnSheet method  = {homogenized, LightweightCloth(homogenized, sheet, load),
-                             FluctuationMeasure(homogenized.stiffness, sheet, load)};
+                             FluctuationMeasure(homogenized.stiffness, sheet, load),
+                             cell.stiffness_of_phase()};
     const bool has_budget = begin_budget(cell, homogenized, sheet, load);
     for (std::size_t k = 0; k < laws.size(); ++k)
     {

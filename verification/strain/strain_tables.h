@@ -128,8 +128,49 @@ struct NoteRow
   }
 };
 
+/// forces.csv: what a load takes of one cloth at one level. Of the methods
+/// - resolved: the reference, every triangle with its own stiffness
+/// - coarse: the coarse cloth, whether it is up-sampled or not: that changes no force
+/// - affine: derivative of the energy that the resolved sheet has where the coarse motion,
+///   interpolated, puts it; in linear theory not below that of `resolved`
+/// The load takes a force along the motion of the moving clamp, positive where that does work; of
+/// an infinite cloth the nominal stress that does the work stands for the force per width.
+struct ForceRow
+{
+  static constexpr const char *file   = "forces.csv";
+  static constexpr std::size_t n_keys = 5;
+  static constexpr double none        = std::numeric_limits<double>::quiet_NaN();
+
+  std::string cell, load;
+  double strain = 0.;
+  std::string reference, method;
+  double force     = none; ///< [N]; of an infinite cloth none
+  double per_width = none; ///< nominal, per rest width of the clamped edge [N/m]
+  double bar       = none; ///< of the reference's force per width [N/m]
+  double stress_11 = none, stress_22 = none, stress_12 = none,
+         stress_21 = none; ///< mean nominal stress dW/dF over the rest area [N/m]
+
+  template <typename Column>
+  static void columns(Column &&column)
+  {
+    column("cell", &ForceRow::cell, Domain::name);
+    column("load", &ForceRow::load, Domain::name);
+    column("strain", &ForceRow::strain, Domain::positive);
+    column("reference", &ForceRow::reference, Domain::name);
+    column("method", &ForceRow::method, Domain::name);
+    column("force_N", &ForceRow::force, Domain::real);
+    column("force_per_width_N_per_m", &ForceRow::per_width, Domain::real);
+    column("reference_uncertainty_N_per_m", &ForceRow::bar, Domain::not_negative);
+    column("stress_11_N_per_m", &ForceRow::stress_11, Domain::real);
+    column("stress_22_N_per_m", &ForceRow::stress_22, Domain::real);
+    column("stress_12_N_per_m", &ForceRow::stress_12, Domain::real);
+    column("stress_21_N_per_m", &ForceRow::stress_21, Domain::real);
+  }
+};
+
 /// uncertainty.csv: distances between discretizations of one reference, means over the vertices and
-/// largest. Not a number where one of them was not reached or not asked for.
+/// largest, and those of their forces. Not a number where one of them was not reached or not asked
+/// for.
 struct UncertaintyRow
 {
   static constexpr const char *file   = "uncertainty.csv";
@@ -144,6 +185,8 @@ struct UncertaintyRow
   double p2_to_refined = none; ///< |P2 − refined P2| [m]
   double p1_to_p2_max = none, p1_to_refined_max = none, p2_to_refined_max = none; ///< [m]
   double bar = none, bar_max = none; ///< per strain and cell side
+  double force_p1_to_p2 = none, force_p1_to_refined = none, force_p2_to_refined = none,
+         force_bar = none; ///< of the force along the load, over that of P1 [-]
 
   template <typename Column>
   static void columns(Column &&column)
@@ -161,6 +204,10 @@ struct UncertaintyRow
     column("p2_minus_refined_p2_max_m", &UncertaintyRow::p2_to_refined_max, Domain::not_negative);
     column("uncertainty_per_strain_and_side", &UncertaintyRow::bar, Domain::not_negative);
     column("uncertainty_max_per_strain_and_side", &UncertaintyRow::bar_max, Domain::not_negative);
+    column("force_p1_minus_p2", &UncertaintyRow::force_p1_to_p2, Domain::not_negative);
+    column("force_p1_minus_refined_p2", &UncertaintyRow::force_p1_to_refined, Domain::not_negative);
+    column("force_p2_minus_refined_p2", &UncertaintyRow::force_p2_to_refined, Domain::not_negative);
+    column("force_uncertainty", &UncertaintyRow::force_bar, Domain::not_negative);
   }
 };
 

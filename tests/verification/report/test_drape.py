@@ -48,7 +48,7 @@ class DrapePageTest(PageTest):
         # The command before the verdicts.
         self.assertLess(page.index("homespun drape swing.prm"), places[1])
         figures = set(os.listdir(os.path.join(self.output, "figures")))
-        for name in ("cloth", "error-time", "height", "energies", "step"):
+        for name in ("cloth", "error-time", "height", "energies", "held-forces", "step"):
             self.assertLessEqual(
                 {f"swing-layered-{name}.pdf", f"swing-layered-{name}.svg"}, figures
             )
@@ -126,7 +126,9 @@ class DrapePageTest(PageTest):
 
     def test_scene_of_which_only_the_description_is_left_is_reported(self):
         write_drape(self.folder, variants=VARIANTS[:1], references=REFERENCES[:1])
-        self.remove("drape.csv", "motion.csv", "terms.csv", "verdicts.json")
+        self.remove(
+            "drape.csv", "motion.csv", "held-forces.csv", "terms.csv", "verdicts.json"
+        )
         self.edit(
             "drape.json",
             lambda text: json.dumps({"scene": "swing", "cells": [{"cell": "<layered>"}]}),

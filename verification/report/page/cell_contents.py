@@ -16,6 +16,7 @@ from figures.view_data import sheet_table, sheet_view
 from page import tables
 from page.bending_contents import bending_contents
 from page.budget_contents import budget_contents
+from page.force_contents import force_contents
 from page.gallery import file_name
 from read.cell_results import grouped, read_fields
 from read.results import BadResults, cell_side
@@ -129,6 +130,7 @@ def cell_contents(results, name, gallery):
                 "Full resolution stands at its own uncertainty, where that is known."
             ),
         )
+    contents.update(force_contents(results, name, reference, strains, gallery))
     contents.update(bending_contents(cell, gallery))
     contents.update(budget_contents(results, name, side, strains, gallery))
     contents["round_off"] = tables.round_off_sentences(rows)

@@ -24,6 +24,7 @@ HEADINGS = {
     "verdicts": "What holds, and what does not",
     "comparison": "Comparison",
     "strain": "Error against strain",
+    "forces": "Force against strain",
     "stiffness": "Effective stiffness",
     "cells": "The unit cells",
     "sheets": "Reference, up-sampled sheet and error per vertex",
@@ -79,8 +80,13 @@ def page_contents(results, gallery, output):
     ]
     headings = headings_of(drapes, stress, convergence, loads, strain_shown, comparison, notes)
     cells = contents_of_cells(results, gallery)
-    reasons = {key: [] for key in ("verdicts", "short", "strain", "uncertainty")}
-    words = {"verdicts": "verdicts", "strain": "error against strain", "uncertainty": "error bar"}
+    reasons = {key: [] for key in ("verdicts", "short", "strain", "forces", "uncertainty")}
+    words = {
+        "verdicts": "verdicts",
+        "strain": "error against strain",
+        "forces": "forces of the loads",
+        "uncertainty": "error bar",
+    }
     for key, word in words.items():
         reasons[key] = [item for item in results.missing if item["what"].startswith(word)]
     reasons["uncertainty"] += [

@@ -12,6 +12,7 @@ from figures.drape import (
     ordered_variants,
     step_bars,
 )
+from figures.held import held_figure
 from figures.style import three
 from figures.view_data import film_view
 from page import tables
@@ -54,6 +55,7 @@ def cell_contents(drape, cell, gallery, output, limit, pool, scenes):
         "error": None,
         "height": None,
         "energies": None,
+        "held": None,
         "steps": None,
         "errors": error_rows(cell),
         "runs": run_rows(cell),
@@ -161,6 +163,17 @@ def draw_curves(contents, drape, cell, gallery):
                 " length). The weight's energy is zero at the origin; forces that have no energy"
                 " (nodal warping) have no elastic one. A curve that leaves its panel grows beyond"
                 f" a thousand times the first cloth's largest value.{words}"
+            ),
+        )
+    if drawn := held_figure(cell.held):
+        figure, others = drawn
+        words = f" Not drawn: {', '.join(others)}." if others else ""
+        contents["held"] = gallery.add(
+            figure,
+            f"{file}-held-forces",
+            (
+                f"{title}: size of the force that each held place exerts on the cloth; components"
+                f" are in held-forces.csv.{words}"
             ),
         )
     if figure := step_bars(cell):

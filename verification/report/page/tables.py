@@ -185,6 +185,10 @@ def phase_rows(cell):
     return rows
 
 
+def in_percent(value):
+    return "–" if math.isnan(value) else f"{three(100.0 * value)} %"
+
+
 def uncertainty_rows(rows):
     """uncertainty.csv as text."""
     return [
@@ -199,6 +203,7 @@ def uncertainty_rows(rows):
             length(row["p2_minus_refined_p2_m"]),
             three(row["uncertainty_per_strain_and_side"]),
             three(row["uncertainty_max_per_strain_and_side"]),
+            in_percent(row["force_uncertainty"]),
         ]
         for row in rows
     ]
@@ -206,10 +211,6 @@ def uncertainty_rows(rows):
 
 def energy_rows(rows):
     """energies.csv as text: the lower side and distances in percent of the upper one."""
-
-    def in_percent(value):
-        return "–" if math.isnan(value) else f"{three(100.0 * value)} %"
-
     return [
         [
             row["cell"],

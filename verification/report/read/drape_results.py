@@ -40,6 +40,7 @@ class DrapedCell:
     references: list = field(default_factory=list)
     errors: list = field(default_factory=list)
     motion: list = field(default_factory=list)
+    held: list = field(default_factory=list)
     terms: list = field(default_factory=list)
     # (variant or reference, "coarse" or "fine") -> [(time, path)].
     frames: dict = field(default_factory=dict)
@@ -195,6 +196,7 @@ def read_drape(run, path_of, faults, missing):
     for name, target, consequence in (
         ("drape.csv", "errors", "error against time"),
         ("motion.csv", "motion", "height and energies"),
+        ("held-forces.csv", "held", "forces of what is held"),
         ("terms.csv", "terms", "what absent terms would have cost"),
     ):
         if file := path_of(name, f"{drape.scene}: {consequence}"):

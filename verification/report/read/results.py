@@ -52,6 +52,7 @@ OF_STRAIN = (
     "the error budget",
     "error against run time of every way",
     "the range of validity",
+    "forces of the loads",
 )
 
 
@@ -62,6 +63,7 @@ class Results:
     studies: list = field(default_factory=list)
     cells: dict = field(default_factory=dict)  # name -> Cell, in the order they were found
     strain: list = field(default_factory=list)
+    forces: list = field(default_factory=list)
     uncertainty: list = field(default_factory=list)
     energies: list = field(default_factory=list)
     steps: list = field(default_factory=list)
@@ -230,6 +232,8 @@ def read_strain(run, cell_folders, path_of, results, faults):
         results.energies += read_csv(path, faults, results.missing)
     if path := path_of("steps.csv", OF_STRAIN[3]):
         results.steps += read_csv(path, faults, results.missing)
+    if path := path_of("forces.csv", OF_STRAIN[7]):
+        results.forces += read_csv(path, faults, results.missing)
     read_budget(path_of, results, faults)
     for name, inner in cell_folders.items():
         results.cells[name] = read_cell(name, run, inner, faults, results.missing)

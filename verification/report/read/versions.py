@@ -10,7 +10,9 @@ import os
 
 import numpy
 
-TABLES = ("strain", "uncertainty", "energies", "steps", "budget", "run_time", "validity")
+TABLES = (
+    "strain", "forces", "uncertainty", "energies", "steps", "budget", "run_time", "validity"
+)
 
 
 @dataclasses.dataclass

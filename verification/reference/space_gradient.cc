@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: MIT
+#include "verification/reference/space_gradient.h"
+
+#include <Eigen/LU>
+
+namespace homespun::verification
+{
+meshes::SpacePoints space_gradient(const meshes::TriangleMesh &rest,
+                                   const std::vector<Eigen::Matrix3d> &stiffness_of_phase,
+                                   const Law law, const meshes::SpacePoints &positions)
+{
+  meshes::SpacePoints gradient = meshes::SpacePoints::Zero(positions.rows(), 3);
+  for (int t = 0; t < rest.n_triangles(); ++t)
+  {
+    const Eigen::RowVector3i corners = rest.triangles.row(t);
+    Eigen::Matrix2d at_rest; // columns: the sides from the first corner
+    Eigen::Matrix<double, 3, 2> now;
+    for (int k = 0; k < 2; ++k)
+    {
+      at_rest.col(k) =
+        (rest.vertices.row(corners(k + 1)) - rest.vertices.row(corners(0))).transpose();
+      now.col(k) = (positions.row(corners(k + 1)) - positions.row(corners(0))).transpose();
+    }
+    const Eigen::Matrix2d inverse = at_rest.inverse(); // rows: the gradients of two of the shapes
+    const SpaceGradient stress =
+      space_response(law, stiffness_of_phase[static_cast<std::size_t>(rest.material(t))],
+                     now * inverse, Tangent::none)
+        .stress;
+    const Eigen::Matrix<double, 2, 3> forces =
+      0.5 * at_rest.determinant() * inverse * stress.transpose();
+    for (int k = 0; k < 2; ++k)
+    {
+      gradient.row(corners(k + 1)) += forces.row(k);
+      gradient.row(corners(0)) -= forces.row(k);
+    }
+  }
+  return gradient;
+}
+} // namespace homespun::verification

@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: MIT
+#include "verification/strain/force_rows.h"
+
+#include "meshes/plain/errors.h"
+
+#include <Eigen/LU>
+
+#include <cmath>
+
+namespace homespun::verification
+{
+namespace
+{
+ForceRow row_of(const StrainLevel &level, const char *method)
+{
+  return {level.cell, level.load, level.strain, name_of(level.law), method};
+}
+
+void put_stress(const Eigen::Matrix2d &stress, ForceRow &row)
+{
+  row.stress_11 = stress(0, 0);
+  row.stress_22 = stress(1, 1);
+  row.stress_12 = stress(0, 1);
+  row.stress_21 = stress(1, 0);
+}
+
+ForceRow row_of_forces(const StrainLevel &level, const char *method, const Load &load,
+                       const Eigen::Matrix2d &sides, const LoadForces &forces)
+{
+  ForceRow row  = row_of(level, method);
+  row.force     = force_along(load, sides, forces);
+  row.per_width = force_per_width(load, sides, forces);
+  put_stress(forces.stress, row);
+  return row;
+}
+
+/// Energy and stress of the resolved sheet where the coarse motion, interpolated, puts it.
+class AffineMotion
+{
+public:
+  AffineMotion(const StrainLevel &level, const ResolvedLevel &resolved, const MethodOnSheet &method)
+      : level(level)
+      , sheet(resolved.sheet)
+      , method(method)
+      , interpolated(method.cell, method.cloth.coarse, resolved.sheet,
+                     Method("affine").options(level.law))
+  {
+  }
+
+  SheetEnergy at(const shell::Positions<2> &coarse) const
+  {
+    localization::Upsampler<2, double>::Fine fine;
+    interpolated.upsample(coarse, fine);
+    return sheet_energy(sheet, method.stiffness_of_phase, level.law, fine);
+  }
+
+  /// dE/d(strain) [J].
+  double slope(const CoarseStep &coarse) const
+  {
+    constexpr double part = 1e-3;
+    const double ahead = (1. + part) * level.strain, behind = (1. - part) * level.strain;
+    return (at(method.cloth.near(coarse, level.law, ahead)).energy -
+            at(method.cloth.near(coarse, level.law, behind)).energy) /
+           (ahead - behind);
+  }
+
+private:
+  const StrainLevel &level;
+  const meshes::Sheet &sheet;
+  const MethodOnSheet &method;
+  const localization::Upsampler<2, double> interpolated;
+};
+
+ForceRow affine_row(const StrainLevel &level, const ResolvedLevel &resolved,
+                    const MethodOnSheet &method, const Load &load, const CoarseStep &coarse)
+{
+  ForceRow row = row_of(level, "affine");
+  const AffineMotion motion(level, resolved, method);
+  const Eigen::Matrix2d sides  = resolved.sheet.sides();
+  const Eigen::Matrix2d stress = motion.at(coarse.positions).stress;
+  put_stress(stress, row);
+  if (load.is_periodic())
+  {
+    // The motion is given: its slope is that of the macro strain alone.
+    LoadForces forces;
+    forces.stress = stress;
+    row.per_width = force_per_width(load, sides, forces);
+    return row;
+  }
+  try
+  {
+    const double width = sides.row(1 - load.clamped_axis()).norm();
+    row.force          = motion.slope(coarse) / load.displacement({1., 1.}, sides, 1.).norm();
+    row.per_width      = row.force / width;
+  }
+  catch (const meshes::NotConverged &)
+  {
+    row.force = row.per_width = ForceRow::none;
+  }
+  return row;
+}
+} // namespace
+
+std::vector<ForceRow> force_rows(const StrainLevel &level, const ResolvedLevel &resolved,
+                                 const MethodOnSheet &method, const Load &load,
+                                 const CoarseStep &coarse)
+{
+  const Eigen::Matrix2d sides = resolved.sheet.sides();
+  std::vector<ForceRow> rows = {row_of_forces(level, "resolved", load, sides, resolved.fine.forces),
+                                row_of_forces(level, "coarse", load, sides, coarse.forces),
+                                affine_row(level, resolved, method, load, coarse)};
+  const double bar           = resolved.bar.force * std::abs(rows.front().per_width);
+  for (ForceRow &row : rows)
+    row.bar = bar;
+  return rows;
+}
+} // namespace homespun::verification

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: MIT
+// What a load takes at one level, of the resolved sheet and of the coarse cloth beside it.
+#pragma once
+
+#include "verification/strain/strain_comparison.h"
+#include "verification/strain/strain_tables.h"
+
+#include <vector>
+
+namespace homespun::verification
+{
+/// The rows of forces.csv of a level: resolved, coarse and affine. The force of `affine` is a
+/// central difference of the energy over a thousandth of the strain to either side, so that it
+/// lacks some 1e-6 of itself; it is not a number where the coarse cloth finds no equilibrium there.
+std::vector<ForceRow> force_rows(const StrainLevel &level, const ResolvedLevel &resolved,
+                                 const MethodOnSheet &method, const Load &load,
+                                 const CoarseStep &coarse);
+} // namespace homespun::verification
