@@ -48,7 +48,11 @@ private:
     double strain = 0.;
   };
   double distance(Sheet &of, Law law, double strain, const meshes::Points &reference) const;
+  double distance_of_pulled(Law law, double strain, const meshes::Points &reference) const;
 
+  const Eigen::Matrix3d stiffness;
+  const Load load;
+  const meshes::Sheet &cells;
   Sheet fine, half_as_fine;
   Law last_law = Law::linear;
 };

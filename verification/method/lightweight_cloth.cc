@@ -2,6 +2,7 @@
 #include "verification/method/lightweight_cloth.h"
 
 #include "meshes/plain/errors.h"
+#include "verification/reference/free_sides.h"
 
 namespace homespun::verification
 {
@@ -46,12 +47,32 @@ bool Method::has_meaning(const Law law) const
   return law != Law::linear || name != "localized-affine-lift";
 }
 
+namespace
+{
+/// A load with free sides, whose strains are those of C^H under the coarse cloth's own law.
+Load with_own_sides(const Load &load, const Eigen::Matrix3d &stiffness,
+                    const std::shared_ptr<Law> &law)
+{
+  if (!load.has_free_sides())
+    return load;
+  return load.with_free_strains([load, stiffness, law](const double strain)
+                                { return free_strains_of(load, *law, stiffness, strain); });
+}
+
+/// The coarse cloth is corotational, but beside linear theory.
+Law own_law(const Law law)
+{
+  return law == Law::linear ? Law::linear : Law::biot;
+}
+} // namespace
+
 LightweightCloth::LightweightCloth(const meshes::HomogenizedCell &cell, const meshes::Sheet &sheet,
                                    const Load &load)
     : coarse(meshes::coarse_sheet(sheet.origin, sheet.lattice.vectors, sheet.n1, sheet.n2))
     , cell(cell)
     , sheet(sheet)
-    , load(load)
+    , law_of_sides(std::make_shared<Law>(Law::biot))
+    , load(with_own_sides(load, cell.stiffness, law_of_sides))
     , membrane(shell::membrane(coarse, {cell.stiffness}))
 {
   if (load.is_periodic())
@@ -97,6 +118,7 @@ LoadForces LightweightCloth::forces_at(const Law law, const shell::Positions<2> 
 shell::Positions<2> LightweightCloth::near(const CoarseStep &step, const Law law,
                                            const double strain) const
 {
+  *law_of_sides             = own_law(law);
   shell::Positions<2> moved = prescribed(strain);
   if (load.is_periodic())
     return moved;
@@ -109,6 +131,7 @@ shell::Positions<2> LightweightCloth::near(const CoarseStep &step, const Law law
 CoarseStep LightweightCloth::solve(const Law law, const double strain)
 {
   CoarseStep step;
+  *law_of_sides  = own_law(law);
   step.positions = prescribed(strain);
   if (load.is_periodic())
   {

@@ -85,6 +85,7 @@ private:
 
   const meshes::HomogenizedCell &cell;
   const meshes::Sheet &sheet;
+  const std::shared_ptr<Law> law_of_sides; ///< of the motion that is asked for, for free sides
   const Load load;
   const shell::Membrane membrane; ///< for the forces, under periodic loads too
   std::unique_ptr<shell::MembraneSolver<2>> solver;

@@ -84,6 +84,8 @@ void FineReference::Solver::start(const Load &new_load, const Law new_law, BodyF
   body_force = std::move(new_body_force);
   body_load.clear();
   levels.clear();
+  free_strains.setZero();
+  side_slope.setZero();
   seconds_of_linear_solve = 0.;
 }
 
@@ -234,12 +236,14 @@ ReferenceStep FineReference::Solver::advance(const double strain)
   while (!step.reached && cut <= (law == Law::linear ? 0u : 3u))
   {
     Vector displacement = guess(next);
+    if (!levels.empty())
+      free_strains = next / levels.back().strain * levels.back().free_strains;
     try
     {
-      solve(displacement, next, options.tolerance, step);
+      solve_with_sides(displacement, next, options.tolerance, step);
       if (levels.size() == 2)
         levels.erase(levels.begin());
-      levels.push_back({next, displacement});
+      levels.push_back({next, displacement, free_strains});
       reached      = next;
       step.reached = next == strain;
       next         = strain;
@@ -284,8 +288,9 @@ ReferenceStep FineReference::Solver::tighten(const double tolerance)
   try
   {
     Vector displacement = levels.back().displacement;
-    solve(displacement, step.strain, tolerance, step);
+    solve_with_sides(displacement, step.strain, tolerance, step);
     levels.back().displacement = displacement;
+    levels.back().free_strains = free_strains;
     step.reached               = true;
     step.positions             = positions_of(displacement, step.strain);
   }
@@ -300,6 +305,8 @@ ReferenceStep FineReference::Solver::tighten(const double tolerance)
 
 Eigen::Matrix2d FineReference::Solver::mean_gradient_at(const double strain) const
 {
+  if (load->has_free_sides())
+    return load->gradient(strain, free_strains);
   return load->is_periodic() ? load->gradient(strain) : Eigen::Matrix2d::Identity();
 }
 

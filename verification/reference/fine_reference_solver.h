@@ -50,6 +50,9 @@ private:
   Vector affine(double strain) const;
   Vector guess(double strain) const;
   void solve(Vector &displacement, double strain, double tolerance, ReferenceStep &step);
+  void solve_with_sides(Vector &displacement, double strain, double tolerance, ReferenceStep &step);
+  Eigen::Matrix2d slope_of_sides(const Vector &displacement, double strain, double tolerance,
+                                 ReferenceStep step);
   unsigned int solve_linearized(Vector &increment, const Vector &forces, double target);
   Evaluation evaluate(const Vector &displacement, const Eigen::Matrix2d &mean_gradient,
                       Vector &residual, bool with_matrix, bool projected);
@@ -83,7 +86,13 @@ private:
   {
     double strain;
     Vector displacement;
+    Eigen::Vector2d free_strains;
   };
   std::vector<Level> levels; ///< the last two
+
+  // Of a load with free sides:
+  Eigen::Vector2d free_strains = Eigen::Vector2d::Zero();
+  Eigen::Matrix2d side_slope   = Eigen::Matrix2d::Zero(); ///< stresses by strains, by Broyden; zero
+                                                          ///< before the first level [N/m]
 };
 } // namespace homespun::verification

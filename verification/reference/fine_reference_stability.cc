@@ -100,6 +100,7 @@ Stability FineReference::Solver::stabilize(ReferenceStep &step)
       if (found == Stability::unknown)
         break;
       levels.back().displacement = displacement;
+      levels.back().free_strains = free_strains;
       step.positions             = positions_of(displacement, step.strain);
       return Stability::left;
     }
@@ -107,14 +108,15 @@ Stability FineReference::Solver::stabilize(ReferenceStep &step)
       break;
     try
     {
-      solve(displacement, step.strain, options.tolerance, step);
+      solve_with_sides(displacement, step.strain, options.tolerance, step);
     }
     catch (const meshes::NotConverged &)
     {
       break;
     }
   }
-  step = as_it_was;
+  step         = as_it_was;
+  free_strains = levels.back().free_strains;
   return Stability::unstable;
 }
 } // namespace homespun::verification

@@ -26,6 +26,9 @@ double force_along(const Load &load, const Eigen::Matrix2d &sides, const LoadFor
 
 double force_per_width(const Load &load, const Eigen::Matrix2d &sides, const LoadForces &forces)
 {
+  if (load.has_free_sides()) // those of the sides are zero
+    return (forces.stress.cwiseProduct(load.gradient(1., {0., 0.}) - Eigen::Matrix2d::Identity()))
+      .sum();
   if (load.is_periodic())
     return forces.stress.cwiseProduct(load.gradient(1.) - load.gradient(0.)).sum();
   return force_along(load, sides, forces) / sides.row(1 - load.clamped_axis()).norm();

@@ -4,6 +4,8 @@
 #include "meshes/plain/errors.h"
 
 #include <algorithm>
+#include <stdexcept>
+#include <utility>
 
 namespace homespun::verification
 {
@@ -17,19 +19,37 @@ const std::vector<std::string> &Load::names()
 Load::Load(const std::string &name)
     : name(name)
 {
-  if (std::find(names().begin(), names().end(), name) == names().end())
+  if (!has_free_sides() && std::find(names().begin(), names().end(), name) == names().end())
     throw meshes::BadInput("unknown load `" + name +
-                           "`; expected periodic-11, periodic-22, periodic-12, strip-1, strip-2 or "
-                           "shear-frame");
+                           "`; expected periodic-11, periodic-22, periodic-12, uniaxial-1, "
+                           "uniaxial-2, strip-1, strip-2 or shear-frame");
 }
 
 bool Load::is_periodic() const
 {
-  return name.rfind("periodic", 0) == 0;
+  return name.rfind("periodic", 0) == 0 || has_free_sides();
+}
+
+bool Load::has_free_sides() const
+{
+  return name == "uniaxial-1" || name == "uniaxial-2";
+}
+
+Load Load::with_free_strains(FreeStrains strains) const
+{
+  Load load         = *this;
+  load.free_strains = std::move(strains);
+  return load;
 }
 
 Eigen::Matrix2d Load::gradient(const double strain) const
 {
+  if (has_free_sides())
+  {
+    if (!free_strains)
+      throw std::logic_error(name + ": the strains of free sides are not known");
+    return gradient(strain, free_strains(strain));
+  }
   Eigen::Matrix2d F = Eigen::Matrix2d::Identity();
   if (name == "periodic-11")
     F(0, 0) += strain;
@@ -38,6 +58,22 @@ Eigen::Matrix2d Load::gradient(const double strain) const
   else
     F(0, 1) += strain;
   return F;
+}
+
+Eigen::Matrix2d Load::gradient(const double strain, const Eigen::Vector2d &of_sides) const
+{
+  Eigen::Matrix2d F = Eigen::Matrix2d::Identity();
+  const int axis    = name == "uniaxial-1" ? 0 : 1;
+  F(axis, axis) += strain;
+  F(1 - axis, 1 - axis) += of_sides(0);
+  F(axis, 1 - axis) += of_sides(1);
+  return F;
+}
+
+Eigen::Vector2d Load::stress_of_sides(const Eigen::Matrix2d &P) const
+{
+  const int axis = name == "uniaxial-1" ? 0 : 1;
+  return {P(1 - axis, 1 - axis), P(axis, 1 - axis)};
 }
 
 int Load::clamped_axis() const

@@ -7,6 +7,7 @@
 
 #include <Eigen/Core>
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -15,6 +16,9 @@ namespace homespun::verification
 /// A load by its name:
 /// - periodic-11, periodic-22: infinite cloth under F = I + strain along axis 1 or 2
 /// - periodic-12: infinite cloth under simple shear, F = (1, strain; 0, 1)
+/// - uniaxial-1, uniaxial-2: infinite cloth pulled along axis 1 or 2, which keeps its direction,
+///   its sides free of stress: F = (1 + strain, g; 0, 1 + e) or (1 + e, 0; g, 1 + strain) with the
+///   free strains e and g that each cloth finds for itself
 /// - strip-1, strip-2: the two edges normal to axis 1 or 2 clamped, the far one moved outwards
 ///   along that axis by strain times length, the other two edges free
 /// - shear-frame: the two edges normal to axis 2 clamped, the upper moved along axis 1 by strain
@@ -28,12 +32,31 @@ public:
   /// @throws BadInput listing the names, where it is none of them
   explicit Load(const std::string &name);
 
+  /// Those of a study that is not told otherwise: the periodic ones and those of sheets.
   static const std::vector<std::string> &names();
 
+  /// Whether it is one of an infinite cloth.
   bool is_periodic() const;
 
-  /// The macroscopic deformation gradient of a periodic load.
+  /// Whether it is uniaxial.
+  bool has_free_sides() const;
+
+  /// e and g of a cloth at a strain.
+  using FreeStrains = std::function<Eigen::Vector2d(double strain)>;
+
+  /// The load with the free strains that a cloth has found.
+  Load with_free_strains(FreeStrains strains) const;
+
+  /// The macroscopic deformation gradient of an infinite cloth; with free sides only where the free
+  /// strains are known.
   Eigen::Matrix2d gradient(double strain) const;
+
+  /// That of free sides, at any e and g.
+  Eigen::Matrix2d gradient(double strain, const Eigen::Vector2d &free_strains) const;
+
+  /// The nominal stresses that work on e and g: P22 and P12, or P11 and P21. Both are zero where
+  /// the sides are free.
+  Eigen::Vector2d stress_of_sides(const Eigen::Matrix2d &P) const;
 
   /// Whether a sheet is held at a point.
   /// @param fraction the point's coordinates on the sheet, 0 to 1 from edge to edge
@@ -49,5 +72,8 @@ public:
   int clamped_axis() const;
 
   const std::string name;
+
+private:
+  FreeStrains free_strains;
 };
 } // namespace homespun::verification

@@ -197,7 +197,9 @@ template <typename Judge>
 void at_judged_levels(const std::vector<StrainRow> &strain_rows, const Judge &judge)
 {
   for (const auto &[of_case, strains] : cases_of(strain_rows))
-    for (const double strain : judged_strains(strains))
+    for (const double strain : Load(of_case.load).has_free_sides() // no budget speaks of those
+                                 ? std::vector<double>()
+                                 : judged_strains(strains))
     {
       BudgetRow level = of_case;
       level.strain    = strain;

@@ -217,7 +217,8 @@ private:
   bool begin_budget(const UnitCell &cell, const meshes::HomogenizedCell &homogenized,
                     const meshes::Sheet &sheet, const Load &load)
   {
-    if (!budget || !budget->is_missing(cell.name, load.name, options.strains))
+    if (!budget || load.has_free_sides() ||
+        !budget->is_missing(cell.name, load.name, options.strains))
       return false;
     progress.begin(cell.name + ", " + load.name +
                    ": the sheet by a second code, for the error budget");
@@ -248,7 +249,7 @@ private:
       {
         const StrainLevel level = {cell.name, load.name, law, options.strains[k]};
         is_missing[k]           = !output->is_complete(level) ||
-                        (budget && !output->is_unreached(level) &&
+                        (budget && !load.has_free_sides() && !output->is_unreached(level) &&
                          budget->row_is_missing(cell.name, load.name, law, options.strains[k]));
       }
     MPI_Bcast(is_missing.data(), static_cast<int>(is_missing.size()), MPI_CHAR, 0, communicator);

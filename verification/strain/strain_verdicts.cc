@@ -3,6 +3,7 @@
 
 #include "verification/record/number_text.h"
 #include "verification/reference/fine_reference.h"
+#include "verification/reference/loads.h"
 
 #include <algorithm>
 #include <cmath>
@@ -216,8 +217,8 @@ std::vector<Verdict> strain_verdicts(const std::vector<StrainRow> &rows,
   const std::vector<StrainRow> cases = cases_of(rows);
   for (const StrainRow &of_case : cases)
     if (of_case.reference == "biot")
-      add(of_case.load.rfind("periodic", 0) == 0 ? periodic_verdict(rows, of_case, strains)
-                                                 : sheet_verdict(rows, of_case, strains));
+      add(Load(of_case.load).is_periodic() ? periodic_verdict(rows, of_case, strains)
+                                           : sheet_verdict(rows, of_case, strains));
   for (const StrainRow &of_case : cases)
     verdicts.push_back(verdict_of_reach(rows, of_case, strains.size()));
   return verdicts;

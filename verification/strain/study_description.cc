@@ -54,6 +54,10 @@ nlohmann::ordered_json what_was_left_out(const StrainStudyOptions &options)
   for (const std::string &load : Load::names())
     if (!has(options.loads, load.c_str()))
       left_out("load " + load, "--loads does not name it");
+  if (options.budget &&
+      std::any_of(options.loads.begin(), options.loads.end(),
+                  [](const std::string &load) { return Load(load).has_free_sides(); }))
+    left_out("error budget of uniaxial loads", "its parts are those of given macro strains");
   if (!options.budget)
     left_out("error budget", "--no-budget");
   if (!options.run_time)
@@ -68,7 +72,7 @@ std::string note_of_fluctuation(const std::vector<StepRow> &steps)
 {
   double largest_change = 0., seconds = 0., seconds_fine = 0.;
   for (const StepRow &step : steps)
-    if (step.fluctuation > 0. && step.load.rfind("periodic", 0) != 0)
+    if (step.fluctuation > 0. && !Load(step.load).is_periodic())
     {
       largest_change = std::max(largest_change, step.fluctuation_bar / step.fluctuation);
       seconds += step.seconds_homogenized;
@@ -100,7 +104,7 @@ std::vector<std::string> notes_on_the_method(const StrainStudyOptions &options,
     notes.push_back(note);
   double smallest_bar = 1., largest_bar = 0.;
   for (const StrainRow &row : record.rows)
-    if (row.method == "localized" && row.load.rfind("periodic", 0) == 0 && row.mean > 0. &&
+    if (row.method == "localized" && Load(row.load).is_periodic() && row.mean > 0. &&
         row.uncertainty > row.mean)
     {
       smallest_bar = std::min(smallest_bar, row.mean / row.uncertainty);

@@ -5,6 +5,7 @@
 #include "homogenization/lint/cell_reading.h"
 #include "verification/load/load_path.h"
 #include "verification/reference/fine_reference.h"
+#include "verification/reference/free_sides.h"
 
 #include <Eigen/LU>
 
@@ -204,6 +205,69 @@ TEST(exact_load, strains_that_are_prescribed_give_what_the_resolved_reference_gi
       const LoadLevel level    = last({cell.homogenized, cell.phases, law}, strains);
       EXPECT_NEAR(level.energy, step.energy / cell.unit.lattice.area(), 1e-10 * level.energy);
     }
+}
+
+TEST(exact_load, a_pull_with_free_sides_is_what_the_resolved_reference_finds)
+{
+  Cell cell("three-stiffness");
+  cell.phases.back()        = skew();
+  const meshes::Sheet sheet = meshes::tile(cell.unit.mesh, cell.unit.lattice, 1, 1);
+  ReferenceOptions tight;
+  tight.tolerance = 1e-11;
+  FineReference reference(sheet, cell.phases, tight, MPI_COMM_WORLD);
+  for (const int axis : {1, 2})
+    for (const Law law : {Law::linear, Law::biot, Law::green})
+    {
+      const Load load("uniaxial-" + std::to_string(axis));
+      reference.start(load, law);
+      ReferenceStep step = reference.advance(0.03);
+      step               = reference.advance(0.06);
+      ASSERT_TRUE(step.reached) << step.why;
+      const LoadLevel level = last({cell.homogenized, cell.phases, law},
+                                   control({}, {std::to_string(11 * axis) + "=6%"}, axis), 2);
+      const double scale    = step.forces.stress.norm();
+      EXPECT_LE(load.stress_of_sides(step.forces.stress).norm(), 1e-9 * scale);
+      EXPECT_NEAR(step.forces.stress(axis - 1, axis - 1), level.stress(axis - 1), 1e-9 * scale);
+      EXPECT_NEAR(step.energy / cell.unit.lattice.area(), level.energy, 1e-9 * level.energy);
+      // The lattice vectors end where F puts them.
+      const Eigen::Vector2d free(level.strain(2 - axis), level.strain(2));
+      const Eigen::Matrix2d F = load.gradient(0.06, free);
+      const int corner        = cell.homogenized.anchor;
+      for (int v = 0; v < sheet.mesh.n_vertices(); ++v)
+      {
+        const Eigen::RowVector2d way = sheet.mesh.vertices.row(v) - sheet.mesh.vertices.row(corner);
+        for (int a = 0; a < 2; ++a)
+        {
+          if ((way - sheet.lattice.vectors.row(a)).norm() > 1e-9)
+            continue;
+          const Eigen::RowVector2d moved = step.positions.row(v) - step.positions.row(corner);
+          EXPECT_LE((moved - way * F.transpose()).norm(), 1e-9 * way.norm());
+        }
+      }
+    }
+}
+
+TEST(exact_load, the_coarse_cloth_with_free_sides_is_that_of_its_stiffness)
+{
+  const Eigen::Matrix3d C = skew();
+  for (const int axis : {1, 2})
+    for (const Law law : {Law::linear, Law::biot})
+    {
+      const Load load("uniaxial-" + std::to_string(axis));
+      const Eigen::Vector2d free = free_strains_of(load, law, C, 0.1);
+      const Response there       = response(law, C, load.gradient(0.1, free));
+      const Eigen::Matrix2d stress =
+        Eigen::Map<const Eigen::Matrix2d>(there.stress.data()).transpose();
+      EXPECT_LE(load.stress_of_sides(stress).norm(), 1e-12 * stress.norm());
+      const Eigen::Vector3d strain =
+        C.inverse().col(axis - 1) / C.inverse()(axis - 1, axis - 1) * 0.1;
+      if (law == Law::linear)
+      {
+        EXPECT_NEAR(free(0), strain(2 - axis), 1e-13);
+        EXPECT_NEAR(free(1), strain(2), 1e-13);
+      }
+    }
+  EXPECT_THROW(Load("uniaxial-1").gradient(0.1), std::logic_error);
 }
 
 TEST(tripwire_load, a_load_beyond_the_limit_point_is_not_reached_and_says_why)

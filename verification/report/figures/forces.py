@@ -168,8 +168,8 @@ def force_figure(rows, reference, panel=(2.9, 2.2)):
     references = style.ordered_references(row["reference"] for row in rows)
     loads = style.ordered_loads(row["load"] for row in rows)
     groups = [
-        [load for load in loads if load.startswith("periodic")],
-        [load for load in loads if not load.startswith("periodic")],
+        [load for load in loads if style.is_infinite(load)],
+        [load for load in loads if not style.is_infinite(load)],
     ]
     groups = [group[i : i + 3] for group in groups for i in range(0, len(group), 3)]
     columns = max(len(group) for group in groups)
@@ -191,7 +191,7 @@ def force_figure(rows, reference, panel=(2.9, 2.2)):
             for axes in (above, below):
                 axes.set_xlabel("strain [%]")
         grid[2 * k][0].set_ylabel(
-            "nominal stress [N/m]" if group[0].startswith("periodic") else "force per width [N/m]"
+            "nominal stress [N/m]" if style.is_infinite(group[0]) else "force per width [N/m]"
         )
         grid[2 * k + 1][0].set_ylabel("difference [% of the resolved]")
         for axes in (*grid[2 * k][len(group) :], *grid[2 * k + 1][len(group) :]):

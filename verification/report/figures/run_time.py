@@ -35,9 +35,9 @@ def run_time_figure(rows, reference):
     groups = [
         (
             "infinite cloth, one periodic cell",
-            [load for load in loads if load.startswith("periodic")],
+            [load for load in loads if style.is_infinite(load)],
         ),
-        ("sheet", [load for load in loads if not load.startswith("periodic")]),
+        ("sheet", [load for load in loads if not style.is_infinite(load)]),
     ]
     groups = [(title, group) for title, group in groups if group]
     if not groups:
@@ -271,7 +271,7 @@ def speed_ratio(rows, reference):
             for row in rows
             if row["method"] == METHOD
             and row["reference"] == reference
-            and not row["load"].startswith("periodic")
+            and not style.is_infinite(row["load"])
         ],
         "seconds_method",
         "seconds_reference",

@@ -108,7 +108,7 @@ def draw_panel(axes, rows, load, methods, references, key, factor, floor, side):
                     label=f"{method} against {reference}",
                     gid=ROUND_OFF_NOTE,
                 )
-    if load.startswith("periodic") and key == "error_mean_per_cell":
+    if style.is_infinite(load) and key == "error_mean_per_cell":
         some = [r for r in rows if r["method"] == "localized" and r["reference"] == "biot"]
         strain, value, low = floored(some, key, factor)
         if len(strain) > 1 and not low.any():
@@ -195,8 +195,8 @@ def error_figure(
     rows = [row for row in rows if row["method"] in methods and row["reference"] in references]
     loads = style.ordered_loads(row["load"] for row in rows)
     groups = [
-        [load for load in loads if load.startswith("periodic")],
-        [load for load in loads if not load.startswith("periodic")],
+        [load for load in loads if style.is_infinite(load)],
+        [load for load in loads if not style.is_infinite(load)],
     ]
     groups = [group[i : i + 3] for group in groups for i in range(0, len(group), 3)]
     factor = 100.0 if key == "error_mean_per_fluctuation" else 1.0

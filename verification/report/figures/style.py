@@ -34,9 +34,20 @@ SPARE_COLOURS = (BLACK, SKY, "#7F7F7F", YELLOW)
 # Line style and marker of each reference law.
 REFERENCE_STYLES = {"linear": (":", "s"), "biot": ("-", "o"), "green": ("--", "^")}
 
-LOADS = ("periodic-11", "periodic-22", "periodic-12", "strip-1", "strip-2", "shear-frame")
-LOAD_COLOURS = dict(zip(LOADS, (SKY, BLUE, PURPLE, GREEN, ORANGE, VERMILLION)))
-LOAD_MARKERS = dict(zip(LOADS, ("v", "^", "D", "s", "o", "P")))
+LOADS = (
+    "periodic-11",
+    "periodic-22",
+    "periodic-12",
+    "uniaxial-1",
+    "uniaxial-2",
+    "strip-1",
+    "strip-2",
+    "shear-frame",
+)
+LOAD_COLOURS = dict(
+    zip(LOADS, (SKY, BLUE, PURPLE, BLACK, "#7F7F7F", GREEN, ORANGE, VERMILLION))
+)
+LOAD_MARKERS = dict(zip(LOADS, ("v", "^", "D", "<", ">", "s", "o", "P")))
 
 # Two errors that differ by less than this part of a cell side are the same in double precision:
 # positions of a sheet of 20 cells carry 16 digits, and solvers stop some digits earlier.
@@ -83,6 +94,11 @@ def method_colour(method, methods=()):
 def reference_style(reference):
     """(line style, marker) of a reference law."""
     return REFERENCE_STYLES.get(reference, ("-.", "D"))
+
+
+def is_infinite(load):
+    """Whether a load is one of a cloth without edges."""
+    return load.startswith(("periodic", "uniaxial"))
 
 
 def load_colour(load):

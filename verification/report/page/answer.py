@@ -18,6 +18,8 @@ LOADS = {
     "periodic-11": "Endless cloth, stretched along axis 1",
     "periodic-22": "Endless cloth, stretched along axis 2",
     "periodic-12": "Endless cloth, sheared",
+    "uniaxial-1": "Endless cloth, pulled along axis 1 with free sides",
+    "uniaxial-2": "Endless cloth, pulled along axis 2 with free sides",
     "strip-1": "Sheet pulled along axis 1",
     "strip-2": "Sheet pulled along axis 2",
     "shear-frame": "Sheet sheared in a frame",
@@ -87,7 +89,7 @@ def answer_of(results, name, gallery):
 
 def sheets_first(loads):
     """Loads in their order, but what a cloth with edges does before the endless one."""
-    return sorted(style.ordered_loads(loads), key=lambda load: load.startswith("periodic"))
+    return sorted(style.ordered_loads(loads), key=lambda load: style.is_infinite(load))
 
 
 def line_of(load, affine, localized, parts):

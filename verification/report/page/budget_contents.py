@@ -105,7 +105,7 @@ def region_rows(rows, strains):
     """Mean error and largest parts of interior, boundary layer and corners of the sheets."""
     lines = []
     for (load, strain), regions in ordered(levels(rows)):
-        if strain not in strains or load.startswith("periodic"):
+        if strain not in strains or style.is_infinite(load):
             continue
         for region in REGIONS:
             parts = regions.get(region)

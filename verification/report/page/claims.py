@@ -75,7 +75,7 @@ OPEN = {
     "method": "Not decided: let it run further, without `--quick`, or with a reference that is"
     " solved finer.",
 }
-LEVEL = re.compile(r"([\w.-]+), (periodic-\d\d|strip-\d|shear-frame)\b")
+LEVEL = re.compile(r"([\w.-]+), (periodic-\d\d|uniaxial-\d|strip-\d|shear-frame)\b")
 STRAIN = re.compile(r"at (?:strain )?([\d.e-]+)( %)?")
 
 

@@ -186,7 +186,7 @@ def time_rows(results, subjects):
             for row in results.steps
             if row["cell"] == s.name
             and row["reference"] == law[s.name]
-            and not row["load"].startswith("periodic")
+            and not style.is_infinite(row["load"])
         ]
         for s in subjects
     }
