@@ -5,6 +5,7 @@
 #include "verification/reference/fine_reference.h"
 #include "verification/reference/load_forces.h"
 
+#include <Eigen/LU>
 #include <gtest/gtest.h>
 
 #include <cmath>
