@@ -119,8 +119,9 @@ void add_strain_command(CLI::App &app, Action &action, AfterMpi &afterwards,
   command->footer(
     "Loads: periodic-11, periodic-22, periodic-12 (infinite cloth; 12 is simple shear), strip-1,\n"
     "strip-2 (two edges clamped, one pulled outwards), shear-frame (upper edge moved sideways).\n"
-    "Of each level: errors (strain.csv), forces of the clamps or stress (forces.csv); of sheets at\n"
-    "the largest strain and near 10 % the displacements for ParaView (CELL/sheet-LOAD-STRAIN.vtu).\n"
+    "Of each level: errors (strain.csv), forces of the clamps or the stress (forces.csv); of\n"
+    "sheets, at the largest strain and near 10 %, displacements for ParaView\n"
+    "(CELL/sheet-LOAD-STRAIN.vtu).\n"
     "References: linear; biot (what the coarse cloth approximates); green (St. Venant-Kirchhoff).\n"
     "Example:\n  homespun strain mycell.prm --quick\n"
     "  mpirun -n 2 homespun strain mycell.prm --loads strip-2,shear-frame --strains 0.01,0.1");

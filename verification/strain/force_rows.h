@@ -2,7 +2,7 @@
 // What a load takes at one level, of the resolved sheet and of the coarse cloth beside it.
 #pragma once
 
-#include "verification/strain/strain_comparison.h"
+#include "verification/strain/compared_level.h"
 #include "verification/strain/strain_tables.h"
 
 #include <vector>

@@ -3,39 +3,14 @@
 // vertex.
 #pragma once
 
-#include "meshes/plain/sheet.h"
 #include "verification/budget/budget_study.h"
-#include "verification/method/fluctuation.h"
-#include "verification/method/lightweight_cloth.h"
-#include "verification/reference/fine_reference.h"
-#include "verification/strain/strain_output.h"
+#include "verification/strain/compared_level.h"
 
 #include <string>
 #include <vector>
 
 namespace homespun::verification
 {
-/// The resolved sheet at one level.
-struct ResolvedLevel
-{
-  const meshes::Sheet &sheet;
-  const ReferenceStep &fine;
-  unsigned long n_dofs;
-  unsigned int n_ranks;
-  ReferenceBar bar; ///< of its positions [m] and of its force
-  Stability stability;
-  double seconds_stability;
-};
-
-/// The method, and what its error is measured by.
-struct MethodOnSheet
-{
-  const meshes::HomogenizedCell &cell;
-  LightweightCloth cloth;
-  FluctuationMeasure fluctuation;
-  std::vector<Eigen::Matrix3d> stiffness_of_phase; ///< of the resolved sheet [N/m]
-};
-
 /// The level nearest to 1 %, at which methods are compared.
 double compared_strain(const StrainStudyOptions &options);
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Forces as a user finds them: of clamps, of an infinite cloth, of pins; and what ParaView shows."""
+"""Forces as a user finds them: of clamps, an infinite cloth, pins; and what ParaView shows."""
 import json
 import sys
 import unittest

@@ -20,6 +20,7 @@ constexpr double largest = 0.15;
 struct Measured
 {
   double mean, max;
+  double force; ///< over that of the first [-]
 };
 
 /// Distances of two discretizations of a sheet of one cell along a ladder of strains [m].
@@ -35,9 +36,12 @@ std::vector<Measured> distances(const homogenization::UnitCell &cell, const Load
   std::vector<Measured> result;
   for (const double strain : strains)
   {
-    const Eigen::VectorXd distance =
-      (first.advance(strain).positions - second.advance(strain).positions).rowwise().norm();
-    result.push_back({distance.mean(), distance.maxCoeff()});
+    const ReferenceStep one = first.advance(strain), other = second.advance(strain);
+    const Eigen::VectorXd distance = (one.positions - other.positions).rowwise().norm();
+    const double force             = force_along(load, sheet.sides(), one.forces);
+    result.push_back(
+      {distance.mean(), distance.maxCoeff(),
+       std::abs(force - force_along(load, sheet.sides(), other.forces)) / std::abs(force)});
   }
   return result;
 }
@@ -69,6 +73,8 @@ TEST(bound_reference_uncertainty, covers_the_distance_of_p1_from_p2_at_every_str
     EXPECT_GT(bar.mean, measured[k].mean) << "at strain " << strains[k];
     EXPECT_GT(bar.max, measured[k].max) << "at strain " << strains[k];
     EXPECT_LT(bar.mean, 3. * measured[k].mean) << "at strain " << strains[k];
+    EXPECT_GT(bar.force, measured[k].force) << "at strain " << strains[k];
+    EXPECT_LT(bar.force, 3. * measured[k].force) << "at strain " << strains[k];
   }
 }
 
@@ -92,4 +98,21 @@ TEST(exact_reference_uncertainty, the_linear_law_keeps_its_bar_per_strain)
   const Load load("shear-frame");
   const ReferenceUncertainty bars = bars_of_layers(load, Law::linear);
   EXPECT_NEAR(bars.at(Law::linear, 0.10).mean / bars.at(Law::linear, 0.01).mean, 10., 1e-12);
+}
+
+// Beside measured distances: F (|P1 − refined P2| + |P2 − refined P2| / (2^q − 1)), q = 1 where
+// clamped and free edges meet, relative to the force, which no change of unit touches.
+TEST(exact_reference_uncertainty, the_bar_of_the_force_is_that_of_its_own_distances)
+{
+  const Load load("shear-frame");
+  const ReferenceUncertainty bars        = bars_of_layers(load, Law::biot);
+  const std::vector<Measured> to_p2      = distances(layers(), load, {0.05}, {1, 0}, {2, 0}),
+                              to_refined = distances(layers(), load, {0.05}, {1, 0}, {2, 1});
+  // Forces of P1, P2 and refined P2 fall one after the other.
+  const double between = to_refined[0].force - to_p2[0].force;
+  ASSERT_GT(between, 0.);
+  ASSERT_LT(between, to_p2[0].force);
+  EXPECT_NEAR(bars.at(Law::biot, 0.05).force / (1.25 * (to_refined[0].force + between)), 1., 1e-5);
+  const ReferenceBar bar = bars.at(Law::biot, 0.05);
+  EXPECT_EQ((bar * 3.).force, bar.force);
 }

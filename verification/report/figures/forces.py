@@ -68,8 +68,8 @@ def draw_forces(axes, rows, load, reference, references):
                 color=COLOURS[method],
                 markerfacecolor="white",
                 markeredgewidth=1,
-                lw=1.0 if method == RESOLVED else 1.4,
-                zorder=3 if method == RESOLVED else 2,
+                lw=3.0 if method == COARSE else 1.0,  # seen below the resolved one
+                zorder=2 if method == COARSE else 3,
                 label=f"{method}, {law}",
             )
             if method == RESOLVED:

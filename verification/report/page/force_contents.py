@@ -28,7 +28,8 @@ def force_contents(results, name, reference, strains, gallery):
             " its error bar; blue: the coarse cloth, whose force up-sampling does not change;"
             " orange: the force by the energy that the coarse motion, interpolated, has in the"
             " resolved sheet. Below each load how far both are from the resolved sheet"
-            f" ({reference}), in percent of its force; grey: not more than its own error bar, which"
+            f" ({reference}), in percent of its force; a curve at the lower edge is zero to what the"
+            " solvers leave; grey: not more than its own error bar, which"
             " says how far the mesh that both sides share is from the limit of fine ones.",
         )
     return contents

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: MIT
+// The two sides of a comparison at one level: the resolved sheet, and the method.
+#pragma once
+
+#include "meshes/plain/sheet.h"
+#include "verification/method/fluctuation.h"
+#include "verification/method/lightweight_cloth.h"
+#include "verification/reference/fine_reference.h"
+#include "verification/strain/strain_output.h"
+
+#include <vector>
+
+namespace homespun::verification
+{
+/// The resolved sheet at one level.
+struct ResolvedLevel
+{
+  const meshes::Sheet &sheet;
+  const ReferenceStep &fine;
+  unsigned long n_dofs;
+  unsigned int n_ranks;
+  ReferenceBar bar; ///< of its positions [m] and of its force
+  Stability stability;
+  double seconds_stability;
+};
+
+/// The method, and what its error is measured by.
+struct MethodOnSheet
+{
+  const meshes::HomogenizedCell &cell;
+  LightweightCloth cloth;
+  FluctuationMeasure fluctuation;
+  std::vector<Eigen::Matrix3d> stiffness_of_phase; ///< of the resolved sheet [N/m]
+};
+} // namespace homespun::verification
