@@ -4,7 +4,7 @@
 #include "homogenization/bracket/compatible_strain.h"
 #include "homogenization/cell/torus_mesh.h"
 #include "shell/solver/equilibrium.h"
-#include "verification/reference/nonlinear_cell.h"
+#include "verification/periodic_cell/nonlinear_cell.h"
 
 #include <algorithm>
 #include <cmath>

@@ -10,7 +10,7 @@
 // pulled along axis 1; with axis 2, P21 = P11 = 0 are those of one pulled along axis 2.
 #pragma once
 
-#include "verification/reference/cell_equilibrium.h"
+#include "verification/periodic_cell/cell_equilibrium.h"
 
 #include <Eigen/Core>
 

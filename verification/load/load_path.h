@@ -3,7 +3,7 @@
 #pragma once
 
 #include "verification/load/load_control.h"
-#include "verification/reference/cell_assembly.h"
+#include "verification/periodic_cell/cell_assembly.h"
 
 #include <functional>
 #include <string>

@@ -11,7 +11,7 @@
 #include "shell/solver/equilibrium.h"
 #include "verification/reference/laws.h"
 #include "verification/reference/loads.h"
-#include "verification/reference/nonlinear_cell.h"
+#include "verification/periodic_cell/nonlinear_cell.h"
 
 #include <memory>
 #include <vector>

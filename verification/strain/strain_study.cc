@@ -59,8 +59,7 @@ public:
       cells.push_back(homogenization::read_unit_cell(file, communicator));
     check_names(cells);
     for (const UnitCell &cell : cells)
-      meshes::tile(cell.mesh, cell.lattice, 1,
-                   1); // refuses cells that make no sheet, before any file
+      meshes::tile(cell.mesh, cell.lattice, 1, 1); // refuses what makes no sheet, before any file
     on_root(communicator, [&]() { open_tables(); });
     if (options.budget)
       budget = std::make_unique<BudgetStudy>(options.references, options.strains,
@@ -133,13 +132,13 @@ private:
                          [&](const std::string &what) {
                            progress.begin(cell.name + ", " + load.name + ", run times: " + what);
                          });
-        on_root(
-          communicator,
-          [&]()
-          {
-            if (!fault.empty())
-              write_note({cell.name, load.name, Law::biot, of_run.strain}, "run times: " + fault);
-          });
+        on_root(communicator,
+                [&]()
+                {
+                  if (!fault.empty())
+                    output->write_note({cell.name, load.name, Law::biot, of_run.strain},
+                                       "run times: " + fault);
+                });
         return;
       }
   }
@@ -233,8 +232,9 @@ private:
       on_root(communicator,
               [&]()
               {
-                write_note({cell.name, load.name, budget->law_of_budget, options.strains.front()},
-                           "no error budget of this load; " + why);
+                output->write_note(
+                  {cell.name, load.name, budget->law_of_budget, options.strains.front()},
+                  "no error budget of this load; " + why);
               });
       return false;
     }
@@ -285,7 +285,7 @@ private:
       on_root(communicator,
               [&]()
               {
-                write_note(level, "no equilibrium found; " + fine.why);
+                output->write_note(level, "no equilibrium found; " + fine.why);
                 output->write_unreached(level, sheet);
               });
       return false;
@@ -296,7 +296,7 @@ private:
             [&]()
             {
               for (const std::string &note : notes_of(fine, stability))
-                write_note(level, note);
+                output->write_note(level, note);
             });
     largest_residual = std::max(largest_residual, fine.relative_residual);
     UpsampledLevel solved;
@@ -314,8 +314,8 @@ private:
               }
               catch (const meshes::NotConverged &failure)
               {
-                write_note(level,
-                           std::string("the coarse cloth found no equilibrium; ") + failure.what());
+                output->write_note(level, std::string("the coarse cloth found no equilibrium; ") +
+                                            failure.what());
                 output->write_unreached(level, sheet);
               }
             });
@@ -327,16 +327,10 @@ private:
               [&]()
               {
                 if (!fault.empty())
-                  write_note(level, "error budget: " + fault);
+                  output->write_note(level, "error budget: " + fault);
               });
     }
     return is_solved == 1;
-  }
-
-  /// A remark on a level, for the terminal and the report.
-  void write_note(const StrainLevel &level, const std::string &text)
-  {
-    output->write_note(level, text);
   }
 
   std::vector<Verdict> conclude()

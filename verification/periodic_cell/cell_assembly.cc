@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "verification/reference/cell_assembly.h"
+#include "verification/periodic_cell/cell_assembly.h"
 
 #include <Eigen/LU>
 

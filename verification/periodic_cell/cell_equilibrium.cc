@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "verification/reference/cell_equilibrium.h"
+#include "verification/periodic_cell/cell_equilibrium.h"
 
 #include "meshes/plain/errors.h"
 

@@ -6,7 +6,7 @@
 //   stationary; then t_i = P : G_i, P the mean nominal stress (Hill-Mandel).
 #pragma once
 
-#include "verification/reference/cell_assembly.h"
+#include "verification/periodic_cell/cell_assembly.h"
 
 #include <Eigen/Core>
 

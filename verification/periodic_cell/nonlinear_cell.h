@@ -11,8 +11,8 @@
 #pragma once
 
 #include "meshes/plain/homogenized_cell.h"
-#include "verification/reference/cell_assembly.h"
-#include "verification/reference/cell_equilibrium.h"
+#include "verification/periodic_cell/cell_assembly.h"
+#include "verification/periodic_cell/cell_equilibrium.h"
 #include "verification/reference/laws.h"
 
 #include <Eigen/Core>

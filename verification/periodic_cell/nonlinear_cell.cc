@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "verification/reference/nonlinear_cell.h"
+#include "verification/periodic_cell/nonlinear_cell.h"
 
 #include "meshes/plain/errors.h"
 
