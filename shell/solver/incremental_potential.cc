@@ -157,6 +157,14 @@ Vectors IncrementalPotential::linear_step(const Vectors &positions, const Vector
   return step;
 }
 
+double IncrementalPotential::round_off_of(const double value, const Vectors &positions,
+                                          const Residual &residual)
+{
+  return std::numeric_limits<double>::epsilon() * std::sqrt(static_cast<double>(positions.rows())) *
+           positions.cwiseAbs().maxCoeff() * residual.size +
+         1e-13 * std::abs(value);
+}
+
 void IncrementalPotential::minimize(const Vectors &inertial, const double h,
                                     const std::function<bool(const Vectors &)> &is_enough,
                                     Vectors &positions, SolveCounts &counts)
@@ -198,12 +206,7 @@ void IncrementalPotential::minimize(const Vectors &inertial, const double h,
     if (!solved)
       throw meshes::NotConverged("the step's matrix is not positive definite", history);
     const double slope = -forces.cwiseProduct(step).sum();
-    // What the potential changes by when every position moves by one rounding, and round-off of its
-    // sum.
-    const double slack = std::numeric_limits<double>::epsilon() *
-                           std::sqrt(static_cast<double>(m.size())) *
-                           positions.cwiseAbs().maxCoeff() * residual.size +
-                         1e-13 * std::abs(potential);
+    const double slack = round_off_of(potential, positions, residual);
     for (double length = 1.;; length *= 0.5)
     {
       if (length < 1e-6)

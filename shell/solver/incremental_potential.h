@@ -92,6 +92,10 @@ public:
   Residual assemble(const Vectors &positions, const Vectors &inertial, double inverse_square,
                     Hessian kind);
 
+  /// What rounding does to a value of Φ [J]: what it changes by when every position moves by one
+  /// rounding, which counts where its terms cancel, and the round-off of its sum.
+  static double round_off_of(double value, const Vectors &positions, const Residual &residual);
+
   /// dΦ/dx of the last assemble() (n,3) [N].
   const Vectors &gradient() const
   {

@@ -271,7 +271,7 @@ class Workshop:
         return worst, claims, unusual
 
     def measured(self, mutant):
-        """The row of a mutant."""
+        """The row of a mutant. Where no line of it is executed the program is not asked."""
         row = {"mutant": mutant.name, "kind": mutant.kind, "file": mutant.file,
                "noticed_by_test": "", "seconds_to_notice": "", "noticed_by_program": "",
                "builds": "false"}
@@ -280,11 +280,13 @@ class Workshop:
                 row["builds"] = "true"
                 with concurrent.futures.ThreadPoolExecutor() as both:
                     tests = both.submit(self.ask_tests)
-                    program = both.submit(self.ask_program, self.usual)
+                    executed = executed_in(self.work)
+                    is_asked = executed is None or mutant.name in executed
+                    program = both.submit(self.ask_program, self.usual) if is_asked else None
                 test, seconds = tests.result()
                 if test:
                     row.update(noticed_by_test=test, seconds_to_notice=f"{seconds:.1f}")
-                row["noticed_by_program"] = program.result()[2]
+                row["noticed_by_program"] = program.result()[2] if program else ""
         return row
 
     def tried(self, mutant):

@@ -3,7 +3,6 @@
 
 #include "homogenization/fem/homogenize.h"
 #include "homogenization/lint/cell_reading.h"
-#include "meshes/files/write_whole.h"
 #include "meshes/plain/errors.h"
 #include "meshes/plain/sheet.h"
 #include "verification/cell/study_inputs.h"
@@ -248,8 +247,7 @@ private:
             [&]()
             {
               verdicts = record->verdicts();
-              meshes::write_whole(options.output + "/verdicts.json",
-                                  json_text(to_json(verdicts, options.command)));
+              write_json(options.output + "/verdicts.json", to_json(verdicts, options.command));
               const double seconds =
                 std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
               nlohmann::ordered_json all_notes = notes(options);
@@ -258,17 +256,16 @@ private:
               for (const std::string &note : unfinished)
                 all_notes.push_back(note);
               const unsigned int n_ranks = n_ranks_of(communicator);
-              meshes::write_whole(
-                options.output + "/study.json",
-                json_text({{"command", options.command},
-                           {"studies", options.studies},
-                           {"quick", options.quick},
-                           {"ranks", n_ranks},
-                           {"seconds_total", seconds},
-                           {"resumed", folder->is_taken_up()},
-                           {"left_out", what_was_left_out(options, record->levels())},
-                           {"notes", all_notes},
-                           {"provenance", provenance(n_ranks)}}));
+              write_json(options.output + "/study.json",
+                         {{"command", options.command},
+                          {"studies", options.studies},
+                          {"quick", options.quick},
+                          {"ranks", n_ranks},
+                          {"seconds_total", seconds},
+                          {"resumed", folder->is_taken_up()},
+                          {"left_out", what_was_left_out(options, record->levels())},
+                          {"notes", all_notes},
+                          {"provenance", provenance(n_ranks)}});
               folder->finish();
             });
     share_failure(verdicts, communicator);

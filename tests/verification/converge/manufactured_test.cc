@@ -12,6 +12,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 
 using namespace homespun;
 using namespace homespun::verification;
@@ -341,7 +342,11 @@ TEST(tripwire_manufactured, an_algebraic_error_that_was_not_measured_proves_no_o
     EXPECT_EQ(with(first, 0.1 * finest).L2.outcome, Outcome::inconclusive) << first;
     EXPECT_EQ(with(first, 0.1 * finest).H1.outcome, Outcome::inconclusive) << first;
   }
-  const ManufacturedClaims never = with(1., 1.);
+  // A step that jumps from above 1e8 tolerances below one takes at least as much off the error.
+  EXPECT_NEAR(with(1e-3, 1e5 * finest).algebraic_share, 1e-3, 1e-9);
+  EXPECT_EQ(with(1e-3, 1e5 * finest).L2.outcome, Outcome::pass);
+  EXPECT_EQ(with(1e-3, 1e7 * finest).L2.outcome, Outcome::inconclusive);
+  const ManufacturedClaims never = with(std::numeric_limits<double>::infinity(), 1.);
   EXPECT_TRUE(std::isnan(never.algebraic_share));
   EXPECT_EQ(never.L2.outcome, Outcome::inconclusive);
 }
