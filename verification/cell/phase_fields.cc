@@ -4,6 +4,7 @@
 #include <Eigen/Eigenvalues>
 
 #include <array>
+#include <cmath>
 #include <string>
 
 namespace homespun::verification
@@ -52,7 +53,10 @@ Eigen::Matrix2d principal_vectors(const Eigen::Vector3d &components)
   for (int k = 0; k < 2; ++k)
   {
     const Eigen::Vector2d along = principal.eigenvectors().col(1 - k);
-    const bool is_turned        = along(0) < 0. || (along(0) == 0. && along(1) < 0.);
+    // Which way a vertical one points must not hang on the round-off of its first component.
+    constexpr double vertical = 1e-6;
+    const bool is_turned =
+      along(0) < -vertical || (std::abs(along(0)) <= vertical && along(1) < 0.);
     vectors.row(k) = (is_turned ? -1. : 1.) * principal.eigenvalues()(1 - k) * along.transpose();
   }
   return vectors;

@@ -24,6 +24,7 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <set>
 
 namespace homespun::verification
 {
@@ -142,7 +143,8 @@ Verdict verdict_on_work(const std::string &what, const WorkCheck &check)
           check.difference,
           "<= " + short_text(check.bar),
           "central differences of steps h and 2h differ by three times the error of the first; and "
-          "the rounding of the energy over h; open where that is more than a thousandth of the "
+          "the rounding of the energy and of its gradients over h; open where that is more than a "
+          "thousandth of the "
           "work",
           Kind::program};
 }
@@ -202,9 +204,15 @@ public:
 private:
   void open()
   {
+    std::set<std::string> names;
     for (const std::string &file : options.measured)
       for (const MeasuredRow &row : read_measured_curve(file))
+      {
+        if (row.point == 1 && !names.insert(row.curve).second)
+          throw meshes::BadInput(file + ": another measured curve is called `" + row.curve +
+                                 "` too; expected files of different names: rename one");
         measured.push_back(row);
+      }
     nlohmann::ordered_json inputs = {{"control", options.control.text()},
                                      {"axis", options.control.axis},
                                      {"steps", options.n_steps},
@@ -298,21 +306,20 @@ private:
       {{"what", "edges and clamps"}, {"why", "an infinite cloth has none; `homespun strain` has"}}};
     if (measured.empty())
       left_out.push_back({{"what", "measured curves"}, {"why", "--measured names no file"}});
-    meshes::write_whole(
-      options.output + "/study.json",
-      json_text({{"command", options.command},
-                 {"control", options.control.text()},
-                 {"axis", options.control.axis},
-                 {"laws", laws},
-                 {"ranks", n_ranks_of(communicator)},
-                 {"seconds_total",
-                  std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count()},
-                 {"resumed", false},
-                 {"left_out", left_out},
-                 {"notes", all_notes},
-                 {"provenance", provenance(n_ranks_of(communicator))}}));
-    meshes::write_whole(options.output + "/verdicts.json",
-                        json_text(to_json(verdicts, options.command)));
+    const double seconds =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    write_json(options.output + "/study.json",
+               {{"command", options.command},
+                {"control", options.control.text()},
+                {"axis", options.control.axis},
+                {"laws", laws},
+                {"ranks", n_ranks_of(communicator)},
+                {"seconds_total", seconds},
+                {"resumed", false},
+                {"left_out", left_out},
+                {"notes", all_notes},
+                {"provenance", provenance(n_ranks_of(communicator))}});
+    write_json(options.output + "/verdicts.json", to_json(verdicts, options.command));
     folder->finish();
   }
 

@@ -28,7 +28,7 @@ struct LoadStudyOptions
 };
 
 /// Solves all paths on the first rank, writes load.csv, measured.csv where there is any, study.json
-/// and verdicts.json. A law that is taken up is not solved again.
+/// and verdicts.json. Paths are short: a run that goes on solves all of them again.
 /// @throws BadInput, NotConverged where the cell cannot be homogenized
 std::vector<Verdict> run_load_study(const LoadStudyOptions &options, MPI_Comm communicator);
 } // namespace homespun::verification

@@ -67,8 +67,12 @@ std::vector<MeasuredRow> read_measured_curve(const std::string &file)
       std::find_if(taken.begin(), taken.end(),
                    [&](const TakenColumn &one) { return one.name == without_blanks(name); });
     of_field.push_back(column == taken.end() ? nullptr : &*column);
-    if (column != taken.end())
-      found.push_back(column->name);
+    if (column == taken.end())
+      continue;
+    if (std::find(found.begin(), found.end(), column->name) != found.end())
+      throw meshes::BadInput(file + ": has the column `" + column->name +
+                             "` twice; expected it once");
+    found.push_back(column->name);
   }
   const auto has = [&](const std::string &name)
   { return std::find(found.begin(), found.end(), name) != found.end(); };

@@ -38,7 +38,10 @@ ALLOWED = {
         r"(?:Eq\.|Equation|Figures?|Figs?\.) \d+(?:(?: and |, )\d+)*"
     ),
     "axes": r"\baxis \d|\b11, 22, 12\b",
-    "versions": r"(?:Debian|version|C\+\+|homespun|homespun_)\s?\d+(?:\.\d+)*\S*",
+    "versions": (
+        r"(?:Debian|version|C\+\+|homespun|homespun_|GCC|deal\.II|HDF5|Eigen|Python)"
+        r"\s?\d+(?:\.\d+)*\S*"
+    ),
     "counts of commands": r"\b\d+ commands?\b",
     "ranks and threads": r"\b\d+ (?:MPI )?(?:ranks?|threads?|cores?|processors?)\b",
     "dimensions": r"\b[23]D\b|\bin 3 dimensions\b",

@@ -79,6 +79,12 @@ ForceRow affine_row(const StrainLevel &level, const ResolvedLevel &resolved,
   const Eigen::Matrix2d sides  = resolved.sheet.sides();
   const Eigen::Matrix2d stress = motion.at(coarse.positions).stress;
   put_stress(stress, row);
+  if (load.has_free_sides())
+  {
+    // The free strains of the motion do work too: no stress alone is the derivative of the energy.
+    row.per_width = motion.slope(coarse) / std::abs(sides.determinant());
+    return row;
+  }
   if (load.is_periodic())
   {
     // The motion is given: its slope is that of the macro strain alone.

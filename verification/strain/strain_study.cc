@@ -359,13 +359,11 @@ private:
                 for (const std::string &note : budget_notes(output->strain_rows(), rows))
                   notes.push_back(note);
               }
-              write_whole(options.output + "/verdicts.json",
-                          json_text(to_json(verdicts, options.command)));
-              write_whole(
+              write_json(options.output + "/verdicts.json", to_json(verdicts, options.command));
+              write_json(
                 options.output + "/study.json",
-                json_text(describe(
-                  options, {output->strain_rows(), output->step_rows(), notes},
-                  {seconds, peak_memory, largest_residual, n_ranks, folder->is_taken_up()})));
+                describe(options, {output->strain_rows(), output->step_rows(), notes},
+                         {seconds, peak_memory, largest_residual, n_ranks, folder->is_taken_up()}));
               folder->finish();
             });
     share_failure(verdicts, communicator);

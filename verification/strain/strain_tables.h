@@ -3,6 +3,7 @@
 #pragma once
 
 #include "verification/record/table.h"
+#include "verification/record/validity_table.h"
 
 #include <limits>
 #include <string>
@@ -134,7 +135,8 @@ struct NoteRow
 /// - affine: derivative of the energy that the resolved sheet has where the coarse motion,
 ///   interpolated, puts it; in linear theory not below that of `resolved`
 /// The load takes a force along the motion of the moving clamp, positive where that does work; of
-/// an infinite cloth the nominal stress that does the work stands for the force per width.
+/// an infinite cloth the nominal stress that does the work stands for the force per width; where
+/// its sides are free, the derivative of the affine motion's energy, of which they are a part.
 struct ForceRow
 {
   static constexpr const char *file   = "forces.csv";
@@ -248,40 +250,6 @@ struct RunTimeRow
     column("ranks", &RunTimeRow::ranks, Domain::positive);
     column("threads", &RunTimeRow::threads, Domain::positive);
     column("note", &RunTimeRow::note, Domain::text);
-  }
-};
-
-/// validity.csv: the largest strain within a limit. `relation`:
-///   =  the crossing was found
-///   >  the limit is kept at every level; `largest` is the largest level
-///   -  it is exceeded at the smallest level, `largest` is empty and `note` says by how much
-/// `lower` and `upper` are where the error with the reference's error bar added, and taken off,
-/// meets the limit.
-struct ValidityRow
-{
-  static constexpr const char *file   = "validity.csv";
-  static constexpr std::size_t n_keys = 5;
-  static constexpr double none        = std::numeric_limits<double>::quiet_NaN();
-
-  std::string cell, load, reference, measure;
-  double limit = 0.;
-  std::string relation;
-  double largest = none, lower = none, upper = none;
-  std::string note;
-
-  template <typename Column>
-  static void columns(Column &&column)
-  {
-    column("cell", &ValidityRow::cell, Domain::name);
-    column("load", &ValidityRow::load, Domain::name);
-    column("reference", &ValidityRow::reference, Domain::name);
-    column("measure", &ValidityRow::measure, Domain::name);
-    column("limit", &ValidityRow::limit, Domain::positive);
-    column("relation", &ValidityRow::relation, Domain::name);
-    column("largest_strain", &ValidityRow::largest, Domain::not_negative);
-    column("largest_strain_lower", &ValidityRow::lower, Domain::not_negative);
-    column("largest_strain_upper", &ValidityRow::upper, Domain::not_negative);
-    column("note", &ValidityRow::note, Domain::text);
   }
 };
 } // namespace homespun::verification

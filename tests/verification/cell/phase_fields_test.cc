@@ -110,6 +110,16 @@ TEST(exact_phase_fields, principal_vectors_are_along_the_axes_of_a_turned_tensor
   }
 }
 
+TEST(exact_phase_fields, a_vertical_principal_vector_points_one_way_whatever_rounding_says)
+{
+  for (const double shear : {0., 1e-17, -1e-17, 1e-9, -1e-9})
+  {
+    const Eigen::Matrix2d vectors = principal_vectors({1., 3., shear});
+    EXPECT_GT(vectors(0, 1), 0.) << shear;
+    EXPECT_GT(vectors(1, 0), 0.) << shear;
+  }
+}
+
 // What ParaView reads: of each macro strain both fields with two vectors each, in three components.
 TEST(exact_phase_fields, the_data_of_a_file_hold_them_with_half_of_the_shear_in_the_directions)
 {

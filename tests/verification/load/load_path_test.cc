@@ -12,6 +12,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <sstream>
 
 using namespace homespun;
 using namespace homespun::verification;
@@ -166,6 +167,27 @@ TEST(derivative_load, the_work_of_the_stresses_is_the_derivative_of_the_energy)
       const WorkCheck of_wrong = check_work(assembly, mixed, path);
       EXPECT_GT(of_wrong.difference, of_wrong.bar);
     }
+}
+
+// At a small strain gradients are 1 and the strain: what their rounding does is in the bar.
+TEST(bound_load, the_work_is_the_derivative_of_the_energy_at_small_strains_too)
+{
+  for (const char *name : {"layered", "plain-weave"})
+  {
+    const Cell cell(name);
+    for (const Law law : {Law::linear, Law::biot})
+      for (double strain = 1e-8; strain < 0.005; strain *= 3.)
+      {
+        const CellAssembly assembly(cell.homogenized, cell.phases, law);
+        std::ostringstream text;
+        text << "22=" << strain;
+        const LoadPath path = load_path(assembly, control({}, {text.str()}, 1), 1);
+        ASSERT_EQ(path.levels.size(), 1u);
+        const LoadControl pulled = control({}, {text.str()}, 1);
+        const WorkCheck check    = check_work(assembly, pulled, path);
+        EXPECT_LE(check.difference, check.bar) << name << " " << name_of(law) << " " << strain;
+      }
+  }
 }
 
 TEST(invariant_load, no_moment_is_left_whichever_axis_keeps_its_direction)
