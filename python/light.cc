@@ -5,6 +5,7 @@
 
 #include "localization/upsampler.h"
 #include "meshes/files/cell_file.h"
+#include "meshes/files/format_version.h"
 #include "python/arrays.h"
 
 #include <pybind11/stl.h>
@@ -147,6 +148,13 @@ PYBIND11_MODULE(_light, module)
   module.doc() = "Cells, cloths and up-sampling; see the package homespun.";
   py::register_exception<meshes::BadInput>(module, "BadInput", PyExc_ValueError);
   py::register_exception<meshes::NotConverged>(module, "NotConverged", PyExc_RuntimeError);
+  const char *const why_not = "Why a file of this format_version is not read; empty where it is.";
+  module.def("fault_of_format",
+             py::overload_cast<const std::string &, int>(&meshes::fault_of_format), py::arg("path"),
+             py::arg("found"), why_not);
+  module.def("fault_of_format",
+             py::overload_cast<const std::string &, const std::string &>(&meshes::fault_of_format),
+             py::arg("path"), py::arg("found"), why_not);
   declare_cell(module);
   declare_sheet(module);
   declare_cloth(module);

@@ -3,6 +3,7 @@
 //   /vertices (n,2) [m]   /triangles (m,3)   /material (m)   /lattice (2,2) [m], rows a1, a2
 //   /chi (n,2,3) [m], vertex, component, load; attribute `anchor`: the vertex where chi is zero
 //   /C (3,3) [N/m]        /areal_density [kg/m^2]            attribute `provenance` of the file
+//   attribute `format_version` of the file (format_version.h)
 //   attribute `place_of_cut` of the file, where the cell is not cut from the cloth as it is drawn
 #pragma once
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "meshes/files/hdf5_reader.h"
 
+#include "meshes/files/format_version.h"
 #include "meshes/files/hdf5_writer.h"
 #include "meshes/plain/errors.h"
 
@@ -83,6 +84,19 @@ Hdf5Reader::Hdf5Reader(const std::string &path, const std::string &expected)
   require(file >= 0, path +
                        ": is not a readable HDF5 file (truncated, or of another kind); expected " +
                        expected);
+  if (const std::string fault = fault_of_version(); !fault.empty())
+  {
+    H5Fclose(file);
+    throw BadInput(fault);
+  }
+}
+
+std::string Hdf5Reader::fault_of_version() const
+{
+  if (H5Aexists_by_name(file, "/", "format_version", H5P_DEFAULT) <= 0)
+    return "";
+  const std::optional<int> found = integer_attribute("/", "format_version");
+  return found ? fault_of_format(path, *found) : fault_of_format(path, "that is no single number");
 }
 
 Hdf5Reader::~Hdf5Reader()

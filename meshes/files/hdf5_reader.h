@@ -14,7 +14,7 @@ namespace homespun::meshes
 class Hdf5Reader
 {
 public:
-  /// @throws BadInput where it is no readable HDF5 file
+  /// @throws BadInput where it is no readable HDF5 file, or its `format_version` is not known here
   /// @param expected what the reader hoped for, to end the message with
   Hdf5Reader(const std::string &path, const std::string &expected);
   Hdf5Reader(const Hdf5Reader &)            = delete;
@@ -48,6 +48,7 @@ public:
                                             const std::string &name) const;
 
 private:
+  std::string fault_of_version() const;
   bool is_hard_link(const std::string &name) const;
   bool is_here(std::int64_t dataset) const;
   template <typename Number>

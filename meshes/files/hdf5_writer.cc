@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "meshes/files/hdf5_writer.h"
 
+#include "meshes/files/format_version.h"
 #include "meshes/files/write_whole.h"
 #include "meshes/plain/errors.h"
 
@@ -20,6 +21,12 @@ void require(const bool condition, const std::string &message)
 {
   if (!condition)
     throw BadInput(message);
+}
+
+/// In HDF5's own integer, which is not the same in all of its versions.
+std::vector<hsize_t> sizes_of(const Hdf5Writer::Shape &shape)
+{
+  return {shape.begin(), shape.end()};
 }
 } // namespace
 
@@ -43,16 +50,16 @@ Hdf5Writer::~Hdf5Writer()
 void Hdf5Writer::write(const std::string &name, const Shape &shape, const double *values,
                        const std::string &unit)
 {
-  require(H5LTmake_dataset_double(file, name.c_str(), static_cast<int>(shape.size()), shape.data(),
-                                  values) >= 0,
+  require(H5LTmake_dataset_double(file, name.c_str(), static_cast<int>(shape.size()),
+                                  sizes_of(shape).data(), values) >= 0,
           path + ": dataset " + name + " finds no memory");
   attribute(name, "unit", unit);
 }
 
 void Hdf5Writer::write(const std::string &name, const Shape &shape, const int *values)
 {
-  require(H5LTmake_dataset_int(file, name.c_str(), static_cast<int>(shape.size()), shape.data(),
-                               values) >= 0,
+  require(H5LTmake_dataset_int(file, name.c_str(), static_cast<int>(shape.size()),
+                               sizes_of(shape).data(), values) >= 0,
           path + ": dataset " + name + " finds no memory");
 }
 
@@ -77,6 +84,7 @@ void Hdf5Writer::attribute(const std::string &object, const std::string &name, c
 
 void Hdf5Writer::finish()
 {
+  attribute("/", "format_version", format_version);
   const ssize_t size =
     H5Fflush(file, H5F_SCOPE_GLOBAL) >= 0 ? H5Fget_file_image(file, nullptr, 0) : -1;
   std::string bytes(size > 0 ? static_cast<std::size_t>(size) : 0, '\0');

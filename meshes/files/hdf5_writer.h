@@ -33,7 +33,7 @@ public:
   void attribute(const std::string &object, const std::string &name, int value);
   void attribute(const std::string &object, const std::string &name, double value);
 
-  /// Writes the file.
+  /// Writes the file, with the attribute `format_version` (format_version.h).
   /// @throws BadInput where the folder is absent or not writable, or the disk is full
   void finish();
 

@@ -6,6 +6,7 @@
 
 #include "meshes/cloth/cloth_faults.h"
 #include "meshes/cloth/cloth_mesh.h"
+#include "meshes/files/polygons.h"
 
 #include <string>
 
@@ -20,12 +21,19 @@ namespace homespun::meshes
 /// @throws BadInput with the faults of all lines, or else those of cloth_faults()
 ClothMesh read_cloth(const std::string &file, double vt_unit = 1.);
 
+/// A cloth that is flat at rest, made of its rest mesh in the plane z = const: x and y are the rest
+/// coordinates. Quadrilaterals are cut as by read_cloth().
+/// @param mesh [m]
+/// @param name put before each message, usually the file
+/// @throws BadInput where it is not flat, or with cloth_faults()
+ClothMesh flat_cloth(const Polygons &mesh, const std::string &name);
+
 /// Reads a closed surface, an obstacle; vt are not needed. A quadrilateral is cut along its shorter
 /// diagonal.
 /// @throws BadInput with the faults of all lines, or else those of surface_faults()
 Surface read_surface(const std::string &file);
 
-/// Writes positions and triangles; 17 digits, so that reading gives the same numbers.
+/// Writes positions and triangles with as many digits as read back the same numbers.
 /// @throws BadInput where a position is not finite, or the file cannot be written
 void write_obj(const std::string &file, const SpacePoints &positions, const Triangles &triangles);
 

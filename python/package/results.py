@@ -1,11 +1,12 @@
 # SPDX-License-Identifier: MIT
 """Tables of a run of the program, as NumPy's structured arrays."""
 import csv
+import json
 import pathlib
 
 import numpy
 
-from ._light import BadInput
+from ._light import BadInput, fault_of_format
 
 
 def _column(texts):
@@ -26,13 +27,28 @@ def _table(path):
     return table
 
 
+def _check_format(path):
+    """Refuses what a newer homespun wrote: the tables of a folder have the format of its run."""
+    try:
+        version = json.loads(path.read_text(encoding="utf-8")).get("format_version", 0)
+    except FileNotFoundError:
+        return  # tables by themselves
+    except (ValueError, AttributeError) as error:
+        raise BadInput(f"{path}: is damaged; expected what homespun writes there") from error
+    fault = fault_of_format(str(path), version if type(version) is int else json.dumps(version))
+    if fault:
+        raise BadInput(fault)
+
+
 def results(folder):
     """{name: table} of the .csv files of a folder, `results("out/dots/strain")["strain"]`.
 
-    Columns are those of the file; numbers read back as they were written."""
+    Columns are those of the file; numbers read back as they were written. A run of a newer homespun
+    (`format_version` of its run.json) raises BadInput."""
     folder = pathlib.Path(folder)
     paths = sorted(folder.glob("*.csv"))
     if not paths:
         raise BadInput(f"{folder}: holds no .csv; expected a folder that `homespun strain`, "
                        "`converge`, `drape` or `stress` has written")
+    _check_format(folder / "run.json")
     return {path.stem: _table(path) for path in paths}

@@ -248,7 +248,7 @@ class Importing(unittest.TestCase):
         self.assertNotIn("True", out)
 
 
-class Results(unittest.TestCase):
+class Results(WithCell):
     def test_tables_of_a_folder(self):
         with tempfile.TemporaryDirectory(prefix="homespun-python-") as folder:
             self.assertRaises(ValueError, homespun.results, folder)
@@ -260,6 +260,28 @@ class Results(unittest.TestCase):
             self.assertEqual(table["error_mean_m"][0], 1.2345678901234567e-05)
             self.assertTrue(numpy.isnan(table["error_mean_m"][1]))
             self.assertEqual(table[table["load"] == "strip-2"]["strain"], [0.1])
+
+    def test_tables_of_a_newer_format_are_refused_and_older_ones_read(self):
+        with tempfile.TemporaryDirectory() as folder:
+            pathlib.Path(folder, "strain.csv").write_text("load,strain\na,1\n", encoding="utf-8")
+            run = pathlib.Path(folder, "run.json")
+            for text in ('{"format": 1}', '{"format_version": 1}'):
+                run.write_text(text, encoding="utf-8")
+                self.assertEqual(homespun.results(folder)["strain"]["strain"], [1.])
+            for text, words in (
+                    ('{"format_version": 2}', "run.json: found format_version 2; expected at most"),
+                    ('{"format_version": "x"}', 'found format_version "x"; expected a whole'),
+                    ('{"format_version"', "run.json: is damaged")):
+                run.write_text(text, encoding="utf-8")
+                self.refused(lambda: homespun.results(folder), words)
+            import h5py
+            newer = os.path.join(folder, "newer.h5")
+            self.cell.write(newer)
+            with h5py.File(newer, "a") as file:
+                self.assertEqual(file.attrs["format_version"], 1)
+                file.attrs["format_version"] = 2
+            self.refused(lambda: homespun.Cell.read(newer),
+                         "newer.h5: found format_version 2; expected at most 1")
 
 
 if __name__ == "__main__":

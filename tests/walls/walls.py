@@ -65,11 +65,13 @@ MAY_INCLUDE = {
                           "meshes/plain", "meshes/files"} | CELLS,
     "verification/scaling": {"meshes/plain", "meshes/files", "verification/record",
                              "verification/cell"} | CELLS,
+    "verification/upsample": {"meshes/plain", "meshes/files", "meshes/cloth", "meshes/garment",
+                              "verification/record", "localization"},
     "verification/program": {"verification/record", "verification/cell", "verification/method",
                              "verification/budget", "verification/strain",
                              "verification/converge", "verification/drape",
                              "verification/extremes", "verification/load",
-                             "verification/scaling",
+                             "verification/scaling", "verification/upsample",
                              "meshes/plain", "meshes/files"} | CELLS,
 }
 FOLDERS = sorted({wing.split("/")[0] for wing in MAY_INCLUDE})

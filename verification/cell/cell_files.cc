@@ -317,14 +317,13 @@ void write_cell_results(const UnitCell &cell, const AssessedCell &assessed,
 {
   meshes::write_cell(homogenized_cell(cell, assessed, provenance_line()), folder + "/cell.h5");
   write_vtu(cell, assessed, folder + "/characteristic-displacements.vtu");
-  meshes::write_whole(folder + "/cell.json", json_text(cell_json(cell)));
+  write_json(folder + "/cell.json", cell_json(cell));
   if (assessed.bending && assessed.bending->bracket)
   {
     const ShellSection section = section_of(cell, assessed);
     meshes::write_whole(folder + "/shell-section-abaqus.inp", abaqus_section(section));
     meshes::write_whole(folder + "/shell-section-code_aster.comm", aster_section(section));
   }
-  meshes::write_whole(folder + "/homogenize.json",
-                      json_text(homogenize_json(cell, assessed, uncertain, n_ranks)));
+  write_json(folder + "/homogenize.json", homogenize_json(cell, assessed, uncertain, n_ranks));
 }
 } // namespace homespun::verification

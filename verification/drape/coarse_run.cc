@@ -141,10 +141,10 @@ CoarseRun run_coarse(const DrapedCell &draped, const std::string &variant,
     // Of the variants one picture is enough: the report shows their curves.
     if (run.is_method() || frame == schedule.n_frames)
     {
-      output.write_frame(name, "coarse", frame, run.frames.back().cast<float>(),
-                         draped.coarse.triangles, {}, &coarse_list);
-      output.write_frame(name, "fine", frame, fine, draped.fine_triangles(), draped.fine_data(),
-                         &fine_list);
+      output.write_frame(name, "coarse", frame, run.frames.back(), draped.coarse.triangles, {},
+                         &coarse_list);
+      output.write_frame(name, "fine", frame, fine.cast<double>(), draped.fine_triangles(),
+                         draped.fine_data(), &fine_list);
     }
     if (frame > 0)
       progress.done();

@@ -84,7 +84,7 @@ TermRow DrapeOutput::term_row(const std::string &cell, const std::string &term) 
 }
 
 void DrapeOutput::write_frame(const std::string &run, const std::string &what, const int frame,
-                              const meshes::FloatPoints &positions,
+                              const meshes::SpacePoints &positions,
                               const meshes::Triangles &triangles, const meshes::SurfaceData &data,
                               meshes::FrameCollection *collection) const
 {
@@ -93,12 +93,13 @@ void DrapeOutput::write_frame(const std::string &run, const std::string &what, c
     const std::string name = frame_name(what, frame, format);
     const std::string path = folder + "/" + run + "/" + name;
     if (format == "ply")
-      meshes::write_ply(path, positions, triangles);
+      meshes::write_ply(path, positions.cast<float>(), triangles);
     else if (format == "obj")
-      meshes::write_obj(path, positions.cast<double>(), triangles);
+      meshes::write_obj(path, positions, triangles);
     else
     {
-      meshes::write_vtu(path, positions, triangles, data.on_vertices, data.on_triangles);
+      meshes::write_vtu(path, positions.cast<float>(), triangles, data.on_vertices,
+                        data.on_triangles);
       if (collection)
         collection->append(frame * interval, name);
     }

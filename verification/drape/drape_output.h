@@ -4,6 +4,7 @@
 // frames.
 #pragma once
 
+#include "meshes/cloth/cloth_mesh.h"
 #include "meshes/files/surface_files.h"
 #include "verification/drape/drape_tables.h"
 #include "verification/drape/held_forces.h"
@@ -77,11 +78,12 @@ public:
     return terms->contains(row);
   }
 
-  /// A frame on the disk in every format; the .vtu is listed in the collection, where there is one.
+  /// A frame on the disk in every format, in single precision but for .obj; the .vtu is listed in
+  /// the collection, where there is one.
   /// @param run folder of the run, in that of the study
   /// @param what coarse or fine
   void write_frame(const std::string &run, const std::string &what, int frame,
-                   const meshes::FloatPoints &positions, const meshes::Triangles &triangles,
+                   const meshes::SpacePoints &positions, const meshes::Triangles &triangles,
                    const meshes::SurfaceData &data, meshes::FrameCollection *collection) const;
 
   /// Lists the frames that an earlier run wrote.

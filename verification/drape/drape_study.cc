@@ -3,7 +3,6 @@
 
 #include "homogenization/lint/cell_reading.h"
 #include "meshes/files/obj_file.h"
-#include "meshes/files/write_whole.h"
 #include "meshes/plain/errors.h"
 #include "shell/terms/membrane_term.h"
 #include "verification/cell/cell_study.h"
@@ -246,8 +245,8 @@ private:
                      comparison->compare(reference, frame, positions, bar, *output))
                   data.on_vertices.push_back(std::move(error));
                 output->write(motion);
-                output->write_frame(name, "fine", frame, positions.cast<float>(),
-                                    draped.fine_triangles(), data, list.get());
+                output->write_frame(name, "fine", frame, positions, draped.fine_triangles(), data,
+                                    list.get());
                 meshes::write_state(
                   {fine->positions(), velocities, fine->time(), frame, name_of_run, seconds},
                   state_file(name));
@@ -351,9 +350,8 @@ private:
                 {"cells", cell_descriptions},
                 {"parameters", scene.echo}};
               study.update(sizes);
-              meshes::write_whole(options.output + "/verdicts.json",
-                                  json_text(to_json(verdicts, options.command)));
-              meshes::write_whole(options.output + "/drape.json", json_text(study));
+              write_json(options.output + "/verdicts.json", to_json(verdicts, options.command));
+              write_json(options.output + "/drape.json", study);
               folder->finish();
             });
     share_failure(verdicts, communicator);

@@ -2,7 +2,6 @@
 #include "verification/extremes/stress_study.h"
 
 #include "homogenization/lint/cell_reading.h"
-#include "meshes/files/write_whole.h"
 #include "meshes/plain/errors.h"
 #include "meshes/plain/sheet.h"
 #include "verification/cell/cell_study.h"
@@ -217,8 +216,7 @@ private:
   {
     for (const Verdict &verdict : stress_verdicts(table->rows()))
       verdicts.push_back(verdict);
-    meshes::write_whole(options.output + "/verdicts.json",
-                        json_text(to_json(verdicts, options.command)));
+    write_json(options.output + "/verdicts.json", to_json(verdicts, options.command));
     nlohmann::ordered_json sheets = nlohmann::ordered_json::array();
     for (const SheetStiffness &sheet : stiffnesses)
     {
@@ -241,7 +239,7 @@ private:
       {"left_out", what_was_left_out(options.most_triangles, n_ranks())},
       {"notes", notes(unit_cells)},
       {"provenance", provenance(static_cast<unsigned int>(n_ranks()))}};
-    meshes::write_whole(options.output + "/study.json", json_text(study));
+    write_json(options.output + "/study.json", study);
     folder->finish();
   }
 

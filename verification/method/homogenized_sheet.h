@@ -9,9 +9,9 @@
 #include "meshes/plain/homogenized_cell.h"
 #include "meshes/plain/sheet.h"
 #include "shell/solver/equilibrium.h"
+#include "verification/periodic_cell/nonlinear_cell.h"
 #include "verification/reference/laws.h"
 #include "verification/reference/loads.h"
-#include "verification/periodic_cell/nonlinear_cell.h"
 
 #include <memory>
 #include <vector>

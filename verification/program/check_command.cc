@@ -4,13 +4,11 @@
 
 #include "homogenization/cell/cell_keys.h"
 #include "meshes/files/hdf5_writer.h"
-#include "meshes/files/write_whole.h"
 #include "meshes/plain/errors.h"
 #include "verification/program/commands.h"
 #include "verification/program/report_script.h"
 #include "verification/record/json_files.h"
 #include "verification/record/on_root.h"
-
 
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
@@ -162,9 +160,7 @@ void write_results(const std::vector<CellReading> &readings, const std::string &
     }
     cells.push_back(cell);
   }
-  const std::string text =
-    nlohmann::json{{"cells", cells}}.dump(2, ' ', false, nlohmann::json::error_handler_t::replace);
-  meshes::write_whole(output + "/check.json", text + "\n");
+  write_json(output + "/check.json", {{"cells", cells}});
 }
 
 int check(const CheckArguments &arguments, AfterMpi &afterwards)

@@ -15,6 +15,7 @@
 #include <CLI/Formatter.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cstdlib>
 #include <filesystem>
 #include <iostream>
@@ -65,7 +66,9 @@ bool is_launched()
 class Mpi
 {
 public:
-  void start(int &argc, char **&argv)
+  /// @param name of the program. The command line is not handed on: PETSc, which deal.II starts
+  ///   with MPI, would take our options for its own and warn of them at the end.
+  void start(char *const name)
   {
     if (running)
       return;
@@ -73,10 +76,14 @@ public:
     // MPI_Init; only processes that start others by MPI do.
     if (!is_launched())
       setenv("OMPI_MCA_ess_singleton_isolated", "1", 0);
-    running.emplace(argc, argv, 1);
+    arguments[0] = name;
+    running.emplace(n_arguments, first_argument, 1);
   }
 
 private:
+  int n_arguments = 1;
+  std::array<char *, 2> arguments{};
+  char **first_argument = arguments.data();
   std::optional<dealii::Utilities::MPI::MPI_InitFinalize> running;
 };
 
@@ -89,7 +96,7 @@ int run(int argc, char **argv, homespun::verification::AfterMpi &afterwards)
   // by itself starts it where a command needs it.
   Mpi mpi;
   if (is_launched())
-    mpi.start(argc, argv);
+    mpi.start(argv[0]);
   const bool is_root = homespun::verification::is_root(MPI_COMM_WORLD);
 
   std::string command_line = "homespun";
@@ -115,6 +122,7 @@ int run(int argc, char **argv, homespun::verification::AfterMpi &afterwards)
   add_homogenize_command(app, action);
   add_strain_command(app, action, afterwards, command_line);
   add_drape_command(app, action, afterwards, command_line);
+  add_upsample_command(app, action_without_mpi, command_line);
   add_stress_command(app, action, afterwards, command_line);
   add_converge_command(app, action, afterwards, command_line);
   add_verify_command(app, action, afterwards, command_line);
@@ -136,7 +144,7 @@ int run(int argc, char **argv, homespun::verification::AfterMpi &afterwards)
     return is_fault ? 2 : 0;
   }
   if (action)
-    mpi.start(argc, argv);
+    mpi.start(argv[0]);
   const int status = guarded(action ? action : action_without_mpi, is_root);
   // A launcher ends all ranks when one of them ends with another status than zero, and the first
   // one may have a report to make yet: what the claims come to is its word alone.

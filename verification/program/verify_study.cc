@@ -50,8 +50,8 @@ public:
     on_root(communicator,
             [&]()
             {
-              write_whole(options.output + "/verdicts.json",
-                          json_text(to_json(result.verdicts, options.command)));
+              write_json(options.output + "/verdicts.json",
+                         to_json(result.verdicts, options.command));
               folder->finish();
             });
     result.status = worse(result.status, status_of(result.verdicts));

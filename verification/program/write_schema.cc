@@ -10,6 +10,7 @@
 #include "verification/record/schema.h"
 #include "verification/scaling/scaling_tables.h"
 #include "verification/strain/strain_tables.h"
+#include "verification/upsample/upsample_tables.h"
 
 #include <cstdio>
 
@@ -44,6 +45,7 @@ int main(int argc, char **argv)
   add_to_schema<LoadRow>(schema);
   add_to_schema<MeasuredRow>(schema);
   add_to_schema<ScalingRun>(schema);
-  write_whole(argv[1], json_text(schema));
+  add_to_schema<UpsampleRow>(schema);
+  write_json(argv[1], schema);
   return exit_status::good;
 }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "verification/record/json_files.h"
 
+#include "meshes/files/format_version.h"
+
 #include <cmath>
 
 namespace homespun::verification
@@ -13,6 +15,13 @@ nlohmann::ordered_json json_number(const double value)
 std::string json_text(const nlohmann::ordered_json &json)
 {
   return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+}
+
+void write_json(const std::string &path, const nlohmann::ordered_json &json)
+{
+  nlohmann::ordered_json written = {{"format_version", meshes::format_version}};
+  written.update(json);
+  write_whole(path, json_text(written));
 }
 
 nlohmann::ordered_json to_json(const std::vector<Verdict> &verdicts, const std::string &command)

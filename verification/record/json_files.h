@@ -20,6 +20,10 @@ nlohmann::ordered_json json_number(double value);
 /// Text of a JSON file; names that are not UTF-8 are written with replacement characters.
 std::string json_text(const nlohmann::ordered_json &json);
 
+/// Writes a result as a JSON file, whole, with the key `format_version` (format_version.h) first.
+/// @throws BadInput where it cannot be written
+void write_json(const std::string &path, const nlohmann::ordered_json &json);
+
 /// {"verdicts": [{claim, kind, verdict, value, limit, derivation, command}]}
 nlohmann::ordered_json to_json(const std::vector<Verdict> &verdicts, const std::string &command);
 } // namespace homespun::verification

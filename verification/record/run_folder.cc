@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "verification/record/run_folder.h"
 
-#include "meshes/files/write_whole.h"
+#include "meshes/files/format_version.h"
 #include "meshes/plain/errors.h"
 #include "verification/record/checksum.h"
 #include "verification/record/json_files.h"
@@ -32,7 +32,6 @@ namespace fs = std::filesystem;
 namespace
 {
 constexpr double work_worth_keeping = 10.; ///< [s]
-constexpr int format                = 1;
 
 double now()
 {
@@ -78,13 +77,17 @@ std::optional<ordered_json> description_in(const std::string &folder)
     return {};
   std::ifstream input(path);
   ordered_json json = ordered_json::parse(input, nullptr, false);
+  const ordered_json version =
+    json.is_object() ? json.value("format_version", ordered_json(0)) : ordered_json(0);
+  if (const std::string fault = version.is_number_integer()
+                                  ? meshes::fault_of_format(path, version.get<int>())
+                                  : meshes::fault_of_format(path, version.dump());
+      !fault.empty())
+    throw BadInput(fault + ", or choose another --output");
   if (!json.is_object() || !json.contains("fingerprint") || !json["fingerprint"].is_string() ||
-      !json.contains("format") || !json.contains("seconds") || !json["seconds"].is_number())
+      !json.contains("seconds") || !json["seconds"].is_number())
     throw BadInput(path + ": is damaged; expected what homespun writes there: remove the folder, " +
                    "or choose another --output");
-  if (json["format"] != format)
-    throw BadInput(path + ": found format " + json["format"].dump() + "; expected " +
-                   std::to_string(format) + ": choose another --output");
   return json;
 }
 
@@ -93,9 +96,9 @@ std::optional<ordered_json> description_in(const std::string &folder)
 std::vector<std::string> foreign_files(const std::string &folder,
                                        const std::optional<ordered_json> &earlier)
 {
-  static const std::set<std::string> kinds = {".csv", ".json", ".h5",   ".vtu",  ".pvtu", ".pvd",
-                                              ".ply", ".obj",  ".html", ".svg",  ".png",  ".pdf",
-                                              ".js",  ".inp",  ".comm", ".webp", ".gif",  ".tmp"};
+  static const std::set<std::string> kinds = {
+    ".csv", ".json", ".h5",  ".vtu", ".pvtu", ".pvd",  ".ply",  ".obj", ".usda", ".html",
+    ".svg", ".png",  ".pdf", ".js",  ".inp",  ".comm", ".webp", ".gif", ".tmp"};
   std::vector<std::string> foreign;
   for (const std::string &file : files_in(folder))
   {
@@ -186,7 +189,7 @@ RunFolder::RunFolder(std::string path_of_folder, const RunDescription &descripti
     : path(std::move(path_of_folder))
     , began(now())
 {
-  json                          = {{"format", format},
+  json                          = {{"format_version", meshes::format_version},
                                    {"command", description.command},
                                    {"revision", revision()},
                                    {"inputs", description.inputs}};
@@ -279,7 +282,7 @@ void RunFolder::write(const bool is_finished) const
     written["seconds"] = json["seconds"].get<double>() + now() - began;
     written["files"]   = list_of_files(path);
   }
-  meshes::write_whole(path + "/run.json", json_text(written));
+  write_json(path + "/run.json", written);
 }
 
 std::unique_ptr<RunFolder> open_run_folder(const std::string &path,
@@ -290,6 +293,11 @@ std::unique_ptr<RunFolder> open_run_folder(const std::string &path,
   if (!quiet && !folder->notice().empty())
     std::fprintf(stderr, "homespun: %s\n", folder->notice().c_str());
   return folder;
+}
+
+void check_format(const std::string &folder)
+{
+  description_in(folder);
 }
 
 void list_report(const std::string &path)
@@ -309,7 +317,7 @@ void list_report(const std::string &path)
     if (is_of_report(file))
       files[file] = description;
   (*found)["files"] = files;
-  meshes::write_whole(path + "/run.json", json_text(*found));
+  write_json(path + "/run.json", *found);
 }
 
 std::string default_folder(const std::string &command, const std::vector<std::string> &names,

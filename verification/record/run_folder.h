@@ -73,6 +73,10 @@ std::unique_ptr<RunFolder> open_run_folder(const std::string &path,
                                            const RunDescription &description, Earlier earlier,
                                            bool quiet);
 
+/// Refuses a folder whose run.json has a format that is not read here, and with it its tables.
+/// @throws BadInput naming it; a folder without run.json is as good as one of any version
+void check_format(const std::string &folder);
+
 /// Lists the page and the figures of a finished run, after they were made; what it listed of its
 /// results stays. Does nothing where the folder holds no run.
 void list_report(const std::string &path);

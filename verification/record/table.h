@@ -59,6 +59,37 @@ std::vector<std::string> keys_of_row(const Row &row)
   return fields;
 }
 
+/// The rows of a file.
+/// @throws BadInput where a field is no value of its column
+template <typename Row>
+std::vector<Row> rows_of(const TableFile &file)
+{
+  std::vector<Row> rows;
+  for (std::size_t k = 0; k < file.rows_found().size(); ++k)
+  {
+    const std::vector<std::string> &fields = file.rows_found()[k];
+    Row &row                               = rows.emplace_back();
+    std::size_t column                     = 0;
+    Row::columns(
+      [&](const char *, const auto member, const Domain)
+      {
+        if (!read_field(fields[column], row.*member))
+          file.refuse(k + 2, column, fields[column], "a value of this column");
+        ++column;
+      });
+  }
+  return rows;
+}
+
+/// The rows of a table of another run, which stays as it is.
+/// @throws BadInput where there is no such file, or as Table
+template <typename Row>
+std::vector<Row> read_table(const std::string &path)
+{
+  return rows_of<Row>(
+    TableFile(path, column_descriptions<Row>(), Row::n_keys, TableFile::Use::read));
+}
+
 /// A CSV file that grows by rows. Every row is on the disk when append() returns.
 template <typename Row>
 class Table
@@ -69,20 +100,8 @@ public:
   explicit Table(const std::string &folder)
       : file(folder + "/" + Row::file, column_descriptions<Row>(), Row::n_keys)
   {
-    for (std::size_t k = 0; k < file.rows_found().size(); ++k)
-    {
-      const std::vector<std::string> &fields = file.rows_found()[k];
-      Row row;
-      std::size_t column = 0;
-      Row::columns(
-        [&](const char *, const auto member, const Domain)
-        {
-          if (!read_field(fields[column], row.*member))
-            file.refuse(k + 2, column, fields[column], "a value of this column");
-          ++column;
-        });
+    for (const Row &row : rows_of<Row>(file))
       remember(row);
-    }
   }
 
   /// Whether a row with the keys of this one is there; its other columns do not matter.

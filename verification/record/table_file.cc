@@ -40,13 +40,15 @@ void append_text(const std::string &path, const std::string &text)
 } // namespace
 
 TableFile::TableFile(std::string path_of_file, std::vector<ColumnDescription> descriptions,
-                     const std::size_t n_keys)
+                     const std::size_t n_keys, const Use use)
     : path(std::move(path_of_file))
     , columns(std::move(descriptions))
     , n_keys(n_keys)
 {
   if (!std::filesystem::exists(path))
   {
+    if (use == Use::read)
+      throw meshes::BadInput(path + ": no such file; expected the table of a run");
     replace({});
     return;
   }
@@ -62,8 +64,10 @@ TableFile::TableFile(std::string path_of_file, std::vector<ColumnDescription> de
   {
     const std::string expected = header();
     throw meshes::BadInput(path + ":1: found the header `" + line + "`; expected `" +
-                           expected.substr(0, expected.size() - 1) +
-                           "`: begin anew with --overwrite, or choose another --output");
+                           expected.substr(0, expected.size() - 1) + "`: " +
+                           (use == Use::read
+                              ? "another version of homespun wrote it: run the study again"
+                              : "begin anew with --overwrite, or choose another --output"));
   }
   for (std::size_t number = 2; std::getline(lines, line); ++number)
   {
@@ -77,7 +81,7 @@ TableFile::TableFile(std::string path_of_file, std::vector<ColumnDescription> de
         refuse(number, k, fields[k], expected);
     found.push_back(std::move(fields));
   }
-  if (was_cut)
+  if (was_cut && use == Use::take_up)
     meshes::write_whole(path, text);
 }
 

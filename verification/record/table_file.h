@@ -22,11 +22,18 @@ struct ColumnDescription
 class TableFile
 {
 public:
+  enum class Use
+  {
+    take_up, ///< rows are added
+    read     ///< nothing is written
+  };
+
   /// Takes up a file, or begins one where there is none. A last line that was cut is dropped.
   /// @param columns of which the first `n_keys` name a row
   /// @throws BadInput where the file has another header, or a line that no run wrote: the file, the
-  ///   line, the column, what was found and what was expected
-  TableFile(std::string path, std::vector<ColumnDescription> columns, std::size_t n_keys);
+  ///   line, the column, what was found and what was expected; or is to be read and is not there
+  TableFile(std::string path, std::vector<ColumnDescription> columns, std::size_t n_keys,
+            Use use = Use::take_up);
 
   /// The rows that were there, as fields without quotes.
   const std::vector<std::vector<std::string>> &rows_found() const

@@ -5,7 +5,6 @@
 #include "homogenization/lint/cell_reading.h"
 #include "meshes/files/child_process.h"
 #include "meshes/files/temporary_folder.h"
-#include "meshes/files/write_whole.h"
 #include "meshes/plain/errors.h"
 #include "verification/cell/study_inputs.h"
 #include "verification/record/json_files.h"
@@ -313,9 +312,8 @@ ScalingResult run_scaling_study(const ScalingOptions &options)
                           {"misfit", time->misfit}};
   json["notes"]      = notes_of(runs);
   json["provenance"] = provenance(1);
-  meshes::write_whole(options.output + "/scaling.json", json_text(json));
-  meshes::write_whole(options.output + "/verdicts.json",
-                      json_text(to_json(verdicts, options.command)));
+  write_json(options.output + "/scaling.json", json);
+  write_json(options.output + "/verdicts.json", to_json(verdicts, options.command));
   folder->finish();
   return {runs, verdicts};
 }

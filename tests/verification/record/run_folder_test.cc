@@ -162,8 +162,36 @@ TEST_F(tripwire_run_folder, results_that_were_changed_after_their_run_are_refuse
 TEST_F(tripwire_run_folder, a_damaged_description_is_refused)
 {
   leave_run(one, 1.);
-  write(path + "/run.json", "{\"format\": 1");
+  write(path + "/run.json", "{\"format_version\": 1");
   EXPECT_NE(refused(one, Earlier::keep_work).find("run.json: is damaged"), std::string::npos);
+}
+
+TEST_F(tripwire_run_folder, a_run_of_a_newer_format_is_refused_and_stays)
+{
+  leave_run(one, 1.);
+  auto json = nlohmann::ordered_json::parse(text(path + "/run.json"));
+  EXPECT_EQ(json.begin().key(), "format_version");
+  for (const auto &[version, words] :
+       {std::pair<nlohmann::ordered_json, std::string>(2, "run.json: found format_version 2; "
+                                                          "expected at most 1: a newer homespun"),
+        {"old", "run.json: found format_version \"old\"; expected a whole number from 0 to 1"}})
+  {
+    json["format_version"] = version;
+    write(path + "/run.json", json.dump());
+    for (const Earlier earlier : {Earlier::keep_work, Earlier::overwrite})
+      EXPECT_NE(refused(one, earlier).find(words), std::string::npos) << refused(one, earlier);
+    EXPECT_TRUE(fs::exists(path + "/strain.csv"));
+  }
+}
+
+TEST_F(exact_run_folder, a_run_that_says_no_format_is_an_older_one)
+{
+  leave_run(one, 1.);
+  auto json = nlohmann::ordered_json::parse(text(path + "/run.json"));
+  json.erase("format_version");
+  json["format"] = 1; // as it was called
+  write(path + "/run.json", json.dump());
+  EXPECT_TRUE(RunFolder(path, one, Earlier::keep_work).is_taken_up());
 }
 
 TEST_F(exact_run_folder, default_places_are_apart)

@@ -100,7 +100,7 @@ def write_run(folder, command="strain", revision="abc1234", finished=True, **oth
     @param others keys that replace those of run.json
     """
     run = {
-        "format": 1,
+        "format_version": 1,
         "command": command,
         "revision": revision,
         "inputs": {"strains": [0.01, 0.1]},

@@ -7,8 +7,9 @@ import os
 import unittest
 from unittest import mock
 
+import h5py
 import report_path  # noqa: F401
-from made_up_run import write_run
+from made_up_run import list_again, write_run
 from made_up_study import write_results
 from page_case import PageTest
 from read import results, schema
@@ -99,12 +100,42 @@ class OneRunTest(PageTest):
 
     def test_a_damaged_description_of_a_run_is_refused(self):
         for others, words in (
-            ({"format": 2}, "has format 2, expected 1"),
+            ({"format_version": 2}, "found format_version 2; expected at most 1: a newer homespun"),
+            ({"format_version": "1"}, "found format_version 1; expected a whole number"),
             ({"revision": None}, "key `revision` is `None`"),
             ({"files": 3}, "key `files` is `3`"),
         ):
             write_run(self.folder, **others)
             self.assert_refused("run.json", *words.split(" is "))
+
+    def test_a_run_that_says_no_format_is_an_older_one_and_read(self):
+        path = os.path.join(self.folder, "run.json")
+        with open(path, encoding="utf-8") as file:
+            run = json.load(file)
+        del run["format_version"]
+        with open(path, "w", encoding="utf-8") as file:
+            json.dump({"format": 1, **run}, file)
+        self.assertEqual(self.run_report(), (0, ""))
+
+    def test_files_of_a_newer_format_are_refused_by_name(self):
+        words = "found format_version 2; expected at most 1: a newer homespun wrote the file"
+        whole = os.path.join(self.folder, "stripes", "homogenize.json")
+        with open(whole, encoding="utf-8") as file:
+            text = file.read()
+        with open(whole, "w", encoding="utf-8") as file:
+            json.dump({"format_version": 2, **json.loads(text)}, file)
+        list_again(self.folder)
+        self.assert_refused(f"homogenize.json: {words}")
+        with open(whole, "w", encoding="utf-8") as file:
+            file.write(text)
+        for version, found in ((2, words), (-1, "found format_version -1; expected a"), (1, None)):
+            with h5py.File(os.path.join(self.folder, "stripes", "cell.h5"), "a") as file:
+                file.attrs["format_version"] = [version]  # an array, as the program writes it
+            list_again(self.folder)
+            if found:
+                self.assert_refused(f"cell.h5: {found}")
+            else:
+                self.assertEqual(self.run_report(), (0, ""))
 
     def test_the_folder_above_runs_is_refused_with_their_names(self):
         self.folder = self.place

@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 import h5py
 import numpy
 
-from read.stored import is_stiffness, read_json
+from read.stored import is_stiffness, read_json, version_is_known
 
 AGAIN = "Run `homespun homogenize` or `homespun strain` again."
 
@@ -63,6 +63,8 @@ def datasets(path, shapes, faults):
     values, sizes = {}, {}
     try:
         with h5py.File(path, "r") as file:
+            if not version_is_known(path, file.attrs, faults):
+                return None
             for name, (shape, kind) in shapes.items():
                 if name not in file:
                     faults.append(f"{path}: dataset `/{name}` is missing. {AGAIN}")

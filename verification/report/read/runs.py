@@ -16,9 +16,8 @@ from dataclasses import dataclass, field
 from read import schema
 from read.stored import lies_within, read_json
 
-FORMAT = 1
 LIST = "run.json"
-KINDS = {"format": int, "command": str, "revision": str, "fingerprint": str, "finished": bool}
+KINDS = {"command": str, "revision": str, "fingerprint": str, "finished": bool}
 COMMANDS = "`homespun strain`, `homogenize`, `drape`, `stress`, `converge`, `load` or `verify`"
 # What pages read besides tables; the CSV files of figures have other names.
 READ = (
@@ -192,12 +191,6 @@ def read_run(folder, faults):
         return None
     value = read_json(path, faults)
     if value is None:
-        return None
-    if value.get("format") != FORMAT:
-        faults.append(
-            f"{path}: has format {value.get('format')}, expected {FORMAT}: another version of"
-            " homespun wrote it. Run the study again."
-        )
         return None
     wrong = [key for key, kind in KINDS.items() if not isinstance(value.get(key), kind)]
     if value.get("finished") is True and not isinstance(value.get("files"), dict):

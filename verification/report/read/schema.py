@@ -2,7 +2,10 @@
 """The tables that the program writes, as its build says them in schema.json: columns in their
 order, what each may hold, and how many of the first ones name a row.
 
-    {FILE: {"keys": 5, "columns": [{"name": "strain", "domain": "positive"}, ...]}, ...}
+    {"format_version": 1,
+     FILE: {"keys": 5, "columns": [{"name": "strain", "domain": "positive"}, ...]}, ...}
+
+`format_version` is that of all files that this version of the program writes.
 
 The program hands on where the file lies in HOMESPUN_SCHEMA; an installed report has it beside
 report.py.
@@ -87,7 +90,15 @@ def tables():
 
     @throws NoSchema
     """
-    return read(place())
+    return read(place())[1]
+
+
+def format_version():
+    """The newest format that this report reads.
+
+    @throws NoSchema
+    """
+    return read(place())[0]
 
 
 def table(file):
@@ -106,7 +117,8 @@ def read(path):
     try:
         with open(path, encoding="utf-8") as file:
             value = json.load(file)
-        return {
+        version = int(value.pop("format_version"))
+        return version, {
             name: Table(
                 tuple(Column(column["name"], known(column["domain"])) for column in one["columns"]),
                 one["keys"],

@@ -32,6 +32,30 @@ def lies_within(path, folder):
     return os.path.commonpath([os.path.realpath(path), base]) == base
 
 
+def version_is_known(path, values, faults):
+    """Whether this version reads a file, by its `format_version`; older files have none.
+
+    @param values of the file: a dictionary, or the attributes of an HDF5 file
+    """
+    version, newest = values.get("format_version", 0), schema.format_version()
+    if isinstance(version, numpy.ndarray) and version.size == 1:  # as the program writes it
+        version = version.item()
+    is_number = isinstance(version, (int, numpy.integer)) and not isinstance(version, bool)
+    if not is_number or version < 0:
+        faults.append(
+            f"{path}: found format_version {version}; expected a whole number from 0 to {newest}: the"
+            " file is damaged, write it again"
+        )
+    elif version > newest:
+        faults.append(
+            f"{path}: found format_version {version}; expected at most {newest}: a newer homespun"
+            " wrote the file: read it with that one, or write it again with this one"
+        )
+    else:
+        return True
+    return False
+
+
 def read_json(path, faults):
     """The object in a JSON file, or None with a fault."""
     try:
@@ -52,7 +76,7 @@ def read_json(path, faults):
             "Run the command that wrote it again."
         )
         return None
-    return value
+    return value if version_is_known(path, value, faults) else None
 
 
 def read_csv(path, faults, missing, advice=AGAIN):

@@ -1,0 +1,370 @@
+# SPDX-License-Identifier: MIT
+"""homespun upsample: the frames of another program's simulation as a user hands them over."""
+import json
+import shutil
+import signal
+import subprocess
+import sys
+import time
+import unittest
+
+import h5py
+import numpy
+
+from cli import CELLS, PROGRAM, InFolder, cut, rows_of, run
+from usda import Usda
+
+sys.path.append(str(CELLS.parents[1] / "verification" / "report"))
+from read.vtu import read_vtu  # noqa: E402
+
+SCENES = CELLS.parent / "scenes"
+
+
+def coarse_sheet(cell, n):
+    """Vertices (z = 0) and triangles of n x n cells, two triangles each, from cell.h5."""
+    with h5py.File(cell) as file:
+        lattice, low = file["lattice"][:], file["vertices"][:].min(axis=0)
+    i, j = numpy.meshgrid(range(n + 1), range(n + 1))
+    flat = low + i.reshape(-1, 1) * lattice[0] + j.reshape(-1, 1) * lattice[1]
+    triangles = []
+    for y in range(n):
+        for x in range(n):
+            a = y * (n + 1) + x
+            triangles += [(a, a + 1, a + n + 2), (a, a + n + 2, a + n + 1)]
+    return numpy.column_stack([flat, numpy.zeros(len(flat))]), triangles
+
+
+def write_obj(path, vertices, triangles):
+    path.write_text("".join(f"v {x!r} {y!r} {z!r}\n" for x, y, z in vertices.tolist()) +
+                    "".join("f " + " ".join(str(v + 1) for v in t) + "\n" for t in triangles),
+                    encoding="utf-8")
+
+
+class Upsampling(InFolder):
+    @classmethod
+    def setUpClass(cls):
+        cls.made = InFolder()
+        cls.made.setUp()
+        cls.addClassCleanup(cls.made.doCleanups)
+        output = cls.made.folder / "cell"
+        # Of linear elements, as the cells of scenes.
+        result = run("homogenize", CELLS / "layered.prm", "--order", 1, "--output", output)
+        assert result.returncode == 0, result.stderr
+        cls.cell = output / "cell.h5"
+
+    def setUp(self):
+        super().setUp()
+        self.rest, self.output = self.folder / "rest.obj", self.folder / "out"
+        self.vertices, self.triangles = coarse_sheet(self.cell, 4)
+        write_obj(self.rest, self.vertices, self.triangles)
+
+    def frame(self, name, vertices=None, triangles=None):
+        path = self.folder / name
+        write_obj(path, self.vertices if vertices is None else vertices,
+                  self.triangles if triangles is None else triangles)
+        return path
+
+    def moving(self, n):
+        """Frames that stretch step by step along the first axis."""
+        return [self.frame(f"f_{k}.obj", self.vertices * [1. + 0.01 * k, 1., 1.])
+                for k in range(n)]
+
+    def upsample(self, *arguments, status=0):
+        result = run("upsample", self.cell, "--rest", self.rest, *arguments, "--output",
+                     self.output)
+        self.assertEqual(result.returncode, status, result.stdout + result.stderr)
+        return result.stdout if status == 0 else result.stderr
+
+
+class Oracles(Upsampling):
+    def test_frames_of_a_scene_are_those_that_drape_made_byte_by_byte(self):
+        drape = self.folder / "drape"
+        cases = {"hang": (self.rest, ["--quick"]), "skirt": (SCENES / "skirt.obj", [])}
+        for scene, (rest, size) in cases.items():
+            with self.subTest(scene=scene):
+                result = run("drape", SCENES / f"{scene}.prm", *size, "--duration", 0.1,
+                             "--frames", "obj,ply", "--no-report", "--unit-cells",
+                             CELLS / "layered.prm", "--output", drape / scene)
+                self.assertEqual(result.returncode, 0, result.stderr)
+                made = drape / scene / "layered-corotational"
+                self.output, self.rest = self.folder / f"out-{scene}", rest
+                self.upsample(made / "coarse_*.obj", "--format", "ply,obj")
+                frames = sorted(path.stem for path in made.glob("coarse_*.obj"))
+                self.assertEqual(len(frames), 3)
+                for frame in frames:
+                    for ending in ("ply", "obj"):
+                        fine = made / f"{frame.replace('coarse', 'fine')}.{ending}"
+                        self.assertEqual((self.output / f"{frame}.{ending}").read_bytes(),
+                                         fine.read_bytes(), fine)
+
+    def test_a_uniform_strain_gives_affine_and_chi(self):
+        E11 = 0.03
+        self.upsample(self.frame("a.obj", self.vertices * [1. + E11, 1., 1.]),
+                      self.frame("b.obj"), "--format", "vtu")
+        at_rest, strained = (read_vtu(self.output / f"{name}.vtu") for name in "ba")
+        with h5py.File(self.cell) as file:
+            vertices, lattice, chi = (file[name][:] for name in ("vertices", "lattice", "chi"))
+            chi -= chi[file["chi"].attrs["anchor"]]
+        # The vertex of the cell that each fine vertex is an image of.
+        def wrapped(points):
+            part = (points - vertices.min(axis=0)) @ numpy.linalg.inv(lattice)
+            return part - numpy.floor(part + 1e-6)
+        fine = wrapped(at_rest.points[:, :2].astype(float))
+        away = numpy.abs(fine[:, None] - wrapped(vertices)[None]).max(axis=2)
+        self.assertLess(away.min(axis=1).max(), 1e-4)
+        w = -E11 * chi[away.argmin(axis=1), :, 0]
+        self.assertGreater(numpy.abs(w).max(), 1e-5)
+        expected = at_rest.points[:, :2] * [1. + E11, 1.] + w
+        side = self.vertices.max()
+        self.assertLess(numpy.abs(strained.points[:, :2] - expected).max(), 4 * 2.**-24 * side)
+        self.assertEqual(strained.points[:, 2].max(), 0.)
+
+
+class Results(Upsampling):
+    def test_table_fields_and_description(self):
+        stdout = self.upsample(*self.moving(3), "--format", "vtu,usda")
+        self.assertIn("3 frames of a sheet of 4 x 4 cells", stdout)
+        self.assertIn("strain: largest 0.02 in f_2", stdout)
+        self.assertIn("no range of validity is known", stdout)
+        rows = rows_of(self.output / "upsample.csv")
+        self.assertEqual([(row["frame"], row["indicator"]) for row in rows],
+                         [(f"f_{k}", name) for k in range(3)
+                          for name in ("strain", "strain_change", "compression")])
+        for k in range(3):
+            strain, change, compression = rows[3 * k: 3 * k + 3]
+            for column in ("mean", "quantile_99", "largest"):
+                self.assertAlmostEqual(float(strain[column]), 0.01 * k, 12)
+                self.assertLess(float(change[column]), 1e-12)
+                self.assertLess(float(compression[column]), 1e-12)
+            self.assertEqual(strain["triangles"], "32")
+            self.assertEqual((strain["limit"], strain["triangles_beyond"]), ("", ""))
+            self.assertEqual(compression["triangles_beyond"], "0")
+        found = read_vtu(self.output / "f_2.vtu")
+        numpy.testing.assert_allclose(found.point_data["strain [-]"], 0.02, rtol=1e-6)
+        self.assertEqual((self.output / "frames.pvd").read_text().count("f_"), 3)
+        study = json.loads((self.output / "upsample.json").read_text())
+        self.assertEqual(next(iter(study)), "format_version")
+        self.assertEqual(study["frames"], 3)
+        self.assertEqual(study["fine_vertices"], len(found.points))
+
+    def test_usd_is_well_formed_and_holds_the_mesh(self):
+        self.upsample(*self.moving(2), "--format", "usda,vtu", "--up", "y")
+        layer = Usda((self.output / "f_1.usda").read_text())
+        self.assertEqual((layer.kind, layer.name), ("Mesh", '"cloth"'))
+        self.assertEqual(layer.metadata["defaultPrim"], "cloth")
+        self.assertEqual(layer.metadata["metersPerUnit"], 1.)
+        self.assertEqual(layer.metadata["upAxis"], "Y")
+        found = read_vtu(self.output / "f_1.vtu")
+        points = numpy.array(layer.attributes["point3f[] points"], dtype=numpy.float32)
+        numpy.testing.assert_array_equal(points, found.points)
+        numpy.testing.assert_array_equal(
+            numpy.reshape(layer.attributes["int[] faceVertexIndices"], (-1, 3)), found.triangles)
+        self.assertEqual(layer.attributes["int[] faceVertexCounts"], [3.] * len(found.triangles))
+        numpy.testing.assert_array_equal(
+            numpy.array(layer.attributes["float3[] extent"], dtype=numpy.float32),
+            [points.min(axis=0), points.max(axis=0)])
+        self.assertEqual(layer.attributes["uniform token subdivisionScheme"], "none")
+
+    def test_indicators_stand_against_the_range_of_validity(self):
+        (self.folder / "validity.csv").write_text(
+            "cell,load,reference,measure,limit,relation,largest_strain,largest_strain_lower,"
+            "largest_strain_upper,note\n"
+            "layered,strip-1,biot,cell side,0.01,=,0.015,0.01,0.02,\n", encoding="utf-8")
+        stdout = self.upsample(*self.moving(3), "--validity", self.folder / "validity.csv")
+        self.assertIn("cell layered was found valid up to 0.015", stdout)
+        self.assertIn("32 of 32 triangles above 0.015", stdout)
+        rows = [row for row in rows_of(self.output / "upsample.csv")
+                if row["indicator"] == "strain"]
+        self.assertEqual([(row["limit"], row["triangles_beyond"]) for row in rows],
+                         [("0.015", "0"), ("0.015", "0"), ("0.015", "32")])
+
+    def test_slack_cloth_is_counted_and_found(self):
+        short = self.vertices.copy()
+        short[self.vertices[:, 0] > 0.035, 0] -= 0.002  # the last column of cells of 1 cm
+        self.upsample(self.frame("slack.obj", short))
+        row = rows_of(self.output / "upsample.csv")[2]
+        self.assertAlmostEqual(float(row["largest"]), 0.2, 6)
+        self.assertEqual(row["triangles_beyond"], "8")
+        self.assertAlmostEqual(float(row["area_share_beyond"]), 0.25, 6)
+        self.assertAlmostEqual(float(row["worst_rest_1_m"]), 0.035, delta=0.005)
+
+    def test_cells_are_turned_and_cut_where_they_do_not_fit(self):
+        stdout = self.upsample(self.frame("a.obj"), "--angle", 30, "--origin", "-0.001,0.002")
+        self.assertIn("1 panel, 32 coarse triangles, cells cut along outlines", stdout)
+        found = read_vtu(self.output / "a.vtu").points
+        # At rest the cut cells cover the sheet.
+        numpy.testing.assert_allclose(found.min(axis=0), self.vertices.min(axis=0), atol=1e-7)
+        numpy.testing.assert_allclose(found.max(axis=0), self.vertices.max(axis=0), atol=1e-7)
+
+    def test_every_fine_triangle_has_the_phase_that_the_cell_has_there(self):
+        with h5py.File(self.cell) as file:
+            vertices, lattice, triangles, material = (
+                file[name][:] for name in ("vertices", "lattice", "triangles", "material"))
+        corners = vertices[triangles]
+        inverse = numpy.linalg.inv(numpy.swapaxes(corners[:, 1:] - corners[:, :1], 1, 2))
+        for angle, origin in ((0., (0., 0.)), (0., (0.0021, 0.0013)), (90., (0.0021, 0.0013)),
+                              (20., (-0.003, 0.001))):
+            with self.subTest(angle=angle, origin=origin):
+                self.output = self.folder / f"out-{angle}-{origin[0]}"
+                self.upsample(self.frame("a.obj"), "--angle", angle, "--origin",
+                              f"{origin[0]},{origin[1]}")
+                found = read_vtu(self.output / "a.vtu")
+                middles = found.points[:, :2][found.triangles].mean(axis=1)[::7]
+                c, s = numpy.cos(numpy.radians(angle)), numpy.sin(numpy.radians(angle))
+                in_cell = (middles - origin) @ [[c, -s], [s, c]]  # turned back
+                part = in_cell @ numpy.linalg.inv(lattice)
+                places = vertices.min(axis=0) + (part - numpy.floor(part)) @ lattice
+                weights = numpy.einsum("tij,ptj->pti", inverse,
+                                       places[:, None] - corners[None, :, 0])
+                inside = numpy.minimum(weights.min(axis=2), 1. - weights.sum(axis=2))
+                self.assertGreater(inside.max(axis=1).min(), -1e-3)
+                numpy.testing.assert_array_equal(found.cell_data["material"][::7],
+                                                 material[inside.argmax(axis=1)])
+
+
+class OneRun(Upsampling):
+    def test_frames_that_are_there_are_not_made_again(self):
+        frames = self.moving(3)
+        self.upsample(*frames[:2], "--format", "ply")
+        before = {path: path.stat().st_mtime_ns for path in self.output.glob("f_*.ply")}
+        # One of them anew, one more, and one whose result is gone.
+        self.frame("f_1.obj", self.vertices * [1.5, 1., 1.])
+        self.upsample(*frames, "--format", "ply")
+        after = {path: path.stat().st_mtime_ns for path in self.output.glob("f_*.ply")}
+        self.assertEqual(sorted(path.name for path in after), ["f_0.ply", "f_1.ply", "f_2.ply"])
+        self.assertEqual(after[self.output / "f_0.ply"], before[self.output / "f_0.ply"])
+        self.assertNotEqual(after[self.output / "f_1.ply"], before[self.output / "f_1.ply"])
+        strains = {row["frame"]: float(row["largest"]) for row in
+                   rows_of(self.output / "upsample.csv") if row["indicator"] == "strain"}
+        self.assertAlmostEqual(strains["f_1"], 0.5, 12)
+        self.assertEqual(len(rows_of(self.output / "upsample.csv")), 9)
+        cut(self.output)
+        (self.output / "f_2.ply").unlink()
+        self.upsample(*frames, "--format", "ply", "--resume")
+        self.assertTrue((self.output / "f_2.ply").exists())
+        self.assertEqual((self.output / "f_0.ply").stat().st_mtime_ns,
+                         before[self.output / "f_0.ply"])
+
+    def test_a_run_that_was_killed_goes_on_to_the_same_bytes(self):
+        frames = self.moving(60)
+        self.upsample(*frames, "--format", "obj,usda")
+        whole = {path.name: path.read_bytes() for path in self.output.glob("f_*")}
+        shutil.rmtree(self.output)
+        process = subprocess.Popen([PROGRAM, "upsample", self.cell, "--rest", self.rest, *frames,
+                                    "--format", "obj,usda", "--output", self.output],
+                                   stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        until = time.monotonic() + 60
+        while len(list(self.output.glob("f_*.usda"))) < 5 and time.monotonic() < until:
+            time.sleep(0.005)
+        process.send_signal(signal.SIGKILL)
+        process.wait()
+        self.assertLess(len(list(self.output.glob("f_*.usda"))), 60)
+        for path in self.output.glob("f_*.*"):  # whole or not at all
+            if path.suffix != ".part":
+                self.assertEqual(path.read_bytes(), whole[path.name], path)
+        self.upsample(*frames, "--format", "obj,usda")
+        self.assertEqual({path.name: path.read_bytes() for path in self.output.glob("f_*")}, whole)
+        self.assertEqual(len(rows_of(self.output / "upsample.csv")), 180)
+
+    def test_another_run_is_told_and_a_newer_format_refused(self):
+        frames = self.moving(1)
+        self.upsample(*frames)
+        self.assertIn("holds another run (angle_degrees)",
+                      self.upsample(*frames, "--angle", 5, "--resume", status=2))
+        self.upsample(*frames, "--angle", 5, "--overwrite")
+        path = self.output / "run.json"
+        description = json.loads(path.read_text())
+        path.write_text(json.dumps({**description, "format_version": 7}))
+        self.assertIn("run.json: found format_version 7; expected at most 1",
+                      self.upsample(*frames, status=2))
+
+
+class BadInput(Upsampling):
+    def test_frames_that_are_none_are_named_with_what_was_expected(self):
+        swapped = [(a, c, b) if k == 5 else (a, b, c)
+                   for k, (a, b, c) in enumerate(self.triangles)]
+        far = self.vertices.tolist()
+        far[7][1] = float("nan")
+        cases = {
+            "more.obj": (numpy.vstack([self.vertices, [[0, 0, 1]]]), None,
+                         "more.obj: has 26 vertices; expected 25, those of"),
+            "fewer.obj": (None, self.triangles[:-1], "fewer.obj: has 31 faces; expected 32"),
+            "swapped.obj": (None, swapped, "swapped.obj: face 5 has the vertices 2 7 8 (from 0); "
+                            "expected 2 8 7"),
+            "far.obj": (numpy.array(far), None,
+                        "far.obj: line 8: found `nan`; expected a finite number, v 8 of the file"),
+        }
+        for name, (vertices, triangles, words) in cases.items():
+            with self.subTest(name=name):
+                self.frame(name, vertices, triangles)
+                message = self.upsample(self.frame("good.obj"), self.folder / name, status=2)
+                self.assertIn(words, message.replace(str(self.folder) + "/", ""))
+                self.assertFalse(self.output.exists())
+
+    def test_all_faults_of_all_frames_are_told_at_once(self):
+        bad = [self.frame(f"bad_{k}.obj", triangles=self.triangles[:k + 1]) for k in range(12)]
+        message = self.upsample(*bad, status=2)
+        self.assertEqual(message.count("faces; expected 32"), 10)
+        self.assertIn("and 2 more faults of frames", message)
+
+    def test_what_cannot_be_used_is_named(self):
+        good = self.frame("good.obj")
+        bent = self.vertices + [[0., 0., 0.01 * k] for k in range(len(self.vertices))]
+        ply = self.folder / "nan.ply"
+        ply.write_bytes(b"ply\nformat binary_little_endian 1.0\nelement vertex 3\n"
+                        b"property float x\nproperty float y\nproperty float z\nelement face 1\n"
+                        b"property list uchar int vertex_indices\nend_header\n" +
+                        numpy.array([0, 0, 0, 1, 0, 0, 0, numpy.nan, 0], "<f4").tobytes() +
+                        b"\3" + numpy.array([0, 1, 2], "<i4").tobytes())
+        rest, cell = self.rest, self.cell
+        for arguments, words in (
+                (("--rest", rest, self.folder / "none_*.obj"), "none_*.obj: no file fits"),
+                (("--rest", rest, self.folder / "none.obj"), "none.obj: cannot be read"),
+                (("--rest", rest, ply), "nan.ply: vertex 2 is at (0.000000, nan, 0.000000)"),
+                (("--rest", rest, rest.with_suffix(".stl")), "found the ending `.stl`"),
+                (("--rest", self.frame("bent.obj", bent), good), "bent.obj: is not flat: vertex 1"),
+                (("--rest", rest, good, good), "good.obj: has the name of"),
+                (("--rest", rest, good, "--format", "stl"),
+                 "--format: found `stl`; expected vtu, ply, obj or usda"),
+                (("--rest", rest, good, "--up", "x"), "--up: found `x`; expected y or z"),
+                (("--rest", rest, good, "--origin", "1"), "--origin: expected two numbers"),
+                (("--rest", rest, good, "--vt-unit", "-1"), "--vt-unit: expected a positive"),
+                (("--rest", rest, good, "--validity", self.folder / "v.csv"),
+                 "v.csv: no such file"),
+                (("--rest", rest), "FRAMES is required"),
+                ((good,), "--rest is required")):
+            with self.subTest(words=words):
+                result = run("upsample", cell, *arguments, "--output", self.output)
+                self.assertEqual(result.returncode, 2, result.stderr)
+                self.assertIn(words, result.stderr)
+                self.assertFalse(self.output.exists())
+
+    def test_cells_and_folders_that_cannot_be_used_are_named(self):
+        good = self.frame("good.obj")
+        newer = self.folder / "newer.h5"
+        shutil.copy(self.cell, newer)
+        with h5py.File(newer, "a") as file:
+            file.attrs["format_version"] = 2
+        for cell, words in ((newer, "newer.h5: found format_version 2; expected at most 1"),
+                            (self.rest, "rest.obj: is not a readable HDF5 file")):
+            result = run("upsample", cell, "--rest", self.rest, good, "--output", self.output)
+            self.assertEqual(result.returncode, 2)
+            self.assertIn(words, result.stderr)
+        self.output.mkdir()
+        inside = self.output / "in.obj"
+        shutil.copy(good, inside)
+        self.assertIn("in.obj: lies in the folder of the results", self.upsample(inside, status=2))
+        self.assertTrue(inside.exists())
+
+    def test_an_older_cell_without_a_version_is_read(self):
+        older = self.folder / "older.h5"
+        shutil.copy(self.cell, older)
+        with h5py.File(older, "a") as file:
+            del file.attrs["format_version"]
+        result = run("upsample", older, "--rest", self.rest, self.frame("a.obj"), "--quiet",
+                     "--output", self.output)
+        self.assertEqual((result.returncode, result.stdout, result.stderr), (0, "", ""))
+
+
+if __name__ == "__main__":
+    unittest.main()

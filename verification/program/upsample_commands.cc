@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: MIT
+// homespun upsample: fine positions for the frames of another program's coarse simulation.
+#include "verification/program/study_arguments.h"
+#include "verification/record/on_root.h"
+#include "verification/upsample/upsample_study.h"
+
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+
+#include <cmath>
+#include <memory>
+
+namespace homespun::verification
+{
+namespace
+{
+void check_arguments(const UpsampleOptions &study)
+{
+  ArgumentFaults faults;
+  faults.check_names("--format", study.formats, {"vtu", "ply", "obj", "usda"});
+  faults.check_names("--up", {study.up}, {"y", "z"});
+  if (study.origin.size() != 2 || !std::isfinite(study.origin[0]) ||
+      !std::isfinite(study.origin[1]))
+    faults.add("--origin: expected two numbers in metres, as in 0.1,0.2");
+  if (!std::isfinite(study.angle))
+    faults.add("--angle: expected a number of degrees");
+  if (!(study.vt_unit > 0.) || !std::isfinite(study.vt_unit))
+    faults.add("--vt-unit: expected a positive number of metres");
+  if (!(study.limit > 0.) || !std::isfinite(study.limit))
+    faults.add("--limit: expected a positive part of the cell side, as in 0.01");
+  faults.throw_if_any();
+}
+
+int run_upsample(UpsampleOptions study)
+{
+  if (!is_root(MPI_COMM_WORLD))
+    return exit_status::good;
+  check_arguments(study);
+  if (study.output.empty())
+    study.output = default_folder("upsample", stems({study.rest_file}), false);
+  run_upsample_study(study);
+  return exit_status::good;
+}
+} // namespace
+
+void add_upsample_command(CLI::App &app, Action &action_without_mpi,
+                          const std::string &command_line)
+{
+  CLI::App *command = app.add_subcommand(
+    "upsample", "Give the frames of your own coarse simulation their fine positions");
+  const auto study = std::make_shared<UpsampleOptions>();
+  study->command   = command_line;
+  command->add_option("CELL.h5", study->cell_file, "Cell of `homespun homogenize`")->required();
+  command
+    ->add_option("FRAMES", study->frames,
+                 "Frames, .obj or .ply in metres, or a pattern in quotes: 'sim/frame_*.obj'")
+    ->required();
+  command
+    ->add_option("--rest", study->rest_file,
+                 "The coarse mesh at rest, .obj or .ply, whose faces all frames have")
+    ->required();
+  add_list(*command, "--format", study->formats,
+           "Formats of the results, comma-separated: vtu, ply, obj, usda");
+  add_list(*command, "--origin", study->origin,
+           "Rest point [m] that is a corner of a cell, as in 0.1,0.2");
+  command
+    ->add_option("--angle", study->angle,
+                 "Of the cell's first axis against the first rest axis [degrees]")
+    ->capture_default_str();
+  command->add_option("--vt-unit", study->vt_unit, "Metres per unit of vt")->capture_default_str();
+  command->add_flag("--flat", study->is_flat,
+                    "Take the rest state from x and y of a flat mesh although it has vt");
+  command->add_option("--up", study->up, "Axis that points up, y or z: said in .usda")
+    ->capture_default_str();
+  command->add_option("--validity", study->validity_file,
+                      "validity.csv of `homespun strain` (default beside the cell)");
+  command
+    ->add_option("--limit", study->limit,
+                 "Of the range of validity: mean error as a part of the cell side, 0.01 or 0.05")
+    ->capture_default_str();
+  add_folder_options(*command, *study, "out/REST/upsample");
+  command->footer(
+    "The rest state is that of `vt` of an OBJ file, in metres, or that of a mesh in a plane z = "
+    "const. A sheet\n"
+    "of whole cells, two triangles each, goes the fast way; cells are cut along the outlines of "
+    "all else.\n\n"
+    "upsample.csv says of each frame, without a reference, where its error may come from: `strain` "
+    "(against the\n"
+    "range of validity of the cell, where it is known), `strain_change` across one cell, and "
+    "`compression`, where\n"
+    "slack cloth wrinkles below the mesh; with mean, what 99 % of the area stay below, the largest "
+    "and its place.\n"
+    "They indicate and bound nothing. The same values stand on the vertices of .vtu.\n\n"
+    "A frame that is made stays, as long as its file is the same; more may be added to a folder.\n"
+    "Examples:\n  homespun upsample out/dots/homogenize/cell.h5 --rest rest.obj "
+    "'sim/frame_*.obj'\n"
+    "  homespun upsample cell.h5 --rest rest.ply sim/*.ply --format ply,usda --up y\n");
+  command->callback([&action_without_mpi, study]()
+                    { action_without_mpi = [study]() { return run_upsample(*study); }; });
+}
+} // namespace homespun::verification

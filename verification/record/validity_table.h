@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: MIT
+// The table of the range of validity: a strain study writes it, and whoever up-samples a motion of
+// his own reads from it how far the cell may be strained.
+#pragma once
+
+#include "verification/record/table.h"
+
+#include <limits>
+#include <string>
+
+namespace homespun::verification
+{
+/// validity.csv: the largest strain within a limit. `relation`:
+///   =  the crossing was found
+///   >  the limit is kept at every level; `largest` is the largest level
+///   -  it is exceeded at the smallest level, `largest` is empty and `note` says by how much
+/// `lower` and `upper` are where the error with the reference's error bar added, and taken off,
+/// meets the limit.
+struct ValidityRow
+{
+  static constexpr const char *file   = "validity.csv";
+  static constexpr std::size_t n_keys = 5;
+  static constexpr double none        = std::numeric_limits<double>::quiet_NaN();
+
+  std::string cell, load, reference, measure;
+  double limit = 0.;
+  std::string relation;
+  double largest = none, lower = none, upper = none;
+  std::string note;
+
+  template <typename Column>
+  static void columns(Column &&column)
+  {
+    column("cell", &ValidityRow::cell, Domain::name);
+    column("load", &ValidityRow::load, Domain::name);
+    column("reference", &ValidityRow::reference, Domain::name);
+    column("measure", &ValidityRow::measure, Domain::name);
+    column("limit", &ValidityRow::limit, Domain::positive);
+    column("relation", &ValidityRow::relation, Domain::name);
+    column("largest_strain", &ValidityRow::largest, Domain::not_negative);
+    column("largest_strain_lower", &ValidityRow::lower, Domain::not_negative);
+    column("largest_strain_upper", &ValidityRow::upper, Domain::not_negative);
+    column("note", &ValidityRow::note, Domain::text);
+  }
+};
+} // namespace homespun::verification

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: MIT
+// The frames of another program's simulation, as files: which, by what name, and whether each is a
+// frame of the rest mesh.
+#pragma once
+
+#include "meshes/files/polygons.h"
+
+#include <string>
+#include <vector>
+
+namespace homespun::verification
+{
+struct FrameFile
+{
+  std::string file; ///< .obj or .ply
+  std::string name; ///< without folder and ending: that of what is made of it
+};
+
+/// Files, and patterns such as `sim/frame_*.obj`, whose files come in the order of their numbers
+/// (frame_2 before frame_10).
+/// @throws BadInput where a pattern fits no file, or two files have one name
+std::vector<FrameFile> frames_of(const std::vector<std::string> &files_and_patterns);
+
+/// Why a mesh is no frame of another; empty where it is.
+///
+/// It must have as many vertices, and the same faces with the same corners in the same order.
+/// @param name, rest_name files, for the message
+std::string fault_of_frame(const meshes::Polygons &frame, const std::string &name,
+                           const meshes::Polygons &rest, const std::string &rest_name);
+} // namespace homespun::verification

@@ -1,0 +1,347 @@
+// SPDX-License-Identifier: MIT
+#include "verification/upsample/upsample_study.h"
+
+#include "meshes/files/cell_file.h"
+#include "meshes/files/obj_file.h"
+#include "meshes/files/surface_files.h"
+#include "meshes/files/usd_file.h"
+#include "meshes/plain/errors.h"
+#include "verification/record/checksum.h"
+#include "verification/record/json_files.h"
+#include "verification/record/number_text.h"
+#include "verification/record/progress.h"
+#include "verification/record/provenance.h"
+#include "verification/record/table.h"
+#include "verification/record/timing.h"
+#include "verification/upsample/coarse_indicators.h"
+#include "verification/upsample/frame_files.h"
+#include "verification/upsample/upsampled_cloth.h"
+#include "verification/upsample/valid_strain.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <limits>
+#include <map>
+#include <memory>
+#include <optional>
+
+namespace homespun::verification
+{
+namespace fs = std::filesystem;
+using meshes::Polygons;
+using nlohmann::ordered_json;
+
+namespace
+{
+/// The indicators by their names in the table, with what they are.
+struct Indicator
+{
+  const char *name;
+  Eigen::VectorXd TriangleIndicators::*values;
+  const char *meaning;
+};
+constexpr std::array<Indicator, 3> indicators = {
+  {{"strain", &TriangleIndicators::strain,
+    "largest principal value of |E|, E = U - I: against the range of validity of the cell"},
+   {"strain_change", &TriangleIndicators::change,
+    "change of E across one cell, l max |d . grad E|: homogenization takes it to be zero"},
+   {"compression", &TriangleIndicators::compression,
+    "1 - smallest principal stretch, where that is below 1: slack cloth wrinkles below the mesh"}}};
+
+/// The rest mesh as faces, which frames are held against, and as cloth.
+struct RestMesh
+{
+  Polygons faces;
+  meshes::ClothMesh cloth;
+};
+
+RestMesh read_rest(const UpsampleOptions &options)
+{
+  RestMesh rest = {meshes::read_polygons(options.rest_file), {}};
+  rest.cloth    = rest.faces.has_vt && !options.is_flat
+                    ? meshes::read_cloth(options.rest_file, options.vt_unit)
+                    : meshes::flat_cloth(rest.faces, options.rest_file);
+  return rest;
+}
+
+/// Whether a file lies in a folder, links followed.
+bool lies_in(const std::string &file, const std::string &folder)
+{
+  const fs::path inside =
+    fs::weakly_canonical(file).lexically_relative(fs::weakly_canonical(folder));
+  return !inside.empty() && *inside.begin() != "..";
+}
+
+/// All that is wrong with any frame.
+void check_frames(const std::vector<FrameFile> &frames, const Polygons &rest,
+                  const UpsampleOptions &options)
+{
+  std::vector<std::string> faults;
+  for (const FrameFile &frame : frames)
+    try
+    {
+      if (const std::string fault =
+            fault_of_frame(meshes::read_polygons(frame.file), frame.file, rest, options.rest_file);
+          !fault.empty())
+        faults.push_back(fault);
+    }
+    catch (const meshes::BadInput &bad)
+    {
+      faults.insert(faults.end(), bad.faults().begin(), bad.faults().end());
+    }
+  for (const FrameFile &frame : frames)
+    if (lies_in(frame.file, options.output))
+      faults.push_back(frame.file + ": lies in the folder of the results, " + options.output +
+                       "; expected it elsewhere: choose another --output");
+  if (faults.empty())
+    return;
+  constexpr std::size_t most = 10;
+  if (faults.size() > most)
+  {
+    const std::string more = options.rest_file + ": and " + std::to_string(faults.size() - most) +
+                             " more faults of frames";
+    faults.resize(most);
+    faults.push_back(more);
+  }
+  throw meshes::BadInput(faults);
+}
+
+class UpsampleStudy
+{
+public:
+  explicit UpsampleStudy(const UpsampleOptions &options)
+      : options(options)
+      , cell(meshes::read_cell(options.cell_file))
+      , rest(read_rest(options))
+      , frames(frames_of(options.frames))
+  {
+  }
+
+  void run()
+  {
+    check_frames(frames, rest.faces, options);
+    valid = valid_strain(options.cell_file, options.validity_file, options.limit);
+    const meshes::Grain grain = {{options.origin[0], options.origin[1]},
+                                 options.angle * M_PI / 180.};
+    fine                      = std::make_unique<UpsampledCloth>(cell, rest.cloth, grain);
+    indicators_of =
+      std::make_unique<CoarseIndicators>(fine->coarse, std::sqrt(cell.lattice.area()));
+    const auto folder =
+      open_run_folder(options.output, {"upsample", inputs()}, options.earlier, options.quiet);
+    table = std::make_unique<Table<UpsampleRow>>(options.output);
+    Progress progress(!options.quiet, static_cast<int>(frames.size()));
+    meshes::FrameCollection collection(options.output + "/frames.pvd");
+    for (std::size_t k = 0; k < frames.size(); ++k)
+    {
+      progress.begin(frames[k].name);
+      upsample(frames[k]);
+      if (has_format("vtu"))
+        collection.append(static_cast<double>(k), frames[k].name + ".vtu");
+      progress.done();
+    }
+    write_json(options.output + "/upsample.json", description());
+    folder->finish();
+  }
+
+  /// What the run came to, line by line.
+  std::vector<std::string> summary() const
+  {
+    std::vector<std::string> lines = {
+      std::to_string(frames.size()) + (frames.size() == 1 ? " frame of " : " frames of ") +
+      fine->description + ", " + std::to_string(fine->triangles.rows()) +
+      " fine triangles: " + options.output};
+    for (const Indicator &indicator : indicators)
+    {
+      const UpsampleRow row = worst_row(indicator.name);
+      lines.push_back(std::string(indicator.name) + ": largest " + short_text(row.largest) +
+                      " in " + row.frame + ", triangle " + std::to_string(row.worst) +
+                      " at rest (" + short_text(row.worst_rest_1) + ", " +
+                      short_text(row.worst_rest_2) + ") m, there " + short_text(row.quantile) +
+                      " on 99 % of the area" + beyond_text(row));
+    }
+    lines.push_back(validity_text());
+    return lines;
+  }
+
+private:
+  bool has_format(const std::string &name) const
+  {
+    return std::find(options.formats.begin(), options.formats.end(), name) != options.formats.end();
+  }
+
+  /// All that a frame's result depends on but for the frame itself, which the table names.
+  ordered_json inputs() const
+  {
+    return {{"cell", checksum_of_file(options.cell_file)},
+            {"rest", checksum_of_file(options.rest_file)},
+            {"formats", options.formats},
+            {"origin_m", options.origin},
+            {"angle_degrees", options.angle},
+            {"vt_unit_m", options.vt_unit},
+            {"flat", options.is_flat},
+            {"up", options.up},
+            {"valid_strain", valid ? ordered_json(valid->strain) : ordered_json()}};
+  }
+
+  std::string path_of(const FrameFile &frame, const std::string &format) const
+  {
+    return options.output + "/" + frame.name + "." + format;
+  }
+
+  /// Whether everything that is made of a frame is there.
+  bool is_made(const FrameFile &frame, const std::string &checksum) const
+  {
+    std::size_t n_rows = 0;
+    for (const UpsampleRow &row : table->rows())
+      n_rows += row.frame == frame.name && row.checksum == checksum ? 1 : 0;
+    return n_rows == indicators.size() &&
+           std::all_of(options.formats.begin(), options.formats.end(),
+                       [&](const std::string &format)
+                       { return fs::exists(path_of(frame, format)); });
+  }
+
+  void upsample(const FrameFile &frame)
+  {
+    const std::string checksum = checksum_of_file(frame.file);
+    if (is_made(frame, checksum))
+      return;
+    Polygons mesh;
+    seconds["read"].push_back(seconds_of([&]() { mesh = meshes::read_polygons(frame.file); }));
+    // The file may have been written anew since it was checked.
+    if (const std::string fault = fault_of_frame(mesh, frame.file, rest.faces, options.rest_file);
+        !fault.empty())
+      throw meshes::BadInput(fault);
+    meshes::FloatPoints positions;
+    seconds["upsample"].push_back(
+      seconds_of([&]() { fine->upsampler->upsample(mesh.positions, positions); }));
+    TriangleIndicators values;
+    seconds["indicators"].push_back(
+      seconds_of([&]() { values = indicators_of->of(mesh.positions); }));
+    for (const std::string &format : options.formats)
+      seconds["write_" + format].push_back(
+        seconds_of([&]() { write(path_of(frame, format), format, positions, values); }));
+    // What a run that was killed, or another file of this name, has left.
+    table->keep([&](const UpsampleRow &row) { return row.frame != frame.name; });
+    for (const Indicator &indicator : indicators)
+    {
+      UpsampleRow row = indicators_of->row_of(
+        values.*indicator.values, limit_of(indicator.name, mesh.positions), mesh.positions);
+      row.frame     = frame.name;
+      row.indicator = indicator.name;
+      row.checksum  = checksum;
+      table->append(row);
+    }
+  }
+
+  double limit_of(const std::string &indicator, const meshes::SpacePoints &positions) const
+  {
+    if (indicator == "compression")
+      return indicators_of->round_off(positions);
+    return indicator == "strain" && valid ? valid->strain
+                                          : std::numeric_limits<double>::quiet_NaN();
+  }
+
+  void write(const std::string &path, const std::string &format,
+             const meshes::FloatPoints &positions, const TriangleIndicators &values) const
+  {
+    if (format == "ply")
+      meshes::write_ply(path, positions, fine->triangles);
+    else if (format == "obj")
+      meshes::write_obj(path, positions.cast<double>(), fine->triangles);
+    else if (format == "usda")
+      meshes::write_usda(path, positions, fine->triangles,
+                         options.up == "y" ? meshes::UpAxis::y : meshes::UpAxis::z);
+    else
+    {
+      std::vector<meshes::VertexData> data;
+      for (const Indicator &indicator : indicators)
+      {
+        const Eigen::VectorXf of_coarse = (values.*indicator.values).cast<float>();
+        Eigen::VectorXf at_fine(fine->coarse_triangle.size());
+        for (Eigen::Index v = 0; v < at_fine.size(); ++v)
+          at_fine(v) = of_coarse(fine->coarse_triangle(v));
+        data.push_back({std::string(indicator.name) + " [-]", at_fine});
+      }
+      meshes::write_vtu(path, positions, fine->triangles, data,
+                        {{"material", fine->material.cast<float>()}});
+    }
+  }
+
+  /// The row with the largest value of an indicator over these frames.
+  UpsampleRow worst_row(const std::string &indicator) const
+  {
+    UpsampleRow worst;
+    worst.largest = -1.;
+    for (const UpsampleRow &row : table->rows())
+      if (row.indicator == indicator && row.largest > worst.largest &&
+          std::any_of(frames.begin(), frames.end(),
+                      [&](const FrameFile &frame) { return frame.name == row.frame; }))
+        worst = row;
+    return worst;
+  }
+
+  static std::string beyond_text(const UpsampleRow &row)
+  {
+    if (!row.beyond)
+      return "";
+    return "; " + std::to_string(*row.beyond) + " of " + std::to_string(row.triangles) +
+           " triangles above " + short_text(row.limit);
+  }
+
+  std::string validity_text() const
+  {
+    if (!valid)
+      return "strain: no range of validity is known, the largest one is told as it is; `homespun "
+             "strain` measures one, --validity takes it";
+    return "strain: cell " + valid->cell + " was found valid " +
+           (valid->is_open ? "at least up to " : "up to ") + short_text(valid->strain) +
+           " (mean error within " + short_text(100. * valid->limit) +
+           " % of the cell side against biot; " + valid->load + " decides; " + valid->file + ")";
+  }
+
+  ordered_json description() const
+  {
+    ordered_json of_indicators = ordered_json::object(), times = ordered_json::object();
+    for (const Indicator &indicator : indicators)
+      of_indicators[indicator.name] = indicator.meaning;
+    for (const auto &[what, all] : seconds)
+      times[what] = json_number(median(all));
+    return {{"command", options.command},
+            {"cell", options.cell_file},
+            {"rest", options.rest_file},
+            {"cloth", fine->description},
+            {"frames", frames.size()},
+            {"coarse_triangles", fine->coarse.n_triangles()},
+            {"fine_vertices", fine->upsampler->n_fine()},
+            {"fine_triangles", fine->triangles.rows()},
+            {"inputs", inputs()},
+            {"indicators", of_indicators},
+            {"notes", summary()},
+            {"seconds_per_frame", times},
+            {"provenance", provenance(1)}};
+  }
+
+  const UpsampleOptions options;
+  const meshes::HomogenizedCell cell;
+  const RestMesh rest;
+  const std::vector<FrameFile> frames;
+  std::optional<ValidStrain> valid;
+  std::unique_ptr<UpsampledCloth> fine;
+  std::unique_ptr<CoarseIndicators> indicators_of;
+  std::unique_ptr<Table<UpsampleRow>> table;
+  std::map<std::string, std::vector<double>> seconds; ///< of each part of each frame
+};
+} // namespace
+
+void run_upsample_study(const UpsampleOptions &options)
+{
+  UpsampleStudy study(options);
+  study.run();
+  if (!options.quiet)
+    for (const std::string &line : study.summary())
+      std::printf("%s\n", line.c_str());
+}
+} // namespace homespun::verification

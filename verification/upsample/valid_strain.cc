@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: MIT
+#include "verification/upsample/valid_strain.h"
+
+#include "meshes/plain/errors.h"
+#include "verification/record/number_text.h"
+#include "verification/record/run_folder.h"
+#include "verification/record/validity_table.h"
+
+#include <cmath>
+#include <filesystem>
+#include <set>
+
+namespace homespun::verification
+{
+namespace fs = std::filesystem;
+
+namespace
+{
+/// The table that belongs to a cell; empty where there is none.
+std::string table_of(const fs::path &cell_file)
+{
+  const fs::path folder = fs::absolute(cell_file).parent_path();
+  for (const fs::path &place : {folder, folder.parent_path()})
+    if (fs::exists(place / ValidityRow::file))
+      return (place / ValidityRow::file).string();
+  return "";
+}
+
+std::string joined(const std::set<std::string> &names)
+{
+  std::string text;
+  for (const std::string &name : names)
+    text += (text.empty() ? "" : ", ") + name;
+  return text.empty() ? "none" : text;
+}
+
+bool is_shear(const std::string &load)
+{
+  return load.find("shear") != std::string::npos || load.find("12") != std::string::npos;
+}
+
+/// The largest principal strain of a load at its strain.
+double principal_strain(const std::string &load, const double strain)
+{
+  return is_shear(load) ? std::sqrt(1. + 0.25 * strain * strain) + 0.5 * strain - 1. : strain;
+}
+
+std::string cell_of(const std::vector<ValidityRow> &rows, const std::string &file,
+                    const fs::path &cell_file)
+{
+  std::set<std::string> names;
+  for (const ValidityRow &row : rows)
+    names.insert(row.cell);
+  const std::string wanted = fs::absolute(cell_file).parent_path().filename();
+  if (names.count(wanted) != 0)
+    return wanted;
+  if (names.size() == 1)
+    return *names.begin();
+  throw meshes::BadInput(file + ": holds the cells " + joined(names) +
+                         "; expected one cell, or one that is named as the folder of " +
+                         cell_file.string());
+}
+} // namespace
+
+std::optional<ValidStrain> valid_strain(const std::string &cell_file,
+                                        const std::string &validity_file, const double limit)
+{
+  const std::string file = validity_file.empty() ? table_of(cell_file) : validity_file;
+  if (file.empty())
+    return {};
+  check_format(fs::absolute(file).parent_path());
+  const std::vector<ValidityRow> rows = read_table<ValidityRow>(file);
+  ValidStrain valid;
+  valid.file   = file;
+  valid.limit  = limit;
+  valid.cell   = cell_of(rows, file, cell_file);
+  bool is_told = false;
+  std::set<std::string> limits;
+  for (const ValidityRow &row : rows)
+  {
+    if (row.cell != valid.cell || row.reference != "biot" || row.measure != "cell side")
+      continue;
+    if (row.relation != "-" && !std::isfinite(row.largest))
+      throw meshes::BadInput(file + ": the row of cell " + row.cell + ", load " + row.load +
+                             " has no largest strain; expected a number beside `" + row.relation +
+                             "`: run `homespun strain` again");
+    limits.insert(short_text(row.limit));
+    if (std::abs(row.limit - limit) > 1e-9 * limit)
+      continue;
+    const bool is_none  = row.relation == "-";
+    const double strain = is_none ? 0. : principal_strain(row.load, row.largest);
+    if (is_told && strain >= valid.strain)
+      continue;
+    is_told       = true;
+    valid.strain  = strain;
+    valid.load    = row.load;
+    valid.is_open = row.relation == ">";
+  }
+  if (!is_told)
+    throw meshes::BadInput(file + ": has no row of cell " + valid.cell +
+                           ", reference biot, measure `cell side` and limit " + short_text(limit) +
+                           "; found the limits " + joined(limits) +
+                           ": choose one of them with --limit, or run `homespun strain` with "
+                           "--references biot");
+  return valid;
+}
+} // namespace homespun::verification

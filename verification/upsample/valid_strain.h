@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+// Up to which strain a cell was found valid: read off validity.csv of a `homespun strain` run.
+#pragma once
+
+#include <optional>
+#include <string>
+
+namespace homespun::verification
+{
+/// The largest principal strain |E| up to which the mean error against `biot` stayed within a part
+/// of the cell side at every load that was tried.
+///
+/// A load's strain s is the largest principal strain itself, but for shear, where it is
+/// sqrt(1 + s²/4) + s/2 − 1.
+struct ValidStrain
+{
+  double strain = 0.;   ///< 0 where a load exceeds the limit at its smallest level already [-]
+  std::string load;     ///< the one that decides
+  bool is_open = false; ///< the limit is kept at the largest level: more was not tried
+  double limit = 0.;    ///< part of the cell side
+  std::string cell, file;
+};
+
+/// Reads the table.
+/// @param cell_file cell.h5, whose folder names the cell where the table holds several
+/// @param validity_file empty: validity.csv beside the cell, or in the folder above, if there is
+/// one
+/// @param limit one of those of the table
+/// @return nothing where there is no table and none is asked for
+/// @throws BadInput where the table cannot be read, or lacks the cell, `biot` or the limit
+std::optional<ValidStrain> valid_strain(const std::string &cell_file,
+                                        const std::string &validity_file, double limit);
+} // namespace homespun::verification
