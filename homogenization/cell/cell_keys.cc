@@ -85,6 +85,126 @@ void turn_phases(const std::string &file, const std::string &mesh_name,
     material = place->second;
   }
 }
+
+using GroupValues = std::map<std::string, std::vector<double>>;
+
+/// What the keys say of each group.
+struct GroupTables
+{
+  GroupTables(const std::string &file, const CellKeys &keys, Faults &faults)
+      : young(group_values(file, "Young's modulus", keys.young, 1, faults))
+      , poisson(group_values(file, "Poisson's ratio", keys.poisson, 1, faults))
+      , thickness(group_values(file, "Thickness", keys.thickness, 1, faults))
+      , density(group_values(file, "Density", keys.density, 1, faults))
+      , orthotropic(group_values(file, "Orthotropic", keys.orthotropic, 5, faults))
+  {
+  }
+  GroupValues young, poisson, thickness, density, orthotropic;
+};
+
+/// The groups that triangles of the mesh have.
+struct GroupsOfMesh
+{
+  explicit GroupsOfMesh(const CellMeshFile &mesh_file)
+      : present(mesh_file.mesh.material.data(),
+                mesh_file.mesh.material.data() + mesh_file.mesh.material.size())
+      , number_of_name(mesh_file.number_of_name)
+  {
+  }
+
+  std::string name_of(const int number) const
+  {
+    for (const auto &[name, its_number] : number_of_name)
+      if (its_number == number)
+        return name;
+    return std::to_string(number);
+  }
+
+  /// The values of a group, which may be called by its name or by its number; nothing where there
+  /// are none.
+  const std::vector<double> *find(const GroupValues &values, const int number) const
+  {
+    auto entry = values.find(name_of(number));
+    if (entry == values.end())
+      entry = values.find(std::to_string(number));
+    return entry == values.end() ? nullptr : &entry->second;
+  }
+
+  const std::set<int> present;
+  const std::map<std::string, int> &number_of_name;
+};
+
+/// Groups that keys name and no triangle has.
+void check_names(const std::string &file, const GroupTables &tables, const GroupsOfMesh &groups,
+                 Faults &faults)
+{
+  std::string expected;
+  std::vector<std::string> names;
+  for (const int number : groups.present)
+  {
+    names.push_back(groups.name_of(number));
+    expected += (expected.empty() ? "`" : ", `") + names.back() + "`";
+  }
+  const std::vector<std::pair<const char *, const GroupValues *>> of_key = {
+    {"Young's modulus", &tables.young},
+    {"Poisson's ratio", &tables.poisson},
+    {"Thickness", &tables.thickness},
+    {"Density", &tables.density},
+    {"Orthotropic", &tables.orthotropic}};
+  for (const auto &[key, values] : of_key)
+    for (const auto &entry : *values)
+    {
+      const bool known = std::any_of(groups.present.begin(), groups.present.end(),
+                                     [&](const int number) {
+                                       return entry.first == groups.name_of(number) ||
+                                              entry.first == std::to_string(number);
+                                     });
+      if (!known)
+        faults.push_back(file + ": key `" + key + "` names the group `" + entry.first +
+                         "`, which no triangle of the mesh has; expected one of " + expected +
+                         did_you_mean(entry.first, names));
+    }
+}
+
+/// The phase of a group.
+Phase phase_of_group(const std::string &file, const GroupTables &tables, const GroupsOfMesh &groups,
+                     const int number, Faults &faults)
+{
+  Phase phase;
+  const std::string name = groups.name_of(number);
+  bool complete          = true;
+  const auto take        = [&](const char *key, const GroupValues &values)
+  {
+    if (const auto *entry = groups.find(values, number))
+      return (*entry)[0];
+    faults.push_back(file + ": group `" + name + "` of the mesh has no value in key `" + key +
+                     "`; expected `" + name + ": value` there");
+    complete = false;
+    return 1.;
+  };
+  if (const auto *yarn = groups.find(tables.orthotropic, number))
+  {
+    const std::vector<double> &values = *yarn;
+    phase = {name, values[0], values[1], values[2], values[3], values[4], 0., 0.};
+    if (groups.find(tables.young, number) || groups.find(tables.poisson, number))
+      faults.push_back(
+        file + ": group `" + name +
+        "` is given both in `Orthotropic` and in `Young's modulus` or `Poisson's ratio`; "
+        "expected one of them: remove the other");
+  }
+  else
+  {
+    const double E  = take("Young's modulus", tables.young),
+                 nu = take("Poisson's ratio", tables.poisson);
+    phase           = isotropic(name, E, nu, 0., 0.);
+  }
+  phase.thickness = take("Thickness", tables.thickness);
+  phase.density   = take("Density", tables.density);
+  if (complete)
+    for (const std::string &fault : faults_of(phase))
+      faults.push_back(file + ": " + fault);
+  return phase;
+}
 } // namespace
 
 void CellKeys::declare(dealii::ParameterHandler &keys)
@@ -162,31 +282,11 @@ std::optional<meshes::Lattice> lattice_from(const std::string &file, const CellK
 std::vector<Phase> assign_phases(const std::string &file, const CellKeys &keys,
                                  CellMeshFile &mesh_file, Faults &faults)
 {
-  const auto young       = group_values(file, "Young's modulus", keys.young, 1, faults);
-  const auto poisson     = group_values(file, "Poisson's ratio", keys.poisson, 1, faults);
-  const auto thickness   = group_values(file, "Thickness", keys.thickness, 1, faults);
-  const auto density     = group_values(file, "Density", keys.density, 1, faults);
-  const auto orthotropic = group_values(file, "Orthotropic", keys.orthotropic, 5, faults);
-
-  const std::set<int> present(mesh_file.mesh.material.data(),
-                              mesh_file.mesh.material.data() + mesh_file.mesh.material.size());
-  const auto name_of = [&](const int number)
-  {
-    for (const auto &[name, its_number] : mesh_file.number_of_name)
-      if (its_number == number)
-        return name;
-    return std::to_string(number);
-  };
-  std::string groups;
-  std::vector<std::string> names;
-  for (const int number : present)
-  {
-    groups += (groups.empty() ? "`" : ", `") + name_of(number) + "`";
-    names.push_back(name_of(number));
-  }
+  const GroupTables tables(file, keys, faults);
+  const GroupsOfMesh groups(mesh_file);
   // Gmsh writes 0 where no physical group was given.
-  if (mesh_file.number_of_name.empty() && present == std::set<int>{0} && young.count("0") == 0 &&
-      orthotropic.count("0") == 0)
+  if (groups.number_of_name.empty() && groups.present == std::set<int>{0} &&
+      tables.young.count("0") == 0 && tables.orthotropic.count("0") == 0)
   {
     faults.push_back(file + ": the mesh " + keys.mesh +
                      " has no physical groups, so that no triangle has a material; expected one "
@@ -194,77 +294,15 @@ std::vector<Phase> assign_phases(const std::string &file, const CellKeys &keys,
                      "all of it the values of group `0`");
     return {};
   }
-
-  // A group may be called by its name or by its number.
-  const auto find = [&](const auto &values, const int number)
-  {
-    const auto by_name = values.find(name_of(number));
-    return by_name != values.end() ? by_name : values.find(std::to_string(number));
-  };
-  using GroupValues = std::map<std::string, std::vector<double>>;
-  const std::vector<std::pair<const char *, const GroupValues *>> tables = {
-    {"Young's modulus", &young},
-    {"Poisson's ratio", &poisson},
-    {"Thickness", &thickness},
-    {"Density", &density},
-    {"Orthotropic", &orthotropic}};
-  for (const auto &[key, values] : tables)
-    for (const auto &entry : *values)
-    {
-      const bool known = std::any_of(present.begin(), present.end(),
-                                     [&](const int number) {
-                                       return entry.first == name_of(number) ||
-                                              entry.first == std::to_string(number);
-                                     });
-      if (!known)
-        faults.push_back(file + ": key `" + key + "` names the group `" + entry.first +
-                         "`, which no triangle of the mesh has; expected one of " + groups +
-                         did_you_mean(entry.first, names));
-    }
-
+  check_names(file, tables, groups, faults);
   std::vector<Phase> phases;
   std::vector<char> is_orthotropic;
   std::map<int, int> phase_of;
-  for (const int number : present)
+  for (const int number : groups.present)
   {
-    Phase phase;
-    bool complete   = true;
-    const auto take = [&](const char *key, const auto &values)
-    {
-      const auto entry = find(values, number);
-      if (entry != values.end())
-        return entry->second[0];
-      faults.push_back(file + ": group `" + name_of(number) +
-                       "` of the mesh has no value in key `" + key + "`; expected `" +
-                       name_of(number) + ": value` there");
-      complete = false;
-      return 1.;
-    };
-    const auto yarn = find(orthotropic, number);
-    phase.name      = name_of(number);
-    if (yarn != orthotropic.end())
-    {
-      const std::vector<double> &values = yarn->second;
-      phase = {phase.name, values[0], values[1], values[2], values[3], values[4], 0., 0.};
-      if (find(young, number) != young.end() || find(poisson, number) != poisson.end())
-        faults.push_back(
-          file + ": group `" + phase.name +
-          "` is given both in `Orthotropic` and in `Young's modulus` or `Poisson's ratio`; "
-          "expected one of them: remove the other");
-    }
-    else
-    {
-      const double E = take("Young's modulus", young), nu = take("Poisson's ratio", poisson);
-      phase = isotropic(phase.name, E, nu, 0., 0.);
-    }
-    phase.thickness = take("Thickness", thickness);
-    phase.density   = take("Density", density);
-    if (complete)
-      for (const std::string &fault : faults_of(phase))
-        faults.push_back(file + ": " + fault);
     phase_of[number] = static_cast<int>(phases.size());
-    phases.push_back(phase);
-    is_orthotropic.push_back(yarn != orthotropic.end());
+    phases.push_back(phase_of_group(file, tables, groups, number, faults));
+    is_orthotropic.push_back(groups.find(tables.orthotropic, number) != nullptr);
   }
   for (int &number : mesh_file.mesh.material)
     number = phase_of[number];

@@ -117,10 +117,10 @@ struct Polynomials
       }
   }
 };
-} // namespace
 
-std::vector<Corner> corners_of(const meshes::TriangleMesh &mesh, const meshes::Lattice &lattice,
-                               const std::vector<Eigen::Matrix3d> &stiffness_of_material)
+/// The triangles around each vertex of the torus.
+std::map<int, std::vector<TriangleCorner>> triangles_around(const meshes::TriangleMesh &mesh,
+                                                            const meshes::Lattice &lattice)
 {
   const meshes::ImageClasses classes = meshes::match_images(mesh.vertices, lattice);
   std::map<int, std::vector<TriangleCorner>> around;
@@ -141,8 +141,38 @@ std::vector<Corner> corners_of(const meshes::TriangleMesh &mesh, const meshes::L
          std::atan2(a(0) * b(1) - a(1) * b(0), a.dot(b)), std::min(a.norm(), b.norm()),
          mesh.material(t)});
     }
+  return around;
+}
+
+/// Goes around a vertex from one of its triangles on, over edges that two have in common.
+/// @return the corner with its sectors, and the shortest edge [m]
+std::pair<Corner, double> walk_around(const std::vector<TriangleCorner> &its, std::size_t i,
+                                      const std::map<TriangleCorner::Edge, std::size_t> &by_begin,
+                                      const std::vector<Eigen::Matrix3d> &stiffness_of_material,
+                                      std::vector<char> &is_used)
+{
+  Corner corner;
+  double shortest = std::numeric_limits<double>::infinity();
+  for (double angle = its[i].direction; !is_used[i];)
+  {
+    is_used[i] = 1;
+    shortest   = std::min(shortest, its[i].length);
+    corner.sectors.push_back(
+      {angle, angle + its[i].angle, stiffness_of_material[at(its[i].material)]});
+    angle           = corner.sectors.back().end;
+    const auto next = by_begin.find(its[i].end);
+    if (next != by_begin.end())
+      i = next->second;
+  }
+  return {corner, shortest};
+}
+} // namespace
+
+std::vector<Corner> corners_of(const meshes::TriangleMesh &mesh, const meshes::Lattice &lattice,
+                               const std::vector<Eigen::Matrix3d> &stiffness_of_material)
+{
   std::vector<Corner> corners;
-  for (const auto &corners_at_vertex : around)
+  for (const auto &corners_at_vertex : triangles_around(mesh, lattice))
   {
     const std::vector<TriangleCorner> &its = corners_at_vertex.second;
     std::map<TriangleCorner::Edge, std::size_t> by_begin;
@@ -153,22 +183,10 @@ std::vector<Corner> corners_of(const meshes::TriangleMesh &mesh, const meshes::L
       is_end[its[i].end]     = true;
     }
     std::vector<char> is_used(its.size(), 0);
-    const auto walk = [&](std::size_t i, const bool is_closed)
+    const auto walk = [&](const std::size_t i, const bool is_closed)
     {
-      Corner corner;
-      corner.is_closed = is_closed;
-      double shortest  = std::numeric_limits<double>::infinity();
-      for (double angle = its[i].direction; !is_used[i];)
-      {
-        is_used[i] = 1;
-        shortest   = std::min(shortest, its[i].length);
-        corner.sectors.push_back(
-          {angle, angle + its[i].angle, stiffness_of_material[at(its[i].material)]});
-        angle           = corner.sectors.back().end;
-        const auto next = by_begin.find(its[i].end);
-        if (next != by_begin.end())
-          i = next->second;
-      }
+      auto [corner, shortest] = walk_around(its, i, by_begin, stiffness_of_material, is_used);
+      corner.is_closed        = is_closed;
       merge(corner);
       // A line may bend by what images may be off.
       if (!is_regular(corner, std::max(same_angle, 4. * meshes::image_tolerance *

@@ -264,10 +264,12 @@ std::vector<Finding> lint_mechanisms(const TriangleMesh &mesh, const Lattice &la
   return findings;
 }
 
-std::vector<Finding> lint_thin_parts(const UnitCell &cell, const double metres_per_unit)
+namespace
+{
+/// Vertices as their images: the sides of the cell are no boundary of a part.
+std::vector<int> vertices_of_torus(const UnitCell &cell)
 {
   const TriangleMesh &mesh = cell.mesh;
-  // Images count as one vertex, so that the sides of the cell are no boundary of a part.
   std::vector<int> torus(static_cast<std::size_t>(mesh.n_vertices()));
   for (int v = 0; v < mesh.n_vertices(); ++v)
     torus[static_cast<std::size_t>(v)] = v;
@@ -279,76 +281,101 @@ std::vector<Finding> lint_thin_parts(const UnitCell &cell, const double metres_p
   for (std::size_t k = 0; k < outer.size(); ++k)
     torus[static_cast<std::size_t>(outer[k])] =
       outer[static_cast<std::size_t>(classes.representative[k])];
-  const auto vertex = [&](const int t, const int k)
-  { return torus[static_cast<std::size_t>(mesh.triangles(t, k % 3))]; };
+  return torus;
+}
 
-  const std::vector<int> group_of_phase = cell.group_of_phase();
-  const auto group                      = [&](const int t)
-  { return group_of_phase[static_cast<std::size_t>(mesh.material(t))]; };
-
+/// The edges of a cell on the torus, and which of them lie within a group.
+struct GroupEdges
+{
   struct Edge
   {
     int first = -1, second = -1; ///< triangles
     bool is_inside = false;      ///< of one group
   };
-  std::unordered_map<long, Edge> edges;
-  const auto key = [&](const int t, const int k)
+
+  explicit GroupEdges(const UnitCell &cell)
+      : mesh(cell.mesh)
+      , torus(vertices_of_torus(cell))
+      , group_of_phase(cell.group_of_phase())
+      , on_boundary(static_cast<std::size_t>(mesh.n_vertices()), 0)
+  {
+    for (int t = 0; t < mesh.n_triangles(); ++t)
+      for (int k = 0; k < 3; ++k)
+      {
+        Edge &edge                                  = edges[key(t, k)];
+        (edge.first < 0 ? edge.first : edge.second) = t;
+      }
+    for (auto &[its_key, edge] : edges)
+    {
+      edge.is_inside = edge.second >= 0 && group(edge.first) == group(edge.second);
+      if (!edge.is_inside)
+        for (const long end : {its_key / mesh.n_vertices(), its_key % mesh.n_vertices()})
+          on_boundary[static_cast<std::size_t>(end)] = 1;
+    }
+  }
+
+  int vertex(const int t, const int k) const
+  {
+    return torus[static_cast<std::size_t>(mesh.triangles(t, k % 3))];
+  }
+  int group(const int t) const
+  {
+    return group_of_phase[static_cast<std::size_t>(mesh.material(t))];
+  }
+  /// Of side k of triangle t.
+  long key(const int t, const int k) const
   {
     const int a = vertex(t, k), b = vertex(t, k + 1);
     return static_cast<long>(std::min(a, b)) * mesh.n_vertices() + std::max(a, b);
-  };
-  for (int t = 0; t < mesh.n_triangles(); ++t)
-    for (int k = 0; k < 3; ++k)
-    {
-      Edge &edge                                  = edges[key(t, k)];
-      (edge.first < 0 ? edge.first : edge.second) = t;
-    }
-  std::vector<char> on_boundary(static_cast<std::size_t>(mesh.n_vertices()), 0);
-  for (auto &[its_key, edge] : edges)
-  {
-    edge.is_inside = edge.second >= 0 && group(edge.first) == group(edge.second);
-    if (!edge.is_inside)
-      for (const long end : {its_key / mesh.n_vertices(), its_key % mesh.n_vertices()})
-        on_boundary[static_cast<std::size_t>(end)] = 1;
   }
-  // Two triangles side by side whose other boundaries have no vertex in common: both banks of a
-  // strip. In a corner they would have one in common.
-  struct Thin
-  {
-    int n = 0, triangle = -1;
-    double least = std::numeric_limits<double>::infinity();
-  };
-  const std::vector<int> phase_of_group = cell.phase_of_group();
-  std::vector<Thin> thin(phase_of_group.size());
-  for (const auto &[its_key, edge] : edges)
+
+  /// Whether an edge lies between two triangles side by side whose other boundaries have no vertex
+  /// in common: both banks of a strip. In a corner they would have one in common.
+  bool is_across_strip(const long its_key, const Edge &edge) const
   {
     if (!edge.is_inside || !on_boundary[static_cast<std::size_t>(its_key / mesh.n_vertices())] ||
         !on_boundary[static_cast<std::size_t>(its_key % mesh.n_vertices())])
-      continue;
-    bool is_strip = false;
+      return false;
     for (int i = 0; i < 3; ++i)
       for (int j = 0; j < 3; ++j)
       {
         const int a = vertex(edge.first, i), b = vertex(edge.first, i + 1),
                   c = vertex(edge.second, j), d = vertex(edge.second, j + 1);
-        is_strip = is_strip ||
-                   (!edges[key(edge.first, i)].is_inside && !edges[key(edge.second, j)].is_inside &&
-                    a != c && a != d && b != c && b != d);
+        if (!edges.at(key(edge.first, i)).is_inside && !edges.at(key(edge.second, j)).is_inside &&
+            a != c && a != d && b != c && b != d)
+          return true;
       }
-    if (!is_strip)
-      continue;
-    Thin &its = thin[static_cast<std::size_t>(group(edge.first))];
-    ++its.n;
-    const auto [low, high] = std::minmax(edge.first, edge.second);
-    if (its.triangle < 0 || low < its.triangle)
-      its.triangle = low;
-    double shortest = std::numeric_limits<double>::infinity();
-    for (int k = 0; k < 3; ++k)
-      shortest = std::min(shortest, (mesh.vertices.row(mesh.triangles(high, k)) -
-                                     mesh.vertices.row(mesh.triangles(high, (k + 1) % 3)))
-                                      .norm());
-    its.least = std::min(its.least, shortest);
+    return false;
   }
+
+  const TriangleMesh &mesh;
+  const std::vector<int> torus, group_of_phase;
+  std::vector<char> on_boundary; ///< vertices
+  std::unordered_map<long, Edge> edges;
+};
+
+/// Strips of one triangle across, of a group.
+struct Thin
+{
+  int n = 0, triangle = -1;
+};
+} // namespace
+
+std::vector<Finding> lint_thin_parts(const UnitCell &cell, const double metres_per_unit)
+{
+  const TriangleMesh &mesh = cell.mesh;
+  const GroupEdges groups(cell);
+  const std::vector<int> phase_of_group = cell.phase_of_group();
+  std::vector<Thin> thin(phase_of_group.size());
+  for (const auto &[its_key, edge] : groups.edges)
+    if (groups.is_across_strip(its_key, edge))
+    {
+      Thin &its = thin[static_cast<std::size_t>(groups.group(edge.first))];
+      ++its.n;
+      const int low = std::min(edge.first, edge.second);
+      if (its.triangle < 0 || low < its.triangle)
+        its.triangle = low;
+    }
   std::vector<Finding> findings;
   for (std::size_t p = 0; p < thin.size(); ++p)
     if (thin[p].n > 0)

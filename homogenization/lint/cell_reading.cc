@@ -186,6 +186,82 @@ CellKeys read_keys(const std::string &prm_file, CellReading &reading)
   add(reading.findings, "key", faults);
   return keys;
 }
+
+/// Mesh and phases.
+/// @return whether the mesh was read and is sound
+bool read_mesh_and_phases(const CellKeys &keys, const MPI_Comm communicator, CellReading &reading,
+                          std::string &mesh_path)
+{
+  UnitCell &cell                 = reading.cell;
+  std::vector<Finding> &findings = reading.findings;
+  CellMeshFile mesh_file;
+  try
+  {
+    mesh_path = file_beside(cell.file, trimmed(keys.mesh));
+    mesh_file = read_cell_mesh(mesh_path, communicator);
+  }
+  catch (const meshes::BadInput &bad)
+  {
+    add(findings, "mesh file", bad.faults());
+    return false;
+  }
+  mesh_file.mesh.vertices *= reading.metres_per_unit;
+  for (CurvedSide &side : mesh_file.curved_sides)
+    side.sagitta *= reading.metres_per_unit;
+  reading.has_mesh = true;
+  add(findings, "mesh", meshes::placed_faults_of(mesh_file.mesh, mesh_path));
+  const bool is_sound = !has_errors(findings);
+  Faults of_phases;
+  const Eigen::VectorXi groups = mesh_file.mesh.material;
+  cell.phases                  = assign_phases(cell.file, keys, mesh_file, of_phases);
+  cell.mesh                    = std::move(mesh_file.mesh);
+  cell.curved_sides            = std::move(mesh_file.curved_sides);
+  if (!of_phases.empty())
+    cell.mesh.material = groups;
+  add(findings, "phases", of_phases);
+  reading.has_phases = of_phases.empty();
+  return is_sound;
+}
+
+/// Pieces, lattice, images, and what moves without energy.
+/// @return whether the cell fits its images
+bool read_geometry(const CellKeys &keys, const std::string &mesh_path, const bool mesh_is_sound,
+                   CellReading &reading)
+{
+  UnitCell &cell                 = reading.cell;
+  std::vector<Finding> &findings = reading.findings;
+  const std::size_t geometry     = findings.size();
+  bool fits                      = false;
+  try
+  {
+    const auto pieces = piece_faults(cell.mesh, mesh_path);
+    add(findings, "pieces", pieces);
+    Faults of_lattice;
+    std::optional<meshes::Lattice> lattice;
+    const bool is_given = trimmed(keys.lattice) != "auto";
+    if (pieces.empty() || is_given)
+      lattice = lattice_from(cell.file, keys, reading.metres_per_unit, cell.mesh, of_lattice);
+    add(findings, "lattice", of_lattice);
+    if (lattice)
+    {
+      reading.has_lattice = true;
+      cell.lattice        = *lattice;
+    }
+    if (lattice && pieces.empty())
+      fits = matches_its_images(reading, mesh_path);
+    if (!fits && mesh_is_sound && cut_anew_if_holes_are_cut(reading, mesh_path, is_given, geometry))
+      fits = matches_its_images(reading, mesh_path);
+    if (fits && mesh_is_sound && may_move(cell.mesh))
+      append(findings, mesh_path,
+             lint_mechanisms(cell.mesh, cell.lattice, reading.metres_per_unit));
+  }
+  catch (const meshes::BadInput &bad)
+  {
+    add(findings, "mesh", {mesh_path + ": " + bad.what()});
+    return false;
+  }
+  return fits;
+}
 } // namespace
 
 CellReading read_unit_cell_with_findings(const std::string &prm_file, const MPI_Comm communicator)
@@ -207,64 +283,11 @@ CellReading read_unit_cell_with_findings(const std::string &prm_file, const MPI_
     return reading;
 
   std::string mesh_path;
-  CellMeshFile mesh_file;
-  try
-  {
-    mesh_path = file_beside(prm_file, trimmed(keys.mesh));
-    mesh_file = read_cell_mesh(mesh_path, communicator);
-  }
-  catch (const meshes::BadInput &bad)
-  {
-    add(findings, "mesh file", bad.faults());
+  const bool mesh_is_sound = read_mesh_and_phases(keys, communicator, reading, mesh_path);
+  if (!reading.has_mesh)
     return reading;
-  }
-  mesh_file.mesh.vertices *= reading.metres_per_unit;
-  for (CurvedSide &side : mesh_file.curved_sides)
-    side.sagitta *= reading.metres_per_unit;
-  reading.has_mesh = true;
-  add(findings, "mesh", meshes::placed_faults_of(mesh_file.mesh, mesh_path));
-  const bool mesh_is_sound = !has_errors(findings);
-  Faults of_phases;
-  const Eigen::VectorXi groups = mesh_file.mesh.material;
-  cell.phases                  = assign_phases(prm_file, keys, mesh_file, of_phases);
-  cell.mesh                    = std::move(mesh_file.mesh);
-  cell.curved_sides            = std::move(mesh_file.curved_sides);
-  if (!of_phases.empty())
-    cell.mesh.material = groups;
-  add(findings, "phases", of_phases);
-
-  bool fits                  = false;
-  const std::size_t geometry = findings.size();
-  try
-  {
-    const auto pieces = piece_faults(cell.mesh, mesh_path);
-    add(findings, "pieces", pieces);
-    Faults of_lattice;
-    std::optional<meshes::Lattice> lattice;
-    const bool is_given = trimmed(keys.lattice) != "auto";
-    if (pieces.empty() || is_given)
-      lattice = lattice_from(prm_file, keys, reading.metres_per_unit, cell.mesh, of_lattice);
-    add(findings, "lattice", of_lattice);
-    if (lattice)
-    {
-      reading.has_lattice = true;
-      cell.lattice        = *lattice;
-    }
-    if (lattice && pieces.empty())
-      fits = matches_its_images(reading, mesh_path);
-    if (!fits && mesh_is_sound && cut_anew_if_holes_are_cut(reading, mesh_path, is_given, geometry))
-      fits = matches_its_images(reading, mesh_path);
-    if (fits && mesh_is_sound && may_move(cell.mesh))
-      append(findings, mesh_path,
-             lint_mechanisms(cell.mesh, cell.lattice, reading.metres_per_unit));
-  }
-  catch (const meshes::BadInput &bad)
-  {
-    add(findings, "mesh", {mesh_path + ": " + bad.what()});
-    fits = false;
-  }
-  reading.has_phases = of_phases.empty();
-  reading.is_whole   = mesh_is_sound && fits && reading.has_phases;
+  const bool fits  = read_geometry(keys, mesh_path, mesh_is_sound, reading);
+  reading.is_whole = mesh_is_sound && fits && reading.has_phases;
   if (reading.is_whole)
     append(findings, prm_file, lint_contrast(cell));
   if (reading.is_whole && !cell.curved_sides.empty())

@@ -223,22 +223,30 @@ void find_motions(const TriangleMesh &mesh, const Lattice &lattice, const Struct
       Eigen::JacobiSVD<Eigen::MatrixXd>(strains, Eigen::ComputeFullU).matrixU().leftCols(n_free);
   }
 }
-} // namespace
+// An edge of the torus: both representatives and the shift from one to the other.
+using Edge = std::tuple<int, int, int, int>;
 
-Mechanisms find_mechanisms(const TriangleMesh &mesh, const Lattice &lattice)
+/// Triangles joined over their edges.
+struct Joined
 {
-  const TorusVertices torus = torus_vertices(mesh, lattice);
-  // An edge of the torus: both representatives and the shift from one to the other.
-  using Edge = std::tuple<int, int, int, int>;
+  explicit Joined(const int n_triangles)
+      : sets(n_triangles)
+  {
+  }
+  ShiftedSets sets;
+  std::map<Edge, int> n_sides;               ///< triangles at an edge
+  std::vector<std::pair<int, Shift>> cycles; ///< a triangle that meets its own image, and which
+};
+
+Joined join_triangles(const TriangleMesh &mesh, const TorusVertices &torus)
+{
   struct Side
   {
     int triangle;
     Shift offset; ///< of the edge's first vertex in that triangle
   };
   std::map<Edge, Side> first_side;
-  std::map<Edge, int> n_sides;
-  ShiftedSets sets(mesh.n_triangles());
-  std::vector<std::pair<int, Shift>> cycles;
+  Joined joined(mesh.n_triangles());
   for (int t = 0; t < mesh.n_triangles(); ++t)
     for (int k = 0; k < 3; ++k)
     {
@@ -258,16 +266,20 @@ Mechanisms find_mechanisms(const TriangleMesh &mesh, const Lattice &lattice)
       }
       const Edge edge(torus.representative[u], torus.representative[v], step(0), step(1));
       const auto [place, is_new] = first_side.insert({edge, {t, torus.offset[u]}});
-      ++n_sides[edge];
+      ++joined.n_sides[edge];
       if (is_new)
         continue;
       const Shift left =
-        sets.join(place->second.triangle, t, place->second.offset - torus.offset[u]);
+        joined.sets.join(place->second.triangle, t, place->second.offset - torus.offset[u]);
       if (left != Shift(0, 0))
-        cycles.emplace_back(t, left);
+        joined.cycles.emplace_back(t, left);
     }
+  return joined;
+}
 
-  // Parts, the largest first.
+/// The parts, the largest first, and which one each triangle belongs to.
+Mechanisms parts_of(const TriangleMesh &mesh, ShiftedSets &sets)
+{
   Mechanisms found;
   const Eigen::VectorXd areas = meshes::signed_areas(mesh);
   std::map<int, MeshPart> by_root;
@@ -295,8 +307,12 @@ Mechanisms find_mechanisms(const TriangleMesh &mesh, const Lattice &lattice)
   }
   for (int t = 0; t < mesh.n_triangles(); ++t)
     found.part.push_back(index_of[sets.find(t).first]);
+  return found;
+}
 
-  Structure structure;
+void find_periods(const std::vector<std::pair<int, Shift>> &cycles, Structure &structure,
+                  Mechanisms &found)
+{
   structure.periods.resize(found.parts.size());
   for (const auto &[t, period] : cycles)
   {
@@ -309,7 +325,10 @@ Mechanisms find_mechanisms(const TriangleMesh &mesh, const Lattice &lattice)
   }
   for (std::size_t p = 0; p < found.parts.size(); ++p)
     found.parts[p].n_periods = static_cast<int>(structure.periods[p].size());
+}
 
+void find_hinges(const std::map<Edge, int> &n_sides, Mechanisms &found)
+{
   // Vertices where triangles meet in nothing but the vertex: more than two edges there have one
   // triangle.
   std::map<int, int> n_free_edges;
@@ -324,7 +343,13 @@ Mechanisms find_mechanisms(const TriangleMesh &mesh, const Lattice &lattice)
     if (n > 2)
       hinges.insert(vertex);
   found.hinges.assign(hinges.begin(), hinges.end());
+}
 
+/// Which parts meet in which hinges.
+void find_joints(const TriangleMesh &mesh, const TorusVertices &torus, ShiftedSets &sets,
+                 Structure &structure, Mechanisms &found)
+{
+  const std::set<int> hinges(found.hinges.begin(), found.hinges.end());
   std::set<std::array<int, 4>> incidences;
   for (int t = 0; t < mesh.n_triangles() && !hinges.empty(); ++t)
     for (int k = 0; k < 3; ++k)
@@ -346,7 +371,18 @@ Mechanisms find_mechanisms(const TriangleMesh &mesh, const Lattice &lattice)
        structure.joints[j + 1].vertex == structure.joints[j].vertex);
     found.parts[static_cast<std::size_t>(structure.joints[j].part)].n_joints += is_shared ? 1 : 0;
   }
+}
+} // namespace
 
+Mechanisms find_mechanisms(const TriangleMesh &mesh, const Lattice &lattice)
+{
+  const TorusVertices torus = torus_vertices(mesh, lattice);
+  Joined joined             = join_triangles(mesh, torus);
+  Mechanisms found          = parts_of(mesh, joined.sets);
+  Structure structure;
+  find_periods(joined.cycles, structure, found);
+  find_hinges(joined.n_sides, found);
+  find_joints(mesh, torus, joined.sets, structure, found);
   const bool holds = found.parts.size() == 1 && found.parts[0].n_periods == 2;
   if (holds)
     return found;

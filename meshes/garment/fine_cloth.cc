@@ -3,6 +3,7 @@
 
 #include "meshes/cloth/cloth_faults.h"
 #include "meshes/garment/fine_panel.h"
+#include "meshes/garment/seam_distance.h"
 #include "meshes/plain/errors.h"
 
 #include <algorithm>
@@ -85,123 +86,61 @@ struct Collected
   std::map<std::array<int, 2>, std::vector<std::pair<double, int>>> along_side;
 };
 
-/// Distances to the seams of one panel, by buckets of the size of the reach.
-class SeamDistance
+/// Where the vertices of a panel come from, and where they go.
+struct Collection
 {
-public:
-  SeamDistance(std::vector<std::array<Eigen::RowVector2d, 2>> segments, const double reach)
-      : segments(std::move(segments))
-      , reach(reach)
+  const FinePanel &panel;
+  const TriangleMesh &cell_mesh;
+  const SeamDistance &seam_distance;
+  const Eigen::RowVector2d &towards; ///< to which points on coarse edges belong
+  Collected &fine;
+
+  /// A fine vertex at a corner of a kept triangle. @return its index
+  int add_vertex(const int corner)
   {
-    for (std::size_t s = 0; s < this->segments.size(); ++s)
+    const CutMesh &cut        = *panel.cut;
+    const TriangleMesh &sheet = panel.sheet.mesh;
+    const int v = panel.cut_vertex_of(corner), n_sheet = sheet.n_vertices();
+    const Eigen::RowVector2d x =
+      v >= 0 ? cut.vertices[at(v)].x : Eigen::RowVector2d(sheet.vertices.row(corner));
+    fine.x.push_back(x + panel.base);
+    fine.panel.push_back(panel.index);
+    fine.seam_distance.push_back(seam_distance(x));
+    fine.cell_vertex.push_back(corner < n_sheet ? panel.sheet.cell_vertex(corner) : -1);
+    fine.cell_triangle.push_back(-1);
+    fine.cell_weights.push_back({0., 0., 0.});
+    if (corner >= n_sheet)
     {
-      const auto &[from, to] = this->segments[s];
-      const int n            = 1 + static_cast<int>((to - from).norm() / (0.5 * reach));
-      for (int k = 0; k <= n; ++k)
-      {
-        const auto [i, j] = bucket(from + k / static_cast<double>(n) * (to - from));
-        for (int dj = -2; dj <= 2; ++dj)
-          for (int di = -2; di <= 2; ++di)
-          {
-            std::vector<int> &members = buckets[{i + di, j + dj}];
-            if (members.empty() || members.back() != static_cast<int>(s))
-              members.push_back(static_cast<int>(s));
-          }
-      }
+      const int parent            = cut.vertices[at(v)].parent;
+      const Eigen::RowVector2d x0 = sheet.vertices.row(sheet.triangles(parent, 0)),
+                               e1 = sheet.vertices.row(sheet.triangles(parent, 1)) - x0,
+                               e2 = sheet.vertices.row(sheet.triangles(parent, 2)) - x0;
+      const double b1 = cross(x - x0, e2) / cross(e1, e2), b2 = cross(e1, x - x0) / cross(e1, e2);
+      fine.cell_triangle.back() = parent % cell_mesh.n_triangles();
+      fine.cell_weights.back() << 1. - b1 - b2, b1, b2;
     }
+    fine.coarse_triangle.push_back(-1);
+    fine.coarse_weights.push_back({0., 0., 0.});
+    if (v < 0 || cut.vertices[at(v)].outline.empty())
+    {
+      const Location found        = panel.location->locate(x, towards);
+      fine.coarse_triangle.back() = found.triangle;
+      fine.coarse_weights.back()  = found.weights.transpose();
+      if (found.triangle < 0)
+        throw std::logic_error("fine cloth: a vertex inside a panel lies in no coarse triangle");
+    }
+    return static_cast<int>(fine.x.size()) - 1;
   }
 
-  double operator()(const Eigen::RowVector2d &x) const
+  /// Where a triangle has a side on the outline, that tells which coarse triangle its vertices
+  /// belong to.
+  void put_on_outline(const KeptTriangle &triangle, const std::array<int, 3> &corners)
   {
-    double nearest   = std::numeric_limits<double>::infinity();
-    const auto found = buckets.find(bucket(x));
-    if (found == buckets.end())
-      return nearest;
-    for (const int s : found->second)
-    {
-      const auto &[from, to] = segments[at(s)];
-      const double part = std::clamp((x - from).dot(to - from) / (to - from).squaredNorm(), 0., 1.);
-      nearest           = std::min(nearest, (x - from - part * (to - from)).norm());
-    }
-    return nearest <= reach ? nearest : std::numeric_limits<double>::infinity();
-  }
-
-private:
-  std::array<int, 2> bucket(const Eigen::RowVector2d &x) const
-  {
-    return {static_cast<int>(std::floor(x(0) / reach)), static_cast<int>(std::floor(x(1) / reach))};
-  }
-
-  std::vector<std::array<Eigen::RowVector2d, 2>> segments;
-  double reach;
-  std::map<std::array<int, 2>, std::vector<int>> buckets;
-};
-
-void collect(const FinePanel &panel, const std::vector<KeptTriangle> &kept,
-             const TriangleMesh &cell_mesh, const SeamDistance &seam_distance,
-             const Eigen::RowVector2d &towards, Collected &fine)
-{
-  const CutMesh &cut                         = *panel.cut;
-  const TriangleMesh &sheet                  = panel.sheet.mesh;
-  const int n_sheet                          = sheet.n_vertices();
-  const std::vector<std::array<int, 3>> fans = fans_of(panel, kept);
-
-  std::vector<int> first_copy(at(n_sheet) + cut.vertices.size(), -1); // fine vertex of fan 0
-  std::map<std::array<int, 2>, int> other_copies;                     // of fans 1, 2, ...
-  for (std::size_t t = 0; t < kept.size(); ++t)
-  {
-    std::array<int, 3> corners{};
-    for (std::size_t k = 0; k < 3; ++k)
-    {
-      const int corner = kept[t].corners[k], v = panel.cut_vertex_of(corner), fan = fans[t][k];
-      int &vertex = fan == 0
-                      ? first_copy[at(corner)]
-                      : other_copies.emplace(std::array<int, 2>{corner, fan}, -1).first->second;
-      if (vertex < 0)
-      {
-        vertex = static_cast<int>(fine.x.size());
-        const Eigen::RowVector2d x =
-          v >= 0 ? cut.vertices[at(v)].x : Eigen::RowVector2d(sheet.vertices.row(corner));
-        fine.x.push_back(x + panel.base);
-        fine.panel.push_back(panel.index);
-        fine.seam_distance.push_back(seam_distance(x));
-        fine.cell_vertex.push_back(corner < n_sheet ? panel.sheet.cell_vertex(corner) : -1);
-        fine.cell_triangle.push_back(-1);
-        fine.cell_weights.push_back({0., 0., 0.});
-        if (corner >= n_sheet)
-        {
-          const int parent            = cut.vertices[at(v)].parent;
-          const Eigen::RowVector2d x0 = sheet.vertices.row(sheet.triangles(parent, 0)),
-                                   e1 = sheet.vertices.row(sheet.triangles(parent, 1)) - x0,
-                                   e2 = sheet.vertices.row(sheet.triangles(parent, 2)) - x0;
-          const double b1             = cross(x - x0, e2) / cross(e1, e2),
-                       b2             = cross(e1, x - x0) / cross(e1, e2);
-          fine.cell_triangle.back()   = parent % cell_mesh.n_triangles();
-          fine.cell_weights.back() << 1. - b1 - b2, b1, b2;
-        }
-        fine.coarse_triangle.push_back(-1);
-        fine.coarse_weights.push_back({0., 0., 0.});
-        if (v < 0 || cut.vertices[at(v)].outline.empty())
-        {
-          const Location found        = panel.location->locate(x, towards);
-          fine.coarse_triangle.back() = found.triangle;
-          fine.coarse_weights.back()  = found.weights.transpose();
-          if (found.triangle < 0)
-            throw std::logic_error(
-              "fine cloth: a vertex inside a panel lies in no coarse triangle");
-        }
-      }
-      corners[k] = vertex;
-    }
-    fine.triangles.push_back(corners);
-    fine.material.push_back(sheet.material(kept[t].parent));
-
-    // Where the triangle has a side on the outline, that tells which coarse triangle its vertices
-    // belong to.
-    const auto put = [&](const std::size_t k, const int edge)
+    const CutMesh &cut = *panel.cut;
+    const auto put     = [&](const std::size_t k, const int edge)
     {
       const Side &side  = panel.outline[at(edge)];
-      const double part = cut.part_of(panel.cut_vertex_of(kept[t].corners[k]), edge);
+      const double part = cut.part_of(panel.cut_vertex_of(triangle.corners[k]), edge);
       fine.coarse_triangle[at(corners[k])] = side.triangle;
       fine.coarse_weights[at(corners[k])].setZero();
       fine.coarse_weights[at(corners[k])](side.side)           = 1. - part;
@@ -210,8 +149,8 @@ void collect(const FinePanel &panel, const std::vector<KeptTriangle> &kept,
     };
     for (std::size_t k = 0; k < 3; ++k)
     {
-      const int a = panel.cut_vertex_of(kept[t].corners[k]),
-                b = panel.cut_vertex_of(kept[t].corners[(k + 1) % 3]);
+      const int a = panel.cut_vertex_of(triangle.corners[k]),
+                b = panel.cut_vertex_of(triangle.corners[(k + 1) % 3]);
       if (a < 0)
         continue;
       if (fine.coarse_triangle[at(corners[k])] < 0)
@@ -227,6 +166,32 @@ void collect(const FinePanel &panel, const std::vector<KeptTriangle> &kept,
           chain.emplace_back(put((k + 1) % 3, edge), corners[(k + 1) % 3]);
         }
     }
+  }
+};
+
+void collect(const std::vector<KeptTriangle> &kept, Collection into)
+{
+  const FinePanel &panel                     = into.panel;
+  const std::vector<std::array<int, 3>> fans = fans_of(panel, kept);
+  std::vector<int> first_copy(at(panel.sheet.mesh.n_vertices()) + panel.cut->vertices.size(),
+                              -1);                // fine vertex of fan 0
+  std::map<std::array<int, 2>, int> other_copies; // of fans 1, 2, ...
+  for (std::size_t t = 0; t < kept.size(); ++t)
+  {
+    std::array<int, 3> corners{};
+    for (std::size_t k = 0; k < 3; ++k)
+    {
+      const int corner = kept[t].corners[k], fan = fans[t][k];
+      int &vertex = fan == 0
+                      ? first_copy[at(corner)]
+                      : other_copies.emplace(std::array<int, 2>{corner, fan}, -1).first->second;
+      if (vertex < 0)
+        vertex = into.add_vertex(corner);
+      corners[k] = vertex;
+    }
+    into.fine.triangles.push_back(corners);
+    into.fine.material.push_back(panel.sheet.mesh.material(kept[t].parent));
+    into.put_on_outline(kept[t], corners);
   }
 }
 
@@ -284,6 +249,69 @@ Eigen::VectorXi vector_of(const std::vector<int> &numbers)
   return Eigen::Map<const Eigen::VectorXi>(numbers.data(),
                                            static_cast<Eigen::Index>(numbers.size()));
 }
+
+/// What of the seams runs along a panel, in its frame.
+std::vector<std::array<Eigen::RowVector2d, 2>> seams_along(const FinePanel &panel,
+                                                           const ClothMesh &cloth,
+                                                           const Panels &membership,
+                                                           const std::vector<SeamEdge> &seams)
+{
+  std::vector<std::array<Eigen::RowVector2d, 2>> segments;
+  for (const SeamEdge &seam : seams)
+    for (const Side &sewn_side : seam.sides)
+      if (membership.of_triangle(sewn_side.triangle) == panel.index)
+      {
+        const auto ends = rest_ends(cloth, sewn_side);
+        segments.push_back({cloth.rest.vertices.row(ends[0]) - panel.base,
+                            cloth.rest.vertices.row(ends[1]) - panel.base});
+      }
+  return segments;
+}
+
+/// The area of the fine triangles of a panel, those from `first` on.
+/// @throws BadInput where it is not that of the panel
+double covered_area(const FinePanel &panel, const Collected &collected, const std::size_t first,
+                    const Outline outline)
+{
+  double covered = 0.;
+  for (std::size_t t = first; t < collected.triangles.size(); ++t)
+  {
+    const auto [a, b, c] = collected.triangles[t];
+    covered +=
+      0.5 * cross(collected.x[at(b)] - collected.x[at(a)], collected.x[at(c)] - collected.x[at(a)]);
+  }
+  // A cover that misses or repeats a millionth means an outline that crosses itself.
+  if (covered > (1. + 1e-6) * panel.area ||
+      (outline == Outline::clipped && covered < (1. - 1e-6) * panel.area))
+  {
+    std::ostringstream text;
+    text
+      << "fine cloth: panel " << panel.index << " has an area of " << panel.area
+      << " m^2 and its fine triangles one of " << covered
+      << " m^2; expected the same: the panel overlaps itself at rest: unwrap it without overlaps";
+    throw BadInput(text.str());
+  }
+  return covered;
+}
+
+/// Takes over what was collected of all panels.
+void take(const Collected &collected, FineCloth &fine)
+{
+  fine.rest.vertices = stacked<2>(collected.x);
+  fine.rest.triangles.resize(static_cast<Eigen::Index>(collected.triangles.size()), 3);
+  for (std::size_t t = 0; t < collected.triangles.size(); ++t)
+    fine.rest.triangles.row(static_cast<Eigen::Index>(t)) << collected.triangles[t][0],
+      collected.triangles[t][1], collected.triangles[t][2];
+  fine.rest.material   = vector_of(collected.material);
+  fine.panel           = vector_of(collected.panel);
+  fine.cell_vertex     = vector_of(collected.cell_vertex);
+  fine.cell_triangle   = vector_of(collected.cell_triangle);
+  fine.cell_weights    = stacked<3>(collected.cell_weights);
+  fine.coarse_triangle = vector_of(collected.coarse_triangle);
+  fine.coarse_weights  = stacked<3>(collected.coarse_weights);
+  fine.seam_distance   = Eigen::Map<const Eigen::VectorXd>(
+    collected.seam_distance.data(), static_cast<Eigen::Index>(collected.seam_distance.size()));
+}
 } // namespace
 
 Triangles FineCloth::sewn_triangles() const
@@ -320,15 +348,6 @@ FineCloth fine_cloth(const TriangleMesh &cell_mesh, const Lattice &lattice, cons
   for (const FinePanel &panel : panels)
   {
     fine.grains.push_back(panel.grain);
-    std::vector<std::array<Eigen::RowVector2d, 2>> segments;
-    for (const SeamEdge &seam : seams)
-      for (const Side &sewn_side : seam.sides)
-        if (membership.of_triangle(sewn_side.triangle) == panel.index)
-        {
-          const auto ends = rest_ends(cloth, sewn_side);
-          segments.push_back({cloth.rest.vertices.row(ends[0]) - panel.base,
-                              cloth.rest.vertices.row(ends[1]) - panel.base});
-        }
     const KeptTriangles kept = kept_triangles(panel, options.outline, cell_area);
     const std::size_t before = collected.triangles.size();
     fine.n_cut += kept.n_cut;
@@ -336,46 +355,16 @@ FineCloth fine_cloth(const TriangleMesh &cell_mesh, const Lattice &lattice, cons
     // Points on a coarse edge belong to the triangle at their upper right, as in the Upsampler.
     const Eigen::RowVector2d towards = 1e-5 * Eigen::RowVector2d(2. / 3., 1. / 3.) *
                                        lattice.vectors * panel.grain.rotation().transpose();
-    collect(panel, kept.triangles, cell_mesh, SeamDistance(std::move(segments), seam_reach * side),
-            towards, collected);
-    double covered = 0.;
-    for (std::size_t t = before; t < collected.triangles.size(); ++t)
-    {
-      const auto [a, b, c] = collected.triangles[t];
-      covered += 0.5 * cross(collected.x[at(b)] - collected.x[at(a)],
-                             collected.x[at(c)] - collected.x[at(a)]);
-    }
-    // A cover that misses or repeats a millionth means an outline that crosses itself.
-    if (covered > (1. + 1e-6) * panel.area ||
-        (options.outline == Outline::clipped && covered < (1. - 1e-6) * panel.area))
-    {
-      std::ostringstream text;
-      text
-        << "fine cloth: panel " << panel.index << " has an area of " << panel.area
-        << " m^2 and its fine triangles one of " << covered
-        << " m^2; expected the same: the panel overlaps itself at rest: unwrap it without overlaps";
-      throw BadInput(text.str());
-    }
-    fine.area_lost += panel.area - covered;
+    const SeamDistance seam_distance(seams_along(panel, cloth, membership, seams),
+                                     seam_reach * side);
+    collect(kept.triangles, {panel, cell_mesh, seam_distance, towards, collected});
+    fine.area_lost += panel.area - covered_area(panel, collected, before, options.outline);
   }
   if (collected.triangles.empty())
     throw BadInput(
       "fine cloth: no triangle of the cell lies wholly inside a panel; expected panels larger "
       "than the cell's triangles: is vt in metres? or clip the outline");
-  fine.rest.vertices = stacked<2>(collected.x);
-  fine.rest.triangles.resize(static_cast<Eigen::Index>(collected.triangles.size()), 3);
-  for (std::size_t t = 0; t < collected.triangles.size(); ++t)
-    fine.rest.triangles.row(static_cast<Eigen::Index>(t)) << collected.triangles[t][0],
-      collected.triangles[t][1], collected.triangles[t][2];
-  fine.rest.material   = vector_of(collected.material);
-  fine.panel           = vector_of(collected.panel);
-  fine.cell_vertex     = vector_of(collected.cell_vertex);
-  fine.cell_triangle   = vector_of(collected.cell_triangle);
-  fine.cell_weights    = stacked<3>(collected.cell_weights);
-  fine.coarse_triangle = vector_of(collected.coarse_triangle);
-  fine.coarse_weights  = stacked<3>(collected.coarse_weights);
-  fine.seam_distance   = Eigen::Map<const Eigen::VectorXd>(
-    collected.seam_distance.data(), static_cast<Eigen::Index>(collected.seam_distance.size()));
+  take(collected, fine);
   fine.same_in_space = sewn(collected, seams);
   return fine;
 }

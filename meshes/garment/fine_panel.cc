@@ -7,7 +7,6 @@
 #include <cmath>
 #include <limits>
 #include <map>
-#include <numeric>
 #include <sstream>
 
 namespace homespun::meshes
@@ -105,43 +104,43 @@ void cover(FinePanel &panel, const TriangleMesh &cell_mesh, const Lattice &latti
     ((panel.sheet.mesh.vertices.rowwise() - panel.sheet.origin) * rotation.transpose()).eval();
 }
 
-/// Sorts the triangles of the sheet: away from the outline inside or outside, or near it; and cuts
-/// the last.
-/// @param tolerance of the outline [m]
-/// @return how many pieces are slivers
-/// @throws CutMesh::Conflict
-int clip(FinePanel &panel, const Lattice &lattice, const ClothMesh &cloth, const double tolerance)
+/// The outline of a panel, in its frame.
+struct Outlined
 {
-  const Eigen::Matrix2d rotation = panel.grain.rotation();
-  std::map<int, int> point_of; // rest vertex on the outline
+  Outlined(const FinePanel &panel, const ClothMesh &cloth)
+  {
+    std::map<int, int> point_of; // rest vertex on the outline
+    for (const Side &open : panel.outline)
+    {
+      std::array<int, 2> edge{};
+      for (std::size_t end = 0; end < 2; ++end)
+      {
+        const int v                = rest_ends(cloth, open)[end];
+        const auto [place, is_new] = point_of.emplace(v, static_cast<int>(points.size()));
+        if (is_new)
+          points.push_back(cloth.rest.vertices.row(v) - panel.base);
+        edge[end] = place->second;
+      }
+      edges.push_back(edge);
+    }
+  }
   std::vector<Eigen::RowVector2d> points;
   std::vector<std::array<int, 2>> edges;
-  for (const Side &open : panel.outline)
-  {
-    std::array<int, 2> edge{};
-    for (std::size_t end = 0; end < 2; ++end)
-    {
-      const int v                = rest_ends(cloth, open)[end];
-      const auto [place, is_new] = point_of.emplace(v, static_cast<int>(points.size()));
-      if (is_new)
-        points.push_back(cloth.rest.vertices.row(v) - panel.base);
-      edge[end] = place->second;
-    }
-    edges.push_back(edge);
-  }
-  panel.cut = std::make_unique<CutMesh>(points, edges, tolerance);
-  panel.whole.clear();
-  panel.sheet_vertex.clear();
-  panel.cut_vertex.assign(at(panel.sheet.mesh.n_vertices()), -1);
+};
 
-  // Edges of the outline by cells, in units of the lattice.
+/// Edges of the outline that may meet each cell of the sheet.
+std::vector<std::vector<int>> edges_of_cells(const FinePanel &panel, const Lattice &lattice,
+                                             const Outlined &outline)
+{
+  const Eigen::Matrix2d rotation = panel.grain.rotation();
   const int n1 = panel.sheet.n1, n2 = panel.sheet.n2;
   std::vector<std::vector<int>> edges_of_cell(at(n1) * at(n2));
-  const double margin = 1e-3;
-  for (std::size_t e = 0; e < edges.size(); ++e)
+  const double margin = 1e-3; // in units of the lattice
+  for (std::size_t e = 0; e < outline.edges.size(); ++e)
   {
-    const Eigen::RowVector2d from = lattice.fractional(points[at(edges[e][0])] * rotation),
-                             to   = lattice.fractional(points[at(edges[e][1])] * rotation);
+    const auto [begin, end]       = outline.edges[e];
+    const Eigen::RowVector2d from = lattice.fractional(outline.points[at(begin)] * rotation),
+                             to   = lattice.fractional(outline.points[at(end)] * rotation);
     const Eigen::RowVector2d low  = (from.cwiseMin(to).array() - margin).floor(),
                              high = (from.cwiseMax(to).array() + margin).floor();
     for (int j = std::max(0, static_cast<int>(low(1)));
@@ -152,12 +151,49 @@ int clip(FinePanel &panel, const Lattice &lattice, const ClothMesh &cloth, const
                      Eigen::RowVector2d(i + 1 + margin, j + 1 + margin)))
           edges_of_cell[at(j) * at(n1) + at(i)].push_back(static_cast<int>(e));
   }
+  return edges_of_cell;
+}
+
+/// Hands a triangle of the sheet over to be cut. @param near edges that it may meet
+void add_to_cut(FinePanel &panel, const int t, std::vector<int> near)
+{
+  const TriangleMesh &mesh = panel.sheet.mesh;
+  std::array<int, 3> corners{};
+  for (int k = 0; k < 3; ++k)
+  {
+    const int v = mesh.triangles(t, k);
+    int &index  = panel.cut_vertex[at(v)];
+    if (index < 0)
+    {
+      index = panel.cut->add_vertex(mesh.vertices.row(v));
+      panel.sheet_vertex.push_back(v);
+    }
+    corners[at(k)] = index;
+  }
+  panel.cut->add_triangle(corners, t, std::move(near));
+}
+
+/// Sorts the triangles of the sheet: away from the outline inside or outside, or near it; and cuts
+/// the last.
+/// @param tolerance of the outline [m]
+/// @return how many pieces are slivers
+/// @throws CutMesh::Conflict
+int clip(FinePanel &panel, const Lattice &lattice, const ClothMesh &cloth, const double tolerance)
+{
+  const Outlined outline(panel, cloth);
+  const auto &points = outline.points;
+  const auto &edges  = outline.edges;
+  panel.cut          = std::make_unique<CutMesh>(points, edges, tolerance);
+  panel.whole.clear();
+  panel.sheet_vertex.clear();
+  panel.cut_vertex.assign(at(panel.sheet.mesh.n_vertices()), -1);
+  const auto edges_of_cell = edges_of_cells(panel, lattice, outline);
 
   const auto holds = [&](const Eigen::RowVector2d &point) {
     return panel.location->locate(point, {0., 0.}).triangle >= 0;
   };
   const TriangleMesh &mesh = panel.sheet.mesh;
-  const int n_per_cell     = mesh.n_triangles() / (n1 * n2);
+  const int n1 = panel.sheet.n1, n2 = panel.sheet.n2, n_per_cell = mesh.n_triangles() / (n1 * n2);
   const Eigen::RowVector2d room =
     Eigen::RowVector2d::Constant(10. * tolerance); // more than a vertex moves
   for (int cell = 0; cell < n1 * n2; ++cell)
@@ -165,7 +201,7 @@ int clip(FinePanel &panel, const Lattice &lattice, const ClothMesh &cloth, const
     const std::vector<int> &candidates = edges_of_cell[at(cell)];
     const int i = cell % n1, j = cell / n1;
     const Eigen::RowVector2d middle =
-      Eigen::RowVector2d(i + 0.5, j + 0.5) * lattice.vectors * rotation.transpose();
+      Eigen::RowVector2d(i + 0.5, j + 0.5) * lattice.vectors * panel.grain.rotation().transpose();
     if (candidates.empty() && !holds(middle))
       continue;
     for (int t = cell * n_per_cell; t < (cell + 1) * n_per_cell; ++t)
@@ -178,25 +214,10 @@ int clip(FinePanel &panel, const Lattice &lattice, const ClothMesh &cloth, const
         if (may_meet(points[at(edges[at(e)][0])], points[at(edges[at(e)][1])],
                      x0.cwiseMin(x1).cwiseMin(x2) - room, x0.cwiseMax(x1).cwiseMax(x2) + room))
           near.push_back(e);
-      if (near.empty())
-      {
-        if (candidates.empty() || holds((x0 + x1 + x2) / 3.))
-          panel.whole.push_back(t);
-        continue;
-      }
-      std::array<int, 3> corners{};
-      for (int k = 0; k < 3; ++k)
-      {
-        const int v = mesh.triangles(t, k);
-        int &index  = panel.cut_vertex[at(v)];
-        if (index < 0)
-        {
-          index = panel.cut->add_vertex(mesh.vertices.row(v));
-          panel.sheet_vertex.push_back(v);
-        }
-        corners[at(k)] = index;
-      }
-      panel.cut->add_triangle(corners, t, std::move(near));
+      if (!near.empty())
+        add_to_cut(panel, t, std::move(near));
+      else if (candidates.empty() || holds((x0 + x1 + x2) / 3.))
+        panel.whole.push_back(t);
     }
   }
   panel.cut->cut();
@@ -337,54 +358,5 @@ KeptTriangles kept_triangles(const FinePanel &panel, const Outline outline, cons
       kept.push_back({{corner_of(a), corner_of(b), corner_of(c)}, cut.triangles[t].parent});
   }
   return result;
-}
-
-std::vector<std::array<int, 3>> fans_of(const FinePanel &panel,
-                                        const std::vector<KeptTriangle> &kept)
-{
-  const CutMesh &cut = *panel.cut;
-  std::vector<std::array<int, 3>> fans_of_corner(kept.size(), {0, 0, 0});
-  std::map<int, std::vector<std::pair<std::size_t, std::size_t>>> around; // by vertex of `cut`
-  for (std::size_t t = 0; t < kept.size(); ++t)
-    for (std::size_t k = 0; k < 3; ++k)
-      if (const int v = panel.cut_vertex_of(kept[t].corners[k]);
-          v >= 0 && !cut.vertices[at(v)].outline.empty())
-        around[v].emplace_back(t, k);
-  for (const auto &[v, corners] : around)
-  {
-    std::vector<std::size_t> fan(corners.size());
-    std::iota(fan.begin(), fan.end(), 0u);
-    // A handful of triangles: merge until nothing changes.
-    for (bool changed = true; changed;)
-    {
-      changed = false;
-      for (std::size_t p = 0; p < corners.size(); ++p)
-        for (std::size_t q = 0; q < p; ++q)
-        {
-          if (fan[p] == fan[q])
-            continue;
-          const auto &[t, k] = corners[p];
-          const auto &[s, l] = corners[q];
-          // Around a vertex, neighbours share the corner after it in one and before it in the
-          // other.
-          for (const auto &[here, there] :
-               {std::pair<int, int>{kept[t].corners[(k + 1) % 3], kept[s].corners[(l + 2) % 3]},
-                std::pair<int, int>{kept[t].corners[(k + 2) % 3], kept[s].corners[(l + 1) % 3]}})
-          {
-            const int w = panel.cut_vertex_of(here);
-            if (here == there && (w < 0 || cut.common_edges(v, w).empty()))
-            {
-              fan[p] = fan[q] = std::min(fan[p], fan[q]);
-              changed         = true;
-            }
-          }
-        }
-    }
-    std::map<std::size_t, int> number;
-    for (std::size_t p = 0; p < corners.size(); ++p)
-      fans_of_corner[corners[p].first][corners[p].second] =
-        number.emplace(fan[p], static_cast<int>(number.size())).first->second;
-  }
-  return fans_of_corner;
 }
 } // namespace homespun::meshes

@@ -200,33 +200,18 @@ std::vector<std::string> periodicity_faults(const TriangleMesh &mesh, const Latt
   return messages_of(placed_periodicity_faults(mesh, lattice, name, relative_tolerance));
 }
 
-std::vector<MeshFault> placed_periodicity_faults(const TriangleMesh &mesh, const Lattice &lattice,
-                                                 const std::string &name,
-                                                 const double relative_tolerance)
+namespace
 {
-  std::vector<MeshFault> faults;
-  const auto place_at = [&](const int vertex) {
-    return Place{mesh.vertices.row(vertex), -1, vertex};
-  };
-  if (!lattice.vectors.allFinite() ||
-      !(lattice.area() > 1e-6 * lattice.vectors.rowwise().norm().prod()))
-  {
-    std::ostringstream text;
-    text << name << ": the lattice vectors (" << lattice.vectors.row(0) << ") and ("
-         << lattice.vectors.row(1) << ") m are parallel or zero; expected two independent vectors";
-    return {{text.str(), Place()}};
-  }
-
-  const std::vector<int> loop = outline(mesh);
-  Points points(static_cast<Eigen::Index>(loop.size()), 2);
+/// Outlines that enclose another area than the lattice, and triangles that cover more than it.
+void add_area_faults(const TriangleMesh &mesh, const Lattice &lattice, const std::string &name,
+                     const std::vector<int> &loop, std::vector<MeshFault> &faults)
+{
   double enclosed = 0.;
   for (std::size_t k = 0; k < loop.size(); ++k)
   {
-    points.row(static_cast<Eigen::Index>(k)) = mesh.vertices.row(loop[k]);
     const auto a = mesh.vertices.row(loop[k]), b = mesh.vertices.row(loop[(k + 1) % loop.size()]);
     enclosed += 0.5 * (a(0) * b(1) - a(1) * b(0));
   }
-  const double cell_size = std::sqrt(lattice.area());
   if (std::abs(enclosed - lattice.area()) > 1e-6 * lattice.area())
   {
     std::ostringstream text;
@@ -246,7 +231,60 @@ std::vector<MeshFault> placed_periodicity_faults(const TriangleMesh &mesh, const
       << " m^2; expected at most that: some triangles overlap, remove one of two coinciding parts";
     faults.push_back({text.str(), Place()});
   }
+}
 
+/// What to say of a vertex of the outline whose image is not there.
+/// @param i its place in the loop @param points those of the loop
+std::string text_of_unmatched(const std::vector<int> &loop, const Points &points,
+                              const Lattice &lattice, const Eigen::Index i, const double tolerance)
+{
+  const double cell_size = std::sqrt(lattice.area());
+  Eigen::Index nearest   = -1;
+  double gap             = std::numeric_limits<double>::infinity();
+  for (Eigen::Index k = 0; k < points.rows(); ++k)
+  {
+    const Eigen::RowVector2d difference = points.row(k) - points.row(i);
+    const Eigen::RowVector2d shortest   = lattice.shortest(difference);
+    // Neighbours on the same side are no candidates: an image lies a lattice vector away.
+    if (k != i && (difference - shortest).norm() > 0.5 * cell_size && shortest.norm() < gap)
+    {
+      gap     = shortest.norm();
+      nearest = k;
+    }
+  }
+  std::ostringstream text;
+  text.precision(10);
+  text << "vertex " << loop[static_cast<std::size_t>(i)] << " at (" << points.row(i)
+       << ") m on the outline has no periodic image";
+  if (nearest >= 0)
+    text << "; the nearest candidate is vertex " << loop[static_cast<std::size_t>(nearest)]
+         << " at (" << points.row(nearest) << ") m, off by " << gap << " m";
+  text << "; expected one within " << tolerance * cell_size
+       << " m: mesh opposite sides alike (Gmsh: Periodic Curve {right} = {left} Translate {dx, dy, "
+          "0};) or mend `Lattice vectors`";
+  return text.str();
+}
+} // namespace
+
+std::vector<MeshFault> placed_periodicity_faults(const TriangleMesh &mesh, const Lattice &lattice,
+                                                 const std::string &name,
+                                                 const double relative_tolerance)
+{
+  std::vector<MeshFault> faults;
+  if (!lattice.vectors.allFinite() ||
+      !(lattice.area() > 1e-6 * lattice.vectors.rowwise().norm().prod()))
+  {
+    std::ostringstream text;
+    text << name << ": the lattice vectors (" << lattice.vectors.row(0) << ") and ("
+         << lattice.vectors.row(1) << ") m are parallel or zero; expected two independent vectors";
+    return {{text.str(), Place()}};
+  }
+
+  const std::vector<int> loop = outline(mesh);
+  Points points(static_cast<Eigen::Index>(loop.size()), 2);
+  for (std::size_t k = 0; k < loop.size(); ++k)
+    points.row(static_cast<Eigen::Index>(k)) = mesh.vertices.row(loop[k]);
+  add_area_faults(mesh, lattice, name, loop, faults);
   for (const MeshFault &fault : coincidence_faults(mesh, lattice, name, relative_tolerance))
     faults.push_back(fault);
   const ImageClasses classes = match_images(points, lattice, relative_tolerance);
@@ -257,31 +295,9 @@ std::vector<MeshFault> placed_periodicity_faults(const TriangleMesh &mesh, const
       continue;
     if (++unmatched > 3)
       continue;
-    Eigen::Index nearest = -1;
-    double gap           = std::numeric_limits<double>::infinity();
-    for (Eigen::Index k = 0; k < points.rows(); ++k)
-    {
-      const Eigen::RowVector2d difference = points.row(k) - points.row(i);
-      const Eigen::RowVector2d shortest   = lattice.shortest(difference);
-      // Neighbours on the same side are no candidates: an image lies a lattice vector away.
-      if (k != i && (difference - shortest).norm() > 0.5 * cell_size && shortest.norm() < gap)
-      {
-        gap     = shortest.norm();
-        nearest = k;
-      }
-    }
-    std::ostringstream text;
-    text.precision(10);
-    text << name << ": vertex " << loop[static_cast<std::size_t>(i)] << " at (" << points.row(i)
-         << ") m on the outline has no periodic image";
-    if (nearest >= 0)
-      text << "; the nearest candidate is vertex " << loop[static_cast<std::size_t>(nearest)]
-           << " at (" << points.row(nearest) << ") m, off by " << gap << " m";
-    text
-      << "; expected one within " << relative_tolerance * cell_size
-      << " m: mesh opposite sides alike (Gmsh: Periodic Curve {right} = {left} Translate {dx, dy, "
-         "0};) or mend `Lattice vectors`";
-    faults.push_back({text.str(), place_at(loop[static_cast<std::size_t>(i)])});
+    const int vertex = loop[static_cast<std::size_t>(i)];
+    faults.push_back({name + ": " + text_of_unmatched(loop, points, lattice, i, relative_tolerance),
+                      Place{mesh.vertices.row(vertex), -1, vertex}});
   }
   if (unmatched > 3)
     faults.push_back({name + ": and " + std::to_string(unmatched - 3) +

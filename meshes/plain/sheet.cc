@@ -21,59 +21,88 @@ Eigen::Matrix2d Sheet::sides() const
   return Eigen::Vector2d(n1, n2).asDiagonal() * lattice.vectors;
 }
 
-Sheet tile(const TriangleMesh &cell_mesh, const Lattice &lattice, const int n1, const int n2)
+namespace
 {
-  const int n        = cell_mesh.n_vertices();
-  const int anchor   = anchor_vertex(cell_mesh, lattice);
+/// The vertices of a cell as nodes of the lattice cell that holds them in [0,1)^2, plus whole
+/// cells.
+struct CellNodes
+{
+  std::vector<int> representatives; ///< of images, those below the diagonal first
+  std::vector<int> place;           ///< (n) of the vertex's representative among them
+  std::vector<int> whole1, whole2;  ///< (n) cells between the vertex and its node
+  Points fraction;                  ///< (n,2) of the nodes
+  int n_below = 0;                  ///< representatives below the diagonal, or on it
+};
+
+/// @throws BadInput where a vertex lies outside of the parallelogram at `origin`
+CellNodes nodes_of(const TriangleMesh &cell_mesh, const Lattice &lattice,
+                   const Eigen::RowVector2d &origin)
+{
+  const auto n       = static_cast<std::size_t>(cell_mesh.n_vertices());
   const double snap  = 2. * image_tolerance;
   const auto classes = match_images(cell_mesh.vertices, lattice);
-  Sheet sheet;
-  sheet.lattice = lattice;
-  sheet.origin  = cell_mesh.vertices.row(anchor);
-  sheet.n1      = n1;
-  sheet.n2      = n2;
-
-  // Each vertex is a node of the lattice cell that holds it in [0,1)^2, plus whole cells.
-  std::vector<int> representatives;
-  std::vector<int> place_in_cell(static_cast<std::size_t>(n), -1);
-  Points fraction(n, 2);
-  std::vector<int> whole1(static_cast<std::size_t>(n)), whole2(static_cast<std::size_t>(n));
-  for (int v = 0; v < n; ++v)
+  CellNodes nodes    = {{},
+                        std::vector<int>(n, -1),
+                        std::vector<int>(n),
+                        std::vector<int>(n),
+                        Points(cell_mesh.n_vertices(), 2)};
+  for (int v = 0; v < cell_mesh.n_vertices(); ++v)
   {
     const auto index           = static_cast<std::size_t>(v);
-    const Eigen::RowVector2d f = lattice.fractional(cell_mesh.vertices.row(v) - sheet.origin);
-    whole1[index]              = static_cast<int>(std::floor(f(0) + snap));
-    whole2[index]              = static_cast<int>(std::floor(f(1) + snap));
-    fraction.row(v) << f(0) - whole1[index], f(1) - whole2[index];
+    const Eigen::RowVector2d f = lattice.fractional(cell_mesh.vertices.row(v) - origin);
+    nodes.whole1[index]        = static_cast<int>(std::floor(f(0) + snap));
+    nodes.whole2[index]        = static_cast<int>(std::floor(f(1) + snap));
+    nodes.fraction.row(v) << f(0) - nodes.whole1[index], f(1) - nodes.whole2[index];
     if (f.minCoeff() < -snap || f.maxCoeff() > 1. + snap)
     {
       std::ostringstream text;
       text << "vertex " << v << " at (" << cell_mesh.vertices.row(v)
-           << ") m lies outside the parallelogram of the lattice vectors at (" << sheet.origin
+           << ") m lies outside the parallelogram of the lattice vectors at (" << origin
            << ") m; expected all inside: a sheet with straight edges needs a cell whose outline is "
               "that parallelogram ";
       throw BadInput(text.str());
     }
     if (classes.representative[index] == v)
-      representatives.push_back(v);
+      nodes.representatives.push_back(v);
   }
-  const auto is_below = [&](const int v) { return fraction(v, 1) <= fraction(v, 0) + snap; };
+  const auto is_below = [&](const int v)
+  { return nodes.fraction(v, 1) <= nodes.fraction(v, 0) + snap; };
+  std::vector<int> &representatives = nodes.representatives;
   std::stable_sort(representatives.begin(), representatives.end(),
                    [&](const int a, const int b) { return is_below(a) && !is_below(b); });
-  sheet.n_per_cell = static_cast<int>(representatives.size());
-  sheet.n_below =
+  nodes.n_below =
     static_cast<int>(std::count_if(representatives.begin(), representatives.end(), is_below));
-  for (int k = 0; k < sheet.n_per_cell; ++k)
-    place_in_cell[static_cast<std::size_t>(representatives[static_cast<std::size_t>(k)])] = k;
+  for (std::size_t k = 0; k < representatives.size(); ++k)
+    nodes.place[static_cast<std::size_t>(representatives[k])] = static_cast<int>(k);
+  for (std::size_t v = 0; v < n; ++v)
+    nodes.place[v] = nodes.place[static_cast<std::size_t>(classes.representative[v])];
+  return nodes;
+}
 
+/// @throws BadInput where a sheet would not fit into memory, or its numbers into int
+void check_size(const TriangleMesh &cell_mesh, const int n1, const int n2)
+{
   const double n_triangles = static_cast<double>(n1) * n2 * cell_mesh.n_triangles();
-  if (n_triangles > 5e8)
-  {
-    std::ostringstream text;
-    text << "a sheet of " << n1 << " x " << n2 << " cells has " << n_triangles
-         << " triangles; expected at most 5e8: take fewer cells or a coarser cell";
-    throw BadInput(text.str());
-  }
+  if (n_triangles <= 5e8)
+    return;
+  std::ostringstream text;
+  text << "a sheet of " << n1 << " x " << n2 << " cells has " << n_triangles
+       << " triangles; expected at most 5e8: take fewer cells or a coarser cell";
+  throw BadInput(text.str());
+}
+} // namespace
+
+Sheet tile(const TriangleMesh &cell_mesh, const Lattice &lattice, const int n1, const int n2)
+{
+  Sheet sheet;
+  sheet.lattice         = lattice;
+  sheet.origin          = cell_mesh.vertices.row(anchor_vertex(cell_mesh, lattice));
+  sheet.n1              = n1;
+  sheet.n2              = n2;
+  const CellNodes nodes = nodes_of(cell_mesh, lattice, sheet.origin);
+  sheet.n_per_cell      = static_cast<int>(nodes.representatives.size());
+  sheet.n_below         = nodes.n_below;
+  check_size(cell_mesh, n1, n2);
 
   // Nodes of cells (0..n1-1, 0..n2-1) are numbered by blocks; those that close the sheet on demand.
   const int n_blocks = n1 * n2 * sheet.n_per_cell;
@@ -85,8 +114,7 @@ Sheet tile(const TriangleMesh &cell_mesh, const Lattice &lattice, const int n1, 
   const auto node_of = [&](const int i, const int j, const int v)
   {
     const auto index = static_cast<std::size_t>(v);
-    const int I = i + whole1[index], J = j + whole2[index];
-    const int place = place_in_cell[static_cast<std::size_t>(classes.representative[index])];
+    const int I = i + nodes.whole1[index], J = j + nodes.whole2[index], place = nodes.place[index];
     if (I < n1 && J < n2)
       return (J * n1 + I) * sheet.n_per_cell + place;
     int &node = closing[static_cast<std::size_t>((J * (n1 + 1) + I) * sheet.n_per_cell + place)];
@@ -112,11 +140,12 @@ Sheet tile(const TriangleMesh &cell_mesh, const Lattice &lattice, const int n1, 
   sheet.cell.resize(n_nodes, 2);
   const auto put = [&](const int node, const int I, const int J, const int place)
   {
-    const int v             = representatives[static_cast<std::size_t>(place)];
+    const int v             = nodes.representatives[static_cast<std::size_t>(place)];
     sheet.cell_vertex(node) = v;
     sheet.cell.row(node) << I, J;
     sheet.mesh.vertices.row(node) =
-      sheet.origin + Eigen::RowVector2d(fraction(v, 0) + I, fraction(v, 1) + J) * lattice.vectors;
+      sheet.origin +
+      Eigen::RowVector2d(nodes.fraction(v, 0) + I, nodes.fraction(v, 1) + J) * lattice.vectors;
   };
   for (int j = 0; j < n2; ++j)
     for (int i = 0; i < n1; ++i)

@@ -169,20 +169,12 @@ std::vector<std::vector<int>> boundary_loops(const TriangleMesh &mesh)
   return loops;
 }
 
-std::vector<std::string> faults_of(const TriangleMesh &mesh, const std::string &name)
+namespace
 {
-  return messages_of(placed_faults_of(mesh, name));
-}
-
-std::vector<MeshFault> placed_faults_of(const TriangleMesh &mesh, const std::string &name)
+/// Vertices that are not finite, triangles that name vertices which there are not.
+/// @return whether there is none of them
+bool check_numbers(const TriangleMesh &mesh, FaultList &faults)
 {
-  FaultList faults(name);
-  if (mesh.n_triangles() == 0)
-    faults.add("empty meshes", "no triangle found; expected at least one");
-  if (mesh.material.size() != mesh.n_triangles())
-    faults.add("sizes", std::to_string(mesh.material.size()) + " material numbers for " +
-                          std::to_string(mesh.n_triangles()) + " triangles; expected as many");
-
   bool usable = true;
   for (int v = 0; v < mesh.n_vertices(); ++v)
     if (!mesh.vertices.row(v).allFinite())
@@ -201,9 +193,12 @@ std::vector<MeshFault> placed_faults_of(const TriangleMesh &mesh, const std::str
                                              std::to_string(mesh.n_vertices() - 1));
         usable = false;
       }
-  if (!usable)
-    return faults.take_placed();
+  return usable;
+}
 
+/// Triangles without area, and inverted ones.
+void check_areas(const TriangleMesh &mesh, FaultList &faults)
+{
   const Eigen::VectorXd areas = signed_areas(mesh);
   for (int t = 0; t < mesh.n_triangles(); ++t)
   {
@@ -233,17 +228,20 @@ std::vector<MeshFault> placed_faults_of(const TriangleMesh &mesh, const std::str
       faults.add("inverted triangles", text.str(), place_of_triangle(mesh, t));
     }
   }
+}
 
+/// Triangles at an edge: how many, how many of them from the lower vertex to the higher, the first.
+struct Sharing
+{
+  int n = 0, upwards = 0, first = -1;
+};
+
+/// Triangles that are there twice, and edges that are no edges of a surface.
+void check_edges(const TriangleMesh &mesh, FaultList &faults)
+{
   const std::vector<int> first_with = first_with_same_vertices(mesh);
-  /// Triangles at an edge: how many, how many of them from the lower vertex to the higher, the
-  /// first.
-  struct Sharing
-  {
-    int n = 0, upwards = 0, first = -1;
-  };
   std::unordered_map<std::uint64_t, Sharing> sharing;
   sharing.reserve(static_cast<std::size_t>(mesh.n_vertices() + mesh.n_triangles())); // Euler
-  std::vector<char> is_used(static_cast<std::size_t>(mesh.n_vertices()), 0);
   for (int t = 0; t < mesh.n_triangles(); ++t)
   {
     const int first   = first_with[static_cast<std::size_t>(t)];
@@ -255,7 +253,6 @@ std::vector<MeshFault> placed_faults_of(const TriangleMesh &mesh, const std::str
                  place_of_triangle(mesh, t));
     for (int k = 0; k < 3; ++k)
     {
-      is_used[static_cast<std::size_t>(mesh.triangles(t, k))] = 1;
       const int from = mesh.triangles(t, k), to = mesh.triangles(t, (k + 1) % 3);
       Sharing &edge = sharing[key(std::min(from, to), std::max(from, to))];
       edge.first    = edge.n == 0 ? t : edge.first;
@@ -281,12 +278,41 @@ std::vector<MeshFault> placed_faults_of(const TriangleMesh &mesh, const std::str
                    place_of_edge);
     }
   }
+}
+
+void check_vertices(const TriangleMesh &mesh, FaultList &faults)
+{
+  std::vector<char> is_used(static_cast<std::size_t>(mesh.n_vertices()), 0);
+  for (const int v : mesh.triangles.reshaped())
+    is_used[static_cast<std::size_t>(v)] = 1;
   for (int v = 0; v < mesh.n_vertices(); ++v)
     if (!is_used[static_cast<std::size_t>(v)])
       faults.add("isolated vertices",
                  "vertex " + std::to_string(v) + " at " + at(mesh, v) +
                    " belongs to no triangle; expected none such: remove it",
                  {mesh.vertices.row(v), -1, v});
+}
+} // namespace
+
+std::vector<std::string> faults_of(const TriangleMesh &mesh, const std::string &name)
+{
+  return messages_of(placed_faults_of(mesh, name));
+}
+
+std::vector<MeshFault> placed_faults_of(const TriangleMesh &mesh, const std::string &name)
+{
+  FaultList faults(name);
+  if (mesh.n_triangles() == 0)
+    faults.add("empty meshes", "no triangle found; expected at least one");
+  if (mesh.material.size() != mesh.n_triangles())
+    faults.add("sizes", std::to_string(mesh.material.size()) + " material numbers for " +
+                          std::to_string(mesh.n_triangles()) + " triangles; expected as many");
+
+  if (!check_numbers(mesh, faults))
+    return faults.take_placed();
+  check_areas(mesh, faults);
+  check_edges(mesh, faults);
+  check_vertices(mesh, faults);
   return faults.take_placed();
 }
 } // namespace homespun::meshes

@@ -87,14 +87,12 @@ bool factorize_panel(double *const panel, const int width, const int size)
   }
   return true;
 }
-} // namespace
 
-BlockCholesky::BlockCholesky(const BlockMatrix &matrix)
-    : vertex_at(matrix.vertex_at)
+/// The rows below the diagonal of each column of L: those of the matrix and those of its children
+/// in the elimination tree; a column's parent is its first row below the diagonal.
+std::vector<std::vector<int>> rows_of_factor(const BlockMatrix &matrix)
 {
   const int n = matrix.n_free();
-  // A column of L holds the rows of the matrix and those of its children in the elimination tree; a
-  // column's parent is its first row below the diagonal.
   std::vector<std::vector<int>> rows(index(n)), children(index(n));
   std::vector<int> seen(index(n), -1);
   for (int c = 0; c < n; ++c)
@@ -118,11 +116,26 @@ BlockCholesky::BlockCholesky(const BlockMatrix &matrix)
     if (!own.empty())
       children[index(own.front())].push_back(c);
   }
-  for (int c = 0; c < n; ++c)
+  return rows;
+}
+} // namespace
+
+BlockCholesky::BlockCholesky(const BlockMatrix &matrix)
+    : vertex_at(matrix.vertex_at)
+{
+  const std::vector<std::vector<int>> rows = rows_of_factor(matrix);
+  for (const std::vector<int> &own : rows)
   {
-    const double size = static_cast<double>(rows[index(c)].size()) + 1.;
+    const double size = static_cast<double>(own.size()) + 1.;
     multiply_adds += 27. * 0.5 * size * (size - 1.) + 18. * size;
   }
+  lay_out_updates(lay_out_nodes(rows));
+}
+
+/// Joins columns to supernodes. @return the supernode of each column
+std::vector<int> BlockCholesky::lay_out_nodes(const std::vector<std::vector<int>> &rows)
+{
+  const int n = static_cast<int>(rows.size());
   // The rows of a column are among those of its parent, so that a chain of columns has the rows of
   // the last one.
   std::vector<int> node_of(index(n));
@@ -153,6 +166,14 @@ BlockCholesky::BlockCholesky(const BlockMatrix &matrix)
     n_values += 9 * index(n_rows) * index(n_columns);
     c = last + 1;
   }
+  nodes.push_back({n, 0, static_cast<int>(row.size()), 0, n_values, 0});
+  values.resize(n_values);
+  return node_of;
+}
+
+/// Finds which panels reach into which, and takes the room to work in.
+void BlockCholesky::lay_out_updates(const std::vector<int> &node_of)
+{
   std::vector<std::vector<Update>> of_node(nodes.size());
   std::size_t longest = 0;
   for (std::size_t s = 0; s < nodes.size(); ++s)
@@ -174,9 +195,7 @@ BlockCholesky::BlockCholesky(const BlockMatrix &matrix)
     nodes[s].first_update = static_cast<int>(updates.size());
     updates.insert(updates.end(), of_node[s].begin(), of_node[s].end());
   }
-  nodes.push_back(
-    {n, 0, static_cast<int>(row.size()), 0, n_values, static_cast<int>(updates.size())});
-  values.resize(n_values);
+  const int n = nodes.back().column;
   work.resize(std::max(n_product, 3 * index(n) + longest));
   position.resize(index(n));
 }

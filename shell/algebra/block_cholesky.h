@@ -58,6 +58,8 @@ private:
     int offset; ///< of the first such row
     int n_rows; ///< how many
   };
+  std::vector<int> lay_out_nodes(const std::vector<std::vector<int>> &rows);
+  void lay_out_updates(const std::vector<int> &node_of);
   void gather(const BlockMatrix &matrix, const Supernode &node);
   void subtract(const Update &update, const Supernode &node);
 

@@ -101,6 +101,34 @@ std::string inputs_text(const UnitCell &cell, const AssessedCell &assessed,
     rows("D [N m]", bars.of_D);
   return text.str();
 }
+
+/// Moduli, with bars or without.
+std::string moduli_text(const Eigen::Matrix3d &stiffness,
+                        const std::optional<homogenization::EngineeringConstants> &bars)
+{
+  std::ostringstream text;
+  const auto moduli = homogenization::engineering_constants(stiffness);
+  if (bars)
+  {
+    const auto modulus = [&](const double value, const double bar)
+    { return with_bar(value, larger(digits_of_solvers * std::abs(value), bar)); };
+    const auto ratio = [&](const double value, const double bar)
+    { return with_bar(value, larger(digits_of_solvers, bar)); };
+    text << "E1 " << modulus(moduli.E1, bars->E1) << ", E2 " << modulus(moduli.E2, bars->E2)
+         << ", G12 " << modulus(moduli.G12, bars->G12) << " N/m, nu12 "
+         << ratio(moduli.nu12, bars->nu12) << ", nu21 " << ratio(moduli.nu21, bars->nu21);
+  }
+  else
+  {
+    char line[240];
+    std::snprintf(
+      line, sizeof(line),
+      "E1 %.3g, E2 %.3g, G12 %.3g N/m, nu12 %.3g, nu21 %.3g (three digits: no error bar)",
+      moduli.E1, moduli.E2, moduli.G12, moduli.nu12, moduli.nu21);
+    text << line;
+  }
+  return text.str();
+}
 } // namespace
 
 std::string summary(const UnitCell &cell, const AssessedCell &assessed,
@@ -134,26 +162,7 @@ std::string summary(const UnitCell &cell, const AssessedCell &assessed,
                   stiffness(i, 1), stiffness(i, 2));
     text << line;
   }
-  const auto moduli = homogenization::engineering_constants(stiffness);
-  if (moduli_bars)
-  {
-    const auto modulus = [&](const double value, const double bar)
-    { return with_bar(value, larger(digits_of_solvers * std::abs(value), bar)); };
-    const auto ratio = [&](const double value, const double bar)
-    { return with_bar(value, larger(digits_of_solvers, bar)); };
-    text << "E1 " << modulus(moduli.E1, moduli_bars->E1) << ", E2 "
-         << modulus(moduli.E2, moduli_bars->E2) << ", G12 " << modulus(moduli.G12, moduli_bars->G12)
-         << " N/m, nu12 " << ratio(moduli.nu12, moduli_bars->nu12) << ", nu21 "
-         << ratio(moduli.nu21, moduli_bars->nu21);
-  }
-  else
-  {
-    std::snprintf(
-      line, sizeof(line),
-      "E1 %.3g, E2 %.3g, G12 %.3g N/m, nu12 %.3g, nu21 %.3g (three digits: no error bar)",
-      moduli.E1, moduli.E2, moduli.G12, moduli.nu12, moduli.nu21);
-    text << line;
-  }
+  text << moduli_text(stiffness, moduli_bars);
   std::snprintf(line, sizeof(line), "; %.4g kg/m^2\n", cell.areal_density());
   text << line;
   if (assessed.bracket)

@@ -156,6 +156,8 @@ LoadControl load_control(const std::vector<std::string> &stresses,
                      "like --strain 11=0.1");
   if (!faults.empty())
     throw meshes::BadInput(faults);
+  if (axis == 0)
+    control.axis = control.value(0) == 0. && control.value(1) != 0. ? 2 : 1;
   return control;
 }
 } // namespace homespun::verification

@@ -47,6 +47,8 @@ struct LoadControl
 
 /// Reads `11=50`, `12=0`: the components whose stress is given, and those whose strain is.
 /// @param stresses [N/m] @param strains fractions, or percentages such as `2%`
+/// @param axis that keeps its direction, 1 or 2; 0: 2 where 22 alone of the normal components is
+///   not zero, so that the sides of a pull along it are free, else 1
 /// @throws BadInput, a message per fault: a component that there is not, or given twice, a value
 ///   that is no number, a strain of -1 or less, one from 0.5 on without a percent sign, nothing but
 ///   zeros

@@ -18,7 +18,7 @@ struct LoadArguments
 {
   LoadStudyOptions study;
   std::vector<std::string> stresses, strains;
-  int axis = 1;
+  int axis = 0; ///< 0: that of the pull
   StudyEnd end;
 };
 
@@ -40,7 +40,8 @@ int run_load(LoadArguments arguments, AfterMpi &afterwards)
   if (study.output.empty())
     study.output = default_folder("load", stems(study.cell_files), false);
   if (!study.quiet && is_root(MPI_COMM_WORLD))
-    std::cout << "Prescribed: " << study.control.text() << "\n";
+    std::cout << "Prescribed: " << study.control.text() << "; axis " << study.control.axis
+              << " keeps its direction\n";
   return arguments.end.conclude(run_load_study(study, MPI_COMM_WORLD), study.output, study.quiet,
                                 afterwards);
 }
@@ -60,17 +61,18 @@ void add_load_command(CLI::App &app, Action &action, AfterMpi &afterwards,
   add_list(*command, "--strain", arguments->strains,
            "Strains by component, as fractions or percentages, also negative: 22=0.02 or 22=2%");
   command
-    ->add_option("--axis", arguments->axis,
-                 "Material axis that keeps its direction, 1 or 2: that of the pull")
-    ->check(CLI::Range(1, 2))
-    ->capture_default_str();
+    ->add_option(
+      "--axis", arguments->axis,
+      "Material axis that keeps its direction, 1 or 2 (default that of the pull: 2 where "
+      "22 alone is given, else 1)")
+    ->check(CLI::Range(1, 2));
   command->add_option("--steps", study.n_steps, "Even steps from rest")
     ->check(CLI::Range(1, 10000))
     ->capture_default_str();
   add_list(*command, "--law", study.laws,
            "Laws of the phases, linear, biot or green; linear is always there");
   add_list(*command, "--measured", study.measured,
-           "CSV files with curves to draw on the same axes: columns strain_11, "
+           "CSV files, comma-separated, with curves to draw on the same axes: columns strain_11, "
            "stress_11_N_per_m and so on");
   arguments->end.add_options(*command);
   add_folder_options(*command, study, "out/NAME/load");
@@ -82,7 +84,7 @@ void add_load_command(CLI::App &app, Action &action, AfterMpi &afterwards,
     "  homespun load dots.prm --strain 11=10%,22=10%                   equibiaxial\n"
     "  homespun load dots.prm --stress 11=50,22=100                    biaxial 1:2\n"
     "  homespun load dots.prm --stress 11=50,12=0 --strain 22=0.02 --steps 40 --law biot,green\n"
-    "  homespun load dots.prm --strain 22=-2% --axis 2                 compression");
+    "  homespun load dots.prm --strain 22=-2%                          compression");
   command->callback(
     [&action, &afterwards, arguments]()
     { action = [&afterwards, arguments]() { return run_load(*arguments, afterwards); }; });

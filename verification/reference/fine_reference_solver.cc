@@ -236,7 +236,12 @@ ReferenceStep FineReference::Solver::advance(const double strain)
   while (!step.reached && cut <= (law == Law::linear ? 0u : 3u))
   {
     Vector displacement = guess(next);
-    if (!levels.empty())
+    if (levels.empty())
+    { // what a first step that failed has left of them is no start
+      free_strains.setZero();
+      side_slope.setZero();
+    }
+    else
       free_strains = next / levels.back().strain * levels.back().free_strains;
     try
     {

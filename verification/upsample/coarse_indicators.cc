@@ -121,7 +121,7 @@ UpsampleRow CoarseIndicators::row_of(const Eigen::VectorXd &values, const double
   {
     const Eigen::Array<bool, Eigen::Dynamic, 1> is_beyond = values.array() > limit;
     row.beyond                                            = static_cast<int>(is_beyond.count());
-    row.share_beyond = is_beyond.select(areas.array(), 0.).sum() / total;
+    row.share_beyond = std::min(1., is_beyond.select(areas.array(), 0.).sum() / total);
   }
   return row;
 }

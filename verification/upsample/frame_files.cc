@@ -15,7 +15,27 @@ namespace homespun::verification
 {
 namespace
 {
-/// Whether one name comes before another, numbers in them by their value.
+std::vector<std::string> files_of_pattern(const std::string &pattern)
+{
+  glob_t found;
+  std::vector<std::string> files;
+  if (glob(pattern.c_str(), 0, nullptr, &found) == 0)
+    files.assign(found.gl_pathv, found.gl_pathv + found.gl_pathc);
+  globfree(&found);
+  std::sort(files.begin(), files.end(), comes_before);
+  return files;
+}
+
+std::string text_of(const meshes::Polygon &face)
+{
+  std::string text;
+  for (const int corner : face)
+    if (corner >= 0)
+      text += (text.empty() ? "" : " ") + std::to_string(corner);
+  return text;
+}
+} // namespace
+
 bool comes_before(const std::string &one, const std::string &other)
 {
   const auto is_digit = [](const char c)
@@ -48,27 +68,6 @@ bool comes_before(const std::string &one, const std::string &other)
   }
   return one.size() - i < other.size() - j || (one.size() - i == other.size() - j && one < other);
 }
-
-std::vector<std::string> files_of_pattern(const std::string &pattern)
-{
-  glob_t found;
-  std::vector<std::string> files;
-  if (glob(pattern.c_str(), 0, nullptr, &found) == 0)
-    files.assign(found.gl_pathv, found.gl_pathv + found.gl_pathc);
-  globfree(&found);
-  std::sort(files.begin(), files.end(), comes_before);
-  return files;
-}
-
-std::string text_of(const meshes::Polygon &face)
-{
-  std::string text;
-  for (const int corner : face)
-    if (corner >= 0)
-      text += (text.empty() ? "" : " ") + std::to_string(corner);
-  return text;
-}
-} // namespace
 
 std::vector<FrameFile> frames_of(const std::vector<std::string> &files_and_patterns)
 {

@@ -16,8 +16,11 @@ struct FrameFile
   std::string name; ///< without folder and ending: that of what is made of it
 };
 
-/// Files, and patterns such as `sim/frame_*.obj`, whose files come in the order of their numbers
-/// (frame_2 before frame_10).
+/// Whether one name comes before another, numbers in them by their value: frame_2 before frame_10.
+bool comes_before(const std::string &one, const std::string &other);
+
+/// Files, and patterns such as `sim/frame_*.obj`, whose files come in the order of
+/// comes_before().
 /// @throws BadInput where a pattern fits no file, or two files have one name
 std::vector<FrameFile> frames_of(const std::vector<std::string> &files_and_patterns);
 

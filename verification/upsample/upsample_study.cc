@@ -123,7 +123,7 @@ public:
   void run()
   {
     check_frames(frames, rest.faces, options);
-    valid = valid_strain(options.cell_file, options.validity_file, options.limit);
+    valid = valid_strain(cell, options.cell_file, options.validity_file, options.limit);
     const meshes::Grain grain = {{options.origin[0], options.origin[1]},
                                  options.angle * M_PI / 180.};
     fine                      = std::make_unique<UpsampledCloth>(cell, rest.cloth, grain);
@@ -133,15 +133,15 @@ public:
       open_run_folder(options.output, {"upsample", inputs()}, options.earlier, options.quiet);
     table = std::make_unique<Table<UpsampleRow>>(options.output);
     Progress progress(!options.quiet, static_cast<int>(frames.size()));
-    meshes::FrameCollection collection(options.output + "/frames.pvd");
-    for (std::size_t k = 0; k < frames.size(); ++k)
+    for (const FrameFile &frame : frames)
     {
-      progress.begin(frames[k].name);
-      upsample(frames[k]);
-      if (has_format("vtu"))
-        collection.append(static_cast<double>(k), frames[k].name + ".vtu");
+      progress.begin(frame.name);
+      upsample(frame);
       progress.done();
     }
+    names = names_in_folder();
+    if (has_format("vtu"))
+      write_collection();
     write_json(options.output + "/upsample.json", description());
     folder->finish();
   }
@@ -149,10 +149,12 @@ public:
   /// What the run came to, line by line.
   std::vector<std::string> summary() const
   {
+    const std::size_t n_before     = names.size() - frames.size();
     std::vector<std::string> lines = {
-      std::to_string(frames.size()) + (frames.size() == 1 ? " frame of " : " frames of ") +
+      std::to_string(names.size()) + (names.size() == 1 ? " frame of " : " frames of ") +
       fine->description + ", " + std::to_string(fine->triangles.rows()) +
-      " fine triangles: " + options.output};
+      " fine triangles: " + options.output +
+      (n_before == 0 ? "" : "; of them " + std::to_string(n_before) + " of earlier calls")};
     for (const Indicator &indicator : indicators)
     {
       const UpsampleRow row = worst_row(indicator.name);
@@ -163,6 +165,8 @@ public:
                       " on 99 % of the area" + beyond_text(row));
     }
     lines.push_back(validity_text());
+    if (worst_row("strain").largest > 1.)
+      lines.push_back("strain: above 100 %: are the frames and the rest mesh both in metres?");
     return lines;
   }
 
@@ -186,27 +190,46 @@ private:
             {"valid_strain", valid ? ordered_json(valid->strain) : ordered_json()}};
   }
 
-  std::string path_of(const FrameFile &frame, const std::string &format) const
+  std::string path_of(const std::string &frame, const std::string &format) const
   {
-    return options.output + "/" + frame.name + "." + format;
+    return options.output + "/" + frame + "." + format;
   }
 
-  /// Whether everything that is made of a frame is there.
-  bool is_made(const FrameFile &frame, const std::string &checksum) const
+  /// Whether everything that is made of a frame is there, of a file with this checksum where one
+  /// is given.
+  bool is_made(const std::string &frame, const std::optional<std::string> &checksum) const
   {
     std::size_t n_rows = 0;
     for (const UpsampleRow &row : table->rows())
-      n_rows += row.frame == frame.name && row.checksum == checksum ? 1 : 0;
+      n_rows += row.frame == frame && (!checksum || row.checksum == *checksum) ? 1 : 0;
     return n_rows == indicators.size() &&
            std::all_of(options.formats.begin(), options.formats.end(),
                        [&](const std::string &format)
                        { return fs::exists(path_of(frame, format)); });
   }
 
+  /// The frames that are there, those of earlier calls too, as comes_before() has them.
+  std::vector<std::string> names_in_folder() const
+  {
+    std::vector<std::string> found;
+    for (const UpsampleRow &row : table->rows())
+      if (row.indicator == indicators.front().name && is_made(row.frame, {}))
+        found.push_back(row.frame);
+    std::sort(found.begin(), found.end(), comes_before);
+    return found;
+  }
+
+  void write_collection() const
+  {
+    meshes::FrameCollection collection(options.output + "/frames.pvd");
+    for (std::size_t k = 0; k < names.size(); ++k)
+      collection.append(static_cast<double>(k), names[k] + ".vtu");
+  }
+
   void upsample(const FrameFile &frame)
   {
     const std::string checksum = checksum_of_file(frame.file);
-    if (is_made(frame, checksum))
+    if (is_made(frame.name, checksum))
       return;
     Polygons mesh;
     seconds["read"].push_back(seconds_of([&]() { mesh = meshes::read_polygons(frame.file); }));
@@ -222,7 +245,7 @@ private:
       seconds_of([&]() { values = indicators_of->of(mesh.positions); }));
     for (const std::string &format : options.formats)
       seconds["write_" + format].push_back(
-        seconds_of([&]() { write(path_of(frame, format), format, positions, values); }));
+        seconds_of([&]() { write(path_of(frame.name, format), format, positions, values); }));
     // What a run that was killed, or another file of this name, has left.
     table->keep([&](const UpsampleRow &row) { return row.frame != frame.name; });
     for (const Indicator &indicator : indicators)
@@ -270,15 +293,14 @@ private:
     }
   }
 
-  /// The row with the largest value of an indicator over these frames.
+  /// The row with the largest value of an indicator over the frames in the folder.
   UpsampleRow worst_row(const std::string &indicator) const
   {
     UpsampleRow worst;
     worst.largest = -1.;
     for (const UpsampleRow &row : table->rows())
       if (row.indicator == indicator && row.largest > worst.largest &&
-          std::any_of(frames.begin(), frames.end(),
-                      [&](const FrameFile &frame) { return frame.name == row.frame; }))
+          std::find(names.begin(), names.end(), row.frame) != names.end())
         worst = row;
     return worst;
   }
@@ -288,7 +310,9 @@ private:
     if (!row.beyond)
       return "";
     return "; " + std::to_string(*row.beyond) + " of " + std::to_string(row.triangles) +
-           " triangles above " + short_text(row.limit);
+           " triangles above " + short_text(row.limit) +
+           (row.indicator == "compression" ? ", the rounding of positions in single precision"
+                                           : "");
   }
 
   std::string validity_text() const
@@ -313,7 +337,7 @@ private:
             {"cell", options.cell_file},
             {"rest", options.rest_file},
             {"cloth", fine->description},
-            {"frames", frames.size()},
+            {"frames", names.size()},
             {"coarse_triangles", fine->coarse.n_triangles()},
             {"fine_vertices", fine->upsampler->n_fine()},
             {"fine_triangles", fine->triangles.rows()},
@@ -327,7 +351,8 @@ private:
   const UpsampleOptions options;
   const meshes::HomogenizedCell cell;
   const RestMesh rest;
-  const std::vector<FrameFile> frames;
+  const std::vector<FrameFile> frames; ///< of this call
+  std::vector<std::string> names;      ///< of all frames in the folder, once this call's are made
   std::optional<ValidStrain> valid;
   std::unique_ptr<UpsampledCloth> fine;
   std::unique_ptr<CoarseIndicators> indicators_of;

@@ -29,7 +29,8 @@ struct UpsampleOptions
 };
 
 /// Writes NAME.FORMAT of each frame, frames.pvd of .vtu, upsample.csv and upsample.json. A frame
-/// whose file is the one it was made of stays as it is; more frames may be added to a folder.
+/// whose file is the one it was made of stays as it is; more frames may be added to a folder, of
+/// which frames.pvd and upsample.json name all.
 /// @throws BadInput, before anything is written, where cell, rest mesh or any frame cannot be used
 void run_upsample_study(const UpsampleOptions &options);
 } // namespace homespun::verification

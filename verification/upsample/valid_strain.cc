@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "verification/upsample/valid_strain.h"
 
+#include "meshes/files/cell_file.h"
 #include "meshes/plain/errors.h"
 #include "verification/record/number_text.h"
 #include "verification/record/run_folder.h"
@@ -60,9 +61,28 @@ std::string cell_of(const std::vector<ValidityRow> &rows, const std::string &fil
                          "; expected one cell, or one that is named as the folder of " +
                          cell_file.string());
 }
+
+/// Why the cell that the run of a table has left beside it is another one; empty where it is not,
+/// or where it left none.
+std::string other_cell(const meshes::HomogenizedCell &cell, const std::string &file,
+                       const std::string &name)
+{
+  const fs::path tried = fs::absolute(file).parent_path() / name / "cell.h5";
+  if (!fs::exists(tried))
+    return "";
+  const meshes::HomogenizedCell other = meshes::read_cell(tried);
+  const auto differs                  = [](const auto &one, const auto &two, const double tolerance)
+  { return (one - two).norm() > tolerance * two.norm(); };
+  const auto sentence = [&](const std::string &what)
+  { return file + ": is of the cell " + tried.string() + ", whose " + what + " is another one"; };
+  if (differs(cell.lattice.vectors, other.lattice.vectors, 1e-6))
+    return sentence("lattice");
+  return differs(cell.stiffness, other.stiffness, 0.05) ? sentence("C^H") : "";
+}
 } // namespace
 
-std::optional<ValidStrain> valid_strain(const std::string &cell_file,
+std::optional<ValidStrain> valid_strain(const meshes::HomogenizedCell &cell,
+                                        const std::string &cell_file,
                                         const std::string &validity_file, const double limit)
 {
   const std::string file = validity_file.empty() ? table_of(cell_file) : validity_file;
@@ -71,9 +91,16 @@ std::optional<ValidStrain> valid_strain(const std::string &cell_file,
   check_format(fs::absolute(file).parent_path());
   const std::vector<ValidityRow> rows = read_table<ValidityRow>(file);
   ValidStrain valid;
-  valid.file   = file;
-  valid.limit  = limit;
-  valid.cell   = cell_of(rows, file, cell_file);
+  valid.file  = file;
+  valid.limit = limit;
+  valid.cell  = cell_of(rows, file, cell_file);
+  if (const std::string why = other_cell(cell, file, valid.cell); !why.empty())
+  {
+    if (validity_file.empty())
+      return {};
+    throw meshes::BadInput(why + "; expected the table of " + cell_file +
+                           ": run `homespun strain` with this cell");
+  }
   bool is_told = false;
   std::set<std::string> limits;
   for (const ValidityRow &row : rows)

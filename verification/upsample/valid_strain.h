@@ -2,6 +2,8 @@
 // Up to which strain a cell was found valid: read off validity.csv of a `homespun strain` run.
 #pragma once
 
+#include "meshes/plain/homogenized_cell.h"
+
 #include <optional>
 #include <string>
 
@@ -21,13 +23,18 @@ struct ValidStrain
   std::string cell, file;
 };
 
-/// Reads the table.
+/// Reads the table. The run that wrote it has left its cells beside it: another lattice (by 1e-6),
+/// or a C^H that differs by more than 5 %, far beyond what two meshes of one cell do, is another
+/// cell.
+/// @param cell what is in the file
 /// @param cell_file cell.h5, whose folder names the cell where the table holds several
 /// @param validity_file empty: validity.csv beside the cell, or in the folder above, if there is
 /// one
 /// @param limit one of those of the table
-/// @return nothing where there is no table and none is asked for
-/// @throws BadInput where the table cannot be read, or lacks the cell, `biot` or the limit
-std::optional<ValidStrain> valid_strain(const std::string &cell_file,
+/// @return nothing where no table is asked for and there is none, or one of another cell
+/// @throws BadInput where the table cannot be read, or lacks the cell, `biot` or the limit, or is
+/// asked for and of another cell
+std::optional<ValidStrain> valid_strain(const meshes::HomogenizedCell &cell,
+                                        const std::string &cell_file,
                                         const std::string &validity_file, double limit);
 } // namespace homespun::verification

@@ -32,6 +32,20 @@ TEST(exact_load_control, components_are_read_and_the_others_are_free)
   EXPECT_EQ(turned.stress({1., 2., 3., 4.}), Eigen::Vector3d(1., 4., 3.));
 }
 
+TEST(exact_load_control, the_axis_of_a_pull_keeps_its_direction_unless_another_is_asked_for)
+{
+  const auto axis_of = [](const std::vector<std::string> &stresses,
+                          const std::vector<std::string> &strains, const int axis)
+  { return load_control(stresses, strains, axis).axis; };
+  EXPECT_EQ(axis_of({}, {"22=2%"}, 0), 2);
+  EXPECT_EQ(axis_of({"22=50", "11=0"}, {}, 0), 2);
+  EXPECT_EQ(axis_of({}, {"11=2%"}, 0), 1);
+  EXPECT_EQ(axis_of({"11=50"}, {"22=2%"}, 0), 1);
+  EXPECT_EQ(axis_of({}, {"12=2%"}, 0), 1);
+  EXPECT_EQ(axis_of({}, {"22=2%"}, 1), 1);
+  EXPECT_EQ(axis_of({}, {"11=2%"}, 2), 2);
+}
+
 TEST(tripwire_load_control, what_cannot_be_prescribed_is_named)
 {
   const auto refused = [](const std::vector<std::string> &stresses,

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 """homespun upsample: the frames of another program's simulation as a user hands them over."""
 import json
+import re
 import shutil
 import signal
 import subprocess
@@ -178,6 +179,11 @@ class Results(Upsampling):
         self.assertEqual([(row["limit"], row["triangles_beyond"]) for row in rows],
                          [("0.015", "0"), ("0.015", "0"), ("0.015", "32")])
 
+    def test_frames_in_millimetres_are_suspected(self):
+        stdout = self.upsample(self.frame("mm.obj", 1000. * self.vertices))
+        self.assertIn("strain: above 100 %: are the frames and the rest mesh both in metres?",
+                      stdout)
+
     def test_slack_cloth_is_counted_and_found(self):
         short = self.vertices.copy()
         short[self.vertices[:, 0] > 0.035, 0] -= 0.002  # the last column of cells of 1 cm
@@ -244,6 +250,19 @@ class OneRun(Upsampling):
         self.assertTrue((self.output / "f_2.ply").exists())
         self.assertEqual((self.output / "f_0.ply").stat().st_mtime_ns,
                          before[self.output / "f_0.ply"])
+
+    def test_frames_of_a_later_call_stand_beside_those_of_earlier_ones(self):
+        frames = self.moving(12)
+        self.upsample(*frames[:10])
+        stdout = self.upsample(*frames[10:])
+        self.assertIn("12 frames of a sheet", stdout)
+        self.assertIn("of them 10 of earlier calls", stdout)
+        self.assertIn("strain: largest 0.11 in f_11", stdout)
+        self.assertIn("12 frames of a sheet", self.upsample(frames[0]))
+        self.assertEqual(json.loads((self.output / "upsample.json").read_text())["frames"], 12)
+        collection = (self.output / "frames.pvd").read_text()
+        self.assertEqual(re.findall(r'file="(\w+)\.vtu"', collection),
+                         [f"f_{k}" for k in range(12)])
 
     def test_a_run_that_was_killed_goes_on_to_the_same_bytes(self):
         frames = self.moving(60)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // A cell over somebody else's cloth: bits of the up-sampler, and indicators in closed form.
 #include "meshes/cloth/seams.h"
+#include "meshes/files/cell_file.h"
 #include "meshes/files/surface_files.h"
 #include "meshes/files/write_whole.h"
 #include "tests/localization/localization_cases.h"
@@ -261,9 +262,12 @@ TEST(exact_coarse_indicators, the_quantile_goes_by_area)
 
 TEST_F(exact_valid_strain, the_load_that_fails_first_decides)
 {
-  const std::string cell = path + "/dots/cell.h5";
+  meshes::HomogenizedCell made = tests::skewed_cloth().cell;
+  made.stiffness               = 100. * Eigen::Matrix3d::Identity();
+  made.areal_density           = 0.1;
+  const std::string cell       = path + "/dots/cell.h5";
   fs::create_directories(path + "/dots");
-  EXPECT_FALSE(valid_strain(cell, "", 0.01).has_value());
+  EXPECT_FALSE(valid_strain(made, cell, "", 0.01).has_value());
   {
     Table<ValidityRow> table(path);
     const auto add = [&](const std::string &of, const std::string &load, const double limit,
@@ -286,23 +290,45 @@ TEST_F(exact_valid_strain, the_load_that_fails_first_decides)
     add("bad", "strip-1", 0.01, "=", 0.1);
     add("bad", "strip-2", 0.01, "-", nothing);
   }
-  const auto found = valid_strain(cell, "", 0.01);
+  const auto found = valid_strain(made, cell, "", 0.01);
   ASSERT_TRUE(found.has_value());
   // Simple shear by 0.3 stretches by sqrt(1 + 0.3²/4) + 0.15.
   EXPECT_NEAR(found->strain, std::sqrt(1. + 0.0225) + 0.15 - 1., 1e-15);
   EXPECT_EQ(found->load, "shear-frame");
   EXPECT_FALSE(found->is_open);
-  EXPECT_TRUE(valid_strain(cell, path + "/validity.csv", 0.05)->is_open);
-  EXPECT_EQ(valid_strain(path + "/bad/cell.h5", path + "/validity.csv", 0.01)->strain, 0.);
+  EXPECT_TRUE(valid_strain(made, cell, path + "/validity.csv", 0.05)->is_open);
+  EXPECT_EQ(valid_strain(made, path + "/bad/cell.h5", path + "/validity.csv", 0.01)->strain, 0.);
 
   const auto refused = [&](const std::string &of, const std::string &file, const double limit)
-  { return tests::refusal([&]() { valid_strain(of, file, limit); }); };
+  { return tests::refusal([&]() { valid_strain(made, of, file, limit); }); };
   EXPECT_NE(refused(cell, "", 0.02).find("and limit 0.02; found the limits 0.01, 0.05"),
             std::string::npos);
   EXPECT_NE(refused(path + "/none/cell.h5", path + "/validity.csv", 0.01)
               .find("holds the cells bad, dots, other; expected one cell, or one that is named"),
             std::string::npos);
   EXPECT_NE(refused(cell, path + "/no.csv", 0.01).find("no.csv: no such file"), std::string::npos);
+
+  // The cell that the run of the table left beside it: the same, one of another mesh, two others.
+  const auto left = [&](const double stiffer, const double longer)
+  {
+    meshes::HomogenizedCell tried = made;
+    tried.stiffness *= stiffer;
+    tried.lattice.vectors *= longer;
+    meshes::write_cell(tried, cell);
+  };
+  for (const double stiffer : {1., 1.04})
+  {
+    left(stiffer, 1.);
+    EXPECT_TRUE(valid_strain(made, cell, "", 0.01).has_value()) << stiffer;
+  }
+  left(1.06, 1.);
+  EXPECT_FALSE(valid_strain(made, cell, "", 0.01).has_value());
+  EXPECT_NE(refused(cell, path + "/validity.csv", 0.01).find("cell.h5, whose C^H is another one"),
+            std::string::npos);
+  left(1., 1.00001);
+  EXPECT_NE(refused(cell, path + "/validity.csv", 0.01).find("whose lattice is another one"),
+            std::string::npos);
+  left(1., 1.);
   meshes::write_whole(path + "/run.json", "{\"format_version\": 9}");
   EXPECT_NE(refused(cell, "", 0.01).find("run.json: found format_version 9"), std::string::npos);
 }

@@ -6,6 +6,7 @@ import math
 
 from markupsafe import Markup
 
+from figures.forces import SOLVED
 from figures.load import bar_key, known, load_figure
 from figures.style import three
 from read.load_results import COMPONENTS
@@ -64,7 +65,9 @@ def coarse_sentence(paths):
             if size == 0 or not bar > 0:
                 continue
             difference, mesh = abs(b[y] - a[y]) / size, bar / size
-            if difference <= mesh:
+            if max(difference, mesh) <= SOLVED:
+                sentences.append(f"{law}: {what} of the coarse cloth is that of the cell.")
+            elif difference <= mesh:
                 sentences.append(
                     f"{law}: {what} of the coarse cloth differs from that of the cell by less than"
                     f" the mesh may ({three(100.0 * difference)} %, the mesh {three(100.0 * mesh)} %)."
