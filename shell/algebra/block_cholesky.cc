@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "shell/algebra/block_cholesky.h"
 
+#include "shell/algebra/dense_panel.h"
 #include "shell/algebra/index.h"
 
-#include <Eigen/Cholesky>
 #include <Eigen/Core>
 
 #include <algorithm>
@@ -20,73 +20,9 @@ using Vector        = Eigen::Map<Eigen::VectorXd>;
 /// Columns are joined to a panel while at most this part of it are zeros.
 constexpr double allowed_zeros = 0.2;
 
-/// Below this number of multiply-adds Eigen's blocked product costs more than it saves.
-constexpr double small_product = 4000.;
-
-/// T = A B^T for a panel A (n,depth) and the rows B (3,depth) at b, both with leading dimension
-/// `stride`; T (n,3) with leading dimension n.
-void multiply(const double *a, const double *b, const int stride, const int depth, const int n,
-              double *__restrict t)
-{
-  double *const __restrict t0 = t;
-  double *const __restrict t1 = t + n;
-  double *const __restrict t2 = t + 2 * n;
-  std::fill_n(t, 3 * n, 0.);
-  for (int k = 0; k < depth; k += 3, a += 3 * stride, b += 3 * stride)
-  {
-    const double b00 = b[0], b10 = b[1], b20 = b[2], b01 = b[stride], b11 = b[stride + 1],
-                 b21 = b[stride + 2], b02 = b[2 * stride], b12 = b[2 * stride + 1],
-                 b22                  = b[2 * stride + 2];
-    const double *const __restrict a0 = a;
-    const double *const __restrict a1 = a + stride;
-    const double *const __restrict a2 = a + 2 * stride;
-#pragma GCC ivdep
-    for (int i = 0; i < n; ++i)
-    {
-      const double p = a0[i], q = a1[i], r = a2[i];
-      t0[i] += p * b00 + q * b01 + r * b02;
-      t1[i] += p * b10 + q * b11 + r * b12;
-      t2[i] += p * b20 + q * b21 + r * b22;
-    }
-  }
-}
-
-/// L of a panel (size,width) in place: its first rows are the lower half of a symmetric matrix.
-/// @return false where a pivot is not positive
-bool factorize_panel(double *const panel, const int width, const int size)
-{
-  constexpr int narrow = 12;
-  if (width > narrow)
-  {
-    Panel all(panel, size, width, Eigen::OuterStride<>(size));
-    Eigen::Ref<Eigen::MatrixXd, 0, Eigen::OuterStride<>> top = all.topRows(width);
-    const Eigen::LLT<decltype(top)> llt(top);
-    if (llt.info() != Eigen::Success)
-      return false;
-    auto below = all.bottomRows(size - width);
-    top.triangularView<Eigen::Lower>().transpose().solveInPlace<Eigen::OnTheRight>(below);
-    return true;
-  }
-  for (int j = 0; j < width; ++j)
-  {
-    double *const column = panel + j * size;
-    for (int i = 0; i < j; ++i)
-    {
-      const double factor     = panel[i * size + j];
-      const double *const old = panel + i * size;
-#pragma GCC ivdep
-      for (int r = j; r < size; ++r)
-        column[r] -= factor * old[r];
-    }
-    if (!(column[j] > 0.))
-      return false;
-    const double inverse = 1. / std::sqrt(column[j]);
-#pragma GCC ivdep
-    for (int r = j; r < size; ++r)
-      column[r] *= inverse;
-  }
-  return true;
-}
+/// From this number of multiply-adds on a product is Eigen's, which packs its factors for the
+/// caches; below, packing costs more than it saves.
+constexpr double large_product = 4e5;
 
 /// The rows below the diagonal of each column of L: those of the matrix and those of its children
 /// in the elimination tree; a column's parent is its first row below the diagonal.
@@ -167,7 +103,7 @@ std::vector<int> BlockCholesky::lay_out_nodes(const std::vector<std::vector<int>
     c = last + 1;
   }
   nodes.push_back({n, 0, static_cast<int>(row.size()), 0, n_values, 0});
-  values.resize(n_values);
+  values.resize(n_values + panel_padding); // multiply() reads whole registers
   return node_of;
 }
 
@@ -187,7 +123,8 @@ void BlockCholesky::lay_out_updates(const std::vector<int> &node_of)
            end < node.n_rows && node_of[index(row[index(node.first_row + end)])] == target;)
         ++end;
       of_node[index(target)].push_back({static_cast<int>(s), begin, end - begin});
-      n_product = std::max(n_product, 9 * index(node.n_rows - begin) * index(end - begin));
+      n_product =
+        std::max(n_product, 3 * index(padded(3 * (node.n_rows - begin))) * index(end - begin));
     }
   }
   for (std::size_t s = 0; s < nodes.size(); ++s)
@@ -196,7 +133,7 @@ void BlockCholesky::lay_out_updates(const std::vector<int> &node_of)
     updates.insert(updates.end(), of_node[s].begin(), of_node[s].end());
   }
   const int n = nodes.back().column;
-  work.resize(std::max(n_product, 3 * index(n) + longest));
+  work.resize(std::max({n_product, 3 * index(n) + longest, 3 * index(padded(longest))}));
   position.resize(index(n));
 }
 
@@ -229,12 +166,13 @@ void BlockCholesky::subtract(const Update &update, const Supernode &node)
   const double *const source = values.data() + from.start + 3 * update.offset;
   const ConstantPanel a(source, n_rows, depth, Eigen::OuterStride<>(stride)),
     b(source, n_columns, depth, Eigen::OuterStride<>(stride));
-  Panel product(work.data(), n_rows, n_columns, Eigen::OuterStride<>(n_rows));
-  if (static_cast<double>(n_rows) * n_columns * depth < small_product)
+  const int n_padded = padded(n_rows);
+  if (static_cast<double>(n_rows) * n_columns * depth < large_product)
     for (int j = 0; j < n_columns; j += 3)
-      multiply(source, source + j, stride, depth, n_rows, work.data() + j * n_rows);
+      multiply(source, source + j, stride, depth, n_rows, work.data() + j * n_padded);
   else
-    product.noalias() = a * b.transpose();
+    Panel(work.data(), n_rows, n_columns, Eigen::OuterStride<>(n_padded)).noalias() =
+      a * b.transpose();
   const int *const places = row.data() + from.first_row + update.offset;
   for (int c = 0; c < update.n_rows; ++c)
   {
@@ -242,7 +180,7 @@ void BlockCholesky::subtract(const Update &update, const Supernode &node)
       values.data() + node.start + 9 * index(places[c] - node.column) * index(node.n_rows);
     for (int j = 0; j < 3; ++j)
     {
-      const double *const column = work.data() + (3 * c + j) * n_rows;
+      const double *const column = work.data() + (3 * c + j) * n_padded;
       double *const to           = panel + j * 3 * node.n_rows;
       for (int r = c; r < n_rows / 3; ++r)
       {
@@ -266,7 +204,7 @@ bool BlockCholesky::factorize(const BlockMatrix &matrix)
       subtract(updates[index(u)], node);
     // The diagonal block, then the rows below it.
     double *const panel = values.data() + node.start;
-    if (!factorize_panel(panel, width, size))
+    if (!factorize_panel(panel, width, size, work.data()))
       return false;
     for (int j = 0; j < width; ++j)
     {
@@ -287,37 +225,28 @@ void BlockCholesky::solve(const Vectors &right_side, Vectors &result) const
   for (int c = 0; c < n; ++c)
     for (int i = 0; i < 3; ++i)
       x[3 * c + i] = right_side(vertex_at[index(c)], i);
-  double *const below = x + 3 * index(n);
-  const auto panel_of = [&](const Supernode &node)
-  {
-    return ConstantPanel(values.data() + node.start, 3 * node.n_rows, 3 * node.n_columns,
-                         Eigen::OuterStride<>(3 * node.n_rows));
-  };
+  double *const own = x + 3 * index(n); // the rows of a panel
   for (std::size_t s = 0; s + 1 < nodes.size(); ++s)
   {
-    const Supernode &node = nodes[s];
-    const int width = 3 * node.n_columns, size = 3 * node.n_rows;
-    const ConstantPanel panel = panel_of(node);
-    Vector own(x + 3 * index(node.column), width), rest(below, size - width);
-    panel.topRows(width).triangularView<Eigen::Lower>().solveInPlace(own);
-    rest.noalias()          = panel.bottomRows(size - width) * own;
-    const int *const places = row.data() + node.first_row + node.n_columns;
-    for (int k = 0; k < node.n_rows - node.n_columns; ++k)
+    const Supernode &node   = nodes[s];
+    const int *const places = row.data() + node.first_row;
+    std::copy_n(x + 3 * index(node.column), 3 * node.n_columns, own);
+    std::fill_n(own + 3 * node.n_columns, 3 * (node.n_rows - node.n_columns), 0.);
+    substitute(values.data() + node.start, 3 * node.n_columns, 3 * node.n_rows, own);
+    std::copy_n(own, 3 * node.n_columns, x + 3 * index(node.column));
+    for (int k = node.n_columns; k < node.n_rows; ++k)
       for (int i = 0; i < 3; ++i)
-        x[3 * index(places[k]) + index(i)] -= below[3 * k + i];
+        x[3 * index(places[k]) + index(i)] += own[3 * k + i];
   }
   for (std::size_t s = nodes.size() - 1; s-- > 0;)
   {
-    const Supernode &node = nodes[s];
-    const int width = 3 * node.n_columns, size = 3 * node.n_rows;
-    const ConstantPanel panel = panel_of(node);
-    Vector own(x + 3 * index(node.column), width), rest(below, size - width);
-    const int *const places = row.data() + node.first_row + node.n_columns;
-    for (int k = 0; k < node.n_rows - node.n_columns; ++k)
+    const Supernode &node   = nodes[s];
+    const int *const places = row.data() + node.first_row;
+    for (int k = 0; k < node.n_rows; ++k)
       for (int i = 0; i < 3; ++i)
-        below[3 * k + i] = x[3 * index(places[k]) + index(i)];
-    own.noalias() -= panel.bottomRows(size - width).transpose() * rest;
-    panel.topRows(width).triangularView<Eigen::Lower>().transpose().solveInPlace(own);
+        own[3 * k + i] = x[3 * index(places[k]) + index(i)];
+    substitute_back(values.data() + node.start, 3 * node.n_columns, 3 * node.n_rows, own);
+    std::copy_n(own, 3 * node.n_columns, x + 3 * index(node.column));
   }
   result.setZero(right_side.rows(), 3);
   for (int c = 0; c < n; ++c)

@@ -29,7 +29,7 @@ public:
   /// Numbers that are stored for L, the zeros of its panels included.
   std::size_t n_entries() const
   {
-    return values.size();
+    return nodes.back().start;
   }
   /// Multiplications and additions of one factorisation, two flops each, without those on stored
   /// zeros.

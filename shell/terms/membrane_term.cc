@@ -6,6 +6,7 @@
 #include "shell/algebra/triangle_slots.h"
 #include "shell/algebra/vertex_matrix.h"
 #include "shell/membrane/discrete_gradient.h"
+#include "shell/membrane/triangle_packs.h"
 
 #include <cmath>
 #include <sstream>
@@ -23,6 +24,7 @@ public:
       , viscosity(viscosity)
       , is_elastic(is_elastic)
       , effective(this->membrane.stiffness)
+      , packs(this->membrane)
   {
   }
 
@@ -56,28 +58,20 @@ public:
         -factor * (membrane.stiffness[phase_of(t)].D *
                    biot_strain<3>(deformation_gradient<3>(membrane.rest[index(t)],
                                                           corners_of(start.positions, t))));
+    packs.set_stiffness(effective);
+    packs.set_initial_stress(old_stress);
   }
 
   double energy(const Vectors &positions) const override
   {
-    double sum = 0.;
-    if (!acts())
-      return sum;
-    for (int t = 0; t < n_triangles(); ++t)
-    {
-      const RestTriangle &rest = membrane.rest[index(t)];
-      const Eigen::Vector3d e =
-        biot_strain<3>(deformation_gradient<3>(rest, corners_of(positions, t)));
-      sum +=
-        rest.area * (0.5 * e.dot(effective[phase_of(t)].D * e) +
-                     (viscosity > 0. && !old_stress.empty() ? old_stress[index(t)].dot(e) : 0.));
-    }
-    return sum;
+    return acts() ? packs.energy(positions) : 0.;
   }
 
   double stored_energy(const Vectors &positions) const override
   {
-    return is_elastic ? membrane_energy<3>(membrane, positions) : 0.;
+    if (!is_elastic)
+      return 0.;
+    return viscosity == 0. ? packs.energy(positions) : membrane_energy<3>(membrane, positions);
   }
 
   void add_gradient(const Vectors &positions, Vectors &gradient) const override
@@ -102,16 +96,14 @@ public:
   {
     if (!acts())
       return;
-    for (int t = 0; t < n_triangles(); ++t)
-    {
-      const TriangleDerivatives<3> local =
-        triangle_derivatives<3>(membrane.rest[index(t)], corners_of(positions, t),
-                                effective[phase_of(t)], kind, initial_stress(t));
-      for (int k = 0; k < 3; ++k)
-        gradient.row(membrane.triangles(t, k)) += local.gradient.row(k);
-      for (std::size_t b = 0; b < 6; ++b)
-        matrix.add(places[index(t)][b], local.blocks[b]);
-    }
+    packs.derivatives(positions, kind,
+                      [&](const int t, const TriangleDerivatives<3> &local)
+                      {
+                        for (int k = 0; k < 3; ++k)
+                          gradient.row(membrane.triangles(t, k)) += local.gradient.row(k);
+                        for (std::size_t b = 0; b < 6; ++b)
+                          matrix.add(places[index(t)][b], local.blocks[b]);
+                      });
   }
 
   bool has_discrete_gradient() const override
@@ -143,8 +135,9 @@ public:
   std::size_t bytes() const override
   {
     return index(n_triangles()) *
-           (3 * sizeof(int) + sizeof(RestTriangle) + sizeof(int) + sizeof(places[0]) +
-            (viscosity > 0. ? sizeof(Eigen::Vector3d) : 0));
+             (3 * sizeof(int) + sizeof(RestTriangle) + sizeof(int) + sizeof(places[0]) +
+              (viscosity > 0. ? sizeof(Eigen::Vector3d) : 0)) +
+           packs.bytes();
   }
 
 private:
@@ -181,6 +174,7 @@ private:
   double factor = 0.;                       ///< β/h
   std::vector<MembraneStiffness> effective; ///< (1 + β/h) D, or β/h D
   std::vector<Eigen::Vector3d> old_stress;  ///< −β/h D e_n; empty without viscosity
+  TrianglePacks packs;                      ///< with the effective stiffness and the old stress
   std::vector<TriangleSlots> places;        ///< (m)
 };
 } // namespace
