@@ -33,10 +33,10 @@ double largest_value(const meshes::CubicForm &energy, const Eigen::Matrix3d &C)
 }
 } // namespace
 
-/// Factors of W3, dW3 and of the derivatives of |e|: phi = P(x)/x³, and phi'(x), phi''(x).
+/// phi = P(x)/x³, and phi'(x), phi''(x), beyond the reach.
 struct GuardedCubic::Damping
 {
-  double x = 0., phi = 1., first = 0., second = 0.;
+  double phi, first, second;
 };
 
 GuardedCubic::GuardedCubic(const meshes::CubicForm &energy, const Eigen::Matrix3d &stiffness)
@@ -49,58 +49,60 @@ GuardedCubic::GuardedCubic(const meshes::CubicForm &energy, const Eigen::Matrix3
 
 GuardedCubic::Damping GuardedCubic::damping(const double size) const
 {
-  const double x = size / r0;
-  if (!(x > 1.))
-    return {x, 1., 0., 0.};
+  const double x  = size / r0;
   const double x2 = x * x, x3 = x2 * x, x4 = x3 * x, x5 = x4 * x;
   if (x < 1.5)
-    return {x, -2. + 9. / x - 9. / x2 + 3. / x3, -9. / x2 + 18. / x3 - 9. / x4,
+    return {-2. + 9. / x - 9. / x2 + 3. / x3, -9. / x2 + 18. / x3 - 9. / x4,
             18. / x3 - 54. / x4 + 36. / x5};
-  return {x, 4.5 / x2 - 3.75 / x3, -9. / x3 + 11.25 / x4, 27. / x4 - 45. / x5};
+  return {4.5 / x2 - 3.75 / x3, -9. / x3 + 11.25 / x4, 27. / x4 - 45. / x5};
 }
 
 bool GuardedCubic::is_trusted(const Eigen::Vector3d &strain) const
 {
-  return !(std::sqrt(strain.dot(C * strain)) > r0);
+  return !(strain.dot(C * strain) > r0 * r0);
 }
 
 double GuardedCubic::value(const Eigen::Vector3d &strain) const
 {
+  if (is_trusted(strain))
+    return energy.value(strain);
   return damping(std::sqrt(strain.dot(C * strain))).phi * energy.value(strain);
 }
 
 Eigen::Vector3d GuardedCubic::gradient(const Eigen::Vector3d &strain) const
 {
-  const Eigen::Vector3d stress = C * strain, own = energy.gradient(strain);
-  const double size    = std::sqrt(strain.dot(stress));
-  const Damping damped = damping(size);
-  if (!(damped.x > 1.))
-    return own;
-  const double value = own.dot(strain) / 3.;
-  return damped.phi * own + (value * damped.first / (size * r0)) * stress;
+  if (is_trusted(strain))
+    return energy.gradient(strain);
+  return derivatives(strain).gradient;
 }
 
 Eigen::Matrix3d GuardedCubic::hessian(const Eigen::Vector3d &strain) const
 {
-  const Eigen::Matrix3d own    = energy.hessian(strain);
+  return derivatives(strain).hessian;
+}
+
+GuardedCubic::Derivatives GuardedCubic::derivatives(const Eigen::Vector3d &strain) const
+{
+  const Eigen::Matrix3d own   = energy.hessian(strain);
+  const Eigen::Vector3d force = 0.5 * (own * strain);
+  if (is_trusted(strain))
+    return {force, own};
   const Eigen::Vector3d stress = C * strain; // |e| times the gradient of |e|
   const double size            = std::sqrt(strain.dot(stress));
   const Damping damped         = damping(size);
-  if (!(damped.x > 1.))
-    return own;
-  const Eigen::Vector3d force = 0.5 * (own * strain);
   const double value = force.dot(strain) / 3., first = damped.first / (size * r0);
   const Eigen::Matrix3d coupled = stress * force.transpose();
-  return damped.phi * own + first * (coupled + coupled.transpose()) +
-         value *
-           ((damped.second / (r0 * r0) - first) / (size * size) * stress * stress.transpose() +
-            first * C);
+  return {damped.phi * force + (value * first) * stress,
+          damped.phi * own + first * (coupled + coupled.transpose()) +
+            value *
+              ((damped.second / (r0 * r0) - first) / (size * size) * stress * stress.transpose() +
+               first * C)};
 }
 
 TangentLaw tangent_law(const Eigen::Matrix3d &D, const GuardedCubic &cubic,
                        const Eigen::Vector3d &strain, const Eigen::Vector3d &initial_stress)
 {
-  const Eigen::Matrix3d second = cubic.hessian(strain);
-  return {Eigen::Matrix3d(D + second), initial_stress + cubic.gradient(strain) - second * strain};
+  const GuardedCubic::Derivatives of = cubic.derivatives(strain);
+  return {Eigen::Matrix3d(D + of.hessian), initial_stress + of.gradient - of.hessian * strain};
 }
 } // namespace homespun::shell

@@ -43,6 +43,14 @@ public:
   /// d²G/de² (3,3) [N/m].
   Eigen::Matrix3d hessian(const Eigen::Vector3d &strain) const;
 
+  /// Both derivatives, for the price of the second.
+  struct Derivatives
+  {
+    Eigen::Vector3d gradient;
+    Eigen::Matrix3d hessian;
+  };
+  Derivatives derivatives(const Eigen::Vector3d &strain) const;
+
   /// Whether G is W3 itself at a strain.
   bool is_trusted(const Eigen::Vector3d &strain) const;
 
