@@ -276,50 +276,83 @@ Frame<dim> CoarseFrames<dim>::at(const int triangle, const Eigen::Vector3d &weig
 template <int dim>
 Eigen::Matrix<double, dim, 1>
 fine_position(const CoarseFrames<dim> &frames, const int triangle, const Eigen::Vector3d &weights,
-              const Eigen::Matrix<double, 1, 6> &chi, const Positions<dim> &current)
+              const Eigen::Matrix<double, 1, 6> &chi, const Positions<dim> &current,
+              const Eigen::Matrix<double, 1, 12> &quadratic)
 {
   const Frame<dim> frame = frames.at(triangle, weights, current);
   Eigen::Vector2d w      = Eigen::Vector2d::Zero();
   for (int a = 0; a < 3; ++a)
     w -= frame.strain(a) * chi.segment<2>(2 * a).transpose();
+  const Eigen::Matrix<double, 6, 1> factors = meshes::quadratic_factors(frame.strain);
+  for (int k = 0; k < 6; ++k)
+    w -= factors(k) * quadratic.segment<2>(2 * k).transpose();
   Eigen::Matrix<double, dim, 1> position = frame.lift * w;
   for (int k = 0; k < 3; ++k)
     position += weights(k) * current.row(frames.rest().triangles(triangle, k)).transpose();
   return position;
 }
 
-meshes::Chi anchored(const meshes::HomogenizedCell &cell, const Anchor anchor)
+namespace
 {
-  if (cell.chi.rows() != cell.mesh.n_vertices())
-    throw meshes::BadInput("cell: has " + std::to_string(cell.chi.rows()) +
-                           " rows of characteristic displacements; expected " +
-                           std::to_string(cell.mesh.n_vertices()) + ", one per vertex");
-  if (!cell.chi.allFinite())
-    throw meshes::BadInput("cell: its characteristic displacements are not all finite");
-  Eigen::Matrix<double, 1, 6> constant = Eigen::Matrix<double, 1, 6>::Zero();
+/// Columns of modes minus what the anchor says.
+/// @param name of the modes, for the refusal
+template <typename Rows>
+Rows with_constant(const meshes::HomogenizedCell &cell, const Rows &modes, const Anchor anchor,
+                   const std::string &name)
+{
+  if (modes.rows() != cell.mesh.n_vertices())
+    throw meshes::BadInput("cell: has " + std::to_string(modes.rows()) + " rows of " + name +
+                           "; expected " + std::to_string(cell.mesh.n_vertices()) +
+                           ", one per vertex");
+  if (!modes.allFinite())
+    throw meshes::BadInput("cell: its " + name + " are not all finite");
+  Eigen::Matrix<double, 1, Rows::ColsAtCompileTime> constant =
+    Eigen::Matrix<double, 1, Rows::ColsAtCompileTime>::Zero();
   if (anchor == Anchor::lattice)
   {
     if (cell.anchor < 0 || cell.anchor >= cell.mesh.n_vertices())
       throw meshes::BadInput("cell: its anchor is vertex " + std::to_string(cell.anchor) +
                              "; expected 0 ... " + std::to_string(cell.mesh.n_vertices() - 1));
-    constant = cell.chi.row(cell.anchor);
+    constant = modes.row(cell.anchor);
   }
   else
   {
     const Eigen::VectorXd areas = meshes::signed_areas(cell.mesh);
     for (int t = 0; t < cell.mesh.n_triangles(); ++t)
       for (int k = 0; k < 3; ++k)
-        constant += areas(t) / (3. * areas.sum()) * cell.chi.row(cell.mesh.triangles(t, k));
+        constant += areas(t) / (3. * areas.sum()) * modes.row(cell.mesh.triangles(t, k));
   }
-  return cell.chi.rowwise() - constant;
+  return modes.rowwise() - constant;
+}
+} // namespace
+
+meshes::Chi anchored(const meshes::HomogenizedCell &cell, const Anchor anchor)
+{
+  return with_constant(cell, cell.chi, anchor, "characteristic displacements");
+}
+
+meshes::QuadraticChi anchored_quadratic(const meshes::HomogenizedCell &cell, const std::string &law,
+                                        const Anchor anchor)
+{
+  const auto found = cell.second_order.find(law);
+  if (found == cell.second_order.end())
+  {
+    std::string laws;
+    for (const auto &[name, second] : cell.second_order)
+      laws += (laws.empty() ? "" : ", ") + name;
+    throw meshes::BadInput("cell: has no quadratic modes under the law `" + law + "`; found " +
+                           (laws.empty() ? "none" : "those of " + laws) +
+                           ": make its cell.h5 again with `homespun homogenize`, or do without");
+  }
+  return with_constant(cell, found->second.chi, anchor, "quadratic modes");
 }
 
 template class CoarseFrames<2>;
 template class CoarseFrames<3>;
 template Eigen::Vector2d fine_position<2>(const CoarseFrames<2> &, int, const Eigen::Vector3d &,
-                                          const Eigen::Matrix<double, 1, 6> &,
-                                          const Positions<2> &);
+                                          const Eigen::Matrix<double, 1, 6> &, const Positions<2> &,
+                                          const Eigen::Matrix<double, 1, 12> &);
 template Eigen::Vector3d fine_position<3>(const CoarseFrames<3> &, int, const Eigen::Vector3d &,
-                                          const Eigen::Matrix<double, 1, 6> &,
-                                          const Positions<3> &);
+                                          const Eigen::Matrix<double, 1, 6> &, const Positions<3> &,
+                                          const Eigen::Matrix<double, 1, 12> &);
 } // namespace homespun::localization

@@ -7,6 +7,7 @@
 // F = [x1 − x0, x2 − x0] Dm^-1 (dim x 2), C = F^T F, J = det F (dim = 2) or |f1 × f2| (dim = 3),
 // s = sqrt(tr C + 2 J):  U = (C + J I)/s,  R = (F + cof F)/s  with cof F = dJ/dF, E = U − I. In the
 // plane R is the proper rotation nearest to F, also where a triangle is inverted.
+// Of second order, w takes − sum ½ E_a² chi_aa − sum E_a E_b chi_ab too (meshes::SecondOrder).
 // Where a triangle is collapsed to a line cof F counts as zero; to a point, U = 0 and R = 0. Both
 // are finite and need no branch.
 #pragma once
@@ -17,6 +18,7 @@
 
 #include <Eigen/Core>
 
+#include <string>
 #include <vector>
 
 namespace homespun::localization
@@ -88,14 +90,22 @@ private:
 /// Position of one fine point: the formula on top of this file.
 /// @param weights barycentric coordinates of its rest position in the coarse triangle
 /// @param chi its row of the characteristic displacements, column 2 a + c [m]
+/// @param quadratic its row of the quadratic modes, which w is extended by [m]
 /// @return (dim) [m]
 template <int dim>
 Eigen::Matrix<double, dim, 1>
 fine_position(const CoarseFrames<dim> &frames, int triangle, const Eigen::Vector3d &weights,
-              const Eigen::Matrix<double, 1, 6> &chi, const Positions<dim> &current);
+              const Eigen::Matrix<double, 1, 6> &chi, const Positions<dim> &current,
+              const Eigen::Matrix<double, 1, 12> &quadratic = Eigen::Matrix<double, 1, 12>::Zero());
 
 /// Characteristic displacements with the chosen constant.
 /// @return (n,6) [m]: minus their values at the anchor, or minus their mean over the cell
 /// @throws BadInput where shapes do not match or a value is not finite
 meshes::Chi anchored(const meshes::HomogenizedCell &cell, Anchor anchor);
+
+/// The same of the quadratic modes under a law.
+/// @return (n,12) [m]
+/// @throws BadInput as anchored(), and where the cell has none under that law
+meshes::QuadraticChi anchored_quadratic(const meshes::HomogenizedCell &cell, const std::string &law,
+                                        Anchor anchor);
 } // namespace homespun::localization

@@ -34,6 +34,21 @@ struct alignas(64) ChiBlock
   Scalar column[6][lanes];
 };
 
+/// Minus the quadratic modes of a block of fine vertices, column 2 k + c, k of
+/// meshes::strain_pairs, those of equal strains halved [m].
+template <typename Scalar>
+struct alignas(64) QuadraticBlock
+{
+  Scalar column[12][lanes];
+};
+
+/// How many modes a fluctuation has: linear in the strain, or quadratic too.
+enum Modes
+{
+  linear_modes    = 3,
+  quadratic_modes = 9
+};
+
 /// Records of a coarse triangle: values at corner 0, and their differences to corners 1 and 2.
 template <typename Scalar>
 struct alignas(64) Corners
@@ -45,11 +60,14 @@ struct alignas(64) Corners
 ///
 /// Not inlined, so that the coefficients are broadcast from memory and not taken apart from the
 /// registers in which the caller made them: they are 36 for at most a dozen blocks.
+/// @param quadratic read with quadratic_modes only
 /// @param out (n_blocks * lanes, dim), components side by side
-template <int dim, int terms, typename Scalar>
-[[gnu::noinline]] void
-fine_positions(const Corners<Scalar> &corners, const Weights<Scalar> *__restrict weights,
-               const ChiBlock<Scalar> *__restrict chi, const int n_blocks, Scalar *__restrict out)
+template <int dim, int terms, int modes, typename Scalar>
+[[gnu::noinline]] void fine_positions(const Corners<Scalar> &corners,
+                                      const Weights<Scalar> *__restrict weights,
+                                      const ChiBlock<Scalar> *__restrict chi,
+                                      const QuadraticBlock<Scalar> *__restrict quadratic,
+                                      const int n_blocks, Scalar *__restrict out)
 {
   constexpr bool is_blended =
     terms == blended || terms == blended_plane || terms == blended_rotation;
@@ -74,8 +92,25 @@ fine_positions(const Corners<Scalar> &corners, const Weights<Scalar> *__restrict
       {
         const auto &columns = chi[block].column;
         const Scalar e0 = frame(0), e1 = frame(1), e2 = frame(2);
-        const Scalar w0 = e0 * columns[0][n] + e1 * columns[2][n] + e2 * columns[4][n],
-                     w1 = e0 * columns[1][n] + e1 * columns[3][n] + e2 * columns[5][n];
+        Scalar w0, w1;
+        if constexpr (modes == quadratic_modes)
+        {
+          // By Horner's rule: three multiply-adds for each mode of chi in place of one.
+          const auto &q        = quadratic[block].column;
+          const auto component = [&](const int c)
+          {
+            return e0 * (columns[c][n] + e0 * q[c][n] + e1 * q[6 + c][n] + e2 * q[8 + c][n]) +
+                   e1 * (columns[2 + c][n] + e1 * q[2 + c][n] + e2 * q[10 + c][n]) +
+                   e2 * (columns[4 + c][n] + e2 * q[4 + c][n]);
+          };
+          w0 = component(0);
+          w1 = component(1);
+        }
+        else
+        {
+          w0 = e0 * columns[0][n] + e1 * columns[2][n] + e2 * columns[4][n];
+          w1 = e0 * columns[1][n] + e1 * columns[3][n] + e2 * columns[5][n];
+        }
         if constexpr (is_in_plane)
         {
           x[0] += w0;

@@ -5,6 +5,8 @@
 
 #include <Eigen/Core>
 
+#include <string>
+
 namespace homespun::localization
 {
 /// Positions of vertices, one per row, shape (n,dim) [m].
@@ -59,6 +61,9 @@ struct UpsamplerOptions
   Anchor anchor    = Anchor::lattice;
   Blend blend      = Blend::continuous;
   Path path        = Path::automatic;
+  /// Law of the phases (`biot`, `green`) whose quadratic modes are added to chi, for errors of
+  /// third order in strain: HomogenizedCell::second_order. Empty: none. Not for garments.
+  std::string second_order;
   /// Of a garment: over which distance from a seam the fluctuation grows from zero to its full
   /// size, in cell sides sqrt(|Y|), 0 to meshes::seam_reach. With 0 it does not fade, and seams
   /// gape.

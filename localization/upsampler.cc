@@ -40,10 +40,14 @@ Upsampler<dim, Scalar>::Upsampler(const meshes::HomogenizedCell &cell,
     : frames(coarse_rest, options)
     , options(options)
 {
-  if (const auto faults = sheet_faults(cell, fine); !faults.empty())
+  auto faults = sheet_faults(cell, fine);
+  if (!options.second_order.empty() && options.strain == Strain::linear)
+    faults.push_back("up-sampling: quadratic modes of the law " + options.second_order +
+                     " are asked for with the linear strain; expected Strain::biot, whose second "
+                     "order they are");
+  if (!faults.empty())
     throw meshes::BadInput(faults);
-  const meshes::Chi chi = options.microscopic ? anchored(cell, options.anchor)
-                                              : meshes::Chi::Zero(cell.mesh.n_vertices(), 6).eval();
+  const CellModes modes = modes_of(cell);
   n_total               = fine.mesh.n_vertices();
   n_space               = coarse_rest.n_vertices();
   aligned               = options.path == Path::automatic && is_lattice_of(fine, coarse_rest);
@@ -61,11 +65,11 @@ Upsampler<dim, Scalar>::Upsampler(const meshes::HomogenizedCell &cell,
         shared.pad();
       shared.append(v < n_below ? Eigen::Vector3d(1. - s, s - t, t)
                                 : Eigen::Vector3d(1. - t, s, t - s),
-                    chi.row(fine.cell_vertex(v)));
+                    modes.row(fine.cell_vertex(v)));
     }
     shared.pad();
   }
-  place(chi, fine, n_cells * n_block);
+  place(modes, fine, n_cells * n_block);
   records.resize(static_cast<std::size_t>(coarse_rest.n_vertices()) * record_size);
 }
 
@@ -95,7 +99,21 @@ Upsampler<dim, Scalar>::Upsampler(const meshes::HomogenizedCell &cell,
 }
 
 template <int dim, typename Scalar>
-void Upsampler<dim, Scalar>::place(const meshes::Chi &chi, const meshes::Sheet &fine,
+typename Upsampler<dim, Scalar>::CellModes
+Upsampler<dim, Scalar>::modes_of(const meshes::HomogenizedCell &cell) const
+{
+  if (!options.microscopic)
+    return CellModes::Zero(cell.mesh.n_vertices(), 6);
+  if (options.second_order.empty())
+    return anchored(cell, options.anchor);
+  CellModes modes(cell.mesh.n_vertices(), 18);
+  modes << anchored(cell, options.anchor),
+    anchored_quadratic(cell, options.second_order, options.anchor);
+  return modes;
+}
+
+template <int dim, typename Scalar>
+void Upsampler<dim, Scalar>::place(const CellModes &modes, const meshes::Sheet &fine,
                                    const int from)
 {
   const meshes::PointLocation location(frames.rest());
@@ -122,7 +140,7 @@ void Upsampler<dim, Scalar>::place(const meshes::Chi &chi, const meshes::Sheet &
   }
   if (!faults.empty())
     throw meshes::BadInput(faults);
-  tabulate(in_triangle, [&](const int v) { return chi.row(fine.cell_vertex(v)); });
+  tabulate(in_triangle, [&](const int v) { return modes.row(fine.cell_vertex(v)); });
 }
 
 template <int dim, typename Scalar>
@@ -172,7 +190,8 @@ std::size_t Upsampler<dim, Scalar>::table_bytes() const
   std::size_t bytes = sizeof(int) * target.size();
   for (const VertexTable<Scalar> *table : {&shared, &own})
     bytes += sizeof(Weights<Scalar>) * table->weights.size() +
-             sizeof(ChiBlock<Scalar>) * table->chi_blocks.size();
+             sizeof(ChiBlock<Scalar>) * table->chi_blocks.size() +
+             sizeof(QuadraticBlock<Scalar>) * table->quadratic_blocks.size();
   return bytes;
 }
 
@@ -203,7 +222,7 @@ void Upsampler<dim, Scalar>::fill_records(const PositionsOf<dim> coarse_current)
 }
 
 template <int dim, typename Scalar>
-template <int terms>
+template <int terms, int modes>
 void Upsampler<dim, Scalar>::evaluate(const VertexTable<Scalar> &table, const int triangle,
                                       const int begin, const int count, Scalar *const out) const
 {
@@ -224,13 +243,23 @@ void Upsampler<dim, Scalar>::evaluate(const VertexTable<Scalar> &table, const in
     for (int c = 0; c < CoarseFrames<dim>::n_components; ++c)
       corners.at0[dim + c] = static_cast<Scalar>(frames.last_values()(triangle, c));
   const int block = begin / lanes;
-  fine_positions<dim, terms, Scalar>(corners, table.weights.data() + block,
-                                     terms == affine ? nullptr : table.chi_blocks.data() + block,
-                                     (count + lanes - 1) / lanes, out);
+  fine_positions<dim, terms, modes, Scalar>(
+    corners, table.weights.data() + block,
+    terms == affine ? nullptr : table.chi_blocks.data() + block,
+    modes == quadratic_modes ? table.quadratic_blocks.data() + block : nullptr,
+    (count + lanes - 1) / lanes, out);
 }
 
 template <int dim, typename Scalar>
 template <int terms>
+void Upsampler<dim, Scalar>::run_modes(Scalar *const fine_current) const
+{
+  options.second_order.empty() ? run<terms, linear_modes>(fine_current)
+                               : run<terms, quadratic_modes>(fine_current);
+}
+
+template <int dim, typename Scalar>
+template <int terms, int modes>
 void Upsampler<dim, Scalar>::run(Scalar *const fine_current) const
 {
   // A run is computed in whole blocks of lanes. What it writes too much lies in the run after it,
@@ -241,12 +270,12 @@ void Upsampler<dim, Scalar>::run(Scalar *const fine_current) const
   const auto block      = [&](const int triangle, const int begin, const int first, const int count)
   {
     if (first + count + lanes <= n_total)
-      evaluate<terms>(shared, triangle, begin, count, fine_current + first * dim);
+      evaluate<terms, modes>(shared, triangle, begin, count, fine_current + first * dim);
     else
       for (int done = 0; done < count; done += chunk)
       {
         const int part = std::min(chunk, count - done);
-        evaluate<terms>(shared, triangle, begin + done, part, buffer);
+        evaluate<terms, modes>(shared, triangle, begin + done, part, buffer);
         std::copy_n(buffer, part * dim, fine_current + (first + done) * dim);
       }
   };
@@ -259,7 +288,7 @@ void Upsampler<dim, Scalar>::run(Scalar *const fine_current) const
     for (int done = 0; done < group.count; done += chunk)
     {
       const int part = std::min(chunk, group.count - done);
-      evaluate<terms>(own, group.triangle, group.begin + done, part, buffer);
+      evaluate<terms, modes>(own, group.triangle, group.begin + done, part, buffer);
       const int *const to = target.data() + group.begin + done;
       for (int k = 0; k < part; ++k)
         for (int i = 0; i < dim; ++i)
@@ -297,17 +326,17 @@ void Upsampler<dim, Scalar>::upsample(const PositionsOf<dim> coarse_current,
   const bool in_plane  = options.lift == Lift::identity || options.strain == Strain::linear;
   const bool is_smooth = options.blend == Blend::continuous;
   if (!options.microscopic)
-    run<affine>(fine_current.data());
+    run<affine, linear_modes>(fine_current.data());
   else if (is_smooth && in_plane)
-    run<blended_plane>(fine_current.data());
+    run_modes<blended_plane>(fine_current.data());
   else if (is_smooth && dim == 2 && options.lift == Lift::rotation)
-    run<dim == 2 ? blended_rotation : blended>(fine_current.data());
+    run_modes<dim == 2 ? blended_rotation : blended>(fine_current.data());
   else if (is_smooth)
-    run<blended>(fine_current.data());
+    run_modes<blended>(fine_current.data());
   else if (in_plane)
-    run<constant_plane>(fine_current.data());
+    run_modes<constant_plane>(fine_current.data());
   else
-    run<constant>(fine_current.data());
+    run_modes<constant>(fine_current.data());
 }
 
 template class Upsampler<2, float>;

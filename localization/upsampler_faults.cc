@@ -62,6 +62,11 @@ std::vector<std::string> garment_faults(const meshes::HomogenizedCell &cell,
          << " cell sides at seams; expected 0 to " << meshes::seam_reach;
     faults.push_back(text.str());
   }
+  if (!options.second_order.empty())
+    faults.push_back("up-sampling: quadratic modes of the law " + options.second_order +
+                     " are asked for; of a garment, whose modes turn with the grain and fade at "
+                     "seams, those of first order are all there is so far: leave second_order "
+                     "empty");
   check_lattice(cell, fine.lattice, "fine cloth", faults);
   const auto n        = static_cast<Eigen::Index>(fine.n_vertices());
   const bool has_size = fine.panel.size() == n && fine.cell_vertex.size() == n &&

@@ -17,22 +17,34 @@ struct VertexTable
 {
   std::vector<Weights<Scalar>> weights;
   std::vector<ChiBlock<Scalar>> chi_blocks;
-  int size = 0; ///< rows, padding included
+  std::vector<QuadraticBlock<Scalar>> quadratic_blocks; ///< empty without quadratic modes
+  int size = 0;                                         ///< rows, padding included
 
   /// @param barycentric coordinates in the coarse triangle
-  /// @param chi columns 2 a + c of the cell at the vertex [m]
-  void append(const Eigen::Vector3d &barycentric, const Eigen::Matrix<double, 1, 6> &chi)
+  /// @param modes of the cell at the vertex: the six columns of chi, and where they are taken the
+  ///   twelve of the quadratic modes [m]
+  template <typename ModesRow>
+  void append(const Eigen::Vector3d &barycentric, const ModesRow &modes)
   {
+    bool is_quadratic = false;
+    if constexpr (ModesRow::ColsAtCompileTime == Eigen::Dynamic)
+      is_quadratic = modes.size() > 6;
     if (size % lanes == 0)
     {
       weights.push_back({});
       chi_blocks.push_back({});
+      if (is_quadratic)
+        quadratic_blocks.push_back({});
     }
     const int lane               = size++ % lanes;
     weights.back().corner1[lane] = static_cast<Scalar>(barycentric(1));
     weights.back().corner2[lane] = static_cast<Scalar>(barycentric(2));
     for (int k = 0; k < 6; ++k)
-      chi_blocks.back().column[k][lane] = static_cast<Scalar>(-chi(k));
+      chi_blocks.back().column[k][lane] = static_cast<Scalar>(-modes(k));
+    if constexpr (ModesRow::ColsAtCompileTime == Eigen::Dynamic)
+      for (int k = 0; is_quadratic && k < 12; ++k)
+        quadratic_blocks.back().column[k][lane] =
+          static_cast<Scalar>((k < 6 ? -0.5 : -1.) * modes(6 + k));
   }
 
   /// Ends a group.

@@ -5,6 +5,7 @@
 #include "homogenization/fem/elastic_solver.h"
 #include "homogenization/fem/load_checkpoint.h"
 #include "homogenization/fem/periodic_constraints.h"
+#include "homogenization/fem/second_order.h"
 #include "homogenization/fem/solution_pieces.h"
 #include "meshes/plain/errors.h"
 #include "meshes/plain/refine.h"
@@ -85,6 +86,9 @@ public:
     if (!options.pieces.empty())
       write_pieces(options.pieces, discretization, solutions);
     lap(result.seconds.evaluation);
+    for (const MembraneLaw law : options.second_order)
+      result.second_order[name_of(law)] = second_order(law);
+    lap(result.seconds.second_order);
     return result;
   }
 
@@ -307,16 +311,34 @@ private:
 
   void sample_at_vertices()
   {
+    result.chi = at_vertices<3>(solutions);
+  }
+
+  /// Column 2 k + c: component c of field k at the vertices of the given mesh.
+  template <int n_fields, typename Fields>
+  Eigen::Matrix<double, Eigen::Dynamic, 2 * n_fields, Eigen::RowMajor>
+  at_vertices(const Fields &fields) const
+  {
     const auto dofs = discretization.vertex_dofs();
     const int n     = cell.mesh.n_vertices(); // refinement keeps these in front
-    result.chi.setZero(n, 6);
+    Eigen::Matrix<double, Eigen::Dynamic, 2 * n_fields, Eigen::RowMajor> rows;
+    rows.setZero(n, 2 * n_fields);
     for (int v = 0; v < n; ++v)
-      for (int a = 0; a < 3; ++a)
+      for (int k = 0; k < n_fields; ++k)
         for (int c = 0; c < 2; ++c)
           if (discretization.locally_owned.is_element(dofs(v, c)))
-            result.chi(v, 2 * a + c) = solutions[a](dofs(v, c));
-    MPI_Allreduce(MPI_IN_PLACE, result.chi.data(), static_cast<int>(result.chi.size()), MPI_DOUBLE,
-                  MPI_SUM, discretization.communicator);
+            rows(v, 2 * k + c) = fields[static_cast<std::size_t>(k)](dofs(v, c));
+    MPI_Allreduce(MPI_IN_PLACE, rows.data(), static_cast<int>(rows.size()), MPI_DOUBLE, MPI_SUM,
+                  discretization.communicator);
+    return rows;
+  }
+
+  meshes::SecondOrder second_order(const MembraneLaw law)
+  {
+    const SecondOrderFields found = second_order_fields(
+      {cell, discretization, constraints, solutions}, law,
+      {options.tolerance, energies_at_equal_stress(), most_iterations}, *solver);
+    return {found.energy, at_vertices<6>(found.modes)};
   }
 
   const UnitCell &cell;
@@ -362,9 +384,10 @@ meshes::Chi chi_under_forces(const UnitCell &cell, const HomogenizationOptions &
 meshes::HomogenizedCell homogenized_cell(const UnitCell &cell, const Homogenization &result,
                                          const std::string &provenance)
 {
-  return {cell.mesh,     cell.lattice,     result.chi,
-          result.anchor, result.stiffness, cell.areal_density(),
-          provenance,    std::nullopt,     cell.shift ? sentence_of(*cell.shift) : ""};
+  return {cell.mesh,          cell.lattice,     result.chi,
+          result.anchor,      result.stiffness, cell.areal_density(),
+          provenance,         std::nullopt,     cell.shift ? sentence_of(*cell.shift) : "",
+          result.second_order};
 }
 
 EngineeringConstants engineering_constants(const Eigen::Matrix3d &stiffness)

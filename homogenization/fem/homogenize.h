@@ -3,6 +3,7 @@
 // stiffness from their energies, and the checks that come for free.
 #pragma once
 
+#include "homogenization/cell/quadratic_strain.h"
 #include "homogenization/cell/unit_cell.h"
 #include "homogenization/fem/constraint_audit.h"
 #include "meshes/plain/homogenized_cell.h"
@@ -10,7 +11,9 @@
 #include <mpi.h>
 
 #include <array>
+#include <map>
 #include <string>
+#include <vector>
 
 namespace homespun::homogenization
 {
@@ -34,12 +37,15 @@ struct HomogenizationOptions
                           ///< alone; empty: none
   CellSolver solver = CellSolver::multigrid;
   std::string pieces; ///< path without ending of .pvtu and its pieces (write_pieces()); empty: none
+  /// Whose quadratic modes and cubic energy are computed too: six more right-hand sides each.
+  std::vector<MembraneLaw> second_order;
 };
 
 /// Seconds of each stage on the slowest rank.
 struct HomogenizationSeconds
 {
-  double setup = 0., assembly = 0., preconditioner = 0., solve = 0., evaluation = 0.;
+  double setup = 0., assembly = 0., preconditioner = 0., solve = 0., evaluation = 0.,
+         second_order = 0.;
 };
 
 /// Strains (m,9) of triangles under the unit macro strains 11, 22, 12: of each the components 11,
@@ -58,8 +64,9 @@ struct Homogenization
   unsigned long n_dofs;
   std::array<unsigned int, 3>
     iterations; ///< of the conjugate gradients, per load, since the start of this run
-  unsigned int loads_taken_up = 0; ///< of a run before, see LoadCheckpoint
-  CellSolver solver;               ///< the one that was taken
+  unsigned int loads_taken_up = 0;                         ///< of a run before, see LoadCheckpoint
+  CellSolver solver;                                       ///< the one that was taken
+  std::map<std::string, meshes::SecondOrder> second_order; ///< by law: those of the options
   ConstraintAudit audit;
   HomogenizationSeconds seconds;
 };

@@ -7,6 +7,8 @@
 
 #include <Eigen/Eigenvalues>
 
+#include <algorithm>
+#include <array>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
@@ -58,12 +60,68 @@ std::vector<std::string> faults_of(const HomogenizedCell &cell, const std::strin
       add("/deflection has " + std::to_string(cell.bending->deflection.rows()) + " rows for " +
           std::to_string(cell.mesh.n_vertices()) + " vertices");
   }
+  for (const auto &[law, second] : cell.second_order)
+  {
+    if (!second.energy.derivatives.allFinite())
+      add("/W3/" + law + " holds values that are not finite");
+    if (!second.chi.allFinite())
+      add("/chi_quadratic/" + law + " holds values that are not finite");
+    if (second.chi.rows() != cell.mesh.n_vertices())
+      add("/chi_quadratic/" + law + " has " + std::to_string(second.chi.rows()) + " rows for " +
+          std::to_string(cell.mesh.n_vertices()) + " vertices");
+    else if (cell.anchor >= 0 && cell.anchor < cell.mesh.n_vertices() &&
+             second.chi.row(cell.anchor).cwiseAbs().maxCoeff() >
+               1e-12 * std::max(second.chi.cwiseAbs().maxCoeff(), 1e-300))
+      add("/chi_quadratic/" + law + " is not zero at the anchor, vertex " +
+          std::to_string(cell.anchor));
+  }
   if (!(cell.areal_density > 0.) || !(cell.areal_density < 1e300))
     add("/areal_density is " + std::to_string(cell.areal_density) +
         " kg/m^2; expected a positive number");
   if (!cell.lattice.vectors.allFinite() || !(cell.lattice.area() > 0.))
     add("/lattice spans no area; expected two independent vectors");
   return faults;
+}
+
+/// The laws that a file may hold second orders of.
+constexpr std::array<const char *, 3> laws = {"biot", "green", "yarn"};
+
+/// Columns 2 k + c of a row in memory, stored as (vertex, component, mode).
+constexpr int n_modes = 6;
+
+void write_second_order(const std::string &law, const SecondOrder &second, Hdf5Writer &file)
+{
+  const std::string energy = "/W3/" + law, modes = "/chi_quadratic/" + law;
+  file.write(energy, {10}, second.energy.derivatives.data(), "N/m");
+  file.attribute(energy, "convention",
+                 "third derivatives of the energy per area by E = U - I, engineering shear; 111 "
+                 "112 113 122 123 133 222 223 233 333, where 1, 2, 3 stand for 11, 22, 12");
+  const auto n = static_cast<unsigned long long>(second.chi.rows());
+  std::vector<double> chi(2 * n_modes * static_cast<std::size_t>(n));
+  for (Eigen::Index v = 0; v < second.chi.rows(); ++v)
+    for (int k = 0; k < n_modes; ++k)
+      for (int c = 0; c < 2; ++c)
+        chi[static_cast<std::size_t>(2 * n_modes * v + n_modes * c + k)] = second.chi(v, 2 * k + c);
+  file.write(modes, {n, 2, n_modes}, chi.data(), "m");
+  file.attribute(modes, "convention",
+                 "w = ... - E11^2/2 chi_1 - E22^2/2 chi_2 - gamma12^2/2 chi_3 - E11 E22 chi_4 - "
+                 "E11 gamma12 chi_5 - E22 gamma12 chi_6, E = U - I, engineering shear; axes: "
+                 "vertex, component, mode");
+}
+
+SecondOrder read_second_order(const Hdf5Reader &file, const std::string &law,
+                              const unsigned long long n)
+{
+  const std::vector<double> energy = file.numbers("/W3/" + law, {10}),
+                            chi    = file.numbers("/chi_quadratic/" + law, {n, 2, n_modes});
+  SecondOrder second;
+  second.energy.derivatives = Eigen::Map<const Eigen::Matrix<double, 10, 1>>(energy.data());
+  second.chi.resize(static_cast<Eigen::Index>(n), 2 * n_modes);
+  for (Eigen::Index v = 0; v < second.chi.rows(); ++v)
+    for (int k = 0; k < n_modes; ++k)
+      for (int c = 0; c < 2; ++c)
+        second.chi(v, 2 * k + c) = chi[static_cast<std::size_t>(2 * n_modes * v + n_modes * c + k)];
+  return second;
 }
 } // namespace
 
@@ -107,6 +165,8 @@ void write_cell(const HomogenizedCell &cell, const std::string &path)
                    "w3 = y.K.y/2 + K11 w_1 + K22 w_2 + 2 K12 w_3, kappa = +grad grad w3; axes: "
                    "vertex, macro curvature (11, 22, 12)");
   }
+  for (const auto &[law, second] : cell.second_order)
+    write_second_order(law, second, file);
   file.attribute("/", "provenance", cell.provenance);
   if (!cell.place_of_cut.empty())
     file.attribute("/", "place_of_cut", cell.place_of_cut);
@@ -145,6 +205,9 @@ HomogenizedCell read_cell(const std::string &path)
     cell.bending = {Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(D.data()),
                     Eigen::Map<const Deflection>(deflection.data(), rows, 3)};
   }
+  for (const char *law : laws)
+    if (file.has(std::string("/W3/") + law) || file.has(std::string("/chi_quadratic/") + law))
+      cell.second_order[law] = read_second_order(file, law, n);
   const std::optional<int> anchor = file.integer_attribute("/chi", "anchor");
   if (!anchor)
     throw BadInput(path +

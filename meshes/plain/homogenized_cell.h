@@ -3,11 +3,14 @@
 // effective stiffness and its mass. Plain data; cell_file.h stores it.
 #pragma once
 
+#include "meshes/plain/cubic_form.h"
 #include "meshes/plain/lattice.h"
 #include "meshes/plain/triangle_mesh.h"
 
 #include <Eigen/Core>
 
+#include <array>
+#include <map>
 #include <optional>
 #include <string>
 
@@ -21,6 +24,37 @@ using Chi = Eigen::Matrix<double, Eigen::Dynamic, 6, Eigen::RowMajor>;
 /// lies at w3 = ½ y.K.y + K11 w_1 + K22 w_2 + 2 K12 w_3, with kappa = +grad grad w3. Shape (n,3)
 /// [m^2].
 using Deflection = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>;
+
+/// The pairs of macro strains that the quadratic modes belong to, in their order; 0, 1, 2 stand for
+/// 11, 22, 12.
+constexpr std::array<std::array<int, 2>, 6> strain_pairs = {
+  {{0, 0}, {1, 1}, {2, 2}, {0, 1}, {0, 2}, {1, 2}}};
+
+/// What the quadratic modes are multiplied by: ½ E_a² of equal strains, E_a E_b of others, in the
+/// order of strain_pairs.
+inline Eigen::Matrix<double, 6, 1> quadratic_factors(const Eigen::Vector3d &strain)
+{
+  Eigen::Matrix<double, 6, 1> factors;
+  for (std::size_t k = 0; k < strain_pairs.size(); ++k)
+    factors(static_cast<Eigen::Index>(k)) = (strain_pairs[k][0] == strain_pairs[k][1] ? 0.5 : 1.) *
+                                            strain(strain_pairs[k][0]) * strain(strain_pairs[k][1]);
+  return factors;
+}
+
+/// Quadratic modes, one vertex per row. Column 2 k + c holds component c of chi_ab, ab being pair k
+/// of strain_pairs: minus the second derivative of the fluctuation by E_a and E_b at rest. Shape
+/// (n,12) [m].
+using QuadraticChi = Eigen::Matrix<double, Eigen::Dynamic, 12, Eigen::RowMajor>;
+
+/// What a homogenized cell does at second order in the macro strain E = U − I (Biot, engineering
+/// shear), whatever the law of its phases:
+///   w(E)   = −sum_a E_a chi_a − ½ sum_a E_a² chi_aa − sum_{a<b} E_a E_b chi_ab + O(E³),
+///   W^H(E) = ½ E.C^H.E + energy(E) + O(E⁴).
+struct SecondOrder
+{
+  CubicForm energy; ///< W3 [N/m]
+  QuadraticChi chi; ///< (n,12) [m], zero at the anchor
+};
 
 /// How a homogenized cell bends. Voigt order 11, 22, 12 with kappa = (kappa11, kappa22, 2 kappa12).
 struct CellBendingModes
@@ -45,5 +79,7 @@ struct HomogenizedCell
   std::string provenance;                              ///< how it was made, one line
   std::optional<CellBendingModes> bending;             ///< nothing where it was not computed
   std::string place_of_cut; ///< in words, where the cell is not cut from the cloth as it is drawn
+  /// By the law of its phases, `biot` or `green`; those that were not computed are absent.
+  std::map<std::string, SecondOrder> second_order;
 };
 } // namespace homespun::meshes

@@ -298,9 +298,11 @@ Eigen::Matrix<double, 3, dim> triangle_gradient(const RestTriangle &rest,
 template <int dim>
 Eigen::Matrix<double, 3 * dim, 3 * dim>
 triangle_hessian(const RestTriangle &rest, const Eigen::Matrix<double, 3, dim> &corners,
-                 const MembraneStiffness &stiffness, const Hessian kind)
+                 const MembraneStiffness &stiffness, const Hessian kind,
+                 const Eigen::Vector3d &initial_stress)
 {
-  const auto blocks = triangle_derivatives<dim>(rest, corners, stiffness, kind).blocks;
+  const auto blocks =
+    triangle_derivatives<dim>(rest, corners, stiffness, kind, initial_stress).blocks;
   Eigen::Matrix<double, 3 * dim, 3 * dim> hessian;
   hessian << blocks[0], blocks[1], blocks[2],    //
     blocks[1].transpose(), blocks[3], blocks[4], //
@@ -324,7 +326,7 @@ triangle_hessian(const RestTriangle &rest, const Eigen::Matrix<double, 3, dim> &
     const RestTriangle &, const Eigen::Matrix<double, 3, dim> &, const Eigen::Matrix3d &);        \
   template Eigen::Matrix<double, 3 * dim, 3 * dim> triangle_hessian<dim>(                         \
     const RestTriangle &, const Eigen::Matrix<double, 3, dim> &, const MembraneStiffness &,       \
-    Hessian);                                                                                     \
+    Hessian, const Eigen::Vector3d &);                                                            \
   template TriangleDerivatives<dim> triangle_derivatives<dim>(                                    \
     const RestTriangle &, const Eigen::Matrix<double, 3, dim> &, const MembraneStiffness &,       \
     Hessian, const Eigen::Vector3d &);

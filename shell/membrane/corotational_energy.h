@@ -132,5 +132,6 @@ triangle_derivatives(const RestTriangle &rest, const Eigen::Matrix<double, 3, di
 template <int dim>
 Eigen::Matrix<double, 3 * dim, 3 * dim>
 triangle_hessian(const RestTriangle &rest, const Eigen::Matrix<double, 3, dim> &corners,
-                 const MembraneStiffness &stiffness, Hessian kind = Hessian::exact);
+                 const MembraneStiffness &stiffness, Hessian kind = Hessian::exact,
+                 const Eigen::Vector3d &initial_stress = Eigen::Vector3d::Zero());
 } // namespace homespun::shell

@@ -53,9 +53,29 @@ Eigen::Matrix<double, 3, dim> corners_of(const Membrane &membrane, const Positio
   return corners;
 }
 
+std::size_t phase_of(const Membrane &membrane, const int t)
+{
+  return static_cast<std::size_t>(membrane.phase[static_cast<std::size_t>(t)]);
+}
+
 const MembraneStiffness &stiffness_of(const Membrane &membrane, const int t)
 {
-  return membrane.stiffness[static_cast<std::size_t>(membrane.phase[static_cast<std::size_t>(t)])];
+  return membrane.stiffness[phase_of(membrane, t)];
+}
+
+/// The forces of the whole energy of a triangle, cubic part included.
+template <int dim>
+Eigen::Matrix<double, 3, dim> forces_of(const Membrane &membrane, const int t,
+                                        const Eigen::Matrix<double, 3, dim> &corners)
+{
+  const RestTriangle &rest = membrane.rest[static_cast<std::size_t>(t)];
+  const Eigen::Matrix3d &D = stiffness_of(membrane, t).D;
+  if (membrane.cubic.empty())
+    return triangle_gradient<dim>(rest, corners, D);
+  const DeformationGradient<dim> F = deformation_gradient<dim>(rest, corners);
+  const Eigen::Vector3d stress =
+    membrane.cubic[phase_of(membrane, t)].gradient(biot_strain<dim>(F));
+  return rest.shape_gradients * (rest.area * energy_gradient<dim>(F, D, stress)).transpose();
 }
 } // namespace
 
@@ -123,10 +143,35 @@ Membrane membrane(const meshes::ClothMesh &cloth, const std::vector<Eigen::Matri
   return result;
 }
 
+void add_cubic_energy(Membrane &membrane, const std::vector<meshes::CubicForm> &energies)
+{
+  if (energies.empty())
+    return;
+  if (energies.size() != membrane.stiffness.size())
+    throw meshes::BadInput("cubic energy: found " + std::to_string(energies.size()) +
+                           "; expected one for each of " +
+                           std::to_string(membrane.stiffness.size()) + " phases");
+  for (std::size_t phase = 0; phase < energies.size(); ++phase)
+  {
+    if (!energies[phase].derivatives.allFinite())
+      throw meshes::BadInput("cubic energy of phase " + std::to_string(phase) +
+                             ": is not finite; expected ten numbers in N/m");
+    membrane.cubic.emplace_back(energies[phase], membrane.stiffness[phase].D);
+  }
+}
+
 template <int dim>
 double membrane_energy(const Membrane &membrane, const Positions<dim> &positions)
 {
   double energy = 0.;
+  if (!membrane.cubic.empty())
+    for (int t = 0; t < static_cast<int>(membrane.triangles.rows()); ++t)
+    {
+      const RestTriangle &rest = membrane.rest[static_cast<std::size_t>(t)];
+      energy +=
+        rest.area * membrane.cubic[phase_of(membrane, t)].value(biot_strain<dim>(
+                      deformation_gradient<dim>(rest, corners_of<dim>(membrane, positions, t))));
+    }
   for (int t = 0; t < static_cast<int>(membrane.triangles.rows()); ++t)
     energy +=
       triangle_energy<dim>(membrane.rest[static_cast<std::size_t>(t)],
@@ -147,7 +192,7 @@ MembraneGradient<dim> membrane_gradient(const Membrane &membrane, const Position
     const RestTriangle &rest                     = membrane.rest[static_cast<std::size_t>(t)];
     const auto corners                           = corners_of<dim>(membrane, positions, t);
     const Eigen::Matrix3d &D                     = stiffness_of(membrane, t).D;
-    const Eigen::Matrix<double, 3, dim> gradient = triangle_gradient<dim>(rest, corners, D);
+    const Eigen::Matrix<double, 3, dim> gradient = forces_of<dim>(membrane, t, corners);
     const Eigen::Vector3d hats                   = rest.shape_gradients.rowwise().norm();
     const Eigen::Vector3d sizes                  = corners.rowwise().norm();
     // One rounding of the positions changes F by this, and the forces by the stiffness times it.
@@ -189,9 +234,19 @@ void add_membrane_hessian(const Membrane &membrane, const Positions<dim> &positi
                           const Hessian kind, FreeVertexMatrix<dim> &matrix)
 {
   for (int t = 0; t < static_cast<int>(membrane.triangles.rows()); ++t)
-    matrix.add(t, triangle_hessian<dim>(membrane.rest[static_cast<std::size_t>(t)],
-                                        corners_of<dim>(membrane, positions, t),
-                                        stiffness_of(membrane, t), kind));
+  {
+    const RestTriangle &rest = membrane.rest[static_cast<std::size_t>(t)];
+    const auto corners       = corners_of<dim>(membrane, positions, t);
+    if (membrane.cubic.empty())
+    {
+      matrix.add(t, triangle_hessian<dim>(rest, corners, stiffness_of(membrane, t), kind));
+      continue;
+    }
+    const TangentLaw law = tangent_law(
+      stiffness_of(membrane, t).D, membrane.cubic[phase_of(membrane, t)],
+      biot_strain<dim>(deformation_gradient<dim>(rest, corners)), Eigen::Vector3d::Zero());
+    matrix.add(t, triangle_hessian<dim>(rest, corners, law.stiffness, kind, law.initial_stress));
+  }
 }
 
 template <int dim>

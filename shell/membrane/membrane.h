@@ -8,6 +8,7 @@
 #include "meshes/plain/triangle_mesh.h"
 #include "shell/algebra/free_vertex_matrix.h"
 #include "shell/membrane/corotational_energy.h"
+#include "shell/membrane/guarded_cubic.h"
 
 #include <Eigen/Core>
 
@@ -27,6 +28,7 @@ struct Membrane
   std::vector<RestTriangle> rest;           ///< (m)
   std::vector<int> phase;                   ///< (m) index into stiffness
   std::vector<MembraneStiffness> stiffness; ///< Voigt 11, 22, 12, engineering shear [N/m]
+  std::vector<GuardedCubic> cubic;          ///< one per phase; empty: the energy is quadratic
 };
 
 /// Prepares the rest state of a membrane, mesh.material being the phase of each triangle.
@@ -39,6 +41,12 @@ Membrane membrane(const meshes::TriangleMesh &mesh, const std::vector<Eigen::Mat
 /// The same of a cloth sewn from panels: triangles connect vertices in space, vertices are left
 /// empty.
 Membrane membrane(const meshes::ClothMesh &cloth, const std::vector<Eigen::Matrix3d> &stiffness);
+
+/// Adds a cubic energy to that of each phase, guarded where it cannot be trusted
+/// (guarded_cubic.h).
+/// @param energies W3, one per phase [N/m]; none: the membrane is left as it is
+/// @throws BadInput where their number is wrong, or one is not finite
+void add_cubic_energy(Membrane &membrane, const std::vector<meshes::CubicForm> &energies);
 
 /// Total energy, sum of area times W [J].
 /// @param positions (n,dim) [m]

@@ -121,11 +121,13 @@ Positions<dim> all_loads(const Positions<dim> &loads, const std::size_t n_vertic
 template <int dim>
 MembraneSolver<dim>::MembraneSolver(const meshes::TriangleMesh &rest,
                                     std::vector<Eigen::Matrix3d> stiffness_of_phase,
-                                    const std::vector<int> &held_vertices)
+                                    const std::vector<int> &held_vertices,
+                                    const std::vector<meshes::CubicForm> &cubic)
     : membrane(shell::membrane(rest, stiffness_of_phase))
     , is_held(marked(rest, held_vertices))
     , matrix(membrane.triangles, is_held)
 {
+  add_cubic_energy(membrane, cubic);
 }
 
 template <int dim>
@@ -258,7 +260,8 @@ Equilibrium<dim> MembraneSolver<dim>::solve_equilibrium(const Positions<dim> &st
 // Member by member: the linear problem exists in the plane only.
 template class MembraneSolver<2>;
 template MembraneSolver<3>::MembraneSolver(const meshes::TriangleMesh &,
-                                           std::vector<Eigen::Matrix3d>, const std::vector<int> &);
+                                           std::vector<Eigen::Matrix3d>, const std::vector<int> &,
+                                           const std::vector<meshes::CubicForm> &);
 template const Membrane &MembraneSolver<3>::rest_membrane() const;
 template bool MembraneSolver<3>::factorize_at(const Positions<3> &) const;
 template Equilibrium<3> MembraneSolver<3>::solve_equilibrium(const Positions<3> &,

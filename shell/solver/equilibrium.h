@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Static equilibrium of the coarse cloth under prescribed positions and loads: grad W = f at every
-// vertex that is not held, with the energy of corotational_energy.h, and its small-strain linear
-// form.
+// vertex that is not held, with the energy of corotational_energy.h (and guarded_cubic.h where that
+// is asked for), and its small-strain linear form.
 #pragma once
 
 #include "meshes/plain/triangle_mesh.h"
@@ -46,10 +46,12 @@ public:
   /// @param rest mesh at rest, rest.material being the phase of each triangle
   /// @param stiffness_of_phase symmetric positive definite [N/m]
   /// @param held_vertices whose positions are prescribed, in any order
+  /// @param cubic energies of third order, one per phase (add_cubic_energy()); none: e·D·e alone
   /// @throws BadInput as membrane() does, and where no vertex is held, a held vertex does not
   ///   exist, or a vertex hangs on no held one
   MembraneSolver(const meshes::TriangleMesh &rest, std::vector<Eigen::Matrix3d> stiffness_of_phase,
-                 const std::vector<int> &held_vertices);
+                 const std::vector<int> &held_vertices,
+                 const std::vector<meshes::CubicForm> &cubic = {});
 
   /// Small-strain equilibrium, K u = f at the free vertices with K the Hessian at rest; factored on
   /// first use, then a substitution per call.

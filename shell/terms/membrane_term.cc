@@ -30,7 +30,7 @@ public:
 
   std::string name() const override
   {
-    return is_elastic ? "membrane" : "viscosity";
+    return !membrane.cubic.empty() ? "cubic membrane" : is_elastic ? "membrane" : "viscosity";
   }
 
   void couple(std::vector<std::array<int, 2>> &pairs) const override
@@ -64,14 +64,21 @@ public:
 
   double energy(const Vectors &positions) const override
   {
-    return acts() ? packs.energy(positions) : 0.;
+    if (!acts())
+      return 0.;
+    double sum = packs.energy(positions);
+    for (int t = 0; t < n_triangles() && !membrane.cubic.empty(); ++t)
+      sum += membrane.rest[index(t)].area *
+             membrane.cubic[phase_of(t)].value(biot_strain<3>(
+               deformation_gradient<3>(membrane.rest[index(t)], corners_of(positions, t))));
+    return sum;
   }
 
   double stored_energy(const Vectors &positions) const override
   {
     if (!is_elastic)
       return 0.;
-    return viscosity == 0. ? packs.energy(positions) : membrane_energy<3>(membrane, positions);
+    return viscosity == 0. ? energy(positions) : membrane_energy<3>(membrane, positions);
   }
 
   void add_gradient(const Vectors &positions, Vectors &gradient) const override
@@ -82,10 +89,12 @@ public:
     {
       const RestTriangle &rest       = membrane.rest[index(t)];
       const DeformationGradient<3> F = deformation_gradient<3>(rest, corners_of(positions, t));
+      Eigen::Vector3d stress         = initial_stress(t);
+      if (!membrane.cubic.empty())
+        stress += membrane.cubic[phase_of(t)].gradient(biot_strain<3>(F));
       const Eigen::Matrix3d forces =
         rest.shape_gradients *
-        (rest.area * energy_gradient<3>(F, effective[phase_of(t)].D, initial_stress(t)))
-          .transpose();
+        (rest.area * energy_gradient<3>(F, effective[phase_of(t)].D, stress)).transpose();
       for (int k = 0; k < 3; ++k)
         gradient.row(membrane.triangles(t, k)) += forces.row(k);
     }
@@ -96,19 +105,24 @@ public:
   {
     if (!acts())
       return;
-    packs.derivatives(positions, kind,
-                      [&](const int t, const TriangleDerivatives<3> &local)
-                      {
-                        for (int k = 0; k < 3; ++k)
-                          gradient.row(membrane.triangles(t, k)) += local.gradient.row(k);
-                        for (std::size_t b = 0; b < 6; ++b)
-                          matrix.add(places[index(t)][b], local.blocks[b]);
-                      });
+    const auto take = [&](const int t, const TriangleDerivatives<3> &local)
+    {
+      for (int k = 0; k < 3; ++k)
+        gradient.row(membrane.triangles(t, k)) += local.gradient.row(k);
+      for (std::size_t b = 0; b < 6; ++b)
+        matrix.add(places[index(t)][b], local.blocks[b]);
+    };
+    if (membrane.cubic.empty())
+      packs.derivatives(positions, kind, take);
+    else
+      for (int t = 0; t < n_triangles(); ++t)
+        take(t, derivatives_of(t, corners_of(positions, t), kind));
   }
 
+  /// Forces that do the work of a cubic energy over a step are not known here.
   bool has_discrete_gradient() const override
   {
-    return true;
+    return membrane.cubic.empty();
   }
 
   void add_discrete_gradient(const Vectors &old, const Vectors &positions, Vectors &gradient,
@@ -161,6 +175,17 @@ private:
       corners.row(k) = positions.row(membrane.triangles(t, k));
     return corners;
   }
+  /// With a cubic energy.
+  TriangleDerivatives<3> derivatives_of(const int t, const Eigen::Matrix3d &corners,
+                                        const Hessian kind) const
+  {
+    const RestTriangle &rest           = membrane.rest[index(t)];
+    const MembraneStiffness &stiffness = effective[phase_of(t)];
+    const TangentLaw law =
+      tangent_law(stiffness.D, membrane.cubic[phase_of(t)],
+                  biot_strain<3>(deformation_gradient<3>(rest, corners)), initial_stress(t));
+    return triangle_derivatives<3>(rest, corners, law.stiffness, kind, law.initial_stress);
+  }
   Eigen::Vector3d initial_stress(const int t) const
   {
     if (viscosity == 0. || old_stress.empty())
@@ -181,12 +206,15 @@ private:
 
 std::unique_ptr<Term> membrane_term(const meshes::ClothMesh &cloth,
                                     const std::vector<Eigen::Matrix3d> &stiffness,
-                                    const double viscosity)
+                                    const double viscosity,
+                                    const std::vector<meshes::CubicForm> &cubic)
 {
   if (!(viscosity >= 0.) || !std::isfinite(viscosity))
     throw meshes::BadInput("viscosity of the membrane: found " + std::to_string(viscosity) +
                            " s; expected zero or a positive time");
-  return std::make_unique<MembraneTerm>(membrane(cloth, stiffness), viscosity, true);
+  Membrane whole = membrane(cloth, stiffness);
+  add_cubic_energy(whole, cubic);
+  return std::make_unique<MembraneTerm>(std::move(whole), viscosity, true);
 }
 
 std::unique_ptr<Term> viscosity_term(const meshes::ClothMesh &cloth,

@@ -19,10 +19,13 @@ namespace homespun::shell
 /// @param stiffness one symmetric positive definite matrix (3,3) per phase, cloth.rest.material
 ///   [N/m]
 /// @param viscosity β: stress D·de/dt times this [s]
+/// @param cubic energies of third order, one per phase (add_cubic_energy()); none: e·D·e alone. A
+///   term with them has no discrete gradient.
 /// @throws BadInput as membrane() does, and where the viscosity is negative
 std::unique_ptr<Term> membrane_term(const meshes::ClothMesh &cloth,
                                     const std::vector<Eigen::Matrix3d> &stiffness,
-                                    double viscosity = 0.);
+                                    double viscosity                            = 0.,
+                                    const std::vector<meshes::CubicForm> &cubic = {});
 
 /// The viscous part of E alone, for a cloth whose elasticity is that of another term (warping.h).
 /// @param viscosity β > 0 [s]

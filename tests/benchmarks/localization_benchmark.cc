@@ -29,6 +29,9 @@ meshes::HomogenizedCell smooth_cell(const int n1, const int n2)
     for (int k = 0; k < 6; ++k)
       cell.chi(v, k) = 1e-4 * (std::sin(f(k % 2)) + (k - 2) * std::sin(f(0) + f(1)));
   }
+  meshes::SecondOrder &second = cell.second_order["biot"];
+  second.chi.resize(cell.mesh.n_vertices(), 12);
+  second.chi << cell.chi, -cell.chi;
   return cell;
 }
 
@@ -151,6 +154,13 @@ UpsamplerOptions piecewise()
   return options;
 }
 
+UpsamplerOptions of_second_order()
+{
+  UpsamplerOptions options;
+  options.second_order = "biot";
+  return options;
+}
+
 UpsamplerOptions in_plane()
 {
   UpsamplerOptions options;
@@ -175,6 +185,7 @@ void add_upsampling(const std::string &type)
   // Strain 6, fluctuation 6, position 2 dim; lift 4 dim and its product 2 dim.
   add("aligned", {}, 12 + 8 * dim);
   add("general", general(), 12 + 8 * dim);
+  add("second_order", of_second_order(), 24 + 8 * dim);
   add("piecewise", piecewise(), 6 + 4 * dim);
   add("without_modes", without_modes(), 2 * dim);
   add("general_without_modes", general_without_modes(), 2 * dim);

@@ -168,6 +168,7 @@ void add_estimate(const UnitCell &cell, const unsigned long max_dofs, const MPI_
   finer.solver                                = homogenization::CellSolver::fastest;
   finer.checkpoint.clear();
   finer.pieces.clear();
+  finer.second_order.clear();
   ++finer.refine;
   assessed.uncertainty =
     (homogenization::homogenize(cell, finer, communicator).stiffness - assessed.result.stiffness)
@@ -194,6 +195,7 @@ void add_bracket(const UnitCell &cell, const BracketOptions &options,
   assessed.result.iterations.fill(found.iterations);
   assessed.result.seconds       = {}; // those were of the given mesh
   assessed.result.seconds.solve = assessed.bracket->history.back().seconds;
+  assessed.result.second_order.clear(); // it belongs to the chi that was replaced
   assessed.uncertainty.reset();
   assessed.checks = checks_of(cell, assessed.result);
   for (const std::vector<Verdict> &some :

@@ -279,7 +279,8 @@ ordered_json membrane_json(const UnitCell &cell, const AssessedCell &assessed,
       {"assembly", result.seconds.assembly},
       {"preconditioner", result.seconds.preconditioner},
       {"solve", result.seconds.solve},
-      {"evaluation", result.seconds.evaluation}}},
+      {"evaluation", result.seconds.evaluation},
+      {"second_order", result.seconds.second_order}}},
     {"peak_memory_of_rank", assessed.peak_memory_of_rank}, // bytes
     {"checks", checks},
     // Compared with coordinates at run time; a gap beyond the tolerance would have ended the run.

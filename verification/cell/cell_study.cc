@@ -46,6 +46,7 @@ AssessedCell run_cell_study(const homogenization::UnitCell &cell, const CellStud
 {
   homogenization::HomogenizationOptions solve = options.solve;
   solve.checkpoint                            = options.output + "/.homespun-loads";
+  solve.second_order = {homogenization::MembraneLaw::biot, homogenization::MembraneLaw::green};
   if (options.pieces)
     solve.pieces = options.output + "/" + name_of_pieces;
   std::unique_ptr<RunFolder> folder; // on the first rank
@@ -106,11 +107,13 @@ AssessedCell run_cell_study(const homogenization::UnitCell &cell, const CellStud
 }
 
 AssessedCell assess_for_study(const homogenization::UnitCell &cell, const MPI_Comm communicator,
-                              std::vector<Verdict> &verdicts)
+                              std::vector<Verdict> &verdicts,
+                              const std::vector<homogenization::MembraneLaw> &second_order)
 {
   homogenization::HomogenizationOptions p1;
   p1.order              = 1;
   p1.solver             = homogenization::CellSolver::fastest;
+  p1.second_order       = second_order;
   AssessedCell assessed = assess(cell, p1, communicator);
   BracketOptions bracket;
   bracket.order = p1.order;

@@ -39,9 +39,11 @@ AssessedCell run_cell_study(const homogenization::UnitCell &cell, const CellStud
 /// rank.
 /// @param verdicts the checks are added to them, named after the cell; those of the bracket on the
 ///   first rank alone
+/// @param second_order laws whose quadratic modes and cubic energy the study asks for
 /// @throws BadInput, NotConverged
 AssessedCell assess_for_study(const homogenization::UnitCell &cell, MPI_Comm communicator,
-                              std::vector<Verdict> &verdicts);
+                              std::vector<Verdict> &verdicts,
+                              const std::vector<homogenization::MembraneLaw> &second_order = {});
 
 /// Brackets D^H on the first rank, by P2 on the given mesh, and hands its deflections on to all
 /// ranks.

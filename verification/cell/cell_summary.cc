@@ -129,6 +129,16 @@ std::string moduli_text(const Eigen::Matrix3d &stiffness,
   }
   return text.str();
 }
+
+/// Why there is no second order in strain; empty where there is one, or nobody asked.
+std::string second_order_text(const AssessedCell &assessed)
+{
+  if (assessed.options.second_order.empty() || !assessed.result.second_order.empty())
+    return "";
+  return "No quadratic modes and no cubic energy: C^H and chi are those of an adapted mesh. "
+         "Without "
+         "--tolerance there are some\n";
+}
 } // namespace
 
 std::string summary(const UnitCell &cell, const AssessedCell &assessed,
@@ -188,7 +198,8 @@ std::string summary(const UnitCell &cell, const AssessedCell &assessed,
   }
   if (assessed.bending)
     text << bending_text(*assessed.bending);
-  text << inputs_text(cell, assessed, uncertain) << geometry_text(cell, result);
+  text << second_order_text(assessed) << inputs_text(cell, assessed, uncertain)
+       << geometry_text(cell, result);
   for (const Verdict &check : assessed.checks)
   {
     std::snprintf(line, sizeof(line), "%-4s %s: %.2g (%s)\n", name_of(check.outcome).c_str(),

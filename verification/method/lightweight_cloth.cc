@@ -10,8 +10,12 @@ using localization::UpsamplerOptions;
 
 const std::vector<std::string> &Method::names()
 {
-  static const std::vector<std::string> all = {"affine", "localized", "localized-affine-lift",
-                                               "localized-mean-anchor", "localized-piecewise"};
+  static const std::vector<std::string> all = {"affine",
+                                               "localized",
+                                               "quadratic",
+                                               "localized-affine-lift",
+                                               "localized-mean-anchor",
+                                               "localized-piecewise"};
   return all;
 }
 
@@ -20,8 +24,8 @@ Method::Method(const std::string &name)
 {
   if (std::find(names().begin(), names().end(), name) == names().end())
     throw meshes::BadInput("unknown method `" + name +
-                           "`; expected affine, localized, localized-affine-lift, "
-                           "localized-mean-anchor or localized-piecewise");
+                           "`; expected affine, localized, quadratic, "
+                           "localized-affine-lift, localized-mean-anchor or localized-piecewise");
 }
 
 UpsamplerOptions Method::options(const Law law) const
@@ -35,6 +39,8 @@ UpsamplerOptions Method::options(const Law law) const
   }
   else if (name == "localized-affine-lift")
     options.lift = localization::Lift::affine;
+  if (is_of_second_order() && has_meaning(law))
+    options.second_order = name_of(law);
   if (name == "localized-mean-anchor")
     options.anchor = localization::Anchor::mean;
   if (name == "localized-piecewise")
@@ -44,36 +50,68 @@ UpsamplerOptions Method::options(const Law law) const
 
 bool Method::has_meaning(const Law law) const
 {
+  if (is_of_second_order())
+    return law == Law::biot || law == Law::green;
   return law != Law::linear || name != "localized-affine-lift";
+}
+
+bool Method::is_of_second_order() const
+{
+  return name == "quadratic";
 }
 
 namespace
 {
-/// A load with free sides, whose strains are those of C^H under the coarse cloth's own law.
-Load with_own_sides(const Load &load, const Eigen::Matrix3d &stiffness,
-                    const std::shared_ptr<Law> &law)
-{
-  if (!load.has_free_sides())
-    return load;
-  return load.with_free_strains([load, stiffness, law](const double strain)
-                                { return free_strains_of(load, *law, stiffness, strain); });
-}
-
 /// The coarse cloth is corotational, but beside linear theory.
 Law own_law(const Law law)
 {
   return law == Law::linear ? Law::linear : Law::biot;
 }
+
+/// The corotational law with a cubic energy; its tangent is that of the energy at the strain, but
+/// for what the cubic stress itself turns: good enough for steps of Newton's method.
+Response response_with(const shell::GuardedCubic &cubic, const Eigen::Matrix3d &C,
+                       const Eigen::Matrix2d &F)
+{
+  const Eigen::Vector3d e = shell::biot_strain<2>(F);
+  const Eigen::Matrix2d P = shell::energy_gradient<2>(F, C, cubic.gradient(e));
+  Response result         = response(Law::biot, C + cubic.hessian(e), F);
+  result.stress << P(0, 0), P(0, 1), P(1, 0), P(1, 1);
+  return result;
+}
 } // namespace
 
+/// A load with free sides, whose strains are those of the coarse cloth's own energy.
+Load LightweightCloth::with_own_sides(const Load &load, const Eigen::Matrix3d &stiffness,
+                                      const std::shared_ptr<Sides> &sides)
+{
+  if (!load.has_free_sides())
+    return load;
+  return load.with_free_strains(
+    [load, stiffness, sides](const double strain)
+    {
+      if (!sides->cubic)
+        return free_strains_of(load, sides->law, stiffness, strain);
+      return free_strains_of(
+        load, [&](const Eigen::Matrix2d &F) { return response_with(*sides->cubic, stiffness, F); },
+        stiffness, strain);
+    });
+}
+
 LightweightCloth::LightweightCloth(const meshes::HomogenizedCell &cell, const meshes::Sheet &sheet,
-                                   const Load &load)
+                                   const Load &load, const CoarseEnergy energy)
     : coarse(meshes::coarse_sheet(sheet.origin, sheet.lattice.vectors, sheet.n1, sheet.n2))
     , cell(cell)
     , sheet(sheet)
-    , law_of_sides(std::make_shared<Law>(Law::biot))
-    , load(with_own_sides(load, cell.stiffness, law_of_sides))
+    , energy(energy)
+    , own_sides(std::make_shared<Sides>())
+    , load(with_own_sides(load, cell.stiffness, own_sides))
     , membrane(shell::membrane(coarse, {cell.stiffness}))
+{
+  make_solver({});
+}
+
+void LightweightCloth::make_solver(const std::vector<meshes::CubicForm> &cubic)
 {
   if (load.is_periodic())
     return;
@@ -82,7 +120,25 @@ LightweightCloth::LightweightCloth(const meshes::HomogenizedCell &cell, const me
     if (load.holds(sheet.fraction(coarse.vertices.row(v))))
       held.push_back(v);
   solver = std::make_unique<shell::MembraneSolver<2>>(
-    coarse, std::vector<Eigen::Matrix3d>{cell.stiffness}, held);
+    coarse, std::vector<Eigen::Matrix3d>{cell.stiffness}, held, cubic);
+}
+
+/// Each law has its own cubic energy, in the same strain.
+void LightweightCloth::take_cubic(const Law law)
+{
+  if (energy == CoarseEnergy::quadratic || law == law_of_cubic)
+    return;
+  const auto found = cell.second_order.find(name_of(law));
+  if (found == cell.second_order.end())
+    throw meshes::BadInput("cell: has no cubic energy under the law `" + name_of(law) +
+                           "`, which the method `quadratic` asks for: make its cell.h5 again with "
+                           "`homespun homogenize`, or leave the method out");
+  const std::vector<meshes::CubicForm> cubic = {found->second.energy};
+  membrane.cubic.clear();
+  shell::add_cubic_energy(membrane, cubic);
+  own_sides->cubic = std::make_unique<shell::GuardedCubic>(cubic.front(), cell.stiffness);
+  make_solver(cubic);
+  law_of_cubic = law;
 }
 
 /// The affine motion that agrees with what is prescribed.
@@ -118,7 +174,7 @@ LoadForces LightweightCloth::forces_at(const Law law, const shell::Positions<2> 
 shell::Positions<2> LightweightCloth::near(const CoarseStep &step, const Law law,
                                            const double strain) const
 {
-  *law_of_sides             = own_law(law);
+  own_sides->law            = own_law(law);
   shell::Positions<2> moved = prescribed(strain);
   if (load.is_periodic())
     return moved;
@@ -131,7 +187,8 @@ shell::Positions<2> LightweightCloth::near(const CoarseStep &step, const Law law
 CoarseStep LightweightCloth::solve(const Law law, const double strain)
 {
   CoarseStep step;
-  *law_of_sides  = own_law(law);
+  take_cubic(law);
+  own_sides->law = own_law(law);
   step.positions = prescribed(strain);
   if (load.is_periodic())
   {

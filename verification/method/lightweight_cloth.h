@@ -22,6 +22,8 @@ namespace homespun::verification
 /// A way to the fine positions, by its name:
 /// - affine: the coarse motion interpolated, no microscopic displacement; the baseline
 /// - localized: anchored chi, blended strain, rotation lift
+/// - quadratic: the same at second order in strain, against the laws that have one: the coarse
+///   cloth with the cell's cubic energy, chi with its quadratic modes
 /// - localized-affine-lift, localized-mean-anchor, localized-piecewise: one choice turned each
 class Method
 {
@@ -34,9 +36,12 @@ public:
   /// The options against a law: the linear one takes the linear strain and no lift.
   localization::UpsamplerOptions options(Law law) const;
 
-  /// Whether the method differs from `localized` under a law: a lift has no meaning in linear
-  /// theory.
+  /// Whether the method differs from `localized` under a law: a lift and a second order have no
+  /// meaning in linear theory.
   bool has_meaning(Law law) const;
+
+  /// Whether the coarse cloth has a cubic energy.
+  bool is_of_second_order() const;
 
   const std::string name;
 };
@@ -57,16 +62,24 @@ struct UpsampledSheet
   double seconds = 0.;      ///< median of five runs in float, one thread
 };
 
+/// The energy of the coarse cloth.
+enum class CoarseEnergy
+{
+  quadratic, ///< ½ e.C^H.e
+  cubic      ///< and the cell's cubic energy under the law (HomogenizedCell::second_order), guarded
+};
+
 /// The lightweight cloth of a sheet: two coarse triangles per cell.
 class LightweightCloth
 {
 public:
   LightweightCloth(const meshes::HomogenizedCell &cell, const meshes::Sheet &sheet,
-                   const Load &load);
+                   const Load &load, CoarseEnergy energy = CoarseEnergy::quadratic);
 
   /// The coarse equilibrium; of periodic loads the affine motion itself. Under the law `linear` the
   /// small-strain form, else the corotational energy. Later strains start from earlier ones.
-  /// @throws NotConverged
+  /// @throws NotConverged; BadInput where a cubic energy is asked for and the cell has none under
+  ///   the law
   CoarseStep solve(Law law, double strain);
 
   /// The equilibrium at a strain near to that of a step, from which it starts; nothing is timed.
@@ -79,16 +92,28 @@ public:
   const meshes::TriangleMesh coarse;
 
 private:
+  /// What the strains of free sides come from.
+  struct Sides
+  {
+    Law law = Law::biot;
+    std::unique_ptr<shell::GuardedCubic> cubic; ///< none where the energy is quadratic
+  };
+  static Load with_own_sides(const Load &load, const Eigen::Matrix3d &stiffness,
+                             const std::shared_ptr<Sides> &sides);
+  void make_solver(const std::vector<meshes::CubicForm> &cubic);
+  void take_cubic(Law law);
   shell::Positions<2> prescribed(double strain) const;
   void put_held(const shell::Positions<2> &prescribed, shell::Positions<2> &positions) const;
   LoadForces forces_at(Law law, const shell::Positions<2> &positions) const;
 
   const meshes::HomogenizedCell &cell;
   const meshes::Sheet &sheet;
-  const std::shared_ptr<Law> law_of_sides; ///< of the motion that is asked for, for free sides
+  const CoarseEnergy energy;
+  const std::shared_ptr<Sides> own_sides; ///< of the motion that is asked for, for free sides
   const Load load;
-  const shell::Membrane membrane; ///< for the forces, under periodic loads too
+  shell::Membrane membrane; ///< for the forces, under periodic loads too
   std::unique_ptr<shell::MembraneSolver<2>> solver;
+  Law law_of_cubic = Law::linear;
   shell::Positions<2> last_displacement;
   double last_strain = 0.;
   Law last_law       = Law::linear;

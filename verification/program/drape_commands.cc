@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // homespun drape: a scene and its page.
+#include "meshes/plain/errors.h"
 #include "verification/drape/drape_study.h"
 #include "verification/drape/scene.h"
 #include "verification/drape/scene_cloth.h"
@@ -27,7 +28,15 @@ void check_arguments(const DrapeOptions &study)
   ArgumentFaults faults;
   faults.check_names("--variants", study.variants, membrane_model_of);
   faults.check_names("--methods", study.methods,
-                     [](const std::string &name) { return Method(name); });
+                     [](const std::string &name)
+                     {
+                       if (Method(name).is_of_second_order())
+                         throw meshes::BadInput(
+                           "the method `" + name +
+                           "` is one of sheets in their plane so far: expected affine, localized "
+                           "or a variant of it; `homespun strain` has it");
+                       return Method(name);
+                     });
   faults.check_names("--references", study.references, {"shell", "biot", "green"});
   faults.check_names("--frames", study.frames, {"vtu", "ply", "obj"});
   if (study.variants.empty() || study.variants.front() != "corotational")

@@ -13,6 +13,14 @@ namespace homespun::verification
 Eigen::Vector2d free_strains_of(const Load &load, const Law law, const Eigen::Matrix3d &C,
                                 const double strain)
 {
+  return free_strains_of(
+    load, [&](const Eigen::Matrix2d &F) { return response(law, C, F); }, C, strain);
+}
+
+Eigen::Vector2d free_strains_of(const Load &load,
+                                const std::function<Response(const Eigen::Matrix2d &F)> &law,
+                                const Eigen::Matrix3d &C, const double strain)
+{
   // Places of e and g among F11, F12, F21, F22.
   const Eigen::Vector2i places =
     load.name == "uniaxial-1" ? Eigen::Vector2i(3, 1) : Eigen::Vector2i(0, 2);
@@ -21,7 +29,8 @@ Eigen::Vector2d free_strains_of(const Load &load, const Law law, const Eigen::Ma
   for (int newton = 0; newton < 50; ++newton)
   {
     // The first step is that of linear theory.
-    const Response here = response(newton == 0 ? Law::linear : law, C, load.gradient(strain, free));
+    const Eigen::Matrix2d F = load.gradient(strain, free);
+    const Response here     = newton == 0 ? response(Law::linear, C, F) : law(F);
     Eigen::Vector2d stress;
     Eigen::Matrix2d tangent;
     for (int k = 0; k < 2; ++k)

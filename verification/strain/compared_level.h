@@ -8,6 +8,7 @@
 #include "verification/reference/fine_reference.h"
 #include "verification/strain/strain_output.h"
 
+#include <memory>
 #include <vector>
 
 namespace homespun::verification
@@ -31,5 +32,7 @@ struct MethodOnSheet
   LightweightCloth cloth;
   FluctuationMeasure fluctuation;
   std::vector<Eigen::Matrix3d> stiffness_of_phase; ///< of the resolved sheet [N/m]
+  /// With the cell's cubic energy; none where no method asks for it.
+  std::unique_ptr<LightweightCloth> second_order = nullptr;
 };
 } // namespace homespun::verification

@@ -19,6 +19,18 @@ bool has_biot(const StrainStudyOptions &options)
          options.references.end();
 }
 
+std::vector<homogenization::MembraneLaw> laws_of_second_order(const StrainStudyOptions &options)
+{
+  std::vector<homogenization::MembraneLaw> laws;
+  if (std::any_of(options.methods.begin(), options.methods.end(),
+                  [](const std::string &name) { return Method(name).is_of_second_order(); }))
+    for (const auto law : {homogenization::MembraneLaw::biot, homogenization::MembraneLaw::green})
+      if (std::find(options.references.begin(), options.references.end(), name_of(law)) !=
+          options.references.end())
+        laws.push_back(law);
+  return laws;
+}
+
 double pictured_strain(const StrainStudyOptions &options)
 {
   return *std::min_element(options.strains.begin(), options.strains.end(),
@@ -103,9 +115,9 @@ UpsampledLevel compare_methods(const StrainStudyOptions &options, const StrainLe
   const ReferenceStep &fine = resolved.fine;
   LightweightCloth &cloth   = method.cloth;
   const CoarseStep coarse   = cloth.solve(level.law, level.strain);
-  const auto upsampled_with = [&](const std::string &name)
+  const auto upsampled_with = [&](const std::string &name, const CoarseStep &step)
   {
-    UpsampledSheet upsampled = cloth.upsample(Method(name), level.law, coarse.positions);
+    UpsampledSheet upsampled = cloth.upsample(Method(name), level.law, step.positions);
     if (!upsampled.positions.allFinite())
       throw meshes::NotConverged(
         level.cell + ", " + level.load + ", " + name + ": positions that are not finite", {});
@@ -113,7 +125,8 @@ UpsampledLevel compare_methods(const StrainStudyOptions &options, const StrainLe
   };
   const auto distance_of = [&](const meshes::Points &positions)
   { return (positions - fine.positions).rowwise().norm(); };
-  const UpsampledSheet affine = upsampled_with("affine"), localized = upsampled_with("localized");
+  const UpsampledSheet affine    = upsampled_with("affine", coarse),
+                       localized = upsampled_with("localized", coarse);
   StrainErrors errors;
   const Fluctuation fluctuation = fluctuation_of(level, fine.positions, method.fluctuation, output);
   errors.fluctuation            = fluctuation.mean;
@@ -122,18 +135,26 @@ UpsampledLevel compare_methods(const StrainStudyOptions &options, const StrainLe
   errors.seconds_reference      = fine.seconds;
   // All methods before the first row: a level has the errors of all, or is unreached.
   std::vector<std::pair<std::string, UpsampledSheet>> missing;
+  CoarseStep second_order;
   for (const std::string &name : options.methods)
-    if (Method(name).has_meaning(level.law) && !output.has_errors(level, name))
-      missing.emplace_back(name, name == "affine"      ? affine
-                                 : name == "localized" ? localized
-                                                       : upsampled_with(name));
+    if (const Method its(name); its.has_meaning(level.law) && !output.has_errors(level, name))
+    {
+      if (its.is_of_second_order())
+        second_order = method.second_order->solve(level.law, level.strain);
+      missing.emplace_back(
+        name, name == "affine" ? affine
+              : name == "localized"
+                ? localized
+                : upsampled_with(name, its.is_of_second_order() ? second_order : coarse));
+    }
   if (!missing.empty())
     for (const ForceRow &row : force_rows(level, resolved, method, load, coarse))
       output.write_forces(row);
   for (const auto &[name, upsampled] : missing)
   {
     errors.distance = distance_of(upsampled.positions);
-    errors.seconds  = coarse.seconds + upsampled.seconds;
+    errors.seconds  = upsampled.seconds +
+                     (Method(name).is_of_second_order() ? second_order.seconds : coarse.seconds);
     // The row comes last: where it is there, so is all that belongs to it.
     if (name == "localized")
     {

@@ -3,6 +3,7 @@
 // vertex.
 #pragma once
 
+#include "homogenization/cell/quadratic_strain.h"
 #include "verification/budget/budget_study.h"
 #include "verification/strain/compared_level.h"
 
@@ -16,6 +17,10 @@ double compared_strain(const StrainStudyOptions &options);
 
 /// Whether biot is among the references.
 bool has_biot(const StrainStudyOptions &options);
+
+/// The laws of the references that a method of second order in strain is held against; none where
+/// no method is of second order.
+std::vector<homogenization::MembraneLaw> laws_of_second_order(const StrainStudyOptions &options);
 
 /// The level nearest to 10 %: it is pictured, and its run times are measured.
 double pictured_strain(const StrainStudyOptions &options);

@@ -83,8 +83,9 @@ private:
   void study_cell(const UnitCell &cell)
   {
     progress.begin(cell.name + ": homogenization", true);
-    const AssessedCell assessed = assess_for_study(cell, communicator, verdicts);
-    const std::string folder    = options.output + "/" + cell.name;
+    const AssessedCell assessed =
+      assess_for_study(cell, communicator, verdicts, laws_of_second_order(options));
+    const std::string folder = options.output + "/" + cell.name;
     on_root(communicator,
             [&]()
             {
@@ -179,9 +180,12 @@ private:
     if (!reference)
       reference = std::make_unique<FineReference>(sheet, cell.stiffness_of_phase(),
                                                   ReferenceOptions(), communicator);
-    MethodOnSheet method  = {homogenized, LightweightCloth(homogenized, sheet, load),
-                             FluctuationMeasure(homogenized.stiffness, sheet, load),
-                             cell.stiffness_of_phase()};
+    MethodOnSheet method = {homogenized, LightweightCloth(homogenized, sheet, load),
+                            FluctuationMeasure(homogenized.stiffness, sheet, load),
+                            cell.stiffness_of_phase()};
+    if (!laws_of_second_order(options).empty())
+      method.second_order =
+        std::make_unique<LightweightCloth>(homogenized, sheet, load, CoarseEnergy::cubic);
     const bool has_budget = begin_budget(cell, homogenized, sheet, load);
     for (std::size_t k = 0; k < laws.size(); ++k)
     {

@@ -50,7 +50,9 @@ nlohmann::ordered_json what_was_left_out(const StrainStudyOptions &options)
   if (has(options.references, "linear"))
     for (const std::string &method : options.methods)
       if (!Method(method).has_meaning(Law::linear))
-        left_out(method + " against the linear reference", "linear theory knows no lift");
+        left_out(method + " against the linear reference", Method(method).is_of_second_order()
+                                                             ? "linear theory has no second order"
+                                                             : "linear theory knows no lift");
   for (const std::string &load : Load::names())
     if (!has(options.loads, load.c_str()))
       left_out("load " + load, "--loads does not name it");

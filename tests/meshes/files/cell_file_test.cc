@@ -41,6 +41,19 @@ HomogenizedCell bent_cell()
   return cell;
 }
 
+HomogenizedCell second_order_cell()
+{
+  HomogenizedCell cell = some_cell();
+  for (const char *law : {"biot", "green"})
+  {
+    SecondOrder &second = cell.second_order[law];
+    second.energy.derivatives.setRandom();
+    second.chi.setRandom(cell.mesh.n_vertices(), 12);
+    second.chi.rowwise() -= Eigen::Matrix<double, 1, 12>(second.chi.row(0));
+  }
+  return cell;
+}
+
 std::string temporary(const std::string &name)
 {
   return (std::filesystem::temp_directory_path() / ("homespun-" + name)).string();
@@ -79,6 +92,42 @@ TEST(exact_cell_file, a_cell_comes_back_as_it_was_written)
   EXPECT_EQ(back.place_of_cut, cell.place_of_cut);
   EXPECT_FALSE(back.bending.has_value()); // files of versions that did not know it
   EXPECT_FALSE(std::filesystem::exists(file + ".part"));
+}
+
+TEST(exact_cell_file, second_order_comes_back_as_it_was_written)
+{
+  const HomogenizedCell cell = second_order_cell();
+  const std::string file     = temporary("second-order.h5");
+  write_cell(cell, file);
+  const HomogenizedCell back = read_cell(file);
+  ASSERT_EQ(back.second_order.size(), 2u);
+  for (const char *law : {"biot", "green"})
+  {
+    EXPECT_EQ(back.second_order.at(law).energy.derivatives,
+              cell.second_order.at(law).energy.derivatives);
+    EXPECT_EQ(back.second_order.at(law).chi, cell.second_order.at(law).chi);
+  }
+  // Absent in files of versions that did not know it.
+  write_cell(some_cell(), file);
+  EXPECT_TRUE(read_cell(file).second_order.empty());
+}
+
+TEST(exact_cell_file, a_second_order_that_is_not_whole_is_refused_by_name)
+{
+  HomogenizedCell cell                                = second_order_cell();
+  cell.second_order.at("green").energy.derivatives(3) = std::numeric_limits<double>::quiet_NaN();
+  cell.second_order.at("biot").chi.row(0).setOnes();
+  const std::string file = temporary("second-order-faults.h5");
+  try
+  {
+    write_cell(cell, file);
+    FAIL() << "written";
+  }
+  catch (const BadInput &fault)
+  {
+    EXPECT_NE(std::string(fault.what()).find("/W3/green holds values"), std::string::npos);
+    EXPECT_NE(std::string(fault.what()).find("/chi_quadratic/biot is not zero"), std::string::npos);
+  }
 }
 
 TEST(exact_cell_file, bending_comes_back_as_it_was_written)

@@ -187,7 +187,7 @@ def draw_strain(contents, rows, methods, reference, side, gallery):
         contents["variants"] = gallery.add(
             figure,
             f"{name}-variants",
-            f"{name}: variants of localization (lift, anchor, blending) against {reference}."
+            f"{name}: variants of localization (second order, lift, anchor, blending) against {reference}."
             + (floor if at_floor else ""),
         )
 

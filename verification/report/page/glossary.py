@@ -18,6 +18,8 @@ GLOSSARY = (
     ("affine", "the coarse mesh alone: fine vertices follow their coarse triangle; the baseline"),
     ("localized", "up-sampling as the paper has it: affine plus χ times the strain of the coarse"
      " triangle, blended between triangles"),
+    ("quadratic", "up-sampling at second order in strain: the coarse cloth has the cubic energy of"
+     " the cell beside C^H, and χ is joined by six modes for the products of macro strains"),
     ("lift", "how a fine vertex is carried with the coarse cloth before χ is added; the affine lift"
      " is the plain one"),
     ("blending", "averaging the strain of neighbouring coarse triangles so that χ has no jumps;"
