@@ -73,7 +73,7 @@ MAY_INCLUDE = {
     "verification/program": {"verification/record", "verification/cell", "verification/method",
                              "verification/budget", "verification/strain",
                              "verification/converge", "verification/drape",
-                             "verification/extremes", "verification/load",
+                             "verification/extremes", "verification/load", "verification/bloch",
                              "verification/scaling", "verification/upsample",
                              "meshes/plain", "meshes/files"} | CELLS,
 }
