@@ -63,6 +63,9 @@ MAY_INCLUDE = {
     "verification/load": {"verification/record", "verification/periodic_cell",
                           "verification/cell",
                           "meshes/plain", "meshes/files"} | CELLS,
+    "verification/bloch": {"verification/record", "verification/reference",
+                           "verification/periodic_cell", "verification/cell",
+                           "meshes/plain", "meshes/files"} | CELLS,
     "verification/scaling": {"meshes/plain", "meshes/files", "verification/record",
                              "verification/cell"} | CELLS,
     "verification/upsample": {"meshes/plain", "meshes/files", "meshes/cloth", "meshes/garment",
@@ -70,7 +73,7 @@ MAY_INCLUDE = {
     "verification/program": {"verification/record", "verification/cell", "verification/method",
                              "verification/budget", "verification/strain",
                              "verification/converge", "verification/drape",
-                             "verification/extremes", "verification/load",
+                             "verification/extremes", "verification/load", "verification/bloch",
                              "verification/scaling", "verification/upsample",
                              "meshes/plain", "meshes/files"} | CELLS,
 }

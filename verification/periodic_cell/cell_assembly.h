@@ -50,6 +50,11 @@ public:
   };
   Sums sums(const Eigen::Matrix2d &F, const meshes::Points &w, Tangent tangent) const;
 
+  /// The second derivative of the energy of one cell by the positions of all its vertices, none
+  /// tied to its images and none held: (2n,2n), two components a vertex, divided by |Y| [N/m^3].
+  /// Rows of every triangle, so that its pattern is that of the mesh whatever the state.
+  Sparse vertex_tangent(const Eigen::Matrix2d &F, const meshes::Points &w) const;
+
   /// The unknowns at the vertices of the cell.
   meshes::Points spread(const Eigen::VectorXd &unknowns) const;
 

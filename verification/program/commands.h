@@ -34,6 +34,8 @@ void add_report_command(CLI::App &app, Action &action_without_mpi, AfterMpi &aft
 void add_cells_command(CLI::App &app, Action &action_without_mpi, AfterMpi &afterwards);
 void add_load_command(CLI::App &app, Action &action, AfterMpi &afterwards,
                       const std::string &command_line);
+void add_stability_command(CLI::App &app, Action &action, AfterMpi &afterwards,
+                           const std::string &command_line);
 void add_upsample_command(CLI::App &app, Action &action_without_mpi,
                           const std::string &command_line);
 void add_scaling_command(CLI::App &app, Action &action_without_mpi, AfterMpi &afterwards,

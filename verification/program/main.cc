@@ -129,6 +129,7 @@ int run(int argc, char **argv, homespun::verification::AfterMpi &afterwards)
   add_report_command(app, action_without_mpi, afterwards);
   add_cells_command(app, action_without_mpi, afterwards);
   add_load_command(app, action, afterwards, command_line);
+  add_stability_command(app, action, afterwards, command_line);
   add_scaling_command(app, action_without_mpi, afterwards, command_line);
   try
   {

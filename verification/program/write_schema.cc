@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Writes schema.json, the columns of every table, for the report: run by the build.
+#include "verification/bloch/pattern_tables.h"
+#include "verification/bloch/stability_tables.h"
 #include "verification/budget/budget_tables.h"
 #include "verification/budget/energy_tables.h"
 #include "verification/converge/converge_tables.h"
@@ -44,6 +46,11 @@ int main(int argc, char **argv)
   add_to_schema<SolverRow>(schema);
   add_to_schema<LoadRow>(schema);
   add_to_schema<MeasuredRow>(schema);
+  add_to_schema<StabilityRow>(schema);
+  add_to_schema<LossRow>(schema);
+  add_to_schema<ZoneRow>(schema);
+  add_to_schema<ModeRow>(schema);
+  add_to_schema<PatternRow>(schema);
   add_to_schema<ScalingRun>(schema);
   add_to_schema<UpsampleRow>(schema);
   write_json(argv[1], schema);

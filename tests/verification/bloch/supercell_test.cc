@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: MIT
+// Patterns over several cells: the periodic state repeated, the waves of a supercell, and the state
+// of less energy that a negative margin predicts.
+#include "tests/verification/bloch/bloch_cell.h"
+#include "verification/bloch/supercell.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+using namespace homespun;
+using namespace homespun::verification;
+using homespun::tests::BlochCell;
+
+TEST(exact_supercell, waves_of_two_by_two_cells_are_three)
+{
+  const BlochCell cell("chevron");
+  const Supercell two(cell.cell, {2, 2});
+  ASSERT_EQ(two.waves().size(), 3u);
+  EXPECT_EQ(two.waves()[2].k, Eigen::Vector2d(0.5, 0.5));
+  EXPECT_EQ(Supercell(cell.cell, {3, 1}).waves().size(), 1u); // 1/3 and 2/3 are conjugate
+  EXPECT_EQ(Supercell(cell.cell, {3, 3}).waves().size(), 4u);
+}
+
+TEST(exact_supercell, the_periodic_state_repeated_is_in_equilibrium_with_the_same_energy)
+{
+  const BlochCell cell("chevron");
+  const CellAssembly assembly = cell.assembly(Law::biot);
+  StrainPath path(assembly, Load("uniaxial-2"));
+  const CellEquilibrium &state = path.at(-0.08);
+  const Supercell two(cell.cell, {2, 1});
+  const CellAssembly all(two.cell, cell.phases, Law::biot);
+  const CellEquilibrium both = two.repeated(state);
+  const auto sums = all.sums(both.gradient, both.fluctuation, CellAssembly::Tangent::none);
+  EXPECT_NEAR(sums.energy, state.energy, 1e-12 * state.energy);
+  EXPECT_LE(sums.residual.norm(), 1e-10 * sums.force_size);
+}
+
+// The pattern is the claim of the margin: below zero at k there is less energy with period 1/k.
+TEST(bound_supercell, the_pattern_that_the_margin_predicts_has_less_energy)
+{
+  const BlochCell cell("honeycomb");
+  const CellAssembly assembly = cell.assembly(Law::biot);
+  const BlochMargin bloch(assembly);
+  StrainPath path(assembly, Load("periodic-22"));
+  const Supercell two(cell.cell, {1, 2});
+  const CellAssembly all(two.cell, cell.phases, Law::biot);
+  const auto before = followed_pattern(bloch, two, all, path.at(-0.1), path.dead_loads());
+  EXPECT_FALSE(before);
+  const auto beyond = followed_pattern(bloch, two, all, path.at(-0.16), path.dead_loads());
+  ASSERT_TRUE(beyond);
+  EXPECT_EQ(beyond->wave.wave.text(), "k = (0, 1/2)");
+  EXPECT_LT(beyond->wave.beta, 0.);
+  EXPECT_GT(beyond->lower(), 1e-3);
+  const auto sums =
+    all.sums(beyond->state.gradient, beyond->state.fluctuation, CellAssembly::Tangent::none);
+  EXPECT_LE(sums.residual.norm(), 1e-9 * sums.force_size);
+  std::printf("honeycomb, periodic-22, -16 %%: %.2f %% less energy\n", 100. * beyond->lower());
+}

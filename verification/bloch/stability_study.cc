@@ -1,0 +1,276 @@
+// SPDX-License-Identifier: MIT
+#include "verification/bloch/stability_study.h"
+
+#include "homogenization/cell/corners.h"
+#include "homogenization/lint/cell_reading.h"
+#include "meshes/plain/errors.h"
+#include "verification/bloch/margin_path.h"
+#include "verification/bloch/pattern_rows.h"
+#include "verification/bloch/stability_verdicts.h"
+#include "verification/cell/cell_files.h"
+#include "verification/cell/cell_study.h"
+#include "verification/cell/study_inputs.h"
+#include "verification/record/json_files.h"
+#include "verification/record/number_text.h"
+#include "verification/record/on_root.h"
+#include "verification/record/progress.h"
+#include "verification/record/provenance.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <filesystem>
+#include <memory>
+
+namespace homespun::verification
+{
+namespace
+{
+using homogenization::UnitCell;
+
+/// 1.25 / (1 - 2^-q): the error of a mesh by its distance from the once refined one, with a margin.
+double factor_of_bars(const UnitCell &cell)
+{
+  const homogenization::Singularity corners = homogenization::singularity_of(
+    homogenization::corners_of(cell.mesh, cell.lattice, cell.stiffness_of_phase()));
+  const double order = 2. * std::min(1., corners.exists ? corners.strongest : 1.);
+  return 1.25 / (1. - std::pow(2., -order));
+}
+
+/// The strains of one sign, ascending in size; nothing where there are none.
+std::vector<double> strains_of(const std::vector<double> &all, const double sign)
+{
+  std::vector<double> some;
+  for (const double strain : all)
+    if (sign * strain > 0.)
+      some.push_back(strain);
+  std::sort(some.begin(), some.end(),
+            [](const double a, const double b) { return std::abs(a) < std::abs(b); });
+  some.erase(std::unique(some.begin(), some.end()), some.end());
+  return some;
+}
+
+template <typename Row, typename Names>
+std::vector<Row> named(std::vector<Row> rows, const Names &names)
+{
+  for (Row &row : rows)
+    names(row);
+  return rows;
+}
+
+class StabilityStudy
+{
+public:
+  StabilityStudy(const StabilityStudyOptions &options, const MPI_Comm communicator)
+      : options(options)
+      , communicator(communicator)
+      , begin(std::chrono::steady_clock::now())
+  {
+  }
+
+  std::vector<Verdict> run()
+  {
+    for (const std::string &file : options.cell_files)
+      cells.push_back(homogenization::read_unit_cell(file, communicator));
+    check_names(cells);
+    on_root(communicator, [&]() { open(); });
+    std::vector<AssessedCell> assessed;
+    for (const UnitCell &cell : cells)
+      assessed.push_back(assess_for_study(cell, communicator, verdicts));
+    on_root(communicator, [&]() { solve(assessed); });
+    share_failure(verdicts, communicator);
+    return verdicts;
+  }
+
+private:
+  void open()
+  {
+    nlohmann::ordered_json inputs = {{"loads", options.loads},
+                                     {"strains", options.strains},
+                                     {"laws", options.laws},
+                                     {"refinements", options.n_refinements}};
+    inputs["supercell"] = options.supercell ? std::to_string((*options.supercell)(0)) + "x" +
+                                                std::to_string((*options.supercell)(1))
+                                            : "of the lowest wave";
+    for (const UnitCell &cell : cells)
+      inputs["cell " + cell.name] = fingerprint(cell);
+    folder = open_run_folder(options.output, {"stability", inputs}, options.earlier, options.quiet);
+    levels = std::make_unique<Table<StabilityRow>>(options.output);
+    losses = std::make_unique<Table<LossRow>>(options.output);
+    zones  = std::make_unique<Table<ZoneRow>>(options.output);
+    modes  = std::make_unique<Table<ModeRow>>(options.output);
+    patterns = std::make_unique<Table<PatternRow>>(options.output);
+    resumed  = !losses->rows().empty();
+  }
+
+  void solve(const std::vector<AssessedCell> &assessed)
+  {
+    std::vector<std::vector<double>> ways;
+    for (const double sign : {-1., 1.})
+      if (const std::vector<double> strains = strains_of(options.strains, sign); !strains.empty())
+        ways.push_back(strains);
+    Progress progress(!options.quiet, static_cast<int>(cells.size() * options.laws.size() *
+                                                       options.loads.size() * ways.size()));
+    for (std::size_t k = 0; k < cells.size(); ++k)
+    {
+      const UnitCell &cell             = cells[k];
+      const std::string folder_of_cell = options.output + "/" + cell.name;
+      std::filesystem::create_directories(folder_of_cell);
+      write_cell_results(cell, assessed[k], {}, n_ranks_of(communicator), folder_of_cell);
+      const double factor = factor_of_bars(cell);
+      for (const std::string &law : options.laws)
+      {
+        const MeshOfCell given(cell, 0, law_of(law));
+        std::unique_ptr<MeshOfCell> refined;
+        if (options.n_refinements > 0)
+          refined = std::make_unique<MeshOfCell>(cell, 1, law_of(law));
+        verdicts.push_back(verdict_on_rest(cell.name + ", " + law, given.bloch, given.assembly));
+        for (const std::string &load : options.loads)
+          for (const std::vector<double> &strains : ways)
+          {
+            progress.begin(cell.name + ", " + law + ", " + load +
+                             (strains.front() < 0. ? ", pressed" : ", pulled"),
+                           true);
+            LossRow names;
+            names.cell = cell.name;
+            names.law  = law;
+            names.load = load;
+            add_path(names, strains, given, refined.get(), factor);
+            progress.done();
+          }
+      }
+    }
+    conclude();
+  }
+
+  void add_path(const LossRow &names, const std::vector<double> &strains, const MeshOfCell &given,
+                const MeshOfCell *refined, const double factor)
+  {
+    const auto name = [&](auto &row)
+    {
+      row.cell = names.cell;
+      row.law  = names.law;
+      row.load = names.load;
+    };
+    LossRow of_path = names;
+    of_path.way     = strains.front() < 0. ? "pressed" : "pulled";
+    of_path.mesh    = refined ? "refined" : "given";
+    if (losses->contains(of_path)) // the last row that a path leaves
+      return;
+    const Load load(names.load);
+    MarginPath path = margin_path(given.assembly, given.bloch, load, strains);
+    append(path, "given", name);
+    for (ZoneRow &row : named(zone_of(given.assembly, given.bloch, path.shown), name))
+    {
+      row.way = of_path.way;
+      zones->append_if_missing(row);
+    }
+    for (ModeRow &row : named(mode_of(given.assembly, path.shown), name))
+    {
+      row.way = of_path.way;
+      modes->append_if_missing(row);
+    }
+    for (const PatternRow &row : patterns_of(given, load, path.rows, options.supercell))
+      patterns->append_if_missing(row);
+    name(path.loss);
+    path.loss.mesh = "given";
+    if (!refined)
+    {
+      losses->append(path.loss);
+      return;
+    }
+    MarginPath finer = margin_path(refined->assembly, refined->bloch, load, strains);
+    append(finer, "refined", name);
+    name(finer.loss);
+    finer.loss.mesh      = "refined";
+    const double bar     = factor * std::abs(path.loss.strain - finer.loss.strain);
+    path.loss.strain_bar = finer.loss.strain_bar = bar;
+    losses->append_if_missing(path.loss);
+    losses->append(finer.loss);
+  }
+
+  template <typename Name>
+  void append(MarginPath &path, const std::string &mesh, const Name &name)
+  {
+    for (StabilityRow &row : path.rows)
+    {
+      name(row);
+      row.mesh = mesh;
+      levels->append_if_missing(row);
+    }
+  }
+
+  void conclude()
+  {
+    const std::vector<Verdict> of_rows = verdicts_on_rows(levels->rows(), losses->rows());
+    verdicts.insert(verdicts.end(), of_rows.begin(), of_rows.end());
+    const std::vector<Verdict> of_patterns = verdicts_on_patterns(patterns->rows());
+    verdicts.insert(verdicts.end(), of_patterns.begin(), of_patterns.end());
+    nlohmann::ordered_json notes = notes_on_losses(losses->rows());
+    for (const std::string &note : notes_on_patterns(patterns->rows()))
+      notes.push_back(note);
+    for (
+      const char *note :
+      {"beta is the least eigenvalue of the tangent stiffness on waves of every length, relative "
+       "to the stiffness at rest: 1 at rest, zero where a wave costs nothing.",
+       "Of each state 49 waves are asked, one of k and -k, 12 of them long ones in the limit; "
+       "and then those around the lowest, to 1/128 of the reciprocal vectors.",
+       "`unstable-proved`: a field of the discrete cloth has a negative second variation, and so "
+       "has the cloth that the mesh stands for in that state. `stable-up-to-mesh`: every wave "
+       "that was asked is positive definite by Cholesky factors; a finer mesh has more fields "
+       "and a lower beta, and other waves lie between.",
+       "A positive beta tells of a strict local minimum: a distant lower state is not excluded.",
+       "beta_lower: no wave that was asked is below, by the inertia of K - beta K0, up to the "
+       "rounding of its factors.",
+       "The strain of first loss lies between held_to and lost_at on its mesh; strain_bar is "
+       "1.25 |given - refined| / (1 - 2^-q), q the order of the energy that the corners of the "
+       "cell leave, and knows nothing of the law.",
+       "The zone and the mode are those of the given mesh just beyond the first loss, or else "
+       "at the last strain that was reached. The zone is coloured by quotients of fields, from "
+       "above, without a certificate."})
+      notes.push_back(note);
+    for (const std::string &note : notes_on_cuts(cells))
+      notes.push_back(note);
+    const nlohmann::ordered_json left_out = {
+      {{"what", "mass, damping, third dimension, contact"},
+       {"why", "an infinite cloth in its plane, in equilibrium: a cloth that is free to leave its "
+               "plane wrinkles sooner wherever it is pressed"}},
+      {{"what", "edges and clamps"}, {"why", "an infinite cloth has none"}}};
+    const double seconds =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    write_json(options.output + "/study.json",
+               {{"command", options.command},
+                {"loads", options.loads},
+                {"laws", options.laws},
+                {"ranks", n_ranks_of(communicator)},
+                {"seconds_total", seconds},
+                {"resumed", resumed},
+                {"left_out", left_out},
+                {"notes", notes},
+                {"provenance", provenance(n_ranks_of(communicator))}});
+    write_json(options.output + "/verdicts.json", to_json(verdicts, options.command));
+    folder->finish();
+  }
+
+  const StabilityStudyOptions options;
+  const MPI_Comm communicator;
+  const std::chrono::steady_clock::time_point begin;
+  std::vector<UnitCell> cells;
+  std::vector<Verdict> verdicts;
+  // On the first rank alone:
+  std::unique_ptr<RunFolder> folder;
+  std::unique_ptr<Table<StabilityRow>> levels;
+  std::unique_ptr<Table<LossRow>> losses;
+  std::unique_ptr<Table<ZoneRow>> zones;
+  std::unique_ptr<Table<ModeRow>> modes;
+  std::unique_ptr<Table<PatternRow>> patterns;
+  bool resumed = false;
+};
+} // namespace
+
+std::vector<Verdict> run_stability_study(const StabilityStudyOptions &options,
+                                         const MPI_Comm communicator)
+{
+  return StabilityStudy(options, communicator).run();
+}
+} // namespace homespun::verification

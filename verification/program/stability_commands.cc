@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: MIT
+// homespun stability: where a periodic solution stops being the solution.
+#include "homogenization/cell/parameter_text.h"
+#include "verification/bloch/stability_study.h"
+#include "verification/bloch/strain_path.h"
+#include "verification/program/study_arguments.h"
+#include "verification/record/number_text.h"
+#include "verification/record/on_root.h"
+
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+
+#include <cmath>
+#include <memory>
+#include <optional>
+
+namespace homespun::verification
+{
+namespace
+{
+struct StabilityArguments
+{
+  StabilityStudyOptions study;
+  std::string supercell;
+  std::vector<std::string> strains = {"-2%", "-5%", "-10%", "-15%", "-20%"};
+  StudyEnd end;
+};
+
+/// Reads the strains, each as a fraction or a percentage.
+void read_strains(const std::vector<std::string> &texts, std::vector<double> &strains,
+                  ArgumentFaults &faults)
+{
+  strains.clear();
+  for (const std::string &text : texts)
+  {
+    const bool is_percentage = !text.empty() && text.back() == '%';
+    const auto found =
+      homogenization::numbers(text.substr(0, text.size() - (is_percentage ? 1 : 0)));
+    if (!found || found->size() != 1 || !std::isfinite((*found)[0]))
+    {
+      faults.add("--strains: found `" + text +
+                 "`; expected numbers with a decimal point, or percentages like -5%");
+      continue;
+    }
+    const double strain = (*found)[0] / (is_percentage ? 100. : 1.);
+    if (strain == 0.)
+      faults.add("--strains: found 0; expected strains that are not zero: at rest the margin is 1");
+    else if (strain <= -1.)
+      faults.add("--strains: found " + text +
+                 "; expected more than -100%, where nothing is left "
+                 "of the cloth");
+    else if (!is_percentage && std::abs(strain) >= 0.5)
+      faults.add("--strains: found " + text + ", which is " + short_text(100. * strain) +
+                 " %; if percent was meant, write " + text + "%, and else " +
+                 short_text(100. * strain) + "%");
+    else
+      strains.push_back(strain);
+  }
+  if (texts.empty())
+    faults.add("--strains: found nothing; expected one strain at least, like -5%");
+}
+
+/// Reads `2x2`; nothing where nothing was said.
+std::optional<Eigen::Vector2i> read_supercell(const std::string &text, ArgumentFaults &faults)
+{
+  if (text.empty())
+    return {};
+  constexpr int most      = 8;
+  const std::size_t cross = text.find('x');
+  const auto one          = homogenization::numbers(text.substr(0, cross));
+  const auto other =
+    homogenization::numbers(cross == std::string::npos ? "" : text.substr(cross + 1));
+  const auto is_count = [](const auto &found)
+  {
+    return found && found->size() == 1 && (*found)[0] >= 1. && (*found)[0] <= most &&
+           (*found)[0] == std::floor((*found)[0]);
+  };
+  if (is_count(one) && is_count(other) && (*one)[0] * (*other)[0] > 1.)
+    return Eigen::Vector2i(static_cast<int>((*one)[0]), static_cast<int>((*other)[0]));
+  faults.add("--supercell: found `" + text + "`; expected N1xN2, whole numbers from 1 to " +
+             std::to_string(most) + " with two cells at least, like 2x2");
+  return {};
+}
+
+int run_stability(StabilityArguments arguments, AfterMpi &afterwards)
+{
+  StabilityStudyOptions &study = arguments.study;
+  ArgumentFaults faults;
+  read_strains(arguments.strains, study.strains, faults);
+  faults.check_names("--load", study.loads,
+                     std::vector<std::string>{"periodic-11", "periodic-22", "periodic-12",
+                                              "uniaxial-1", "uniaxial-2"});
+  faults.check_names("--law", study.laws, law_of);
+  study.supercell = read_supercell(arguments.supercell, faults);
+  faults.throw_if_any();
+  if (study.output.empty())
+    study.output = default_folder("stability", stems(study.cell_files), false);
+  return arguments.end.conclude(run_stability_study(study, MPI_COMM_WORLD), study.output,
+                                study.quiet, afterwards);
+}
+} // namespace
+
+void add_stability_command(CLI::App &app, Action &action, AfterMpi &afterwards,
+                           const std::string &command_line)
+{
+  CLI::App *command = app.add_subcommand(
+    "stability", "Where a periodic solution stops being the solution: the Bloch margin against "
+                 "strain (stability.csv)");
+  const auto arguments         = std::make_shared<StabilityArguments>();
+  StabilityStudyOptions &study = arguments->study;
+  study.command                = command_line;
+  command->add_option("CELL.prm", study.cell_files, "Cell files")->required();
+  add_list(*command, "--load", study.loads,
+           "Loads of an infinite cloth: periodic-11, -22 or -12 (all strains given), uniaxial-1 or "
+           "-2 (sides free)");
+  add_list(*command, "--strains", arguments->strains,
+           "Strains, as fractions or percentages, negative where the cloth is pressed");
+  add_list(*command, "--law", study.laws, "Laws of the phases: linear, biot or green");
+  command
+    ->add_option("--refine", study.n_refinements,
+                 "1: each path once more on the refined mesh, for the error of the given one; 0: "
+                 "without")
+    ->check(CLI::Range(0, 1))
+    ->capture_default_str();
+  command->add_option(
+    "--supercell", arguments->supercell,
+    "N1xN2 cells that are solved as one beyond the first loss, like 2x2 (default: "
+    "those over which the lowest wave repeats)");
+  arguments->end.add_options(*command);
+  add_folder_options(*command, study, "out/NAME/stability");
+  command->footer(
+    "beta is 1 at rest and zero where a wave of displacement costs nothing. Lost first by long\n"
+    "waves: the macroscopic law localizes; by a wave k of finite length: a pattern over 1/k "
+    "cells.\n"
+    "Examples:\n"
+    "  homespun stability honeycomb.prm                                  pressed, sides free\n"
+    "  homespun stability layered.prm --load periodic-11 --strains=-1%,-5%,-10%,-20%\n"
+    "  homespun stability mycell.prm --load uniaxial-2 --strains 5%,10%,20% --law biot,green");
+  command->callback(
+    [&action, &afterwards, arguments]()
+    { action = [&afterwards, arguments]() { return run_stability(*arguments, afterwards); }; });
+}
+} // namespace homespun::verification
