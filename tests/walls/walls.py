@@ -23,6 +23,7 @@ MAY_INCLUDE = {
     "homogenization/cell": {"meshes/plain", "meshes/files"},
     "homogenization/lint": {"meshes/plain", "homogenization/cell"},
     "homogenization/algebra": {"meshes/plain"},
+    "homogenization/edges": {"meshes/plain", "homogenization/algebra", "homogenization/cell"},
     "homogenization/fem": {"meshes/plain", "meshes/files", "homogenization/algebra",
                            "homogenization/cell"},
     "homogenization/bracket": {"meshes/plain", "homogenization/algebra", "homogenization/cell"},
