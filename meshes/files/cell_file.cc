@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "meshes/files/cell_file.h"
 
+#include "meshes/files/cell_edges_file.h"
 #include "meshes/files/hdf5_reader.h"
 #include "meshes/files/hdf5_writer.h"
 #include "meshes/plain/errors.h"
@@ -67,7 +68,10 @@ std::vector<std::string> faults_of(const HomogenizedCell &cell, const std::strin
 }
 } // namespace
 
-void write_cell(const HomogenizedCell &cell, const std::string &path)
+namespace
+{
+/// @param edges none where the pointer is null
+void write_all(const HomogenizedCell &cell, const CellEdges *const edges, const std::string &path)
 {
   const std::vector<std::string> faults = faults_of(cell, path);
   if (!faults.empty())
@@ -107,10 +111,23 @@ void write_cell(const HomogenizedCell &cell, const std::string &path)
                    "w3 = y.K.y/2 + K11 w_1 + K22 w_2 + 2 K12 w_3, kappa = +grad grad w3; axes: "
                    "vertex, macro curvature (11, 22, 12)");
   }
+  if (edges != nullptr)
+    write_edges(*edges, cell.mesh.n_vertices(), file);
   file.attribute("/", "provenance", cell.provenance);
   if (!cell.place_of_cut.empty())
     file.attribute("/", "place_of_cut", cell.place_of_cut);
   file.finish();
+}
+} // namespace
+
+void write_cell(const HomogenizedCell &cell, const std::string &path)
+{
+  write_all(cell, nullptr, path);
+}
+
+void write_cell(const HomogenizedCell &cell, const CellEdges &edges, const std::string &path)
+{
+  write_all(cell, &edges, path);
 }
 
 HomogenizedCell read_cell(const std::string &path)

@@ -108,6 +108,10 @@ bool Hdf5Reader::is_hard_link(const std::string &name) const
 {
   if (name == "/")
     return true;
+  // The groups in front of it too: one of another file would bring in what it holds.
+  const std::size_t last = name.rfind('/');
+  if (last != std::string::npos && last > 0 && !is_hard_link(name.substr(0, last)))
+    return false;
   H5L_info_t link;
   return H5Lexists(file, name.c_str(), H5P_DEFAULT) > 0 &&
          H5Lget_info(file, name.c_str(), &link, H5P_DEFAULT) >= 0 && link.type == H5L_TYPE_HARD;

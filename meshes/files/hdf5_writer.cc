@@ -28,6 +28,20 @@ std::vector<hsize_t> sizes_of(const Hdf5Writer::Shape &shape)
 {
   return {shape.begin(), shape.end()};
 }
+
+/// Makes the groups that stand in front of a dataset in its name, where they are not there.
+void make_groups(const hid_t file, const std::string &name)
+{
+  for (std::size_t end = name.find('/', 1); end != std::string::npos; end = name.find('/', end + 1))
+  {
+    const std::string group = name.substr(0, end);
+    if (H5Lexists(file, group.c_str(), H5P_DEFAULT) > 0)
+      continue;
+    const hid_t made = H5Gcreate2(file, group.c_str(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
+    require(made >= 0, "group " + group + " finds no memory");
+    H5Gclose(made);
+  }
+}
 } // namespace
 
 Hdf5Writer::Hdf5Writer(const std::string &path)
@@ -50,6 +64,7 @@ Hdf5Writer::~Hdf5Writer()
 void Hdf5Writer::write(const std::string &name, const Shape &shape, const double *values,
                        const std::string &unit)
 {
+  make_groups(file, name);
   require(H5LTmake_dataset_double(file, name.c_str(), static_cast<int>(shape.size()),
                                   sizes_of(shape).data(), values) >= 0,
           path + ": dataset " + name + " finds no memory");

@@ -22,6 +22,7 @@ public:
 
   using Shape = std::vector<unsigned long long>;
 
+  /// @param name of the dataset; groups in it are made where they are not there
   /// @param values row-major, as many as the shape says
   /// @param unit stored as the attribute `unit` of the dataset
   void write(const std::string &name, const Shape &shape, const double *values,

@@ -41,6 +41,7 @@ MAY_INCLUDE = {
                                "verification/record"},
     "verification/periodic_cell": {"meshes/plain", "verification/reference"},
     "verification/cell": {"meshes/plain", "meshes/files", "homogenization/bracket",
+                          "homogenization/edges",
                           "verification/record"} | CELLS,
     "verification/method": {"meshes/plain", "localization", "shell/algebra", "shell/membrane",
                             "shell/solver", "verification/record", "verification/reference",

@@ -10,8 +10,12 @@ using localization::UpsamplerOptions;
 
 const std::vector<std::string> &Method::names()
 {
-  static const std::vector<std::string> all = {"affine", "localized", "localized-affine-lift",
-                                               "localized-mean-anchor", "localized-piecewise"};
+  static const std::vector<std::string> all = {"affine",
+                                               "localized",
+                                               "edges",
+                                               "localized-affine-lift",
+                                               "localized-mean-anchor",
+                                               "localized-piecewise"};
   return all;
 }
 
@@ -20,7 +24,7 @@ Method::Method(const std::string &name)
 {
   if (std::find(names().begin(), names().end(), name) == names().end())
     throw meshes::BadInput("unknown method `" + name +
-                           "`; expected affine, localized, localized-affine-lift, "
+                           "`; expected affine, localized, edges, localized-affine-lift, "
                            "localized-mean-anchor or localized-piecewise");
 }
 
@@ -35,7 +39,7 @@ UpsamplerOptions Method::options(const Law law) const
   }
   else if (name == "localized-affine-lift")
     options.lift = localization::Lift::affine;
-  if (name == "localized-mean-anchor")
+  if (name == "localized-mean-anchor" || name == "edges")
     options.anchor = localization::Anchor::mean;
   if (name == "localized-piecewise")
     options.blend = localization::Blend::piecewise;

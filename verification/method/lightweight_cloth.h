@@ -21,7 +21,7 @@ namespace homespun::verification
 {
 /// A way to the fine positions, by its name:
 /// - affine: the coarse motion interpolated, no microscopic displacement; the baseline
-/// - localized: anchored chi, blended strain, rotation lift
+/// - localized: anchored chi, blended strain, rotation lift; edges: as edge_terms.h says
 /// - localized-affine-lift, localized-mean-anchor, localized-piecewise: one choice turned each
 class Method
 {

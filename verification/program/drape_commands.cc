@@ -27,7 +27,14 @@ void check_arguments(const DrapeOptions &study)
   ArgumentFaults faults;
   faults.check_names("--variants", study.variants, membrane_model_of);
   faults.check_names("--methods", study.methods,
-                     [](const std::string &name) { return Method(name); });
+                     [](const std::string &name)
+                     {
+                       if (name == "edges")
+                         throw meshes::BadInput(
+                           "method edges is one of sheets at rest, whose edges are held or free "
+                           "for good; expected affine or localized here; `homespun strain` has it");
+                       return Method(name);
+                     });
   faults.check_names("--references", study.references, {"shell", "biot", "green"});
   faults.check_names("--frames", study.frames, {"vtu", "ply", "obj"});
   if (study.variants.empty() || study.variants.front() != "corotational")

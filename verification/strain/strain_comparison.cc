@@ -19,6 +19,21 @@ bool has_biot(const StrainStudyOptions &options)
          options.references.end();
 }
 
+bool has_edges(const StrainStudyOptions &options)
+{
+  return std::find(options.methods.begin(), options.methods.end(), "edges") !=
+         options.methods.end();
+}
+
+void put_edges(const KnownEdges &known, const meshes::Sheet &sheet, const Load &load,
+               MethodOnSheet &method)
+{
+  method.why_no_edges = known.why_not;
+  if (known.edges && !load.is_periodic())
+    method.edged =
+      std::make_unique<EdgedSheet>(CellWithEdges{method.cell, *known.edges}, sheet, load);
+}
+
 double pictured_strain(const StrainStudyOptions &options)
 {
   return *std::min_element(options.strains.begin(), options.strains.end(),
@@ -105,7 +120,12 @@ UpsampledLevel compare_methods(const StrainStudyOptions &options, const StrainLe
   const CoarseStep coarse   = cloth.solve(level.law, level.strain);
   const auto upsampled_with = [&](const std::string &name)
   {
-    UpsampledSheet upsampled = cloth.upsample(Method(name), level.law, coarse.positions);
+    // Where a cell has no terms of edges the method is the one without them.
+    const bool is_edged = name == "edges" && method.edged;
+    UpsampledSheet upsampled =
+      is_edged
+        ? method.edged->upsample(level.law, coarse.positions)
+        : cloth.upsample(Method(name == "edges" ? "localized" : name), level.law, coarse.positions);
     if (!upsampled.positions.allFinite())
       throw meshes::NotConverged(
         level.cell + ", " + level.load + ", " + name + ": positions that are not finite", {});
@@ -123,10 +143,16 @@ UpsampledLevel compare_methods(const StrainStudyOptions &options, const StrainLe
   // All methods before the first row: a level has the errors of all, or is unreached.
   std::vector<std::pair<std::string, UpsampledSheet>> missing;
   for (const std::string &name : options.methods)
-    if (Method(name).has_meaning(level.law) && !output.has_errors(level, name))
+    if (has_meaning(Method(name), level.law, load) && !output.has_errors(level, name))
       missing.emplace_back(name, name == "affine"      ? affine
                                  : name == "localized" ? localized
                                                        : upsampled_with(name));
+  if (level.strain == options.strains.front() && name_of(level.law) == options.references.front() &&
+      std::any_of(missing.begin(), missing.end(),
+                  [](const auto &each) { return each.first == "edges"; }))
+    output.write_note(level, method.edged ? method.edged->sentence()
+                                          : "method edges: its rows are those of localized; " +
+                                              method.why_no_edges);
   if (!missing.empty())
     for (const ForceRow &row : force_rows(level, resolved, method, load, coarse))
       output.write_forces(row);

@@ -95,6 +95,7 @@ private:
       homogenization::homogenized_cell(cell, assessed.result, provenance_line());
     const meshes::Sheet one_cell = meshes::tile(cell.mesh, cell.lattice, 1, 1);
     std::unique_ptr<meshes::Sheet> full; // made where a load asks for it
+    edges = has_edges(options) ? known_edges(cell, assessed.options.order) : KnownEdges();
 
     // One discretization serves all loads of a sheet.
     std::unique_ptr<FineReference> of_cell, of_sheet;
@@ -179,9 +180,10 @@ private:
     if (!reference)
       reference = std::make_unique<FineReference>(sheet, cell.stiffness_of_phase(),
                                                   ReferenceOptions(), communicator);
-    MethodOnSheet method  = {homogenized, LightweightCloth(homogenized, sheet, load),
-                             FluctuationMeasure(homogenized.stiffness, sheet, load),
-                             cell.stiffness_of_phase()};
+    MethodOnSheet method = {homogenized, LightweightCloth(homogenized, sheet, load),
+                            FluctuationMeasure(homogenized.stiffness, sheet, load),
+                            cell.stiffness_of_phase()};
+    put_edges(edges, sheet, load, method);
     const bool has_budget = begin_budget(cell, homogenized, sheet, load);
     for (std::size_t k = 0; k < laws.size(); ++k)
     {
@@ -380,6 +382,7 @@ private:
   std::unique_ptr<RunFolder> folder;    ///< first rank
   std::unique_ptr<StrainOutput> output; ///< first rank
   std::unique_ptr<BudgetStudy> budget;  ///< none where it is left out
+  KnownEdges edges;                     ///< of the present cell
   std::vector<Verdict> verdicts;
   double largest_residual = 0.;
 };

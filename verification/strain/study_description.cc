@@ -51,6 +51,8 @@ nlohmann::ordered_json what_was_left_out(const StrainStudyOptions &options)
     for (const std::string &method : options.methods)
       if (!Method(method).has_meaning(Law::linear))
         left_out(method + " against the linear reference", "linear theory knows no lift");
+  if (has_periodic(options) && has(options.methods, "edges"))
+    left_out("edges under periodic loads", "an infinite cloth has no edges");
   for (const std::string &load : Load::names())
     if (!has(options.loads, load.c_str()))
       left_out("load " + load, "--loads does not name it");

@@ -25,11 +25,12 @@ BLACK, ORANGE, SKY, GREEN, YELLOW, BLUE, VERMILLION, PURPLE = (
 METHOD_COLOURS = {
     "affine": VERMILLION,
     "localized": BLUE,
+    "edges": BLACK,
     "localized-affine-lift": GREEN,
     "localized-mean-anchor": ORANGE,
     "localized-piecewise": PURPLE,
 }
-SPARE_COLOURS = (BLACK, SKY, "#7F7F7F", YELLOW)
+SPARE_COLOURS = (SKY, "#7F7F7F", YELLOW)
 
 # Line style and marker of each reference law.
 REFERENCE_STYLES = {"linear": (":", "s"), "biot": ("-", "o"), "green": ("--", "^")}

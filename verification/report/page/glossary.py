@@ -18,6 +18,9 @@ GLOSSARY = (
     ("affine", "the coarse mesh alone: fine vertices follow their coarse triangle; the baseline"),
     ("localized", "up-sampling as the paper has it: affine plus χ times the strain of the coarse"
      " triangle, blended between triangles"),
+    ("edges", "up-sampling with what clamped and free edges of the sheet do: the slip of a clamped"
+     " edge, the tension of a free one, and displacements that decay from both inwards; χ has mean"
+     " zero"),
     ("lift", "how a fine vertex is carried with the coarse cloth before χ is added; the affine lift"
      " is the plain one"),
     ("blending", "averaging the strain of neighbouring coarse triangles so that χ has no jumps;"
