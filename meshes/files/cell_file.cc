@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "meshes/files/cell_file.h"
 
+#include "meshes/files/cell_edges_file.h"
 #include "meshes/files/hdf5_reader.h"
 #include "meshes/files/hdf5_writer.h"
 #include "meshes/plain/errors.h"
@@ -125,7 +126,10 @@ SecondOrder read_second_order(const Hdf5Reader &file, const std::string &law,
 }
 } // namespace
 
-void write_cell(const HomogenizedCell &cell, const std::string &path)
+namespace
+{
+/// @param edges none where the pointer is null
+void write_all(const HomogenizedCell &cell, const CellEdges *const edges, const std::string &path)
 {
   const std::vector<std::string> faults = faults_of(cell, path);
   if (!faults.empty())
@@ -167,10 +171,23 @@ void write_cell(const HomogenizedCell &cell, const std::string &path)
   }
   for (const auto &[law, second] : cell.second_order)
     write_second_order(law, second, file);
+  if (edges != nullptr)
+    write_edges(*edges, cell.mesh.n_vertices(), file);
   file.attribute("/", "provenance", cell.provenance);
   if (!cell.place_of_cut.empty())
     file.attribute("/", "place_of_cut", cell.place_of_cut);
   file.finish();
+}
+} // namespace
+
+void write_cell(const HomogenizedCell &cell, const std::string &path)
+{
+  write_all(cell, nullptr, path);
+}
+
+void write_cell(const HomogenizedCell &cell, const CellEdges &edges, const std::string &path)
+{
+  write_all(cell, &edges, path);
 }
 
 HomogenizedCell read_cell(const std::string &path)

@@ -2,10 +2,12 @@
 #include "verification/cell/cell_files.h"
 
 #include "homogenization/lint/facets.h"
+#include "meshes/files/cell_edges_file.h"
 #include "meshes/files/cell_file.h"
 #include "meshes/files/surface_files.h"
 #include "meshes/files/write_whole.h"
 #include "verification/cell/cell_bars.h"
+#include "verification/cell/cell_edges.h"
 #include "verification/cell/energy_order.h"
 #include "verification/cell/phase_fields.h"
 #include "verification/cell/shell_sections.h"
@@ -301,6 +303,28 @@ ordered_json homogenize_json(const UnitCell &cell, const AssessedCell &assessed,
   return json;
 }
 
+/// What /edges of cell.h5 holds, in short.
+ordered_json edges_json(const KnownEdges &known)
+{
+  if (!known.edges)
+    return {{"stored", false}, {"why_not", known.why_not}};
+  ordered_json sides = ordered_json::array();
+  for (int side = 0; side < meshes::CellEdges::n_sides; ++side)
+  {
+    const meshes::CellEdge &edge = known.edges->sides[static_cast<std::size_t>(side)];
+    ordered_json slip            = ordered_json::array();
+    for (int c = 0; c < 2; ++c)
+      slip.push_back({edge.slip(c, 0), edge.slip(c, 1), edge.slip(c, 2)}); // m
+    sides.push_back({{"lattice_coordinate", meshes::axis_of_side(side) + 1},
+                     {"end", meshes::is_far_side(side) ? "largest" : "smallest"},
+                     {"slip", slip},
+                     {"tension", {edge.tension(0), edge.tension(1), edge.tension(2)}}, // N
+                     {"decay", edge.decay},
+                     {"cells", edge.n_cells}});
+  }
+  return {{"stored", true}, {"sides", sides}, {"seconds", known.seconds}};
+}
+
 ShellSection section_of(const UnitCell &cell, const AssessedCell &assessed)
 {
   const Eigen::VectorXd areas = meshes::signed_areas(cell.mesh);
@@ -316,7 +340,12 @@ void write_cell_results(const UnitCell &cell, const AssessedCell &assessed,
                         const std::vector<UncertainInput> &uncertain, const unsigned int n_ranks,
                         const std::string &folder)
 {
-  meshes::write_cell(homogenized_cell(cell, assessed, provenance_line()), folder + "/cell.h5");
+  const meshes::HomogenizedCell homogenized = homogenized_cell(cell, assessed, provenance_line());
+  const KnownEdges known                    = known_edges(cell, assessed.options.order);
+  if (known.edges)
+    meshes::write_cell(homogenized, *known.edges, folder + "/cell.h5");
+  else
+    meshes::write_cell(homogenized, folder + "/cell.h5");
   write_vtu(cell, assessed, folder + "/characteristic-displacements.vtu");
   write_json(folder + "/cell.json", cell_json(cell));
   if (assessed.bending && assessed.bending->bracket)
@@ -325,6 +354,8 @@ void write_cell_results(const UnitCell &cell, const AssessedCell &assessed,
     meshes::write_whole(folder + "/shell-section-abaqus.inp", abaqus_section(section));
     meshes::write_whole(folder + "/shell-section-code_aster.comm", aster_section(section));
   }
-  write_json(folder + "/homogenize.json", homogenize_json(cell, assessed, uncertain, n_ranks));
+  ordered_json json = homogenize_json(cell, assessed, uncertain, n_ranks);
+  json["edges"]     = edges_json(known);
+  write_json(folder + "/homogenize.json", json);
 }
 } // namespace homespun::verification

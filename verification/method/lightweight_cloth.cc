@@ -13,6 +13,7 @@ const std::vector<std::string> &Method::names()
   static const std::vector<std::string> all = {"affine",
                                                "localized",
                                                "quadratic",
+                                               "edges",
                                                "localized-affine-lift",
                                                "localized-mean-anchor",
                                                "localized-piecewise"};
@@ -24,7 +25,7 @@ Method::Method(const std::string &name)
 {
   if (std::find(names().begin(), names().end(), name) == names().end())
     throw meshes::BadInput("unknown method `" + name +
-                           "`; expected affine, localized, quadratic, "
+                           "`; expected affine, localized, quadratic, edges, "
                            "localized-affine-lift, localized-mean-anchor or localized-piecewise");
 }
 
@@ -41,7 +42,7 @@ UpsamplerOptions Method::options(const Law law) const
     options.lift = localization::Lift::affine;
   if (is_of_second_order() && has_meaning(law))
     options.second_order = name_of(law);
-  if (name == "localized-mean-anchor")
+  if (name == "localized-mean-anchor" || name == "edges")
     options.anchor = localization::Anchor::mean;
   if (name == "localized-piecewise")
     options.blend = localization::Blend::piecewise;

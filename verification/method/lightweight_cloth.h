@@ -24,6 +24,7 @@ namespace homespun::verification
 /// - localized: anchored chi, blended strain, rotation lift
 /// - quadratic: the same at second order in strain, against the laws that have one: the coarse
 ///   cloth with the cell's cubic energy, chi with its quadratic modes
+/// - edges: as edge_terms.h says
 /// - localized-affine-lift, localized-mean-anchor, localized-piecewise: one choice turned each
 class Method
 {

@@ -35,6 +35,10 @@ void check_arguments(const DrapeOptions &study)
                            "the method `" + name +
                            "` is one of sheets in their plane so far: expected affine, localized "
                            "or a variant of it; `homespun strain` has it");
+                       if (name == "edges")
+                         throw meshes::BadInput(
+                           "method edges is one of sheets at rest, whose edges are held or free "
+                           "for good; expected affine or localized here; `homespun strain` has it");
                        return Method(name);
                      });
   faults.check_names("--references", study.references, {"shell", "biot", "green"});

@@ -3,12 +3,14 @@
 #pragma once
 
 #include "meshes/plain/sheet.h"
+#include "verification/method/edge_terms.h"
 #include "verification/method/fluctuation.h"
 #include "verification/method/lightweight_cloth.h"
 #include "verification/reference/fine_reference.h"
 #include "verification/strain/strain_output.h"
 
 #include <memory>
+#include <string>
 #include <vector>
 
 namespace homespun::verification
@@ -34,5 +36,8 @@ struct MethodOnSheet
   std::vector<Eigen::Matrix3d> stiffness_of_phase; ///< of the resolved sheet [N/m]
   /// With the cell's cubic energy; none where no method asks for it.
   std::unique_ptr<LightweightCloth> second_order = nullptr;
+  /// Of the method `edges`; nothing where nobody asked for it or the cell has none, and then why.
+  std::unique_ptr<EdgedSheet> edged = nullptr;
+  std::string why_no_edges          = {};
 };
 } // namespace homespun::verification

@@ -31,6 +31,21 @@ std::vector<homogenization::MembraneLaw> laws_of_second_order(const StrainStudyO
   return laws;
 }
 
+bool has_edges(const StrainStudyOptions &options)
+{
+  return std::find(options.methods.begin(), options.methods.end(), "edges") !=
+         options.methods.end();
+}
+
+void put_edges(const KnownEdges &known, const meshes::Sheet &sheet, const Load &load,
+               MethodOnSheet &method)
+{
+  method.why_no_edges = known.why_not;
+  if (known.edges && !load.is_periodic())
+    method.edged =
+      std::make_unique<EdgedSheet>(CellWithEdges{method.cell, *known.edges}, sheet, load);
+}
+
 double pictured_strain(const StrainStudyOptions &options)
 {
   return *std::min_element(options.strains.begin(), options.strains.end(),
@@ -117,7 +132,11 @@ UpsampledLevel compare_methods(const StrainStudyOptions &options, const StrainLe
   const CoarseStep coarse   = cloth.solve(level.law, level.strain);
   const auto upsampled_with = [&](const std::string &name, const CoarseStep &step)
   {
-    UpsampledSheet upsampled = cloth.upsample(Method(name), level.law, step.positions);
+    // Where a cell has no terms of edges the method is the one without them.
+    UpsampledSheet upsampled =
+      name == "edges" && method.edged
+        ? method.edged->upsample(level.law, step.positions)
+        : cloth.upsample(Method(name == "edges" ? "localized" : name), level.law, step.positions);
     if (!upsampled.positions.allFinite())
       throw meshes::NotConverged(
         level.cell + ", " + level.load + ", " + name + ": positions that are not finite", {});
@@ -137,7 +156,8 @@ UpsampledLevel compare_methods(const StrainStudyOptions &options, const StrainLe
   std::vector<std::pair<std::string, UpsampledSheet>> missing;
   CoarseStep second_order;
   for (const std::string &name : options.methods)
-    if (const Method its(name); its.has_meaning(level.law) && !output.has_errors(level, name))
+    if (const Method its(name);
+        has_meaning(its, level.law, load) && !output.has_errors(level, name))
     {
       if (its.is_of_second_order())
         second_order = method.second_order->solve(level.law, level.strain);
@@ -147,6 +167,12 @@ UpsampledLevel compare_methods(const StrainStudyOptions &options, const StrainLe
                 ? localized
                 : upsampled_with(name, its.is_of_second_order() ? second_order : coarse));
     }
+  if (level.strain == options.strains.front() && name_of(level.law) == options.references.front() &&
+      std::any_of(missing.begin(), missing.end(),
+                  [](const auto &each) { return each.first == "edges"; }))
+    output.write_note(level, method.edged ? method.edged->sentence()
+                                          : "method edges: its rows are those of localized; " +
+                                              method.why_no_edges);
   if (!missing.empty())
     for (const ForceRow &row : force_rows(level, resolved, method, load, coarse))
       output.write_forces(row);

@@ -5,6 +5,7 @@
 
 #include "homogenization/cell/quadratic_strain.h"
 #include "verification/budget/budget_study.h"
+#include "verification/cell/cell_edges.h"
 #include "verification/strain/compared_level.h"
 
 #include <string>
@@ -24,6 +25,14 @@ std::vector<homogenization::MembraneLaw> laws_of_second_order(const StrainStudyO
 
 /// The level nearest to 10 %: it is pictured, and its run times are measured.
 double pictured_strain(const StrainStudyOptions &options);
+
+/// Whether edges is among the methods.
+bool has_edges(const StrainStudyOptions &options);
+
+/// Prepares the method `edges` on a sheet, if the cell has edges and the load is one of a sheet.
+/// @param known, to be kept by the caller
+void put_edges(const KnownEdges &known, const meshes::Sheet &sheet, const Load &load,
+               MethodOnSheet &method);
 
 /// What a reader has to know of a level of the reference. Ready sentences.
 std::vector<std::string> notes_of(const ReferenceStep &fine, Stability stability);

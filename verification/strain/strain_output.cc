@@ -2,6 +2,7 @@
 #include "verification/strain/strain_output.h"
 
 #include "verification/budget/budget_tables.h"
+#include "verification/method/edge_terms.h"
 #include "verification/method/lightweight_cloth.h"
 #include "verification/record/number_text.h"
 #include "verification/strain/validity.h"
@@ -45,11 +46,12 @@ StrainOutput::StrainOutput(const StrainStudyOptions &options,
 
 bool StrainOutput::is_complete(const StrainLevel &level) const
 {
-  return is_unreached(level) || std::all_of(methods.begin(), methods.end(),
-                                            [&](const std::string &method) {
-                                              return !Method(method).has_meaning(level.law) ||
-                                                     has_errors(level, method);
-                                            });
+  return is_unreached(level) ||
+         std::all_of(methods.begin(), methods.end(),
+                     [&](const std::string &method) {
+                       return !has_meaning(Method(method), level.law, Load(level.load)) ||
+                              has_errors(level, method);
+                     });
 }
 
 bool StrainOutput::has_errors(const StrainLevel &level, const std::string &method) const

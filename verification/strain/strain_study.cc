@@ -96,6 +96,7 @@ private:
       homogenization::homogenized_cell(cell, assessed.result, provenance_line());
     const meshes::Sheet one_cell = meshes::tile(cell.mesh, cell.lattice, 1, 1);
     std::unique_ptr<meshes::Sheet> full; // made where a load asks for it
+    edges = has_edges(options) ? known_edges(cell, assessed.options.order) : KnownEdges();
 
     // One discretization serves all loads of a sheet.
     std::unique_ptr<FineReference> of_cell, of_sheet;
@@ -186,6 +187,7 @@ private:
     if (!laws_of_second_order(options).empty())
       method.second_order =
         std::make_unique<LightweightCloth>(homogenized, sheet, load, CoarseEnergy::cubic);
+    put_edges(edges, sheet, load, method);
     const bool has_budget = begin_budget(cell, homogenized, sheet, load);
     for (std::size_t k = 0; k < laws.size(); ++k)
     {
@@ -384,6 +386,7 @@ private:
   std::unique_ptr<RunFolder> folder;    ///< first rank
   std::unique_ptr<StrainOutput> output; ///< first rank
   std::unique_ptr<BudgetStudy> budget;  ///< none where it is left out
+  KnownEdges edges;                     ///< of the present cell
   std::vector<Verdict> verdicts;
   double largest_residual = 0.;
 };

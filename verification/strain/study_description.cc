@@ -53,6 +53,8 @@ nlohmann::ordered_json what_was_left_out(const StrainStudyOptions &options)
         left_out(method + " against the linear reference", Method(method).is_of_second_order()
                                                              ? "linear theory has no second order"
                                                              : "linear theory knows no lift");
+  if (has_periodic(options) && has(options.methods, "edges"))
+    left_out("edges under periodic loads", "an infinite cloth has no edges");
   for (const std::string &load : Load::names())
     if (!has(options.loads, load.c_str()))
       left_out("load " + load, "--loads does not name it");

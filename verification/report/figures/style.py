@@ -26,11 +26,12 @@ METHOD_COLOURS = {
     "affine": VERMILLION,
     "localized": BLUE,
     "quadratic": SKY,
+    "edges": BLACK,
     "localized-affine-lift": GREEN,
     "localized-mean-anchor": ORANGE,
     "localized-piecewise": PURPLE,
 }
-SPARE_COLOURS = (BLACK, "#7F7F7F", YELLOW)
+SPARE_COLOURS = ("#7F7F7F", YELLOW)
 
 # Line style and marker of each reference law.
 REFERENCE_STYLES = {"linear": (":", "s"), "biot": ("-", "o"), "green": ("--", "^")}

@@ -20,6 +20,9 @@ GLOSSARY = (
      " triangle, blended between triangles"),
     ("quadratic", "up-sampling at second order in strain: the coarse cloth has the cubic energy of"
      " the cell beside C^H, and χ is joined by six modes for the products of macro strains"),
+    ("edges", "up-sampling with what clamped and free edges of the sheet do: the slip of a clamped"
+     " edge, the tension of a free one, and displacements that decay from both inwards; χ has mean"
+     " zero"),
     ("lift", "how a fine vertex is carried with the coarse cloth before χ is added; the affine lift"
      " is the plain one"),
     ("blending", "averaging the strain of neighbouring coarse triangles so that χ has no jumps;"

@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: MIT
+// The method `edges` against resolved sheets: errors that independent codes found, and what must
+// change nothing.
+#include "homogenization/edges/edge_layers.h"
+#include "homogenization/lint/cell_reading.h"
+#include "meshes/plain/errors.h"
+#include "tests/homogenization/cell/cells.h"
+#include "verification/method/edge_terms.h"
+#include "verification/reference/fine_reference.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+
+using namespace homespun;
+using namespace homespun::verification;
+
+namespace
+{
+/// A cell with all that `edges` needs of it, and a sheet of it.
+struct Edged
+{
+  Edged(const homogenization::UnitCell &of_cell, const int n)
+      : cell(of_cell)
+      , homogenized(homogenization::homogenized_cell(cell, tests::solved(cell), "test"))
+      , edges(homogenization::edges_of(cell, {}))
+      , sheet(meshes::tile(cell.mesh, cell.lattice, n, n))
+      , side(std::sqrt(cell.lattice.area()))
+  {
+  }
+
+  meshes::Points upsampled(const Load &load, const Law law, const double strain) const
+  {
+    LightweightCloth cloth(homogenized, sheet, load);
+    return EdgedSheet({homogenized, edges}, sheet, load)
+      .upsample(law, cloth.solve(law, strain).positions)
+      .positions;
+  }
+
+  const homogenization::UnitCell cell;
+  meshes::HomogenizedCell homogenized;
+  meshes::CellEdges edges;
+  const meshes::Sheet sheet;
+  const double side;
+};
+
+struct Known
+{
+  const char *load;
+  double error; ///< in thousandths of strain x cell side
+};
+
+void expect_known_errors(const Edged &edged, const std::array<Known, 3> &all)
+{
+  FineReference reference(edged.sheet, edged.cell.stiffness_of_phase(), ReferenceOptions(),
+                          MPI_COMM_SELF);
+  const double strain = 1e-3;
+  for (const Known &known : all)
+  {
+    const Load load(known.load);
+    reference.start(load, Law::linear);
+    const meshes::Points fine = reference.advance(strain).positions;
+    const double error =
+      (edged.upsampled(load, Law::linear, strain) - fine).rowwise().norm().mean() /
+      (strain * edged.side);
+    EXPECT_NEAR(1e3 * error, known.error, 0.1 * known.error) << known.load;
+    testing::Test::RecordProperty(known.load, std::to_string(1e3 * error));
+  }
+}
+
+homogenization::UnitCell layers(const int n)
+{
+  return tests::cell_of(tests::square_lattice(0.01), n, n, tests::soft_and_hard(), tests::halves);
+}
+} // namespace
+
+// Without the terms: 51.1, 9.0 and 68.5.
+TEST(exact_edge_terms, a_sheet_of_stripes_has_the_errors_that_independent_codes_found)
+{
+  expect_known_errors(Edged(layers(12), 20),
+                      {Known{"strip-1", 26.8}, Known{"strip-2", 7.8}, Known{"shear-frame", 14.9}});
+}
+
+// Without the terms: 61.6, 26.2 and 32.0.
+TEST(exact_edge_terms, a_sheet_without_symmetry_has_the_errors_that_an_independent_code_found)
+{
+  expect_known_errors(Edged(homogenization::read_unit_cell(CELLS "three-stiffness.prm"), 10),
+                      {Known{"strip-1", 34.2}, Known{"strip-2", 17.5}, Known{"shear-frame", 22.2}});
+}
+
+TEST(invariant_edge_terms, the_constant_of_chi_changes_no_position)
+{
+  Edged edged(homogenization::read_unit_cell(CELLS "three-stiffness.prm"), 4);
+  for (const Law law : {Law::linear, Law::biot})
+    for (const char *name : {"strip-1", "strip-2", "shear-frame"})
+    {
+      const meshes::Points before = edged.upsampled(Load(name), law, 0.05);
+      const meshes::Chi chi       = edged.homogenized.chi;
+      edged.homogenized.chi.rowwise() +=
+        0.1 * edged.side * Eigen::Matrix<double, 1, 6>(1., -2., 0.5, 3., -1., 0.7);
+      const meshes::Points after = edged.upsampled(Load(name), law, 0.05);
+      edged.homogenized.chi      = chi;
+      EXPECT_LT((after - before).cwiseAbs().maxCoeff(), 1e-10 * edged.side) << name;
+    }
+}
+
+// The corotational cloth approaches linear theory as strain squared, and the terms with it.
+TEST(order_edge_terms, small_strains_under_biot_are_those_of_linear_theory)
+{
+  const Edged edged(layers(4), 4);
+  const Load load("shear-frame");
+  const auto distance = [&](const double strain)
+  {
+    return (edged.upsampled(load, Law::biot, strain) - edged.upsampled(load, Law::linear, strain))
+      .rowwise()
+      .norm()
+      .mean();
+  };
+  EXPECT_NEAR(std::log2(distance(2e-3) / distance(1e-3)), 2., 0.05);
+}
+
+TEST(tripwire_edge_terms, an_infinite_cloth_has_no_edges)
+{
+  const Edged edged(layers(4), 1);
+  const LightweightCloth cloth(edged.homogenized, edged.sheet, Load("periodic-11"));
+  try
+  {
+    EdgedSheet({edged.homogenized, edged.edges}, edged.sheet, Load("periodic-11"))
+      .upsample(Law::linear, cloth.coarse.vertices);
+    FAIL();
+  }
+  catch (const meshes::BadInput &refusal)
+  {
+    EXPECT_NE(std::string(refusal.what()).find("infinite cloth"), std::string::npos);
+  }
+}

@@ -1,0 +1,68 @@
+# SPDX-License-Identifier: MIT
+"""Edges as a user finds them: in cell.h5, as a method of strain, and where there are none."""
+import json
+import unittest
+
+import h5py
+import numpy
+
+from cli import CELLS, InFolder, rows_of, run
+
+
+class Edges(InFolder):
+    def test_cell_files_hold_edges_with_units_and_say_which_is_which(self):
+        output = self.folder / "out"
+        result = run("homogenize", CELLS / "layered.prm", "--order", "1", "--no-bars", "--quiet",
+                     "--output", output)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        summary = json.loads((output / "homogenize.json").read_text())["edges"]
+        self.assertTrue(summary["stored"])
+        with h5py.File(output / "cell.h5") as file:
+            edges = file["edges"]
+            n_vertices = len(file["vertices"])
+            for name, shape, unit in (("slip", (4, 2, 3), "m"), ("tension", (4, 3), "N"),
+                                      ("bulk", (2, 3, 3), "N")):
+                self.assertEqual(edges[name].shape, shape)
+                self.assertEqual(edges[name].attrs["unit"].decode(), unit)
+            for side, known in enumerate(summary["sides"]):
+                n_cells = edges["n_cells"][side]
+                self.assertEqual(known["cells"], n_cells)
+                for kind in ("clamped", "free"):
+                    self.assertEqual(edges[f"{kind}_{side}"].shape, (n_cells, n_vertices, 2, 3))
+            # Stripes: (E_h - E_s) t (1/8 - s/2) x the cell, a full soft stripe outermost.
+            stiffness = numpy.array(file["C"])
+            strain = numpy.linalg.inv(stiffness)[:, 0]
+            tension = edges["tension"][2] @ strain / strain[0]
+            self.assertAlmostEqual(tension / (9e6 * 5e-4 * 0.01), -1. / 8., delta=1e-9)
+
+    def test_strain_holds_the_method_against_the_resolved_sheet(self):
+        output = self.folder / "out"
+        result = run("strain", CELLS / "layered.prm", "--quick", "--loads",
+                     "periodic-12,strip-1,shear-frame", "--references", "linear,biot", "--strains",
+                     "0.01,0.1", "--methods", "affine,localized,edges", "--no-budget",
+                     "--no-runtime", "--no-report", "--output", output)
+        self.assertIn(result.returncode, (0, 4), result.stderr)
+        error = {(row["load"], row["reference"], float(row["strain"]), row["method"]):
+                 float(row["error_mean_m"]) for row in rows_of(output / "strain.csv")}
+        self.assertNotIn("periodic-12", {key[0] for key in error if key[3] == "edges"})
+        # Of four cells a side the coarse mesh leaves most of the error.
+        for load in ("strip-1", "shear-frame"):
+            for reference in ("linear", "biot"):
+                for strain in (0.01, 0.1):
+                    self.assertLess(error[load, reference, strain, "edges"],
+                                    error[load, reference, strain, "localized"],
+                                    (load, reference, strain))
+        notes = [row["note"] for row in rows_of(output / "notes.csv")]
+        self.assertTrue(any("axis 2, near end" in note and "clamped" in note for note in notes))
+        self.assertTrue(any(row["what"].startswith("edges under periodic")
+                            for row in json.loads((output / "study.json").read_text())["left_out"]))
+
+    def test_a_scene_in_motion_refuses_the_method_by_name(self):
+        result = run("drape", CELLS.parent / "scenes" / "pull.prm", "--methods", "edges",
+                     "--output", self.folder / "out")
+        self.assertEqual(result.returncode, 2)
+        self.assertIn("method edges is one of sheets at rest", result.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: MIT
+// The edges of a cell as the program makes them, or why it has none.
+#pragma once
+
+#include "homogenization/cell/unit_cell.h"
+#include "meshes/plain/cell_edges.h"
+
+#include <optional>
+#include <string>
+
+namespace homespun::verification
+{
+struct KnownEdges
+{
+  std::optional<meshes::CellEdges> edges;
+  std::string why_not; ///< a clause, where there are none
+  double seconds = 0.;
+};
+
+/// Slip, tension, modes and bulk term of a cell, on the triangles as given; on one rank.
+/// @param order 1 or 2, that of its chi
+KnownEdges known_edges(const homogenization::UnitCell &cell, unsigned int order);
+} // namespace homespun::verification
