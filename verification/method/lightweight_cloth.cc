@@ -63,12 +63,6 @@ bool Method::is_of_second_order() const
 
 namespace
 {
-/// The coarse cloth is corotational, but beside linear theory.
-Law own_law(const Law law)
-{
-  return law == Law::linear ? Law::linear : Law::biot;
-}
-
 /// The corotational law with a cubic energy; its tangent is that of the energy at the strain, but
 /// for what the cubic stress itself turns: good enough for steps of Newton's method.
 Response response_with(const shell::GuardedCubic &cubic, const Eigen::Matrix3d &C,
@@ -81,6 +75,11 @@ Response response_with(const shell::GuardedCubic &cubic, const Eigen::Matrix3d &
   return result;
 }
 } // namespace
+
+Law LightweightCloth::own_law(const Law law)
+{
+  return law == Law::linear ? Law::linear : Law::biot;
+}
 
 /// A load with free sides, whose strains are those of the coarse cloth's own energy.
 Load LightweightCloth::with_own_sides(const Load &load, const Eigen::Matrix3d &stiffness,

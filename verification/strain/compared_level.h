@@ -34,6 +34,7 @@ struct MethodOnSheet
   LightweightCloth cloth;
   FluctuationMeasure fluctuation;
   std::vector<Eigen::Matrix3d> stiffness_of_phase; ///< of the resolved sheet [N/m]
+  std::vector<std::string> phases = {};            ///< their names
   /// With the cell's cubic energy; none where no method asks for it.
   std::unique_ptr<LightweightCloth> second_order = nullptr;
   /// Of the method `edges`; nothing where nobody asked for it or the cell has none, and then why.

@@ -5,6 +5,7 @@
 #include "verification/method/anchor_choice.h"
 #include "verification/record/number_text.h"
 #include "verification/strain/force_rows.h"
+#include "verification/strain/level_ellipticity.h"
 #include "verification/strain/sheet_fields.h"
 
 #include <algorithm>
@@ -37,13 +38,23 @@ bool has_edges(const StrainStudyOptions &options)
          options.methods.end();
 }
 
-void put_edges(const KnownEdges &known, const meshes::Sheet &sheet, const Load &load,
-               MethodOnSheet &method)
+MethodOnSheet method_on_sheet(const StrainStudyOptions &options, const UnitCell &cell,
+                              const meshes::HomogenizedCell &homogenized, const KnownEdges &edges,
+                              const meshes::Sheet &sheet, const Load &load)
 {
-  method.why_no_edges = known.why_not;
-  if (known.edges && !load.is_periodic())
+  MethodOnSheet method = {homogenized, LightweightCloth(homogenized, sheet, load),
+                          FluctuationMeasure(homogenized.stiffness, sheet, load),
+                          cell.stiffness_of_phase()};
+  for (const homogenization::Phase &phase : cell.phases)
+    method.phases.push_back(phase.name);
+  if (!laws_of_second_order(options).empty())
+    method.second_order =
+      std::make_unique<LightweightCloth>(homogenized, sheet, load, CoarseEnergy::cubic);
+  method.why_no_edges = edges.why_not;
+  if (edges.edges && !load.is_periodic())
     method.edged =
-      std::make_unique<EdgedSheet>(CellWithEdges{method.cell, *known.edges}, sheet, load);
+      std::make_unique<EdgedSheet>(CellWithEdges{homogenized, *edges.edges}, sheet, load);
+  return method;
 }
 
 double pictured_strain(const StrainStudyOptions &options)
@@ -129,7 +140,9 @@ UpsampledLevel compare_methods(const StrainStudyOptions &options, const StrainLe
 {
   const ReferenceStep &fine = resolved.fine;
   LightweightCloth &cloth   = method.cloth;
-  const CoarseStep coarse   = cloth.solve(level.law, level.strain);
+  write_ellipticity(level, resolved, method.stiffness_of_phase, method.phases, output);
+  const CoarseStep coarse = cloth.solve(level.law, level.strain);
+  write_coarse_ellipticity(level, method, coarse.positions, output);
   const auto upsampled_with = [&](const std::string &name, const CoarseStep &step)
   {
     // Where a cell has no terms of edges the method is the one without them.

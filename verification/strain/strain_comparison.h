@@ -29,10 +29,12 @@ double pictured_strain(const StrainStudyOptions &options);
 /// Whether edges is among the methods.
 bool has_edges(const StrainStudyOptions &options);
 
-/// Prepares the method `edges` on a sheet, if the cell has edges and the load is one of a sheet.
-/// @param known, to be kept by the caller
-void put_edges(const KnownEdges &known, const meshes::Sheet &sheet, const Load &load,
-               MethodOnSheet &method);
+/// Prepares the methods that are asked for on a sheet; `edges` where the cell has terms of edges
+/// and the load is one of a sheet.
+/// @param homogenized, edges, sheet, load to be kept by the caller
+MethodOnSheet method_on_sheet(const StrainStudyOptions &options, const UnitCell &cell,
+                              const meshes::HomogenizedCell &homogenized, const KnownEdges &edges,
+                              const meshes::Sheet &sheet, const Load &load);
 
 /// What a reader has to know of a level of the reference. Ready sentences.
 std::vector<std::string> notes_of(const ReferenceStep &fine, Stability stability);

@@ -181,13 +181,7 @@ private:
     if (!reference)
       reference = std::make_unique<FineReference>(sheet, cell.stiffness_of_phase(),
                                                   ReferenceOptions(), communicator);
-    MethodOnSheet method = {homogenized, LightweightCloth(homogenized, sheet, load),
-                            FluctuationMeasure(homogenized.stiffness, sheet, load),
-                            cell.stiffness_of_phase()};
-    if (!laws_of_second_order(options).empty())
-      method.second_order =
-        std::make_unique<LightweightCloth>(homogenized, sheet, load, CoarseEnergy::cubic);
-    put_edges(edges, sheet, load, method);
+    MethodOnSheet method  = method_on_sheet(options, cell, homogenized, edges, sheet, load);
     const bool has_budget = begin_budget(cell, homogenized, sheet, load);
     for (std::size_t k = 0; k < laws.size(); ++k)
     {

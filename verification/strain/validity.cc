@@ -2,6 +2,7 @@
 #include "verification/strain/validity.h"
 
 #include "verification/record/number_text.h"
+#include "verification/strain/ellipticity_rows.h"
 
 #include <algorithm>
 #include <cmath>
@@ -71,12 +72,22 @@ ValidityRow row_of(const StrainRow &one, const std::string &measure, const doubl
     note += std::string(note.empty() ? "" : "; ") + "error bar of the reference not known";
   const auto shown = [](const Crossing &crossed)
   { return crossed.relation == '-' ? ValidityRow::none : crossed.strain; };
-  return {one.cell,    one.load,   one.reference, measure, limit, std::string(1, best.relation),
-          shown(best), shown(low), shown(high),   note};
+  return {one.cell,
+          one.load,
+          one.reference,
+          measure,
+          limit,
+          std::string(1, best.relation),
+          shown(best),
+          shown(low),
+          shown(high),
+          note,
+          ValidityRow::none};
 }
 } // namespace
 
-std::vector<ValidityRow> validity_rows(const std::vector<StrainRow> &all)
+std::vector<ValidityRow> validity_rows(const std::vector<StrainRow> &all,
+                                       const std::vector<EllipticityRow> &ellipticity)
 {
   const auto same_case = [](const StrainRow &a, const StrainRow &b)
   { return a.cell == b.cell && a.load == b.load && a.reference == b.reference; };
@@ -110,6 +121,7 @@ std::vector<ValidityRow> validity_rows(const std::vector<StrainRow> &all)
       }
     std::sort(of_case.begin(), of_case.end(),
               [](const StrainRow &a, const StrainRow &b) { return a.strain < b.strain; });
+    const double up_to = elliptic_up_to(ellipticity, one.cell, one.load, one.reference);
     for (const Measure &measure : measures)
     {
       std::vector<Level> levels;
@@ -128,6 +140,7 @@ std::vector<ValidityRow> validity_rows(const std::vector<StrainRow> &all)
           row.note += std::string(row.note.empty() ? "" : "; ") +
                       "no equilibrium of reference or coarse cloth was found at strain " +
                       short_text(first_unreached);
+        row.elliptic_up_to = up_to;
         rows.push_back(row);
       }
     }
