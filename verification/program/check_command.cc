@@ -106,7 +106,7 @@ void add_ellipticity_findings(CellReading &reading)
        "ellipticity",
        reading.cell.file + ": phase `" + phase.name + "` pulled along its axis " +
          std::to_string(axis) + " is not elliptic under the law biot from a strain of " +
-         short_text(first) + " on, E" + std::to_string(axis) + " being " +
+         percent_text(first) + " on, E" + std::to_string(axis) + " being " +
          short_text(E / phase.G12) + " times G12",
        "beyond it no minimum of the energy need exist: ask for smaller strains, or for the "
        "reference green, which pulling does not take there",

@@ -73,11 +73,12 @@ void write_ellipticity(const StrainLevel &level, const ResolvedLevel &resolved,
     output.ellipticity.append_if_missing(row);
     if (row.lost > 0)
       output.write_note(
-        level, lost_of_all(row) + " of phase " + groups[g] + " are not elliptic under " +
-                 row.reference + ", the first from strain " +
-                 short_text(strain_of_loss(rows_of(output.ellipticity.rows(), level, groups[g]))) +
-                 " on: no minimum of the energy need exist, and what is compared is one "
-                 "equilibrium of its mesh");
+        level,
+        lost_of_all(row) + " of phase " + groups[g] + " are not elliptic under " + row.reference +
+          ", the first from a strain of " +
+          percent_text(strain_of_loss(rows_of(output.ellipticity.rows(), level, groups[g]))) +
+          " on: no minimum of the energy need exist, and what is compared is one "
+          "equilibrium of its mesh");
   }
 }
 
@@ -103,8 +104,8 @@ void write_coarse_ellipticity(const StrainLevel &level, const MethodOnSheet &met
   if (row.lost > 0 && !is_told)
     output.write_note(
       level, lost_of_all(row) + " of the coarse cloth are not elliptic under its law, " +
-               name_of(law) + " with C^H, the first from strain " +
-               short_text(strain_of_loss(rows_of(all, level, coarse_cloth_part))) +
+               name_of(law) + " with C^H, the first from a strain of " +
+               percent_text(strain_of_loss(rows_of(all, level, coarse_cloth_part))) +
                " on: from there its equilibrium, too, is one of its mesh (said once per load)");
 }
 } // namespace homespun::verification

@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 
 namespace homespun::verification
@@ -30,13 +29,6 @@ Crossing crossing(const std::vector<double> &strains, const std::vector<double> 
 
 namespace
 {
-std::string percent(const double value)
-{
-  char text[32];
-  std::snprintf(text, sizeof(text), "%.3g %%", 100. * value);
-  return text;
-}
-
 struct Level
 {
   double strain, error, bar; ///< in the unit of the measure
@@ -61,7 +53,7 @@ ValidityRow row_of(const StrainRow &one, const std::string &measure, const doubl
   std::string note;
   if (best.relation == '-')
     note = "at strain " + short_text(strains.front()) + " the error is already " +
-           percent(errors.front()) + " of the " + measure;
+           percent_text(errors.front()) + " of the " + measure;
   else if (low.relation == '-')
     note =
       "not resolved: with the reference's error bar the limit is exceeded at the smallest strain";
