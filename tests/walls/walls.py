@@ -38,6 +38,7 @@ MAY_INCLUDE = {
     "verification/reference": {"meshes/plain", "meshes/cloth", "homogenization/algebra",
                                "homogenization/fem", "homogenization/bracket",
                                "verification/record"},
+    "verification/laws": {"meshes/plain", "verification/reference"},
     "verification/periodic_cell": {"meshes/plain", "verification/reference"},
     "verification/cell": {"meshes/plain", "meshes/files", "homogenization/bracket",
                           "verification/record"} | CELLS,
@@ -49,8 +50,9 @@ MAY_INCLUDE = {
                             "verification/reference", "verification/cell",
                             "verification/periodic_cell",
                             "verification/method"} | CELLS,
-    "verification/strain": {"verification/record", "verification/reference", "verification/cell",
-                            "verification/method", "verification/budget", "localization"}
+    "verification/strain": {"verification/record", "verification/reference", "verification/laws",
+                            "verification/cell", "verification/method", "verification/budget",
+                            "localization"}
     | MESHES | CELLS | SHELL,
     "verification/converge": {"verification/record", "verification/reference", "verification/cell",
                               "verification/method", "homogenization/bracket", "localization"}
@@ -67,7 +69,8 @@ MAY_INCLUDE = {
                              "verification/cell"} | CELLS,
     "verification/upsample": {"meshes/plain", "meshes/files", "meshes/cloth", "meshes/garment",
                               "verification/record", "localization"},
-    "verification/program": {"verification/record", "verification/cell", "verification/method",
+    "verification/program": {"verification/record", "verification/cell", "verification/laws",
+                             "verification/method",
                              "verification/budget", "verification/strain",
                              "verification/converge", "verification/drape",
                              "verification/extremes", "verification/load",

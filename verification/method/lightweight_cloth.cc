@@ -58,13 +58,12 @@ Load with_own_sides(const Load &load, const Eigen::Matrix3d &stiffness,
   return load.with_free_strains([load, stiffness, law](const double strain)
                                 { return free_strains_of(load, *law, stiffness, strain); });
 }
+} // namespace
 
-/// The coarse cloth is corotational, but beside linear theory.
-Law own_law(const Law law)
+Law LightweightCloth::own_law(const Law law)
 {
   return law == Law::linear ? Law::linear : Law::biot;
 }
-} // namespace
 
 LightweightCloth::LightweightCloth(const meshes::HomogenizedCell &cell, const meshes::Sheet &sheet,
                                    const Load &load)

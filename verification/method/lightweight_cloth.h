@@ -76,6 +76,9 @@ public:
   UpsampledSheet upsample(const Method &method, Law law,
                           const shell::Positions<2> &coarse_positions) const;
 
+  /// The law of the coarse cloth against a reference: corotational, but beside linear theory.
+  static Law own_law(Law law);
+
   const meshes::TriangleMesh coarse;
 
 private:

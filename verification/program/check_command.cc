@@ -5,9 +5,11 @@
 #include "homogenization/cell/cell_keys.h"
 #include "meshes/files/hdf5_writer.h"
 #include "meshes/plain/errors.h"
+#include "verification/laws/first_loss.h"
 #include "verification/program/commands.h"
 #include "verification/program/report_script.h"
 #include "verification/record/json_files.h"
+#include "verification/record/number_text.h"
 #include "verification/record/on_root.h"
 
 #include <CLI/Config.hpp>
@@ -15,6 +17,7 @@
 #include <CLI/Option.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <iostream>
@@ -80,6 +83,35 @@ void describe(const UnitCell &cell, const int n_warnings)
   const double covered = areas.sum() / cell.lattice.area();
   if (covered < 1. - 1e-9)
     std::cout << "  holes: " << 100. * (1. - covered) << " % of the area\n";
+}
+
+/// Phases that stop being elliptic under the corotational law, pulled along one of their axes.
+void add_ellipticity_findings(CellReading &reading)
+{
+  constexpr double large = 0.2; // of the strains that cloth is up-sampled at
+  for (const int p : reading.cell.phase_of_group())
+  {
+    homogenization::Phase phase      = reading.cell.phases[static_cast<std::size_t>(p)];
+    phase.angle                      = 0.; // in its own axes
+    const Eigen::Matrix3d C          = homogenization::plane_stress_stiffness(phase);
+    const std::array<double, 2> loss = {uniaxial_loss(Law::biot, C, 1),
+                                        uniaxial_loss(Law::biot, C, 2)};
+    const int axis                   = loss[0] <= loss[1] ? 1 : 2;
+    const double first               = std::min(loss[0], loss[1]);
+    if (first >= large)
+      continue;
+    const double E = axis == 1 ? phase.E1 : phase.E2;
+    reading.findings.push_back(
+      {Severity::warning,
+       "ellipticity",
+       reading.cell.file + ": phase `" + phase.name + "` pulled along its axis " +
+         std::to_string(axis) + " is not elliptic under the law biot from a strain of " +
+         percent_text(first) + " on, E" + std::to_string(axis) + " being " +
+         short_text(E / phase.G12) + " times G12",
+       "beyond it no minimum of the energy need exist: ask for smaller strains, or for the "
+       "reference green, which pulling does not take there",
+       {}});
+  }
 }
 
 nlohmann::json json_of(const Finding &finding, const double metres_per_unit)
@@ -196,9 +228,12 @@ void write_pictures(const std::vector<CellReading> &readings, const std::string 
 
 CellReading tell_findings(const std::string &file)
 {
-  const CellReading reading = homogenization::inspect_cell(file);
+  CellReading reading = homogenization::inspect_cell(file);
   if (!homogenization::has_errors(reading.findings))
+  {
+    add_ellipticity_findings(reading);
     describe(reading.cell, number_of(reading.findings, Severity::warning));
+  }
   std::cout << std::flush;
   for (const Finding &finding : reading.findings)
     if (finding.severity == Severity::error)

@@ -26,6 +26,7 @@ int main(int argc, char **argv)
   add_to_schema<StrainRow>(schema);
   add_to_schema<StepRow>(schema);
   add_to_schema<ForceRow>(schema);
+  add_to_schema<EllipticityRow>(schema);
   add_to_schema<NoteRow>(schema);
   add_to_schema<UncertaintyRow>(schema);
   add_to_schema<BudgetRow>(schema);

@@ -19,6 +19,14 @@ inline std::string short_text(const double value)
   return text;
 }
 
+/// A fraction as percent, three digits: "0.291 %".
+inline std::string percent_text(const double value)
+{
+  char text[32];
+  std::snprintf(text, sizeof(text), "%.3g %%", 100. * value);
+  return text;
+}
+
 /// "2.12 +- 0.02": the value rounded to the place of the bar's first digit, and the bar with what
 /// that rounding did to the value added, rounded up to one digit: what is printed never claims more
 /// than what is known.

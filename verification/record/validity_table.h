@@ -15,7 +15,9 @@ namespace homespun::verification
 ///   >  the limit is kept at every level; `largest` is the largest level
 ///   -  it is exceeded at the smallest level, `largest` is empty and `note` says by how much
 /// `lower` and `upper` are where the error with the reference's error bar added, and taken off,
-/// meets the limit.
+/// meets the limit. `elliptic_up_to` is the strain of the load from which on a triangle of
+/// reference or coarse cloth is not elliptic, the same for every measure and limit; empty where all
+/// levels that were reached are.
 struct ValidityRow
 {
   static constexpr const char *file   = "validity.csv";
@@ -27,6 +29,7 @@ struct ValidityRow
   std::string relation;
   double largest = none, lower = none, upper = none;
   std::string note;
+  double elliptic_up_to = none;
 
   template <typename Column>
   static void columns(Column &&column)
@@ -41,6 +44,7 @@ struct ValidityRow
     column("largest_strain_lower", &ValidityRow::lower, Domain::not_negative);
     column("largest_strain_upper", &ValidityRow::upper, Domain::not_negative);
     column("note", &ValidityRow::note, Domain::text);
+    column("elliptic_up_to", &ValidityRow::elliptic_up_to, Domain::not_negative);
   }
 };
 } // namespace homespun::verification

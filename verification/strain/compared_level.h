@@ -31,5 +31,6 @@ struct MethodOnSheet
   LightweightCloth cloth;
   FluctuationMeasure fluctuation;
   std::vector<Eigen::Matrix3d> stiffness_of_phase; ///< of the resolved sheet [N/m]
+  std::vector<std::string> phases = {};            ///< their names
 };
 } // namespace homespun::verification

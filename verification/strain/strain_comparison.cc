@@ -5,6 +5,7 @@
 #include "verification/method/anchor_choice.h"
 #include "verification/record/number_text.h"
 #include "verification/strain/force_rows.h"
+#include "verification/strain/level_ellipticity.h"
 #include "verification/strain/sheet_fields.h"
 
 #include <algorithm>
@@ -102,7 +103,9 @@ UpsampledLevel compare_methods(const StrainStudyOptions &options, const StrainLe
 {
   const ReferenceStep &fine = resolved.fine;
   LightweightCloth &cloth   = method.cloth;
-  const CoarseStep coarse   = cloth.solve(level.law, level.strain);
+  write_ellipticity(level, resolved, method.stiffness_of_phase, method.phases, output);
+  const CoarseStep coarse = cloth.solve(level.law, level.strain);
+  write_coarse_ellipticity(level, method, coarse.positions, output);
   const auto upsampled_with = [&](const std::string &name)
   {
     UpsampledSheet upsampled = cloth.upsample(Method(name), level.law, coarse.positions);

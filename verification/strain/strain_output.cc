@@ -29,6 +29,7 @@ std::unique_ptr<Table<Row>> table_if(const bool is_wanted, const std::string &fo
 StrainOutput::StrainOutput(const StrainStudyOptions &options,
                            std::function<void(const std::string &)> tell)
     : uncertainty(options.output)
+    , ellipticity(options.output)
     , budget(table_if<BudgetRow>(options.budget, options.output))
     , second(table_if<SecondCodeRow>(options.budget, options.output))
     , energies(table_if<EnergyRow>(options.budget, options.output))
@@ -114,7 +115,7 @@ void StrainOutput::write_note(const StrainLevel &level, std::string text)
 
 void StrainOutput::write_validity() const
 {
-  Table<ValidityRow>(folder).replace(validity_rows(strain.rows()));
+  Table<ValidityRow>(folder).replace(validity_rows(strain.rows(), ellipticity.rows()));
 }
 
 std::vector<std::string> StrainOutput::notes() const

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What a strain study leaves on the disk as it goes on: the tables strain.csv (errors), forces.csv,
-// steps.csv (times), uncertainty.csv, notes.csv, budget.csv, second-code.csv, energies.csv and
-// runtime.csv, and at its end validity.csv. First rank alone.
+// steps.csv (times), uncertainty.csv, ellipticity.csv, notes.csv, budget.csv, second-code.csv,
+// energies.csv and runtime.csv, and at its end validity.csv. First rank alone.
 #pragma once
 
 #include "meshes/plain/sheet.h"
@@ -74,7 +74,7 @@ public:
   /// A remark on a level, for the report and the terminal.
   void write_note(const StrainLevel &level, std::string text);
 
-  /// validity.csv, from all rows of strain.csv.
+  /// validity.csv, from all rows of strain.csv and ellipticity.csv.
   void write_validity() const;
 
   /// Every note of the study, those of earlier runs too. Ready sentences.
@@ -91,6 +91,7 @@ public:
   }
 
   Table<UncertaintyRow> uncertainty;
+  Table<EllipticityRow> ellipticity;
   std::unique_ptr<Table<BudgetRow>> budget;     ///< none where it is left out
   std::unique_ptr<Table<SecondCodeRow>> second; ///< with the budget
   std::unique_ptr<Table<EnergyRow>> energies;   ///< with the budget

@@ -179,9 +179,13 @@ private:
     if (!reference)
       reference = std::make_unique<FineReference>(sheet, cell.stiffness_of_phase(),
                                                   ReferenceOptions(), communicator);
-    MethodOnSheet method  = {homogenized, LightweightCloth(homogenized, sheet, load),
-                             FluctuationMeasure(homogenized.stiffness, sheet, load),
-                             cell.stiffness_of_phase()};
+    MethodOnSheet method = {homogenized,
+                            LightweightCloth(homogenized, sheet, load),
+                            FluctuationMeasure(homogenized.stiffness, sheet, load),
+                            cell.stiffness_of_phase(),
+                            {}};
+    for (const homogenization::Phase &phase : cell.phases)
+      method.phases.push_back(phase.name);
     const bool has_budget = begin_budget(cell, homogenized, sheet, load);
     for (std::size_t k = 0; k < laws.size(); ++k)
     {

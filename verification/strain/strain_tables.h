@@ -108,6 +108,34 @@ struct StepRow
   }
 };
 
+/// ellipticity.csv: whether the triangles of a phase of the resolved sheet, or of the coarse cloth,
+/// are elliptic at a level (laws/ellipticity.h).
+struct EllipticityRow
+{
+  static constexpr const char *file   = "ellipticity.csv";
+  static constexpr std::size_t n_keys = 5;
+
+  std::string cell, load, reference;
+  double strain = 0.;
+  std::string part;   ///< a phase, or `coarse cloth`
+  int triangles = 0;  ///< of that part
+  int lost      = 0;  ///< of them not elliptic
+  double least  = 1.; ///< stiffness of the plane wave that costs least, over that at rest
+
+  template <typename Column>
+  static void columns(Column &&column)
+  {
+    column("cell", &EllipticityRow::cell, Domain::name);
+    column("load", &EllipticityRow::load, Domain::name);
+    column("reference", &EllipticityRow::reference, Domain::name);
+    column("strain", &EllipticityRow::strain, Domain::positive);
+    column("part", &EllipticityRow::part, Domain::name);
+    column("triangles", &EllipticityRow::triangles, Domain::positive);
+    column("not_elliptic", &EllipticityRow::lost, Domain::not_negative);
+    column("least_wave", &EllipticityRow::least, Domain::real);
+  }
+};
+
 /// notes.csv: a remark on a level.
 struct NoteRow
 {

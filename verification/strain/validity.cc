@@ -2,10 +2,10 @@
 #include "verification/strain/validity.h"
 
 #include "verification/record/number_text.h"
+#include "verification/strain/ellipticity_rows.h"
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 
 namespace homespun::verification
@@ -29,13 +29,6 @@ Crossing crossing(const std::vector<double> &strains, const std::vector<double> 
 
 namespace
 {
-std::string percent(const double value)
-{
-  char text[32];
-  std::snprintf(text, sizeof(text), "%.3g %%", 100. * value);
-  return text;
-}
-
 struct Level
 {
   double strain, error, bar; ///< in the unit of the measure
@@ -60,7 +53,7 @@ ValidityRow row_of(const StrainRow &one, const std::string &measure, const doubl
   std::string note;
   if (best.relation == '-')
     note = "at strain " + short_text(strains.front()) + " the error is already " +
-           percent(errors.front()) + " of the " + measure;
+           percent_text(errors.front()) + " of the " + measure;
   else if (low.relation == '-')
     note =
       "not resolved: with the reference's error bar the limit is exceeded at the smallest strain";
@@ -71,12 +64,22 @@ ValidityRow row_of(const StrainRow &one, const std::string &measure, const doubl
     note += std::string(note.empty() ? "" : "; ") + "error bar of the reference not known";
   const auto shown = [](const Crossing &crossed)
   { return crossed.relation == '-' ? ValidityRow::none : crossed.strain; };
-  return {one.cell,    one.load,   one.reference, measure, limit, std::string(1, best.relation),
-          shown(best), shown(low), shown(high),   note};
+  return {one.cell,
+          one.load,
+          one.reference,
+          measure,
+          limit,
+          std::string(1, best.relation),
+          shown(best),
+          shown(low),
+          shown(high),
+          note,
+          ValidityRow::none};
 }
 } // namespace
 
-std::vector<ValidityRow> validity_rows(const std::vector<StrainRow> &all)
+std::vector<ValidityRow> validity_rows(const std::vector<StrainRow> &all,
+                                       const std::vector<EllipticityRow> &ellipticity)
 {
   const auto same_case = [](const StrainRow &a, const StrainRow &b)
   { return a.cell == b.cell && a.load == b.load && a.reference == b.reference; };
@@ -110,6 +113,7 @@ std::vector<ValidityRow> validity_rows(const std::vector<StrainRow> &all)
       }
     std::sort(of_case.begin(), of_case.end(),
               [](const StrainRow &a, const StrainRow &b) { return a.strain < b.strain; });
+    const double up_to = elliptic_up_to(ellipticity, one.cell, one.load, one.reference);
     for (const Measure &measure : measures)
     {
       std::vector<Level> levels;
@@ -128,6 +132,7 @@ std::vector<ValidityRow> validity_rows(const std::vector<StrainRow> &all)
           row.note += std::string(row.note.empty() ? "" : "; ") +
                       "no equilibrium of reference or coarse cloth was found at strain " +
                       short_text(first_unreached);
+        row.elliptic_up_to = up_to;
         rows.push_back(row);
       }
     }

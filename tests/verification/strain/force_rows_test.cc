@@ -28,9 +28,11 @@ std::vector<ForceRow> rows_of(const homogenization::UnitCell &cell, const std::s
   reference.start(load, law);
   const ReferenceStep fine = reference.advance(strain);
   EXPECT_TRUE(fine.reached) << fine.why;
-  MethodOnSheet method    = {as_one, LightweightCloth(as_one, sheet, load),
+  MethodOnSheet method    = {as_one,
+                             LightweightCloth(as_one, sheet, load),
                              FluctuationMeasure(as_one.stiffness, sheet, load),
-                             cell.stiffness_of_phase()};
+                             cell.stiffness_of_phase(),
+                             {}};
   const CoarseStep coarse = method.cloth.solve(law, strain);
   return force_rows({cell.name, name, law, strain},
                     {sheet, fine, 0, 1, {0., 0., 0., bar}, Stability::every_triangle, 0.}, method,

@@ -1,0 +1,44 @@
+# SPDX-License-Identifier: MIT
+"""What the program says of the laws of a study: where one of them stops being elliptic."""
+import unittest
+
+from cli import CELLS, InFolder, rows_of, run
+
+
+class Ellipticity(InFolder):
+    def test_check_warns_of_yarns_and_of_nothing_in_cells_without(self):
+        woven = run("check", CELLS / "plain-weave.prm")
+        self.assertEqual(woven.returncode, 0, woven.stderr)
+        # The yarn, E1/G12 = 583, and both crossings, 2333: 4 G/E / (1 - 4 G/E).
+        self.assertRegex(woven.stdout, r"phase `warp` pulled along its axis 1 is not elliptic "
+                                       r"under the law biot from a strain of 0.69 % on")
+        self.assertRegex(woven.stdout, r"phase `warp-over` .* from a strain of 0.172 % on")
+        self.assertNotIn("elliptic", run("check", CELLS / "auxetic.prm").stdout)
+
+    def test_a_study_tells_from_which_strain_on_its_triangles_are_lost(self):
+        result = run("strain", CELLS / "plain-weave.prm", "--quick", "--loads", "uniaxial-1",
+                     "--references", "linear,biot,green", "--strains", "0.001,0.003,0.004",
+                     "--methods", "affine,localized", "--no-budget", "--no-runtime", "--no-report",
+                     "--output", self.folder / "run")
+        self.assertIn(result.returncode, (0, 1, 4), result.stderr)
+        rows = rows_of(self.folder / "run" / "ellipticity.csv")
+        self.assertEqual({row["reference"] for row in rows}, {"biot", "green"})
+        self.assertEqual({row["part"] for row in rows},
+                         {"warp", "weft", "warp-over", "weft-over", "coarse cloth"})
+        lost = {(row["reference"], row["strain"], row["part"]) for row in rows
+                if int(row["not_elliptic"]) > 0}
+        self.assertIn(("biot", "0.004", "coarse cloth"), lost)
+        self.assertNotIn(("biot", "0.003", "coarse cloth"), lost)
+        self.assertFalse({key for key in lost if key[:2] == ("biot", "0.001")})
+        self.assertFalse({key for key in lost if key[0] == "green" and key[2] != "coarse cloth"})
+        for row in rows_of(self.folder / "run" / "validity.csv"):
+            if row["reference"] == "biot":
+                self.assertGreater(float(row["elliptic_up_to"]), 0.0025)
+                self.assertLess(float(row["elliptic_up_to"]), 0.003)
+        notes = [row["note"] for row in rows_of(self.folder / "run" / "notes.csv")]
+        self.assertTrue([note for note in notes if "are not elliptic under biot" in note], notes)
+        self.assertEqual(len([note for note in notes if "of the coarse cloth are not" in note]), 1)
+
+
+if __name__ == "__main__":
+    unittest.main()

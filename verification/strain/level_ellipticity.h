@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: MIT
+// Whether a level of a study is one that its law is made for: which triangles of the resolved sheet
+// and of the coarse cloth have lost ellipticity (laws/ellipticity.h), and from which strain on.
+// Beyond it no minimiser need exist, so that the distance between two cloths says little of either.
+#pragma once
+
+#include "verification/strain/compared_level.h"
+
+#include <string>
+#include <vector>
+
+namespace homespun::verification
+{
+/// The part of a row that stands for the coarse cloth; the others are names of phases.
+constexpr const char *coarse_cloth_part = "coarse cloth";
+
+/// Writes a row for each group of phases of a resolved level, and a note where triangles are lost.
+/// Of the law `linear`, whose tangent never changes, nothing.
+/// @param phases name of each phase; phases of one name are one group
+void write_ellipticity(const StrainLevel &level, const ResolvedLevel &resolved,
+                       const std::vector<Eigen::Matrix3d> &stiffness_of_phase,
+                       const std::vector<std::string> &phases, StrainOutput &output);
+
+/// The same of the coarse cloth; its note is written at the first level of a load that needs it.
+/// @param positions of the vertices of the coarse cloth [m]
+void write_coarse_ellipticity(const StrainLevel &level, const MethodOnSheet &method,
+                              const meshes::Points &positions, StrainOutput &output);
+} // namespace homespun::verification
