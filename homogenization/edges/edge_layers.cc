@@ -241,6 +241,19 @@ int cells_until(const double left, const double factor)
                      : 1;
 }
 
+/// How many lines from the edge on hold a value above a size, what is far away taken off: loads
+/// excite the slowest mode little or not at all, so that these are fewer than it would take.
+int lines_above(const double size, const HalfStrip::Lines &lines,
+                const Eigen::Matrix<double, 2, 3> &far)
+{
+  int n = 0;
+  for (std::size_t k = 0; k < lines.size(); ++k)
+    for (Eigen::Index row = 0; row < lines[k].rows(); row += 2)
+      if ((lines[k].middleRows<2>(row) - far).cwiseAbs().maxCoeff() > size)
+        n = static_cast<int>(k) + 1;
+  return n;
+}
+
 void require_decay(const UnitCell &cell, const EdgeOptions &options, const int axis,
                    const double factor)
 {
@@ -262,24 +275,30 @@ meshes::CellEdges edges_of(const UnitCell &cell, const EdgeOptions &options)
   const CellElements elements(cell, options.order);
   const ElementCellProblem problem = solve_cell(elements);
   meshes::CellEdges edges;
-  edges.bulk = bulk_term(elements, problem);
+  edges.bulk                 = bulk_term(elements, problem);
+  constexpr double round_off = 1e-12; // of a cell that does not fluctuate
   for (int axis = 0; axis < 2; ++axis)
   {
     const CondensedCell condensed(elements, axis);
     const double factor = decay_of(condensed.stiffness).factor;
     require_decay(cell, options, axis, factor);
-    const int n_cells = 1 + cells_until(options.left_at_end, factor);
+    const int n_cells      = 1 + cells_until(options.left_at_end, factor);
+    const double too_small = std::max(options.kept * problem.w.cwiseAbs().maxCoeff(),
+                                      round_off * std::sqrt(cell.lattice.area()));
     for (const int side : {2 * axis, 2 * axis + 1})
     {
       const HalfStrip strip(condensed, problem, side);
       const HalfStrip::Lines clamped = strip.clamped(n_cells), free = strip.free(n_cells);
-      meshes::CellEdge &edge = edges.sides[static_cast<std::size_t>(side)];
-      edge.slip              = strip.slip(clamped);
-      edge.tension           = strip.tension(free).row(0).transpose();
-      edge.decay             = factor;
-      edge.n_cells           = cells_until(options.kept, factor);
-      edge.clamped           = strip.at_vertices(clamped, edge.slip, edge.n_cells);
-      edge.free = strip.at_vertices(free, Eigen::Matrix<double, 2, 3>::Zero(), edge.n_cells);
+      const Eigen::Matrix<double, 2, 3> none = Eigen::Matrix<double, 2, 3>::Zero();
+      meshes::CellEdge &edge                 = edges.sides[static_cast<std::size_t>(side)];
+      edge.slip                              = strip.slip(clamped);
+      edge.tension                           = strip.tension(free).row(0).transpose();
+      edge.decay                             = factor;
+      const int of_clamped                   = lines_above(too_small, clamped, edge.slip);
+      const int of_free                      = lines_above(too_small, free, none);
+      edge.n_cells = std::clamp(std::max(of_clamped, of_free), 1, n_cells);
+      edge.clamped = strip.at_vertices(clamped, edge.slip, edge.n_cells);
+      edge.free    = strip.at_vertices(free, none, edge.n_cells);
     }
   }
   return edges;

@@ -32,9 +32,9 @@ namespace homespun::homogenization
 struct EdgeOptions
 {
   unsigned int order = 1;     ///< 1 or 2, of the displacement elements
-  int most_cells     = 96;    ///< that a half strip may take
-  double left_at_end = 1e-13; ///< of a mode at the end of its half strip
-  double kept        = 1e-4;  ///< modes that have decayed further are not kept
+  int most_cells     = 400;   ///< that a half strip may take
+  double left_at_end = 1e-13; ///< of the slowest mode at the end of its half strip
+  double kept        = 1e-3;  ///< fields below this part of the largest |w_a| are not kept
 };
 
 /// A row of cells that begins at an edge, and its two problems.

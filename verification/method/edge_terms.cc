@@ -232,35 +232,39 @@ bool has_meaning(const Method &method, const Law law, const Load &load)
   return method.has_meaning(law) && (method.name != "edges" || !load.is_periodic());
 }
 
-EdgedSheet::EdgedSheet(const CellWithEdges &cell, const meshes::Sheet &sheet, const Load &load)
+EdgedSheet::EdgedSheet(const CellWithEdges &cell, const meshes::Sheet &sheet, const Load &load,
+                       const int quads_per_cell)
     : cell(cell)
     , sheet(sheet)
     , load(load)
-    , coarse(meshes::coarse_sheet(sheet.origin, sheet.lattice.vectors, sheet.n1, sheet.n2))
+    , coarse{meshes::coarse_sheet(sheet.origin, sheet.lattice.vectors / quads_per_cell,
+                                  quads_per_cell * sheet.n1, quads_per_cell * sheet.n2),
+             quads_per_cell * sheet.n1, quads_per_cell * sheet.n2}
 {
   std::vector<int> held;
-  for (int v = 0; v < coarse.n_vertices(); ++v)
-    if (!load.is_periodic() && load.holds(sheet.fraction(coarse.vertices.row(v))))
+  for (int v = 0; v < coarse.mesh.n_vertices(); ++v)
+    if (!load.is_periodic() && load.holds(sheet.fraction(coarse.mesh.vertices.row(v))))
       held.push_back(v);
   if (!load.is_periodic())
     solver = std::make_unique<shell::MembraneSolver<2>>(
-      coarse, std::vector<Eigen::Matrix3d>{cell.cell.stiffness}, held);
+      coarse.mesh, std::vector<Eigen::Matrix3d>{cell.cell.stiffness}, held);
 }
 
 UpsampledSheet EdgedSheet::upsample(const Law law,
                                     const EdgeTerms::Positions &coarse_positions) const
 {
-  const EdgeTerms terms(cell, sheet, load, {coarse, sheet.n1, sheet.n2}, law);
+  const EdgeTerms terms(cell, sheet, load, coarse, law);
   localization::UpsamplerOptions options = options_of(law);
   options.anchor                         = localization::Anchor::mean;
   UpsampledSheet result;
   const EdgeTerms::Positions moved = with_edges(terms, *solver, coarse_positions);
   localization::Upsampler<2, double>::Fine in_double;
-  localization::Upsampler<2, double>(cell.cell, coarse, sheet, options).upsample(moved, in_double);
+  localization::Upsampler<2, double>(cell.cell, coarse.mesh, sheet, options)
+    .upsample(moved, in_double);
   result.positions = in_double;
   terms.add_modes(moved, result.positions);
 
-  const localization::Upsampler<2, float> in_float(cell.cell, coarse, sheet, options);
+  const localization::Upsampler<2, float> in_float(cell.cell, coarse.mesh, sheet, options);
   localization::Upsampler<2, float>::Fine fine;
   meshes::Points near_edges = meshes::Points::Zero(sheet.mesh.n_vertices(), 2);
   const auto run            = [&]()

@@ -101,13 +101,15 @@ EdgeTerms::Positions with_edges(const EdgeTerms &terms, const shell::MembraneSol
 /// Whether a method of this name has a meaning under a load: an infinite cloth has no edges.
 bool has_meaning(const Method &method, Law law, const Load &load);
 
-/// The method `edges` on a sheet whose coarse mesh is its own lattice: chi with mean zero, the
-/// terms of edges in coarse and in fine positions. It keeps a factored stiffness of its own.
+/// The method `edges` on a sheet: chi with mean zero, the terms of edges in coarse and in fine
+/// positions. It keeps a factored stiffness of its own.
 class EdgedSheet
 {
 public:
   /// @throws BadInput as EdgeTerms
-  EdgedSheet(const CellWithEdges &cell, const meshes::Sheet &sheet, const Load &load);
+  /// @param quads_per_cell of the coarse mesh, along either side: 1 is the sheet's own lattice
+  EdgedSheet(const CellWithEdges &cell, const meshes::Sheet &sheet, const Load &load,
+             int quads_per_cell = 1);
 
   /// @param coarse_positions in equilibrium without the terms (n,2) [m]
   /// @return seconds with those of the terms
@@ -121,7 +123,7 @@ private:
   const CellWithEdges cell;
   const meshes::Sheet &sheet;
   const Load load;
-  const meshes::TriangleMesh coarse;
+  const CoarseGrid coarse;
   std::unique_ptr<shell::MembraneSolver<2>> solver;
 };
 } // namespace homespun::verification

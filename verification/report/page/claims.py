@@ -28,6 +28,15 @@ ADVICE = (
         " stress may be more than the cloth bears: prescribe the strain instead.",
     ),
     (
+        "every strain has a periodic state",
+        "Read the margin up to the last strain that was reached; smaller strains show where the"
+        " path ends. The cloth itself may have no state beyond.",
+    ),
+    (
+        "agree on what is stable",
+        "Take the levels named as open: a finer mesh of the cell has more waves and a lower margin.",
+    ),
+    (
         "is a minimum of the energy",
         "From the first such level on (`stable` of load.csv) the cloth takes another way than this"
         " curve.",

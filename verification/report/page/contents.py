@@ -3,6 +3,8 @@
 sentences.
 """
 
+from dataclasses import dataclass
+
 from figures.animation import MOVING_BYTES
 from figures.cloth import workers
 from figures.style import seconds, three
@@ -17,6 +19,7 @@ from page.entries import stiffness_rows
 from page.glossary import GLOSSARY
 from page.load_contents import load_contents
 from page.run_contents import run_rows, run_sentences, self_tests, whole_sentence
+from page.stability_contents import stability_contents
 from page.stress_contents import stress_contents
 
 HEADINGS = {
@@ -61,6 +64,10 @@ def page_contents(results, gallery, output):
         for i, c in enumerate(results.convergence, 1)
     ]
     loads = [{**load_contents(l, gallery), "id": f"load-{i}"} for i, l in enumerate(results.loads, 1)]
+    stability = [
+        {**stability_contents(s, gallery), "id": f"stability-{i}"}
+        for i, s in enumerate(results.stability, 1)
+    ]
     drapes = contents_of_drapes(results, gallery, output)
     scenes = [d["scene"] for d in drapes]
     for d, drape in zip(drapes, results.drapes):  # one scene may have been run into two folders
@@ -69,7 +76,7 @@ def page_contents(results, gallery, output):
         )
     lists_all = any(study.lists_all for study in results.studies)
     strain_shown = bool(results.cells) or not (
-        drapes or stress or convergence or loads or lists_all
+        drapes or stress or convergence or loads or stability or lists_all
     )
     comparison = comparison_contents(results, gallery)
     several = len(results.studies) > 1
@@ -78,7 +85,8 @@ def page_contents(results, gallery, output):
         for study in results.studies
         for note in study.info.get("notes") or []
     ]
-    headings = headings_of(drapes, stress, convergence, loads, strain_shown, comparison, notes)
+    sections = Sections(drapes, stress, convergence, loads, stability, strain_shown)
+    headings = headings_of(sections, comparison, notes)
     cells = contents_of_cells(results, gallery)
     reasons = {key: [] for key in ("verdicts", "short", "strain", "forces", "uncertainty")}
     words = {
@@ -129,16 +137,17 @@ def page_contents(results, gallery, output):
         + ", ".join(
             list(results.cells)
             or [d["scene"] for d in drapes]
-            + list(dict.fromkeys(c["name"] for load in loads for c in load["cells"]))
+            + list(dict.fromkeys(c["name"] for run in loads + stability for c in run["cells"]))
             + ["stress"] * bool(stress)
             + ["convergence"] * bool(convergence)
         ),
-        "lead": lead(bool(drapes), bool(stress), bool(convergence), bool(loads), strain_shown),
+        "lead": lead(sections),
         "comparison": comparison,
         "drapes": drapes,
         "stress": stress,
         "convergence": convergence,
         "loads": loads,
+        "stability": stability,
         "strain_shown": strain_shown,
         "summary": summary(results, "strain" if strain_shown and of_one_verify else ""),
         "commands": commands,
@@ -190,10 +199,23 @@ def is_homogenized(results, name):
     return results.cells[name].stiffness() is not None
 
 
-def headings_of(drapes, stress, convergence, loads, strain_shown, comparison, notes):
+@dataclass
+class Sections:
+    """What the page shows of each kind of run."""
+
+    drapes: list
+    stress: list
+    convergence: list
+    loads: list
+    stability: list
+    strain_shown: bool
+
+
+def headings_of(sections, comparison, notes):
     """id -> heading of the sections that this page has, in their order: what speaks of the reader's
     cell, then scenes, then self-tests of the program.
     """
+    strain_shown, drapes = sections.strain_shown, sections.drapes
     hidden = {key for key, shown in (("comparison", comparison), ("notes", notes)) if not shown}
     shown = {
         key: text
@@ -208,49 +230,59 @@ def headings_of(drapes, stress, convergence, loads, strain_shown, comparison, no
         else:  # it is the answer of this page
             headings = {"drape-short": words, **headings}
     headings.update(
-        (load["id"], "Given stresses and strains" + (f": {load['name']}" if len(loads) > 1 else ""))
-        for load in loads
+        (run["id"], words + (f": {run['name']}" if len(runs) > 1 else ""))
+        for runs, words in (
+            (sections.loads, "Given stresses and strains"),
+            (sections.stability, "Where a periodic state stops being the solution"),
+        )
+        for run in runs
     )
     headings.update((d["id"], f"Cloth in motion: {d['name']}") for d in drapes)
     headings.update(
-        (c["id"], "Observed orders" + (f": {c['name']}" if len(convergence) > 1 else ""))
-        for c in convergence
+        (c["id"], "Observed orders" + (f": {c['name']}" if len(sections.convergence) > 1 else ""))
+        for c in sections.convergence
     )
     headings.update(
-        (s["id"], "Stress cases" + (f": {s['name']}" if len(stress) > 1 else "")) for s in stress
+        (s["id"], "Stress cases" + (f": {s['name']}" if len(sections.stress) > 1 else ""))
+        for s in sections.stress
     )
     headings.update((key, text) for key, text in shown.items() if key in LAST)
     return headings
 
 
-def lead(drape, stress, convergence, load, strain):
+def lead(sections):
     """What the page is about."""
-    if strain:
+    if sections.strain_shown:
         return (
             "How far an up-sampled cloth is from the resolved one: a coarse sheet with the effective"
             " stiffness of its cell, its fine mesh restored from it, held against fine finite"
             " elements vertex by vertex."
         )
     sentences = []
-    if drape:
+    if sections.drapes:
         sentences.append(
             "Cloth in motion: a coarse cloth is run through time, its fine mesh restored from it,"
             " and held against a cloth that is resolved, vertex by vertex."
         )
-    if stress:
+    if sections.stress:
         sentences.append(
             "Numerical stability: stiff, degenerate and extreme cases, each of which must end in a"
             " finite answer or in a refusal that names the fault."
         )
-    if convergence:
+    if sections.convergence:
         sentences.append(
             "Convergence: how fast errors fall as meshes, cells, strains and time steps become"
             " finer, held against theory."
         )
-    if load:
+    if sections.loads:
         sentences.append(
             "An infinite cloth under given stresses and strains: the cell with its phases, and the"
             " coarse cloth that has its effective stiffness."
+        )
+    if sections.stability:
+        sentences.append(
+            "Where a periodic solution stops being the solution: the margin of its stiffness on"
+            " waves over any number of cells, against strain."
         )
     return " ".join(sentences)
 

@@ -36,6 +36,8 @@ GLOSSARY = (
     ("cell side", "square root of the area of the cell; errors are given in it"),
     ("periodic-11, -22, -12", "loads of an endless cloth, by one macro strain; no edges, no coarse"
      " mesh to solve"),
+    ("margin β", "least eigenvalue of the stiffness of a periodic state on waves over any number of"
+     " cells, relative to the stiffness at rest: 1 at rest, 0 where a wave costs nothing"),
     ("uniaxial-1, -2", "loads of an endless cloth that is pulled along one axis, its sides free of"
      " stress; resolved and coarse cloth each find how much they contract"),
     ("strip-1, strip-2, shear-frame", "sheets that are clamped at two sides and pulled along an"

@@ -18,6 +18,7 @@ from read.drape_results import read_drape
 from read.load_results import read_load
 from read.runs import COMMANDS, LIST, with_parts
 from read.schema import NoSchema
+from read.stability_results import read_stability
 from read.stored import BadResults, check_verdicts, read_csv, read_json
 from read.stress_results import read_stress
 from read.versions import merged, tags
@@ -74,6 +75,7 @@ class Results:
     stress: list = field(default_factory=list)  # Stress, one per folder
     convergence: list = field(default_factory=list)  # Convergence, one per folder
     loads: list = field(default_factory=list)  # LoadRun, one per folder
+    stability: list = field(default_factory=list)  # StabilityRun, one per folder
     missing: list = field(default_factory=list)  # {"what", "why"}
     subjects: list = field(default_factory=list)  # Subject: each cell in each version
 
@@ -168,18 +170,20 @@ def read_folder(run, name, results, faults, is_listed=False):
     )
     has_convergence = run.holds("converge.csv")
     has_load = run.holds("load.csv")
+    has_stability = run.holds("stability.csv")
     # A draped or stressed cell has a folder of its own too; its page is about motion, not about
     # strain.
     has_strain = run.holds("strain.csv") or (
         bool(cell_folders)
-        and not (has_drape or has_stress or has_convergence or has_load)
+        and not (has_drape or has_stress or has_convergence or has_load or has_stability)
     )
-    shows = (has_drape, has_stress, has_strain, has_convergence, has_load)
+    shows = (has_drape, has_stress, has_strain, has_convergence, has_load, has_stability)
     if not (study.lists_all or any(shows)):
         faults.append(
             f"{run.folder}: holds no results that a page shows: {LIST} says it is of `homespun"
             f" {run.command}`, and lists neither strain.csv nor homogenize.json nor drape.json nor"
-            f" stress.csv nor converge.csv nor load.csv. Give the --output folder of {COMMANDS}."
+            f" stress.csv nor converge.csv nor load.csv nor stability.csv. Give the"
+            f" --output folder of {COMMANDS}."
         )
         return
     results.studies.append(study)
@@ -210,6 +214,10 @@ def read_folder(run, name, results, faults, is_listed=False):
     if has_load:
         results.loads.append(
             read_load(run, study.name, path_of, study.info, faults, results.missing)
+        )
+    if has_stability:
+        results.stability.append(
+            read_stability(run, study.name, path_of, faults, results.missing, cell_folders)
         )
     if has_strain:
         read_strain(run, cell_folders, path_of, results, faults)

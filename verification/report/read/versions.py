@@ -75,7 +75,9 @@ def merged(parts, make_results, make_cell):
     """
     whole, subjects = make_results(), {}
     for run, part in parts:
-        for attribute in ("studies", "drapes", "stress", "convergence", "loads", "missing"):
+        for attribute in (
+            "studies", "drapes", "stress", "convergence", "loads", "stability", "missing"
+        ):
             getattr(whole, attribute).extend(getattr(part, attribute))
         for name in [*part.cells, *(row["cell"] for row in part.strain)]:
             subjects.setdefault((run.place, name), Subject(name, name, run.place))
