@@ -38,7 +38,8 @@ bool has_edges(const StrainStudyOptions &options)
          options.methods.end();
 }
 
-MethodOnSheet method_on_sheet(const StrainStudyOptions &options, const UnitCell &cell,
+MethodOnSheet method_on_sheet(const StrainStudyOptions &options,
+                              const homogenization::UnitCell &cell,
                               const meshes::HomogenizedCell &homogenized, const KnownEdges &edges,
                               const meshes::Sheet &sheet, const Load &load)
 {

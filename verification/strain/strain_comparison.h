@@ -4,6 +4,7 @@
 #pragma once
 
 #include "homogenization/cell/quadratic_strain.h"
+#include "homogenization/cell/unit_cell.h"
 #include "verification/budget/budget_study.h"
 #include "verification/cell/cell_edges.h"
 #include "verification/strain/compared_level.h"
@@ -32,7 +33,8 @@ bool has_edges(const StrainStudyOptions &options);
 /// Prepares the methods that are asked for on a sheet; `edges` where the cell has terms of edges
 /// and the load is one of a sheet.
 /// @param homogenized, edges, sheet, load to be kept by the caller
-MethodOnSheet method_on_sheet(const StrainStudyOptions &options, const UnitCell &cell,
+MethodOnSheet method_on_sheet(const StrainStudyOptions &options,
+                              const homogenization::UnitCell &cell,
                               const meshes::HomogenizedCell &homogenized, const KnownEdges &edges,
                               const meshes::Sheet &sheet, const Load &load);
 
