@@ -181,18 +181,16 @@ std::vector<ZoneRow> zone_of(const CellAssembly &assembly, const BlochMargin &bl
 {
   MarginSearch search(bloch.waves(),
                       assembly.vertex_tangent(level.state.gradient, level.state.fluctuation));
-  const std::vector<Wave> waves    = waves_of_the_zone();
-  const std::vector<double> values = search.of_each(level.margin, waves);
   std::vector<ZoneRow> rows;
-  for (std::size_t k = 0; k < waves.size(); ++k)
+  for (const Wave &wave : waves_of_the_zone())
   {
     ZoneRow row;
-    row.waves  = waves[k].kind == Wave::Kind::long_limit ? "long" : "finite";
-    row.k1     = waves[k].k(0);
-    row.k2     = waves[k].k(1);
-    row.angle  = 180. / pi * waves[k].angle;
+    row.waves  = wave.kind == Wave::Kind::long_limit ? "long" : "finite";
+    row.k1     = wave.k(0);
+    row.k2     = wave.k(1);
+    row.angle  = 180. / pi * wave.angle;
     row.strain = level.strain;
-    row.beta   = values[k];
+    row.beta   = search.lowered(search.start({wave}), {wave}).beta;
     rows.push_back(row);
   }
   return rows;

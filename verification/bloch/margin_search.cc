@@ -192,34 +192,4 @@ Margin MarginSearch::lowered(Margin from, const std::vector<Wave> &waves)
   throw meshes::NotConverged("Bloch waves: the two sides of the least eigenvalue do not meet",
                              history);
 }
-
-std::vector<double> MarginSearch::of_each(const Margin &lowest_of_all,
-                                          const std::vector<Wave> &waves)
-{
-  constexpr std::size_t n_shifts = 6;
-  std::vector<double> values(waves.size(), lowest_of_all.lower);
-  for (int pass = 0; pass < 2; ++pass)
-  {
-    std::vector<std::size_t> order;
-    for (std::size_t k = 0; k < waves.size(); ++k)
-      order.push_back(k);
-    std::sort(order.begin(), order.end(),
-              [&](const std::size_t a, const std::size_t b) { return values[a] < values[b]; });
-    const std::size_t length = pass == 0 ? order.size() : (order.size() + n_shifts - 1) / n_shifts;
-    double shift             = 0.;
-    std::vector<double> next = values;
-    for (std::size_t k = 0; k < order.size(); ++k)
-    {
-      if (k % length == 0)
-        shift = values[order[k]] - closeness;
-      const BlochPencil::Shifted *at = shifted(shift);
-      if (!at) // fields inside the cell are as low: the value before stands
-        break;
-      const double value = pencil.quotient(stiffness, lowest(*at, pencil.ties(waves[order[k]])));
-      next[order[k]]     = pass == 0 ? value : std::min(value, next[order[k]]);
-    }
-    values = next;
-  }
-  return values;
-}
 } // namespace homespun::verification

@@ -42,11 +42,6 @@ public:
   /// @throws NotConverged where the two sides do not meet
   Margin lowered(Margin from, const std::vector<Wave> &waves);
 
-  /// The least eigenvalue of every wave, from above, for a picture of the zone: the quotients of
-  /// fields at a few shifts, with an error of the square of the distance to the next shift.
-  /// @param lowest of all these waves
-  std::vector<double> of_each(const Margin &lowest, const std::vector<Wave> &waves);
-
 private:
   const BlochPencil::Shifted *shifted(double beta);
   Eigen::MatrixXcd of_wave(const Eigen::MatrixXd &schur, const BlochPencil::Ties &ties) const;

@@ -215,10 +215,10 @@ private:
        "to the stiffness at rest: 1 at rest, zero where a wave costs nothing.",
        "Of each state 49 waves are asked, one of k and -k, 12 of them long ones in the limit; "
        "and then those around the lowest, to 1/128 of the reciprocal vectors.",
-       "`unstable-proved`: a field of the discrete cloth has a negative second variation, and so "
-       "has the cloth that the mesh stands for in that state. `stable-up-to-mesh`: every wave "
-       "that was asked is positive definite by Cholesky factors; a finer mesh has more fields "
-       "and a lower beta, and other waves lie between.",
+       "`unstable-proved`: a field with a negative second variation was found: the state of the "
+       "discrete cloth is no minimum. `stable-up-to-mesh`: every wave that was asked is positive "
+       "definite by Cholesky factors; a finer mesh has more fields and a lower beta, and other "
+       "waves lie between.",
        "A positive beta tells of a strict local minimum: a distant lower state is not excluded.",
        "beta_lower: no wave that was asked is below, by the inertia of K - beta K0, up to the "
        "rounding of its factors.",
@@ -226,8 +226,7 @@ private:
        "1.25 |given - refined| / (1 - 2^-q), q the order of the energy that the corners of the "
        "cell leave, and knows nothing of the law.",
        "The zone and the mode are those of the given mesh just beyond the first loss, or else "
-       "at the last strain that was reached. The zone is coloured by quotients of fields, from "
-       "above, without a certificate."})
+       "at the last strain that was reached."})
       notes.push_back(note);
     for (const std::string &note : notes_on_cuts(cells))
       notes.push_back(note);

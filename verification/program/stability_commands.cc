@@ -45,14 +45,14 @@ void read_strains(const std::vector<std::string> &texts, std::vector<double> &st
     const double strain = (*found)[0] / (is_percentage ? 100. : 1.);
     if (strain == 0.)
       faults.add("--strains: found 0; expected strains that are not zero: at rest the margin is 1");
-    else if (strain <= -1.)
-      faults.add("--strains: found " + text +
-                 "; expected more than -100%, where nothing is left "
-                 "of the cloth");
     else if (!is_percentage && std::abs(strain) >= 0.5)
       faults.add("--strains: found " + text + ", which is " + short_text(100. * strain) +
                  " %; if percent was meant, write " + text + "%, and else " +
                  short_text(100. * strain) + "%");
+    else if (strain <= -1.)
+      faults.add("--strains: found " + text +
+                 "; expected more than -100%, where nothing is left "
+                 "of the cloth");
     else
       strains.push_back(strain);
   }

@@ -130,6 +130,40 @@ TEST(order_edge_terms, the_error_falls_with_the_cell_where_the_macro_problem_is_
   }
 }
 
+// Three stripes have no centre of symmetry. Where the coarse mesh does not decide, the bulk term
+// must help, and with its sign turned it must do harm.
+TEST(tripwire_edge_terms, a_bulk_term_of_the_wrong_sign_is_noticed)
+{
+  std::vector<homogenization::Phase> phases = tests::soft_and_hard();
+  phases.push_back(homogenization::isotropic("between", 3.16, 0.3, 1., 1.));
+  Edged edged(tests::cell_of(tests::square_lattice(0.01), 6, 12, phases,
+                             [](const double, const double f2)
+                             { return std::min(2, static_cast<int>(3. * f2)); }),
+              10);
+  const Load load("strip-1");
+  const double strain = 1e-3;
+  FineReference reference(edged.sheet, edged.cell.stiffness_of_phase(), ReferenceOptions(),
+                          MPI_COMM_SELF);
+  reference.start(load, Law::linear);
+  const meshes::Points fine = reference.advance(strain).positions;
+  constexpr int n_quads     = 40;
+  const HomogenizedSheet macro(edged.homogenized.stiffness, edged.sheet, load, n_quads, n_quads);
+  const auto coarse                          = macro.solve(Law::linear, macro.prescribed(strain));
+  const std::array<Eigen::Matrix3d, 2> as_is = edged.edges.bulk;
+  const auto error                           = [&](const double factor)
+  {
+    for (std::size_t b = 0; b < 2; ++b)
+      edged.edges.bulk[b] = factor * as_is[b];
+    const EdgedSheet with({edged.homogenized, edged.edges}, edged.sheet, load, n_quads / 10);
+    return (with.upsample(Law::linear, coarse).positions - fine).rowwise().norm().mean();
+  };
+  EXPECT_LT(error(1.), error(0.));
+  EXPECT_LT(error(0.), error(-1.));
+  for (const int factor : {-1, 0, 1})
+    testing::Test::RecordProperty("factor_" + std::to_string(factor),
+                                  std::to_string(1e3 * error(factor) / (strain * edged.side)));
+}
+
 // Without the terms: 61.6, 26.2 and 32.0.
 TEST(exact_edge_terms, a_sheet_without_symmetry_has_the_errors_that_an_independent_code_found)
 {

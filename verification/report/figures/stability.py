@@ -194,10 +194,14 @@ def mode_axes(axes, cell, rows, loss):
         mean = numpy.mean([m.mean(axis=0) for _, m in blocks], axis=0)
         blocks = [(p, m - mean) for p, m in blocks]
     largest = max(numpy.linalg.norm(m, axis=1).max() for _, m in blocks)
-    if is_long:
-        size *= max(counts)
+    factor = size / largest
+    if is_long:  # grown over its cells, as long as what repeats in each stays as small
+        even = cell.vertices @ numpy.linalg.inv(cell.lattice) @ numpy.array(of_wave)
+        within = (wave - even).real
+        within = numpy.linalg.norm(within - within.mean(axis=0), axis=1).max()
+        factor = min(max(counts) * factor, size / within if within > 0 else math.inf)
     for points, moved in blocks:
-        there = CM * (points + size / largest * moved)
+        there = CM * (points + factor * moved)
         polygons += [there[t] for t in cell.triangles]
         colours += [colour_of[int(m)] for m in cell.material]
         for k in (0, 1):  # the sides of the cell where they are in the mesh
