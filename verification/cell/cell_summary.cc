@@ -136,8 +136,7 @@ std::string second_order_text(const AssessedCell &assessed)
   if (assessed.options.second_order.empty() || !assessed.result.second_order.empty())
     return "";
   return "No quadratic modes and no cubic energy: C^H and chi are those of an adapted mesh. "
-         "Without "
-         "--tolerance there are some\n";
+         "Without --tolerance there are some\n";
 }
 } // namespace
 
