@@ -145,7 +145,7 @@ std::optional<meshes::Points> BudgetStudy::solve_by_second_code(const Law law, c
                                                                 const meshes::Points &tight,
                                                                 std::string &fault)
 {
-  if (law == Law::green)
+  if (law != Law::linear && law != Law::biot)
     return std::nullopt;
   SecondCodeRow row = {cell->name, load_name, strain, name_of(law), "sheet"};
   std::optional<meshes::Points> positions;

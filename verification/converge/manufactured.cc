@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "verification/converge/manufactured.h"
 
+#include <Eigen/LU>
+
 #include <cmath>
 #include <complex>
 
@@ -19,13 +21,72 @@ Scalar quadratic(const Eigen::Matrix3d &stiffness, const Scalar (&strain)[3])
   return result;
 }
 
-/// W of biot or green as a function of C11, C22, C12 of C = F^T F, which may have imaginary parts.
+/// The unit vector of the largest Young's modulus, by a search of directions and by halves: without
+/// angles, because it is asked for at every point.
+Eigen::Vector2d stiffest_direction(const Eigen::Matrix3d &stiffness)
+{
+  const Eigen::Matrix3d S = stiffness.inverse();
+  const auto pull         = [](const Eigen::Vector2d &a)
+  { return Eigen::Vector3d(a(0) * a(0), a(1) * a(1), a(0) * a(1)); };
+  const auto slope = [&](const Eigen::Vector2d &a)
+  {
+    const double c = a(0), s = a(1);
+    return pull(a).dot(S * Eigen::Vector3d(-2. * c * s, 2. * c * s, c * c - s * s));
+  };
+  const Eigen::Vector2d steps[] = {{1., 0.}, {2., 1.},  {1., 1.},  {1., 2.},
+                                   {0., 1.}, {-1., 2.}, {-1., 1.}, {-2., 1.}};
+  int best                      = 0;
+  const auto compliance         = [&](const int k)
+  {
+    const Eigen::Vector3d of = pull(steps[k].normalized());
+    return of.dot(S * of);
+  };
+  for (int k = 1; k < 8; ++k)
+    if (compliance(k) < compliance(best))
+      best = k;
+  Eigen::Vector2d from = best > 0 ? steps[best - 1] : Eigen::Vector2d(2., -1.),
+                  to   = best < 7 ? steps[best + 1] : Eigen::Vector2d(-1., 0.);
+  from.normalize();
+  to.normalize();
+  for (int halving = 0; halving < 54; ++halving)
+  {
+    const Eigen::Vector2d middle     = (from + to).normalized();
+    (slope(middle) < 0. ? from : to) = middle;
+  }
+  return (from + to).normalized();
+}
+
+/// The stretches of yarns along a and across it, and sin gamma of their angle.
 template <typename Scalar>
-Scalar energy(const Law law, const Eigen::Matrix3d &stiffness, const Scalar (&c)[3])
+Scalar yarn_energy(const Eigen::Matrix3d &stiffness, const Eigen::Vector2d &along,
+                   const Scalar (&c)[3])
+{
+  using std::asin;
+  using std::sqrt;
+  const double p = along(0), q = along(1);
+  const Scalar g11 = p * p * c[0] + q * q * c[1] + 2. * p * q * c[2],
+               g22 = q * q * c[0] + p * p * c[1] - 2. * p * q * c[2],
+               g12 = p * q * (c[1] - c[0]) + (p * p - q * q) * c[2];
+  const Scalar l1 = sqrt(g11), l2 = sqrt(g22);
+  // The strain back in the axes of the stiffness: the form e·C·e is the same in all axes.
+  const Scalar e[3] = {l1 - 1., l2 - 1., asin(g12 / (l1 * l2))};
+  return quadratic<Scalar>(stiffness, {p * p * e[0] + q * q * e[1] - p * q * e[2],
+                                       q * q * e[0] + p * p * e[1] + p * q * e[2],
+                                       2. * p * q * (e[0] - e[1]) + (p * p - q * q) * e[2]});
+}
+
+/// W of biot, green or yarn as a function of C11, C22, C12 of C = F^T F, which may have imaginary
+/// parts.
+/// @param along direction of the first yarns
+template <typename Scalar>
+Scalar energy(const Law law, const Eigen::Matrix3d &stiffness, const Eigen::Vector2d &along,
+              const Scalar (&c)[3])
 {
   using std::sqrt;
   if (law == Law::green)
     return quadratic<Scalar>(stiffness, {0.5 * (c[0] - 1.), 0.5 * (c[1] - 1.), c[2]});
+  if (law == Law::yarn)
+    return yarn_energy(stiffness, along, c);
   const Scalar root  = sqrt(c[0] * c[1] - c[2] * c[2]);
   const Scalar trace = sqrt(c[0] + c[1] + 2. * root);
   return quadratic<Scalar>(
@@ -49,8 +110,10 @@ EnergyAndStress energy_and_stress(const Law law, const Eigen::Matrix3d &stiffnes
   if (law == Law::linear)
     return linear_law(stiffness, F);
   const Eigen::Matrix2d C = F.transpose() * F;
+  const Eigen::Vector2d along =
+    law == Law::yarn ? stiffest_direction(stiffness) : Eigen::Vector2d::UnitX();
   EnergyAndStress result;
-  result.energy          = energy<double>(law, stiffness, {C(0, 0), C(1, 1), C(0, 1)});
+  result.energy          = energy<double>(law, stiffness, along, {C(0, 0), C(1, 1), C(0, 1)});
   constexpr double small = 1e-30; // no difference is taken: any small number serves
   using Complex          = std::complex<double>;
   double slope[3]; // of W by C11, C22, C12
@@ -58,7 +121,7 @@ EnergyAndStress energy_and_stress(const Law law, const Eigen::Matrix3d &stiffnes
   {
     Complex moved[3] = {C(0, 0), C(1, 1), C(0, 1)};
     moved[a] += Complex(0., small);
-    slope[a] = energy<Complex>(law, stiffness, moved).imag() / small;
+    slope[a] = energy<Complex>(law, stiffness, along, moved).imag() / small;
   }
   Eigen::Matrix2d twice; // dW = P : dF, dC = dF^T F + F^T dF
   twice << 2. * slope[0], slope[2], slope[2], 2. * slope[1];

@@ -34,7 +34,8 @@ struct EnergyAndStress
 };
 
 /// W and P from the formula of the law. biot: U = (C + sqrt(det C) I) / sqrt(tr C + 2 sqrt(det C))
-/// with C = F^T F. linear: the in-plane part of F.
+/// with C = F^T F. linear: the in-plane part of F. yarn: stretches and angle by C in axes along the
+/// largest Young's modulus; the stiffness must have some.
 /// @param stiffness (3,3) [N/m], Voigt 11, 22, 12 with engineering shear
 EnergyAndStress energy_and_stress(Law law, const Eigen::Matrix3d &stiffness,
                                   const Eigen::Matrix<double, 3, 2> &F);

@@ -250,20 +250,20 @@ std::vector<ManufacturedCase> reference_cases()
 {
   std::vector<ManufacturedCase> cases;
   for (const unsigned int order : {1u, 2u})
-    for (const Law law : {Law::linear, Law::biot, Law::green})
+    for (const Law law : all_laws())
     {
       cases.push_back(plane_case("periodic-12", law, order, anisotropic(), periodic_wave));
       cases.push_back(plane_case("strip-2", law, order, without_contraction(), clamped_wave));
     }
   for (const unsigned int order : {1u, 2u})
-    for (const Law law : {Law::biot, Law::green})
+    for (const Law law : {Law::biot, Law::green, Law::yarn})
     {
       cases.push_back(static_case(law, order));
       cases.push_back(stepping_case(law, order, true));
       if (order == 1)
         cases.push_back(stepping_case(law, order, false));
     }
-  for (const Law law : {Law::biot, Law::green})
+  for (const Law law : {Law::biot, Law::green, Law::yarn})
     cases.push_back(time_case(law));
   return cases;
 }

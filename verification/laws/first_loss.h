@@ -18,7 +18,7 @@ constexpr double never = std::numeric_limits<double>::infinity();
 /// a thousandth on and bisection to round-off.
 /// @param gradient deformation gradient (2,2) at a strain >= 0
 /// @param largest strain that is looked at
-/// @return the strain, or `never`; a state that cannot be found ends the path as well
+/// @return the strain, or `never`
 double first_loss(Law law, const Eigen::Matrix3d &C,
                   const std::function<Eigen::Matrix2d(double strain)> &gradient, double largest);
 
@@ -29,8 +29,9 @@ enum class Direction
   compression
 };
 
-/// The deformation gradient of a cloth that is loaded along an axis, which keeps its direction, its
-/// sides free of stress.
+/// The deformation gradient of a cloth that is loaded along an axis, its sides free of normal
+/// stress. The axes stay at a right angle: of a stiffness without C16 and C26 that is all; of
+/// another the angle would run away near the loss, where its resistance ends.
 /// @param axis 1 or 2
 /// @param strain >= 0, of either direction
 /// @throws NotConverged where the sides do not become free of stress

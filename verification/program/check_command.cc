@@ -109,7 +109,7 @@ void add_ellipticity_findings(CellReading &reading)
          percent_text(first) + " on, E" + std::to_string(axis) + " being " +
          short_text(E / phase.G12) + " times G12",
        "beyond it no minimum of the energy need exist: ask for smaller strains, or for the "
-       "reference green, which pulling does not take there",
+       "reference yarn, which pulling does not take there",
        {}});
   }
 }

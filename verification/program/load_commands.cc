@@ -68,7 +68,7 @@ void add_load_command(CLI::App &app, Action &action, AfterMpi &afterwards,
     ->check(CLI::Range(1, 10000))
     ->capture_default_str();
   add_list(*command, "--law", study.laws,
-           "Laws of the phases, linear, biot or green; linear is always there");
+           "Laws of the phases, linear, biot, green or yarn; linear is always there");
   add_list(*command, "--measured", study.measured,
            "CSV files with curves to draw on the same axes: columns strain_11, "
            "stress_11_N_per_m and so on");

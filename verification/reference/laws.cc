@@ -2,12 +2,14 @@
 #include "verification/reference/laws.h"
 
 #include "meshes/plain/errors.h"
+#include "verification/reference/yarn_law.h"
 
 #include <Eigen/Eigenvalues>
 
 #include <array>
 #include <cmath>
 #include <limits>
+#include <stdexcept>
 
 namespace homespun::verification
 {
@@ -81,15 +83,32 @@ Response biot_response(const Eigen::Matrix3d &C, const Eigen::Matrix2d &F)
 
 std::string name_of(const Law law)
 {
-  return law == Law::linear ? "linear" : law == Law::biot ? "biot" : "green";
+  switch (law)
+  {
+  case Law::linear:
+    return "linear";
+  case Law::biot:
+    return "biot";
+  case Law::green:
+    return "green";
+  case Law::yarn:
+    return "yarn";
+  }
+  throw std::logic_error("a law without a name");
+}
+
+const std::vector<Law> &all_laws()
+{
+  static const std::vector<Law> all = {Law::linear, Law::biot, Law::green, Law::yarn};
+  return all;
 }
 
 Law law_of(const std::string &name)
 {
-  for (const Law law : {Law::linear, Law::biot, Law::green})
+  for (const Law law : all_laws())
     if (name == name_of(law))
       return law;
-  throw meshes::BadInput("unknown reference `" + name + "`; expected linear, biot or green");
+  throw meshes::BadInput("unknown reference `" + name + "`; expected linear, biot, green or yarn");
 }
 
 Response response(const Law law, const Eigen::Matrix3d &C, const Eigen::Matrix2d &F)
@@ -100,6 +119,10 @@ Response response(const Law law, const Eigen::Matrix3d &C, const Eigen::Matrix2d
     return linear_response(C, F);
   case Law::green:
     return green_response(C, F);
+  case Law::yarn:
+    if (const meshes::YarnAxes yarns = meshes::yarn_axes(C); yarns.are_there)
+      return yarn_response(yarns, F);
+    return biot_response(C, F);
   default:
     return biot_response(C, F);
   }

@@ -3,6 +3,8 @@
 // gradient F. Written apart from the coarse cloth's element, which one of them must equal.
 #pragma once
 
+#include "verification/reference/response.h"
+
 #include <Eigen/Core>
 
 #include <string>
@@ -13,25 +15,23 @@ namespace homespun::verification
 /// linear: W = ½ e:C:e,            e = sym(F − I)
 /// biot:   W = ½ (U−I):C:(U−I),    U = sqrt(F^T F)
 /// green:  W = ½ E:C:E,            E = ½ (F^T F − I)  (St. Venant-Kirchhoff)
+/// yarn:   W = ½ e:C:e,            e of the stretches of two yarns and their angle (yarn_law.h);
+///         biot where C has no axes
 enum class Law
 {
   linear,
   biot,
-  green
+  green,
+  yarn
 };
+
+/// Every law, in this order.
+const std::vector<Law> &all_laws();
 
 std::string name_of(Law law);
 
 /// @throws BadInput listing the names, where it is none of them
 Law law_of(const std::string &name);
-
-/// Energy per area and its derivatives by the entries of F in the order F11, F12, F21, F22.
-struct Response
-{
-  double energy;           ///< W [N/m]
-  Eigen::Vector4d stress;  ///< P = dW/dF, the first Piola-Kirchhoff membrane force [N/m]
-  Eigen::Matrix4d tangent; ///< dP/dF [N/m]
-};
 
 /// The response of a law at a deformation gradient.
 ///

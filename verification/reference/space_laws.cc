@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "verification/reference/space_laws.h"
 
+#include "verification/reference/yarn_law.h"
+
 #include <Eigen/Cholesky>
 #include <Eigen/Geometry>
 
@@ -67,6 +69,20 @@ MetricResponse biot_response(const Eigen::Matrix3d &C, const SpaceGradient &F)
   H(1, 2) -= mixed2;
   H(2, 1) -= mixed2;
   return {0.5 * strain.dot(T), Q.transpose() * S, Q.transpose() * H * Q};
+}
+
+MetricResponse metric_response(const Law law, const Eigen::Matrix3d &C, const SpaceGradient &F)
+{
+  if (law == Law::green)
+    return green_response(C, F);
+  if (law == Law::yarn)
+    if (const meshes::YarnAxes yarns = meshes::yarn_axes(C); yarns.are_there)
+    {
+      const auto [energy, force, stiffness] =
+        yarn_metric_response(yarns, F * yarns.axes.col(0), F * yarns.axes.col(1));
+      return {energy, force, stiffness};
+    }
+  return biot_response(C, F);
 }
 
 /// B dF = dE with the entries of F row by row.
@@ -147,7 +163,7 @@ SpaceTangent positive_tangent(const SpaceGradient &F, const Eigen::Matrix3d &H,
 SpaceResponse space_response(const Law law, const Eigen::Matrix3d &C, const SpaceGradient &F,
                              const Tangent tangent)
 {
-  const MetricResponse metric = law == Law::green ? green_response(C, F) : biot_response(C, F);
+  const MetricResponse metric = metric_response(law, C, F);
   Eigen::Matrix2d S;
   S << metric.force(0), metric.force(2), metric.force(2), metric.force(1);
   SpaceResponse response;

@@ -24,6 +24,7 @@
 #include "verification/strain/strain_output.h"
 #include "verification/strain/strain_verdicts.h"
 #include "verification/strain/study_description.h"
+#include "verification/strain/yarn_cells.h"
 
 #include <algorithm>
 #include <chrono>
@@ -58,6 +59,7 @@ public:
     for (const std::string &file : options.cell_files)
       cells.push_back(homogenization::read_unit_cell(file, communicator));
     check_names(cells);
+    check_yarns(cells, options.references);
     for (const UnitCell &cell : cells)
       meshes::tile(cell.mesh, cell.lattice, 1, 1); // refuses what makes no sheet, before any file
     on_root(communicator, [&]() { open_tables(); });
@@ -352,8 +354,8 @@ private:
               add(stability_verdicts(output->step_rows()));
               output->write_validity();
               std::vector<std::string> notes = notes_on_cuts(cells);
-              for (const std::string &note : output->notes())
-                notes.push_back(note);
+              for (const auto &more : {notes_on_yarns(cells, options.references), output->notes()})
+                notes.insert(notes.end(), more.begin(), more.end());
               if (options.budget)
               {
                 const std::vector<BudgetRow> &rows = output->budget->rows();

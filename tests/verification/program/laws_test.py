@@ -40,5 +40,28 @@ class Ellipticity(InFolder):
         self.assertEqual(len([note for note in notes if "of the coarse cloth are not" in note]), 1)
 
 
+class Yarns(InFolder):
+    def test_a_cell_without_yarns_is_refused_before_anything_runs(self):
+        output = self.folder / "run"
+        result = run("strain", CELLS / "layered.prm", "--quick", "--references", "biot,yarn",
+                     "--output", output)
+        self.assertEqual(result.returncode, 2)
+        for text in ("layered.prm", "--references yarn", "alike in all directions", "Orthotropic"):
+            self.assertIn(text, result.stderr)
+        self.assertFalse(output.exists())
+
+    def test_woven_cloth_is_pulled_beyond_the_loss_of_biot_and_stays_elliptic(self):
+        result = run("strain", CELLS / "plain-weave.prm", "--quick", "--loads", "uniaxial-1",
+                     "--references", "yarn", "--strains", "0.001,0.01,0.05",
+                     "--methods", "affine,localized", "--no-budget", "--no-runtime", "--no-report",
+                     "--output", self.folder / "run")
+        self.assertIn(result.returncode, (0, 1, 4), result.stderr)
+        rows = rows_of(self.folder / "run" / "strain.csv")
+        self.assertEqual({row["strain"] for row in rows if row["method"] == "localized"},
+                         {"0.001", "0.01", "0.05"})
+        found = rows_of(self.folder / "run" / "ellipticity.csv")
+        self.assertEqual({row["reference"] for row in found}, {"yarn"})
+
+
 if __name__ == "__main__":
     unittest.main()

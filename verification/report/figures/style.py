@@ -32,7 +32,7 @@ METHOD_COLOURS = {
 SPARE_COLOURS = (BLACK, SKY, "#7F7F7F", YELLOW)
 
 # Line style and marker of each reference law.
-REFERENCE_STYLES = {"linear": (":", "s"), "biot": ("-", "o"), "green": ("--", "^")}
+REFERENCE_STYLES = {"linear": (":", "s"), "biot": ("-", "o"), "green": ("--", "^"), "yarn": ("-.", "v")}
 
 LOADS = (
     "periodic-11",

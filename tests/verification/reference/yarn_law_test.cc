@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: MIT
+// The law of yarns: its axes, its formula, where it is elliptic.
+#include "verification/laws/ellipticity.h"
+#include "verification/laws/first_loss.h"
+#include "verification/reference/space_laws.h"
+#include "verification/reference/yarn_law.h"
+
+#include <Eigen/LU>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+using namespace homespun;
+using meshes::yarn_axes;
+using meshes::YarnAxes;
+using namespace homespun::verification;
+
+namespace
+{
+Eigen::Matrix3d orthotropic(const double E1, const double E2, const double nu12, const double G12)
+{
+  Eigen::Matrix3d compliance;
+  compliance << 1. / E1, -nu12 / E1, 0., -nu12 / E1, 1. / E2, 0., 0., 0., 1. / G12;
+  return compliance.inverse();
+}
+
+/// A stiffness in axes turned by an angle, as tensor components from a sum over all indices.
+Eigen::Matrix3d turned(const Eigen::Matrix3d &C, const double angle)
+{
+  constexpr int voigt[2][2] = {{0, 2}, {2, 1}};
+  const double R[2][2] = {{std::cos(angle), -std::sin(angle)}, {std::sin(angle), std::cos(angle)}};
+  Eigen::Matrix3d result = Eigen::Matrix3d::Zero();
+  const int pairs[3][2]  = {{0, 0}, {1, 1}, {0, 1}};
+  for (int a = 0; a < 3; ++a)
+    for (int b = 0; b < 3; ++b)
+      for (int i = 0; i < 16; ++i)
+      {
+        const int p = i / 8, q = i / 4 % 2, r = i / 2 % 2, s = i % 2;
+        result(a, b) += R[pairs[a][0]][p] * R[pairs[a][1]][q] * R[pairs[b][0]][r] *
+                        R[pairs[b][1]][s] * C(voigt[p][q], voigt[r][s]);
+      }
+  return result;
+}
+
+std::vector<Eigen::Matrix3d> five_materials()
+{
+  return {orthotropic(52500., 1500., 0.3, 90.), orthotropic(2035., 2017., 0.005, 105.),
+          orthotropic(1e4, 1e2, 0.2, 1.), orthotropic(1014., 205., 0.01, 20.),
+          orthotropic(300., 200., -0.4, 25.)};
+}
+
+Eigen::Matrix2d rotation(const double angle)
+{
+  Eigen::Matrix2d R;
+  R << std::cos(angle), -std::sin(angle), std::sin(angle), std::cos(angle);
+  return R;
+}
+
+Eigen::Matrix2d some_gradient()
+{
+  Eigen::Matrix2d F;
+  F << 1.12, 0.31, -0.18, 0.93;
+  return F;
+}
+} // namespace
+
+TEST(exact_yarn_law, axes_are_those_of_an_orthotropic_stiffness_and_an_isotropic_one_has_none)
+{
+  for (const Eigen::Matrix3d &C : five_materials())
+    for (const double angle : {0., 0.3, 1.2, -0.9})
+    {
+      const YarnAxes yarns = yarn_axes(turned(C, angle));
+      ASSERT_TRUE(yarns.are_there);
+      const Eigen::Vector2d expected = rotation(angle).col(0);
+      EXPECT_NEAR(std::abs(yarns.axes.col(0).dot(expected)), 1., 1e-12) << angle;
+      EXPECT_LT((yarns.C - C).cwiseAbs().maxCoeff(), 1e-9 * C.norm());
+    }
+  EXPECT_FALSE(yarn_axes(orthotropic(1., 1., 0.3, 0.5 / 1.3)).are_there);
+  const Eigen::Matrix3d alike = orthotropic(3., 3., 0.3, 1.5 / 1.3);
+  EXPECT_EQ(response(Law::yarn, alike, some_gradient()).energy,
+            response(Law::biot, alike, some_gradient()).energy);
+}
+
+TEST(exact_yarn_law, the_energy_is_that_of_stretches_and_of_the_angle_between_the_yarns)
+{
+  const Eigen::Matrix3d C = five_materials()[3];
+  const double angle = 0.4, l1 = 1.1, l2 = 0.95, gamma = 0.7;
+  // Yarns at 0.2 and at a right angle less gamma from it.
+  Eigen::Matrix2d yarns;
+  yarns.col(0)              = l1 * rotation(0.2).col(0);
+  yarns.col(1)              = l2 * rotation(0.2 - gamma).col(1);
+  const Eigen::Matrix2d F   = yarns * rotation(angle).transpose();
+  const Eigen::Vector3d e   = Eigen::Vector3d(l1 - 1., l2 - 1., gamma);
+  const double energy       = 0.5 * e.dot(C * e);
+  const Eigen::Matrix3d off = turned(C, angle);
+  EXPECT_NEAR(response(Law::yarn, off, F).energy, energy, 1e-12 * energy);
+  SpaceGradient in_space = SpaceGradient::Zero();
+  in_space.topRows<2>()  = F;
+  EXPECT_NEAR(space_response(Law::yarn, off, in_space, Tangent::none).energy, energy,
+              1e-12 * energy);
+}
+
+TEST(exact_yarn_law, it_is_kept_in_tension_and_shear_and_lost_where_a_yarn_is_compressed)
+{
+  using Path                    = Eigen::Matrix2d (*)(double);
+  const std::vector<Path> pulls = {
+    [](const double s) -> Eigen::Matrix2d { return Eigen::Vector2d(1. + s, 1.).asDiagonal(); },
+    [](const double s) -> Eigen::Matrix2d { return Eigen::Vector2d(1., 1. + s).asDiagonal(); },
+    [](const double s) -> Eigen::Matrix2d { return Eigen::Vector2d(1. + s, 1. + s).asDiagonal(); },
+    [](const double s) -> Eigen::Matrix2d
+    {
+      Eigen::Matrix2d F = Eigen::Matrix2d::Identity();
+      F(0, 1)           = s;
+      return F;
+    }};
+  for (const Eigen::Matrix3d &C : five_materials())
+  {
+    for (std::size_t k = 0; k < pulls.size(); ++k)
+    {
+      const double loss = first_loss(Law::yarn, C, pulls[k], 0.5);
+      if (C(0, 1) > 0. || k > 1)
+        EXPECT_EQ(loss, never) << k;
+      else // what widens when pulled is compressed where its width is held
+        EXPECT_NEAR(response(Law::yarn, C, pulls[k](loss)).stress(k == 0 ? 3 : 0), -C(2, 2),
+                    1e-6 * C(2, 2));
+    }
+    for (const int axis : {1, 2})
+    {
+      EXPECT_EQ(uniaxial_loss(Law::yarn, C, axis), never);
+      const double loss       = uniaxial_loss(Law::yarn, C, axis, Direction::compression);
+      const Eigen::Matrix2d F = uniaxial_gradient(Law::yarn, C, axis, Direction::compression, loss);
+      const double T          = response(Law::yarn, C, F).stress(axis == 1 ? 0 : 3);
+      EXPECT_NEAR(T, -C(2, 2) / (1. - loss), 1e-6 * std::abs(T));
+    }
+  }
+}
+
+TEST(invariant_yarn_law, it_turns_with_the_cloth)
+{
+  for (const Eigen::Matrix3d &C : five_materials())
+  {
+    const Response straight = response(Law::yarn, C, some_gradient());
+    for (const double angle : {0.3, -1.1})
+    {
+      const Response there =
+        response(Law::yarn, turned(C, angle), some_gradient() * rotation(angle).transpose());
+      EXPECT_NEAR(there.energy, straight.energy, 1e-11 * straight.energy);
+    }
+  }
+}
+
+TEST(bound_yarn_law, a_triangle_that_is_turned_over_costs_energy_in_the_plane)
+{
+  const Eigen::Matrix3d C = five_materials()[1];
+  double last             = 0.;
+  for (const double angle : {0.5, 1.5, 1.6, 2.5, 3.1})
+  {
+    Eigen::Matrix2d F;
+    F.col(0) = Eigen::Vector2d::UnitX();
+    F.col(1) = rotation(-angle).col(1);
+    EXPECT_GT(response(Law::yarn, C, F).energy, last);
+    last = response(Law::yarn, C, F).energy;
+  }
+  EXPECT_NEAR(last, 0.5 * C(2, 2) * 3.1 * 3.1, 1e-9 * last);
+}

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: MIT
+#include "verification/strain/yarn_cells.h"
+
+#include "meshes/plain/errors.h"
+#include "meshes/plain/yarn_axes.h"
+#include "verification/record/number_text.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace homespun::verification
+{
+using homogenization::Phase;
+using homogenization::UnitCell;
+
+namespace
+{
+constexpr double pi = 3.14159265358979323846;
+
+bool is_asked_for(const std::vector<std::string> &references)
+{
+  return std::find(references.begin(), references.end(), "yarn") != references.end();
+}
+
+meshes::YarnAxes axes_of(const Phase &phase)
+{
+  return meshes::yarn_axes(homogenization::plane_stress_stiffness(phase));
+}
+
+/// How far the axes are from those of the phase, as the same cross of two lines [deg].
+double degrees_off(const Phase &phase, const meshes::YarnAxes &yarns)
+{
+  const double angle = std::atan2(yarns.axes(1, 0), yarns.axes(0, 0)) * 180. / pi - phase.angle;
+  return std::abs(std::remainder(angle, 90.));
+}
+
+std::string joined(const std::vector<std::string> &names)
+{
+  std::string text;
+  for (const std::string &name : names)
+    text += (text.empty() ? "" : ", ") + name;
+  return text;
+}
+} // namespace
+
+void check_yarns(const std::vector<UnitCell> &cells, const std::vector<std::string> &references)
+{
+  if (!is_asked_for(references))
+    return;
+  std::vector<std::string> faults;
+  for (const UnitCell &cell : cells)
+    if (std::none_of(cell.phases.begin(), cell.phases.end(),
+                     [](const Phase &phase) { return axes_of(phase).are_there; }))
+      faults.push_back(cell.file + ": --references yarn: every phase is alike in all directions; "
+                                   "expected one with yarns, by the key Orthotropic: ask for biot "
+                                   "or green");
+  if (!faults.empty())
+    throw meshes::BadInput(faults);
+}
+
+std::vector<std::string> notes_on_yarns(const std::vector<UnitCell> &cells,
+                                        const std::vector<std::string> &references)
+{
+  std::vector<std::string> notes;
+  if (!is_asked_for(references))
+    return notes;
+  for (const UnitCell &cell : cells)
+  {
+    std::vector<std::string> alike;
+    for (const int p : cell.phase_of_group())
+    {
+      const Phase &phase           = cell.phases[static_cast<std::size_t>(p)];
+      const meshes::YarnAxes yarns = axes_of(phase);
+      if (!yarns.are_there)
+        alike.push_back(phase.name);
+      else if (const double off = degrees_off(phase, yarns); off > 0.01)
+        notes.push_back(cell.name + ": under the law yarn the axes of phase " + phase.name +
+                        " are those of its largest Young's modulus, " + short_text(off) +
+                        " degrees from the ones that are given");
+    }
+    if (!alike.empty())
+      notes.push_back(cell.name + ": under the law yarn the phases " + joined(alike) +
+                      ", alike in all directions, keep biot");
+  }
+  return notes;
+}
+} // namespace homespun::verification
