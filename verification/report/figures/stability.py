@@ -12,7 +12,7 @@ from matplotlib.colors import Normalize
 from matplotlib.patches import Wedge
 
 from figures import style
-from figures.cell import CM, phase_legend
+from figures.cell import CM, cell_axes, phase_legend
 
 MESHES = {"given": ("-", style.BLUE), "refined": ("--", style.VERMILLION)}
 MARKERS = {"long": "s", "finite": "o"}
@@ -211,17 +211,7 @@ def mode_axes(axes, cell, rows, loss):
                                        linewidths=0.2))
     axes.add_collection(LineCollection(rims, colors="#7F7F7F", linewidths=0.8))
     axes.add_collection(LineCollection(outlines, colors=style.BLACK, linewidths=0.8))
-    every = numpy.vstack([numpy.asarray(p) for p in polygons])
-    low, high = every.min(axis=0), every.max(axis=0)
-    pad = 0.03 * (high - low).max()
-    axes.set(
-        xlim=(low[0] - pad, high[0] + pad),
-        ylim=(low[1] - pad, high[1] + pad),
-        aspect="equal",
-        xlabel="axis 1 [cm]",
-        ylabel="axis 2 [cm]",
-    )
-    axes.grid(False)
+    cell_axes(axes, numpy.vstack([numpy.asarray(p) for p in polygons]) / CM)
 
 
 def rims_of(cell):
