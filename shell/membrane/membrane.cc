@@ -230,23 +230,26 @@ Positions<2> linear_membrane_gradient(const Membrane &membrane, const Positions<
 }
 
 template <int dim>
+Eigen::Matrix<double, 3 * dim, 3 * dim> membrane_hessian(const Membrane &membrane, const int t,
+                                                         const Positions<dim> &positions,
+                                                         const Hessian kind)
+{
+  const RestTriangle &rest = membrane.rest[static_cast<std::size_t>(t)];
+  const auto corners       = corners_of<dim>(membrane, positions, t);
+  if (membrane.cubic.empty())
+    return triangle_hessian<dim>(rest, corners, stiffness_of(membrane, t), kind);
+  const TangentLaw law = tangent_law(
+    stiffness_of(membrane, t).D, membrane.cubic[phase_of(membrane, t)],
+    biot_strain<dim>(deformation_gradient<dim>(rest, corners)), Eigen::Vector3d::Zero());
+  return triangle_hessian<dim>(rest, corners, law.stiffness, kind, law.initial_stress);
+}
+
+template <int dim>
 void add_membrane_hessian(const Membrane &membrane, const Positions<dim> &positions,
                           const Hessian kind, FreeVertexMatrix<dim> &matrix)
 {
   for (int t = 0; t < static_cast<int>(membrane.triangles.rows()); ++t)
-  {
-    const RestTriangle &rest = membrane.rest[static_cast<std::size_t>(t)];
-    const auto corners       = corners_of<dim>(membrane, positions, t);
-    if (membrane.cubic.empty())
-    {
-      matrix.add(t, triangle_hessian<dim>(rest, corners, stiffness_of(membrane, t), kind));
-      continue;
-    }
-    const TangentLaw law = tangent_law(
-      stiffness_of(membrane, t).D, membrane.cubic[phase_of(membrane, t)],
-      biot_strain<dim>(deformation_gradient<dim>(rest, corners)), Eigen::Vector3d::Zero());
-    matrix.add(t, triangle_hessian<dim>(rest, corners, law.stiffness, kind, law.initial_stress));
-  }
+    matrix.add(t, membrane_hessian<dim>(membrane, t, positions, kind));
 }
 
 template <int dim>
@@ -261,6 +264,8 @@ int first_not_finite(const Positions<dim> &positions)
 #define HOMESPUN_INSTANTIATE(dim)                                                                  \
   template double membrane_energy<dim>(const Membrane &, const Positions<dim> &);                  \
   template MembraneGradient<dim> membrane_gradient<dim>(const Membrane &, const Positions<dim> &); \
+  template Eigen::Matrix<double, 3 * dim, 3 * dim> membrane_hessian<dim>(                          \
+    const Membrane &, int, const Positions<dim> &, Hessian);                                       \
   template void add_membrane_hessian<dim>(const Membrane &, const Positions<dim> &, Hessian,       \
                                           FreeVertexMatrix<dim> &);                                \
   template int first_not_finite<dim>(const Positions<dim> &);

@@ -72,6 +72,13 @@ MembraneGradient<dim> membrane_gradient(const Membrane &membrane, const Position
 /// @return (n,2) [N]
 Positions<2> linear_membrane_gradient(const Membrane &membrane, const Positions<2> &displacement);
 
+/// The Hessian of the energy of one triangle; component i of corner k is unknown k dim + i.
+/// @return (3 dim, 3 dim) [N/m]
+template <int dim>
+Eigen::Matrix<double, 3 * dim, 3 * dim> membrane_hessian(const Membrane &membrane, int triangle,
+                                                         const Positions<dim> &positions,
+                                                         Hessian kind);
+
 /// Adds the Hessian of membrane_energy() to a matrix over the free vertices.
 /// @param matrix whose elements are the membrane's triangles
 template <int dim>

@@ -2,6 +2,7 @@
 #include "shell/solver/equilibrium.h"
 
 #include "meshes/plain/errors.h"
+#include "shell/membrane/six_node_membrane.h"
 
 #include <algorithm>
 #include <cmath>
@@ -16,19 +17,21 @@ namespace
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
 
 /// Marks the held vertices, and makes sure that every other one hangs on one of them.
-std::vector<bool> marked(const meshes::TriangleMesh &mesh, const std::vector<int> &held_vertices)
+std::vector<bool> marked(const Eigen::Index n_nodes, const meshes::Triangles &triangles,
+                         const std::vector<int> &held_vertices)
 {
+  const auto n_vertices  = static_cast<int>(n_nodes),
+             n_triangles = static_cast<int>(triangles.rows());
   if (held_vertices.empty())
     throw meshes::BadInput(
       "held vertices: none is given; expected at least one, else the cloth can move away without "
       "any force");
-  std::vector<bool> is_held(static_cast<std::size_t>(mesh.n_vertices()), false);
+  std::vector<bool> is_held(static_cast<std::size_t>(n_vertices), false);
   for (const int v : held_vertices)
   {
-    if (v < 0 || v >= mesh.n_vertices())
+    if (v < 0 || v >= n_vertices)
       throw meshes::BadInput("held vertex " + std::to_string(v) +
-                             ": does not exist; expected 0 ... " +
-                             std::to_string(mesh.n_vertices() - 1));
+                             ": does not exist; expected 0 ... " + std::to_string(n_vertices - 1));
     is_held[static_cast<std::size_t>(v)] = true;
   }
   std::vector<int> part(is_held.size());
@@ -40,20 +43,26 @@ std::vector<bool> marked(const meshes::TriangleMesh &mesh, const std::vector<int
         part[static_cast<std::size_t>(part[static_cast<std::size_t>(v)])];
     return v;
   };
-  for (int t = 0; t < mesh.n_triangles(); ++t)
+  for (int t = 0; t < n_triangles; ++t)
     for (int k = 0; k < 2; ++k)
-      part[static_cast<std::size_t>(root(mesh.triangles(t, k)))] = root(mesh.triangles(t, k + 1));
+      part[static_cast<std::size_t>(root(triangles(t, k)))] = root(triangles(t, k + 1));
   std::vector<bool> has_held(is_held.size(), false);
-  for (int v = 0; v < mesh.n_vertices(); ++v)
+  for (int v = 0; v < n_vertices; ++v)
     if (is_held[static_cast<std::size_t>(v)])
       has_held[static_cast<std::size_t>(root(v))] = true;
-  for (int v = 0; v < mesh.n_vertices(); ++v)
+  for (int v = 0; v < n_vertices; ++v)
     if (!has_held[static_cast<std::size_t>(root(v))])
       throw meshes::BadInput(
         "vertex " + std::to_string(v) +
         ": no triangles connect it to a held vertex; hold a vertex of its part, "
         "or remove the part");
   return is_held;
+}
+
+Membrane with_cubic(Membrane membrane, const std::vector<meshes::CubicForm> &cubic)
+{
+  add_cubic_energy(membrane, cubic);
+  return membrane;
 }
 
 /// The forces at the free vertices: their norm, and the norm at which they count as zero.
@@ -65,8 +74,8 @@ struct FreeForces
 };
 
 /// @param loads (n,dim) [N]
-template <int dim>
-FreeForces<dim> residual_at(const Membrane &membrane, const std::vector<bool> &is_held,
+template <int dim, typename Sheet>
+FreeForces<dim> residual_at(const Sheet &membrane, const std::vector<bool> &is_held,
                             const Positions<dim> &positions, const Positions<dim> &loads,
                             const double relative_tolerance)
 {
@@ -98,6 +107,13 @@ int count_inverted(const Membrane &membrane, const Positions<dim> &positions)
   return n;
 }
 
+/// Points of six-node triangles.
+template <int dim>
+int count_inverted(const SixNodeMembrane &membrane, const Positions<dim> &positions)
+{
+  return count_inverted<dim>(membrane.points, corners_of_points<dim>(membrane, positions));
+}
+
 void require_rows(const Eigen::Index found, const std::size_t expected, const std::string &name)
 {
   if (found != static_cast<Eigen::Index>(expected))
@@ -118,35 +134,40 @@ Positions<dim> all_loads(const Positions<dim> &loads, const std::size_t n_vertic
 }
 } // namespace
 
-template <int dim>
-MembraneSolver<dim>::MembraneSolver(const meshes::TriangleMesh &rest,
-                                    std::vector<Eigen::Matrix3d> stiffness_of_phase,
-                                    const std::vector<int> &held_vertices,
-                                    const std::vector<meshes::CubicForm> &cubic)
-    : membrane(shell::membrane(rest, stiffness_of_phase))
-    , is_held(marked(rest, held_vertices))
+template <int dim, typename Sheet>
+MembraneSolver<dim, Sheet>::MembraneSolver(Sheet sheet, const std::vector<int> &held_vertices)
+    : membrane(std::move(sheet))
+    , is_held(marked(membrane.vertices.rows(), membrane.triangles, held_vertices))
     , matrix(membrane.triangles, is_held)
 {
-  add_cubic_energy(membrane, cubic);
 }
 
-template <int dim>
-const Membrane &MembraneSolver<dim>::rest_membrane() const
+template <int dim, typename Sheet>
+MembraneSolver<dim, Sheet>::MembraneSolver(const meshes::TriangleMesh &rest,
+                                           std::vector<Eigen::Matrix3d> stiffness_of_phase,
+                                           const std::vector<int> &held_vertices,
+                                           const std::vector<meshes::CubicForm> &cubic)
+    : MembraneSolver(with_cubic(shell::membrane(rest, stiffness_of_phase), cubic), held_vertices)
+{
+}
+
+template <int dim, typename Sheet>
+const Sheet &MembraneSolver<dim, Sheet>::rest_membrane() const
 {
   return membrane;
 }
 
-template <int dim>
-bool MembraneSolver<dim>::factorize_at(const Positions<dim> &positions) const
+template <int dim, typename Sheet>
+bool MembraneSolver<dim, Sheet>::factorize_at(const Positions<dim> &positions) const
 {
   matrix.clear();
   add_membrane_hessian<dim>(membrane, positions, Hessian::exact, matrix);
   return matrix.factorize();
 }
 
-template <int dim>
-Positions<dim> MembraneSolver<dim>::linear_equilibrium(const Positions<dim> &prescribed,
-                                                       const Positions<dim> &loads) const
+template <int dim, typename Sheet>
+Positions<dim> MembraneSolver<dim, Sheet>::linear_equilibrium(const Positions<dim> &prescribed,
+                                                              const Positions<dim> &loads) const
 {
   require_rows(prescribed.rows(), is_held.size(), "prescribed positions");
   const Positions<dim> all = all_loads<dim>(loads, is_held.size());
@@ -179,10 +200,10 @@ Positions<dim> MembraneSolver<dim>::linear_equilibrium(const Positions<dim> &pre
   return membrane.vertices + displacement;
 }
 
-template <int dim>
-Positions<dim> MembraneSolver<dim>::newton_step(const Positions<dim> &positions,
-                                                const Positions<dim> &gradient,
-                                                int &projected_steps) const
+template <int dim, typename Sheet>
+Positions<dim> MembraneSolver<dim, Sheet>::newton_step(const Positions<dim> &positions,
+                                                       const Positions<dim> &gradient,
+                                                       int &projected_steps) const
 {
   if (factorize_at(positions))
     return -matrix.solve(gradient);
@@ -197,10 +218,10 @@ Positions<dim> MembraneSolver<dim>::newton_step(const Positions<dim> &positions,
   return -matrix.solve(gradient);
 }
 
-template <int dim>
-Equilibrium<dim> MembraneSolver<dim>::solve_equilibrium(const Positions<dim> &start,
-                                                        const EquilibriumOptions &options,
-                                                        const Positions<dim> &loads) const
+template <int dim, typename Sheet>
+Equilibrium<dim> MembraneSolver<dim, Sheet>::solve_equilibrium(const Positions<dim> &start,
+                                                               const EquilibriumOptions &options,
+                                                               const Positions<dim> &loads) const
 {
   require_rows(start.rows(), is_held.size(), "start positions");
   const Positions<dim> all = all_loads<dim>(loads, is_held.size());
@@ -259,6 +280,15 @@ Equilibrium<dim> MembraneSolver<dim>::solve_equilibrium(const Positions<dim> &st
 
 // Member by member: the linear problem exists in the plane only.
 template class MembraneSolver<2>;
+template MembraneSolver<2, SixNodeMembrane>::MembraneSolver(SixNodeMembrane,
+                                                            const std::vector<int> &);
+template const SixNodeMembrane &MembraneSolver<2, SixNodeMembrane>::rest_membrane() const;
+template bool MembraneSolver<2, SixNodeMembrane>::factorize_at(const Positions<2> &) const;
+template Positions<2>
+MembraneSolver<2, SixNodeMembrane>::linear_equilibrium(const Positions<2> &,
+                                                       const Positions<2> &) const;
+template Equilibrium<2> MembraneSolver<2, SixNodeMembrane>::solve_equilibrium(
+  const Positions<2> &, const EquilibriumOptions &, const Positions<2> &) const;
 template MembraneSolver<3>::MembraneSolver(const meshes::TriangleMesh &,
                                            std::vector<Eigen::Matrix3d>, const std::vector<int> &,
                                            const std::vector<meshes::CubicForm> &);

@@ -38,7 +38,9 @@ struct Equilibrium
 
 /// Keeps the rest state, the sparsity and the symbolic factorisation of one cloth with one set of
 /// held vertices. Solves reuse its work space: one solver belongs to one thread at a time.
-template <int dim>
+/// @tparam Sheet Membrane, or another with the functions of membrane.h, its nodes at rest in
+///   `vertices` and the elements of the matrix in `triangles`
+template <int dim, typename Sheet = Membrane>
 class MembraneSolver
 {
 public:
@@ -52,6 +54,9 @@ public:
   MembraneSolver(const meshes::TriangleMesh &rest, std::vector<Eigen::Matrix3d> stiffness_of_phase,
                  const std::vector<int> &held_vertices,
                  const std::vector<meshes::CubicForm> &cubic = {});
+
+  /// The same of a sheet that is ready.
+  MembraneSolver(Sheet membrane, const std::vector<int> &held_vertices);
 
   /// Small-strain equilibrium, K u = f at the free vertices with K the Hessian at rest; factored on
   /// first use, then a substitution per call.
@@ -83,7 +88,7 @@ public:
                                      const Positions<dim> &loads       = {}) const;
 
   /// The membrane at rest, for its energy, gradient and Hessian.
-  const Membrane &rest_membrane() const;
+  const Sheet &rest_membrane() const;
 
   /// Free vertices' matrix with the exact Hessian at the given positions, factored: one assembly
   /// and one numeric factorisation of a Newton step, for benchmarks. @return whether it is positive
@@ -96,7 +101,7 @@ private:
   Positions<dim> newton_step(const Positions<dim> &positions, const Positions<dim> &gradient,
                              int &projected_steps) const;
 
-  Membrane membrane;
+  Sheet membrane;
   std::vector<bool> is_held;
   mutable FreeVertexMatrix<dim> matrix;                         ///< of the Newton step
   mutable std::unique_ptr<FreeVertexMatrix<dim>> linear_matrix; ///< K, factored; made on first use

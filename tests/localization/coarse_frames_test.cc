@@ -96,6 +96,28 @@ TEST(tripwire_coarse_frames, without_blending_the_jump_is_noticed)
   EXPECT_GT(largest_jump<3>(Blend::piecewise, Lift::rotation), 1e-6);
 }
 
+TEST(exact_coarse_frames, the_strain_at_a_vertex_weighs_triangles_by_their_areas)
+{
+  // Around the origin a triangle of area 1/2 and one of area 2, each strained evenly.
+  meshes::TriangleMesh mesh;
+  mesh.vertices.resize(5, 2);
+  mesh.vertices << 0., 0., 1., 0., 0., 1., -2., 0., 0., -2.;
+  mesh.triangles.resize(2, 3);
+  mesh.triangles << 0, 1, 2, 0, 3, 4;
+  mesh.material.setZero(2);
+  UpsamplerOptions options;
+  options.strain = Strain::linear;
+  options.lift   = Lift::identity;
+  const CoarseFrames<2> frames(mesh, options);
+  Positions<2> current = mesh.vertices;
+  current(1, 0) += 0.1; // 11 of the first
+  current(3, 0) -= 0.6; // 11 of the second is 0.3
+  const Eigen::Matrix<double, 1, 7> at_origin = frames.values(current).row(0);
+  EXPECT_NEAR(at_origin(0), (0.5 * 0.1 + 2. * 0.3) / 2.5, 1e-15);
+  EXPECT_NEAR(frames.values(current)(1, 0), 0.1, 1e-15);
+  EXPECT_NEAR(frames.values(current)(3, 0), 0.3, 1e-15);
+}
+
 TEST(exact_coarse_frames, the_mean_anchor_has_mean_zero_and_the_lattice_anchor_is_zero_there)
 {
   const meshes::HomogenizedCell cell = tests::skewed_cloth().cell;

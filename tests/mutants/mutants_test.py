@@ -189,6 +189,13 @@ class Running(InFolder):
         self.assertEqual(run.batches_of(names, seconds), [[5, 7], [2], [1], [4]])
         self.assertEqual(run.batches_of(names, {}), [[2, 5, 7], [4], [1]])
 
+    def test_tests_of_the_same_folder_come_before_the_others(self):
+        self.assertEqual(run.near_first([[5, 7], [2], [1], [4]], {2, 7, 4}),
+                         [[7], [2], [4], [5], [1]])
+        beside = run.suites_beside(patches.ROOT, "meshes/plain/lattice.cc")
+        self.assertIn("meshes.exact_lattice", beside)
+        self.assertNotIn("shell.exact_membrane", beside)
+
     def test_what_the_program_notices(self):
         usual = {"status": 4, "claims": ["known"]}
         for status, claims, expected in [(4, ["known"], ""), (0, [], ""),
@@ -276,6 +283,7 @@ class Running(InFolder):
             "exit 1\n", encoding="utf-8")
         program.chmod(0o755)
         workshop.usual = {"status": 4, "claims": []}
+        workshop.names = ["slow", "fails", "a.second", "a.third"]
         workshop.batches = run.batches_of(["slow", "fails", "a.second", "a.third"], {"slow": 20.},
                                           ["fails"])
         for fault, builds, test, claim in [("two", True, "a.second", ""),

@@ -156,6 +156,22 @@ def batches_of(names, seconds, not_asked=NOT_ASKED):
                                                     if of_it >= low]
 
 
+def suites_beside(root, file):
+    """The tests in the folder of tests/ that belongs to the folder of a source file."""
+    folder = pathlib.Path(root) / "tests" / pathlib.Path(file).parent
+    wing = pathlib.Path(file).parts[0]
+    return {f"{wing}.{suite}" for path in folder.glob("*.cc")
+            for suite in re.findall(r"^TEST(?:_F|_P)?\((\w+),", path.read_text(encoding="utf-8"),
+                                    re.M)}
+
+
+def near_first(batches, near):
+    """The same numbers; those near come in batches before the others."""
+    parts = [[number for number in batch if number in near] for batch in batches]
+    parts += [[number for number in batch if number not in near] for batch in batches]
+    return [part for part in parts if part]
+
+
 def place_of(status):
     """Of an exit status among the others, the worst first; no status, or a signal, is worse."""
     return WORST_FIRST.index(status) if status in WORST_FIRST else -1
@@ -225,6 +241,7 @@ class Workshop:
         for test in self.usual["failing_tests"]:
             if test not in NOT_ASKED:
                 print(f"{test} fails without any mutant and is not asked", flush=True)
+        self.names = names
         self.batches = batches_of(names, seconds_of_tests(self.build, self.given),
                                   [*NOT_ASKED, *self.usual["failing_tests"]])
 
@@ -235,10 +252,12 @@ class Workshop:
         log = self.failed_log()
         return re.findall(r"^\d+:(.+)$", log.read_text(), re.M) if log.exists() else []
 
-    def ask_tests(self):
+    def ask_tests(self, mutant):
         """The first test that fails, or nothing, and the seconds until then."""
         start = time.monotonic()
-        for numbers in self.batches:
+        beside = suites_beside(self.copy, mutant.file)
+        near = {number for number, name in enumerate(self.names, 1) if name in beside}
+        for numbers in near_first(self.batches, near):
             self.failed_log().unlink(missing_ok=True)
             status = self.run("ctest", "--stop-on-failure", "-I",
                               "0,0,0," + ",".join(str(number) for number in numbers),
@@ -248,27 +267,20 @@ class Workshop:
         return "", time.monotonic() - start
 
     def ask_program(self, usual=None):
-        """The worst exit status of a quick verification of a cell and of the self-tests, the
-        claims on the program that failed, and what is unusual of it: when something is, the rest
-        is not asked."""
-        worst, claims, unusual = 0, [], ""
-        for name, cells in (("verify", [CELL]), ("self-tests", [])):
-            if unusual:
-                break
-            output = self.work / name
-            shutil.rmtree(output, ignore_errors=True)
-            status = self.run(str(self.build / "homespun"), "verify", "--quick", "--no-report",
-                              "--output", str(output), *cells, log=f"{name}.log", cwd=self.copy,
-                              seconds=MOST_SECONDS_OF_PROGRAM)
-            worst = min(worst, status, key=place_of)
-            try:
-                verdicts = json.loads((output / "verdicts.json").read_text())["verdicts"]
-            except (OSError, ValueError, KeyError):
-                verdicts = []
-            claims += [one["claim"] for one in verdicts
-                       if one["kind"] == "program" and one["verdict"] == "FAIL"]
-            unusual = what_the_program_says(worst, claims, usual) if usual else ""
-        return worst, claims, unusual
+        """The exit status of a quick verification of a cell, the claims on the program that
+        failed, and what is unusual of it."""
+        output = self.work / "verify"
+        shutil.rmtree(output, ignore_errors=True)
+        status = self.run(str(self.build / "homespun"), "verify", "--quick", "--no-report",
+                          "--output", str(output), CELL, log="verify.log", cwd=self.copy,
+                          seconds=MOST_SECONDS_OF_PROGRAM)
+        try:
+            verdicts = json.loads((output / "verdicts.json").read_text())["verdicts"]
+        except (OSError, ValueError, KeyError):
+            verdicts = []
+        claims = [one["claim"] for one in verdicts
+                  if one["kind"] == "program" and one["verdict"] == "FAIL"]
+        return status, claims, what_the_program_says(status, claims, usual) if usual else ""
 
     def measured(self, mutant):
         """The row of a mutant. Where no line of it is executed the program is not asked."""
@@ -279,7 +291,7 @@ class Workshop:
             if self.builds():
                 row["builds"] = "true"
                 with concurrent.futures.ThreadPoolExecutor() as both:
-                    tests = both.submit(self.ask_tests)
+                    tests = both.submit(self.ask_tests, mutant)
                     executed = executed_in(self.work)
                     is_asked = executed is None or mutant.name in executed
                     program = both.submit(self.ask_program, self.usual) if is_asked else None

@@ -215,61 +215,75 @@ void EdgeTerms::add_modes(const Positions &positions, meshes::Points &fine) cons
   }
 }
 
-EdgeTerms::Positions with_edges(const EdgeTerms &terms, const shell::MembraneSolver<2> &solver,
-                                const EdgeTerms::Positions &positions)
+EdgeTerms::Positions with_edges(const EdgeTerms &terms, const CoarseSpace &space,
+                                const CoarseSolver &solver, const EdgeTerms::Positions &positions)
 {
-  const EdgeTerms::MacroLoads loads = terms.macro_loads(positions);
+  const EdgeTerms::MacroLoads loads = terms.macro_loads(space.on_grid(positions));
+  const EdgeTerms::Positions slip   = space.at_nodes(loads.slip),
+                             forces = space.loads_of_nodes(loads.forces);
   if (terms.law == Law::linear)
   {
-    const meshes::Points &rest = terms.grid.mesh.vertices;
-    return positions + (solver.solve_linear(rest + loads.slip, loads.forces) - rest);
+    const meshes::Points &rest = space.nodes.mesh.vertices;
+    return positions + (solver.solve_linear(rest + slip, forces) - rest);
   }
-  return solver.solve_equilibrium(positions + loads.slip, {}, loads.forces).positions;
+  return solver.solve_equilibrium(positions + slip, forces).positions;
+}
+
+bool has_meaning(const Method &method, const Load &load)
+{
+  return !load.is_periodic() || !(method.has_edge_terms() || method.has_six_nodes());
 }
 
 bool has_meaning(const Method &method, const Law law, const Load &load)
 {
-  return method.has_meaning(law) && (method.name != "edges" || !load.is_periodic());
+  return method.has_meaning(law) && has_meaning(method, load);
 }
 
 EdgedSheet::EdgedSheet(const CellWithEdges &cell, const meshes::Sheet &sheet, const Load &load,
-                       const int quads_per_cell)
+                       const Method &method, const int quads_per_cell)
     : cell(cell)
     , sheet(sheet)
     , load(load)
-    , coarse{meshes::coarse_sheet(sheet.origin, sheet.lattice.vectors / quads_per_cell,
-                                  quads_per_cell * sheet.n1, quads_per_cell * sheet.n2),
-             quads_per_cell * sheet.n1, quads_per_cell * sheet.n2}
+    , method(method)
+    , space(sheet, method.coarse(Law::linear).element, quads_per_cell)
 {
+  if (load.is_periodic())
+    return;
   std::vector<int> held;
-  for (int v = 0; v < coarse.mesh.n_vertices(); ++v)
-    if (!load.is_periodic() && load.holds(sheet.fraction(coarse.mesh.vertices.row(v))))
+  for (int v = 0; v < space.nodes.mesh.n_vertices(); ++v)
+    if (load.holds(sheet.fraction(space.nodes.mesh.vertices.row(v))))
       held.push_back(v);
-  if (!load.is_periodic())
-    solver = std::make_unique<shell::MembraneSolver<2>>(
-      coarse.mesh, std::vector<Eigen::Matrix3d>{cell.cell.stiffness}, held);
+  solvers[""] = space.solver(cell.cell.stiffness, held);
+  if (method.is_of_second_order())
+    for (const auto &[law, second] : cell.cell.second_order)
+      solvers[law] = space.solver(cell.cell.stiffness, held, {second.energy});
 }
 
 UpsampledSheet EdgedSheet::upsample(const Law law,
                                     const EdgeTerms::Positions &coarse_positions) const
 {
-  const EdgeTerms terms(cell, sheet, load, coarse, law);
-  localization::UpsamplerOptions options = options_of(law);
-  options.anchor                         = localization::Anchor::mean;
+  const EdgeTerms terms(cell, sheet, load, space.grid, law);
+  const localization::UpsamplerOptions options = method.options(law);
+  const auto found = solvers.find(method.is_of_second_order(law) ? name_of(law) : "");
+  if (found == solvers.end())
+    throw meshes::BadInput("method " + method.name +
+                           ": the cell has no cubic energy under the law " + name_of(law));
+  const auto moved_grid = [&]()
+  { return space.on_grid(with_edges(terms, space, *found->second, coarse_positions)); };
   UpsampledSheet result;
-  const EdgeTerms::Positions moved = with_edges(terms, *solver, coarse_positions);
+  const EdgeTerms::Positions moved = moved_grid();
   localization::Upsampler<2, double>::Fine in_double;
-  localization::Upsampler<2, double>(cell.cell, coarse.mesh, sheet, options)
+  localization::Upsampler<2, double>(cell.cell, space.grid.mesh, sheet, options)
     .upsample(moved, in_double);
   result.positions = in_double;
   terms.add_modes(moved, result.positions);
 
-  const localization::Upsampler<2, float> in_float(cell.cell, coarse.mesh, sheet, options);
+  const localization::Upsampler<2, float> in_float(cell.cell, space.grid.mesh, sheet, options);
   localization::Upsampler<2, float>::Fine fine;
   meshes::Points near_edges = meshes::Points::Zero(sheet.mesh.n_vertices(), 2);
   const auto run            = [&]()
   {
-    const EdgeTerms::Positions again = with_edges(terms, *solver, coarse_positions);
+    const EdgeTerms::Positions again = moved_grid();
     in_float.upsample(again, fine);
     terms.add_modes(again, near_edges);
   };
@@ -289,7 +303,8 @@ std::string EdgedSheet::sentence() const
             (meshes::is_far_side(side) ? ", far end (" : ", near end (") +
             std::to_string(cell.edges.sides[static_cast<std::size_t>(side)].n_cells) + " cells)";
   }
-  return "method edges: all edges of the sheet are lattice lines and have their terms; clamped, "
+  return "method " + method.name +
+         ": all edges of the sheet are lattice lines and have their terms; clamped, "
          "with slip and modes: " +
          clamped + "; free, with tension and modes: " + free;
 }

@@ -8,7 +8,7 @@
 #include "meshes/plain/cell_edges.h"
 #include "meshes/plain/homogenized_cell.h"
 #include "meshes/plain/sheet.h"
-#include "shell/solver/equilibrium.h"
+#include "verification/method/coarse_space.h"
 #include "verification/method/lightweight_cloth.h"
 #include "verification/reference/laws.h"
 #include "verification/reference/loads.h"
@@ -16,19 +16,13 @@
 #include <Eigen/Core>
 
 #include <array>
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
 
 namespace homespun::verification
 {
-/// A mesh of meshes::coarse_sheet() that covers a sheet.
-struct CoarseGrid
-{
-  meshes::TriangleMesh mesh;
-  int n1, n2; ///< quads along either side of the sheet
-};
-
 /// A homogenized cell and what it does at edges.
 struct CellWithEdges
 {
@@ -92,28 +86,32 @@ private:
 
 /// Coarse positions with the terms of edges: u0 + u1. In linear theory one more substitution with
 /// the factored stiffness; under other laws the equilibrium under the same forces, from u0.
-/// @param solver of the same coarse mesh and the same held vertices
-/// @param positions in equilibrium without the terms (n,2) [m]
+/// @param terms on the grid of the space
+/// @param solver of the nodes of the space, the held ones on clamped edges
+/// @param positions of the nodes in equilibrium without the terms (n,2) [m]
 /// @throws NotConverged
-EdgeTerms::Positions with_edges(const EdgeTerms &terms, const shell::MembraneSolver<2> &solver,
-                                const EdgeTerms::Positions &positions);
+EdgeTerms::Positions with_edges(const EdgeTerms &terms, const CoarseSpace &space,
+                                const CoarseSolver &solver, const EdgeTerms::Positions &positions);
 
-/// Whether a method of this name has a meaning under a load: an infinite cloth has no edges.
+/// Whether a method of this name has a meaning under a load: an infinite cloth has no edges,
+/// and the motion of its coarse cloth is given.
+bool has_meaning(const Method &method, const Load &load);
 bool has_meaning(const Method &method, Law law, const Load &load);
 
-/// The method `edges` on a sheet: chi with mean zero, the terms of edges in coarse and in fine
-/// positions. It keeps a factored stiffness of its own.
+/// The methods `edges` and `full` on a sheet: chi with mean zero, the terms of edges in coarse and
+/// in fine positions. It keeps a factored stiffness of its own.
 class EdgedSheet
 {
 public:
   /// @throws BadInput as EdgeTerms
+  /// @param method of edges, with what else it asks for
   /// @param quads_per_cell of the coarse mesh, along either side: 1 is the sheet's own lattice
   EdgedSheet(const CellWithEdges &cell, const meshes::Sheet &sheet, const Load &load,
-             int quads_per_cell = 1);
+             const Method &method = Method("edges"), int quads_per_cell = 1);
 
-  /// @param coarse_positions in equilibrium without the terms (n,2) [m]
+  /// @param coarse_positions of the nodes in equilibrium without the terms (n,2) [m]
   /// @return seconds with those of the terms
-  /// @throws NotConverged
+  /// @throws NotConverged; BadInput where the cell has no cubic energy under the law
   UpsampledSheet upsample(Law law, const EdgeTerms::Positions &coarse_positions) const;
 
   /// Which of the four edges have which terms.
@@ -123,7 +121,9 @@ private:
   const CellWithEdges cell;
   const meshes::Sheet &sheet;
   const Load load;
-  const CoarseGrid coarse;
-  std::unique_ptr<shell::MembraneSolver<2>> solver;
+  const Method method;
+  const CoarseSpace space;
+  /// By the law of a cubic energy; without one under no name.
+  std::map<std::string, std::unique_ptr<CoarseSolver>> solvers;
 };
 } // namespace homespun::verification

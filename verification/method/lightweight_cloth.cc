@@ -4,29 +4,66 @@
 #include "meshes/plain/errors.h"
 #include "verification/reference/free_sides.h"
 
+#include <algorithm>
+#include <array>
+
 namespace homespun::verification
 {
 using localization::UpsamplerOptions;
 
+namespace
+{
+struct KnownMethod
+{
+  const char *name;
+  CoarseChoice coarse;
+  bool has_edges;
+};
+
+constexpr auto quadratic = CoarseEnergy::quadratic, cubic = CoarseEnergy::cubic;
+constexpr auto three = CoarseElement::three_nodes, six = CoarseElement::six_nodes;
+
+constexpr std::array<KnownMethod, 9> known_methods = {
+  {{"affine", {quadratic, three}, false},
+   {"localized", {quadratic, three}, false},
+   {"quadratic", {cubic, three}, false},
+   {"edges", {quadratic, three}, true},
+   {"p2", {quadratic, six}, false},
+   {"full", {cubic, six}, true},
+   {"localized-affine-lift", {quadratic, three}, false},
+   {"localized-mean-anchor", {quadratic, three}, false},
+   {"localized-piecewise", {quadratic, three}, false}}};
+
+const KnownMethod &known(const std::string &name)
+{
+  const auto found = std::find_if(known_methods.begin(), known_methods.end(),
+                                  [&](const KnownMethod &each) { return name == each.name; });
+  if (found != known_methods.end())
+    return *found;
+  std::string expected;
+  for (const std::string &each : Method::names())
+    expected += (expected.empty() ? "" : each == Method::names().back() ? " or " : ", ") + each;
+  throw meshes::BadInput("unknown method `" + name + "`; expected " + expected);
+}
+} // namespace
+
 const std::vector<std::string> &Method::names()
 {
-  static const std::vector<std::string> all = {"affine",
-                                               "localized",
-                                               "quadratic",
-                                               "edges",
-                                               "localized-affine-lift",
-                                               "localized-mean-anchor",
-                                               "localized-piecewise"};
+  static const std::vector<std::string> all = []()
+  {
+    std::vector<std::string> names;
+    for (const KnownMethod &each : known_methods)
+      names.emplace_back(each.name);
+    return names;
+  }();
   return all;
 }
 
 Method::Method(const std::string &name)
     : name(name)
+    , of_coarse(known(name).coarse)
+    , has_edges(known(name).has_edges)
 {
-  if (std::find(names().begin(), names().end(), name) == names().end())
-    throw meshes::BadInput("unknown method `" + name +
-                           "`; expected affine, localized, quadratic, edges, "
-                           "localized-affine-lift, localized-mean-anchor or localized-piecewise");
 }
 
 UpsamplerOptions Method::options(const Law law) const
@@ -40,25 +77,45 @@ UpsamplerOptions Method::options(const Law law) const
   }
   else if (name == "localized-affine-lift")
     options.lift = localization::Lift::affine;
-  if (is_of_second_order() && has_meaning(law))
+  if (is_of_second_order(law))
     options.second_order = name_of(law);
-  if (name == "localized-mean-anchor" || name == "edges")
+  if (name == "localized-mean-anchor" || has_edge_terms())
     options.anchor = localization::Anchor::mean;
   if (name == "localized-piecewise")
     options.blend = localization::Blend::piecewise;
   return options;
 }
 
+bool Method::is_of_second_order(const Law law) const
+{
+  return is_of_second_order() && (law == Law::biot || law == Law::green);
+}
+
+CoarseChoice Method::coarse(const Law law) const
+{
+  return {is_of_second_order(law) ? CoarseEnergy::cubic : CoarseEnergy::quadratic,
+          of_coarse.element};
+}
+
 bool Method::has_meaning(const Law law) const
 {
   if (is_of_second_order())
-    return law == Law::biot || law == Law::green;
+    return is_of_second_order(law) || (name == "full" && law == Law::linear);
   return law != Law::linear || name != "localized-affine-lift";
 }
 
-bool Method::is_of_second_order() const
+Method Method::without_edge_terms() const
 {
-  return name == "quadratic";
+  Method less    = *this;
+  less.has_edges = false;
+  return less;
+}
+
+Method Method::without_six_nodes() const
+{
+  Method less            = *this;
+  less.of_coarse.element = CoarseElement::three_nodes;
+  return less;
 }
 
 namespace
@@ -99,11 +156,12 @@ Load LightweightCloth::with_own_sides(const Load &load, const Eigen::Matrix3d &s
 }
 
 LightweightCloth::LightweightCloth(const meshes::HomogenizedCell &cell, const meshes::Sheet &sheet,
-                                   const Load &load, const CoarseEnergy energy)
+                                   const Load &load, const CoarseChoice choice)
     : coarse(meshes::coarse_sheet(sheet.origin, sheet.lattice.vectors, sheet.n1, sheet.n2))
     , cell(cell)
     , sheet(sheet)
-    , energy(energy)
+    , choice(choice)
+    , space(sheet, choice.element)
     , own_sides(std::make_shared<Sides>())
     , load(with_own_sides(load, cell.stiffness, own_sides))
     , membrane(shell::membrane(coarse, {cell.stiffness}))
@@ -119,19 +177,18 @@ void LightweightCloth::make_solver(const std::vector<meshes::CubicForm> &cubic)
   for (int v = 0; v < coarse.n_vertices(); ++v)
     if (load.holds(sheet.fraction(coarse.vertices.row(v))))
       held.push_back(v);
-  solver = std::make_unique<shell::MembraneSolver<2>>(
-    coarse, std::vector<Eigen::Matrix3d>{cell.stiffness}, held, cubic);
+  solver = space.solver(cell.stiffness, held, cubic);
 }
 
 /// Each law has its own cubic energy, in the same strain.
 void LightweightCloth::take_cubic(const Law law)
 {
-  if (energy == CoarseEnergy::quadratic || law == law_of_cubic)
+  if (choice.energy == CoarseEnergy::quadratic || law == law_of_cubic)
     return;
   const auto found = cell.second_order.find(name_of(law));
   if (found == cell.second_order.end())
     throw meshes::BadInput("cell: has no cubic energy under the law `" + name_of(law) +
-                           "`, which the method `quadratic` asks for: make its cell.h5 again with "
+                           "`, which methods of second order ask for: make its cell.h5 again with "
                            "`homespun homogenize`, or leave the method out");
   const std::vector<meshes::CubicForm> cubic = {found->second.energy};
   membrane.cubic.clear();
@@ -165,10 +222,13 @@ void LightweightCloth::put_held(const shell::Positions<2> &prescribed,
 
 LoadForces LightweightCloth::forces_at(const Law law, const shell::Positions<2> &positions) const
 {
-  return load_forces(load, sheet, coarse.vertices,
-                     law == Law::linear
-                       ? shell::linear_membrane_gradient(membrane, positions - coarse.vertices)
-                       : shell::membrane_gradient<2>(membrane, positions).gradient);
+  const shell::Positions<2> displacement = positions - coarse.vertices;
+  const shell::Positions<2> forces =
+    law == Law::linear ? solver ? solver->linear_gradient(displacement)
+                                : shell::linear_membrane_gradient(membrane, displacement)
+    : solver ? solver->gradient(positions)
+                       : shell::membrane_gradient<2>(membrane, positions).gradient;
+  return load_forces(load, sheet, coarse.vertices, forces);
 }
 
 shell::Positions<2> LightweightCloth::near(const CoarseStep &step, const Law law,
@@ -228,16 +288,17 @@ UpsampledSheet LightweightCloth::upsample(const Method &method, const Law law,
                                           const shell::Positions<2> &coarse_positions) const
 {
   const UpsamplerOptions options = method.options(law);
+  const auto on_grid             = [&]() { return space.on_grid(coarse_positions); };
   UpsampledSheet result;
   localization::Upsampler<2, double>::Fine in_double;
-  localization::Upsampler<2, double>(cell, coarse, sheet, options)
-    .upsample(coarse_positions, in_double);
+  localization::Upsampler<2, double>(cell, space.grid.mesh, sheet, options)
+    .upsample(on_grid(), in_double);
   result.positions = in_double;
 
-  const localization::Upsampler<2, float> in_float(cell, coarse, sheet, options);
+  const localization::Upsampler<2, float> in_float(cell, space.grid.mesh, sheet, options);
   localization::Upsampler<2, float>::Fine fine;
-  in_float.upsample(coarse_positions, fine); // memory and caches, as in every frame but the first
-  result.seconds = median_seconds([&]() { in_float.upsample(coarse_positions, fine); });
+  in_float.upsample(on_grid(), fine); // memory and caches, as in every frame but the first
+  result.seconds = median_seconds([&]() { in_float.upsample(on_grid(), fine); });
   return result;
 }
 } // namespace homespun::verification

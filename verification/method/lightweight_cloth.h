@@ -8,6 +8,7 @@
 #include "meshes/plain/homogenized_cell.h"
 #include "meshes/plain/sheet.h"
 #include "shell/solver/equilibrium.h"
+#include "verification/method/coarse_space.h"
 #include "verification/record/timing.h"
 #include "verification/reference/laws.h"
 #include "verification/reference/load_forces.h"
@@ -15,16 +16,38 @@
 
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace homespun::verification
 {
+/// The energy of the coarse cloth.
+enum class CoarseEnergy
+{
+  quadratic, ///< ½ e.C^H.e
+  cubic      ///< and the cell's cubic energy under the law (HomogenizedCell::second_order), guarded
+};
+
+/// What a coarse cloth is made of.
+struct CoarseChoice
+{
+  CoarseEnergy energy   = CoarseEnergy::quadratic;
+  CoarseElement element = CoarseElement::three_nodes;
+
+  bool operator<(const CoarseChoice &other) const
+  {
+    return std::pair(energy, element) < std::pair(other.energy, other.element);
+  }
+};
+
 /// A way to the fine positions, by its name:
 /// - affine: the coarse motion interpolated, no microscopic displacement; the baseline
 /// - localized: anchored chi, blended strain, rotation lift
 /// - quadratic: the same at second order in strain, against the laws that have one: the coarse
 ///   cloth with the cell's cubic energy, chi with its quadratic modes
 /// - edges: as edge_terms.h says
+/// - p2: localized, from a coarse cloth of six-node triangles with the same vertices
+/// - full: p2, quadratic and edges in one
 /// - localized-affine-lift, localized-mean-anchor, localized-piecewise: one choice turned each
 class Method
 {
@@ -41,10 +64,36 @@ public:
   /// meaning in linear theory.
   bool has_meaning(Law law) const;
 
-  /// Whether the coarse cloth has a cubic energy.
-  bool is_of_second_order() const;
+  /// Whether the coarse cloth has a cubic energy, against a law that has one.
+  bool is_of_second_order() const
+  {
+    return of_coarse.energy == CoarseEnergy::cubic;
+  }
+  bool is_of_second_order(Law law) const;
 
-  const std::string name;
+  /// Whether edges of a sheet have their terms (edge_terms.h).
+  bool has_edge_terms() const
+  {
+    return has_edges;
+  }
+
+  /// The coarse cloth against a law.
+  CoarseChoice coarse(Law law) const;
+
+  bool has_six_nodes() const
+  {
+    return of_coarse.element == CoarseElement::six_nodes;
+  }
+
+  /// What is left of the method where there are no terms of edges, or no six-node triangles.
+  Method without_edge_terms() const;
+  Method without_six_nodes() const;
+
+  std::string name;
+
+private:
+  CoarseChoice of_coarse;
+  bool has_edges;
 };
 
 /// The coarse cloth at one strain.
@@ -63,19 +112,13 @@ struct UpsampledSheet
   double seconds = 0.;      ///< median of five runs in float, one thread
 };
 
-/// The energy of the coarse cloth.
-enum class CoarseEnergy
-{
-  quadratic, ///< ½ e.C^H.e
-  cubic      ///< and the cell's cubic energy under the law (HomogenizedCell::second_order), guarded
-};
-
-/// The lightweight cloth of a sheet: two coarse triangles per cell.
+/// The lightweight cloth of a sheet: two coarse triangles per cell, or two of six nodes per four.
 class LightweightCloth
 {
 public:
+  /// @throws BadInput as CoarseSpace
   LightweightCloth(const meshes::HomogenizedCell &cell, const meshes::Sheet &sheet,
-                   const Load &load, CoarseEnergy energy = CoarseEnergy::quadratic);
+                   const Load &load, CoarseChoice choice = {});
 
   /// The coarse equilibrium; of periodic loads the affine motion itself. Under the law `linear` the
   /// small-strain form, else the corotational energy. Later strains start from earlier ones.
@@ -87,13 +130,14 @@ public:
   /// @throws NotConverged
   shell::Positions<2> near(const CoarseStep &step, Law law, double strain) const;
 
+  /// @param method whose coarse cloth this is
   UpsampledSheet upsample(const Method &method, Law law,
                           const shell::Positions<2> &coarse_positions) const;
 
   /// The law of the coarse cloth against a reference: corotational, but beside linear theory.
   static Law own_law(Law law);
 
-  const meshes::TriangleMesh coarse;
+  const meshes::TriangleMesh coarse; ///< its vertices are those of the positions
 
 private:
   /// What the strains of free sides come from.
@@ -112,11 +156,12 @@ private:
 
   const meshes::HomogenizedCell &cell;
   const meshes::Sheet &sheet;
-  const CoarseEnergy energy;
+  const CoarseChoice choice;
+  const CoarseSpace space;
   const std::shared_ptr<Sides> own_sides; ///< of the motion that is asked for, for free sides
   const Load load;
-  shell::Membrane membrane; ///< for the forces, under periodic loads too
-  std::unique_ptr<shell::MembraneSolver<2>> solver;
+  shell::Membrane membrane;             ///< for the forces under periodic loads
+  std::unique_ptr<CoarseSolver> solver; ///< none under periodic loads
   Law law_of_cubic = Law::linear;
   shell::Positions<2> last_displacement;
   double last_strain = 0.;

@@ -27,20 +27,17 @@ void check_arguments(const DrapeOptions &study)
 {
   ArgumentFaults faults;
   faults.check_names("--variants", study.variants, membrane_model_of);
-  faults.check_names("--methods", study.methods,
-                     [](const std::string &name)
-                     {
-                       if (Method(name).is_of_second_order())
-                         throw meshes::BadInput(
-                           "the method `" + name +
-                           "` is one of sheets in their plane so far: expected affine, localized "
-                           "or a variant of it; `homespun strain` has it");
-                       if (name == "edges")
-                         throw meshes::BadInput(
-                           "method edges is one of sheets at rest, whose edges are held or free "
-                           "for good; expected affine or localized here; `homespun strain` has it");
-                       return Method(name);
-                     });
+  faults.check_names(
+    "--methods", study.methods,
+    [](const std::string &name)
+    {
+      if (const Method method(name);
+          method.is_of_second_order() || method.has_edge_terms() || method.has_six_nodes())
+        throw meshes::BadInput("the method `" + name +
+                               "` is one of sheets at rest in their plane so far: expected affine, "
+                               "localized or a variant of it; `homespun strain` has it");
+      return Method(name);
+    });
   faults.check_names("--references", study.references, {"shell", "biot", "green"});
   faults.check_names("--frames", study.frames, {"vtu", "ply", "obj"});
   if (study.variants.empty() || study.variants.front() != "corotational")

@@ -9,7 +9,7 @@
 #include "verification/reference/fine_reference.h"
 #include "verification/strain/strain_output.h"
 
-#include <memory>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -35,10 +35,11 @@ struct MethodOnSheet
   FluctuationMeasure fluctuation;
   std::vector<Eigen::Matrix3d> stiffness_of_phase; ///< of the resolved sheet [N/m]
   std::vector<std::string> phases = {};            ///< their names
-  /// With the cell's cubic energy; none where no method asks for it.
-  std::unique_ptr<LightweightCloth> second_order = nullptr;
-  /// Of the method `edges`; nothing where nobody asked for it or the cell has none, and then why.
-  std::unique_ptr<EdgedSheet> edged = nullptr;
-  std::string why_no_edges          = {};
+  /// Other coarse cloths that methods ask for.
+  std::map<CoarseChoice, LightweightCloth> others = {};
+  /// Of the methods with terms of edges, by name; without those that nobody asked for, and empty
+  /// where the cell has no terms of edges, and then why.
+  std::map<std::string, EdgedSheet> edged = {};
+  std::string why_no_edges                = {};
 };
 } // namespace homespun::verification

@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 namespace homespun::verification
 {
@@ -32,10 +33,16 @@ std::vector<homogenization::MembraneLaw> laws_of_second_order(const StrainStudyO
   return laws;
 }
 
+Method used_on(const Method &method, const meshes::Sheet &sheet)
+{
+  return CoarseSpace::fits(sheet, method.coarse(Law::linear).element) ? method
+                                                                      : method.without_six_nodes();
+}
+
 bool has_edges(const StrainStudyOptions &options)
 {
-  return std::find(options.methods.begin(), options.methods.end(), "edges") !=
-         options.methods.end();
+  return std::any_of(options.methods.begin(), options.methods.end(),
+                     [](const std::string &name) { return Method(name).has_edge_terms(); });
 }
 
 MethodOnSheet method_on_sheet(const StrainStudyOptions &options,
@@ -48,13 +55,18 @@ MethodOnSheet method_on_sheet(const StrainStudyOptions &options,
                           cell.stiffness_of_phase()};
   for (const homogenization::Phase &phase : cell.phases)
     method.phases.push_back(phase.name);
-  if (!laws_of_second_order(options).empty())
-    method.second_order =
-      std::make_unique<LightweightCloth>(homogenized, sheet, load, CoarseEnergy::cubic);
+  for (const std::string &name : options.methods)
+    if (has_meaning(Method(name), load))
+      for (const std::string &law : options.references)
+        if (const Method used = used_on(Method(name), sheet); used.has_meaning(law_of(law)))
+          if (const CoarseChoice choice = used.coarse(law_of(law)); CoarseChoice() < choice)
+            method.others.try_emplace(choice, homogenized, sheet, load, choice);
   method.why_no_edges = edges.why_not;
   if (edges.edges && !load.is_periodic())
-    method.edged =
-      std::make_unique<EdgedSheet>(CellWithEdges{homogenized, *edges.edges}, sheet, load);
+    for (const std::string &name : options.methods)
+      if (Method(name).has_edge_terms())
+        method.edged.try_emplace(name, CellWithEdges{homogenized, *edges.edges}, sheet, load,
+                                 used_on(Method(name), sheet));
   return method;
 }
 
@@ -115,6 +127,132 @@ void write_pictures(const StrainStudyOptions &options, const StrainLevel &level,
     write_sheet_vtu(folder + "sheet-" + level.load + "-" + short_text(level.strain) + ".vtu", sheet,
                     fields);
 }
+/// A method at a level.
+struct UpsampledMethod
+{
+  std::string name;
+  std::optional<UpsampledSheet> sheet; ///< nothing where its own coarse cloth has no equilibrium
+  double seconds_coarse = 0.;
+};
+
+/// The methods at one level; each coarse cloth is solved once.
+class MethodsAtLevel
+{
+public:
+  /// @throws NotConverged where the coarse cloth of `localized` finds no equilibrium
+  MethodsAtLevel(const StrainLevel &level, const meshes::Sheet &sheet, MethodOnSheet &method)
+      : coarse(method.cloth.solve(level.law, level.strain))
+      , level(level)
+      , sheet(sheet)
+      , method(method)
+  {
+  }
+
+  /// @throws NotConverged where the coarse cloth of this method finds no equilibrium, or positions
+  ///   are not finite
+  UpsampledMethod upsampled(const std::string &name)
+  {
+    const auto edged = method.edged.find(name);
+    const Method of  = used_on(Method(name), sheet);
+    // Where a cell has no terms of edges the method is the one without them.
+    const Method used      = edged == method.edged.end() ? of.without_edge_terms() : of;
+    const CoarseStep &step = step_of(used.coarse(level.law));
+    UpsampledMethod result = {
+      name,
+      edged == method.edged.end()
+        ? cloth_of(used.coarse(level.law)).upsample(used, level.law, step.positions)
+        : edged->second.upsample(level.law, step.positions),
+      step.seconds};
+    if (!result.sheet->positions.allFinite())
+      throw meshes::NotConverged(
+        level.cell + ", " + level.load + ", " + name + ": positions that are not finite", {});
+    return result;
+  }
+
+  /// The same, or a note that the method has no equilibrium here.
+  UpsampledMethod upsampled_or_noted(const std::string &name, StrainOutput &output)
+  {
+    try
+    {
+      return upsampled(name);
+    }
+    catch (const meshes::NotConverged &failure)
+    {
+      output.write_note(level, "method " + name +
+                                 ": its coarse cloth finds no equilibrium, and its error is not "
+                                 "known; " +
+                                 failure.what());
+      return {name, std::nullopt};
+    }
+  }
+
+  const CoarseStep coarse;
+
+private:
+  LightweightCloth &cloth_of(const CoarseChoice &choice)
+  {
+    const auto other = method.others.find(choice);
+    return other == method.others.end() ? method.cloth : other->second;
+  }
+
+  const CoarseStep &step_of(const CoarseChoice &choice)
+  {
+    if (method.others.count(choice) == 0)
+      return coarse;
+    auto step = steps.find(choice);
+    if (step == steps.end())
+      step = steps.emplace(choice, cloth_of(choice).solve(level.law, level.strain)).first;
+    return step->second;
+  }
+
+  const StrainLevel &level;
+  const meshes::Sheet &sheet;
+  MethodOnSheet &method;
+  std::map<CoarseChoice, CoarseStep> steps;
+};
+
+/// Which edges have terms, or why a method is another one here.
+void write_notes_of_methods(const StrainLevel &level, const std::vector<UpsampledMethod> &methods,
+                            const meshes::Sheet &sheet, const MethodOnSheet &method,
+                            StrainOutput &output)
+{
+  for (const UpsampledMethod &of : methods)
+  {
+    const Method named(of.name);
+    if (!CoarseSpace::fits(sheet, named.coarse(level.law).element))
+      output.write_note(level, "method " + of.name +
+                                 ": its triangles are two cells wide, and the sheet has an odd "
+                                 "number of cells along a side; its coarse cloth has triangles of "
+                                 "three nodes here");
+    if (!named.has_edge_terms())
+      continue;
+    const auto edged = method.edged.find(of.name);
+    output.write_note(level, edged != method.edged.end()
+                               ? edged->second.sentence()
+                               : "method " + of.name + ": without the terms of edges here; " +
+                                   method.why_no_edges);
+  }
+}
+
+void write_step(const StrainLevel &level, const ResolvedLevel &resolved, const CoarseStep &coarse,
+                const double seconds_upsample, const Fluctuation &fluctuation, StrainOutput &output)
+{
+  StepRow step;
+  step.seconds_coarse      = coarse.seconds;
+  step.seconds_upsample    = seconds_upsample;
+  step.seconds_fine        = resolved.fine.seconds;
+  step.coarse_iterations   = coarse.iterations;
+  step.fine_iterations     = resolved.fine.n_newton;
+  step.fine_dofs           = resolved.n_dofs;
+  step.ranks               = resolved.n_ranks;
+  step.fluctuation         = fluctuation.mean;
+  step.fluctuation_bar     = fluctuation.bar;
+  step.homogenized_law     = name_of(FluctuationMeasure::law_beside(level.law));
+  step.seconds_homogenized = fluctuation.seconds;
+  step.stability           = name_of(resolved.stability);
+  step.seconds_stability   = resolved.seconds_stability;
+  output.write_step(level, step);
+}
 } // namespace
 
 std::vector<std::string> notes_of(const ReferenceStep &fine, const Stability stability)
@@ -139,95 +277,63 @@ UpsampledLevel compare_methods(const StrainStudyOptions &options, const StrainLe
                                const ResolvedLevel &resolved, MethodOnSheet &method,
                                const Load &load, StrainOutput &output)
 {
-  const ReferenceStep &fine = resolved.fine;
-  LightweightCloth &cloth   = method.cloth;
+  const ReferenceStep &fine     = resolved.fine;
+  const LightweightCloth &cloth = method.cloth;
   write_ellipticity(level, resolved, method.stiffness_of_phase, method.phases, output);
-  const CoarseStep coarse = cloth.solve(level.law, level.strain);
+  MethodsAtLevel methods(level, resolved.sheet, method);
+  const CoarseStep &coarse = methods.coarse;
   write_coarse_ellipticity(level, method, coarse.positions, output);
-  const auto upsampled_with = [&](const std::string &name, const CoarseStep &step)
-  {
-    // Where a cell has no terms of edges the method is the one without them.
-    UpsampledSheet upsampled =
-      name == "edges" && method.edged
-        ? method.edged->upsample(level.law, step.positions)
-        : cloth.upsample(Method(name == "edges" ? "localized" : name), level.law, step.positions);
-    if (!upsampled.positions.allFinite())
-      throw meshes::NotConverged(
-        level.cell + ", " + level.load + ", " + name + ": positions that are not finite", {});
-    return upsampled;
-  };
   const auto distance_of = [&](const meshes::Points &positions)
   { return (positions - fine.positions).rowwise().norm(); };
-  const UpsampledSheet affine    = upsampled_with("affine", coarse),
-                       localized = upsampled_with("localized", coarse);
+  const UpsampledMethod affine    = methods.upsampled("affine"),
+                        localized = methods.upsampled("localized");
   StrainErrors errors;
   const Fluctuation fluctuation = fluctuation_of(level, fine.positions, method.fluctuation, output);
   errors.fluctuation            = fluctuation.mean;
   errors.side                   = std::sqrt(resolved.sheet.lattice.area());
   errors.reference_bar          = resolved.bar;
   errors.seconds_reference      = fine.seconds;
-  // All methods before the first row: a level has the errors of all, or is unreached.
-  std::vector<std::pair<std::string, UpsampledSheet>> missing;
-  CoarseStep second_order;
+  // All methods before the first row: a level has a row of each, or is unreached.
+  std::vector<UpsampledMethod> missing;
   for (const std::string &name : options.methods)
-    if (const Method its(name);
-        has_meaning(its, level.law, load) && !output.has_errors(level, name))
-    {
-      if (its.is_of_second_order())
-        second_order = method.second_order->solve(level.law, level.strain);
-      missing.emplace_back(
-        name, name == "affine" ? affine
-              : name == "localized"
-                ? localized
-                : upsampled_with(name, its.is_of_second_order() ? second_order : coarse));
-    }
-  if (level.strain == options.strains.front() && name_of(level.law) == options.references.front() &&
-      std::any_of(missing.begin(), missing.end(),
-                  [](const auto &each) { return each.first == "edges"; }))
-    output.write_note(level, method.edged ? method.edged->sentence()
-                                          : "method edges: its rows are those of localized; " +
-                                              method.why_no_edges);
+    if (has_meaning(Method(name), level.law, load) && !output.has_errors(level, name))
+      missing.push_back(name == "affine"      ? affine
+                        : name == "localized" ? localized
+                                              : methods.upsampled_or_noted(name, output));
+  if (level.strain == options.strains.front() && name_of(level.law) == options.references.front())
+    write_notes_of_methods(level, missing, resolved.sheet, method, output);
   if (!missing.empty())
     for (const ForceRow &row : force_rows(level, resolved, method, load, coarse))
       output.write_forces(row);
-  for (const auto &[name, upsampled] : missing)
+  const int n_coarse = cloth.coarse.n_triangles();
+  for (const UpsampledMethod &of : missing)
   {
-    errors.distance = distance_of(upsampled.positions);
-    errors.seconds  = upsampled.seconds +
-                     (Method(name).is_of_second_order() ? second_order.seconds : coarse.seconds);
+    if (!of.sheet)
+    {
+      output.write_without_errors(level, of.name, resolved.sheet, n_coarse);
+      continue;
+    }
+    errors.distance = distance_of(of.sheet->positions);
+    errors.seconds  = of.sheet->seconds + of.seconds_coarse;
     // The row comes last: where it is there, so is all that belongs to it.
-    if (name == "localized")
+    if (of.name == "localized")
     {
       if (has_pictures(options, load, level))
         write_pictures(options, level, resolved.sheet, cloth.coarse,
-                       {load.name, level.strain, name_of(level.law), name, fine.positions,
-                        upsampled.positions, affine.positions, coarse.positions});
-      StepRow step;
-      step.seconds_coarse      = coarse.seconds;
-      step.seconds_upsample    = upsampled.seconds;
-      step.seconds_fine        = fine.seconds;
-      step.coarse_iterations   = coarse.iterations;
-      step.fine_iterations     = fine.n_newton;
-      step.fine_dofs           = resolved.n_dofs;
-      step.ranks               = resolved.n_ranks;
-      step.fluctuation         = fluctuation.mean;
-      step.fluctuation_bar     = fluctuation.bar;
-      step.homogenized_law     = name_of(FluctuationMeasure::law_beside(level.law));
-      step.seconds_homogenized = fluctuation.seconds;
-      step.stability           = name_of(resolved.stability);
-      step.seconds_stability   = resolved.seconds_stability;
-      output.write_step(level, step);
+                       {load.name, level.strain, name_of(level.law), of.name, fine.positions,
+                        of.sheet->positions, affine.sheet->positions, coarse.positions});
+      write_step(level, resolved, coarse, of.sheet->seconds, fluctuation, output);
     }
-    output.write_errors(level, name, resolved.sheet, cloth.coarse.n_triangles(), errors);
+    output.write_errors(level, of.name, resolved.sheet, n_coarse, errors);
   }
   if (!load.is_periodic() && level.law == Law::biot && level.strain == compared_strain(options))
     if (const std::string note =
           note_of_anchor(errors_of_other_anchors(method.cell, cloth.coarse, resolved.sheet,
                                                  level.law, coarse.positions, fine.positions),
-                         distance_of(localized.positions).mean(),
-                         distance_of(affine.positions).mean(), resolved.bar.mean);
+                         distance_of(localized.sheet->positions).mean(),
+                         distance_of(affine.sheet->positions).mean(), resolved.bar.mean);
         !note.empty())
       output.write_note(level, note);
-  return {coarse.positions, localized.positions};
+  return {coarse.positions, localized.sheet->positions};
 }
 } // namespace homespun::verification

@@ -27,7 +27,11 @@ std::vector<homogenization::MembraneLaw> laws_of_second_order(const StrainStudyO
 /// The level nearest to 10 %: it is pictured, and its run times are measured.
 double pictured_strain(const StrainStudyOptions &options);
 
-/// Whether edges is among the methods.
+/// The method as it is used on a sheet: with triangles of three nodes where those of six nodes do
+/// not fill it.
+Method used_on(const Method &method, const meshes::Sheet &sheet);
+
+/// Whether a method with terms of edges is among the methods.
 bool has_edges(const StrainStudyOptions &options);
 
 /// Prepares the methods that are asked for on a sheet; `edges` where the cell has terms of edges

@@ -99,9 +99,15 @@ void StrainOutput::write_step(const StrainLevel &level, StepRow step)
 
 void StrainOutput::write_unreached(const StrainLevel &level, const meshes::Sheet &sheet)
 {
-  StrainRow row        = row_of(level, unreached);
+  write_without_errors(level, unreached, sheet, 2 * sheet.n1 * sheet.n2);
+}
+
+void StrainOutput::write_without_errors(const StrainLevel &level, const std::string &method,
+                                        const meshes::Sheet &sheet, const int n_coarse_triangles)
+{
+  StrainRow row        = row_of(level, method);
   row.cells            = sheet.n1;
-  row.coarse_triangles = 2 * sheet.n1 * sheet.n2;
+  row.coarse_triangles = n_coarse_triangles;
   row.fine_triangles   = sheet.mesh.n_triangles();
   strain.append(row);
 }

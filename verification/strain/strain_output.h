@@ -68,6 +68,10 @@ public:
     forces.append_if_missing(row);
   }
 
+  /// A level at which a method alone has no equilibrium: a row without errors.
+  void write_without_errors(const StrainLevel &level, const std::string &method,
+                            const meshes::Sheet &sheet, int n_coarse_triangles);
+
   /// A level without equilibrium.
   void write_unreached(const StrainLevel &level, const meshes::Sheet &sheet);
 

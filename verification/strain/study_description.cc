@@ -2,7 +2,7 @@
 #include "verification/strain/study_description.h"
 
 #include "verification/cell/study_inputs.h"
-#include "verification/method/lightweight_cloth.h"
+#include "verification/method/edge_terms.h"
 #include "verification/record/provenance.h"
 #include "verification/reference/laws.h"
 #include "verification/reference/loads.h"
@@ -53,8 +53,11 @@ nlohmann::ordered_json what_was_left_out(const StrainStudyOptions &options)
         left_out(method + " against the linear reference", Method(method).is_of_second_order()
                                                              ? "linear theory has no second order"
                                                              : "linear theory knows no lift");
-  if (has_periodic(options) && has(options.methods, "edges"))
-    left_out("edges under periodic loads", "an infinite cloth has no edges");
+  for (const std::string &method : options.methods)
+    if (has_periodic(options) && !has_meaning(Method(method), Load("periodic-11")))
+      left_out(method + " under periodic loads", Method(method).has_edge_terms()
+                                                   ? "an infinite cloth has no edges"
+                                                   : "the motion of the coarse cloth is given");
   for (const std::string &load : Load::names())
     if (!has(options.loads, load.c_str()))
       left_out("load " + load, "--loads does not name it");

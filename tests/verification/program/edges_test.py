@@ -61,7 +61,7 @@ class Edges(InFolder):
         result = run("drape", CELLS.parent / "scenes" / "pull.prm", "--methods", "edges",
                      "--output", self.folder / "out")
         self.assertEqual(result.returncode, 2)
-        self.assertIn("method edges is one of sheets at rest", result.stderr)
+        self.assertIn("the method `edges` is one of sheets at rest", result.stderr)
 
 
 if __name__ == "__main__":

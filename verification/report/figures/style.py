@@ -26,12 +26,13 @@ METHOD_COLOURS = {
     "affine": VERMILLION,
     "localized": BLUE,
     "quadratic": SKY,
-    "edges": BLACK,
+    "edges": "#7F7F7F",
+    "full": BLACK,
     "localized-affine-lift": GREEN,
     "localized-mean-anchor": ORANGE,
     "localized-piecewise": PURPLE,
 }
-SPARE_COLOURS = ("#7F7F7F", YELLOW)
+SPARE_COLOURS = ("#BBBBBB", YELLOW)
 
 # Line style and marker of each reference law.
 REFERENCE_STYLES = {"linear": (":", "s"), "biot": ("-", "o"), "green": ("--", "^"), "yarn": ("-.", "v")}

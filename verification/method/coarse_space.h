@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: MIT
+// The functions in which the coarse cloth of a sheet moves: linear on the two triangles of each
+// cell, or quadratic on triangles two cells wide, whose six nodes are the same vertices. What
+// up-sampling reads of either is a grid of three-node triangles: the cloth's own, or, of quadratic
+// functions, one half as wide, on which they are evaluated.
+#pragma once
+
+#include "meshes/plain/cubic_form.h"
+#include "meshes/plain/sheet.h"
+#include "shell/solver/equilibrium.h"
+
+#include <Eigen/SparseCore>
+
+#include <memory>
+#include <vector>
+
+namespace homespun::verification
+{
+enum class CoarseElement
+{
+  three_nodes, ///< linear, P1
+  six_nodes    ///< quadratic, P2
+};
+
+/// A mesh of meshes::coarse_sheet() that covers a sheet.
+struct CoarseGrid
+{
+  meshes::TriangleMesh mesh;
+  int n1, n2; ///< quads along either side of the sheet
+};
+
+/// Equilibria of a coarse cloth in its plane, whatever its element; equilibrium.h says what each
+/// takes, returns and throws.
+class CoarseSolver
+{
+public:
+  using Positions = shell::Positions<2>;
+
+  virtual ~CoarseSolver() = default;
+
+  virtual Positions solve_linear(const Positions &prescribed,
+                                 const Positions &loads = {}) const                  = 0;
+  virtual shell::Equilibrium<2> solve_equilibrium(const Positions &start,
+                                                  const Positions &loads = {}) const = 0;
+
+  /// Forces on the nodes that hold them where they are (n,2) [N].
+  virtual Positions linear_gradient(const Positions &displacement) const = 0;
+  virtual Positions gradient(const Positions &positions) const           = 0;
+};
+
+class CoarseSpace
+{
+public:
+  using Positions = shell::Positions<2>;
+
+  /// @param quads_per_cell of three-node triangles, along either side: 1 is the sheet's own lattice
+  /// @throws BadInput where six-node triangles are asked for and the sheet has an odd number of
+  ///   cells along a side
+  CoarseSpace(const meshes::Sheet &sheet, CoarseElement element, int quads_per_cell = 1);
+
+  /// Whether six-node triangles fill a sheet.
+  static bool fits(const meshes::Sheet &sheet, CoarseElement element);
+
+  /// Positions, or displacements, of the grid's vertices from those of the nodes.
+  Positions on_grid(const Positions &of_nodes) const;
+
+  /// The values of the grid's vertices that are nodes.
+  Positions at_nodes(const Positions &of_grid) const;
+
+  /// The loads on the nodes that do the work of loads on the grid's vertices [N].
+  Positions loads_of_nodes(const Positions &of_grid) const;
+
+  /// @param held nodes whose positions are prescribed
+  /// @param cubic energy beside the stiffness: none, or one
+  std::unique_ptr<CoarseSolver> solver(const Eigen::Matrix3d &stiffness,
+                                       const std::vector<int> &held,
+                                       const std::vector<meshes::CubicForm> &cubic = {}) const;
+
+  const CoarseElement element;
+  const CoarseGrid nodes; ///< as vertices
+  const CoarseGrid grid;  ///< which up-sampling reads
+
+private:
+  Eigen::SparseMatrix<double, Eigen::RowMajor> from_nodes; ///< empty where the grid is the nodes'
+};
+} // namespace homespun::verification
