@@ -16,19 +16,20 @@ namespace
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
 
 /// Marks the held vertices, and makes sure that every other one hangs on one of them.
-std::vector<bool> marked(const meshes::TriangleMesh &mesh, const std::vector<int> &held_vertices)
+std::vector<bool> marked(const Membrane &membrane, const std::vector<int> &held_vertices)
 {
+  const auto n_vertices  = static_cast<int>(membrane.vertices.rows());
+  const auto n_triangles = static_cast<int>(membrane.triangles.rows());
   if (held_vertices.empty())
     throw meshes::BadInput(
       "held vertices: none is given; expected at least one, else the cloth can move away without "
       "any force");
-  std::vector<bool> is_held(static_cast<std::size_t>(mesh.n_vertices()), false);
+  std::vector<bool> is_held(static_cast<std::size_t>(n_vertices), false);
   for (const int v : held_vertices)
   {
-    if (v < 0 || v >= mesh.n_vertices())
+    if (v < 0 || v >= n_vertices)
       throw meshes::BadInput("held vertex " + std::to_string(v) +
-                             ": does not exist; expected 0 ... " +
-                             std::to_string(mesh.n_vertices() - 1));
+                             ": does not exist; expected 0 ... " + std::to_string(n_vertices - 1));
     is_held[static_cast<std::size_t>(v)] = true;
   }
   std::vector<int> part(is_held.size());
@@ -40,20 +41,27 @@ std::vector<bool> marked(const meshes::TriangleMesh &mesh, const std::vector<int
         part[static_cast<std::size_t>(part[static_cast<std::size_t>(v)])];
     return v;
   };
-  for (int t = 0; t < mesh.n_triangles(); ++t)
+  for (int t = 0; t < n_triangles; ++t)
     for (int k = 0; k < 2; ++k)
-      part[static_cast<std::size_t>(root(mesh.triangles(t, k)))] = root(mesh.triangles(t, k + 1));
+      part[static_cast<std::size_t>(root(membrane.triangles(t, k)))] =
+        root(membrane.triangles(t, k + 1));
   std::vector<bool> has_held(is_held.size(), false);
-  for (int v = 0; v < mesh.n_vertices(); ++v)
+  for (int v = 0; v < n_vertices; ++v)
     if (is_held[static_cast<std::size_t>(v)])
       has_held[static_cast<std::size_t>(root(v))] = true;
-  for (int v = 0; v < mesh.n_vertices(); ++v)
+  for (int v = 0; v < n_vertices; ++v)
     if (!has_held[static_cast<std::size_t>(root(v))])
       throw meshes::BadInput(
         "vertex " + std::to_string(v) +
         ": no triangles connect it to a held vertex; hold a vertex of its part, "
         "or remove the part");
   return is_held;
+}
+
+Membrane with_cubic(Membrane membrane, const std::vector<meshes::CubicForm> &cubic)
+{
+  add_cubic_energy(membrane, cubic);
+  return membrane;
 }
 
 /// The forces at the free vertices: their norm, and the norm at which they count as zero.
@@ -123,11 +131,16 @@ MembraneSolver<dim>::MembraneSolver(const meshes::TriangleMesh &rest,
                                     std::vector<Eigen::Matrix3d> stiffness_of_phase,
                                     const std::vector<int> &held_vertices,
                                     const std::vector<meshes::CubicForm> &cubic)
-    : membrane(shell::membrane(rest, stiffness_of_phase))
-    , is_held(marked(rest, held_vertices))
+    : MembraneSolver(with_cubic(shell::membrane(rest, stiffness_of_phase), cubic), held_vertices)
+{
+}
+
+template <int dim>
+MembraneSolver<dim>::MembraneSolver(Membrane of_sheet, const std::vector<int> &held_vertices)
+    : membrane(std::move(of_sheet))
+    , is_held(marked(membrane, held_vertices))
     , matrix(membrane.triangles, is_held)
 {
-  add_cubic_energy(membrane, cubic);
 }
 
 template <int dim>
@@ -262,6 +275,7 @@ template class MembraneSolver<2>;
 template MembraneSolver<3>::MembraneSolver(const meshes::TriangleMesh &,
                                            std::vector<Eigen::Matrix3d>, const std::vector<int> &,
                                            const std::vector<meshes::CubicForm> &);
+template MembraneSolver<3>::MembraneSolver(Membrane, const std::vector<int> &);
 template const Membrane &MembraneSolver<3>::rest_membrane() const;
 template bool MembraneSolver<3>::factorize_at(const Positions<3> &) const;
 template Equilibrium<3> MembraneSolver<3>::solve_equilibrium(const Positions<3> &,
