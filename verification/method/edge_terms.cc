@@ -232,6 +232,20 @@ bool has_meaning(const Method &method, const Law law, const Load &load)
   return method.has_meaning(law) && (method.name != "edges" || !load.is_periodic());
 }
 
+namespace
+{
+/// The vertices of a coarse mesh that a load holds; none of an infinite cloth.
+std::vector<int> held_by(const Load &load, const meshes::Sheet &sheet,
+                         const meshes::TriangleMesh &mesh)
+{
+  std::vector<int> held;
+  for (int v = 0; v < mesh.n_vertices(); ++v)
+    if (!load.is_periodic() && load.holds(sheet.fraction(mesh.vertices.row(v))))
+      held.push_back(v);
+  return held;
+}
+} // namespace
+
 EdgedSheet::EdgedSheet(const CellWithEdges &cell, const meshes::Sheet &sheet, const Load &load,
                        const int quads_per_cell)
     : cell(cell)
@@ -240,14 +254,9 @@ EdgedSheet::EdgedSheet(const CellWithEdges &cell, const meshes::Sheet &sheet, co
     , coarse{meshes::coarse_sheet(sheet.origin, sheet.lattice.vectors / quads_per_cell,
                                   quads_per_cell * sheet.n1, quads_per_cell * sheet.n2),
              quads_per_cell * sheet.n1, quads_per_cell * sheet.n2}
+    , solvers(shell::membrane(coarse.mesh, {cell.cell.stiffness}),
+              held_by(load, sheet, coarse.mesh))
 {
-  std::vector<int> held;
-  for (int v = 0; v < coarse.mesh.n_vertices(); ++v)
-    if (!load.is_periodic() && load.holds(sheet.fraction(coarse.mesh.vertices.row(v))))
-      held.push_back(v);
-  if (!load.is_periodic())
-    solver = std::make_unique<shell::MembraneSolver<2>>(
-      coarse.mesh, std::vector<Eigen::Matrix3d>{cell.cell.stiffness}, held);
 }
 
 UpsampledSheet EdgedSheet::upsample(const Law law,
@@ -257,7 +266,7 @@ UpsampledSheet EdgedSheet::upsample(const Law law,
   localization::UpsamplerOptions options = options_of(law);
   options.anchor                         = localization::Anchor::mean;
   UpsampledSheet result;
-  const EdgeTerms::Positions moved = with_edges(terms, *solver, coarse_positions);
+  const EdgeTerms::Positions moved = with_edges(terms, solvers.solver(law), coarse_positions);
   localization::Upsampler<2, double>::Fine in_double;
   localization::Upsampler<2, double>(cell.cell, coarse.mesh, sheet, options)
     .upsample(moved, in_double);
@@ -269,7 +278,7 @@ UpsampledSheet EdgedSheet::upsample(const Law law,
   meshes::Points near_edges = meshes::Points::Zero(sheet.mesh.n_vertices(), 2);
   const auto run            = [&]()
   {
-    const EdgeTerms::Positions again = with_edges(terms, *solver, coarse_positions);
+    const EdgeTerms::Positions again = with_edges(terms, solvers.solver(law), coarse_positions);
     in_float.upsample(again, fine);
     terms.add_modes(again, near_edges);
   };

@@ -8,8 +8,8 @@
 #include "meshes/plain/cell_edges.h"
 #include "meshes/plain/homogenized_cell.h"
 #include "meshes/plain/sheet.h"
-#include "shell/solver/equilibrium.h"
 #include "verification/method/lightweight_cloth.h"
+#include "verification/method/sheet_solvers.h"
 #include "verification/reference/laws.h"
 #include "verification/reference/loads.h"
 
@@ -124,6 +124,6 @@ private:
   const meshes::Sheet &sheet;
   const Load load;
   const CoarseGrid coarse;
-  std::unique_ptr<shell::MembraneSolver<2>> solver;
+  const SheetSolvers solvers;
 };
 } // namespace homespun::verification

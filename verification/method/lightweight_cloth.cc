@@ -76,11 +76,6 @@ Response response_with(const shell::GuardedCubic &cubic, const Eigen::Matrix3d &
 }
 } // namespace
 
-Law LightweightCloth::own_law(const Law law)
-{
-  return law == Law::linear ? Law::linear : Law::biot;
-}
-
 /// A load with free sides, whose strains are those of the coarse cloth's own energy.
 Load LightweightCloth::with_own_sides(const Load &load, const Eigen::Matrix3d &stiffness,
                                       const std::shared_ptr<Sides> &sides)
@@ -106,21 +101,20 @@ LightweightCloth::LightweightCloth(const meshes::HomogenizedCell &cell, const me
     , energy(energy)
     , own_sides(std::make_shared<Sides>())
     , load(with_own_sides(load, cell.stiffness, own_sides))
-    , membrane(shell::membrane(coarse, {cell.stiffness}))
+    , solvers(made_solvers({}))
 {
-  make_solver({});
 }
 
-void LightweightCloth::make_solver(const std::vector<meshes::CubicForm> &cubic)
+std::unique_ptr<SheetSolvers>
+LightweightCloth::made_solvers(const std::vector<meshes::CubicForm> &cubic) const
 {
-  if (load.is_periodic())
-    return;
   std::vector<int> held;
   for (int v = 0; v < coarse.n_vertices(); ++v)
-    if (load.holds(sheet.fraction(coarse.vertices.row(v))))
+    if (!load.is_periodic() && load.holds(sheet.fraction(coarse.vertices.row(v))))
       held.push_back(v);
-  solver = std::make_unique<shell::MembraneSolver<2>>(
-    coarse, std::vector<Eigen::Matrix3d>{cell.stiffness}, held, cubic);
+  shell::Membrane membrane = shell::membrane(coarse, {cell.stiffness});
+  shell::add_cubic_energy(membrane, cubic);
+  return std::make_unique<SheetSolvers>(std::move(membrane), std::move(held));
 }
 
 /// Each law has its own cubic energy, in the same strain.
@@ -134,11 +128,9 @@ void LightweightCloth::take_cubic(const Law law)
                            "`, which the method `quadratic` asks for: make its cell.h5 again with "
                            "`homespun homogenize`, or leave the method out");
   const std::vector<meshes::CubicForm> cubic = {found->second.energy};
-  membrane.cubic.clear();
-  shell::add_cubic_energy(membrane, cubic);
   own_sides->cubic = std::make_unique<shell::GuardedCubic>(cubic.front(), cell.stiffness);
-  make_solver(cubic);
-  law_of_cubic = law;
+  solvers          = made_solvers(cubic);
+  law_of_cubic     = law;
 }
 
 /// The affine motion that agrees with what is prescribed.
@@ -165,6 +157,7 @@ void LightweightCloth::put_held(const shell::Positions<2> &prescribed,
 
 LoadForces LightweightCloth::forces_at(const Law law, const shell::Positions<2> &positions) const
 {
+  const shell::Membrane &membrane = solvers->membrane(law);
   return load_forces(load, sheet, coarse.vertices,
                      law == Law::linear
                        ? shell::linear_membrane_gradient(membrane, positions - coarse.vertices)
@@ -174,21 +167,22 @@ LoadForces LightweightCloth::forces_at(const Law law, const shell::Positions<2> 
 shell::Positions<2> LightweightCloth::near(const CoarseStep &step, const Law law,
                                            const double strain) const
 {
-  own_sides->law            = own_law(law);
+  own_sides->law            = homogenized_law(law, cell.stiffness);
   shell::Positions<2> moved = prescribed(strain);
   if (load.is_periodic())
     return moved;
   shell::Positions<2> start = step.positions;
   put_held(moved, start);
-  return law == Law::linear ? solver->solve_linear(start)
-                            : solver->solve_equilibrium(start).positions;
+  const shell::MembraneSolver<2> &solver = solvers->solver(law);
+  return law == Law::linear ? solver.solve_linear(start)
+                            : solver.solve_equilibrium(start).positions;
 }
 
 CoarseStep LightweightCloth::solve(const Law law, const double strain)
 {
   CoarseStep step;
   take_cubic(law);
-  own_sides->law = own_law(law);
+  own_sides->law = homogenized_law(law, cell.stiffness);
   step.positions = prescribed(strain);
   if (load.is_periodic())
   {
@@ -202,17 +196,18 @@ CoarseStep LightweightCloth::solve(const Law law, const double strain)
     start = coarse.vertices + strain / last_strain * last_displacement;
     put_held(step.positions, start);
   }
-  step.seconds = median_seconds(
+  const shell::MembraneSolver<2> &solver = solvers->solver(law);
+  step.seconds                           = median_seconds(
     [&]()
     {
       if (law == Law::linear)
       {
-        step.positions  = solver->solve_linear(start);
+        step.positions  = solver.solve_linear(start);
         step.iterations = 1;
       }
       else
       {
-        const shell::Equilibrium<2> equilibrium = solver->solve_equilibrium(start);
+        const shell::Equilibrium<2> equilibrium = solver.solve_equilibrium(start);
         step.positions                          = equilibrium.positions;
         step.iterations                         = equilibrium.iterations;
       }

@@ -7,7 +7,7 @@
 #include "localization/upsampler.h"
 #include "meshes/plain/homogenized_cell.h"
 #include "meshes/plain/sheet.h"
-#include "shell/solver/equilibrium.h"
+#include "verification/method/sheet_solvers.h"
 #include "verification/record/timing.h"
 #include "verification/reference/laws.h"
 #include "verification/reference/load_forces.h"
@@ -66,7 +66,7 @@ struct UpsampledSheet
 /// The energy of the coarse cloth.
 enum class CoarseEnergy
 {
-  quadratic, ///< ½ e.C^H.e
+  quadratic, ///< ½ e.C^H.e, e as the law has it
   cubic      ///< and the cell's cubic energy under the law (HomogenizedCell::second_order), guarded
 };
 
@@ -78,7 +78,8 @@ public:
                    const Load &load, CoarseEnergy energy = CoarseEnergy::quadratic);
 
   /// The coarse equilibrium; of periodic loads the affine motion itself. Under the law `linear` the
-  /// small-strain form, else the corotational energy. Later strains start from earlier ones.
+  /// small-strain form, under `yarn` that of C^H's own yarns, else the corotational energy. Later
+  /// strains start from earlier ones.
   /// @throws NotConverged; BadInput where a cubic energy is asked for and the cell has none under
   ///   the law
   CoarseStep solve(Law law, double strain);
@@ -89,9 +90,6 @@ public:
 
   UpsampledSheet upsample(const Method &method, Law law,
                           const shell::Positions<2> &coarse_positions) const;
-
-  /// The law of the coarse cloth against a reference: corotational, but beside linear theory.
-  static Law own_law(Law law);
 
   const meshes::TriangleMesh coarse;
 
@@ -104,7 +102,7 @@ private:
   };
   static Load with_own_sides(const Load &load, const Eigen::Matrix3d &stiffness,
                              const std::shared_ptr<Sides> &sides);
-  void make_solver(const std::vector<meshes::CubicForm> &cubic);
+  std::unique_ptr<SheetSolvers> made_solvers(const std::vector<meshes::CubicForm> &cubic) const;
   void take_cubic(Law law);
   shell::Positions<2> prescribed(double strain) const;
   void put_held(const shell::Positions<2> &prescribed, shell::Positions<2> &positions) const;
@@ -115,8 +113,7 @@ private:
   const CoarseEnergy energy;
   const std::shared_ptr<Sides> own_sides; ///< of the motion that is asked for, for free sides
   const Load load;
-  shell::Membrane membrane; ///< for the forces, under periodic loads too
-  std::unique_ptr<shell::MembraneSolver<2>> solver;
+  std::unique_ptr<SheetSolvers> solvers; ///< their membranes for the forces, of any load
   Law law_of_cubic = Law::linear;
   shell::Positions<2> last_displacement;
   double last_strain = 0.;

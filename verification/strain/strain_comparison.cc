@@ -7,6 +7,7 @@
 #include "verification/strain/force_rows.h"
 #include "verification/strain/level_ellipticity.h"
 #include "verification/strain/sheet_fields.h"
+#include "verification/strain/yarn_cells.h"
 
 #include <algorithm>
 #include <cmath>
@@ -91,6 +92,21 @@ Fluctuation fluctuation_of(const StrainLevel &level, const meshes::Points &refer
     const double unknown = std::numeric_limits<double>::quiet_NaN();
     return {unknown, unknown, unknown};
   }
+}
+
+/// What is said once: the terms of edges of a load, the coarse cloth's yarns.
+void write_first_notes(const StrainStudyOptions &options, const StrainLevel &level,
+                       const std::vector<std::pair<std::string, UpsampledSheet>> &missing,
+                       const MethodOnSheet &method, StrainOutput &output)
+{
+  if (name_of(level.law) == options.references.front() &&
+      std::any_of(missing.begin(), missing.end(),
+                  [](const auto &each) { return each.first == "edges"; }))
+    output.write_note(level, method.edged ? method.edged->sentence()
+                                          : "method edges: its rows are those of localized; " +
+                                              method.why_no_edges);
+  if (level.law == Law::yarn && level.load == options.loads.front())
+    output.write_note(level, note_on_coarse_yarns(method.cell.stiffness));
 }
 
 /// Pictures are of sheets, against biot if it is there.
@@ -181,12 +197,8 @@ UpsampledLevel compare_methods(const StrainStudyOptions &options, const StrainLe
                 ? localized
                 : upsampled_with(name, its.is_of_second_order() ? second_order : coarse));
     }
-  if (level.strain == options.strains.front() && name_of(level.law) == options.references.front() &&
-      std::any_of(missing.begin(), missing.end(),
-                  [](const auto &each) { return each.first == "edges"; }))
-    output.write_note(level, method.edged ? method.edged->sentence()
-                                          : "method edges: its rows are those of localized; " +
-                                              method.why_no_edges);
+  if (!missing.empty() && level.strain == options.strains.front())
+    write_first_notes(options, level, missing, method, output);
   if (!missing.empty())
     for (const ForceRow &row : force_rows(level, resolved, method, load, coarse))
       output.write_forces(row);
@@ -212,7 +224,7 @@ UpsampledLevel compare_methods(const StrainStudyOptions &options, const StrainLe
       step.ranks               = resolved.n_ranks;
       step.fluctuation         = fluctuation.mean;
       step.fluctuation_bar     = fluctuation.bar;
-      step.homogenized_law     = name_of(FluctuationMeasure::law_beside(level.law));
+      step.homogenized_law     = name_of(homogenized_law(level.law, method.cell.stiffness));
       step.seconds_homogenized = fluctuation.seconds;
       step.stability           = name_of(resolved.stability);
       step.seconds_stability   = resolved.seconds_stability;
