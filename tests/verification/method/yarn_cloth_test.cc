@@ -56,7 +56,7 @@ TEST(exact_yarn_cloth, of_one_phase_it_is_the_reference_itself)
   {
     const homogenization::UnitCell cell  = one_yarn(degrees);
     const meshes::HomogenizedCell as_one = homogenized(cell);
-    for (const char *name : {"strip-1", "strip-2", "uniaxial-1", "uniaxial-2"})
+    for (const char *name : {"strip-1", "strip-2", "shear-frame", "uniaxial-1", "uniaxial-2"})
     {
       const Load load(name);
       const int n               = load.is_periodic() ? 1 : 4;
