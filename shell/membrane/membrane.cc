@@ -2,9 +2,11 @@
 #include "shell/membrane/membrane.h"
 
 #include "meshes/plain/errors.h"
+#include "shell/membrane/yarn_energy.h"
 
 #include <Eigen/Cholesky>
 
+#include <algorithm>
 #include <limits>
 #include <sstream>
 
@@ -63,6 +65,25 @@ const MembraneStiffness &stiffness_of(const Membrane &membrane, const int t)
   return membrane.stiffness[phase_of(membrane, t)];
 }
 
+/// The axes of a triangle under the law of yarns, null where it is corotational.
+const meshes::YarnAxes *yarns_of(const Membrane &membrane, const int t)
+{
+  if (membrane.yarns.empty() || !membrane.yarns[phase_of(membrane, t)].are_there)
+    return nullptr;
+  return &membrane.yarns[phase_of(membrane, t)];
+}
+
+/// The energy of a triangle but for its cubic part.
+template <int dim>
+double energy_of(const Membrane &membrane, const int t,
+                 const Eigen::Matrix<double, 3, dim> &corners)
+{
+  const RestTriangle &rest = membrane.rest[static_cast<std::size_t>(t)];
+  if (const meshes::YarnAxes *const yarns = yarns_of(membrane, t))
+    return rest.area * yarn_energy_density<dim>(deformation_gradient<dim>(rest, corners), *yarns);
+  return triangle_energy<dim>(rest, corners, stiffness_of(membrane, t).D);
+}
+
 /// The forces of the whole energy of a triangle, cubic part included.
 template <int dim>
 Eigen::Matrix<double, 3, dim> forces_of(const Membrane &membrane, const int t,
@@ -70,6 +91,8 @@ Eigen::Matrix<double, 3, dim> forces_of(const Membrane &membrane, const int t,
 {
   const RestTriangle &rest = membrane.rest[static_cast<std::size_t>(t)];
   const Eigen::Matrix3d &D = stiffness_of(membrane, t).D;
+  if (const meshes::YarnAxes *const yarns = yarns_of(membrane, t))
+    return yarn_triangle_gradient<dim>(rest, corners, *yarns);
   if (membrane.cubic.empty())
     return triangle_gradient<dim>(rest, corners, D);
   const DeformationGradient<dim> F = deformation_gradient<dim>(rest, corners);
@@ -160,6 +183,19 @@ void add_cubic_energy(Membrane &membrane, const std::vector<meshes::CubicForm> &
   }
 }
 
+void take_yarn_law(Membrane &membrane)
+{
+  if (!membrane.cubic.empty())
+    throw meshes::BadInput("law yarn: the membrane has a cubic energy, which is one of the "
+                           "corotational law; expected none");
+  std::vector<meshes::YarnAxes> yarns;
+  for (const MembraneStiffness &stiffness : membrane.stiffness)
+    yarns.push_back(meshes::yarn_axes(stiffness.D));
+  if (std::any_of(yarns.begin(), yarns.end(),
+                  [](const meshes::YarnAxes &each) { return each.are_there; }))
+    membrane.yarns = std::move(yarns);
+}
+
 template <int dim>
 double membrane_energy(const Membrane &membrane, const Positions<dim> &positions)
 {
@@ -173,9 +209,7 @@ double membrane_energy(const Membrane &membrane, const Positions<dim> &positions
                       deformation_gradient<dim>(rest, corners_of<dim>(membrane, positions, t))));
     }
   for (int t = 0; t < static_cast<int>(membrane.triangles.rows()); ++t)
-    energy +=
-      triangle_energy<dim>(membrane.rest[static_cast<std::size_t>(t)],
-                           corners_of<dim>(membrane, positions, t), stiffness_of(membrane, t).D);
+    energy += energy_of<dim>(membrane, t, corners_of<dim>(membrane, positions, t));
   return energy;
 }
 
@@ -236,6 +270,8 @@ Eigen::Matrix<double, 3 * dim, 3 * dim> membrane_hessian(const Membrane &membran
 {
   const RestTriangle &rest = membrane.rest[static_cast<std::size_t>(t)];
   const auto corners       = corners_of<dim>(membrane, positions, t);
+  if (const meshes::YarnAxes *const yarns = yarns_of(membrane, t))
+    return yarn_triangle_hessian<dim>(rest, corners, *yarns, kind);
   if (membrane.cubic.empty())
     return triangle_hessian<dim>(rest, corners, stiffness_of(membrane, t), kind);
   const TangentLaw law = tangent_law(

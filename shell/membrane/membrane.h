@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: MIT
-// The membrane term of a cloth: the corotational energy of corotational_energy.h summed over a
-// triangle mesh with a stiffness per phase. Value, gradient and Hessian take the same arguments and
-// keep no state, so that a solver adds further terms beside it or leaves this one out.
+// The membrane term of a cloth: the corotational energy of corotational_energy.h, or that of
+// yarn_energy.h, summed over a triangle mesh with a stiffness per phase. Value, gradient and
+// Hessian take the same arguments and keep no state, so that a solver adds further terms beside it
+// or leaves this one out.
 #pragma once
 
 #include "meshes/cloth/cloth_mesh.h"
 #include "meshes/plain/triangle_mesh.h"
+#include "meshes/plain/yarn_axes.h"
 #include "shell/algebra/free_vertex_matrix.h"
 #include "shell/membrane/corotational_energy.h"
 #include "shell/membrane/guarded_cubic.h"
@@ -29,6 +31,7 @@ struct Membrane
   std::vector<int> phase;                   ///< (m) index into stiffness
   std::vector<MembraneStiffness> stiffness; ///< Voigt 11, 22, 12, engineering shear [N/m]
   std::vector<GuardedCubic> cubic;          ///< one per phase; empty: the energy is quadratic
+  std::vector<meshes::YarnAxes> yarns;      ///< one per phase; empty: all are corotational
 };
 
 /// Prepares the rest state of a membrane, mesh.material being the phase of each triangle.
@@ -47,6 +50,11 @@ Membrane membrane(const meshes::ClothMesh &cloth, const std::vector<Eigen::Matri
 /// @param energies W3, one per phase [N/m]; none: the membrane is left as it is
 /// @throws BadInput where their number is wrong, or one is not finite
 void add_cubic_energy(Membrane &membrane, const std::vector<meshes::CubicForm> &energies);
+
+/// Gives the phases whose stiffness has axes the law of yarns (yarn_energy.h). One that is alike in
+/// all directions stays corotational; where every phase is so, nothing changes.
+/// @throws BadInput where the membrane has a cubic energy, which is one of the corotational law
+void take_yarn_law(Membrane &membrane);
 
 /// Total energy, sum of area times W [J].
 /// @param positions (n,dim) [m]

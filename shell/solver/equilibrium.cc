@@ -292,6 +292,7 @@ template Equilibrium<2> MembraneSolver<2, SixNodeMembrane>::solve_equilibrium(
 template MembraneSolver<3>::MembraneSolver(const meshes::TriangleMesh &,
                                            std::vector<Eigen::Matrix3d>, const std::vector<int> &,
                                            const std::vector<meshes::CubicForm> &);
+template MembraneSolver<3>::MembraneSolver(Membrane, const std::vector<int> &);
 template const Membrane &MembraneSolver<3>::rest_membrane() const;
 template bool MembraneSolver<3>::factorize_at(const Positions<3> &) const;
 template Equilibrium<3> MembraneSolver<3>::solve_equilibrium(const Positions<3> &,

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Static equilibrium of the coarse cloth under prescribed positions and loads: grad W = f at every
 // vertex that is not held, with the energy of corotational_energy.h (and guarded_cubic.h where that
-// is asked for), and its small-strain linear form.
+// is asked for) or yarn_energy.h, and its small-strain linear form.
 #pragma once
 
 #include "meshes/plain/triangle_mesh.h"
@@ -55,7 +55,8 @@ public:
                  const std::vector<int> &held_vertices,
                  const std::vector<meshes::CubicForm> &cubic = {});
 
-  /// The same of a sheet that is ready.
+  /// The same of a sheet that is ready, whatever its law.
+  /// @param membrane of a flat sheet: its vertices are there
   MembraneSolver(Sheet membrane, const std::vector<int> &held_vertices);
 
   /// Small-strain equilibrium, K u = f at the free vertices with K the Hessian at rest; factored on

@@ -198,7 +198,7 @@ Points LoadBudget::nonlinearity(const Law law, const shell::Positions<2> &u,
   const NonlinearCell cell(cells.given, cells.stiffness_of_phase, law);
   const NonlinearLocalization at_finite_strain(cell, cells.given, resolved.strains(law, u));
   budget.misfit_of_localization         = at_finite_strain.misfit();
-  const shell::Positions<2> u_nonlinear = resolved.solve(at_finite_strain, u);
+  const shell::Positions<2> u_nonlinear = resolved.solve(law, at_finite_strain, u);
   return with_exact - localized(resolved.at_fine_vertices(law, u_nonlinear), cells.given, sheet,
                                 &at_finite_strain);
 }

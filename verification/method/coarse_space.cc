@@ -21,33 +21,30 @@ class SolverOf : public CoarseSolver
 {
 public:
   SolverOf(Sheet sheet, const std::vector<int> &held)
-      : solver(std::move(sheet), held)
+      : solvers(std::move(sheet), held)
   {
   }
 
   Positions solve_linear(const Positions &prescribed, const Positions &loads) const override
   {
-    return solver.solve_linear(prescribed, loads);
+    return solvers.solver(Law::linear).solve_linear(prescribed, loads);
   }
 
-  shell::Equilibrium<2> solve_equilibrium(const Positions &start,
+  shell::Equilibrium<2> solve_equilibrium(const Law law, const Positions &start,
                                           const Positions &loads) const override
   {
-    return solver.solve_equilibrium(start, {}, loads);
+    return solvers.solver(law).solve_equilibrium(start, {}, loads);
   }
 
-  Positions linear_gradient(const Positions &displacement) const override
+  Positions gradient(const Law law, const Positions &positions) const override
   {
-    return shell::linear_membrane_gradient(solver.rest_membrane(), displacement);
-  }
-
-  Positions gradient(const Positions &positions) const override
-  {
-    return shell::membrane_gradient<2>(solver.rest_membrane(), positions).gradient;
+    const Sheet &sheet = solvers.membrane(law);
+    return law == Law::linear ? shell::linear_membrane_gradient(sheet, positions - sheet.vertices)
+                              : shell::membrane_gradient<2>(sheet, positions).gradient;
   }
 
 private:
-  const shell::MembraneSolver<2, Sheet> solver;
+  const SheetSolvers<Sheet> solvers;
 };
 
 /// The quadratic functions at the vertices of a grid half as wide as the nodes.

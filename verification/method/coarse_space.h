@@ -7,7 +7,7 @@
 
 #include "meshes/plain/cubic_form.h"
 #include "meshes/plain/sheet.h"
-#include "shell/solver/equilibrium.h"
+#include "verification/method/sheet_solvers.h"
 
 #include <Eigen/SparseCore>
 
@@ -29,8 +29,8 @@ struct CoarseGrid
   int n1, n2; ///< quads along either side of the sheet
 };
 
-/// Equilibria of a coarse cloth in its plane, whatever its element; equilibrium.h says what each
-/// takes, returns and throws.
+/// Equilibria of a coarse cloth in its plane under the homogenized law of a reference
+/// (sheet_solvers.h), whatever its element; equilibrium.h says what each takes, returns and throws.
 class CoarseSolver
 {
 public:
@@ -38,14 +38,14 @@ public:
 
   virtual ~CoarseSolver() = default;
 
+  /// Where nodes are held.
   virtual Positions solve_linear(const Positions &prescribed,
                                  const Positions &loads = {}) const                  = 0;
-  virtual shell::Equilibrium<2> solve_equilibrium(const Positions &start,
+  virtual shell::Equilibrium<2> solve_equilibrium(Law of_reference, const Positions &start,
                                                   const Positions &loads = {}) const = 0;
 
-  /// Forces on the nodes that hold them where they are (n,2) [N].
-  virtual Positions linear_gradient(const Positions &displacement) const = 0;
-  virtual Positions gradient(const Positions &positions) const           = 0;
+  /// Forces that hold the nodes where they are (n,2) [N]; under `linear` of small strains.
+  virtual Positions gradient(Law of_reference, const Positions &positions) const = 0;
 };
 
 class CoarseSpace
@@ -70,7 +70,8 @@ public:
   /// The loads on the nodes that do the work of loads on the grid's vertices [N].
   Positions loads_of_nodes(const Positions &of_grid) const;
 
-  /// @param held nodes whose positions are prescribed
+  /// @param held nodes whose positions are prescribed; none where all are, and there are no
+  ///   equilibria to find
   /// @param cubic energy beside the stiffness: none, or one
   std::unique_ptr<CoarseSolver> solver(const Eigen::Matrix3d &stiffness,
                                        const std::vector<int> &held,

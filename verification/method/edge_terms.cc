@@ -226,7 +226,7 @@ EdgeTerms::Positions with_edges(const EdgeTerms &terms, const CoarseSpace &space
     const meshes::Points &rest = space.nodes.mesh.vertices;
     return positions + (solver.solve_linear(rest + slip, forces) - rest);
   }
-  return solver.solve_equilibrium(positions + slip, forces).positions;
+  return solver.solve_equilibrium(terms.law, positions + slip, forces).positions;
 }
 
 bool has_meaning(const Method &method, const Load &load)
@@ -239,6 +239,20 @@ bool has_meaning(const Method &method, const Law law, const Load &load)
   return method.has_meaning(law) && has_meaning(method, load);
 }
 
+namespace
+{
+/// The vertices of a coarse mesh that a load holds; none of an infinite cloth.
+std::vector<int> held_by(const Load &load, const meshes::Sheet &sheet,
+                         const meshes::TriangleMesh &mesh)
+{
+  std::vector<int> held;
+  for (int v = 0; v < mesh.n_vertices(); ++v)
+    if (!load.is_periodic() && load.holds(sheet.fraction(mesh.vertices.row(v))))
+      held.push_back(v);
+  return held;
+}
+} // namespace
+
 EdgedSheet::EdgedSheet(const CellWithEdges &cell, const meshes::Sheet &sheet, const Load &load,
                        const Method &method, const int quads_per_cell)
     : cell(cell)
@@ -247,13 +261,8 @@ EdgedSheet::EdgedSheet(const CellWithEdges &cell, const meshes::Sheet &sheet, co
     , method(method)
     , space(sheet, method.coarse(Law::linear).element, quads_per_cell)
 {
-  if (load.is_periodic())
-    return;
-  std::vector<int> held;
-  for (int v = 0; v < space.nodes.mesh.n_vertices(); ++v)
-    if (load.holds(sheet.fraction(space.nodes.mesh.vertices.row(v))))
-      held.push_back(v);
-  solvers[""] = space.solver(cell.cell.stiffness, held);
+  const std::vector<int> held = held_by(load, sheet, space.nodes.mesh);
+  solvers[""]                 = space.solver(cell.cell.stiffness, held);
   if (method.is_of_second_order())
     for (const auto &[law, second] : cell.cell.second_order)
       solvers[law] = space.solver(cell.cell.stiffness, held, {second.energy});

@@ -29,11 +29,6 @@ FluctuationMeasure::FluctuationMeasure(const Eigen::Matrix3d &stiffness, const m
 {
 }
 
-Law FluctuationMeasure::law_beside(const Law law)
-{
-  return law == Law::linear ? Law::linear : Law::biot;
-}
-
 double FluctuationMeasure::distance(Sheet &of, const Law law, const double strain,
                                     const meshes::Points &reference) const
 {
@@ -63,7 +58,7 @@ double FluctuationMeasure::distance_of_pulled(const Law law, const double strain
 Fluctuation FluctuationMeasure::at(const Law law, const double strain,
                                    const meshes::Points &reference)
 {
-  const Law beside = law_beside(law);
+  const Law beside = homogenized_law(law, stiffness);
   if (beside != last_law)
     fine.strain = half_as_fine.strain = 0.; // levels of another law are no start
   last_law         = beside;

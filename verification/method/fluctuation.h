@@ -21,9 +21,7 @@ struct Fluctuation
 ///
 /// The homogenized sheet has the stiffness C^H in every triangle, the same edges held, and quads a
 /// quarter of a cell wide, so that its own discretization counts little; how much, `bar` says. Its
-/// law is `linear` for the reference of that law and `biot` for all others: those approach each
-/// other as strain squared, and C^H has no other. In an infinite cloth it is the affine motion,
-/// exactly.
+/// law is homogenized_law(). In an infinite cloth it is the affine motion, exactly.
 class FluctuationMeasure
 {
 public:
@@ -36,9 +34,6 @@ public:
   /// @param reference (n,2) positions of the resolved sheet [m]
   /// @throws NotConverged where the homogenized sheet finds no equilibrium
   Fluctuation at(Law law, double strain, const meshes::Points &reference);
-
-  /// The law of the homogenized sheet.
-  static Law law_beside(Law law);
 
 private:
   struct Sheet

@@ -69,9 +69,7 @@ HomogenizedSheet::HomogenizedSheet(const Eigen::Matrix3d &stiffness, const meshe
   for (int v = 0; v < mesh.n_vertices(); ++v)
     if (!load.is_periodic() && load.holds(sheet.fraction(mesh.vertices.row(v))))
       held.push_back(v);
-  if (!load.is_periodic())
-    solver = std::make_unique<shell::MembraneSolver<2>>(
-      mesh, std::vector<Eigen::Matrix3d>{stiffness}, held);
+  solvers = std::make_unique<SheetSolvers<>>(shell::membrane(mesh, {stiffness}), held);
 
   for (int v = 0; v < sheet.mesh.n_vertices(); ++v)
   {
@@ -114,23 +112,24 @@ shell::Positions<2> HomogenizedSheet::solve(const Law law, const shell::Position
                                             int *const iterations) const
 {
   if (iterations != nullptr)
-    *iterations = solver && law == Law::linear ? 1 : 0;
-  if (!solver)
+    *iterations = solvers->exist() && law == Law::linear ? 1 : 0;
+  if (!solvers->exist())
     return start;
+  const shell::MembraneSolver<2> &solver = solvers->solver(law);
   if (law == Law::linear)
-    return solver->solve_linear(start);
-  const shell::Equilibrium<2> equilibrium = solver->solve_equilibrium(start, options);
+    return solver.solve_linear(start);
+  const shell::Equilibrium<2> equilibrium = solver.solve_equilibrium(start, options);
   if (iterations != nullptr)
     *iterations = equilibrium.iterations;
   return equilibrium.positions;
 }
 
-shell::Positions<2> HomogenizedSheet::solve(const NonlinearLocalization &excess,
+shell::Positions<2> HomogenizedSheet::solve(const Law law, const NonlinearLocalization &excess,
                                             const shell::Positions<2> &start) const
 {
-  if (!solver)
+  if (!solvers->exist())
     return start;
-  const shell::Membrane &membrane = solver->rest_membrane();
+  const shell::Membrane &membrane = solvers->membrane(law);
   std::vector<bool> is_held(static_cast<std::size_t>(mesh.n_vertices()), false);
   for (const int v : held)
     is_held[static_cast<std::size_t>(v)] = true;

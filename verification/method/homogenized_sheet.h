@@ -8,7 +8,7 @@
 #include "localization/options.h"
 #include "meshes/plain/homogenized_cell.h"
 #include "meshes/plain/sheet.h"
-#include "shell/solver/equilibrium.h"
+#include "verification/method/sheet_solvers.h"
 #include "verification/periodic_cell/nonlinear_cell.h"
 #include "verification/reference/laws.h"
 #include "verification/reference/loads.h"
@@ -44,7 +44,7 @@ public:
   /// Positions whose held rows are the prescribed ones.
   shell::Positions<2> with_held(shell::Positions<2> positions, double strain) const;
 
-  /// Equilibrium under a law: small strain, or the corotational energy from `start`.
+  /// Equilibrium under the homogenized law of a reference: small strain, or from `start`.
   /// @param start (n,2) [m]; its held rows are the prescribed ones
   /// @param iterations receives the Newton steps, if not null
   /// @throws NotConverged
@@ -53,10 +53,11 @@ public:
                             int *iterations                          = nullptr) const;
 
   /// Equilibrium with the stress C e + S'(e), S' the excess over the linear theory: Newton's method
-  /// with the Hessian of the corotational energy at `start`, which converges linearly since S' is
-  /// small.
+  /// with the Hessian of the homogenized law at `start`, which converges linearly since that is
+  /// near.
+  /// @param law of the reference
   /// @throws NotConverged
-  shell::Positions<2> solve(const NonlinearLocalization &excess,
+  shell::Positions<2> solve(Law law, const NonlinearLocalization &excess,
                             const shell::Positions<2> &start) const;
 
   /// Strain of every triangle, (m,3).
@@ -89,8 +90,8 @@ private:
   const Load load;
   const int n1, n2;
   std::vector<int> held;
-  std::unique_ptr<shell::MembraneSolver<2>> solver; ///< none of periodic loads
-  std::vector<int> triangle;                        ///< that holds a fine vertex
-  std::vector<Eigen::Vector3d> weights;             ///< of its corners
+  std::unique_ptr<SheetSolvers<>> solvers; ///< they do not exist under periodic loads
+  std::vector<int> triangle;               ///< that holds a fine vertex
+  std::vector<Eigen::Vector3d> weights;    ///< of its corners
 };
 } // namespace homespun::verification

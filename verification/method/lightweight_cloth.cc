@@ -133,11 +133,6 @@ Response response_with(const shell::GuardedCubic &cubic, const Eigen::Matrix3d &
 }
 } // namespace
 
-Law LightweightCloth::own_law(const Law law)
-{
-  return law == Law::linear ? Law::linear : Law::biot;
-}
-
 /// A load with free sides, whose strains are those of the coarse cloth's own energy.
 Load LightweightCloth::with_own_sides(const Load &load, const Eigen::Matrix3d &stiffness,
                                       const std::shared_ptr<Sides> &sides)
@@ -164,20 +159,18 @@ LightweightCloth::LightweightCloth(const meshes::HomogenizedCell &cell, const me
     , space(sheet, choice.element)
     , own_sides(std::make_shared<Sides>())
     , load(with_own_sides(load, cell.stiffness, own_sides))
-    , membrane(shell::membrane(coarse, {cell.stiffness}))
+    , solver(made_solver({}))
 {
-  make_solver({});
 }
 
-void LightweightCloth::make_solver(const std::vector<meshes::CubicForm> &cubic)
+std::unique_ptr<CoarseSolver>
+LightweightCloth::made_solver(const std::vector<meshes::CubicForm> &cubic) const
 {
-  if (load.is_periodic())
-    return;
   std::vector<int> held;
   for (int v = 0; v < coarse.n_vertices(); ++v)
-    if (load.holds(sheet.fraction(coarse.vertices.row(v))))
+    if (!load.is_periodic() && load.holds(sheet.fraction(coarse.vertices.row(v))))
       held.push_back(v);
-  solver = space.solver(cell.stiffness, held, cubic);
+  return space.solver(cell.stiffness, held, cubic);
 }
 
 /// Each law has its own cubic energy, in the same strain.
@@ -191,11 +184,9 @@ void LightweightCloth::take_cubic(const Law law)
                            "`, which methods of second order ask for: make its cell.h5 again with "
                            "`homespun homogenize`, or leave the method out");
   const std::vector<meshes::CubicForm> cubic = {found->second.energy};
-  membrane.cubic.clear();
-  shell::add_cubic_energy(membrane, cubic);
   own_sides->cubic = std::make_unique<shell::GuardedCubic>(cubic.front(), cell.stiffness);
-  make_solver(cubic);
-  law_of_cubic = law;
+  solver           = made_solver(cubic);
+  law_of_cubic     = law;
 }
 
 /// The affine motion that agrees with what is prescribed.
@@ -222,33 +213,27 @@ void LightweightCloth::put_held(const shell::Positions<2> &prescribed,
 
 LoadForces LightweightCloth::forces_at(const Law law, const shell::Positions<2> &positions) const
 {
-  const shell::Positions<2> displacement = positions - coarse.vertices;
-  const shell::Positions<2> forces =
-    law == Law::linear ? solver ? solver->linear_gradient(displacement)
-                                : shell::linear_membrane_gradient(membrane, displacement)
-    : solver ? solver->gradient(positions)
-                       : shell::membrane_gradient<2>(membrane, positions).gradient;
-  return load_forces(load, sheet, coarse.vertices, forces);
+  return load_forces(load, sheet, coarse.vertices, solver->gradient(law, positions));
 }
 
 shell::Positions<2> LightweightCloth::near(const CoarseStep &step, const Law law,
                                            const double strain) const
 {
-  own_sides->law            = own_law(law);
+  own_sides->law            = homogenized_law(law, cell.stiffness);
   shell::Positions<2> moved = prescribed(strain);
   if (load.is_periodic())
     return moved;
   shell::Positions<2> start = step.positions;
   put_held(moved, start);
   return law == Law::linear ? solver->solve_linear(start)
-                            : solver->solve_equilibrium(start).positions;
+                            : solver->solve_equilibrium(law, start).positions;
 }
 
 CoarseStep LightweightCloth::solve(const Law law, const double strain)
 {
   CoarseStep step;
   take_cubic(law);
-  own_sides->law = own_law(law);
+  own_sides->law = homogenized_law(law, cell.stiffness);
   step.positions = prescribed(strain);
   if (load.is_periodic())
   {
@@ -272,7 +257,7 @@ CoarseStep LightweightCloth::solve(const Law law, const double strain)
       }
       else
       {
-        const shell::Equilibrium<2> equilibrium = solver->solve_equilibrium(start);
+        const shell::Equilibrium<2> equilibrium = solver->solve_equilibrium(law, start);
         step.positions                          = equilibrium.positions;
         step.iterations                         = equilibrium.iterations;
       }

@@ -7,7 +7,6 @@
 #include "localization/upsampler.h"
 #include "meshes/plain/homogenized_cell.h"
 #include "meshes/plain/sheet.h"
-#include "shell/solver/equilibrium.h"
 #include "verification/method/coarse_space.h"
 #include "verification/record/timing.h"
 #include "verification/reference/laws.h"
@@ -121,7 +120,8 @@ public:
                    const Load &load, CoarseChoice choice = {});
 
   /// The coarse equilibrium; of periodic loads the affine motion itself. Under the law `linear` the
-  /// small-strain form, else the corotational energy. Later strains start from earlier ones.
+  /// small-strain form, under `yarn` that of C^H's own yarns, else the corotational energy. Later
+  /// strains start from earlier ones.
   /// @throws NotConverged; BadInput where a cubic energy is asked for and the cell has none under
   ///   the law
   CoarseStep solve(Law law, double strain);
@@ -148,7 +148,7 @@ private:
   };
   static Load with_own_sides(const Load &load, const Eigen::Matrix3d &stiffness,
                              const std::shared_ptr<Sides> &sides);
-  void make_solver(const std::vector<meshes::CubicForm> &cubic);
+  std::unique_ptr<CoarseSolver> made_solver(const std::vector<meshes::CubicForm> &cubic) const;
   void take_cubic(Law law);
   shell::Positions<2> prescribed(double strain) const;
   void put_held(const shell::Positions<2> &prescribed, shell::Positions<2> &positions) const;
@@ -160,8 +160,7 @@ private:
   const CoarseSpace space;
   const std::shared_ptr<Sides> own_sides; ///< of the motion that is asked for, for free sides
   const Load load;
-  shell::Membrane membrane;             ///< for the forces under periodic loads
-  std::unique_ptr<CoarseSolver> solver; ///< none under periodic loads
+  std::unique_ptr<CoarseSolver> solver; ///< of periodic loads for the forces alone
   Law law_of_cubic = Law::linear;
   shell::Positions<2> last_displacement;
   double last_strain = 0.;

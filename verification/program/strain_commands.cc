@@ -124,7 +124,9 @@ void add_strain_command(CLI::App &app, Action &action, AfterMpi &afterwards,
     "sheets, at the largest strain and near 10 %, displacements for ParaView\n"
     "(CELL/sheet-LOAD-STRAIN.vtu).\n"
     "References: linear; biot (what the coarse cloth approximates); green (St. Venant-Kirchhoff);\n"
-    "where asked for: yarn (stretch and angle of two yarns, for cells with orthotropic phases).\n"
+    "where asked for: yarn (stretch and angle of two yarns, for cells with orthotropic phases; "
+    "the\n"
+    "coarse cloth takes it, too).\n"
     "Example:\n  homespun strain mycell.prm --quick\n"
     "  mpirun -n 2 homespun strain mycell.prm --loads strip-2,shear-frame --strains 0.01,0.1");
   command->callback(

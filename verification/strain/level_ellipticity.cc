@@ -87,7 +87,7 @@ void write_coarse_ellipticity(const StrainLevel &level, const MethodOnSheet &met
 {
   if (level.law == Law::linear)
     return;
-  const Law law            = LightweightCloth::own_law(level.law);
+  const Law law            = homogenized_law(level.law, method.cell.stiffness);
   meshes::TriangleMesh one = method.cloth.coarse;
   one.material.setZero(one.n_triangles());
   const EllipticityRow row =

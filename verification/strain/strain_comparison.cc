@@ -7,6 +7,7 @@
 #include "verification/strain/force_rows.h"
 #include "verification/strain/level_ellipticity.h"
 #include "verification/strain/sheet_fields.h"
+#include "verification/strain/yarn_cells.h"
 
 #include <algorithm>
 #include <cmath>
@@ -234,8 +235,20 @@ void write_notes_of_methods(const StrainLevel &level, const std::vector<Upsample
   }
 }
 
+/// What is said once: of the methods under a load, of the coarse cloth's yarns.
+void write_first_notes(const StrainStudyOptions &options, const StrainLevel &level,
+                       const std::vector<UpsampledMethod> &methods, const meshes::Sheet &sheet,
+                       const MethodOnSheet &method, StrainOutput &output)
+{
+  if (name_of(level.law) == options.references.front())
+    write_notes_of_methods(level, methods, sheet, method, output);
+  if (level.law == Law::yarn && level.load == options.loads.front())
+    output.write_note(level, note_on_coarse_yarns(method.cell.stiffness));
+}
+
 void write_step(const StrainLevel &level, const ResolvedLevel &resolved, const CoarseStep &coarse,
-                const double seconds_upsample, const Fluctuation &fluctuation, StrainOutput &output)
+                const double seconds_upsample, const Fluctuation &fluctuation, const Law law,
+                StrainOutput &output)
 {
   StepRow step;
   step.seconds_coarse      = coarse.seconds;
@@ -247,7 +260,7 @@ void write_step(const StrainLevel &level, const ResolvedLevel &resolved, const C
   step.ranks               = resolved.n_ranks;
   step.fluctuation         = fluctuation.mean;
   step.fluctuation_bar     = fluctuation.bar;
-  step.homogenized_law     = name_of(FluctuationMeasure::law_beside(level.law));
+  step.homogenized_law     = name_of(law);
   step.seconds_homogenized = fluctuation.seconds;
   step.stability           = name_of(resolved.stability);
   step.seconds_stability   = resolved.seconds_stability;
@@ -300,8 +313,8 @@ UpsampledLevel compare_methods(const StrainStudyOptions &options, const StrainLe
       missing.push_back(name == "affine"      ? affine
                         : name == "localized" ? localized
                                               : methods.upsampled_or_noted(name, output));
-  if (level.strain == options.strains.front() && name_of(level.law) == options.references.front())
-    write_notes_of_methods(level, missing, resolved.sheet, method, output);
+  if (!missing.empty() && level.strain == options.strains.front())
+    write_first_notes(options, level, missing, resolved.sheet, method, output);
   if (!missing.empty())
     for (const ForceRow &row : force_rows(level, resolved, method, load, coarse))
       output.write_forces(row);
@@ -322,7 +335,8 @@ UpsampledLevel compare_methods(const StrainStudyOptions &options, const StrainLe
         write_pictures(options, level, resolved.sheet, cloth.coarse,
                        {load.name, level.strain, name_of(level.law), of.name, fine.positions,
                         of.sheet->positions, affine.sheet->positions, coarse.positions});
-      write_step(level, resolved, coarse, of.sheet->seconds, fluctuation, output);
+      write_step(level, resolved, coarse, of.sheet->seconds, fluctuation,
+                 homogenized_law(level.law, method.cell.stiffness), output);
     }
     output.write_errors(level, of.name, resolved.sheet, n_coarse, errors);
   }

@@ -84,4 +84,17 @@ std::vector<std::string> notes_on_yarns(const std::vector<UnitCell> &cells,
   }
   return notes;
 }
+
+std::string note_on_coarse_yarns(const Eigen::Matrix3d &stiffness)
+{
+  const meshes::YarnAxes yarns = meshes::yarn_axes(stiffness);
+  if (!yarns.are_there)
+    return "the coarse cloth keeps biot: its C^H is alike in all directions and has no yarns";
+  const double angle = // to a hundredth, and without a sign of zero
+    std::round(std::atan2(yarns.axes(1, 0), yarns.axes(0, 0)) * 18000. / pi) / 100. + 0.;
+  return "the coarse cloth has the law yarn, too: its yarns lie along the largest Young's modulus "
+         "of "
+         "C^H, " +
+         short_text(angle) + " degrees from the x axis, and across";
+}
 } // namespace homespun::verification

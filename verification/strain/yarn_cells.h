@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: MIT
-// What the law `yarn` makes of the phases of a cell: which have yarns, and which keep `biot`.
+// What the law `yarn` makes of a cell: which phases have yarns, which keep `biot`, and where those
+// of the coarse cloth lie.
 #pragma once
 
 #include "homogenization/cell/unit_cell.h"
+
+#include <Eigen/Core>
 
 #include <string>
 #include <vector>
@@ -18,4 +21,9 @@ void check_yarns(const std::vector<homogenization::UnitCell> &cells,
 /// stiffness has others than the orthotropic axes that are given; none where it is not asked for.
 std::vector<std::string> notes_on_yarns(const std::vector<homogenization::UnitCell> &cells,
                                         const std::vector<std::string> &references);
+
+/// A sentence on the coarse cloth beside a reference of the law `yarn`: where its yarns lie, or
+/// that it stays corotational.
+/// @param stiffness C^H (3,3) [N/m]
+std::string note_on_coarse_yarns(const Eigen::Matrix3d &stiffness);
 } // namespace homespun::verification

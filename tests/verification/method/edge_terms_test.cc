@@ -112,7 +112,8 @@ TEST(order_edge_terms, the_error_falls_with_the_cell_where_the_macro_problem_is_
       const HomogenizedSheet macro(edged.homogenized.stiffness, edged.sheet, load, n_quads,
                                    n_quads);
       const auto coarse = macro.solve(Law::linear, macro.prescribed(strain));
-      const EdgedSheet with({edged.homogenized, edged.edges}, edged.sheet, load, n_quads / n);
+      const EdgedSheet with({edged.homogenized, edged.edges}, edged.sheet, load, Method("edges"),
+                            n_quads / n);
       errors.push_back(
         1e3 * (with.upsample(Law::linear, coarse).positions - fine).rowwise().norm().mean() /
         (strain * edged.side));
@@ -154,7 +155,8 @@ TEST(tripwire_edge_terms, a_bulk_term_of_the_wrong_sign_is_noticed)
   {
     for (std::size_t b = 0; b < 2; ++b)
       edged.edges.bulk[b] = factor * as_is[b];
-    const EdgedSheet with({edged.homogenized, edged.edges}, edged.sheet, load, n_quads / 10);
+    const EdgedSheet with({edged.homogenized, edged.edges}, edged.sheet, load, Method("edges"),
+                          n_quads / 10);
     return (with.upsample(Law::linear, coarse).positions - fine).rowwise().norm().mean();
   };
   EXPECT_LT(error(1.), error(0.));

@@ -64,7 +64,7 @@ std::array<Distances, 2> distances_of(const Case &which)
   const Load load(which.load);
   FineReference reference(sheet, cell.stiffness_of_phase(), {}, MPI_COMM_WORLD);
   reference.start(load, which.law);
-  LightweightCloth first(h, sheet, load), second(h, sheet, load, CoarseEnergy::cubic);
+  LightweightCloth first(h, sheet, load), second(h, sheet, load, {CoarseEnergy::cubic});
   const auto at = [&](const double strain, const meshes::Points &fine,
                       const Eigen::Matrix2d &stress, LightweightCloth &cloth, const char *name)
   {
@@ -115,7 +115,7 @@ TEST(invariant_method_of_second_order, a_cell_without_cubic_energy_is_refused_by
     homogenization::read_unit_cell(std::string(CELLS) + "layered.prm", MPI_COMM_WORLD);
   const meshes::HomogenizedCell h = homogenized(cell, {MembraneLaw::biot});
   const meshes::Sheet sheet       = meshes::tile(cell.mesh, cell.lattice, 2, 2);
-  LightweightCloth cloth(h, sheet, Load("strip-1"), CoarseEnergy::cubic);
+  LightweightCloth cloth(h, sheet, Load("strip-1"), {CoarseEnergy::cubic});
   EXPECT_EQ(tests::refusal([&]() { cloth.solve(Law::biot, 0.01); }), "");
   const std::string text = tests::refusal([&]() { cloth.solve(Law::green, 0.01); });
   EXPECT_NE(text.find("has no cubic energy under the law `green`"), std::string::npos) << text;

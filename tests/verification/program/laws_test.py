@@ -61,6 +61,11 @@ class Yarns(InFolder):
                          {"0.001", "0.01", "0.05"})
         found = rows_of(self.folder / "run" / "ellipticity.csv")
         self.assertEqual({row["reference"] for row in found}, {"yarn"})
+        # The coarse cloth has the law too, and says along which axes.
+        coarse = [row for row in found if row["part"] == "coarse cloth"]
+        self.assertEqual([row["not_elliptic"] for row in coarse], ["0", "0", "0"])
+        notes = [row["note"] for row in rows_of(self.folder / "run" / "notes.csv")]
+        self.assertEqual(sum("the coarse cloth has the law yarn, too" in note for note in notes), 1)
 
 
 if __name__ == "__main__":

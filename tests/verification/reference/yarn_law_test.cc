@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The law of yarns: its axes, its formula, where it is elliptic.
+#include "shell/membrane/yarn_energy.h"
 #include "verification/laws/ellipticity.h"
 #include "verification/laws/first_loss.h"
 #include "verification/reference/space_laws.h"
@@ -9,6 +10,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <random>
 #include <vector>
 
 using namespace homespun;
@@ -63,7 +65,50 @@ Eigen::Matrix2d some_gradient()
   F << 1.12, 0.31, -0.18, 0.93;
   return F;
 }
+
+/// The element of the coarse cloth against a reference's energy, stress (dim,2) and tangent, whose
+/// entries are in the order F11, F12, F21, ...; in the element they stand column by column.
+template <int dim>
+void expect_alike(const YarnAxes &yarns, const shell::DeformationGradient<dim> &F,
+                  const double energy, const shell::DeformationGradient<dim> &stress,
+                  const shell::GradientHessian<dim> &tangent)
+{
+  const auto P = shell::yarn_energy_gradient<dim>(F, yarns);
+  const auto H = shell::yarn_energy_hessian<dim>(F, yarns);
+  EXPECT_NEAR(shell::yarn_energy_density<dim>(F, yarns), energy, 1e-12 * energy);
+  EXPECT_LT((P - stress).norm(), 1e-12 * P.norm());
+  shell::GradientHessian<dim> in_order;
+  for (int k = 0; k < 2 * dim; ++k)
+    for (int l = 0; l < 2 * dim; ++l)
+      in_order(k, l) = H(dim * (k % 2) + k / 2, dim * (l % 2) + l / 2);
+  EXPECT_LT((in_order - tangent).norm(), 1e-12 * H.norm());
+}
 } // namespace
+
+TEST(exact_yarn_law, the_element_of_the_coarse_cloth_written_apart_is_the_same_law)
+{
+  std::mt19937 generator(7);
+  std::uniform_real_distribution<double> random(-0.3, 0.3);
+  for (const Eigen::Matrix3d &C : five_materials())
+    for (const double angle : {0., 0.4, -1.2})
+    {
+      const Eigen::Matrix3d there = turned(C, angle);
+      const YarnAxes yarns        = yarn_axes(there);
+      for (int k = 0; k < 10; ++k)
+      {
+        SpaceGradient F = SpaceGradient::Identity();
+        F = F.unaryExpr([&](const double entry) { return entry + random(generator); }).eval();
+        const Eigen::Matrix2d in_plane = rotation(k) * F.topRows<2>();
+        const Response there_in_plane  = response(Law::yarn, there, in_plane);
+        Eigen::Matrix2d stress;
+        stress << there_in_plane.stress(0), there_in_plane.stress(1), there_in_plane.stress(2),
+          there_in_plane.stress(3);
+        expect_alike<2>(yarns, in_plane, there_in_plane.energy, stress, there_in_plane.tangent);
+        const SpaceResponse in_space = space_response(Law::yarn, there, F, Tangent::exact);
+        expect_alike<3>(yarns, F, in_space.energy, in_space.stress, in_space.tangent);
+      }
+    }
+}
 
 TEST(exact_yarn_law, axes_are_those_of_an_orthotropic_stiffness_and_an_isotropic_one_has_none)
 {

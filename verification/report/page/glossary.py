@@ -31,7 +31,8 @@ GLOSSARY = (
     ("reference", "the fine mesh solved by finite elements: what counts as the truth, with an error"
      " bar of its own"),
     ("linear, biot, green, yarn", "laws of the reference: small strain; ½ (U−I):C:(U−I), which is"
-     " also the law of the coarse cloth; St. Venant-Kirchhoff; stretches and angle of two yarns"),
+     " also the law of the coarse cloth; St. Venant-Kirchhoff; stretches and angle of two yarns,"
+     " which the coarse cloth then has too"),
     ("fluctuation", "what the cloth does beside an even sheet of stiffness C^H: the part that"
      " up-sampling is to restore"),
     ("cell side", "square root of the area of the cell; errors are given in it"),
