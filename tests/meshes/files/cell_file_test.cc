@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "meshes/files/cell_file.h"
+#include "meshes/files/hdf5_reader.h"
 #include "meshes/plain/errors.h"
 #include "tests/meshes/plain/shapes.h"
 
@@ -92,6 +93,30 @@ TEST(exact_cell_file, a_cell_comes_back_as_it_was_written)
   EXPECT_EQ(back.place_of_cut, cell.place_of_cut);
   EXPECT_FALSE(back.bending.has_value()); // files of versions that did not know it
   EXPECT_FALSE(std::filesystem::exists(file + ".part"));
+}
+
+// Other programs read the file: vertex, component, then load or product of loads.
+TEST(exact_cell_file, modes_stand_in_the_file_as_it_says)
+{
+  const HomogenizedCell cell = second_order_cell();
+  const std::string path     = temporary("layout.h5");
+  write_cell(cell, path);
+  const Hdf5Reader file(path, "a cell");
+  const auto n        = static_cast<unsigned long long>(cell.mesh.n_vertices());
+  const auto chi      = file.numbers("/chi", {n, 2, 3});
+  const auto products = file.numbers("/chi_quadratic/biot", {n, 2, 6});
+  for (std::size_t v = 0; v < n; ++v)
+    for (std::size_t component = 0; component < 2; ++component)
+    {
+      const auto row = static_cast<Eigen::Index>(v);
+      for (std::size_t load = 0; load < 3; ++load)
+        EXPECT_EQ(chi[(2 * v + component) * 3 + load],
+                  cell.chi(row, static_cast<Eigen::Index>(2 * load + component)));
+      for (std::size_t k = 0; k < 6; ++k)
+        EXPECT_EQ(
+          products[(2 * v + component) * 6 + k],
+          cell.second_order.at("biot").chi(row, static_cast<Eigen::Index>(2 * k + component)));
+    }
 }
 
 TEST(exact_cell_file, second_order_comes_back_as_it_was_written)

@@ -116,12 +116,12 @@ TEST(bound_coarse_space, six_nodes_are_nearer_to_the_sheet_than_three_at_the_sam
   for (const char *name : {"strip-1", "strip-2", "shear-frame"})
   {
     const Load load(name);
-    const auto force = [&](LightweightCloth cloth)
+    const CoarseChoice of_six = {CoarseEnergy::quadratic, CoarseElement::six_nodes};
+    const auto force          = [&](LightweightCloth cloth)
     { return force_along(load, sheet.sides(), cloth.solve(Law::linear, 0.01).forces); };
     const double of_fine = force(LightweightCloth(of_quarter, fine, load)),
                  three   = force(LightweightCloth(h, sheet, load)),
-                 six     = force(LightweightCloth(h, sheet, load,
-                                                  {CoarseEnergy::quadratic, CoarseElement::six_nodes}));
+                 six     = force(LightweightCloth(h, sheet, load, of_six));
     EXPECT_GT(three, of_fine) << name;
     EXPECT_LT(six, three) << name;
     EXPECT_LT(std::abs(six - of_fine), 0.5 * (three - of_fine)) << name;

@@ -27,6 +27,7 @@ METHOD_COLOURS = {
     "localized": BLUE,
     "quadratic": SKY,
     "edges": "#7F7F7F",
+    "p2": "#997700",
     "full": BLACK,
     "localized-affine-lift": GREEN,
     "localized-mean-anchor": ORANGE,

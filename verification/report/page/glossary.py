@@ -23,7 +23,9 @@ GLOSSARY = (
     ("edges", "up-sampling with what clamped and free edges of the sheet do: the slip of a clamped"
      " edge, the tension of a free one, and displacements that decay from both inwards; χ has mean"
      " zero"),
-    ("full", "quadratic and edges in one"),
+    ("p2", "localized, the coarse cloth being made of triangles two cells wide whose displacements are"
+     " quadratic; it has the same vertices"),
+    ("full", "p2, quadratic and edges in one"),
     ("lift", "how a fine vertex is carried with the coarse cloth before χ is added; the affine lift"
      " is the plain one"),
     ("blending", "averaging the strain of neighbouring coarse triangles so that χ has no jumps;"
