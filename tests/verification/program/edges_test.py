@@ -39,12 +39,13 @@ class Edges(InFolder):
         output = self.folder / "out"
         result = run("strain", CELLS / "layered.prm", "--quick", "--loads",
                      "periodic-12,strip-1,shear-frame", "--references", "linear,biot", "--strains",
-                     "0.01,0.1", "--methods", "affine,localized,edges", "--no-budget",
+                     "0.01,0.1", "--methods", "affine,localized,edges,p2,full", "--no-budget",
                      "--no-runtime", "--no-report", "--output", output)
         self.assertIn(result.returncode, (0, 4), result.stderr)
         error = {(row["load"], row["reference"], float(row["strain"]), row["method"]):
                  float(row["error_mean_m"]) for row in rows_of(output / "strain.csv")}
-        self.assertNotIn("periodic-12", {key[0] for key in error if key[3] == "edges"})
+        self.assertNotIn("periodic-12", {key[0] for key in error
+                                         if key[3] in ("edges", "p2", "full")})
         # Of four cells a side the coarse mesh leaves most of the error.
         for load in ("strip-1", "shear-frame"):
             for reference in ("linear", "biot"):
@@ -52,16 +53,33 @@ class Edges(InFolder):
                     self.assertLess(error[load, reference, strain, "edges"],
                                     error[load, reference, strain, "localized"],
                                     (load, reference, strain))
+                    self.assertLess(error[load, reference, strain, "full"],
+                                    0.9 * error[load, reference, strain, "edges"],
+                                    (load, reference, strain))
         notes = [row["note"] for row in rows_of(output / "notes.csv")]
         self.assertTrue(any("axis 2, near end" in note and "clamped" in note for note in notes))
         self.assertTrue(any(row["what"].startswith("edges under periodic")
                             for row in json.loads((output / "study.json").read_text())["left_out"]))
 
-    def test_a_scene_in_motion_refuses_the_method_by_name(self):
-        result = run("drape", CELLS.parent / "scenes" / "pull.prm", "--methods", "edges",
-                     "--output", self.folder / "out")
-        self.assertEqual(result.returncode, 2)
-        self.assertIn("the method `edges` is one of sheets at rest", result.stderr)
+    def test_an_odd_number_of_cells_has_no_six_node_triangles_and_says_so(self):
+        output = self.folder / "out"
+        result = run("strain", CELLS / "layered.prm", "--quick", "--cells", "3", "--loads",
+                     "strip-1", "--references", "biot", "--strains", "0.01", "--methods",
+                     "localized,p2", "--no-budget", "--no-runtime", "--no-report", "--output",
+                     output)
+        self.assertIn(result.returncode, (0, 4), result.stderr)
+        rows = {row["method"]: row["error_mean_m"] for row in rows_of(output / "strain.csv")}
+        self.assertEqual(rows["p2"], rows["localized"])
+        notes = [row["note"] for row in rows_of(output / "notes.csv")]
+        self.assertTrue(any("method p2" in note and "odd number of cells" in note
+                            for note in notes))
+
+    def test_a_scene_in_motion_refuses_the_methods_by_name(self):
+        for method in ("edges", "p2", "full", "quadratic"):
+            result = run("drape", CELLS.parent / "scenes" / "pull.prm", "--methods", method,
+                         "--output", self.folder / "out")
+            self.assertEqual(result.returncode, 2)
+            self.assertIn(f"the method `{method}` is one of sheets at rest", result.stderr)
 
 
 if __name__ == "__main__":

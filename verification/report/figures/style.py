@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: MIT
 """How the figures and the numbers look: one place for fonts, colours, names and rounding.
 
-Colours are those of Okabe and Ito (2008), which readers with any colour vision tell apart; phases
-of a cell go from light to dark with stiffness, so that they survive a black-and-white print.
+Colours are those of Okabe and Ito (2008), wine and olive of Tol, which readers with any colour
+vision tell apart; phases of a cell go from light to dark with stiffness, so that they survive a
+black-and-white print.
 """
 import math
 
@@ -26,14 +27,14 @@ METHOD_COLOURS = {
     "affine": VERMILLION,
     "localized": BLUE,
     "quadratic": SKY,
-    "edges": "#7F7F7F",
-    "p2": "#997700",
+    "edges": "#882255",
+    "p2": "#999933",
     "full": BLACK,
     "localized-affine-lift": GREEN,
     "localized-mean-anchor": ORANGE,
     "localized-piecewise": PURPLE,
 }
-SPARE_COLOURS = ("#BBBBBB", YELLOW)
+SPARE_COLOURS = ("#7F7F7F", YELLOW)
 
 # Line style and marker of each reference law.
 REFERENCE_STYLES = {"linear": (":", "s"), "biot": ("-", "o"), "green": ("--", "^"), "yarn": ("-.", "v")}
