@@ -2,6 +2,7 @@
 #include "verification/drape/drape_errors.h"
 
 #include "meshes/plain/errors.h"
+#include "verification/record/error_norms.h"
 
 #include <cmath>
 #include <limits>
@@ -67,11 +68,12 @@ std::vector<meshes::VertexData> DrapeComparison::compare(const std::string &refe
         throw meshes::NotConverged(draped.cell.name + ", " + run.variant + ", " + method +
                                      ": positions that are not finite",
                                    {});
-      DrapeRow row      = output.error_row(draped.cell.name, run.variant, reference, method, frame);
-      row.mean          = distance.mean();
-      row.rms           = std::sqrt(distance.squaredNorm() / static_cast<double>(distance.size()));
-      row.max           = distance.maxCoeff();
-      row.mean_per_cell = row.mean / draped.side;
+      DrapeRow row = output.error_row(draped.cell.name, run.variant, reference, method, frame);
+      const ErrorNorms norms   = error_norms(distance);
+      row.mean                 = norms.mean;
+      row.rms                  = norms.rms;
+      row.max                  = norms.max;
+      row.mean_per_cell        = row.mean / draped.side;
       row.mean_per_fluctuation = row.mean / fluctuation;
       row.displacement         = displacement;
       row.uncertainty          = bar.of_mesh_at(at, fluctuation);

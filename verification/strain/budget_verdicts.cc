@@ -220,6 +220,33 @@ std::vector<Verdict> budget_verdicts(const std::vector<StrainRow> &strain_rows,
   return verdicts;
 }
 
+std::vector<Verdict> error_agreement_verdicts(const std::vector<StrainRow> &strain_rows,
+                                              const std::vector<BudgetRow> &budget_rows)
+{
+  std::vector<Verdict> verdicts;
+  at_judged_levels(
+    strain_rows,
+    [&](const BudgetRow &level)
+    {
+      for (const StrainRow &row : strain_rows)
+        for (const BudgetRow &budget : budget_rows)
+          if (row.cell == level.cell && row.load == level.load && row.strain == level.strain &&
+              row.reference == level.reference && row.method == "localized" &&
+              budget.cell == level.cell && budget.load == level.load &&
+              budget.strain == level.strain && budget.reference == level.reference &&
+              budget.part == "total" && budget.region == "all")
+          {
+            const double difference = std::abs(row.per_cell - budget.per_cell) / level.strain;
+            verdicts.push_back(
+              {title_of(level) + "strain.csv has the error that the budget splits (difference per "
+                                 "strain and cell side)",
+               difference <= solved_to ? Outcome::pass : Outcome::fail, difference,
+               "<= " + short_text(solved_to), "the same positions, summed twice", Kind::program});
+          }
+    });
+  return verdicts;
+}
+
 std::vector<Verdict> second_code_verdicts(const std::vector<SecondCodeRow> &rows)
 {
   std::vector<Verdict> verdicts;

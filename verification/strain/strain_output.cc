@@ -4,6 +4,7 @@
 #include "verification/budget/budget_tables.h"
 #include "verification/method/edge_terms.h"
 #include "verification/method/lightweight_cloth.h"
+#include "verification/record/error_norms.h"
 #include "verification/record/number_text.h"
 #include "verification/strain/validity.h"
 
@@ -69,15 +70,15 @@ void StrainOutput::write_errors(const StrainLevel &level, const std::string &met
                                 const meshes::Sheet &sheet, const int n_coarse_triangles,
                                 const StrainErrors &errors)
 {
-  const Eigen::VectorXd &distance = errors.distance;
-  StrainRow row                   = row_of(level, method);
-  row.cells                       = sheet.n1;
-  row.coarse_triangles            = n_coarse_triangles;
-  row.fine_triangles              = sheet.mesh.n_triangles();
-  row.mean                        = distance.mean();
-  row.rms      = std::sqrt(distance.squaredNorm() / static_cast<double>(distance.size()));
-  row.max      = distance.maxCoeff();
-  row.per_cell = row.mean / errors.side;
+  const ErrorNorms norms = error_norms(errors.distance);
+  StrainRow row          = row_of(level, method);
+  row.cells              = sheet.n1;
+  row.coarse_triangles   = n_coarse_triangles;
+  row.fine_triangles     = sheet.mesh.n_triangles();
+  row.mean               = norms.mean;
+  row.rms                = norms.rms;
+  row.max                = norms.max;
+  row.per_cell           = row.mean / errors.side;
   if (errors.fluctuation > 0.)
     row.per_fluctuation = row.mean / errors.fluctuation;
   row.uncertainty       = errors.reference_bar.mean;

@@ -356,6 +356,7 @@ private:
               {
                 const std::vector<BudgetRow> &rows = output->budget->rows();
                 add(budget_verdicts(output->strain_rows(), rows, options.strains));
+                add(error_agreement_verdicts(output->strain_rows(), rows));
                 add(second_code_verdicts(output->second->rows()));
                 add(energy_verdicts(output->energies->rows()));
                 for (const std::string &note : budget_notes(output->strain_rows(), rows))

@@ -197,6 +197,22 @@ TEST(tripwire_budget, an_error_bar_that_does_not_cover_the_distance_from_p2_is_n
             Outcome::fail);
 }
 
+TEST(tripwire_budget, an_error_of_another_size_than_the_budget_splits_is_noticed)
+{
+  const double strain        = 0.01;
+  const ErrorBudget budget   = known_budget(strain);
+  std::vector<StrainRow> all = strain_rows({strain});
+  std::vector<BudgetRow> rows;
+  add_level(strain, budget, rows);
+  all.front().per_cell                = budget.total.rowwise().norm().mean() / 0.01;
+  const std::vector<Verdict> verdicts = error_agreement_verdicts(all, rows);
+  ASSERT_EQ(verdicts.size(), 1u);
+  EXPECT_EQ(verdicts.front().outcome, Outcome::pass);
+  all.front().per_cell *= 1.001;
+  EXPECT_EQ(error_agreement_verdicts(all, rows).front().outcome, Outcome::fail);
+  EXPECT_TRUE(error_agreement_verdicts(all, {}).empty());
+}
+
 TEST(tripwire_second_code, two_codes_that_differ_are_noticed)
 {
   const auto outcome = [](const char *what, const double distance)
