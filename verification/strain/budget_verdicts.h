@@ -26,8 +26,8 @@ std::vector<Verdict> budget_verdicts(const std::vector<StrainRow> &strain_rows,
                                      const std::vector<BudgetRow> &budget_rows,
                                      const std::vector<double> &strains);
 
-/// Judges at the same levels whether strain.csv has of `localized` the error that the budget splits:
-/// two ways from the same positions to one number.
+/// Judges at the same levels whether strain.csv has of `localized` the error that the budget
+/// splits: two ways from the same positions to one number.
 std::vector<Verdict> error_agreement_verdicts(const std::vector<StrainRow> &strain_rows,
                                               const std::vector<BudgetRow> &budget_rows);
 
