@@ -140,19 +140,23 @@ class Running(InFolder):
         table = run.Table(self.folder / "mutants.csv")
         table.add(row_of("one", file="a, b", builds="true"))
         table.add(row_of("two", builds="false"))
+        table.add(row_of("half", builds="true", noticed_by_program=run.NOT_YET))
         asked = []
 
-        def row(mutant):
-            asked.append(mutant.name)
-            return row_of(mutant.name, noticed_by_test="x.y", builds="true")
+        def row(mutant, row, who):
+            asked.append((mutant.name, who))
+            return {**row, "noticed_by_test": "x.y", "noticed_by_program": "claim"}
 
         mutants = [patches.Mutant(name, "chosen", "", ["shell/a.cc"], [])
-                   for name in ("one", "two", "three")]
+                   for name in ("one", "two", "half", "three")]
+        with contextlib.redirect_stdout(io.StringIO()):
+            run.measure(mutants, run.Table(self.folder / "mutants.csv"), row, ["tests"])
+        self.assertEqual(asked, [("three", ["tests"])])
         with contextlib.redirect_stdout(io.StringIO()):
             run.measure(mutants, run.Table(self.folder / "mutants.csv"), row)
-        self.assertEqual(asked, ["three"])
+        self.assertEqual(asked[1:], [("half", ["program"])])
         again = run.Table(self.folder / "mutants.csv")
-        self.assertEqual(list(again.rows), ["one", "two", "three"])
+        self.assertEqual(list(again.rows), ["one", "two", "half", "three"])
         self.assertEqual(again.rows["one"]["file"], "a, b")
         self.assertEqual(again.rows["three"]["noticed_by_test"], "x.y")
         self.assertEqual([path.name for path in self.folder.iterdir()], ["mutants.csv"])
@@ -291,7 +295,8 @@ class Running(InFolder):
                                            ("one", True, "", ""), ("one", False, "", "")]:
             workshop.builds = lambda answer=builds: answer
             text = patches.patch_of("shell/a.cc", old, old.replace(fault, "fault"), "A fault.")
-            row = workshop.measured(patches.parsed(text, fault, "chosen"))
+            mutant = patches.parsed(text, fault, "chosen")
+            row = workshop.measured(mutant, run.new_row(mutant), ["tests", "program"])
             self.assertEqual((row["builds"], row["noticed_by_test"], row["noticed_by_program"]),
                              (str(builds).lower(), test, claim))
             self.assertEqual(row["seconds_to_notice"] != "", test != "")

@@ -4,6 +4,8 @@
 
 run.py BUILD WORK [NAME ...]   BUILD: a tree of the unpatched program, for its settings and the
                                seconds of its tests; WORK: a folder for copy, build and table
+run.py --ask tests ...         tests only, or with --ask program the program only: what is measured
+                               in the other column of a row stays
 run.py --dry BUILD WORK ...    puts each fault into the copy and takes it out again, builds nothing
 run.py --list                  all mutants
 
@@ -36,7 +38,8 @@ GUESSED = [(r"^(consumer|verification\.install)$", 600.), (r"^benchmarks\.", 60.
            (r"^verification\.\w+$", 300.), (r"", 0.5)]
 NOT_COPIED = ("build", "out")
 MARK = "copy-of-homespun"
-CELL = "meshes/cells/layered.prm"
+CELL = "meshes/cells/chevron.prm"
+NOT_YET = "not asked"
 MOST_SECONDS_OF_PROGRAM = 3600
 WORST_FIRST = [2, 3, 1, 4, 0]  # exit statuses, as in verification/record/verdict.h
 
@@ -215,7 +218,7 @@ class Workshop:
     def builds(self):
         return self.run("cmake", "--build", ".", "--parallel", str(JOBS), log="build.log") == 0
 
-    def prepare(self):
+    def prepare(self, who):
         """Configures once, builds what is sound, and asks it what it says when nothing is wrong."""
         self.build.mkdir(parents=True, exist_ok=True)
         if not (self.build / "build.ninja").exists() and not (self.build / "Makefile").exists():
@@ -229,10 +232,11 @@ class Workshop:
         names = [test["name"] for test in json.loads(listing)["tests"]]
         usual = self.work / "usual.json"
         if not usual.exists():
-            print("the sound program: all tests", flush=True)
+            print("the sound program", flush=True)
             self.failed_log().unlink(missing_ok=True)
-            self.run("ctest", "--parallel", str(JOBS), log="tests.log")
-            status, claims, _ = self.ask_program()
+            if "tests" in who:
+                self.run("ctest", "--parallel", str(JOBS), log="tests.log")
+            status, claims, _ = self.ask_program() if "program" in who else (None, [], "")
             unfinished = usual.with_suffix(".unfinished")
             unfinished.write_text(json.dumps({"status": status, "claims": claims,
                                               "failing_tests": self.failed_tests()}, indent=2))
@@ -282,23 +286,24 @@ class Workshop:
                   if one["kind"] == "program" and one["verdict"] == "FAIL"]
         return status, claims, what_the_program_says(status, claims, usual) if usual else ""
 
-    def measured(self, mutant):
-        """The row of a mutant. Where no line of it is executed the program is not asked."""
-        row = {"mutant": mutant.name, "kind": mutant.kind, "file": mutant.file,
-               "noticed_by_test": "", "seconds_to_notice": "", "noticed_by_program": "",
-               "builds": "false"}
+    def measured(self, mutant, row, asked):
+        """Asks those who are in `asked`. Where no line is executed the program is not asked."""
+        executed = executed_in(self.work)
+        if executed is not None and mutant.name not in executed:
+            row["noticed_by_program"] = ""
+            asked = [one for one in asked if one != "program"]
         with Fault(self.copy, mutant):
-            if self.builds():
-                row["builds"] = "true"
-                with concurrent.futures.ThreadPoolExecutor() as both:
-                    tests = both.submit(self.ask_tests, mutant)
-                    executed = executed_in(self.work)
-                    is_asked = executed is None or mutant.name in executed
-                    program = both.submit(self.ask_program, self.usual) if is_asked else None
+            if not self.builds():
+                return {**row, "noticed_by_test": "", "noticed_by_program": "", "builds": "false"}
+            with concurrent.futures.ThreadPoolExecutor() as both:
+                tests = both.submit(self.ask_tests, mutant) if "tests" in asked else None
+                program = both.submit(self.ask_program, self.usual) if "program" in asked else None
+            if tests:
                 test, seconds = tests.result()
-                if test:
-                    row.update(noticed_by_test=test, seconds_to_notice=f"{seconds:.1f}")
-                row["noticed_by_program"] = program.result()[2] if program else ""
+                row.update(noticed_by_test=test,
+                           seconds_to_notice=f"{seconds:.1f}" if test else "")
+            if program:
+                row["noticed_by_program"] = program.result()[2]
         return row
 
     def tried(self, mutant):
@@ -310,15 +315,25 @@ class Workshop:
                 raise SystemExit(f"{mutant.name} changes nothing")
         if path.read_bytes() != before:
             raise SystemExit(f"{mutant.name} is left in {path}")
-        return {**dict.fromkeys(COLUMNS, ""), "mutant": mutant.name, "kind": mutant.kind,
-                "file": mutant.file}
+        return new_row(mutant)
 
 
-def measure(mutants, table, row_of):
-    """Adds the rows that are missing."""
+WHO = {"tests": "noticed_by_test", "program": "noticed_by_program"}
+
+
+def new_row(mutant):
+    return {"mutant": mutant.name, "kind": mutant.kind, "file": mutant.file,
+            "noticed_by_test": NOT_YET, "seconds_to_notice": "", "noticed_by_program": NOT_YET,
+            "builds": "true"}
+
+
+def measure(mutants, table, row_of, who=tuple(WHO)):
+    """Adds what is missing. row_of(mutant, row, asked) fills in the columns of those asked."""
     for mutant in mutants:
-        if mutant.name not in table.rows:
-            row = row_of(mutant)
+        row = dict(table.rows.get(mutant.name, new_row(mutant)))
+        asked = [one for one in who if row[WHO[one]] == NOT_YET]
+        if asked and row["builds"] == "true":
+            row = row_of(mutant, row, asked)
             table.add(row)
             print(", ".join(f"{name} {row[name]}" for name in COLUMNS if row[name]), flush=True)
 
@@ -333,8 +348,9 @@ def executed_in(work):
 
 
 def score(rows, executed):
-    """How many mutants tests and program notice, and which none of them."""
-    rows = [row for row in rows if row["builds"] == "true"]
+    """How many mutants tests and program notice, and which none of them, of those asked about."""
+    rows = [row for row in rows if row["builds"] == "true"
+            and NOT_YET not in (row["noticed_by_test"], row["noticed_by_program"])]
     asked = [row for row in rows if executed is None or row["mutant"] in executed]
     where = "" if executed is None else " in lines that it executes"
     quiet = [row["mutant"] for row in rows
@@ -350,6 +366,7 @@ def main():
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--list", action="store_true")
     parser.add_argument("--dry", action="store_true")
+    parser.add_argument("--ask", choices=list(WHO))
     parser.add_argument("build", nargs="?")
     parser.add_argument("work", nargs="?")
     parser.add_argument("names", nargs="*")
@@ -368,11 +385,13 @@ def main():
         mutants = [mutant for mutant in mutants if mutant.name in given.names]
     workshop = Workshop(given.build, given.work)
     if given.dry:
-        measure(mutants, Table(workshop.work / "dry.csv"), workshop.tried)
+        measure(mutants, Table(workshop.work / "dry.csv"),
+                lambda mutant, row, asked: workshop.tried(mutant))
         return
     table = Table(workshop.work / "mutants.csv")
-    workshop.prepare()
-    measure(mutants, table, workshop.measured)
+    who = [given.ask] if given.ask else list(WHO)
+    workshop.prepare(who)
+    measure(mutants, table, workshop.measured, who)
     print(score(list(table.rows.values()), executed_in(workshop.work)))
 
 
