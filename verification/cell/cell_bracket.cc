@@ -193,6 +193,18 @@ std::vector<Verdict> checks_of(const CellBracket &bracket, const BracketOptions 
   at_most("C_lower <= C_upper (relative violation of the worst energy)",
           order_violation(found.lower, found.upper), 0.,
           "theory; both sides carry their round-off on the outside", Kind::program);
+  // Each of these energies is one that the width speaks of.
+  double gap = 0.;
+  for (const Eigen::Vector3d &strain :
+       {Eigen::Vector3d(1., 0., 0.), Eigen::Vector3d(0., 1., 0.), Eigen::Vector3d(0., 0., 1.),
+        Eigen::Vector3d(1., 1., 0.), Eigen::Vector3d(1., -1., 0.)})
+    gap = larger(gap, 1. - strain.dot(found.lower * strain) / strain.dot(found.upper * strain));
+  at_most("No load has a wider gap than the bracket (largest of 11, 22, 12, 11 with 22, 11 against "
+          "22)",
+          gap, found.width + 64. * std::numeric_limits<double>::epsilon(),
+          "the width is the largest relative gap of all loads; 1e-14 is the round-off of two "
+          "energies and of three eigenvalues",
+          Kind::program);
   // Images may lie 1e-7 of the cell apart, which the bracket's mesh mends and the other one does
   // not. That C lies above C_lower follows from both.
   at_most(

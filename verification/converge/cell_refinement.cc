@@ -91,13 +91,32 @@ private:
 };
 
 /// Largest violation of the Loewner order from level to level.
-Verdict nested(const std::vector<RefinementLadder> &ladders, const RoundOff &round_off)
+Difference rise_of(const std::vector<RefinementLadder> &ladders, const RoundOff &round_off)
 {
   Difference violation;
   for (const RefinementLadder &ladder : ladders)
     for (std::size_t k = 1; k < ladder.levels.size(); ++k)
       violation.add(order_violation(ladder.levels[k].stiffness, ladder.levels[k - 1].stiffness),
                     round_off.of(ladder.levels[k], stiffness_floor));
+  return violation;
+}
+
+/// At corners the ladder falls, and turned round it rises: what says that the check can fail.
+Verdict check_can_fail(std::vector<RefinementLadder> ladders, const RoundOff &round_off)
+{
+  for (RefinementLadder &ladder : ladders)
+    std::reverse(ladder.levels.begin(), ladder.levels.end());
+  const Difference rise = rise_of(ladders, round_off);
+  return {"the same check finds the rise of the levels taken from fine to coarse (largest relative "
+          "rise of an energy)",
+          rise.value > rise.limit ? Outcome::pass : Outcome::fail, rise.value,
+          "> " + number(rise.limit),
+          "C^H differs from level to level by more than what round-off and solvers leave"};
+}
+
+Verdict nested(const std::vector<RefinementLadder> &ladders, const RoundOff &round_off)
+{
+  const Difference violation = rise_of(ladders, round_off);
   return {
     "C^H falls from level to level in the Loewner order: P1 and P2 (largest relative rise of an "
     "energy)",
@@ -230,6 +249,8 @@ void judge_refinements(const UnitCell &cell, const std::vector<RefinementLadder>
   const Singularity singularity = homogenization::singularity_of(corners);
   result.verdicts.push_back(has_corners ? changes_with_the_mesh(ladders, singularity, round_off)
                                         : is_laminate(cell, ladders, round_off));
+  if (has_corners && result.verdicts.back().outcome == Outcome::pass)
+    result.verdicts.push_back(check_can_fail(ladders, round_off));
   if (has_corners && ladders.size() == 2)
     result.verdicts.push_back(quadratic_lies_below(ladders, singularity, round_off));
   const std::string exponents =

@@ -264,6 +264,53 @@ ConvergenceResult refine_time_step(const UnitCell &cell, const meshes::Homogeniz
   return result;
 }
 
+/// A coarse sheet of 2 x 2 cells, held nowhere, falls for half a second and is braked in proportion
+/// to its velocity: it stays as it is and is where a point of its mass would be.
+ConvergenceResult fall_damped(const UnitCell &cell, const meshes::HomogenizedCell &homogenized,
+                              const ConvergenceSizes &sizes)
+{
+  constexpr double duration = 0.5, rate = 4., g = 9.81; // [s], [1/s], [m/s^2]
+  // z'' = −g − rate z' from rest.
+  const double exact           = -g / rate * (duration - (1. - std::exp(-rate * duration)) / rate);
+  const meshes::ClothMesh mesh = meshes::placed_sheet(
+    meshes::coarse_sheet(Eigen::RowVector2d::Zero(), cell.lattice.vectors, 2, 2),
+    Eigen::Matrix<double, 3, 2>::Identity(), Eigen::RowVector3d::Zero());
+  const Eigen::VectorXd masses     = shell::lumped_masses(mesh, {homogenized.areal_density});
+  const meshes::SpacePoints fallen = mesh.positions.rowwise() + Eigen::RowVector3d(0., 0., exact);
+  Series series;
+  series.quantity  = "mean error of the positions [way that the sheet falls]";
+  series.h_unit    = "s";
+  const auto solve = [&](const int n_steps)
+  {
+    const auto start = std::chrono::steady_clock::now();
+    shell::ClothOptions options;
+    options.integrator       = shell::Integrator::implicit;
+    options.newton_tolerance = 1e-11;
+    shell::Cloth cloth(mesh.positions, masses, {}, options);
+    cloth.add(shell::membrane_term(mesh, {homogenized.stiffness}));
+    cloth.add(shell::gravity_term(masses, {0., 0., -g}));
+    cloth.add(shell::mass_damping_term(masses, rate));
+    for (int k = 0; k < n_steps; ++k)
+      cloth.step(duration / n_steps);
+    const double seconds =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    series.levels.push_back(
+      {duration / n_steps, static_cast<unsigned long>(mesh.positions.size()), std::nullopt,
+       (cloth.positions() - fallen).rowwise().norm().mean() / -exact, seconds});
+  };
+  ConvergenceResult result;
+  for (const int n_steps : sizes.time_steps)
+    if (!result.solves([&]() { solve(n_steps); }))
+      break;
+  series.judgement = judge_errors(series.sizes(), series.errors(), about(1.));
+  result.add(series,
+             {"a sheet that falls and is damped comes to where the closed form has it, with order "
+              "1 in the time step",
+              "z'' = -g - rate z' has a closed form; implicit Euler is of first order; +- 0.1, the "
+              "change from level to level that counts as settled"});
+  return result;
+}
+
 template <typename Run>
 std::vector<ConvergenceCase> of_sheet_loads(const UnitCell &cell, const std::string &study,
                                             const Run &run)
@@ -306,6 +353,9 @@ std::vector<ConvergenceCase> time_cases(const UnitCell &cell,
     cases.push_back({cell.name, "time", name,
                      [&cell, &homogenized, integrator = integrator, sizes]()
                      { return refine_time_step(cell, homogenized, integrator, sizes); }});
+  cases.push_back({cell.name, "time", "damped fall", [&cell, &homogenized, sizes]() {
+                     return fall_damped(cell, homogenized, sizes);
+                   }});
   return cases;
 }
 } // namespace homespun::verification

@@ -174,7 +174,8 @@ private:
     for (const UnitCell &cell : cells)
     {
       homogenization::HomogenizationOptions p1;
-      p1.order = 1;
+      p1.order        = 1;
+      p1.second_order = {homogenization::MembraneLaw::biot};
       homogenized.push_back(homogenization::homogenized_cell(
         cell, homogenization::homogenize(cell, p1, communicator), provenance_line()));
     }

@@ -104,6 +104,8 @@ private:
             [&]()
             {
               write_obstacles(draped);
+              for (const Verdict &check : checks_of_scene(draped))
+                verdicts.push_back(check);
               for (const std::string &variant : options.variants)
               {
                 runs.push_back(run_coarse(draped, variant, schedule, *output, progress));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What a scene run claims: that each of its cloths comes to the end of the scene, and how near the
-// method is to a reference.
+// What a scene run claims: how what is held must move and what a turned sheet must look like, that
+// each cloth comes to the end of the scene, and how near the method is to a reference.
 #pragma once
 
 #include "verification/drape/drape_tables.h"
@@ -11,6 +11,8 @@
 
 namespace homespun::verification
 {
+class DrapedCell;
+
 /// @param n_found frames, with that of the beginning
 /// @param if_not outcome where the cloth did not come to the end
 inline Verdict reaches_the_end(const std::string &claim, const int n_found, const int n_wanted,
@@ -59,4 +61,10 @@ constexpr double most_per_displacement = 0.05, most_per_cell = 0.1;
 std::vector<Verdict> verdicts_of_accuracy(const std::vector<DrapeRow> &rows,
                                           const std::string &cell, const std::string &reference,
                                           double side);
+
+/// What is known of a scene before it runs:
+/// - where it moves what it holds: that starts and ends at rest, evenly accelerated
+/// - of a sheet: up-sampling in space what lies in a plane is up-sampling in that plane, turned;
+///   for a plane across all axes and strains that change from cell to cell
+std::vector<Verdict> checks_of_scene(const DrapedCell &draped);
 } // namespace homespun::verification

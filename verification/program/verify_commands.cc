@@ -9,6 +9,7 @@
 
 #include <cstdio>
 #include <memory>
+#include <stdexcept>
 
 namespace homespun::verification
 {
@@ -50,6 +51,10 @@ int run_verify(VerifyArguments arguments, AfterMpi &afterwards)
   {
     // Whoever asked for silence hears of what failed alone.
     const std::string outcome = outcome_line(result.verdicts);
+    if (outcome.rfind("FAIL", 0) == 0 &&
+        (result.status == exit_status::good || result.status == exit_status::claim_open))
+      throw std::logic_error("the exit status hides a claim that failed; please report this: " +
+                             outcome);
     if (!options.quiet || outcome.rfind("FAIL", 0) == 0)
       std::printf("%s\n", outcome.c_str());
     if (!options.quiet)

@@ -19,10 +19,11 @@ const std::vector<std::string> &Load::names()
 Load::Load(const std::string &name)
     : name(name)
 {
-  if (!has_free_sides() && std::find(names().begin(), names().end(), name) == names().end())
+  if (!has_free_sides() && name != "periodic-all" &&
+      std::find(names().begin(), names().end(), name) == names().end())
     throw meshes::BadInput("unknown load `" + name +
-                           "`; expected periodic-11, periodic-22, periodic-12, uniaxial-1, "
-                           "uniaxial-2, strip-1, strip-2 or shear-frame");
+                           "`; expected periodic-11, periodic-22, periodic-12, periodic-all, "
+                           "uniaxial-1, uniaxial-2, strip-1, strip-2 or shear-frame");
 }
 
 bool Load::is_periodic() const
@@ -55,8 +56,10 @@ Eigen::Matrix2d Load::gradient(const double strain) const
     F(0, 0) += strain;
   else if (name == "periodic-22")
     F(1, 1) += strain;
-  else
+  else if (name == "periodic-12")
     F(0, 1) += strain;
+  else
+    F += strain * Eigen::Matrix2d{{1., 1.}, {0., 1.}};
   return F;
 }
 

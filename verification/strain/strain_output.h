@@ -94,6 +94,11 @@ public:
     return steps.rows();
   }
 
+  const std::vector<ForceRow> &force_rows() const
+  {
+    return forces.rows();
+  }
+
   Table<UncertaintyRow> uncertainty;
   Table<EllipticityRow> ellipticity;
   std::unique_ptr<Table<BudgetRow>> budget;     ///< none where it is left out

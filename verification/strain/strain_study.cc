@@ -6,6 +6,7 @@
 #include "verification/budget/budget_study.h"
 #include "verification/budget/budget_tables.h"
 #include "verification/budget/energy_sides.h"
+#include "verification/cell/cell_file_verdicts.h"
 #include "verification/cell/cell_files.h"
 #include "verification/cell/cell_study.h"
 #include "verification/cell/study_inputs.h"
@@ -18,12 +19,13 @@
 #include "verification/record/timing.h"
 #include "verification/reference/fine_reference.h"
 #include "verification/strain/budget_verdicts.h"
+#include "verification/strain/law_verdicts.h"
 #include "verification/strain/reference_uncertainty.h"
 #include "verification/strain/run_time.h"
 #include "verification/strain/strain_comparison.h"
 #include "verification/strain/strain_output.h"
-#include "verification/strain/strain_verdicts.h"
 #include "verification/strain/study_description.h"
+#include "verification/strain/study_verdicts.h"
 #include "verification/strain/yarn_cells.h"
 
 #include <algorithm>
@@ -93,6 +95,12 @@ private:
             {
               std::filesystem::create_directories(folder);
               write_cell_results(cell, assessed, {}, n_ranks, folder);
+              std::vector<Law> laws;
+              for (const std::string &name : options.references)
+                laws.push_back(law_of(name));
+              for (const auto &some : {cell_file_verdicts(folder + "/cell.h5", cell),
+                                       law_verdicts(cell, laws, options.strains.back())})
+                verdicts.insert(verdicts.end(), some.begin(), some.end());
             });
     const meshes::HomogenizedCell homogenized =
       homogenization::homogenized_cell(cell, assessed.result, provenance_line());
@@ -344,24 +352,16 @@ private:
     on_root(communicator,
             [&]()
             {
-              const auto add = [&](const std::vector<Verdict> &some)
-              { verdicts.insert(verdicts.end(), some.begin(), some.end()); };
-              add(strain_verdicts(output->strain_rows(), options.strains));
-              add(stability_verdicts(output->step_rows()));
+              const std::vector<Verdict> of_tables = study_verdicts(*output, options);
+              verdicts.insert(verdicts.end(), of_tables.begin(), of_tables.end());
               output->write_validity();
               std::vector<std::string> notes = notes_on_cuts(cells);
               for (const auto &more : {notes_on_yarns(cells, options.references), output->notes()})
                 notes.insert(notes.end(), more.begin(), more.end());
               if (options.budget)
-              {
-                const std::vector<BudgetRow> &rows = output->budget->rows();
-                add(budget_verdicts(output->strain_rows(), rows, options.strains));
-                add(error_agreement_verdicts(output->strain_rows(), rows));
-                add(second_code_verdicts(output->second->rows()));
-                add(energy_verdicts(output->energies->rows()));
-                for (const std::string &note : budget_notes(output->strain_rows(), rows))
+                for (const std::string &note :
+                     budget_notes(output->strain_rows(), output->budget->rows()))
                   notes.push_back(note);
-              }
               write_json(options.output + "/verdicts.json", to_json(verdicts, options.command));
               write_json(
                 options.output + "/study.json",

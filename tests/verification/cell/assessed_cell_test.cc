@@ -85,7 +85,7 @@ TEST(tripwire_bracket_checks, what_is_not_a_number_fails_and_no_bracket_is_incon
   EXPECT_EQ(outcome_of(checks_of(cell_bracket, asked_for, I, 0.), "as narrow as"), Outcome::fail);
 
   homogenization::Bracket bracket;
-  bracket.lower = 0.9 * I, bracket.upper = I;
+  bracket.lower = 0.9 * I, bracket.upper = I, bracket.width = 0.1;
   cell_bracket.bracket       = bracket;
   cell_bracket.on_given_mesh = I;
   EXPECT_EQ(outcome_of(checks_of(cell_bracket, {}, I, 0.), "C_lower <= C_upper"), Outcome::pass);
@@ -95,6 +95,14 @@ TEST(tripwire_bracket_checks, what_is_not_a_number_fails_and_no_bracket_is_incon
             Outcome::fail);
   EXPECT_EQ(outcome_of(checks_of(cell_bracket, {}, 1.001 * I, 0.01), "Both codes agree"),
             Outcome::inconclusive);
+  // One load whose gap is wider than what the bracket says.
+  EXPECT_EQ(outcome_of(checks_of(cell_bracket, {}, I, 0.), "wider gap"), Outcome::pass);
+  for (int k = 0; k < 3; ++k)
+  {
+    cell_bracket.bracket->lower       = 0.9 * I;
+    cell_bracket.bracket->lower(k, k) = 0.89;
+    EXPECT_EQ(outcome_of(checks_of(cell_bracket, {}, I, 0.), "wider gap"), Outcome::fail) << k;
+  }
   cell_bracket.bracket->lower = none;
   EXPECT_EQ(outcome_of(checks_of(cell_bracket, {}, I, 0.), "C_lower <= C_upper"), Outcome::fail);
 }
@@ -133,7 +141,7 @@ TEST(exact_cell_checks, every_check_says_where_its_limit_comes_from)
   options.tolerance = 1e-3;
   add_bracket(
     cell, options, [](const std::string &) {}, assessed);
-  EXPECT_EQ(assessed.checks.size(), 9u);
+  EXPECT_EQ(assessed.checks.size(), 11u);
   for (const Verdict &check : assessed.checks)
   {
     EXPECT_FALSE(check.derivation.empty()) << check.claim;
@@ -160,6 +168,22 @@ TEST(bound_cell_checks, stripes_attain_their_bounds_to_less_than_nine_digits)
       EXPECT_LT(std::stod(check.limit.substr(3)), 1e-9) << check.limit;
     }
   }
+}
+
+TEST(bound_cell_checks, a_limit_that_lets_faults_pass_fails_unless_the_contrast_asks_for_it)
+{
+  const auto check_of = [](const double stiff)
+  {
+    const UnitCell cell = stripe_cell(4, homogenization::isotropic("soft", 1e6, 0.3, 1e-3, 100.),
+                                      homogenization::isotropic("hard", stiff, 0.3, 1e-3, 100.));
+    for (const Verdict &check : assess(cell, {}, MPI_COMM_SELF).checks)
+      if (check.claim.find("fault of a millionth") != std::string::npos)
+        return check;
+    return Verdict();
+  };
+  EXPECT_EQ(check_of(1e8).outcome, Outcome::pass);
+  EXPECT_LT(check_of(1e8).value, 1e-9);
+  EXPECT_NE(check_of(1e17).outcome, Outcome::fail); // round-off of a contrast of 1e11
 }
 
 TEST(bound_bracket_output, an_adaptive_bracket_replaces_checks_and_chi_together)

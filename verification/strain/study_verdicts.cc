@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: MIT
+#include "verification/strain/study_verdicts.h"
+
+#include "verification/budget/energy_sides.h"
+#include "verification/budget/second_code.h"
+#include "verification/strain/budget_verdicts.h"
+#include "verification/strain/strain_verdicts.h"
+#include "verification/strain/table_verdicts.h"
+
+namespace homespun::verification
+{
+std::vector<Verdict> study_verdicts(const StrainOutput &output, const StrainStudyOptions &options)
+{
+  std::vector<Verdict> verdicts = strain_verdicts(output.strain_rows(), options.strains);
+  const auto add                = [&](const std::vector<Verdict> &some)
+  { verdicts.insert(verdicts.end(), some.begin(), some.end()); };
+  add(stability_verdicts(output.step_rows()));
+  if (options.budget)
+  {
+    const std::vector<BudgetRow> &rows = output.budget->rows();
+    add(budget_verdicts(output.strain_rows(), rows, options.strains));
+    add(error_agreement_verdicts(output.strain_rows(), rows));
+    add(second_code_verdicts(output.second->rows()));
+    add(energy_verdicts(output.energies->rows()));
+  }
+  add(verdicts_of_nested_forces(output.uncertainty.rows()));
+  add(verdicts_of_forces(output.force_rows()));
+  add({verdict_of_norms(output.strain_rows()),
+       verdict_of_reading(output.strain_rows(), options.output)});
+  return verdicts;
+}
+} // namespace homespun::verification

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: MIT
+// Claims that the tables of a strain study must fulfil whatever the cell: inequalities of norms, of
+// forces and of nested discretizations, and that a file gives back what was written.
+#pragma once
+
+#include "verification/record/table.h"
+#include "verification/record/verdict.h"
+#include "verification/strain/strain_tables.h"
+
+#include <string>
+#include <vector>
+
+namespace homespun::verification
+{
+/// strain.csv: mean <= root mean square <= largest distance, in every row.
+Verdict verdict_of_norms(const std::vector<StrainRow> &rows);
+
+/// uncertainty.csv, for every cell and sheet load in linear theory: the force, twice the energy
+/// over the way of the clamp and width, falls from P1 to P2 to refined P2, whose spaces contain
+/// each other; none for a sheet whose P1 is exact.
+std::vector<Verdict> verdicts_of_nested_forces(const std::vector<UncertaintyRow> &rows);
+
+/// forces.csv, for every cell and sheet load in linear theory: the reference pulls back, with a
+/// force no larger than that of the affine motion, which is one of the motions it may choose.
+std::vector<Verdict> verdicts_of_forces(const std::vector<ForceRow> &rows);
+
+/// How many of the rows a file gives back otherwise, to the last bit, or not at all.
+/// @throws BadInput as read_table()
+template <typename Row>
+int n_rows_read_otherwise(const std::vector<Row> &rows, const std::string &folder)
+{
+  const auto is_same = [](const Row &one, const Row &other)
+  {
+    bool same = true;
+    Row::columns(
+      [&](const char *, const auto member, const Domain)
+      {
+        const auto &a = one.*member, &b = other.*member;
+        same = same && (a == b || (a != a && b != b)); // what is not a number stands for itself
+      });
+    return same;
+  };
+  std::map<std::vector<std::string>, Row> found; // of rows with the same keys the last one
+  for (const Row &row : read_table<Row>(folder + "/" + Row::file))
+    found[keys_of_row(row)] = row;
+  int n = 0;
+  for (const Row &row : rows)
+  {
+    const auto known = found.find(keys_of_row(row));
+    n += known == found.end() || !is_same(row, known->second);
+  }
+  return n;
+}
+
+/// strain.csv gives back every number to the last bit.
+/// @throws BadInput as read_table()
+Verdict verdict_of_reading(const std::vector<StrainRow> &rows, const std::string &folder);
+} // namespace homespun::verification
