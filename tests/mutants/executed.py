@@ -87,8 +87,9 @@ def main():
         raise SystemExit(f"the counters do not build; see {workshop.work}/coverage-build.log")
     for data in workshop.build.rglob("*.gcda"):
         data.unlink()
-    status, *_ = workshop.ask_program()
-    print(f"the program ends with {status}")
+    for part in run.PARTS:
+        status, _ = workshop.ask_part(part)
+        print(f"the part {part} ends with {status}", flush=True)
     counts = counts_of(workshop.build, workshop.copy, {mutant.file for mutant in mutants})
     with open(workshop.work / "executed.csv", "w", newline="", encoding="utf-8") as file:
         writer = csv.writer(file, lineterminator="\n")

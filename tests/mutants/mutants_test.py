@@ -286,14 +286,14 @@ class Running(InFolder):
             "\"verdict\": \"FAIL\"}]}' > $5/verdicts.json\n"
             "exit 1\n", encoding="utf-8")
         program.chmod(0o755)
-        workshop.usual = {"status": 4, "claims": []}
+        workshop.usual = {part: {"status": 4, "claims": []} for part in run.PARTS}
         workshop.names = ["slow", "fails", "a.second", "a.third"]
         workshop.batches = run.batches_of(["slow", "fails", "a.second", "a.third"], {"slow": 20.},
                                           ["fails"])
         for fault, builds, test, claim in [("two", True, "a.second", ""),
                                            ("three", True, "a.third", "it holds"),
                                            ("one", True, "", ""), ("one", False, "", "")]:
-            workshop.builds = lambda answer=builds: answer
+            workshop.builds = lambda who, answer=builds: answer
             text = patches.patch_of("shell/a.cc", old, old.replace(fault, "fault"), "A fault.")
             mutant = patches.parsed(text, fault, "chosen")
             row = workshop.measured(mutant, run.new_row(mutant), ["tests", "program"])

@@ -40,6 +40,7 @@ NOT_COPIED = ("build", "out")
 MARK = "copy-of-homespun"
 CELL = "meshes/cells/chevron.prm"
 NOT_YET = "not asked"
+PARTS = ("homogenize", "drape", "converge", "strain")  # of `verify`, the quickest first
 MOST_SECONDS_OF_PROGRAM = 3600
 WORST_FIRST = [2, 3, 1, 4, 0]  # exit statuses, as in verification/record/verdict.h
 
@@ -215,8 +216,10 @@ class Workshop:
             except subprocess.TimeoutExpired:
                 return None
 
-    def builds(self):
-        return self.run("cmake", "--build", ".", "--parallel", str(JOBS), log="build.log") == 0
+    def builds(self, who):
+        targets = [] if "tests" in who else ["--target", "homespun"]
+        return self.run("cmake", "--build", ".", "--parallel", str(JOBS), *targets,
+                        log="build.log") == 0
 
     def prepare(self, who):
         """Configures once, builds what is sound, and asks it what it says when nothing is wrong."""
@@ -225,7 +228,7 @@ class Workshop:
             command = ["cmake", "-S", str(self.copy), "-B", ".", *settings_of(self.given)]
             if self.run(*command, log="configure.log") != 0:
                 raise SystemExit(f"cmake fails; see {self.work}/configure.log")
-        if not self.builds():
+        if not self.builds(who):
             raise SystemExit(f"the sources do not build; see {self.work}/build.log")
         listing = subprocess.run(["ctest", "--show-only=json-v1"], cwd=self.build, check=True,
                                  env=self.environment, stdout=subprocess.PIPE).stdout
@@ -236,10 +239,12 @@ class Workshop:
             self.failed_log().unlink(missing_ok=True)
             if "tests" in who:
                 self.run("ctest", "--parallel", str(JOBS), log="tests.log")
-            status, claims, _ = self.ask_program() if "program" in who else (None, [], "")
+            found = {"failing_tests": self.failed_tests()}
+            for part in PARTS if "program" in who else ():
+                status, claims = self.ask_part(part)
+                found[part] = {"status": status, "claims": claims}
             unfinished = usual.with_suffix(".unfinished")
-            unfinished.write_text(json.dumps({"status": status, "claims": claims,
-                                              "failing_tests": self.failed_tests()}, indent=2))
+            unfinished.write_text(json.dumps(found, indent=2))
             os.replace(unfinished, usual)
         self.usual = json.loads(usual.read_text())
         for test in self.usual["failing_tests"]:
@@ -270,21 +275,29 @@ class Workshop:
                 return (self.failed_tests() or ["ctest"])[0], time.monotonic() - start
         return "", time.monotonic() - start
 
-    def ask_program(self, usual=None):
-        """The exit status of a quick verification of a cell, the claims on the program that
-        failed, and what is unusual of it."""
+    def ask_program(self):
+        """What is unusual of the first part of a quick verification of a cell of which anything is;
+        parts know nothing of each other, so that the others need not be asked."""
+        for part in PARTS:
+            said = what_the_program_says(*self.ask_part(part), self.usual[part])
+            if said:
+                return said
+        return ""
+
+    def ask_part(self, part):
+        """The exit status, and the claims on the program that failed."""
         output = self.work / "verify"
         shutil.rmtree(output, ignore_errors=True)
         status = self.run(str(self.build / "homespun"), "verify", "--quick", "--no-report",
-                          "--output", str(output), CELL, log="verify.log", cwd=self.copy,
-                          seconds=MOST_SECONDS_OF_PROGRAM)
+                          "--output", str(output), "--parts", part, CELL, log="verify.log",
+                          cwd=self.copy, seconds=MOST_SECONDS_OF_PROGRAM)
         try:
             verdicts = json.loads((output / "verdicts.json").read_text())["verdicts"]
         except (OSError, ValueError, KeyError):
             verdicts = []
         claims = [one["claim"] for one in verdicts
                   if one["kind"] == "program" and one["verdict"] == "FAIL"]
-        return status, claims, what_the_program_says(status, claims, usual) if usual else ""
+        return status, claims
 
     def measured(self, mutant, row, asked):
         """Asks those who are in `asked`. Where no line is executed the program is not asked."""
@@ -293,17 +306,17 @@ class Workshop:
             row["noticed_by_program"] = ""
             asked = [one for one in asked if one != "program"]
         with Fault(self.copy, mutant):
-            if not self.builds():
+            if not self.builds(asked):
                 return {**row, "noticed_by_test": "", "noticed_by_program": "", "builds": "false"}
             with concurrent.futures.ThreadPoolExecutor() as both:
                 tests = both.submit(self.ask_tests, mutant) if "tests" in asked else None
-                program = both.submit(self.ask_program, self.usual) if "program" in asked else None
+                program = both.submit(self.ask_program) if "program" in asked else None
             if tests:
                 test, seconds = tests.result()
                 row.update(noticed_by_test=test,
                            seconds_to_notice=f"{seconds:.1f}" if test else "")
             if program:
-                row["noticed_by_program"] = program.result()[2]
+                row["noticed_by_program"] = program.result()
         return row
 
     def tried(self, mutant):
