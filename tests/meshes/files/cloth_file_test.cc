@@ -341,6 +341,26 @@ TEST(exact_seams, a_strip_of_two_panels_has_two_seam_edges_and_notes_of_unequal_
   expect_fault(notes, "the seam edge between vertices 2 and 7 is");
 }
 
+TEST(exact_seams, a_dart_is_sewn_up_to_its_tip)
+{
+  // A panel with a wedge cut out at the origin; in space both sides of the wedge are one edge, of
+  // which the end at the tip is one vertex at rest, too.
+  ClothMesh cloth;
+  cloth.rest.vertices.resize(5, 2);
+  cloth.rest.vertices << 0., 0., 1., 0., 0., 1., -1., 0., 0.6, -0.8;
+  cloth.rest.triangles.resize(3, 3);
+  cloth.rest.triangles << 0, 1, 2, 0, 2, 3, 0, 3, 4;
+  cloth.rest.material.setZero(3);
+  cloth.positions.resize(4, 3);
+  cloth.positions << 0., 0., 0.3, 0.9, 0., 0., 0., 0.9, 0., -0.9, 0., 0.;
+  cloth.triangles.resize(3, 3);
+  cloth.triangles << 0, 1, 2, 0, 2, 3, 0, 3, 1;
+  const auto seams = seam_edges(cloth);
+  ASSERT_EQ(seams.size(), 1u);
+  EXPECT_EQ(space_ends(cloth, seams[0].sides[0]), (std::array<int, 2>{0, 1}));
+  EXPECT_EQ(rest_ends(cloth, seams[0].sides[1]), (std::array<int, 2>{4, 0}));
+}
+
 TEST(exact_scenes, the_skirt_begins_without_strain_and_the_ball_is_closed)
 {
   const std::string folder = HOMESPUN_SOURCE_DIR "/meshes/scenes/";
