@@ -19,9 +19,9 @@
 #include "verification/record/timing.h"
 #include "verification/reference/fine_reference.h"
 #include "verification/strain/budget_verdicts.h"
-#include "verification/strain/law_verdicts.h"
 #include "verification/strain/reference_uncertainty.h"
 #include "verification/strain/run_time.h"
+#include "verification/strain/self_checks.h"
 #include "verification/strain/strain_comparison.h"
 #include "verification/strain/strain_output.h"
 #include "verification/strain/study_description.h"
@@ -99,7 +99,7 @@ private:
               for (const std::string &name : options.references)
                 laws.push_back(law_of(name));
               for (const auto &some : {cell_file_verdicts(folder + "/cell.h5", cell),
-                                       law_verdicts(cell, laws, options.strains.back())})
+                                       self_checks(cell, laws, options.strains.back())})
                 verdicts.insert(verdicts.end(), some.begin(), some.end());
             });
     const meshes::HomogenizedCell homogenized =
