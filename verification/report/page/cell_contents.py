@@ -6,6 +6,7 @@ from concurrent.futures import ProcessPoolExecutor
 
 from figures import style
 from figures.cell import characteristic_figure, phase_figure, phase_legend
+from figures.laws import law_figure, law_sentence, marks_of
 from figures.run_time import error_time_figure, run_time_figure, step_figure
 from figures.sheet import sheet_figure
 from figures.stiffness import bracket_figure, polar_figure
@@ -50,6 +51,7 @@ def cell_contents(results, name, gallery):
         "run_time": None,
         "steps": None,
         "polar": None,
+        "law": None,
         "bracket": None,
         "phases_picture": None,
         "chi": None,
@@ -85,6 +87,17 @@ def cell_contents(results, name, gallery):
             (
                 f"{name}: modulus of uniaxial tension along "
                 "each direction, between the bounds of Voigt and Reuss."
+            ),
+        )
+    if marked := marks_of(cell):
+        contents["law"] = gallery.add(
+            law_figure(marked),
+            f"{name}-which-law",
+            (
+                f"{name}: up to which strain the laws of a membrane have a minimum, pulled and"
+                " pressed along the axis of the larger modulus E, free sides, no lateral contraction;"
+                " G is the shear modulus in the same axes. Circles: fabrics of Wang et al. 2011, a"
+                f" triangle where `biot` is never lost. {law_sentence(marked)}"
             ),
         )
     if figure := bracket_figure(cell):
