@@ -121,7 +121,7 @@ void add_strain_command(CLI::App &app, Action &action, AfterMpi &afterwards,
     "strip-2 (two edges clamped, one pulled outwards), shear-frame (upper edge moved sideways);\n"
     "where asked for: uniaxial-1, uniaxial-2 (infinite cloth, pulled, its sides free), "
     "periodic-all\n"
-    "(11, 22 and 12 at once).\n"
+    "(11, half of it 22, and 12 at once).\n"
     "Of each level: errors (strain.csv), forces of the clamps or the stress (forces.csv); of\n"
     "sheets, at the largest strain and near 10 %, displacements for ParaView\n"
     "(CELL/sheet-LOAD-STRAIN.vtu).\n"

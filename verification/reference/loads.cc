@@ -59,7 +59,7 @@ Eigen::Matrix2d Load::gradient(const double strain) const
   else if (name == "periodic-12")
     F(0, 1) += strain;
   else
-    F += strain * Eigen::Matrix2d{{1., 1.}, {0., 1.}};
+    F += strain * Eigen::Matrix2d{{1., 1.}, {0., 0.5}};
   return F;
 }
 

@@ -16,8 +16,8 @@ namespace homespun::verification
 /// A load by its name:
 /// - periodic-11, periodic-22: infinite cloth under F = I + strain along axis 1 or 2
 /// - periodic-12: infinite cloth under simple shear, F = (1, strain; 0, 1)
-/// - periodic-all: the three at once, F = (1 + strain, strain; 0, 1 + strain), in which what is of
-///   second order in strain mixes them
+/// - periodic-all: the three at once, F = (1 + strain, strain; 0, 1 + strain/2): what is of second
+///   order in strain mixes them, and no two are equal
 /// - uniaxial-1, uniaxial-2: infinite cloth pulled along axis 1 or 2, which keeps its direction,
 ///   its sides free of stress: F = (1 + strain, g; 0, 1 + e) or (1 + e, 0; g, 1 + strain) with the
 ///   free strains e and g that each cloth finds for itself

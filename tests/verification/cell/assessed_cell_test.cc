@@ -141,7 +141,7 @@ TEST(exact_cell_checks, every_check_says_where_its_limit_comes_from)
   options.tolerance = 1e-3;
   add_bracket(
     cell, options, [](const std::string &) {}, assessed);
-  EXPECT_EQ(assessed.checks.size(), 11u);
+  EXPECT_EQ(assessed.checks.size(), 12u);
   for (const Verdict &check : assessed.checks)
   {
     EXPECT_FALSE(check.derivation.empty()) << check.claim;

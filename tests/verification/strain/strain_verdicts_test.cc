@@ -65,6 +65,24 @@ TEST(tripwire_verdicts, the_second_order_passes_and_the_first_fails)
   EXPECT_EQ(judged(periodic(3.))[0].outcome, Outcome::pass);
 }
 
+TEST(tripwire_verdicts, the_affine_motion_must_not_pass_for_one_of_second_order)
+{
+  const auto judged_of = [](const double affine)
+  {
+    Rows rows = periodic(2.);
+    for (const double strain : {1e-3, 1e-2, 1e-1})
+      rows.push_back(row("periodic-12", strain, "affine", 1e-4 * std::pow(strain, affine)));
+    std::vector<Outcome> found;
+    for (const Verdict &verdict : judged(rows))
+      if (verdict.claim.find("does not pass for one") != std::string::npos)
+        found.push_back(verdict.outcome);
+    return found;
+  };
+  EXPECT_EQ(judged_of(1.), std::vector<Outcome>{Outcome::pass});
+  EXPECT_TRUE(judged_of(2.).empty()); // not what theory says of affine: nothing is claimed
+  EXPECT_TRUE(judged_of(1.5).empty());
+}
+
 TEST(tripwire_verdicts,
      strains_that_are_not_small_for_the_cell_decide_nothing_until_smaller_ones_do)
 {
