@@ -64,7 +64,9 @@ std::vector<Verdict> verdicts_of_accuracy(const std::vector<DrapeRow> &rows,
 
 /// What is known of a scene before it runs:
 /// - where it moves what it holds: that starts and ends at rest, evenly accelerated
-/// - of a sheet: up-sampling in space what lies in a plane is up-sampling in that plane, turned;
-///   for a plane across all axes and strains that change from cell to cell
+/// - of a sheet: up-sampling in space what lies in a plane is up-sampling in that plane, turned,
+/// and
+///   its energy is that in the plane; for a plane across all axes and strains that change from cell
+///   to cell
 std::vector<Verdict> checks_of_scene(const DrapedCell &draped);
 } // namespace homespun::verification
