@@ -281,6 +281,30 @@ TEST(invariant_cloth, warped_triangles_have_no_force_in_rigid_motion_and_know_th
   EXPECT_LT((warped.positions() - turned).cwiseAbs().maxCoeff(), 1e-13);
 }
 
+TEST(invariant_cloth, warped_nodes_of_a_bent_sheet_do_not_know_the_order_of_its_triangles)
+{
+  meshes::ClothMesh mesh = lying_sheet(3);
+  for (Eigen::Index v = 0; v < mesh.positions.rows(); ++v)
+  {
+    const double x = mesh.positions(v, 0), y = mesh.positions(v, 1);
+    mesh.positions.row(v) << 1.05 * x, y + 0.2 * x * y, x * x - 2. * x * y;
+  }
+  const auto stepped = [](const meshes::ClothMesh &cloth_mesh)
+  {
+    const Eigen::VectorXd masses = lumped_masses(cloth_mesh, {0.2});
+    Cloth cloth(cloth_mesh.positions, masses, {});
+    cloth.add(nodal_warping_term(cloth_mesh, {isotropic(100., 0.3)}, masses));
+    for (int k = 0; k < 3; ++k)
+      cloth.step(0.01);
+    return cloth.positions();
+  };
+  meshes::ClothMesh turned = mesh;
+  turned.rest.triangles    = mesh.rest.triangles.colwise().reverse().eval();
+  turned.triangles         = mesh.triangles.colwise().reverse().eval();
+  EXPECT_GT((stepped(mesh) - mesh.positions).cwiseAbs().maxCoeff(), 1e-4);
+  EXPECT_LT((stepped(turned) - stepped(mesh)).cwiseAbs().maxCoeff(), 1e-10);
+}
+
 TEST(bound_cloth, bad_input_is_refused_by_name)
 {
   const meshes::ClothMesh mesh = lying_sheet(3);
