@@ -233,11 +233,12 @@ class Running(InFolder):
     def test_the_score_counts_what_the_program_could_notice(self):
         rows = [row_of("a", builds="true", noticed_by_test="x"),
                 row_of("b", builds="true", noticed_by_program="claim"),
-                row_of("c", builds="true"), row_of("d", builds="false")]
-        self.assertIn("3 mutants build; tests notice 1, the program 1 of 3; unnoticed: c",
+                row_of("c", builds="true"), row_of("d", builds="false"),
+                row_of("e", builds="true", noticed_by_test=run.NOT_YET)]
+        self.assertIn("4 mutants build; tests notice 1 of 3, the program 1 of 4; unnoticed: c",
                       run.score(rows, None))
-        self.assertIn("the program 1 of 2 in lines that it executes; unnoticed: c",
-                      run.score(rows, {"b", "c", "d"}))
+        self.assertIn("the program 1 of 3 in lines that it executes; unnoticed: c",
+                      run.score(rows, {"b", "c", "d", "e"}))
 
     def test_a_program_that_did_not_end_is_the_worst(self):
         self.assertEqual(sorted([0, 4, None, 1, 2, -11, 3], key=run.place_of)[2:], [2, 3, 1, 4, 0])
@@ -304,6 +305,16 @@ class Running(InFolder):
 
 
 class Readme(unittest.TestCase):
+    def test_its_score_is_that_of_the_table(self):
+        table = run.Table(patches.HERE / "measured.csv")
+        said = run.score(list(table.rows.values()), run.executed_in(patches.HERE))
+        text = " ".join((patches.HERE / "README.md").read_text(encoding="utf-8").split())
+        self.assertIn(said.split("; unnoticed")[0], text.replace("**", ""))
+        names = {mutant.name for mutant in patches.read()}
+        self.assertLessEqual(set(table.rows), names)
+        for name in said.split("unnoticed: ")[1].split(", "):
+            self.assertIn(f"`{name}`", text)
+
     def test_mutants_that_it_names_are_there(self):
         text = (patches.HERE / "README.md").read_text(encoding="utf-8")
         names = set(re.findall(r"`(\d\d-\w+)`", text))

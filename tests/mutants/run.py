@@ -8,6 +8,7 @@ run.py --ask tests ...         tests only, or with --ask program the program onl
                                in the other column of a row stays
 run.py --dry BUILD WORK ...    puts each fault into the copy and takes it out again, builds nothing
 run.py --list                  all mutants
+run.py --score                 what measured.csv and executed.csv beside this program amount to
 
 A row of WORK/mutants.csv per mutant (with --dry WORK/dry.csv); rows that are there are not run
 again. It takes hours, and may be killed at any time.
@@ -361,16 +362,22 @@ def executed_in(work):
 
 
 def score(rows, executed):
-    """How many mutants tests and program notice, and which none of them, of those asked about."""
-    rows = [row for row in rows if row["builds"] == "true"
-            and NOT_YET not in (row["noticed_by_test"], row["noticed_by_program"])]
-    asked = [row for row in rows if executed is None or row["mutant"] in executed]
+    """How many mutants tests and program notice, each of those it was asked about; who remain."""
+    rows = [row for row in rows if row["builds"] == "true"]
+
+    def asked(who):
+        return [row for row in rows if row[who] != NOT_YET]
+
+    def noticed(those, who):
+        return f"{sum(bool(row[who]) for row in those)} of {len(those)}"
+    tests = asked("noticed_by_test")
+    programs = [row for row in asked("noticed_by_program")
+                if executed is None or row["mutant"] in executed]
     where = "" if executed is None else " in lines that it executes"
-    quiet = [row["mutant"] for row in rows
-             if not row["noticed_by_test"] and not row["noticed_by_program"]]
-    return (f"{len(rows)} mutants build; tests notice "
-            f"{sum(bool(row['noticed_by_test']) for row in rows)}, the program "
-            f"{sum(bool(row['noticed_by_program']) for row in asked)} of {len(asked)}{where}; "
+    quiet = [row["mutant"] for row in tests
+             if not row["noticed_by_test"] and row["noticed_by_program"] in ("", NOT_YET)]
+    return (f"{len(rows)} mutants build; tests notice {noticed(tests, 'noticed_by_test')}, "
+            f"the program {noticed(programs, 'noticed_by_program')}{where}; "
             f"unnoticed: {', '.join(quiet) or 'none'}")
 
 
@@ -378,6 +385,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__,
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--list", action="store_true")
+    parser.add_argument("--score", action="store_true")
     parser.add_argument("--dry", action="store_true")
     parser.add_argument("--ask", choices=list(WHO))
     parser.add_argument("build", nargs="?")
@@ -388,6 +396,10 @@ def main():
     if given.list:
         for mutant in mutants:
             print(f"{mutant.kind:7} {mutant.name:36} {mutant.file}: {mutant.sentence}")
+        return
+    if given.score:
+        print(score(list(Table(patches.HERE / "measured.csv").rows.values()),
+                    executed_in(patches.HERE)))
         return
     if given.work is None:
         parser.error("BUILD and WORK are needed")
