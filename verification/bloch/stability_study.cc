@@ -1,25 +1,16 @@
 // SPDX-License-Identifier: MIT
 #include "verification/bloch/stability_study.h"
 
-#include "homogenization/cell/corners.h"
-#include "homogenization/lint/cell_reading.h"
 #include "meshes/plain/errors.h"
 #include "verification/bloch/margin_path.h"
 #include "verification/bloch/pattern_rows.h"
 #include "verification/bloch/stability_verdicts.h"
-#include "verification/cell/cell_files.h"
-#include "verification/cell/cell_study.h"
-#include "verification/cell/study_inputs.h"
-#include "verification/record/json_files.h"
 #include "verification/record/number_text.h"
 #include "verification/record/on_root.h"
 #include "verification/record/progress.h"
-#include "verification/record/provenance.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
-#include <filesystem>
 #include <memory>
 
 namespace homespun::verification
@@ -27,15 +18,6 @@ namespace homespun::verification
 namespace
 {
 using homogenization::UnitCell;
-
-/// 1.25 / (1 - 2^-q): the error of a mesh by its distance from the once refined one, with a margin.
-double factor_of_bars(const UnitCell &cell)
-{
-  const homogenization::Singularity corners = homogenization::singularity_of(
-    homogenization::corners_of(cell.mesh, cell.lattice, cell.stiffness_of_phase()));
-  const double order = 2. * std::min(1., corners.exists ? corners.strongest : 1.);
-  return 1.25 / (1. - std::pow(2., -order));
-}
 
 /// The strains of one sign, ascending in size; nothing where there are none.
 std::vector<double> strains_of(const std::vector<double> &all, const double sign)
@@ -64,18 +46,15 @@ public:
   StabilityStudy(const StabilityStudyOptions &options, const MPI_Comm communicator)
       : options(options)
       , communicator(communicator)
-      , begin(std::chrono::steady_clock::now())
+      , study(options, communicator)
   {
   }
 
   std::vector<Verdict> run()
   {
-    for (const std::string &file : options.cell_files)
-      cells.push_back(homogenization::read_unit_cell(file, communicator));
-    check_names(cells);
     on_root(communicator, [&]() { open(); });
     std::vector<AssessedCell> assessed;
-    for (const UnitCell &cell : cells)
+    for (const UnitCell &cell : study.cells())
       assessed.push_back(assess_for_study(cell, communicator, verdicts));
     on_root(communicator, [&]() { solve(assessed); });
     share_failure(verdicts, communicator);
@@ -92,13 +71,11 @@ private:
     inputs["supercell"] = options.supercell ? std::to_string((*options.supercell)(0)) + "x" +
                                                 std::to_string((*options.supercell)(1))
                                             : "of the lowest wave";
-    for (const UnitCell &cell : cells)
-      inputs["cell " + cell.name] = fingerprint(cell);
-    folder = open_run_folder(options.output, {"stability", inputs}, options.earlier, options.quiet);
-    levels = std::make_unique<Table<StabilityRow>>(options.output);
-    losses = std::make_unique<Table<LossRow>>(options.output);
-    zones  = std::make_unique<Table<ZoneRow>>(options.output);
-    modes  = std::make_unique<Table<ModeRow>>(options.output);
+    study.open("stability", inputs);
+    levels   = std::make_unique<Table<StabilityRow>>(options.output);
+    losses   = std::make_unique<Table<LossRow>>(options.output);
+    zones    = std::make_unique<Table<ZoneRow>>(options.output);
+    modes    = std::make_unique<Table<ModeRow>>(options.output);
     patterns = std::make_unique<Table<PatternRow>>(options.output);
     resumed  = !losses->rows().empty();
   }
@@ -109,14 +86,12 @@ private:
     for (const double sign : {-1., 1.})
       if (const std::vector<double> strains = strains_of(options.strains, sign); !strains.empty())
         ways.push_back(strains);
-    Progress progress(!options.quiet, static_cast<int>(cells.size() * options.laws.size() *
+    Progress progress(!options.quiet, static_cast<int>(study.cells().size() * options.laws.size() *
                                                        options.loads.size() * ways.size()));
-    for (std::size_t k = 0; k < cells.size(); ++k)
+    for (std::size_t k = 0; k < study.cells().size(); ++k)
     {
-      const UnitCell &cell             = cells[k];
-      const std::string folder_of_cell = options.output + "/" + cell.name;
-      std::filesystem::create_directories(folder_of_cell);
-      write_cell_results(cell, assessed[k], {}, n_ranks_of(communicator), folder_of_cell);
+      const UnitCell &cell = study.cells()[k];
+      study.write_cell(cell, assessed[k]);
       const double factor = factor_of_bars(cell);
       for (const std::string &law : options.laws)
       {
@@ -206,7 +181,7 @@ private:
     verdicts.insert(verdicts.end(), of_rows.begin(), of_rows.end());
     const std::vector<Verdict> of_patterns = verdicts_on_patterns(patterns->rows());
     verdicts.insert(verdicts.end(), of_patterns.begin(), of_patterns.end());
-    nlohmann::ordered_json notes = notes_on_losses(losses->rows());
+    std::vector<std::string> notes = notes_on_losses(losses->rows());
     for (const std::string &note : notes_on_patterns(patterns->rows()))
       notes.push_back(note);
     for (
@@ -228,36 +203,20 @@ private:
        "The zone and the mode are those of the given mesh just beyond the first loss, or else "
        "at the last strain that was reached."})
       notes.push_back(note);
-    for (const std::string &note : notes_on_cuts(cells))
-      notes.push_back(note);
     const nlohmann::ordered_json left_out = {
       {{"what", "mass, damping, third dimension, contact"},
        {"why", "an infinite cloth in its plane, in equilibrium: a cloth that is free to leave its "
                "plane wrinkles sooner wherever it is pressed"}},
       {{"what", "edges and clamps"}, {"why", "an infinite cloth has none"}}};
-    const double seconds =
-      std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-    write_json(options.output + "/study.json",
-               {{"command", options.command},
-                {"loads", options.loads},
-                {"laws", options.laws},
-                {"ranks", n_ranks_of(communicator)},
-                {"seconds_total", seconds},
-                {"resumed", resumed},
-                {"left_out", left_out},
-                {"notes", notes},
-                {"provenance", provenance(n_ranks_of(communicator))}});
-    write_json(options.output + "/verdicts.json", to_json(verdicts, options.command));
-    folder->finish();
+    study.conclude({{{"loads", options.loads}, {"laws", options.laws}}, left_out, notes, resumed},
+                   verdicts);
   }
 
   const StabilityStudyOptions options;
   const MPI_Comm communicator;
-  const std::chrono::steady_clock::time_point begin;
-  std::vector<UnitCell> cells;
+  StudyOfCells study;
   std::vector<Verdict> verdicts;
   // On the first rank alone:
-  std::unique_ptr<RunFolder> folder;
   std::unique_ptr<Table<StabilityRow>> levels;
   std::unique_ptr<Table<LossRow>> losses;
   std::unique_ptr<Table<ZoneRow>> zones;

@@ -3,8 +3,7 @@
 // cloth, and the strain of first loss.
 #pragma once
 
-#include "verification/record/run_folder.h"
-#include "verification/record/verdict.h"
+#include "verification/cell/study_of_cells.h"
 
 #include <mpi.h>
 
@@ -16,9 +15,8 @@
 
 namespace homespun::verification
 {
-struct StabilityStudyOptions
+struct StabilityStudyOptions : StudyOptions
 {
-  std::vector<std::string> cell_files;
   std::vector<std::string> loads = {"uniaxial-1", "uniaxial-2"}; ///< of an infinite cloth
   std::vector<double> strains    = {-0.02, -0.05, -0.1, -0.15, -0.2};
   std::vector<std::string> laws  = {"biot"};
@@ -26,10 +24,6 @@ struct StabilityStudyOptions
   /// Cells along a1 and a2 that are solved as one beyond the first loss; nothing: those over which
   /// the lowest wave repeats.
   std::optional<Eigen::Vector2i> supercell;
-  std::string output;
-  std::string command;
-  Earlier earlier = Earlier::keep_work;
-  bool quiet      = false;
 };
 
 /// Solves on the first rank; writes stability.csv row by row, loss.csv, zone.csv, mode.csv,

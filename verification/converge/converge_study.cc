@@ -2,12 +2,9 @@
 #include "verification/converge/converge_study.h"
 
 #include "homogenization/fem/homogenize.h"
-#include "homogenization/lint/cell_reading.h"
 #include "meshes/plain/errors.h"
 #include "meshes/plain/sheet.h"
-#include "verification/cell/study_inputs.h"
 #include "verification/converge/converge_cases.h"
-#include "verification/record/json_files.h"
 #include "verification/record/on_root.h"
 #include "verification/record/progress.h"
 #include "verification/record/provenance.h"
@@ -93,9 +90,9 @@ nlohmann::ordered_json what_was_left_out(const ConvergenceStudyOptions &options,
 }
 
 /// What a reader has to know of the studies that ran.
-nlohmann::ordered_json notes(const ConvergenceStudyOptions &options)
+std::vector<std::string> notes(const ConvergenceStudyOptions &options)
 {
-  nlohmann::ordered_json list = {
+  std::vector<std::string> list = {
     "An order is judged on the three finest levels of at least four. PASS: it lies within the "
     "limits and has settled (the last two differ by no more than 0.1). FAIL: the last one lies "
     "below the limits and does not rise, or it has settled above. Everything else is INCONCLUSIVE.",
@@ -130,17 +127,14 @@ public:
       : options(options)
       , communicator(communicator)
       , is_root(verification::is_root(communicator))
-      , begin(std::chrono::steady_clock::now())
+      , study(options, communicator)
       , sizes(convergence_sizes(options.quick))
   {
   }
 
   std::vector<Verdict> run()
   {
-    for (const std::string &file : options.cell_files)
-      cells.push_back(homogenization::read_unit_cell(file, communicator));
-    check_names(cells);
-    for (const UnitCell &cell : cells)
+    for (const UnitCell &cell : study.cells())
       meshes::tile(cell.mesh, cell.lattice, 1, 1); // refuses cells that make no sheet
     on_root(communicator, [&]() { open_tables(); });
     collect();
@@ -162,15 +156,14 @@ private:
     inputs["coarse_per_cell"]       = sizes.coarse_per_cell;
     inputs["strains"]               = sizes.strains;
     inputs["time_steps"]            = sizes.time_steps;
-    for (const UnitCell &cell : cells)
-      inputs["cells"][cell.name] = fingerprint(cell);
-    folder = open_run_folder(options.output, {"converge", inputs}, options.earlier, options.quiet);
-    record = std::make_unique<ConvergenceRecord>(options.output);
+    resumed                         = study.open("converge", inputs);
+    record                          = std::make_unique<ConvergenceRecord>(options.output);
   }
 
   /// Cases stand study by study, so that the finest levels of one cell do not delay the others.
   void collect()
   {
+    const std::vector<UnitCell> &cells = study.cells();
     for (const UnitCell &cell : cells)
     {
       homogenization::HomogenizationOptions p1;
@@ -179,9 +172,9 @@ private:
       homogenized.push_back(homogenization::homogenized_cell(
         cell, homogenization::homogenize(cell, p1, communicator), provenance_line()));
     }
-    const auto add = [&](const std::string &study, const auto &cases_of)
+    const auto add = [&](const std::string &name, const auto &cases_of)
     {
-      if (has(options, study))
+      if (has(options, name))
         for (std::size_t k = 0; k < cells.size(); ++k)
           for (ConvergenceCase &one : cases_of(cells[k], homogenized[k]))
             cases.push_back(std::move(one));
@@ -247,27 +240,14 @@ private:
     on_root(communicator,
             [&]()
             {
-              verdicts = record->verdicts();
-              write_json(options.output + "/verdicts.json", to_json(verdicts, options.command));
-              const double seconds =
-                std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-              nlohmann::ordered_json all_notes = notes(options);
-              for (const std::string &note : notes_on_cuts(cells))
-                all_notes.push_back(note);
-              for (const std::string &note : unfinished)
-                all_notes.push_back(note);
-              const unsigned int n_ranks = n_ranks_of(communicator);
-              write_json(options.output + "/study.json",
-                         {{"command", options.command},
-                          {"studies", options.studies},
-                          {"quick", options.quick},
-                          {"ranks", n_ranks},
-                          {"seconds_total", seconds},
-                          {"resumed", folder->is_taken_up()},
-                          {"left_out", what_was_left_out(options, record->levels())},
-                          {"notes", all_notes},
-                          {"provenance", provenance(n_ranks)}});
-              folder->finish();
+              verdicts                           = record->verdicts();
+              std::vector<std::string> all_notes = notes(options);
+              all_notes.insert(all_notes.end(), unfinished.begin(), unfinished.end());
+              study.conclude({{{"studies", options.studies}, {"quick", options.quick}},
+                              what_was_left_out(options, record->levels()),
+                              all_notes,
+                              resumed},
+                             verdicts);
             });
     share_failure(verdicts, communicator);
     return verdicts;
@@ -276,13 +256,12 @@ private:
   const ConvergenceStudyOptions options;
   const MPI_Comm communicator;
   const bool is_root;
-  const std::chrono::steady_clock::time_point begin;
+  StudyOfCells study;
   const ConvergenceSizes sizes;
-  std::vector<UnitCell> cells;
   std::vector<meshes::HomogenizedCell> homogenized;
   std::vector<ConvergenceCase> cases;
   std::vector<std::string> unfinished;       ///< cases whose ladder ended early, and why
-  std::unique_ptr<RunFolder> folder;         ///< on the first rank alone
+  bool resumed = false;                      ///< on the first rank alone
   std::unique_ptr<ConvergenceRecord> record; ///< on the first rank alone
 };
 } // namespace

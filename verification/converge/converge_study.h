@@ -3,8 +3,7 @@
 // four levels, with its observed order held against the order that theory says.
 #pragma once
 
-#include "verification/record/run_folder.h"
-#include "verification/record/verdict.h"
+#include "verification/cell/study_of_cells.h"
 
 #include <mpi.h>
 
@@ -13,15 +12,10 @@
 
 namespace homespun::verification
 {
-struct ConvergenceStudyOptions
+struct ConvergenceStudyOptions : StudyOptions
 {
-  std::vector<std::string> cell_files;
   std::vector<std::string> studies; ///< of convergence_studies()
   bool quick = false;               ///< small sizes, for seconds to minutes
-  std::string output;
-  std::string command; ///< that reproduces the study
-  Earlier earlier = Earlier::keep_work;
-  bool quiet      = false;
 };
 
 /// Runs the studies and writes, into the output folder, converge.csv (a row per level of every

@@ -1,27 +1,19 @@
 // SPDX-License-Identifier: MIT
 #include "verification/load/load_study.h"
 
-#include "homogenization/cell/corners.h"
-#include "homogenization/lint/cell_reading.h"
 #include "meshes/plain/errors.h"
 #include "meshes/plain/refine.h"
 #include "verification/cell/algebraic_limit.h"
-#include "verification/cell/cell_files.h"
-#include "verification/cell/cell_study.h"
 #include "verification/cell/energy_order.h"
 #include "verification/cell/study_inputs.h"
 #include "verification/load/load_path.h"
 #include "verification/load/measured_curve.h"
-#include "verification/record/json_files.h"
 #include "verification/record/number_text.h"
 #include "verification/record/on_root.h"
 #include "verification/record/progress.h"
-#include "verification/record/provenance.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
-#include <filesystem>
 #include <memory>
 #include <optional>
 #include <set>
@@ -75,18 +67,9 @@ struct Cloths
   const Eigen::Matrix3d C_given, C_finer;
 };
 
-/// 1.25 / (1 - 2^-q): the error of a mesh by its distance from the once refined one, with a margin.
-double factor_of_bars(const UnitCell &cell)
-{
-  const homogenization::Singularity corners = homogenization::singularity_of(
-    homogenization::corners_of(cell.mesh, cell.lattice, cell.stiffness_of_phase()));
-  const double order = 2. * std::min(1., corners.exists ? corners.strongest : 1.);
-  return 1.25 / (1. - std::pow(2., -order));
-}
-
 /// The rows of a path; bars where the finer mesh reached the level too.
 std::vector<LoadRow> rows_of(const LoadPath &path, const LoadPath &finer, const LoadRow &of_path,
-                             const LoadControl &control, const double factor_of_bars)
+                             const LoadControl &control, const double factor)
 {
   std::vector<LoadRow> rows;
   for (std::size_t k = 0; k < path.levels.size(); ++k)
@@ -106,8 +89,8 @@ std::vector<LoadRow> rows_of(const LoadPath &path, const LoadPath &finer, const 
     row.stable = level.is_stable;
     if (k < finer.levels.size())
     {
-      strain = factor_of_bars * (level.strain - finer.levels[k].strain).cwiseAbs();
-      stress = factor_of_bars * (level.stress - finer.levels[k].stress).cwiseAbs();
+      strain = factor * (level.strain - finer.levels[k].strain).cwiseAbs();
+      stress = factor * (level.stress - finer.levels[k].stress).cwiseAbs();
       for (std::size_t c = 0; c < 3; ++c)
         (control.is_stress[c] ? stress : strain)(static_cast<long>(c)) = 0.;
       row.strain_11_bar = strain(0), row.strain_22_bar = strain(1), row.strain_12_bar = strain(2);
@@ -183,18 +166,15 @@ public:
   LoadStudy(const LoadStudyOptions &options, const MPI_Comm communicator)
       : options(options)
       , communicator(communicator)
-      , begin(std::chrono::steady_clock::now())
+      , study(options, communicator)
   {
   }
 
   std::vector<Verdict> run()
   {
-    for (const std::string &file : options.cell_files)
-      cells.push_back(homogenization::read_unit_cell(file, communicator));
-    check_names(cells);
     on_root(communicator, [&]() { open(); });
     std::vector<AssessedCell> assessed;
-    for (const UnitCell &cell : cells)
+    for (const UnitCell &cell : study.cells())
       assessed.push_back(assess_for_study(cell, communicator, verdicts));
     on_root(communicator, [&]() { solve(assessed); });
     share_failure(verdicts, communicator);
@@ -224,10 +204,8 @@ private:
       for (const std::string &field : fields_of_row(row))
         points += field + ",";
     inputs["measured"] = fingerprint(points);
-    for (const UnitCell &cell : cells)
-      inputs["cell " + cell.name] = fingerprint(cell);
-    folder = open_run_folder(options.output, {"load", inputs}, options.earlier, options.quiet);
-    table  = std::make_unique<Table<LoadRow>>(options.output);
+    study.open("load", inputs);
+    table = std::make_unique<Table<LoadRow>>(options.output);
     // Paths are short, and solved whole.
     table->keep([](const LoadRow &) { return false; });
     if (!measured.empty())
@@ -240,13 +218,12 @@ private:
     for (const std::string &law : options.laws)
       if (std::find(laws.begin(), laws.end(), law) == laws.end())
         laws.push_back(law);
-    Progress progress(!options.quiet, static_cast<int>(cells.size() * (2 * laws.size() - 1)));
-    for (std::size_t k = 0; k < cells.size(); ++k)
+    Progress progress(!options.quiet,
+                      static_cast<int>(study.cells().size() * (2 * laws.size() - 1)));
+    for (std::size_t k = 0; k < study.cells().size(); ++k)
     {
-      const UnitCell &cell             = cells[k];
-      const std::string folder_of_cell = options.output + "/" + cell.name;
-      std::filesystem::create_directories(folder_of_cell);
-      write_cell_results(cell, assessed[k], {}, n_ranks_of(communicator), folder_of_cell);
+      const UnitCell &cell = study.cells()[k];
+      study.write_cell(cell, assessed[k]);
       const Cloths cloths(cell);
       verdicts.push_back(verdict_on_rest(cell, cloths, assessed[k]));
       const double factor = factor_of_bars(cell);
@@ -283,7 +260,7 @@ private:
 
   void write(const std::vector<std::string> &laws)
   {
-    nlohmann::ordered_json all_notes = {
+    const std::vector<std::string> notes = {
       "Prescribed: " + options.control.text() + "; " + std::to_string(options.n_steps) + " steps.",
       "Strains are those of F = (1 + e11, " +
         std::string(options.control.axis == 1 ? "e12; 0" : "0; e12") +
@@ -298,39 +275,25 @@ private:
       "corners of the cell leave. They know nothing of the law.",
       "Stable means: against the fluctuation of one cell and the free strains; longer waves are "
       "not asked."};
-    for (const std::string &note : notes_on_cuts(cells))
-      all_notes.push_back(note);
     nlohmann::ordered_json left_out = {
       {{"what", "mass, damping, third dimension, contact"},
        {"why", "an infinite cloth in its plane, in equilibrium"}},
       {{"what", "edges and clamps"}, {"why", "an infinite cloth has none; `homespun strain` has"}}};
     if (measured.empty())
       left_out.push_back({{"what", "measured curves"}, {"why", "--measured names no file"}});
-    const double seconds =
-      std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-    write_json(options.output + "/study.json",
-               {{"command", options.command},
-                {"control", options.control.text()},
-                {"axis", options.control.axis},
-                {"laws", laws},
-                {"ranks", n_ranks_of(communicator)},
-                {"seconds_total", seconds},
-                {"resumed", false},
-                {"left_out", left_out},
-                {"notes", all_notes},
-                {"provenance", provenance(n_ranks_of(communicator))}});
-    write_json(options.output + "/verdicts.json", to_json(verdicts, options.command));
-    folder->finish();
+    study.conclude(
+      {{{"control", options.control.text()}, {"axis", options.control.axis}, {"laws", laws}},
+       left_out,
+       notes},
+      verdicts);
   }
 
   const LoadStudyOptions options;
   const MPI_Comm communicator;
-  const std::chrono::steady_clock::time_point begin;
-  std::vector<UnitCell> cells;
+  StudyOfCells study;
   std::vector<Verdict> verdicts;
   // On the first rank alone:
   std::vector<MeasuredRow> measured;
-  std::unique_ptr<RunFolder> folder;
   std::unique_ptr<Table<LoadRow>> table;
 };
 } // namespace

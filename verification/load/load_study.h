@@ -3,9 +3,8 @@
 // curve, against that of a cloth that has C^H in place of the microstructure.
 #pragma once
 
+#include "verification/cell/study_of_cells.h"
 #include "verification/load/load_control.h"
-#include "verification/record/run_folder.h"
-#include "verification/record/verdict.h"
 
 #include <mpi.h>
 
@@ -14,17 +13,12 @@
 
 namespace homespun::verification
 {
-struct LoadStudyOptions
+struct LoadStudyOptions : StudyOptions
 {
-  std::vector<std::string> cell_files;
   LoadControl control;
   int n_steps                   = 20;
   std::vector<std::string> laws = {"biot"}; ///< beside `linear`, which is always there
   std::vector<std::string> measured;        ///< CSV files
-  std::string output;
-  std::string command;
-  Earlier earlier = Earlier::keep_work;
-  bool quiet      = false;
 };
 
 /// Solves all paths on the first rank, writes load.csv, measured.csv where there is any, study.json

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: MIT
+#include "verification/cell/study_of_cells.h"
+
+#include "homogenization/cell/corners.h"
+#include "homogenization/lint/cell_reading.h"
+#include "verification/cell/cell_files.h"
+#include "verification/cell/study_inputs.h"
+#include "verification/record/json_files.h"
+#include "verification/record/on_root.h"
+#include "verification/record/provenance.h"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <utility>
+
+namespace homespun::verification
+{
+using homogenization::UnitCell;
+
+double factor_of_bars(const UnitCell &cell)
+{
+  const homogenization::Singularity corners = homogenization::singularity_of(
+    homogenization::corners_of(cell.mesh, cell.lattice, cell.stiffness_of_phase()));
+  const double order = 2. * std::min(1., corners.exists ? corners.strongest : 1.);
+  return 1.25 / (1. - std::pow(2., -order));
+}
+
+StudyOfCells::StudyOfCells(StudyOptions given_options, const MPI_Comm communicator)
+    : options(std::move(given_options))
+    , communicator(communicator)
+    , begin(std::chrono::steady_clock::now())
+{
+  for (const std::string &file : options.cell_files)
+    all_cells.push_back(homogenization::read_unit_cell(file, communicator));
+  check_names(all_cells);
+}
+
+bool StudyOfCells::open(const std::string &name, nlohmann::ordered_json inputs)
+{
+  for (const UnitCell &cell : all_cells)
+    inputs["cells"][cell.name] = fingerprint(cell);
+  folder =
+    open_run_folder(options.output, {name, std::move(inputs)}, options.earlier, options.quiet);
+  return folder->is_taken_up();
+}
+
+std::string StudyOfCells::write_cell(const UnitCell &cell, const AssessedCell &assessed) const
+{
+  const std::string folder_of_cell = options.output + "/" + cell.name;
+  std::filesystem::create_directories(folder_of_cell);
+  write_cell_results(cell, assessed, {}, n_ranks_of(communicator), folder_of_cell);
+  return folder_of_cell;
+}
+
+void StudyOfCells::conclude(StudyDescription description, const std::vector<Verdict> &verdicts)
+{
+  const unsigned int n_ranks = n_ranks_of(communicator);
+  for (const std::string &note : notes_on_cuts(all_cells))
+    description.notes.push_back(note);
+  nlohmann::ordered_json study = {{"command", options.command}};
+  study.update(description.told);
+  study["ranks"] = n_ranks;
+  study["seconds_total"] =
+    std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  study["resumed"]    = description.is_resumed;
+  study["left_out"]   = description.left_out;
+  study["notes"]      = description.notes;
+  study["provenance"] = provenance(n_ranks);
+  write_json(options.output + "/verdicts.json", to_json(verdicts, options.command));
+  write_json(options.output + "/study.json", study);
+  folder->finish();
+}
+} // namespace homespun::verification

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: MIT
+// The frame of a study of cells: it reads them, keeps one folder of one run, and says in study.json
+// and verdicts.json what ran. What is left to a study is its tables, its notes and its claims.
+#pragma once
+
+#include "verification/cell/cell_study.h"
+#include "verification/record/run_folder.h"
+#include "verification/record/verdict.h"
+
+#include <chrono>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace homespun::verification
+{
+/// What every study of cells is told.
+struct StudyOptions
+{
+  std::vector<std::string> cell_files;
+  std::string output;
+  std::string command; ///< that reproduces the study
+  Earlier earlier = Earlier::keep_work;
+  bool quiet      = false;
+};
+
+/// What study.json says of a study, beside its command, ranks, seconds and provenance.
+struct StudyDescription
+{
+  nlohmann::ordered_json told;     ///< what it was told, by name
+  nlohmann::ordered_json left_out; ///< a list of {what, why}
+  std::vector<std::string> notes;  ///< what a reader has to know
+  bool is_resumed = false;
+};
+
+/// 1.25 / (1 - 2^-q), q twice the exponent of the strongest corner and at most 2, the order of the
+/// energy of P1: by it the distance from the once refined mesh is the error of the given one, with
+/// a margin (grid convergence index).
+double factor_of_bars(const homogenization::UnitCell &cell);
+
+class StudyOfCells
+{
+public:
+  /// Reads the cells, on all ranks.
+  /// @throws BadInput of a file, and where two cells share a name
+  StudyOfCells(StudyOptions options, MPI_Comm communicator);
+
+  const std::vector<homogenization::UnitCell> &cells() const
+  {
+    return all_cells;
+  }
+
+  /// Takes the folder for a run of these inputs and cells. First rank.
+  /// @param name of the command
+  /// @return whether the folder held this run already
+  /// @throws BadInput as RunFolder does
+  bool open(const std::string &name, nlohmann::ordered_json inputs);
+
+  /// The folder of a cell, made, with the files of write_cell_results(). First rank.
+  std::string write_cell(const homogenization::UnitCell &cell, const AssessedCell &assessed) const;
+
+  /// Writes study.json and verdicts.json, adds how cells were cut to the notes, and ends the run.
+  /// First rank.
+  void conclude(StudyDescription description, const std::vector<Verdict> &verdicts);
+
+private:
+  const StudyOptions options;
+  const MPI_Comm communicator;
+  const std::chrono::steady_clock::time_point begin;
+  std::vector<homogenization::UnitCell> all_cells;
+  std::unique_ptr<RunFolder> folder; ///< first rank
+};
+} // namespace homespun::verification
