@@ -73,6 +73,37 @@ Repetition repetition(const StressCase &stress_case, const unsigned int seed)
 }
 } // namespace
 
+CaseGroup::CaseGroup(std::string name, std::vector<StressCase> &cases)
+    : group(std::move(name))
+    , cases(cases)
+{
+}
+
+StressCase &CaseGroup::finite(const std::string &name, const std::string &expected,
+                              const Figure &figure, const Run &run)
+{
+  StressCase &one = cases.emplace_back();
+  one.group       = group;
+  one.name        = name;
+  one.expected    = expected;
+  one.limit       = figure.limit;
+  one.figure_is   = figure.is;
+  one.run         = run;
+  return one;
+}
+
+StressCase &CaseGroup::refused(const std::string &name, const std::string &names, const Run &run)
+{
+  StressCase &one = cases.emplace_back();
+  one.group       = group;
+  one.name        = name;
+  one.expected    = "refused; the message names `" + names + "`";
+  one.ending      = ExpectedEnd::refused;
+  one.names       = names;
+  one.run         = run;
+  return one;
+}
+
 void derive(std::vector<StressCase> &cases, const Derivations &derivations)
 {
   for (StressCase &one : cases)

@@ -38,14 +38,41 @@ struct StressCase
   double limit       = 0.; ///< of the figure; finite cases
   std::string figure_is;   ///< what the figure is, with its unit; finite cases
   std::string names;       ///< what the refusal must contain; refused cases
-  bool is_random =
-    false; ///< seeds differ; else every repetition must give the same numbers to the last bit
+  /// Seeds differ; else every repetition must give the same numbers to the last bit.
+  bool is_random = false;
   /// @throws BadInput, NotConverged where it refuses
   std::function<StressAnswer(unsigned int seed)> run;
-  int most_repeats =
-    std::numeric_limits<int>::max(); ///< for cases that are long or need but a second look
-  std::string derivation =
-    {}; ///< where the limit comes from, known before the figure; finite cases
+  /// For cases that are long or need but a second look.
+  int most_repeats = std::numeric_limits<int>::max();
+  std::string derivation; ///< where the limit comes from, known before the figure; finite cases
+};
+
+/// What the figure of a finite case is, with its unit, and its limit.
+struct Figure
+{
+  double limit;
+  std::string is;
+};
+
+/// Cases of one group, added to a list.
+class CaseGroup
+{
+public:
+  using Run = std::function<StressAnswer(unsigned int seed)>;
+
+  CaseGroup(std::string name, std::vector<StressCase> &cases);
+
+  /// A case that ends in an answer; repetitions give the same numbers, unless told otherwise.
+  /// @return the case, until the next one is added
+  StressCase &finite(const std::string &name, const std::string &expected, const Figure &figure,
+                     const Run &run);
+
+  /// A case that is refused with a message that contains `names`.
+  StressCase &refused(const std::string &name, const std::string &names, const Run &run);
+
+private:
+  const std::string group;
+  std::vector<StressCase> &cases;
 };
 
 /// Where limits come from, by what the figure is.

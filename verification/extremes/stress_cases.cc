@@ -18,6 +18,7 @@ namespace
 {
 constexpr int n = 8; ///< cells per side of the sheet
 
+const char *const never_grows       = "finite; the energy of the damped sheet never grows";
 const char *const of_largest_energy = "largest growth in a step over the largest energy [-]";
 const char *const way_at_rest       = "largest way of a vertex [m]";
 
@@ -154,18 +155,19 @@ StressAnswer start_from(const Start &start, const SheetStiffness &stiffness, con
 std::vector<StressCase> time_step_cases(const std::vector<SheetStiffness> &stiffnesses)
 {
   std::vector<StressCase> cases;
+  CaseGroup group("time step", cases);
   for (const SheetStiffness &stiffness : stiffnesses)
   {
     for (const double h : {1e-5, 1e-4, 1e-3, 1e-2, 5e-2, 0.1, 1.})
       for (const double disturbance : {0., 2.})
-        cases.push_back(
-          {"time step",
-           short_text(h) + " s; " +
-             (disturbance > 0. ? "random velocities of 2 m/s; " : "from rest; ") + stiffness.name,
-           "finite; the energy of the damped sheet never grows", ExpectedEnd::finite,
-           energy_round_off, of_largest_energy, "", disturbance > 0., [=](const unsigned int seed) {
-             return hang(stiffness, h, h < 0.05 ? 60 : 30, disturbance, seed);
-           }});
+        group
+          .finite(short_text(h) + " s; " +
+                    (disturbance > 0. ? "random velocities of 2 m/s; " : "from rest; ") +
+                    stiffness.name,
+                  never_grows, {energy_round_off, of_largest_energy},
+                  [=](const unsigned int seed)
+                  { return hang(stiffness, h, h < 0.05 ? 60 : 30, disturbance, seed); })
+          .is_random = disturbance > 0.;
   }
   const SheetStiffness &first = stiffnesses.front();
   SheetPhysics weightless;
@@ -174,10 +176,9 @@ std::vector<StressCase> time_step_cases(const std::vector<SheetStiffness> &stiff
                          const std::vector<int> &held, const SheetPhysics &physics,
                          const bool settle)
   {
-    cases.push_back(
-      {"time step", "20000 steps at rest; " + name, "finite; does not drift", ExpectedEnd::finite,
-       n_steps_at_rest * std::numeric_limits<double>::epsilon() * side, way_at_rest, "", false,
-       [=](unsigned int) { return rest(mesh, first, held, physics, settle); }});
+    group.finite("20000 steps at rest; " + name, "finite; does not drift",
+                 {n_steps_at_rest * std::numeric_limits<double>::epsilon() * side, way_at_rest},
+                 [=](unsigned int) { return rest(mesh, first, held, physics, settle); });
   };
   rests("free; flat; no gravity", lying_mesh(2), {}, weightless, false);
   meshes::ClothMesh turned = lying_mesh(2);
@@ -193,16 +194,17 @@ std::vector<StressCase> time_step_cases(const std::vector<SheetStiffness> &stiff
 std::vector<StressCase> stiffness_cases()
 {
   std::vector<StressCase> cases;
+  CaseGroup group("stiffness", cases);
   for (const double young : {1e-2, 1., 1e2, 1e4, 1e6, 1e8})
     for (const double density : {0.01, 0.1, 1., 10.})
     {
       SheetStiffness stiffness = isotropic_sheet(young, 0.3);
       stiffness.areal_density  = density;
-      cases.push_back({"stiffness", short_text(young) + " N/m; " + short_text(density) + " kg/m^2",
-                       "finite; the energy of the damped sheet never grows", ExpectedEnd::finite,
-                       energy_round_off, of_largest_energy, "", true, [=](const unsigned int seed) {
-                         return hang(stiffness, 0.005, 50, 2., seed);
-                       }});
+      group
+        .finite(short_text(young) + " N/m; " + short_text(density) + " kg/m^2", never_grows,
+                {energy_round_off, of_largest_energy},
+                [=](const unsigned int seed) { return hang(stiffness, 0.005, 50, 2., seed); })
+        .is_random = true;
     }
   derive(cases, derivations);
   return cases;
@@ -211,18 +213,18 @@ std::vector<StressCase> stiffness_cases()
 std::vector<StressCase> start_cases(const std::vector<SheetStiffness> &stiffnesses)
 {
   std::vector<StressCase> cases;
+  CaseGroup group("start", cases);
   for (const Start &start : starts)
     for (const SheetStiffness &stiffness : stiffnesses)
       for (const bool is_free : {false, true})
         for (const double h : {1e-3, 0.02})
-          cases.push_back(
-            {"start",
-             std::string(start.name) + (is_free ? "; free; " : "; hung by two corners; ") +
-               short_text(1e3 * h) + " ms; " + stiffness.name,
-             "finite; the energy of the damped sheet never grows", ExpectedEnd::finite,
-             energy_round_off, of_largest_energy, "", start.is_random,
-             [=](const unsigned int seed)
-             { return start_from(start, stiffness, h, is_free, seed); }});
+          group
+            .finite(std::string(start.name) + (is_free ? "; free; " : "; hung by two corners; ") +
+                      short_text(1e3 * h) + " ms; " + stiffness.name,
+                    never_grows, {energy_round_off, of_largest_energy},
+                    [=](const unsigned int seed)
+                    { return start_from(start, stiffness, h, is_free, seed); })
+            .is_random = start.is_random;
   derive(cases, derivations);
   return cases;
 }

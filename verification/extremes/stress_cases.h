@@ -36,9 +36,15 @@ std::vector<StressCase> spin_cases(const std::vector<SheetStiffness> &stiffnesse
 /// Free fall, clamped, hung, pulled.
 std::vector<StressCase> motion_cases(const std::vector<SheetStiffness> &stiffnesses);
 
+enum class Sphere
+{
+  there,
+  missing
+};
+
 /// Bending, wind and an obstacle at the steps of scenes, 0.1 to 50 ms.
-/// @param with_obstacle false: the sphere is not there, which its cases must notice
-std::vector<StressCase> scene_cases(const SheetStiffness &stiffness, bool with_obstacle = true);
+/// @param sphere that its cases must notice where it is missing
+std::vector<StressCase> scene_cases(const SheetStiffness &stiffness, Sphere sphere = Sphere::there);
 
 /// Up-sampling of violent coarse motions.
 std::vector<StressCase> localization_cases(const std::vector<meshes::HomogenizedCell> &cells,

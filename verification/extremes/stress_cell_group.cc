@@ -75,13 +75,13 @@ Limit limit_of(const UnitCell &cell)
 
 void CellGroup::refused(const std::string &what, const std::string &names, const UnitCell &cell)
 {
-  cases.push_back({name, what, "refused; the message names `" + names + "`", ExpectedEnd::refused,
-                   0., "", names, false,
-                   [cell](unsigned int) -> StressAnswer
-                   {
-                     refuse_unsound(cell);
-                     return {0., solved(cell).stiffness};
-                   },
-                   2});
+  group
+    .refused(what, names,
+             [cell](unsigned int) -> StressAnswer
+             {
+               refuse_unsound(cell);
+               return {0., solved(cell).stiffness};
+             })
+    .most_repeats = 2;
 }
 } // namespace homespun::verification

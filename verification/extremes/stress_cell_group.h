@@ -53,13 +53,12 @@ StressAnswer against(const UnitCell &cell, const UnitCell &original, const Eigen
 /// Rotation by an angle [deg].
 Eigen::Matrix2d turn(double angle);
 
-/// Cases of one group.
+/// Cases of homogenization, which look twice.
 class CellGroup
 {
 public:
   CellGroup(std::string name, std::vector<StressCase> &cases)
-      : name(std::move(name))
-      , cases(cases)
+      : group(std::move(name), cases)
   {
   }
 
@@ -67,16 +66,16 @@ public:
   void finite(const std::string &what, const std::string &expected, const Limit &limit,
               const std::string &figure_is, const Run &run, const int most_repeats = 2)
   {
-    cases.push_back({name, what, "finite; " + expected, ExpectedEnd::finite, limit.value, figure_is,
-                     "", false, [run](unsigned int) -> StressAnswer { return run(); }, most_repeats,
-                     limit.derivation});
+    StressCase &one  = group.finite(what, "finite; " + expected, {limit.value, figure_is},
+                                    [run](unsigned int) -> StressAnswer { return run(); });
+    one.most_repeats = most_repeats;
+    one.derivation   = limit.derivation;
   }
 
   void refused(const std::string &what, const std::string &names, const UnitCell &cell);
 
 private:
-  const std::string name;
-  std::vector<StressCase> &cases;
+  CaseGroup group;
 };
 
 /// Cells that are shifted, repeated, turned, mirrored or given in other units are the same cloth.

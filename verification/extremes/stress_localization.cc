@@ -130,17 +130,19 @@ StressAnswer violent(const Sheets &sheets, const Positions<3> &coarse)
   return {(fine - alone).rowwise().norm().maxCoeff() / bound, values};
 }
 
-std::vector<StressCase> of_cell(const Shared &sheets, const std::string &name)
+constexpr const char *distance_over_side = "largest distance over the cell's side [-]";
+constexpr const char *displacement_over_bound =
+  "largest microscopic displacement over its bound [-]";
+
+/// Uniform motions.
+void add_uniform(const Shared &sheets, const std::string &of, CaseGroup &group)
 {
-  std::vector<StressCase> cases;
-  const std::string group = "localization", of = "; " + name;
   // Twenty roundings of positions that are up to twenty cell sides away.
   constexpr double round_off = 20. * 20. * std::numeric_limits<double>::epsilon();
   const auto exact           = [&](const std::string &what, const Eigen::Matrix<double, 3, 2> &F)
   {
-    cases.push_back({group, what + of, "finite; exactly F X + R w", ExpectedEnd::finite, round_off,
-                     "largest distance over the cell's side [-]", "", false,
-                     [=](unsigned int) { return uniform(*sheets, F); }});
+    group.finite(what + of, "finite; exactly F X + R w", {round_off, distance_over_side},
+                 [=](unsigned int) { return uniform(*sheets, F); });
   };
   Eigen::Matrix<double, 3, 2> F;
   for (const double stretch : {0.2, 1., 5.})
@@ -154,18 +156,22 @@ std::vector<StressCase> of_cell(const Shared &sheets, const std::string &name)
   exact("sheared by 45 degrees and tilted", F);
   F << -1., 0., 0., -1., 0., 0.;
   exact("turned by exactly 180 degrees", F);
+}
 
-  const auto bounded = [&](const std::string &what, const bool is_random,
-                           const std::function<Positions<3>(unsigned int)> &positions)
+/// Collapsed, inverted, torn apart.
+void add_violent(const Shared &sheets, const std::string &of, CaseGroup &group)
+{
+  const auto bounded =
+    [&](const std::string &what,
+        const std::function<Positions<3>(unsigned int)> &positions) -> StressCase &
   {
-    cases.push_back({group, what + of, "finite in float and double; within the bound of the method",
-                     ExpectedEnd::finite, 1. + 1e-12,
-                     "largest microscopic displacement over its bound [-]", "", is_random,
-                     [=](const unsigned int seed) { return violent(*sheets, positions(seed)); }});
+    return group.finite(what + of, "finite in float and double; within the bound of the method",
+                        {1. + 1e-12, displacement_over_bound},
+                        [=](const unsigned int seed) { return violent(*sheets, positions(seed)); });
   };
   const int middle        = (n_cells + 1) * (n_cells / 2) + n_cells / 2;
   const Positions<3> flat = embedded(sheets->coarse);
-  bounded("coarse triangle collapsed to a line", false,
+  bounded("coarse triangle collapsed to a line",
           [=](unsigned int)
           {
             Positions<3> x    = flat;
@@ -173,7 +179,7 @@ std::vector<StressCase> of_cell(const Shared &sheets, const std::string &name)
             x.row(middle + 1) = x.row(middle);
             return x;
           });
-  bounded("coarse triangles collapsed to a point", false,
+  bounded("coarse triangles collapsed to a point",
           [=](unsigned int)
           {
             Positions<3> x = flat;
@@ -181,13 +187,13 @@ std::vector<StressCase> of_cell(const Shared &sheets, const std::string &name)
               x.row(v) = flat.row(middle);
             return x;
           });
-  bounded("the whole sheet in a line", false,
+  bounded("the whole sheet in a line",
           [=](unsigned int) -> Positions<3>
           { return flat.rowwise().sum() * Eigen::RowVector3d(1., 2., 3.); });
-  bounded("the whole sheet in a point", false,
+  bounded("the whole sheet in a point",
           [=](unsigned int) -> Positions<3>
           { return Positions<3>::Constant(flat.rows(), 3, 0.3); });
-  bounded("every second coarse triangle inverted", false,
+  bounded("every second coarse triangle inverted",
           [=](unsigned int)
           {
             Positions<3> x = flat;
@@ -197,48 +203,52 @@ std::vector<StressCase> of_cell(const Shared &sheets, const std::string &name)
                   sheets->side * Eigen::RowVector3d((i + j) % 3 == 1, (i + j) % 3 == 2, 0.);
             return x;
           });
-  bounded("random coarse vertices", true,
+  bounded("random coarse vertices",
           [=](const unsigned int seed) -> Positions<3>
-          { return n_cells * sheets->side * meshes::random_vectors(flat.rows(), seed); });
-  bounded("one coarse vertex at 1e6 m", true,
+          { return n_cells * sheets->side * meshes::random_vectors(flat.rows(), seed); })
+    .is_random = true;
+  bounded("one coarse vertex at 1e6 m",
           [=](const unsigned int seed)
           {
             Positions<3> x = flat;
             x.row(static_cast<int>(7 * seed + 3) % static_cast<int>(x.rows())) << 1e6, -2e5, 3e5;
             return x;
-          });
+          })
+    .is_random = true;
   for (const double scale : {1e-30, 1e30})
-    bounded("scaled by " + short_text(scale), false,
+    bounded("scaled by " + short_text(scale),
             [=](unsigned int) -> Positions<3> { return scale * flat; });
-  cases.push_back({group, "coarse vertex that is not a number" + of,
-                   "refused; the message names `vertex 7`", ExpectedEnd::refused, 0., "",
-                   "vertex 7", false,
-                   [=](unsigned int) -> StressAnswer
-                   {
-                     Positions<3> x = flat;
-                     x(7, 1)        = std::numeric_limits<double>::quiet_NaN();
-                     return {0., upsampled<float>(*sheets, x)};
-                   }});
-  derive(
-    cases,
-    {{"largest distance over the cell's side [-]",
-      "theory: a uniform strain is up-sampled exactly; round-off: twenty roundings of positions "
-      "up to twenty cell sides away"},
-     {"largest microscopic displacement over its bound [-]",
-      "theory: lift x sum of |strains| x largest mode, and 1e-14 of the largest coordinate, whose "
-      "digits the difference of two positions loses; round-off of the bound itself: 1e-12 of it"}});
-  return cases;
+  group.refused("coarse vertex that is not a number" + of, "vertex 7",
+                [=](unsigned int) -> StressAnswer
+                {
+                  Positions<3> x = flat;
+                  x(7, 1)        = std::numeric_limits<double>::quiet_NaN();
+                  return {0., upsampled<float>(*sheets, x)};
+                });
 }
 } // namespace
 
 std::vector<StressCase> localization_cases(const std::vector<meshes::HomogenizedCell> &cells,
                                            const std::vector<std::string> &names)
 {
-  std::vector<StressCase> cases;
+  std::vector<StressCase> all;
+  CaseGroup group("localization", all);
   for (std::size_t k = 0; k < cells.size(); ++k)
-    for (StressCase &one : of_cell(std::make_shared<const Sheets>(cells[k]), names.at(k)))
-      cases.push_back(std::move(one));
-  return cases;
+  {
+    const Shared sheets  = std::make_shared<const Sheets>(cells[k]);
+    const std::string of = "; " + names.at(k);
+    add_uniform(sheets, of, group);
+    add_violent(sheets, of, group);
+  }
+  derive(
+    all,
+    {{distance_over_side,
+      "theory: a uniform strain is up-sampled exactly; round-off: twenty roundings of positions "
+      "up to twenty cell sides away"},
+     {displacement_over_bound,
+      "theory: lift x sum of |strains| x largest mode, and 1e-14 of the largest coordinate, whose "
+      "digits the difference of two positions loses; round-off of the bound itself: 1e-12 of it"}});
+  return all;
 }
 
 meshes::HomogenizedCell smooth_cell()

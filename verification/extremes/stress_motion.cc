@@ -259,6 +259,9 @@ std::string called(const shell::Integrator integrator)
                                                        : "";
 }
 
+const Figure growth = {energy_round_off, "largest growth in a step over the largest energy [-]"};
+constexpr const char *never_grows = "finite; the energy of the damped sheet never grows";
+
 constexpr std::array<shell::Integrator, 3> integrators = {
   shell::Integrator::linearly_implicit, shell::Integrator::implicit, shell::Integrator::conserving};
 } // namespace
@@ -266,80 +269,73 @@ constexpr std::array<shell::Integrator, 3> integrators = {
 std::vector<StressCase> motion_cases(const std::vector<SheetStiffness> &stiffnesses)
 {
   std::vector<StressCase> cases;
+  CaseGroup group("motion", cases);
   for (const SheetStiffness &stiffness : stiffnesses)
   {
     for (const shell::Integrator integrator : integrators)
-      cases.push_back(
-        {"motion",
-         "free fall of one second; turned at random; " + called(integrator) + stiffness.name,
-         "finite; straight and as the integrator falls", ExpectedEnd::finite,
-         fall_round_off(stiffness), "largest distance from the exact positions [m]", "", true,
-         [=](const unsigned int seed) { return free_fall(stiffness, integrator, seed); }});
-    cases.push_back({"motion", "four clamped edges under gravity; " + stiffness.name,
-                     "finite; holds (free fall would be 4.9 m)", ExpectedEnd::finite, 0.1,
-                     "largest sag [m]", "", false,
-                     [=](unsigned int) { return clamped(stiffness); }});
+      group
+        .finite("free fall of one second; turned at random; " + called(integrator) + stiffness.name,
+                "finite; straight and as the integrator falls",
+                {fall_round_off(stiffness), "largest distance from the exact positions [m]"},
+                [=](const unsigned int seed) { return free_fall(stiffness, integrator, seed); })
+        .is_random = true;
+    group.finite("four clamped edges under gravity; " + stiffness.name,
+                 "finite; holds (free fall would be 4.9 m)", {0.1, "largest sag [m]"},
+                 [=](unsigned int) { return clamped(stiffness); });
     for (const double h : {1e-3, 1e-2, 5e-2})
     {
-      cases.push_back(
-        {"motion", "hung by one corner; " + short_text(1e3 * h) + " ms; " + stiffness.name,
-         "finite; the energy of the damped sheet never grows", ExpectedEnd::finite,
-         energy_round_off, "largest growth in a step over the largest energy [-]", "", false,
-         [=](unsigned int)
-         { return hung_by_one_corner(stiffness, h, shell::Integrator::linearly_implicit); }});
+      const std::string hung = "hung by one corner; " + short_text(1e3 * h) + " ms; ";
+      group.finite(hung + stiffness.name, never_grows, growth,
+                   [=](unsigned int) {
+                     return hung_by_one_corner(stiffness, h, shell::Integrator::linearly_implicit);
+                   });
       // Beyond 10 ms it takes minutes, and at 10 ms half of one: once.
       if (h < 0.02)
-        cases.push_back(
-          {"motion",
-           "hung by one corner; " + short_text(1e3 * h) + " ms; conserving; " + stiffness.name,
-           "finite; the energy of the damped sheet never grows", ExpectedEnd::finite,
-           energy_round_off, "largest growth in a step over the largest energy [-]", "", false,
-           [=](unsigned int)
-           { return hung_by_one_corner(stiffness, h, shell::Integrator::conserving); },
-           1});
+        group
+          .finite(hung + "conserving; " + stiffness.name, never_grows, growth,
+                  [=](unsigned int)
+                  { return hung_by_one_corner(stiffness, h, shell::Integrator::conserving); })
+          .most_repeats = 1;
       for (const shell::Integrator integrator :
            {shell::Integrator::linearly_implicit, shell::Integrator::implicit})
-        cases.push_back({"motion",
-                         "pulled at 5 m/s; " + short_text(1e3 * h) + " ms; " + called(integrator) +
-                           stiffness.name,
-                         "finite; in the frame of the handle never more energy than at the start",
-                         ExpectedEnd::finite, 1. + 1e-9, "of the energy at the start [-]", "",
-                         false, [=](unsigned int) { return pulled(stiffness, h, integrator); }});
+        group.finite("pulled at 5 m/s; " + short_text(1e3 * h) + " ms; " + called(integrator) +
+                       stiffness.name,
+                     "finite; in the frame of the handle never more energy than at the start",
+                     {1. + 1e-9, "of the energy at the start [-]"},
+                     [=](unsigned int) { return pulled(stiffness, h, integrator); });
     }
   }
   derive(cases, derivations);
   return cases;
 }
 
-std::vector<StressCase> scene_cases(const SheetStiffness &stiffness, const bool with_obstacle)
+std::vector<StressCase> scene_cases(const SheetStiffness &stiffness, const Sphere sphere)
 {
   std::vector<StressCase> cases;
+  CaseGroup group("scene", cases);
   for (const double h : {1e-4, 1e-3, 5e-3, 1e-2, 2e-2, 5e-2})
   {
     const std::string step = "; " + short_text(1e3 * h) + " ms";
     for (const bool has_wind : {false, true})
-      cases.push_back(
-        {"scene",
-         std::string("falls on a sphere; bending and friction") + (has_wind ? " and wind" : "") +
-           step,
-         "finite; but for what other forces do within a step no vertex deeper inside than h^2 "
-         "times the acceleration by gravity and wind and a tenth of the contact thickness, nor "
-         "than half the radius",
-         ExpectedEnd::finite,
-         std::min(0.5 * radius,
+      group.finite(
+        std::string("falls on a sphere; bending and friction") + (has_wind ? " and wind" : "") +
+          step,
+        "finite; but for what other forces do within a step no vertex deeper inside than h^2 "
+        "times the acceleration by gravity and wind and a tenth of the contact thickness, nor "
+        "than half the radius",
+        {std::min(0.5 * radius,
                   h * h * (gravity + (has_wind ? wind_acceleration(stiffness) : 0.)) + 1e-4),
          "deepest vertex inside the sphere beyond h times what other forces changed of its "
-         "velocity in the step [m]",
-         "", false, [=](unsigned int) { return draped(stiffness, h, has_wind, with_obstacle); }});
-    cases.push_back({"scene", "hung by two corners; bending" + step,
-                     "finite; the energy of the damped sheet never grows", ExpectedEnd::finite,
-                     energy_round_off, "largest growth in a step over the largest energy [-]", "",
-                     true,
-                     [=](const unsigned int seed) { return with_bending(stiffness, h, seed); }});
-    cases.push_back({"scene", "free sheet in wind of 11 m/s" + step,
-                     "finite; seen from the air never more energy than at the start",
-                     ExpectedEnd::finite, 1. + 1e-9, "of the energy at the start [-]", "", false,
-                     [=](unsigned int) { return blown(stiffness, h); }});
+         "velocity in the step [m]"},
+        [=](unsigned int) { return draped(stiffness, h, has_wind, sphere == Sphere::there); });
+    group
+      .finite("hung by two corners; bending" + step, never_grows, growth,
+              [=](const unsigned int seed) { return with_bending(stiffness, h, seed); })
+      .is_random = true;
+    group.finite("free sheet in wind of 11 m/s" + step,
+                 "finite; seen from the air never more energy than at the start",
+                 {1. + 1e-9, "of the energy at the start [-]"},
+                 [=](unsigned int) { return blown(stiffness, h); });
   }
   derive(cases, derivations);
   return cases;

@@ -223,86 +223,74 @@ StressAnswer twisted(const SheetStiffness &stiffness, const double turns, const 
 
 using Misuse = std::function<void(Cloth &cloth, const meshes::ClothMesh &mesh)>;
 
-StressCase misuse(const std::string &name, const std::string &names,
-                  const SheetStiffness &stiffness, const Misuse &action)
+/// What a user may get wrong with a cloth that hangs.
+CaseGroup::Run misuse(const SheetStiffness &stiffness, const Misuse &action)
 {
-  return {"rotation and numbers",
-          name,
-          "refused; the message names `" + names + "`",
-          ExpectedEnd::refused,
-          0.,
-          "",
-          names,
-          false,
-          [=](unsigned int) -> StressAnswer
-          {
-            const meshes::ClothMesh mesh = hanging_mesh(4);
-            Cloth cloth                  = sheet_cloth(mesh, stiffness, upper_corners(4));
-            action(cloth, mesh);
-            return {0., state_of(cloth)};
-          }};
-}
-} // namespace
-
-std::vector<StressCase> rotation_cases(const std::vector<SheetStiffness> &stiffnesses)
-{
-  const std::string group = "rotation and numbers";
-  std::vector<StressCase> cases;
-  const auto finite = [&](const std::string &name, const std::string &expected, const double limit,
-                          const std::string &figure_is, const bool is_random, const auto &run)
+  return [=](unsigned int) -> StressAnswer
   {
-    cases.push_back(
-      {group, name, expected, ExpectedEnd::finite, limit, figure_is, "", is_random, run});
+    const meshes::ClothMesh mesh = hanging_mesh(4);
+    Cloth cloth                  = sheet_cloth(mesh, stiffness, upper_corners(4));
+    action(cloth, mesh);
+    return {0., state_of(cloth)};
   };
+}
+
+void add_triangles(const SheetStiffness &stiffness, CaseGroup &group)
+{
+  const std::string of       = "; " + stiffness.name;
   const std::string of_force = "force over stiffness x edge [-]";
+  for (const bool is_mirrored : {false, true})
+    group
+      .finite(std::string("triangle ") +
+                (is_mirrored ? "mirrored in space" : "turned by 180 degrees about any axis") + of,
+              "finite; no force", {1e-14, of_force},
+              [=](const unsigned int seed) { return without_force(stiffness, is_mirrored, seed); })
+      .is_random = true;
+  group.finite("triangle mirrored in the plane" + of, "finite; pushed back",
+               {1. - 1e-12, "energy after a small step down the gradient over that before [-]"},
+               [=](unsigned int) { return mirrored_in_the_plane(stiffness); });
+  for (const int rank : {0, 1, 2})
+    group
+      .finite("deformation gradient of rank " + std::to_string(rank) + of,
+              "finite; the projected Hessian is positive semi-definite",
+              {1e-13, "minus the smallest over the largest eigenvalue [-]"},
+              [=](const unsigned int seed) { return of_rank(stiffness, rank, seed); })
+      .is_random = true;
+  for (const double scale : {1e-30, 1e-20, 1e-10, 1e10, 1e20, 1e30})
+    group
+      .finite("deformation gradient of size " + short_text(scale) + of,
+              "finite; turns with the triangle",
+              {1e-12, "largest |P(QF) − Q P(F)| over the largest P [-]"},
+              [=](const unsigned int seed) { return scaled(stiffness, scale, seed); })
+      .is_random = true;
+}
 
-  for (const SheetStiffness &stiffness : stiffnesses)
-  {
-    const std::string of = "; " + stiffness.name;
-    for (const bool is_mirrored : {false, true})
-      finite(std::string("triangle ") +
-               (is_mirrored ? "mirrored in space" : "turned by 180 degrees about any axis") + of,
-             "finite; no force", 1e-14, of_force, true,
-             [=](const unsigned int seed) { return without_force(stiffness, is_mirrored, seed); });
-    finite("triangle mirrored in the plane" + of, "finite; pushed back", 1. - 1e-12,
-           "energy after a small step down the gradient over that before [-]", false,
-           [=](unsigned int) { return mirrored_in_the_plane(stiffness); });
-    for (const int rank : {0, 1, 2})
-      finite("deformation gradient of rank " + std::to_string(rank) + of,
-             "finite; the projected Hessian is positive semi-definite", 1e-13,
-             "minus the smallest over the largest eigenvalue [-]", true,
-             [=](const unsigned int seed) { return of_rank(stiffness, rank, seed); });
-    for (const double scale : {1e-30, 1e-20, 1e-10, 1e10, 1e20, 1e30})
-      finite("deformation gradient of size " + short_text(scale) + of,
-             "finite; turns with the triangle", 1e-12,
-             "largest |P(QF) − Q P(F)| over the largest P [-]", true,
-             [=](const unsigned int seed) { return scaled(stiffness, scale, seed); });
-    finite("sheet turned by exactly 180 degrees about axis 1" + of, "finite; rests", 1e-15,
-           "force over stiffness x side [-]; or way in 50 steps [m]", false,
-           [=](unsigned int) {
-             return sheet_turned(stiffness, {1., -1., -1.});
-           });
-    finite("sheet turned by exactly 180 degrees about axis 3" + of, "finite; rests", 1e-15,
-           "force over stiffness x side [-]; or way in 50 steps [m]", false,
-           [=](unsigned int) {
-             return sheet_turned(stiffness, {-1., -1., 1.});
-           });
-    const std::string less = "finite; no more energy than the helicoid";
-    const std::string over = "stored energy over that of the helicoid [-]";
-    finite("strip twisted by 180 degrees in 90 steps" + of, less, 1., over, false,
-           [=](unsigned int) { return twisted(stiffness, 0.5, 90); });
-    finite("strip twisted by 180 degrees in one step" + of, less, 1., over, false,
-           [=](unsigned int) { return twisted(stiffness, 0.5, 1); });
-    finite("strip twisted by five turns in 600 steps" + of, less, 1., over, false,
-           [=](unsigned int) { return twisted(stiffness, 5., 600); });
-  }
+void add_sheets(const SheetStiffness &stiffness, CaseGroup &group)
+{
+  const std::string of = "; " + stiffness.name;
+  const Figure drift   = {1e-15, "force over stiffness x side [-]; or way in 50 steps [m]"};
+  group.finite("sheet turned by exactly 180 degrees about axis 1" + of, "finite; rests", drift,
+               [=](unsigned int) {
+                 return sheet_turned(stiffness, {1., -1., -1.});
+               });
+  group.finite("sheet turned by exactly 180 degrees about axis 3" + of, "finite; rests", drift,
+               [=](unsigned int) {
+                 return sheet_turned(stiffness, {-1., -1., 1.});
+               });
+  const std::string less = "finite; no more energy than the helicoid";
+  const Figure over      = {1., "stored energy over that of the helicoid [-]"};
+  group.finite("strip twisted by 180 degrees in 90 steps" + of, less, over,
+               [=](unsigned int) { return twisted(stiffness, 0.5, 90); });
+  group.finite("strip twisted by 180 degrees in one step" + of, less, over,
+               [=](unsigned int) { return twisted(stiffness, 0.5, 1); });
+  group.finite("strip twisted by five turns in 600 steps" + of, less, over,
+               [=](unsigned int) { return twisted(stiffness, 5., 600); });
+}
 
-  const SheetStiffness &one = stiffnesses.front();
-  finite("forces asked for before the first step; all terms", "finite; rests but for gravity",
-         1e-14, "force beside gravity over stiffness x side [-]", false,
-         [=](unsigned int) { return forces_before_the_first_step(one); });
+void add_misuse(const SheetStiffness &one, CaseGroup &group)
+{
   const auto refused = [&](const std::string &name, const std::string &names, const Misuse &action)
-  { cases.push_back(misuse(name, names, one, action)); };
+  { group.refused(name, names, misuse(one, action)); };
   for (const double bad : {nan, infinity})
   {
     const std::string number = std::isnan(bad) ? "not-a-number" : "infinity";
@@ -349,21 +337,43 @@ std::vector<StressCase> rotation_cases(const std::vector<SheetStiffness> &stiffn
           [](Cloth &cloth, const meshes::ClothMesh &) { cloth.step(0.); });
   refused("time step of −1 s", "time step",
           [](Cloth &cloth, const meshes::ClothMesh &) { cloth.step(-1.); });
-  finite("velocity of 1e100 m/s", "finite; the energy of the damped sheet never grows",
-         energy_round_off, "largest growth in a step over the largest energy [-]", false,
-         [=](unsigned int) -> StressAnswer
-         {
-           const meshes::ClothMesh mesh = hanging_mesh(4);
-           Cloth cloth                  = sheet_cloth(mesh, one, upper_corners(4));
-           Vectors velocities           = Vectors::Zero(mesh.n_vertices(), 3);
-           velocities(7, 1)             = 1e100;
-           cloth.set_state(mesh.positions, velocities, 0.);
-           const double growth = largest_energy_growth(cloth, 0.01, 20);
-           return {growth, state_of(cloth)};
-         });
   refused("stiffness that is not positive definite", "stiffness of phase 0",
           [](Cloth &, const meshes::ClothMesh &mesh)
           { shell::membrane_term(mesh, {-1. * Eigen::Matrix3d::Identity()}); });
+}
+
+/// A cloth that is asked or thrown in uncommon ways.
+void add_uncommon(const SheetStiffness &one, CaseGroup &group)
+{
+  group.finite("forces asked for before the first step; all terms", "finite; rests but for gravity",
+               {1e-14, "force beside gravity over stiffness x side [-]"},
+               [=](unsigned int) { return forces_before_the_first_step(one); });
+  group.finite("velocity of 1e100 m/s", "finite; the energy of the damped sheet never grows",
+               {energy_round_off, "largest growth in a step over the largest energy [-]"},
+               [=](unsigned int) -> StressAnswer
+               {
+                 const meshes::ClothMesh mesh = hanging_mesh(4);
+                 Cloth cloth                  = sheet_cloth(mesh, one, upper_corners(4));
+                 Vectors velocities           = Vectors::Zero(mesh.n_vertices(), 3);
+                 velocities(7, 1)             = 1e100;
+                 cloth.set_state(mesh.positions, velocities, 0.);
+                 const double growth = largest_energy_growth(cloth, 0.01, 20);
+                 return {growth, state_of(cloth)};
+               });
+}
+} // namespace
+
+std::vector<StressCase> rotation_cases(const std::vector<SheetStiffness> &stiffnesses)
+{
+  std::vector<StressCase> cases;
+  CaseGroup group("rotation and numbers", cases);
+  for (const SheetStiffness &stiffness : stiffnesses)
+  {
+    add_triangles(stiffness, group);
+    add_sheets(stiffness, group);
+  }
+  add_uncommon(stiffnesses.front(), group);
+  add_misuse(stiffnesses.front(), group);
   derive(cases, derivations);
   return cases;
 }

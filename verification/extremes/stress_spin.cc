@@ -120,6 +120,7 @@ std::vector<StressCase> spin_cases(const std::vector<SheetStiffness> &stiffnesse
     {Integrator::implicit, "implicit"},
     {Integrator::conserving, "conserving"}};
   std::vector<StressCase> cases;
+  CaseGroup group("spin", cases);
   for (const SheetStiffness &stiffness : stiffnesses)
     for (const Spin &spin : spins())
       for (const auto &[integrator, name] : integrators)
@@ -128,31 +129,31 @@ std::vector<StressCase> spin_cases(const std::vector<SheetStiffness> &stiffnesse
         const int n_steps        = spin.is_thrown ? 100 : 50;
         const std::string called = spin.name + "; " + name + "; " + stiffness.name;
         const auto add           = [&](const std::string &what, const std::string &expected,
-                             const double limit, const std::string &figure_is, const auto &run)
+                             const Figure &figure, const auto &run)
         {
-          // The conserving integrator solves with LU: a second look is enough.
-          cases.push_back({"spin", what + called, expected, ExpectedEnd::finite, limit, figure_is,
-                           "", spin.disturbance > 0., run,
-                           keeps_all ? 2 : std::numeric_limits<int>::max(),
-                           what == "keeps; " ? of_what_is_kept : of_turning});
+          StressCase &one = group.finite(what + called, expected, figure, run);
+          one.is_random   = spin.disturbance > 0.;
+          one.derivation  = what == "keeps; " ? of_what_is_kept : of_turning;
+          if (keeps_all) // it solves with LU: a second look is enough
+            one.most_repeats = 2;
         };
         add("keeps; ",
             keeps_all ? "finite; keeps both momenta; energy never grows"
                       : "finite; keeps its linear momentum; energy never grows",
-            1e-10,
-            std::string("largest relative change of ") + (keeps_all ? "momenta" : "momentum") +
-              " or growth of energy in a step [-]",
+            {1e-10, std::string("largest relative change of ") +
+                      (keeps_all ? "momenta" : "momentum") + " or growth of energy in a step [-]"},
             [=, integrator = integrator](const unsigned int seed) {
               return keep(spinning_cloth(stiffness, spin, integrator, seed), spin, keeps_all,
                           n_steps);
             });
-        add(
-          "turns; ", "finite; in no step less than half of the turning that theory leaves", 2.,
-          "angular momentum in the motion of a step by theory over that which is seen; largest [-]",
-          [=, integrator = integrator](const unsigned int seed) {
-            return turn(spinning_cloth(stiffness, spin, integrator, seed), spin, integrator,
-                        n_steps);
-          });
+        add("turns; ", "finite; in no step less than half of the turning that theory leaves",
+            {2.,
+             "angular momentum in the motion of a step by theory over that which is seen; largest "
+             "[-]"},
+            [=, integrator = integrator](const unsigned int seed) {
+              return turn(spinning_cloth(stiffness, spin, integrator, seed), spin, integrator,
+                          n_steps);
+            });
       }
   return cases;
 }
