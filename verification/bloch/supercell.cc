@@ -79,7 +79,7 @@ std::optional<Pattern> followed_pattern(const BlochMargin &one, const Supercell 
     return {};
   pattern.periodic     = supercell.repeated(state);
   const auto energy_of = [&](const CellEquilibrium &at)
-  { return all.sums(at.gradient, at.fluctuation, CellAssembly::Tangent::none).energy; };
+  { return all.sums(at.gradient, at.fluctuation, Tangent::none).energy; };
   pattern.periodic.energy   = energy_of(pattern.periodic);
   const meshes::Points wave = supercell.real_part(pattern.wave.mode, pattern.wave.wave);
   const double side         = std::sqrt(all.cell.lattice.area() / supercell.n.prod());

@@ -6,6 +6,7 @@
 
 #include "meshes/plain/homogenized_cell.h"
 #include "verification/reference/laws.h"
+#include "verification/reference/tangent.h"
 
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
@@ -24,13 +25,6 @@ public:
                Law law);
 
   /// Which second derivative is assembled.
-  enum class Tangent
-  {
-    none,
-    exact,
-    projected ///< without the negative eigenvalues of each triangle
-  };
-
   using Sparse = Eigen::SparseMatrix<double>;
 
   /// Means over the cell, of 1/|Y| integral W(F + grad w).

@@ -68,12 +68,12 @@ std::optional<NewtonStep> newton_step(Sums sums, const DeadLoads &loads, const d
 NewtonStep definite_step(const CellAssembly &assembly, const DeadLoads &loads,
                          const CellEquilibrium &state, const std::vector<double> &history)
 {
-  const auto sums = [&](const CellAssembly::Tangent tangent)
+  const auto sums = [&](const Tangent tangent)
   { return assembly.sums(state.gradient, state.fluctuation, tangent); };
-  if (const auto step = newton_step(sums(CellAssembly::Tangent::exact), loads, 0.))
+  if (const auto step = newton_step(sums(Tangent::exact), loads, 0.))
     return *step;
   for (double shift = 1e-10; shift <= 1.; shift *= 100.)
-    if (const auto step = newton_step(sums(CellAssembly::Tangent::projected), loads, shift))
+    if (const auto step = newton_step(sums(Tangent::projected), loads, shift))
       return *step;
   throw meshes::NotConverged("cell at finite strain: no definite matrix", history);
 }
@@ -81,7 +81,7 @@ NewtonStep definite_step(const CellAssembly &assembly, const DeadLoads &loads,
 
 Eigen::Matrix4d macro_tangent(const CellAssembly &assembly, const CellEquilibrium &state)
 {
-  const Sums sums = assembly.sums(state.gradient, state.fluctuation, CellAssembly::Tangent::exact);
+  const Sums sums = assembly.sums(state.gradient, state.fluctuation, Tangent::exact);
   if (assembly.size() == 0)
     return sums.macro_tangent;
   const Eigen::SimplicialLDLT<CellAssembly::Sparse> factor(sums.matrix);
@@ -96,7 +96,7 @@ void find_equilibrium(const CellAssembly &assembly, const DeadLoads &loads, Cell
   constexpr double rounding = 1e-14; // of an energy that is a sum over the triangles
   const auto &G             = loads.directions;
   const auto sums_at        = [&](const CellEquilibrium &at)
-  { return assembly.sums(at.gradient, at.fluctuation, CellAssembly::Tangent::none); };
+  { return assembly.sums(at.gradient, at.fluctuation, Tangent::none); };
   // What is left of the forces on w and of the stresses along G, each in parts of its own size.
   const auto unbalanced = [&](const Sums &sums)
   { return (G.transpose() * sums.force - loads.stresses).norm(); };

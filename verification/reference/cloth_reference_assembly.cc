@@ -93,6 +93,92 @@ void ClothReference::Solver::lay_out_matrix()
     }
 }
 
+/// What the membrane of one triangle gives.
+template <int n_shapes>
+struct ClothReference::Solver::ElasticSums
+{
+  double energy = 0.; ///< [J]
+  Eigen::Matrix<double, n_shapes, 3, Eigen::RowMajor> forces =
+    Eigen::Matrix<double, n_shapes, 3, Eigen::RowMajor>::Zero();
+  Eigen::Matrix<double, 3 * n_shapes, 3 * n_shapes> K;
+  double steepest = 0.; ///< weight times the largest |grad v|^2
+};
+
+template <int n_shapes>
+ClothReference::Solver::ElasticSums<n_shapes>
+ClothReference::Solver::integrate(const Element &element, const Eigen::Matrix3d &C,
+                                  const Eigen::Matrix<double, n_shapes, 3, Eigen::RowMajor> &at,
+                                  const Tangent tangent, const double tension) const
+{
+  const ReferenceElement &reference = discretization.nonlinear_quadrature;
+  ElasticSums<n_shapes> sums;
+  if (tangent != Tangent::none)
+    sums.K.setZero();
+  for (std::size_t q = 0; q < reference.weights.size(); ++q)
+  {
+    Eigen::Matrix<double, n_shapes, 2, Eigen::RowMajor> gradients;
+    for (int i = 0; i < n_shapes; ++i)
+      gradients.row(i) =
+        (element.inverse_transpose * reference.gradients[q][static_cast<std::size_t>(i)])
+          .transpose();
+    // From differences to the first node: cloth far from the origin keeps its digits.
+    SpaceGradient F = SpaceGradient::Zero();
+    for (int i = 1; i < n_shapes; ++i)
+      F += (at.row(i) - at.row(0)).transpose() * gradients.row(i);
+    const double weight       = reference.weights[q] * element.determinant;
+    const SpaceResponse local = space_response(options.law, C, F, tangent);
+    sums.energy += weight * local.energy;
+    sums.forces.noalias() += weight * gradients * local.stress.transpose();
+    sums.steepest = std::max(sums.steepest, weight * gradients.rowwise().squaredNorm().maxCoeff());
+    if (tangent == Tangent::none)
+      continue;
+    for (int j = 0; j < n_shapes; ++j)
+    {
+      Eigen::Matrix<double, 6, 3> times; // dP for a motion of node j along each axis
+      for (int b = 0; b < 3; ++b)
+        times.col(b) = weight * (local.tangent.col(2 * b) * gradients(j, 0) +
+                                 local.tangent.col(2 * b + 1) * gradients(j, 1));
+      for (int a = 0; a < 3; ++a)
+      {
+        times(2 * a, a) += weight * tension * gradients(j, 0);
+        times(2 * a + 1, a) += weight * tension * gradients(j, 1);
+      }
+      for (int i = 0; i < n_shapes; ++i)
+        for (int a = 0; a < 3; ++a)
+          sums.K.template block<1, 3>(3 * i + a, 3 * j) +=
+            gradients(i, 0) * times.row(2 * a) + gradients(i, 1) * times.row(2 * a + 1);
+    }
+  }
+  return sums;
+}
+
+/// Adds the blocks of one triangle to the matrix.
+/// @param offsets of its blocks in the rows of this rank
+/// @param inertia by which its mass of unit density counts
+template <int n_shapes>
+void ClothReference::Solver::add_blocks(const Element &element, const int *const offsets,
+                                        const Eigen::Matrix<double, 3 * n_shapes, 3 * n_shapes> &K,
+                                        const double inertia)
+{
+  for (int i = 0; i < n_shapes; ++i)
+  {
+    const int row = owned_row[static_cast<std::size_t>(element.nodes[static_cast<std::size_t>(i)])];
+    for (int j = 0; j < n_shapes; ++j)
+    {
+      const int offset = offsets[n_shapes * i + j];
+      if (offset < 0)
+        continue;
+      const double mass = inertia * reference_mass(i, j);
+      for (int a = 0; a < 3; ++a)
+      {
+        double *const to = row_values[static_cast<std::size_t>(row + a)] + offset;
+        for (int b = 0; b < 3; ++b)
+          to[b] += K(3 * i + a, 3 * j + b) + (a == b ? mass : 0.);
+      }
+    }
+  }
+}
+
 /// Energy, residual and, where asked for, the matrix, whose tangent has `tension` added to its
 /// stress (a fictitious isotropic one, for continuation; neither energy nor residual know of it).
 template <int n_shapes>
@@ -100,8 +186,7 @@ ClothReference::Solver::Evaluation
 ClothReference::Solver::assemble(const Vector &positions, const Inertia &inertia, Vector &residual,
                                  const Tangent tangent, const double tension)
 {
-  using NodeVectors                 = Eigen::Matrix<double, n_shapes, 3, Eigen::RowMajor>;
-  const ReferenceElement &reference = discretization.nonlinear_quadrature;
+  using NodeVectors = Eigen::Matrix<double, n_shapes, 3, Eigen::RowMajor>;
   Vector ghosted(discretization.locally_owned, discretization.locally_relevant,
                  discretization.communicator);
   Vector ghosted_centre(ghosted), ghosted_origin(ghosted);
@@ -144,47 +229,9 @@ ClothReference::Solver::assemble(const Vector &positions, const Inertia &inertia
     const double mass_scale =
       0.5 * element.determinant * areal_density_of_phase[static_cast<std::size_t>(element.phase)];
 
-    NodeVectors elastic = NodeVectors::Zero();
-    Eigen::Matrix<double, 3 * n_shapes, 3 * n_shapes> K;
-    if (tangent != Tangent::none)
-      K.setZero();
-    double stored = 0., steepest = 0.;
-    for (std::size_t q = 0; q < reference.weights.size(); ++q)
-    {
-      Eigen::Matrix<double, n_shapes, 2, Eigen::RowMajor> gradients;
-      for (int i = 0; i < n_shapes; ++i)
-        gradients.row(i) =
-          (element.inverse_transpose * reference.gradients[q][static_cast<std::size_t>(i)])
-            .transpose();
-      // From differences to the first node: cloth far from the origin keeps its digits.
-      SpaceGradient F = SpaceGradient::Zero();
-      for (int i = 1; i < n_shapes; ++i)
-        F += (at.row(i) - at.row(0)).transpose() * gradients.row(i);
-      const double weight       = reference.weights[q] * element.determinant;
-      const SpaceResponse local = space_response(options.law, C, F, tangent);
-      stored += weight * local.energy;
-      elastic.noalias() += weight * gradients * local.stress.transpose();
-      steepest = std::max(steepest, weight * gradients.rowwise().squaredNorm().maxCoeff());
-      if (tangent == Tangent::none)
-        continue;
-      for (int j = 0; j < n_shapes; ++j)
-      {
-        Eigen::Matrix<double, 6, 3> times; // dP for a motion of node j along each axis
-        for (int b = 0; b < 3; ++b)
-          times.col(b) = weight * (local.tangent.col(2 * b) * gradients(j, 0) +
-                                   local.tangent.col(2 * b + 1) * gradients(j, 1));
-        for (int a = 0; a < 3; ++a)
-        {
-          times(2 * a, a) += weight * tension * gradients(j, 0);
-          times(2 * a + 1, a) += weight * tension * gradients(j, 1);
-        }
-        for (int i = 0; i < n_shapes; ++i)
-          for (int a = 0; a < 3; ++a)
-            K.template block<1, 3>(3 * i + a, 3 * j) +=
-              gradients(i, 0) * times.row(2 * a) + gradients(i, 1) * times.row(2 * a + 1);
-      }
-    }
-
+    const ElasticSums<n_shapes> sums_of_element =
+      integrate<n_shapes>(element, C, at, tangent, tension);
+    const NodeVectors &elastic    = sums_of_element.forces;
     const NodeVectors accelerated = mass_scale * inertia.factor * (unit_mass * from_centre);
     const NodeVectors weights =
       mass_scale * (unit_mass * Eigen::Matrix<double, n_shapes, 1>::Ones()) * loads.gravity;
@@ -193,11 +240,13 @@ ClothReference::Solver::assemble(const Vector &positions, const Inertia &inertia
     {
       const double lifted   = weights.cwiseProduct(from_origin).sum();
       const double inertial = 0.5 * accelerated.cwiseProduct(from_centre).sum();
-      sums[0] += stored + inertial - lifted;
-      sums[1] += stored + inertial + weights.cwiseProduct(from_origin).cwiseAbs().sum();
+      sums[0] += sums_of_element.energy + inertial - lifted;
+      sums[1] +=
+        sums_of_element.energy + inertial + weights.cwiseProduct(from_origin).cwiseAbs().sum();
       sums[2] += elastic.squaredNorm() + accelerated.squaredNorm() + weights.squaredNorm();
-      const double rounding = machine_epsilon * at.cwiseAbs().maxCoeff() *
-                              (steepest * C.diagonal().maxCoeff() + mass_scale * inertia.factor);
+      const double rounding =
+        machine_epsilon * at.cwiseAbs().maxCoeff() *
+        (sums_of_element.steepest * C.diagonal().maxCoeff() + mass_scale * inertia.factor);
       sums[3] += rounding * rounding;
     }
     for (int i = 0; i < n_shapes; ++i)
@@ -209,24 +258,8 @@ ClothReference::Solver::assemble(const Vector &positions, const Inertia &inertia
         r[owned_row[node] + c] += total(i, c);
     }
     if (tangent != Tangent::none)
-      for (int i = 0; i < n_shapes; ++i)
-      {
-        const int row =
-          owned_row[static_cast<std::size_t>(element.nodes[static_cast<std::size_t>(i)])];
-        for (int j = 0; j < n_shapes; ++j)
-        {
-          const int offset = block_offset[first_block + static_cast<std::size_t>(n_shapes * i + j)];
-          if (offset < 0)
-            continue;
-          const double mass = mass_scale * inertia.factor * unit_mass(i, j);
-          for (int a = 0; a < 3; ++a)
-          {
-            double *const to = row_values[static_cast<std::size_t>(row + a)] + offset;
-            for (int b = 0; b < 3; ++b)
-              to[b] += K(3 * i + a, 3 * j + b) + (a == b ? mass : 0.);
-          }
-        }
-      }
+      add_blocks<n_shapes>(element, &block_offset[first_block], sums_of_element.K,
+                           mass_scale * inertia.factor);
     first_block += n_shapes * n_shapes;
   }
   const std::vector<double> of_this_rank = sums;

@@ -82,7 +82,7 @@ void ClothReference::Solver::minimize(Vector &positions, const Inertia &inertia,
                forcing * state.residual);
     residual *= -1.;
     const Vector forces = residual;
-    Tangent tangent     = state.residual < exact_below ? Tangent::exact : Tangent::positive;
+    Tangent tangent     = state.residual < exact_below ? Tangent::exact : Tangent::projected;
     for (unsigned int attempt = 0;; ++attempt)
       try
       {
@@ -97,10 +97,10 @@ void ClothReference::Solver::minimize(Vector &positions, const Inertia &inertia,
         // Negative curvature, or a hierarchy too old.
         if (tangent == Tangent::exact)
           exact_below = 0.1 * state.residual;
-        tangent = Tangent::positive;
+        tangent = Tangent::projected;
       }
     ++step.n_newton;
-    step.n_projected += tangent == Tangent::positive;
+    step.n_projected += tangent == Tangent::projected;
 
     const double slope = -(forces * increment);
     double length      = 1.;

@@ -65,6 +65,15 @@ private:
   void put_held(Vector &positions) const;
   void lay_out_matrix();
   template <int n_shapes>
+  struct ElasticSums;
+  template <int n_shapes>
+  ElasticSums<n_shapes> integrate(const Element &element, const Eigen::Matrix3d &C,
+                                  const Eigen::Matrix<double, n_shapes, 3, Eigen::RowMajor> &at,
+                                  Tangent tangent, double tension) const;
+  template <int n_shapes>
+  void add_blocks(const Element &element, const int *offsets,
+                  const Eigen::Matrix<double, 3 * n_shapes, 3 * n_shapes> &K, double inertia);
+  template <int n_shapes>
   Evaluation assemble(const Vector &positions, const Inertia &inertia, Vector &residual,
                       Tangent tangent, double tension);
   Evaluation evaluate(const Vector &positions, const Inertia &inertia, Vector &residual,

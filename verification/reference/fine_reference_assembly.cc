@@ -29,20 +29,81 @@ bool has_negative_eigenvalue(const Eigen::Matrix4d &tangent, const Eigen::Matrix
 }
 } // namespace
 
+/// What one triangle adds to matrix and forces.
 template <int n_shapes>
-FineReference::Solver::Evaluation
-FineReference::Solver::assemble(const Vector &displacement, const Eigen::Matrix2d &mean_gradient,
-                                Vector &residual, const bool with_matrix, const bool projected)
+struct FineReference::Solver::TriangleSums
+{
+  static constexpr int n        = 2 * n_shapes;
+  Eigen::Matrix<double, n, n> K = Eigen::Matrix<double, n, n>::Zero();
+  Eigen::Matrix<double, n, 1> f = Eigen::Matrix<double, n, 1>::Zero();
+  bool is_inverted = false, is_indefinite = false;
+};
+
+template <int n_shapes>
+FineReference::Solver::TriangleSums<n_shapes> FineReference::Solver::integrate(
+  const AffineTriangle &triangle, const Eigen::Matrix3d &C, const std::vector<double> &values,
+  const Eigen::Matrix2d &mean_gradient, const Tangent tangent, Evaluation &state) const
 {
   constexpr int n = 2 * n_shapes;
   const ReferenceElement &reference =
     law == Law::linear ? discretization.stiffness_quadrature : discretization.nonlinear_quadrature;
+  const double rounded = std::numeric_limits<double>::epsilon() * C.cwiseAbs().maxCoeff();
+  TriangleSums<n_shapes> sums;
+  for (std::size_t q = 0; q < reference.weights.size(); ++q)
+  {
+    // D maps the displacements of the nodes to the entries F11, F12, F21, F22 of grad u.
+    Eigen::Matrix<double, 4, n> D = Eigen::Matrix<double, 4, n>::Zero();
+    Eigen::Matrix2d F             = mean_gradient;
+    double size_of_terms = F.norm(), slopes = 0.; // of the sum that F is, and |grad v|^2
+    for (int i = 0; i < n_shapes; ++i)
+    {
+      const auto k                         = static_cast<std::size_t>(i);
+      const Eigen::Vector2d g              = triangle.inverse_transpose * reference.gradients[q][k];
+      D.template block<2, 1>(0, 2 * i)     = g;
+      D.template block<2, 1>(2, 2 * i + 1) = g;
+      F.row(0) += values[2 * k] * g.transpose();
+      F.row(1) += values[2 * k + 1] * g.transpose();
+      size_of_terms += std::hypot(values[2 * k], values[2 * k + 1]) * g.norm();
+      slopes += g.squaredNorm();
+    }
+    const double weight = reference.weights[q] * triangle.determinant;
+    if (!(F.determinant() > 0.))
+    {
+      sums.is_inverted = true;
+      if (law == Law::green)
+        state.energy = std::numeric_limits<double>::infinity();
+    }
+    state.round_off += slopes * std::pow(weight * rounded * size_of_terms, 2);
+    const Response local = response(law, C, F);
+    state.energy += weight * local.energy;
+    state.energy_round_off +=
+      weight * local.stress.norm() * std::numeric_limits<double>::epsilon() * size_of_terms;
+    sums.f.noalias() += weight * D.transpose() * local.stress;
+    state.forces.stress +=
+      weight * Eigen::Map<const Eigen::Matrix2d>(local.stress.data()).transpose();
+    if (tangent == Tangent::exact)
+    {
+      sums.is_indefinite = sums.is_indefinite || has_negative_eigenvalue(local.tangent, C);
+      sums.K.noalias() += weight * D.transpose() * local.tangent * D;
+    }
+    else if (tangent == Tangent::projected)
+      sums.K.noalias() += weight * D.transpose() * positive_part(local.tangent) * D;
+  }
+  return sums;
+}
+
+template <int n_shapes>
+FineReference::Solver::Evaluation
+FineReference::Solver::assemble(const Vector &displacement, const Eigen::Matrix2d &mean_gradient,
+                                Vector &residual, const Tangent tangent)
+{
+  constexpr int n = 2 * n_shapes;
   IndexSet ghosts = constraints.get_local_lines();
   ghosts.add_indices(discretization.locally_relevant);
   Vector ghosted(discretization.locally_owned, ghosts, discretization.communicator);
   ghosted  = displacement;
   residual = 0.;
-  if (with_matrix)
+  if (tangent != Tangent::none)
     solver->matrix = 0.;
 
   Evaluation state;
@@ -55,101 +116,65 @@ FineReference::Solver::assemble(const Vector &displacement, const Eigen::Matrix2
     if (!cell->is_locally_owned())
       continue;
     const unsigned int t = Discretization::triangle_of(cell);
-    const AffineTriangle triangle(discretization.mesh, t);
     const Eigen::Matrix3d &C =
       stiffness_of_phase[static_cast<std::size_t>(discretization.mesh.material(t))];
     cell->get_dof_indices(dofs);
     ghosted.extract_subvector_to(dofs, values);
-
-    const double rounded = std::numeric_limits<double>::epsilon() * C.cwiseAbs().maxCoeff();
-    bool is_inverted = false, is_indefinite = false;
-    Eigen::Matrix<double, n, n> K = Eigen::Matrix<double, n, n>::Zero();
-    Eigen::Matrix<double, n, 1> f = Eigen::Matrix<double, n, 1>::Zero();
-    for (std::size_t q = 0; q < reference.weights.size(); ++q)
-    {
-      // D maps the displacements of the nodes to the entries F11, F12, F21, F22 of grad u.
-      Eigen::Matrix<double, 4, n> D = Eigen::Matrix<double, 4, n>::Zero();
-      Eigen::Matrix2d F             = mean_gradient;
-      double size_of_terms = F.norm(), slopes = 0.; // of the sum that F is, and |grad v|^2
-      for (int i = 0; i < n_shapes; ++i)
-      {
-        const Eigen::Vector2d g =
-          triangle.inverse_transpose * reference.gradients[q][static_cast<std::size_t>(i)];
-        D.template block<2, 1>(0, 2 * i)     = g;
-        D.template block<2, 1>(2, 2 * i + 1) = g;
-        F.row(0) += values[static_cast<std::size_t>(2 * i)] * g.transpose();
-        F.row(1) += values[static_cast<std::size_t>(2 * i + 1)] * g.transpose();
-        size_of_terms += std::hypot(values[static_cast<std::size_t>(2 * i)],
-                                    values[static_cast<std::size_t>(2 * i + 1)]) *
-                         g.norm();
-        slopes += g.squaredNorm();
-      }
-      const double weight = reference.weights[q] * triangle.determinant;
-      if (!(F.determinant() > 0.))
-      {
-        is_inverted = true;
-        if (law == Law::green)
-          state.energy = std::numeric_limits<double>::infinity();
-      }
-      state.round_off += slopes * std::pow(weight * rounded * size_of_terms, 2);
-      const Response local = response(law, C, F);
-      state.energy += weight * local.energy;
-      state.energy_round_off +=
-        weight * local.stress.norm() * std::numeric_limits<double>::epsilon() * size_of_terms;
-      f.noalias() += weight * D.transpose() * local.stress;
-      state.forces.stress +=
-        weight * Eigen::Map<const Eigen::Matrix2d>(local.stress.data()).transpose();
-      if (with_matrix && !projected)
-        is_indefinite = is_indefinite || has_negative_eigenvalue(local.tangent, C);
-      if (with_matrix)
-        K.noalias() +=
-          weight * D.transpose() * (projected ? positive_part(local.tangent) : local.tangent) * D;
-    }
-    state.n_inverted += is_inverted;
-    state.n_indefinite += is_indefinite;
-    state.force_size += f.squaredNorm();
+    const TriangleSums<n_shapes> sums = integrate<n_shapes>(
+      AffineTriangle(discretization.mesh, t), C, values, mean_gradient, tangent, state);
+    state.n_inverted += sums.is_inverted;
+    state.n_indefinite += sums.is_indefinite;
+    state.force_size += sums.f.squaredNorm();
     for (unsigned int i = 0; i < n; ++i)
-      element_residual(i) = f(static_cast<Eigen::Index>(i));
+      element_residual(i) = sums.f(static_cast<Eigen::Index>(i));
     constraints.distribute_local_to_global(element_residual, dofs, residual);
     for (unsigned int i = 0; i < n; i += 2)
       if (const auto held = clamp_of_node.find(dofs[i]); held != clamp_of_node.end())
         state.forces.on_clamps.row(held->second) +=
-          f.template segment<2>(static_cast<Eigen::Index>(i)).transpose();
-    if (with_matrix)
+          sums.f.template segment<2>(static_cast<Eigen::Index>(i)).transpose();
+    if (tangent != Tangent::none)
     {
       for (unsigned int i = 0; i < n; ++i)
         for (unsigned int j = 0; j < n; ++j)
-          element_matrix(i, j) = K(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
+          element_matrix(i, j) = sums.K(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
       constraints.distribute_local_to_global(element_matrix, dofs, solver->matrix);
     }
   }
   residual.compress(VectorOperation::add);
-  if (with_matrix)
+  if (tangent != Tangent::none)
     solver->matrix.compress(VectorOperation::add);
-  state.energy           = Utilities::MPI::sum(state.energy, discretization.communicator);
-  state.energy_round_off = Utilities::MPI::sum(state.energy_round_off, discretization.communicator);
-  state.forces.stress /= std::abs(sheet.sides().determinant());
-  for (Eigen::Matrix2d *const part : {&state.forces.on_clamps, &state.forces.stress})
-    MPI_Allreduce(MPI_IN_PLACE, part->data(), 4, MPI_DOUBLE, MPI_SUM, discretization.communicator);
+  add_over_ranks(state);
   if (body_force)
   {
     residual.add(-1., body_load);
     state.energy -= body_load * displacement;
   }
-  state.n_inverted   = Utilities::MPI::sum(state.n_inverted, discretization.communicator);
-  state.n_indefinite = Utilities::MPI::sum(state.n_indefinite, discretization.communicator);
-  state.force_size = std::sqrt(Utilities::MPI::sum(state.force_size, discretization.communicator));
-  state.round_off  = std::sqrt(Utilities::MPI::sum(state.round_off, discretization.communicator));
-  state.residual   = residual.l2_norm();
+  state.residual = residual.l2_norm();
   return state;
+}
+
+/// Sums of squares become norms.
+void FineReference::Solver::add_over_ranks(Evaluation &state) const
+{
+  const auto sum = [&](auto &part)
+  { part = Utilities::MPI::sum(part, discretization.communicator); };
+  for (double *const part :
+       {&state.energy, &state.energy_round_off, &state.force_size, &state.round_off})
+    sum(*part);
+  for (unsigned int *const part : {&state.n_inverted, &state.n_indefinite})
+    sum(*part);
+  state.force_size = std::sqrt(state.force_size);
+  state.round_off  = std::sqrt(state.round_off);
+  state.forces.stress /= std::abs(sheet.sides().determinant());
+  for (Eigen::Matrix2d *const part : {&state.forces.on_clamps, &state.forces.stress})
+    MPI_Allreduce(MPI_IN_PLACE, part->data(), 4, MPI_DOUBLE, MPI_SUM, discretization.communicator);
 }
 
 FineReference::Solver::Evaluation
 FineReference::Solver::evaluate(const Vector &displacement, const Eigen::Matrix2d &mean_gradient,
-                                Vector &residual, const bool with_matrix, const bool projected)
+                                Vector &residual, const Tangent tangent)
 {
-  return options.order == 1
-           ? assemble<3>(displacement, mean_gradient, residual, with_matrix, projected)
-           : assemble<6>(displacement, mean_gradient, residual, with_matrix, projected);
+  return options.order == 1 ? assemble<3>(displacement, mean_gradient, residual, tangent)
+                            : assemble<6>(displacement, mean_gradient, residual, tangent);
 }
 } // namespace homespun::verification

@@ -158,7 +158,7 @@ void FineReference::Solver::solve(Vector &displacement, const double strain, con
                             });
   Vector residual = solver->owned_vector(), increment = solver->owned_vector();
   Vector trial     = solver->owned_vector();
-  Evaluation state = evaluate(displacement, mean_gradient, residual, false, false);
+  Evaluation state = evaluate(displacement, mean_gradient, residual, Tangent::none);
   std::vector<double> history;
   constexpr unsigned int most_steps = 30;
   for (unsigned int newton = 0; newton <= most_steps; ++newton)
@@ -185,18 +185,18 @@ void FineReference::Solver::solve(Vector &displacement, const double strain, con
     residual *= -1.;
     const Vector forces = residual;
     // The exact tangent first, which ends quadratically; where it is indefinite, the projected one.
-    for (const bool projected : {false, true})
+    for (const Tangent tangent : {Tangent::exact, Tangent::projected})
       try
       {
-        const Evaluation assembled = evaluate(displacement, mean_gradient, trial, true, projected);
-        if (!projected)
+        const Evaluation assembled = evaluate(displacement, mean_gradient, trial, tangent);
+        if (tangent == Tangent::exact)
           step.n_indefinite = assembled.n_indefinite;
         step.n_linear += solve_linearized(increment, forces, target);
         break;
       }
       catch (const meshes::NotConverged &)
       {
-        if (projected || law == Law::linear)
+        if (tangent == Tangent::projected || law == Law::linear)
           throw;
       }
     constraints.distribute(increment);
@@ -209,7 +209,7 @@ void FineReference::Solver::solve(Vector &displacement, const double strain, con
     {
       trial = displacement;
       trial.add(length, increment);
-      next                 = evaluate(trial, mean_gradient, residual, false, false);
+      next                 = evaluate(trial, mean_gradient, residual, Tangent::none);
       const double allowed = state.energy + 1e-4 * length * slope + 1e-13 * std::abs(state.energy) +
                              state.energy_round_off;
       if (next.energy <= allowed || (law == Law::linear && std::isfinite(next.energy)))

@@ -4,6 +4,7 @@
 
 #include "homogenization/fem/elastic_solver.h"
 #include "verification/reference/fine_reference.h"
+#include "verification/reference/tangent.h"
 
 #include <algorithm>
 #include <map>
@@ -55,10 +56,18 @@ private:
                                  ReferenceStep step);
   unsigned int solve_linearized(Vector &increment, const Vector &forces, double target);
   Evaluation evaluate(const Vector &displacement, const Eigen::Matrix2d &mean_gradient,
-                      Vector &residual, bool with_matrix, bool projected);
+                      Vector &residual, Tangent tangent);
+  template <int n_shapes>
+  struct TriangleSums;
+  template <int n_shapes>
+  TriangleSums<n_shapes> integrate(const homogenization::AffineTriangle &triangle,
+                                   const Eigen::Matrix3d &C, const std::vector<double> &values,
+                                   const Eigen::Matrix2d &mean_gradient, Tangent tangent,
+                                   Evaluation &state) const;
+  void add_over_ranks(Evaluation &state) const;
   template <int n_shapes>
   Evaluation assemble(const Vector &displacement, const Eigen::Matrix2d &mean_gradient,
-                      Vector &residual, bool with_matrix, bool projected);
+                      Vector &residual, Tangent tangent);
   meshes::Points positions_of(const Vector &displacement, double strain) const;
   Eigen::Matrix2d mean_gradient_at(double strain) const;
   Stability examine(const Vector &displacement, double strain, ReferenceStep &step, Vector &mode);

@@ -36,7 +36,7 @@ Stability FineReference::Solver::examine(const Vector &displacement, const doubl
 {
   Vector forces = solver->owned_vector(), answer = solver->owned_vector();
   const Eigen::Matrix2d mean_gradient = mean_gradient_at(strain);
-  step.n_indefinite = evaluate(displacement, mean_gradient, answer, true, false).n_indefinite;
+  step.n_indefinite = evaluate(displacement, mean_gradient, answer, Tangent::exact).n_indefinite;
   if (step.n_indefinite == 0)
     return Stability::every_triangle;
   // The same forces every time, another share on every rank.
@@ -62,10 +62,10 @@ Stability FineReference::Solver::examine(const Vector &displacement, const doubl
       if (is_last)
         break;
       // A preconditioner of this very state, made definite.
-      evaluate(displacement, mean_gradient, answer, true, true);
+      evaluate(displacement, mean_gradient, answer, Tangent::projected);
       solver->build_preconditioner();
       preconditioner_is_old = false;
-      evaluate(displacement, mean_gradient, answer, true, false);
+      evaluate(displacement, mean_gradient, answer, Tangent::exact);
     }
   return Stability::unknown;
 }
@@ -77,7 +77,7 @@ bool FineReference::Solver::leave_along(const Vector &mode, Vector &displacement
 {
   const Eigen::Matrix2d mean_gradient = mean_gradient_at(strain);
   Vector residual = solver->owned_vector(), trial = solver->owned_vector();
-  const Evaluation here = evaluate(displacement, mean_gradient, residual, false, false);
+  const Evaluation here = evaluate(displacement, mean_gradient, residual, Tangent::none);
   const double downhill = mode * residual > 0. ? -1. : 1.;
   double length         = 0.1 * std::sqrt(sheet.lattice.area()) / mode.linfty_norm();
   for (unsigned int k = 0; k < 20; ++k, length *= 0.5)
@@ -85,7 +85,7 @@ bool FineReference::Solver::leave_along(const Vector &mode, Vector &displacement
     {
       trial = displacement;
       trial.add(sign * length, mode);
-      const Evaluation there = evaluate(trial, mean_gradient, residual, false, false);
+      const Evaluation there = evaluate(trial, mean_gradient, residual, Tangent::none);
       if (there.energy < here.energy - 10. * (here.energy_round_off + there.energy_round_off))
       {
         displacement = trial;

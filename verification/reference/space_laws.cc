@@ -171,7 +171,7 @@ SpaceResponse space_response(const Law law, const Eigen::Matrix3d &C, const Spac
   response.stress = F * S;
   if (tangent == Tangent::exact)
     response.tangent = tangent_of<3>(F, metric.stiffness, S);
-  else if (tangent == Tangent::positive)
+  else if (tangent == Tangent::projected)
     response.tangent = positive_tangent(F, metric.stiffness, S);
   return response;
 }

@@ -13,6 +13,7 @@
 #pragma once
 
 #include "verification/reference/laws.h"
+#include "verification/reference/tangent.h"
 
 namespace homespun::verification
 {
@@ -20,15 +21,6 @@ namespace homespun::verification
 using SpaceGradient = Eigen::Matrix<double, 3, 2>;
 /// Second derivative by the entries of F in the order F11, F12, F21, F22, F31, F32.
 using SpaceTangent = Eigen::Matrix<double, 6, 6>;
-
-/// Which tangent a response carries: none (left unset), the exact one, or the one whose negative
-/// eigenvalues are set to zero, for Newton steps away from stability.
-enum class Tangent
-{
-  none,
-  exact,
-  positive
-};
 
 /// Energy per rest area and its derivatives by F.
 struct SpaceResponse

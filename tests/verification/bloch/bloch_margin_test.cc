@@ -60,7 +60,7 @@ double dense_least(const BlochCell &cell, const Load &load, const double strain,
   const auto matrix = [&](const CellEquilibrium &state)
   {
     return Eigen::MatrixXd(
-      assembly.sums(state.gradient, state.fluctuation, CellAssembly::Tangent::exact).matrix);
+      assembly.sums(state.gradient, state.fluctuation, Tangent::exact).matrix);
   };
   const Eigen::MatrixXd rest = matrix(path.at(0.)), there = matrix(path.at(strain));
   return Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd>(there, rest,

@@ -150,7 +150,7 @@ TEST(bound_space_laws, the_positive_tangent_is_positive_and_is_the_exact_one_whe
   for (const Law law : {Law::biot, Law::green, Law::yarn})
   {
     const auto exact    = space_response(law, anisotropic(), squeezed(), Tangent::exact);
-    const auto positive = space_response(law, anisotropic(), squeezed(), Tangent::positive);
+    const auto positive = space_response(law, anisotropic(), squeezed(), Tangent::projected);
     EXPECT_LT(smallest_eigenvalue(exact.tangent), -0.1) << name_of(law);
     EXPECT_GT(smallest_eigenvalue(positive.tangent), -1e-14) << name_of(law);
     // It is the positive part in the sense of eigenvalues.
@@ -164,7 +164,7 @@ TEST(bound_space_laws, the_positive_tangent_is_positive_and_is_the_exact_one_whe
     const auto stable          = space_response(law, anisotropic(), pulled, Tangent::exact);
     EXPECT_GT(smallest_eigenvalue(stable.tangent), 0.);
     EXPECT_LT(
-      (space_response(law, anisotropic(), pulled, Tangent::positive).tangent - stable.tangent)
+      (space_response(law, anisotropic(), pulled, Tangent::projected).tangent - stable.tangent)
         .cwiseAbs()
         .maxCoeff(),
       1e-13);
@@ -180,7 +180,7 @@ TEST(bound_space_laws, collapsed_triangles_give_finite_answers)
         SpaceGradient F = SpaceGradient::Zero();
         F(2, 0)         = along;
         F(1, 1)         = across;
-        for (const Tangent tangent : {Tangent::exact, Tangent::positive})
+        for (const Tangent tangent : {Tangent::exact, Tangent::projected})
         {
           const auto at = space_response(law, anisotropic(), F, tangent);
           EXPECT_TRUE(std::isfinite(at.energy));
