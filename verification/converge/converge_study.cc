@@ -7,6 +7,7 @@
 #include "meshes/plain/sheet.h"
 #include "verification/cell/study_inputs.h"
 #include "verification/converge/converge_cases.h"
+#include "verification/laws/default_law.h"
 #include "verification/record/json_files.h"
 #include "verification/record/on_root.h"
 #include "verification/record/progress.h"
@@ -123,6 +124,18 @@ nlohmann::ordered_json notes(const ConvergenceStudyOptions &options)
   return list;
 }
 
+/// Of each cell, the law of the study over strains.
+std::vector<std::string> notes_on_laws(const ConvergenceStudyOptions &options,
+                                       const std::vector<UnitCell> &cells)
+{
+  std::vector<std::string> all;
+  if (has(options, "strain"))
+    for (const UnitCell &cell : cells)
+      all.push_back("strain: " + note_on_default_law(cell) +
+                    (default_law(cell) == Law::biot ? "" : "; quadratic has no modes of that law"));
+  return all;
+}
+
 class ConvergenceStudy
 {
 public:
@@ -163,7 +176,10 @@ private:
     inputs["strains"]               = sizes.strains;
     inputs["time_steps"]            = sizes.time_steps;
     for (const UnitCell &cell : cells)
+    {
       inputs["cells"][cell.name] = fingerprint(cell);
+      inputs["laws"][cell.name]  = name_of(default_law(cell));
+    }
     folder = open_run_folder(options.output, {"converge", inputs}, options.earlier, options.quiet);
     record = std::make_unique<ConvergenceRecord>(options.output);
   }
@@ -174,8 +190,9 @@ private:
     for (const UnitCell &cell : cells)
     {
       homogenization::HomogenizationOptions p1;
-      p1.order        = 1;
-      p1.second_order = {homogenization::MembraneLaw::biot};
+      p1.order = 1;
+      if (default_law(cell) == Law::biot)
+        p1.second_order = {homogenization::MembraneLaw::biot};
       homogenized.push_back(homogenization::homogenized_cell(
         cell, homogenization::homogenize(cell, p1, communicator), provenance_line()));
     }
@@ -252,8 +269,9 @@ private:
               const double seconds =
                 std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
               nlohmann::ordered_json all_notes = notes(options);
-              for (const std::string &note : notes_on_cuts(cells))
-                all_notes.push_back(note);
+              for (const auto &some : {notes_on_laws(options, cells), notes_on_cuts(cells)})
+                for (const std::string &note : some)
+                  all_notes.push_back(note);
               for (const std::string &note : unfinished)
                 all_notes.push_back(note);
               const unsigned int n_ranks = n_ranks_of(communicator);

@@ -68,7 +68,7 @@ struct ReferenceOptions
 class FineReference
 {
 public:
-  /// @param sheet n1 x n2 cells; of periodic loads one cell is solved (n1 = n2 = 1)
+  /// @param sheet n1 x n2 cells; of periodic loads what repeats, mostly one cell
   /// @param stiffness_of_phase (3,3) [N/m]
   FineReference(const meshes::Sheet &sheet, std::vector<Eigen::Matrix3d> stiffness_of_phase,
                 const ReferenceOptions &options, MPI_Comm communicator);

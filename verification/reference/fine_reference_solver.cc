@@ -52,10 +52,11 @@ void FineReference::Solver::constrain(const Load &load)
   clamp_of_node.clear();
   if (load.is_periodic())
   {
-    homogenization::make_periodic_constraints(discretization, sheet.lattice, sheet.origin, boundary,
+    const meshes::Lattice period = {sheet.sides()}; // of all cells of the sheet
+    homogenization::make_periodic_constraints(discretization, period, sheet.origin, boundary,
                                               constraints);
-    homogenization::audit_periodic_constraints(discretization, sheet.lattice, sheet.origin,
-                                               boundary, constraints);
+    homogenization::audit_periodic_constraints(discretization, period, sheet.origin, boundary,
+                                               constraints);
     return;
   }
   constraints.clear();
