@@ -20,6 +20,7 @@
 #include "verification/reference/fine_reference.h"
 #include "verification/strain/budget_verdicts.h"
 #include "verification/strain/cell_references.h"
+#include "verification/strain/level_ellipticity.h"
 #include "verification/strain/reference_uncertainty.h"
 #include "verification/strain/run_time.h"
 #include "verification/strain/self_checks.h"
@@ -292,22 +293,20 @@ private:
     ReferenceStep fine      = reference.advance(strain);
     if (!fine.reached)
     {
+      const Stability at_the_end = reference.stability_of_last(fine);
       on_root(communicator,
               [&]()
               {
-                output->write_note(level, "no equilibrium found; " + fine.why);
+                output->write_note(level, note_of_stop(level, fine, at_the_end, sheet, cell));
                 output->write_unreached(level, sheet);
               });
       return false;
     }
     Stability stability            = Stability::every_triangle;
     const double seconds_stability = seconds_of([&]() { stability = reference.stabilize(fine); });
-    on_root(communicator,
-            [&]()
-            {
-              for (const std::string &note : notes_of(fine, stability))
-                output->write_note(level, note);
-            });
+    if (is_root)
+      for (const std::string &note : notes_of(fine, stability))
+        output->write_note(level, note);
     largest_residual = std::max(largest_residual, fine.relative_residual);
     UpsampledLevel solved;
     int is_solved = 0;

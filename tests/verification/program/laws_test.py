@@ -109,6 +109,23 @@ class Supercell(InFolder):
             self.assertFalse((self.folder / "run").exists())
 
 
+class Stop(InFolder):
+    def test_a_path_that_the_law_ends_names_the_triangle(self):
+        result = run("strain", CELLS / "layered.prm", "--quick", "--loads", "shear-frame",
+                     "--references", "green,biot", "--strains", "0.05,0.15", "--methods",
+                     "affine,localized", "--no-budget", "--no-runtime", "--no-report",
+                     "--output", self.folder / "run")
+        self.assertIn(result.returncode, (0, 1, 4), result.stderr)
+        notes = [row for row in rows_of(self.folder / "run" / "notes.csv")
+                 if "no equilibrium" in row["note"]]
+        self.assertEqual([(row["reference"], row["strain"]) for row in notes], [("green", "0.15")])
+        # In a corner of the frame, where the soft stripe is pressed.
+        self.assertRegex(notes[0]["note"],
+                         r"the law ends there, not the solver: .* of phase soft, at "
+                         r"\((0\.0|0\.9)\d*, (0\.0|0\.9)\d*\) of the sides of the sheet, is "
+                         r".*pressed .* is not elliptic under green \(least wave -")
+
+
 class Yarns(InFolder):
     def test_a_cell_without_yarns_is_refused_before_anything_runs(self):
         output = self.folder / "run"
