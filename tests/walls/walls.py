@@ -39,7 +39,8 @@ MAY_INCLUDE = {
     "verification/reference": {"meshes/plain", "meshes/cloth", "homogenization/algebra",
                                "homogenization/fem", "homogenization/bracket",
                                "verification/record"},
-    "verification/laws": {"meshes/plain", "verification/reference"},
+    "verification/laws": {"meshes/plain", "homogenization/cell", "verification/record",
+                          "verification/reference"},
     "verification/periodic_cell": {"meshes/plain", "verification/reference"},
     "verification/cell": {"meshes/plain", "meshes/files", "homogenization/bracket",
                           "homogenization/edges",
@@ -56,13 +57,15 @@ MAY_INCLUDE = {
                             "verification/cell", "verification/method", "verification/budget",
                             "localization"}
     | MESHES | CELLS | SHELL,
-    "verification/converge": {"verification/record", "verification/reference", "verification/cell",
+    "verification/converge": {"verification/record", "verification/reference", "verification/laws",
+                              "verification/cell",
                               "verification/method", "homogenization/bracket", "localization"}
     | MESHES | CELLS | SHELL,
     "verification/drape": {"verification/record", "verification/reference", "verification/cell",
                            "verification/method", "localization", "shell/contact"}
     | MESHES | CELLS | SHELL,
-    "verification/extremes": {"verification/record", "verification/cell", "localization",
+    "verification/extremes": {"verification/record", "verification/laws", "verification/cell",
+                              "localization",
                               "shell/contact"} | MESHES | CELLS | SHELL,
     "verification/load": {"verification/record", "verification/periodic_cell",
                           "verification/cell",

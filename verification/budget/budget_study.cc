@@ -5,6 +5,7 @@
 #include "meshes/plain/errors.h"
 #include "verification/budget/second_code.h"
 #include "verification/cell/energy_order.h"
+#include "verification/record/main_reference.h"
 #include "verification/record/number_text.h"
 #include "verification/record/on_root.h"
 
@@ -17,9 +18,7 @@ namespace homespun::verification
 BudgetStudy::BudgetStudy(const std::vector<std::string> &references,
                          const std::vector<double> &strains, Table<BudgetRow> *const table,
                          Table<SecondCodeRow> *const second, const MPI_Comm communicator)
-    : law_of_budget(std::find(references.begin(), references.end(), "biot") != references.end()
-                      ? Law::biot
-                      : law_of(references.front()))
+    : law_of_budget(law_of(main_reference(references)))
     , table(table)
     , second(second)
     , judged(judged_strains(strains))
@@ -145,7 +144,7 @@ std::optional<meshes::Points> BudgetStudy::solve_by_second_code(const Law law, c
                                                                 const meshes::Points &tight,
                                                                 std::string &fault)
 {
-  if (law != Law::linear && law != Law::biot)
+  if (!second_code_has(law))
     return std::nullopt;
   SecondCodeRow row = {cell->name, load_name, strain, name_of(law), "sheet"};
   std::optional<meshes::Points> positions;
@@ -155,7 +154,7 @@ std::optional<meshes::Points> BudgetStudy::solve_by_second_code(const Law law, c
     positions =
       law == Law::linear
         ? second_linear_sheet(cells.given, cells.stiffness_of_phase, *sheet, load, strain)
-        : second_corotational_sheet(cells.given, cells.stiffness_of_phase, *sheet, load, strain);
+        : second_nonlinear_sheet(law, cells.given, cells.stiffness_of_phase, *sheet, load, strain);
     row.distance =
       (tight - *positions).rowwise().norm().mean() / (strain * std::sqrt(cell->lattice.area()));
   }

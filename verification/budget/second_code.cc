@@ -10,6 +10,7 @@
 #include <cmath>
 #include <numeric>
 #include <stdexcept>
+#include <utility>
 
 namespace homespun::verification
 {
@@ -138,10 +139,15 @@ meshes::Points second_linear_sheet(const meshes::HomogenizedCell &cell,
     .solve_linear(known.positions);
 }
 
-meshes::Points second_corotational_sheet(const meshes::HomogenizedCell &cell,
-                                         const std::vector<Eigen::Matrix3d> &stiffness_of_phase,
-                                         const meshes::Sheet &sheet, const Load &load,
-                                         const double strain)
+bool second_code_has(const Law law)
+{
+  return law == Law::linear || law == Law::biot || law == Law::yarn;
+}
+
+meshes::Points second_nonlinear_sheet(const Law law, const meshes::HomogenizedCell &cell,
+                                      const std::vector<Eigen::Matrix3d> &stiffness_of_phase,
+                                      const meshes::Sheet &sheet, const Load &load,
+                                      const double strain)
 {
   if (load.is_periodic())
   {
@@ -150,12 +156,15 @@ meshes::Points second_corotational_sheet(const meshes::HomogenizedCell &cell,
     Eigen::Matrix2d R;
     R << std::cos(angle), -std::sin(angle), std::sin(angle), std::cos(angle);
     const Eigen::Matrix2d U = R.transpose() * F;
-    const CellState state   = NonlinearCell(cell, stiffness_of_phase, Law::biot)
+    const CellState state   = NonlinearCell(cell, stiffness_of_phase, law)
                               .solve({U(0, 0) - 1., U(1, 1) - 1., U(0, 1) + U(1, 0)});
     return infinite_cloth(sheet, F, R, state.fluctuation, cell.anchor);
   }
-  const Prescribed known = prescribed(sheet, load, strain);
-  const shell::MembraneSolver<2> solver(second_mesh(cell, sheet), stiffness_of_phase, known.held);
+  const Prescribed known   = prescribed(sheet, load, strain);
+  shell::Membrane membrane = shell::membrane(second_mesh(cell, sheet), stiffness_of_phase);
+  if (law == Law::yarn)
+    shell::take_yarn_law(membrane);
+  const shell::MembraneSolver<2> solver(std::move(membrane), known.held);
   shell::EquilibriumOptions tight;
   tight.relative_tolerance = 1e-13; // round-off counts as zero before
   return solver.solve_equilibrium(solver.solve_linear(known.positions), tight).positions;

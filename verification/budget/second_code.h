@@ -32,13 +32,16 @@ meshes::Points second_linear_sheet(const meshes::HomogenizedCell &cell,
 /// x cell side: both leave 1e-11 of the forces or less, times 1e5 for the condition of a sheet.
 constexpr double agreement = 1e-6;
 
-/// The resolved sheet under `biot` at a strain, from its own answer in linear theory until
-/// round-off; of periodic loads the cell at finite strain (nonlinear_cell.h).
+/// Whether the second code has a law: `linear`, `biot` and `yarn`, those of the moving cloth.
+bool second_code_has(Law law);
+
+/// The resolved sheet under `biot` or `yarn` at a strain, from its own answer in linear theory
+/// until round-off; of periodic loads the cell at finite strain (nonlinear_cell.h), whose laws are
+/// those of the reference.
 /// @throws NotConverged
-meshes::Points second_corotational_sheet(const meshes::HomogenizedCell &cell,
-                                         const std::vector<Eigen::Matrix3d> &stiffness_of_phase,
-                                         const meshes::Sheet &sheet, const Load &load,
-                                         double strain);
+meshes::Points second_nonlinear_sheet(Law law, const meshes::HomogenizedCell &cell,
+                                      const std::vector<Eigen::Matrix3d> &stiffness_of_phase,
+                                      const meshes::Sheet &sheet, const Load &load, double strain);
 
 /// C^H of P2 on the cell's mesh by the direct solver on the glued mesh [N/m].
 Eigen::Matrix3d second_p2_stiffness(const meshes::HomogenizedCell &cell,

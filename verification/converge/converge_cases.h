@@ -14,7 +14,8 @@
 //               1 per sheet side. `localized` has at least that order, and at most 2.
 // coarse        coarse triangles per cell side at a fixed sheet. The energy falls (nested). Where a
 //               clamped edge meets a free one the exponent lies above ½: orders between 1 and 2.
-// strain        periodic loads under biot: the linear characteristic displacements err by strain
+// strain        periodic loads under the cell's default law: the linear characteristic
+// displacements err by strain
 //               squared, `affine` by strain.
 // time          the coarse cloth swings down from one edge, linearly implicit and implicit Euler:
 //               order 1.

@@ -5,6 +5,7 @@
 #include "meshes/plain/errors.h"
 #include "meshes/plain/sheet.h"
 #include "verification/converge/converge_cases.h"
+#include "verification/laws/default_law.h"
 #include "verification/record/on_root.h"
 #include "verification/record/progress.h"
 #include "verification/record/provenance.h"
@@ -120,6 +121,18 @@ std::vector<std::string> notes(const ConvergenceStudyOptions &options)
   return list;
 }
 
+/// Of each cell, the law of the study over strains.
+std::vector<std::string> notes_on_laws(const ConvergenceStudyOptions &options,
+                                       const std::vector<UnitCell> &cells)
+{
+  std::vector<std::string> all;
+  if (has(options, "strain"))
+    for (const UnitCell &cell : cells)
+      all.push_back("strain: " + note_on_default_law(cell) +
+                    (default_law(cell) == Law::biot ? "" : "; quadratic has no modes of that law"));
+  return all;
+}
+
 class ConvergenceStudy
 {
 public:
@@ -156,8 +169,10 @@ private:
     inputs["coarse_per_cell"]       = sizes.coarse_per_cell;
     inputs["strains"]               = sizes.strains;
     inputs["time_steps"]            = sizes.time_steps;
-    resumed                         = study.open("converge", inputs);
-    record                          = std::make_unique<ConvergenceRecord>(options.output);
+    for (const UnitCell &cell : study.cells())
+      inputs["laws"][cell.name] = name_of(default_law(cell));
+    resumed = study.open("converge", inputs);
+    record  = std::make_unique<ConvergenceRecord>(options.output);
   }
 
   /// Cases stand study by study, so that the finest levels of one cell do not delay the others.
@@ -167,8 +182,9 @@ private:
     for (const UnitCell &cell : cells)
     {
       homogenization::HomogenizationOptions p1;
-      p1.order        = 1;
-      p1.second_order = {homogenization::MembraneLaw::biot};
+      p1.order = 1;
+      if (default_law(cell) == Law::biot)
+        p1.second_order = {homogenization::MembraneLaw::biot};
       homogenized.push_back(homogenization::homogenized_cell(
         cell, homogenization::homogenize(cell, p1, communicator), provenance_line()));
     }
@@ -242,6 +258,8 @@ private:
             {
               verdicts                           = record->verdicts();
               std::vector<std::string> all_notes = notes(options);
+              for (const std::string &note : notes_on_laws(options, study.cells()))
+                all_notes.push_back(note);
               all_notes.insert(all_notes.end(), unfinished.begin(), unfinished.end());
               study.conclude({{{"studies", options.studies}, {"quick", options.quick}},
                               what_was_left_out(options, record->levels()),

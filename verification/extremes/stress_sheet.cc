@@ -4,6 +4,8 @@
 #include "meshes/plain/sheet.h"
 #include "shell/terms/inertial_terms.h"
 #include "shell/terms/membrane_term.h"
+#include "shell/terms/yarn_term.h"
+#include "verification/laws/default_law.h"
 
 #include <Eigen/Geometry>
 
@@ -31,6 +33,19 @@ std::vector<SheetStiffness> built_in_stiffnesses()
   return {isotropic_sheet(1000., 0.3),
           {"laminate", laminate},
           {"anisotropic 1e4", 0.5 * (skewed + skewed.transpose())}};
+}
+
+std::vector<SheetStiffness> with_twins_of_yarn(const std::vector<SheetStiffness> &stiffnesses)
+{
+  std::vector<SheetStiffness> all = stiffnesses;
+  for (SheetStiffness twin : stiffnesses)
+    if (loss_of_biot(twin.D).strain < largest_strain_of_cloth)
+    {
+      twin.name += ", yarn";
+      twin.law = SheetLaw::yarn;
+      all.push_back(twin);
+    }
+  return all;
 }
 
 meshes::ClothMesh hanging_mesh(const int n, const double side)
@@ -67,7 +82,14 @@ shell::Cloth sheet_cloth(const meshes::ClothMesh &mesh, const SheetStiffness &st
 {
   const Eigen::VectorXd masses = shell::lumped_masses(mesh, {stiffness.areal_density});
   shell::Cloth cloth(mesh.positions, masses, held, physics.options);
-  cloth.add(shell::membrane_term(mesh, {stiffness.D}, physics.viscosity));
+  if (stiffness.law == SheetLaw::yarn)
+  {
+    cloth.add(shell::yarn_term(mesh, {stiffness.D}));
+    if (physics.viscosity > 0.)
+      cloth.add(shell::viscosity_term(mesh, {stiffness.D}, physics.viscosity));
+  }
+  else
+    cloth.add(shell::membrane_term(mesh, {stiffness.D}, physics.viscosity));
   if (physics.damping > 0.)
     cloth.add(shell::mass_damping_term(masses, physics.damping));
   if (!physics.gravity.isZero(0.))

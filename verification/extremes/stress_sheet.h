@@ -15,13 +15,30 @@
 
 namespace homespun::verification
 {
+/// The energy of a sheet's membrane.
+enum class SheetLaw
+{
+  corotational,
+  yarn ///< shell/terms/yarn_term.h: without conserving steps
+};
+
 /// A membrane stiffness by name.
 struct SheetStiffness
 {
   std::string name;
   Eigen::Matrix3d D;          ///< Voigt 11, 22, 12, engineering shear [N/m]
   double areal_density = 0.2; ///< [kg/m^2]
+  SheetLaw law         = SheetLaw::corotational;
+
+  bool has_conserving_steps() const
+  {
+    return law == SheetLaw::corotational;
+  }
 };
+
+/// The same, and a twin under the law `yarn`, named so, of each that loses ellipticity under the
+/// corotational law, pulled along its yarns, before 20 %.
+std::vector<SheetStiffness> with_twins_of_yarn(const std::vector<SheetStiffness> &stiffnesses);
 
 /// E t = young, plane stress.
 SheetStiffness isotropic_sheet(double young, double poisson);

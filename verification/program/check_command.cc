@@ -5,7 +5,7 @@
 #include "homogenization/cell/cell_keys.h"
 #include "meshes/files/hdf5_writer.h"
 #include "meshes/plain/errors.h"
-#include "verification/laws/first_loss.h"
+#include "verification/laws/default_law.h"
 #include "verification/program/commands.h"
 #include "verification/program/report_script.h"
 #include "verification/record/json_files.h"
@@ -85,31 +85,22 @@ void describe(const UnitCell &cell, const int n_warnings)
     std::cout << "  holes: " << 100. * (1. - covered) << " % of the area\n";
 }
 
-/// Phases that stop being elliptic under the corotational law, pulled along one of their axes.
+/// Phases that stop being elliptic under the corotational law, pulled along one of their yarns.
 void add_ellipticity_findings(CellReading &reading)
 {
-  constexpr double large = 0.2; // of the strains that cloth is up-sampled at
   for (const int p : reading.cell.phase_of_group())
   {
-    homogenization::Phase phase      = reading.cell.phases[static_cast<std::size_t>(p)];
-    phase.angle                      = 0.; // in its own axes
-    const Eigen::Matrix3d C          = homogenization::plane_stress_stiffness(phase);
-    const std::array<double, 2> loss = {uniaxial_loss(Law::biot, C, 1),
-                                        uniaxial_loss(Law::biot, C, 2)};
-    const int axis                   = loss[0] <= loss[1] ? 1 : 2;
-    const double first               = std::min(loss[0], loss[1]);
-    if (first >= large)
+    const PhaseLoss loss = loss_of_biot(reading.cell.phases[static_cast<std::size_t>(p)]);
+    if (loss.strain >= largest_strain_of_cloth)
       continue;
-    const double E = axis == 1 ? phase.E1 : phase.E2;
     reading.findings.push_back(
       {Severity::warning,
        "ellipticity",
-       reading.cell.file + ": phase `" + phase.name + "` pulled along its axis " +
-         std::to_string(axis) + " is not elliptic under the law biot from a strain of " +
-         percent_text(first) + " on, E" + std::to_string(axis) + " being " +
-         short_text(E / phase.G12) + " times G12",
-       "beyond it no minimum of the energy need exist: ask for smaller strains, or for the "
-       "reference yarn, which pulling does not take there",
+       reading.cell.file + ": phase `" + loss.phase + "` pulled along " + axis_text(loss) +
+         " is not elliptic under the law biot from a strain of " + percent_text(loss.strain) +
+         " on, E being " + short_text(loss.ratio) + " times G there",
+       "beyond it no minimum of the energy need exist: studies have the law yarn unless another "
+       "is asked for, which pulling does not take there",
        {}});
   }
 }

@@ -60,28 +60,6 @@ void read_strains(const std::vector<std::string> &texts, std::vector<double> &st
     faults.add("--strains: found nothing; expected one strain at least, like -5%");
 }
 
-/// Reads `2x2`; nothing where nothing was said.
-std::optional<Eigen::Vector2i> read_supercell(const std::string &text, ArgumentFaults &faults)
-{
-  if (text.empty())
-    return {};
-  constexpr int most      = 8;
-  const std::size_t cross = text.find('x');
-  const auto one          = homogenization::numbers(text.substr(0, cross));
-  const auto other =
-    homogenization::numbers(cross == std::string::npos ? "" : text.substr(cross + 1));
-  const auto is_count = [](const auto &found)
-  {
-    return found && found->size() == 1 && (*found)[0] >= 1. && (*found)[0] <= most &&
-           (*found)[0] == std::floor((*found)[0]);
-  };
-  if (is_count(one) && is_count(other) && (*one)[0] * (*other)[0] > 1.)
-    return Eigen::Vector2i(static_cast<int>((*one)[0]), static_cast<int>((*other)[0]));
-  faults.add("--supercell: found `" + text + "`; expected N1xN2, whole numbers from 1 to " +
-             std::to_string(most) + " with two cells at least, like 2x2");
-  return {};
-}
-
 int run_stability(StabilityArguments arguments, AfterMpi &afterwards)
 {
   StabilityStudyOptions &study = arguments.study;
@@ -91,7 +69,8 @@ int run_stability(StabilityArguments arguments, AfterMpi &afterwards)
                      std::vector<std::string>{"periodic-11", "periodic-22", "periodic-12",
                                               "uniaxial-1", "uniaxial-2"});
   faults.check_names("--law", study.laws, law_of);
-  study.supercell = read_supercell(arguments.supercell, faults);
+  if (const auto n = read_supercell(arguments.supercell, faults))
+    study.supercell = Eigen::Vector2i((*n)[0], (*n)[1]);
   faults.throw_if_any();
   if (study.output.empty())
     study.output = default_folder("stability", stems(study.cell_files), false);

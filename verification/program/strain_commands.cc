@@ -22,6 +22,7 @@ namespace
 struct StrainArguments
 {
   StrainStudyOptions study;
+  std::string supercell;
   StudyEnd end;
   bool quick = false;
 };
@@ -52,8 +53,13 @@ std::string fraction_of(const std::string &text)
   return text;
 }
 
+bool is_periodic_name(const std::string &load)
+{
+  return load.rfind("periodic", 0) == 0 || load.rfind("uniaxial", 0) == 0;
+}
+
 /// Ascending strains; the references walk up the ladder.
-void check_arguments(StrainStudyOptions &study)
+void check_arguments(StrainStudyOptions &study, const std::string &supercell)
 {
   ArgumentFaults faults;
   for (const double strain : study.strains)
@@ -64,7 +70,6 @@ void check_arguments(StrainStudyOptions &study)
   study.strains.erase(std::unique(study.strains.begin(), study.strains.end()), study.strains.end());
   for (const auto &[option, is_empty] : {std::make_pair("--strains", study.strains.empty()),
                                          std::make_pair("--loads", study.loads.empty()),
-                                         std::make_pair("--references", study.references.empty()),
                                          std::make_pair("--methods", study.methods.empty())})
     if (is_empty)
       faults.add(std::string(option) + ": found nothing; expected at least one");
@@ -72,13 +77,19 @@ void check_arguments(StrainStudyOptions &study)
   faults.check_names("--references", study.references, law_of);
   faults.check_names("--methods", study.methods,
                      [](const std::string &name) { return Method(name); });
+  if (const auto n = read_supercell(supercell, faults))
+    study.supercell = *n;
+  if (has_supercell(study) &&
+      std::none_of(study.loads.begin(), study.loads.end(), is_periodic_name))
+    faults.add("--supercell: found it beside no periodic load; expected one among --loads, like "
+               "uniaxial-1: sheets have --cells");
   faults.throw_if_any();
 }
 
 int run_strain(StrainArguments arguments, AfterMpi &afterwards)
 {
   StrainStudyOptions &study = arguments.study;
-  check_arguments(study);
+  check_arguments(study, arguments.supercell);
   if (study.output.empty())
     study.output = default_folder("strain", stems(study.cell_files), study.is_quick);
   return arguments.end.conclude(run_strain_study(study, MPI_COMM_WORLD), study.output, study.quiet,
@@ -101,12 +112,15 @@ void add_strain_command(CLI::App &app, Action &action, AfterMpi &afterwards,
     command->add_option("--cells", study.n_cells, "Cells per side of the sheet; the paper has 20")
       ->check(CLI::Range(1, 200))
       ->capture_default_str();
+  command->add_option("--supercell", arguments->supercell,
+                      "N1xN2 cells that repeat under periodic loads, like 2x2 (default: one cell)");
   CLI::Option *strains = add_list(*command, "--strains", study.strains,
                                   "Strains as fractions or percentages, 0.1 or 10%, "
                                   "comma-separated")
                            ->transform(fraction_of);
   add_list(*command, "--loads", study.loads, "Loads, comma-separated");
-  add_list(*command, "--references", study.references, "Laws of the fine reference");
+  add_list(*command, "--references", study.references,
+           "Laws of the fine reference (default linear, yarn or biot by the cell, green)");
   add_list(*command, "--methods", study.methods, "Ways to the fine positions");
   add_folder_options(*command, study, "out/NAME/strain, with --quick out/NAME/strain-quick");
   command->add_flag("--quick", arguments->quick,
@@ -125,10 +139,10 @@ void add_strain_command(CLI::App &app, Action &action, AfterMpi &afterwards,
     "Of each level: errors (strain.csv), forces of the clamps or the stress (forces.csv); of\n"
     "sheets, at the largest strain and near 10 %, displacements for ParaView\n"
     "(CELL/sheet-LOAD-STRAIN.vtu).\n"
-    "References: linear; biot (what the coarse cloth approximates); green (St. Venant-Kirchhoff);\n"
-    "where asked for: yarn (stretch and angle of two yarns, for cells with orthotropic phases; "
-    "the\n"
-    "coarse cloth takes it, too).\n"
+    "References: linear; biot (that of the corotational coarse cloth); yarn (stretch and angle of\n"
+    "two yarns, for cells with orthotropic phases; the coarse cloth takes it, too); green\n"
+    "(St. Venant-Kirchhoff). Where none are asked for, a cell has yarn in place of biot if one of\n"
+    "its phases, pulled along a yarn, has no minimum under biot before 20 % (4/(E/G - 4)).\n"
     "Example:\n  homespun strain mycell.prm --quick\n"
     "  mpirun -n 2 homespun strain mycell.prm --loads strip-2,shear-frame --strains 0.01,0.1");
   command->callback(

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "verification/program/study_arguments.h"
 
+#include "homogenization/cell/parameter_text.h"
 #include "verification/record/on_root.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
 
@@ -22,6 +24,27 @@ void ArgumentFaults::check_names(const std::string &option, const std::vector<st
                   list += (k == 0 ? "" : k + 1 == known.size() ? " or " : ", ") + known[k];
                 throw meshes::BadInput("found `" + name + "`; expected " + list);
               });
+}
+
+std::optional<std::array<int, 2>> read_supercell(const std::string &text, ArgumentFaults &faults)
+{
+  if (text.empty())
+    return {};
+  constexpr int most      = 8;
+  const std::size_t cross = text.find('x');
+  const auto one          = homogenization::numbers(text.substr(0, cross));
+  const auto other =
+    homogenization::numbers(cross == std::string::npos ? "" : text.substr(cross + 1));
+  const auto is_count = [](const auto &found)
+  {
+    return found && found->size() == 1 && (*found)[0] >= 1. && (*found)[0] <= most &&
+           (*found)[0] == std::floor((*found)[0]);
+  };
+  if (is_count(one) && is_count(other) && (*one)[0] * (*other)[0] > 1.)
+    return std::array<int, 2>{static_cast<int>((*one)[0]), static_cast<int>((*other)[0])};
+  faults.add("--supercell: found `" + text + "`; expected N1xN2, whole numbers from 1 to " +
+             std::to_string(most) + " with two cells at least, like 2x2");
+  return {};
 }
 
 std::vector<std::string> joined_lists(const std::vector<std::string> &words)

@@ -12,6 +12,8 @@
 #include <CLI/App.hpp>
 #include <CLI/Option.hpp>
 
+#include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -67,6 +69,9 @@ public:
 private:
   std::vector<std::string> faults;
 };
+
+/// Reads the numbers of cells of `2x2`; nothing where nothing was said, or it is a fault.
+std::optional<std::array<int, 2>> read_supercell(const std::string &text, ArgumentFaults &faults);
 
 /// Adds --output, --resume, --overwrite and --quiet.
 /// @param study has `output`, `earlier` and `quiet`

@@ -25,7 +25,9 @@ struct ReferenceStep
   double strain = 0.;
   bool reached  = false;         ///< false: no equilibrium found, `why` says where it stopped
   std::string why;               ///< reason where it was not reached
-  meshes::Points positions;      ///< (n,2) at the vertices of the sheet, on every rank [m]
+  double stopped_at = 0.;        ///< where it was not reached: strain of the last equilibrium
+  meshes::Points positions;      ///< (n,2) at the vertices of the sheet, on every rank [m]; of the
+                                 ///< last equilibrium where it was not reached, none without one
   unsigned int n_newton    = 0;  ///< Newton steps
   unsigned int n_linear    = 0;  ///< iterations of conjugate gradients, all Newton steps
   double relative_residual = 0.; ///< |forces on free nodes| / size of the element forces
@@ -68,7 +70,7 @@ struct ReferenceOptions
 class FineReference
 {
 public:
-  /// @param sheet n1 x n2 cells; of periodic loads one cell is solved (n1 = n2 = 1)
+  /// @param sheet n1 x n2 cells; of periodic loads what repeats, mostly one cell
   /// @param stiffness_of_phase (3,3) [N/m]
   FineReference(const meshes::Sheet &sheet, std::vector<Eigen::Matrix3d> stiffness_of_phase,
                 const ReferenceOptions &options, MPI_Comm communicator);
@@ -107,6 +109,10 @@ public:
   /// followed to a lower energy, and the equilibrium sought from there, up to three times.
   /// @param step the level as advance() returned it; gets the new positions where it was left
   Stability stabilize(ReferenceStep &step);
+
+  /// What the last equilibrium before a level that was not reached is. Nothing goes on from it.
+  /// @return `unknown` where there is none
+  Stability stability_of_last(const ReferenceStep &stopped);
 
   unsigned long n_dofs() const;
 

@@ -33,6 +33,15 @@ ReferenceStep FineReference::tighten(const double tolerance)
   return solver->tighten(tolerance);
 }
 
+Stability FineReference::stability_of_last(const ReferenceStep &stopped)
+{
+  if (stopped.positions.rows() == 0)
+    return Stability::unknown;
+  ReferenceStep last = stopped;
+  last.strain        = stopped.stopped_at;
+  return solver->stabilize(last);
+}
+
 Stability FineReference::stabilize(ReferenceStep &step)
 {
   return solver->stabilize(step);

@@ -52,10 +52,11 @@ void FineReference::Solver::constrain(const Load &load)
   clamp_of_node.clear();
   if (load.is_periodic())
   {
-    homogenization::make_periodic_constraints(discretization, sheet.lattice, sheet.origin, boundary,
+    const meshes::Lattice period = {sheet.sides()}; // of all cells of the sheet
+    homogenization::make_periodic_constraints(discretization, period, sheet.origin, boundary,
                                               constraints);
-    homogenization::audit_periodic_constraints(discretization, sheet.lattice, sheet.origin,
-                                               boundary, constraints);
+    homogenization::audit_periodic_constraints(discretization, period, sheet.origin, boundary,
+                                               constraints);
     return;
   }
   constraints.clear();
@@ -266,7 +267,15 @@ ReferenceStep FineReference::Solver::advance(const double strain)
     step.positions = positions_of(levels.back().displacement, strain);
   }
   else
-    step.why = "stopped at strain " + short_text(reached) + ": " + step.why;
+  {
+    step.why        = "stopped at strain " + short_text(reached) + ": " + step.why;
+    step.stopped_at = reached;
+    if (!levels.empty())
+    {
+      free_strains   = levels.back().free_strains;
+      step.positions = positions_of(levels.back().displacement, reached);
+    }
+  }
   timer.stop();
   step.seconds = Utilities::MPI::max(timer.wall_time(), discretization.communicator);
   // Later levels of a linear law are multiples of the first; what a solve costs is the first.

@@ -2,6 +2,7 @@
 #include "verification/strain/budget_verdicts.h"
 
 #include "verification/budget/second_code.h"
+#include "verification/record/main_reference.h"
 #include "verification/record/number_text.h"
 #include "verification/reference/loads.h"
 #include "verification/strain/strain_verdicts.h"
@@ -10,6 +11,7 @@
 #include <cmath>
 #include <cstdio>
 #include <limits>
+#include <map>
 
 namespace homespun::verification
 {
@@ -164,18 +166,17 @@ void judge_slope(const std::vector<BudgetRow> &rows, const BudgetRow &of_case,
                       derivation_of_slope_two, Kind::program});
 }
 
-/// The case of each cell and load, against biot or the last reference of the study; its strains,
-/// ascending.
+/// The case of each cell and load, against the main reference of the cell; its strains, ascending.
 std::vector<std::pair<BudgetRow, std::vector<double>>>
 cases_of(const std::vector<StrainRow> &strain_rows)
 {
-  std::string reference;
+  std::map<std::string, std::string> reference_of; // of each cell
   for (const StrainRow &row : strain_rows)
-    if (row.reference == "biot" || reference.empty())
-      reference = row.reference;
+    if (reference_of.count(row.cell) == 0)
+      reference_of[row.cell] = main_reference(strain_rows, row.cell);
   std::vector<std::pair<BudgetRow, std::vector<double>>> cases;
   for (const StrainRow &row : strain_rows)
-    if (row.reference == reference)
+    if (row.reference == reference_of[row.cell])
     {
       auto known = std::find_if(
         cases.begin(), cases.end(),

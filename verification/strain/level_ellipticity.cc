@@ -2,6 +2,7 @@
 #include "verification/strain/level_ellipticity.h"
 
 #include "verification/laws/ellipticity.h"
+#include "verification/laws/worst_triangle.h"
 #include "verification/record/number_text.h"
 #include "verification/strain/ellipticity_rows.h"
 
@@ -38,6 +39,17 @@ EllipticityRow row_of(const StrainLevel &level, const std::string &part,
   return row;
 }
 
+/// Where a triangle of a sheet is, what pulls or presses it, and how far from elliptic it is.
+std::string words_of(const WorstTriangle &worst, const meshes::Sheet &sheet)
+{
+  Eigen::RowVector2d centre = Eigen::RowVector2d::Zero();
+  for (int k = 0; k < 3; ++k)
+    centre += sheet.mesh.vertices.row(sheet.mesh.triangles(worst.triangle, k)) / 3.;
+  const Eigen::RowVector2d place = sheet.fraction(centre);
+  return "at (" + short_text(place(0)) + ", " + short_text(place(1)) +
+         ") of the sides of the sheet, " + stress_text(worst);
+}
+
 std::string lost_of_all(const EllipticityRow &row)
 {
   return std::to_string(row.lost) + " of " + std::to_string(row.triangles) + " triangles";
@@ -67,6 +79,15 @@ void write_ellipticity(const StrainLevel &level, const ResolvedLevel &resolved,
     of_group[g].n_lost += found[p].n_lost;
     of_group[g].least = std::min(of_group[g].least, found[p].least);
   }
+  std::string worst_group, worst_words;
+  if (std::any_of(of_group.begin(), of_group.end(),
+                  [](const PhaseEllipticity &one) { return one.n_lost > 0; }))
+  {
+    const WorstTriangle worst =
+      worst_triangle(resolved.sheet.mesh, stiffness_of_phase, level.law, resolved.fine.positions);
+    worst_group = phases[static_cast<std::size_t>(resolved.sheet.mesh.material(worst.triangle))];
+    worst_words = "; the worst, " + words_of(worst, resolved.sheet);
+  }
   for (std::size_t g = 0; g < groups.size(); ++g)
   {
     const EllipticityRow row = row_of(level, groups[g], of_group[g]);
@@ -78,8 +99,44 @@ void write_ellipticity(const StrainLevel &level, const ResolvedLevel &resolved,
           ", the first from a strain of " +
           percent_text(strain_of_loss(rows_of(output.ellipticity.rows(), level, groups[g]))) +
           " on: no minimum of the energy need exist, and what is compared is one "
-          "equilibrium of its mesh");
+          "equilibrium of its mesh" +
+          (groups[g] == worst_group ? worst_words : ""));
   }
+}
+
+std::string note_of_stop(const StrainLevel &level, const ReferenceStep &stopped,
+                         const Stability at_the_end, const meshes::Sheet &sheet,
+                         const homogenization::UnitCell &cell)
+{
+  const std::string none =
+    "no equilibrium found; " + stopped.why.substr(0, stopped.why.find("; residual norms"));
+  if (level.law == Law::linear || stopped.positions.rows() == 0)
+    return none;
+  const std::vector<Eigen::Matrix3d> stiffness = cell.stiffness_of_phase();
+  const WorstTriangle worst = worst_triangle(sheet.mesh, stiffness, level.law, stopped.positions);
+  const std::string phase =
+    cell.phases[static_cast<std::size_t>(sheet.mesh.material(worst.triangle))].name;
+  if (!(worst.least > 0.))
+    return none +
+           "; the law ends there, not the solver: at the last equilibrium a triangle of phase " +
+           phase + ", " + words_of(worst, sheet) + ", is not elliptic under " + name_of(level.law) +
+           " (least wave " + short_text(worst.least) + " of that at rest)";
+  const std::string all = none +
+                          "; at the last equilibrium every triangle is elliptic (least wave " +
+                          short_text(worst.least) + " of that at rest, phase " + phase + ", " +
+                          words_of(worst, sheet) + ")";
+  switch (at_the_end)
+  {
+  case Stability::every_triangle:
+  case Stability::stable:
+    return all + ", and it is a minimum: a limit point beyond it or the solver ends the path";
+  case Stability::left:
+  case Stability::unstable:
+    return all + ", and it is no minimum: the path has passed a limit point or a bifurcation";
+  case Stability::unknown:
+    break;
+  }
+  return all + "; whether it is a minimum is not known";
 }
 
 void write_coarse_ellipticity(const StrainLevel &level, const MethodOnSheet &method,

@@ -4,6 +4,7 @@
 // Beyond it no minimiser need exist, so that the distance between two cloths says little of either.
 #pragma once
 
+#include "homogenization/cell/unit_cell.h"
 #include "verification/strain/compared_level.h"
 
 #include <string>
@@ -20,6 +21,15 @@ constexpr const char *coarse_cloth_part = "coarse cloth";
 void write_ellipticity(const StrainLevel &level, const ResolvedLevel &resolved,
                        const std::vector<Eigen::Matrix3d> &stiffness_of_phase,
                        const std::vector<std::string> &phases, StrainOutput &output);
+
+/// That the reference got no further, and why, as far as its last equilibrium tells: which triangle
+/// is not elliptic there, and what pulls or presses it; or that all are, and whether it is a
+/// minimum.
+/// @param stopped not reached
+/// @param at_the_end of its last equilibrium
+std::string note_of_stop(const StrainLevel &level, const ReferenceStep &stopped,
+                         Stability at_the_end, const meshes::Sheet &sheet,
+                         const homogenization::UnitCell &cell);
 
 /// The same of the coarse cloth; its note is written at the first level of a load that needs it.
 /// @param positions of the vertices of the coarse cloth [m]

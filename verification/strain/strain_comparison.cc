@@ -3,6 +3,7 @@
 
 #include "meshes/plain/errors.h"
 #include "verification/method/anchor_choice.h"
+#include "verification/record/main_reference.h"
 #include "verification/record/number_text.h"
 #include "verification/strain/force_rows.h"
 #include "verification/strain/level_ellipticity.h"
@@ -106,12 +107,10 @@ Fluctuation fluctuation_of(const StrainLevel &level, const meshes::Points &refer
   }
 }
 
-/// Pictures are of sheets, against biot if it is there.
+/// Pictures are of sheets, against the main reference.
 bool has_pictures(const StrainStudyOptions &options, const Load &load, const StrainLevel &level)
 {
-  return !load.is_periodic() &&
-         (has_biot(options) ? level.law == Law::biot
-                            : name_of(level.law) == options.references.front());
+  return !load.is_periodic() && name_of(level.law) == main_reference(options.references);
 }
 
 /// One picture for the report, and for ParaView that level and the largest.
@@ -340,7 +339,8 @@ UpsampledLevel compare_methods(const StrainStudyOptions &options, const StrainLe
     }
     output.write_errors(level, of.name, resolved.sheet, n_coarse, errors);
   }
-  if (!load.is_periodic() && level.law == Law::biot && level.strain == compared_strain(options))
+  if (!load.is_periodic() && name_of(level.law) == main_reference(options.references) &&
+      level.strain == compared_strain(options))
     if (const std::string note =
           note_of_anchor(errors_of_other_anchors(method.cell, cloth.coarse, resolved.sheet,
                                                  level.law, coarse.positions, fine.positions),

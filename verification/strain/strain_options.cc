@@ -2,18 +2,22 @@
 #include "verification/strain/strain_options.h"
 
 #include "verification/method/lightweight_cloth.h"
-#include "verification/reference/loads.h"
 
 namespace homespun::verification
 {
 StrainStudyOptions default_strain_study()
 {
   StrainStudyOptions options;
-  options.strains    = {0.001, 0.002, 0.005, 0.01, 0.02, 0.05, 0.1, 0.15, 0.2};
-  options.loads      = Load::names();
-  options.references = {"linear", "biot", "green"};
-  options.methods    = Method::names();
+  options.strains = {0.001, 0.002, 0.005, 0.01, 0.02, 0.05, 0.1, 0.15, 0.2};
+  options.loads   = Load::names();
+  options.methods = Method::names();
   return options;
+}
+
+bool has_budget(const StrainStudyOptions &options, const Load &load)
+{
+  return options.budget && !load.has_free_sides() &&
+         !(load.is_periodic() && has_supercell(options));
 }
 
 void make_quick(StrainStudyOptions &options)

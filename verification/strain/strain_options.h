@@ -3,7 +3,9 @@
 #pragma once
 
 #include "verification/record/run_folder.h"
+#include "verification/reference/loads.h"
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -12,10 +14,11 @@ namespace homespun::verification
 struct StrainStudyOptions
 {
   std::vector<std::string> cell_files;
-  int n_cells = 20;            ///< per side of the sheet
-  std::vector<double> strains; ///< as fractions, ascending
+  int n_cells                  = 20;     ///< per side of the sheet
+  std::array<int, 2> supercell = {1, 1}; ///< cells that repeat under periodic loads
+  std::vector<double> strains;           ///< as fractions, ascending
   std::vector<std::string> loads;
-  std::vector<std::string> references;
+  std::vector<std::string> references; ///< empty: those of each cell, default_references()
   std::vector<std::string> methods;
   int n_cells_of_error_bar = 4; ///< per side of the small sheet of the references' error bar
   std::string output;
@@ -27,8 +30,17 @@ struct StrainStudyOptions
   bool quiet      = false;
 };
 
-/// The whole study: nine strains from 0.1 to 20 %, every load, reference and method, the paper's
-/// size.
+/// Whether more than one cell repeats under periodic loads.
+inline bool has_supercell(const StrainStudyOptions &options)
+{
+  return options.supercell[0] * options.supercell[1] > 1;
+}
+
+/// Whether a load has an error budget: its parts are those of given macro strains and of one cell.
+bool has_budget(const StrainStudyOptions &options, const Load &load);
+
+/// The whole study: nine strains from 0.1 to 20 %, every load and method, the laws of each cell,
+/// the paper's size.
 StrainStudyOptions default_strain_study();
 
 /// 4 x 4 cells at 0.1, 1 and 10 %: seconds.

@@ -19,6 +19,8 @@
 #include "verification/record/timing.h"
 #include "verification/reference/fine_reference.h"
 #include "verification/strain/budget_verdicts.h"
+#include "verification/strain/cell_references.h"
+#include "verification/strain/level_ellipticity.h"
 #include "verification/strain/reference_uncertainty.h"
 #include "verification/strain/run_time.h"
 #include "verification/strain/self_checks.h"
@@ -44,31 +46,28 @@ namespace
 class StrainStudy
 {
 public:
-  StrainStudy(const StrainStudyOptions &options, const MPI_Comm communicator)
-      : options(options)
+  StrainStudy(const StrainStudyOptions &asked, const MPI_Comm communicator)
+      : asked(asked)
       , communicator(communicator)
       , n_ranks(n_ranks_of(communicator))
       , is_root(verification::is_root(communicator))
       , begin(std::chrono::steady_clock::now())
-      , progress(is_root && !options.quiet,
-                 static_cast<int>(options.cell_files.size() * options.loads.size() *
-                                  (1 + options.references.size() * options.strains.size())))
+      , progress(is_root && !asked.quiet,
+                 static_cast<int>(asked.cell_files.size() * asked.loads.size() *
+                                  (1 + references_per_cell(asked) * asked.strains.size())))
   {
   }
 
   std::vector<Verdict> run()
   {
-    for (const std::string &file : options.cell_files)
+    for (const std::string &file : asked.cell_files)
       cells.push_back(homogenization::read_unit_cell(file, communicator));
     check_names(cells);
-    check_yarns(cells, options.references);
+    check_yarns(cells, asked.references);
+    options = options_of(asked, cells);
     for (const UnitCell &cell : cells)
       meshes::tile(cell.mesh, cell.lattice, 1, 1); // refuses what makes no sheet, before any file
     on_root(communicator, [&]() { open_tables(); });
-    if (options.budget)
-      budget = std::make_unique<BudgetStudy>(options.references, options.strains,
-                                             output ? output->budget.get() : nullptr,
-                                             output ? output->second.get() : nullptr, communicator);
     for (const UnitCell &cell : cells)
       study_cell(cell);
     return conclude();
@@ -78,14 +77,21 @@ private:
   /// Tables live on the first rank alone.
   void open_tables()
   {
-    folder = open_run_folder(options.output, {"strain", strain_inputs(options, cells)},
+    folder = open_run_folder(options.output, {"strain", strain_inputs(asked, cells)},
                              options.earlier, options.quiet);
     output = std::make_unique<StrainOutput>(options, [this](const std::string &line)
                                             { progress.note(line); });
+    for (const std::string &note : notes_on_references(asked, cells))
+      progress.note(note);
   }
 
   void study_cell(const UnitCell &cell)
   {
+    options = options_of(asked, cell);
+    if (options.budget)
+      budget = std::make_unique<BudgetStudy>(options.references, options.strains,
+                                             output ? output->budget.get() : nullptr,
+                                             output ? output->second.get() : nullptr, communicator);
     progress.begin(cell.name + ": homogenization", true);
     const AssessedCell assessed =
       assess_for_study(cell, communicator, verdicts, laws_of_second_order(options));
@@ -95,16 +101,14 @@ private:
             {
               std::filesystem::create_directories(folder);
               write_cell_results(cell, assessed, {}, n_ranks, folder);
-              std::vector<Law> laws;
-              for (const std::string &name : options.references)
-                laws.push_back(law_of(name));
               for (const auto &some : {cell_file_verdicts(folder + "/cell.h5", cell),
-                                       self_checks(cell, laws, options.strains.back())})
+                                       self_checks(cell, laws_of(options), options.strains.back())})
                 verdicts.insert(verdicts.end(), some.begin(), some.end());
             });
     const meshes::HomogenizedCell homogenized =
       homogenization::homogenized_cell(cell, assessed.result, provenance_line());
-    const meshes::Sheet one_cell = meshes::tile(cell.mesh, cell.lattice, 1, 1);
+    const meshes::Sheet repeated =
+      meshes::tile(cell.mesh, cell.lattice, options.supercell[0], options.supercell[1]);
     std::unique_ptr<meshes::Sheet> full; // made where a load asks for it
     edges = has_edges(options) ? known_edges(cell, assessed.options.order) : KnownEdges();
 
@@ -116,7 +120,7 @@ private:
       if (!load.is_periodic() && !full)
         full = std::make_unique<meshes::Sheet>(
           meshes::tile(cell.mesh, cell.lattice, options.n_cells, options.n_cells));
-      const meshes::Sheet &sheet                = load.is_periodic() ? one_cell : *full;
+      const meshes::Sheet &sheet                = load.is_periodic() ? repeated : *full;
       std::unique_ptr<FineReference> &reference = load.is_periodic() ? of_cell : of_sheet;
       study_load(cell, homogenized, sheet, load, reference);
     }
@@ -165,10 +169,8 @@ private:
       measure_energies(cell, load, options.n_cells, output ? output->energies.get() : nullptr,
                        communicator);
     }
-    std::vector<Law> laws;
-    for (const std::string &name : options.references)
-      laws.push_back(law_of(name));
-    const int n_steps = 1 + static_cast<int>(laws.size() * options.strains.size());
+    const std::vector<Law> laws = laws_of(options);
+    const int n_steps           = 1 + static_cast<int>(laws.size() * options.strains.size());
     // What is missing is told to all ranks, so that they ask for the same laws.
     if (std::all_of(laws.begin(), laws.end(),
                     [&](const Law law) { return missing_strains(cell, load, law).empty(); }))
@@ -226,8 +228,7 @@ private:
   bool begin_budget(const UnitCell &cell, const meshes::HomogenizedCell &homogenized,
                     const meshes::Sheet &sheet, const Load &load)
   {
-    if (!budget || load.has_free_sides() ||
-        !budget->is_missing(cell.name, load.name, options.strains))
+    if (!has_budget(options, load) || !budget->is_missing(cell.name, load.name, options.strains))
       return false;
     progress.begin(cell.name + ", " + load.name +
                    ": the sheet by a second code, for the error budget");
@@ -259,7 +260,7 @@ private:
       {
         const StrainLevel level = {cell.name, load.name, law, options.strains[k]};
         is_missing[k]           = !output->is_complete(level) ||
-                        (budget && !load.has_free_sides() && !output->is_unreached(level) &&
+                        (has_budget(options, load) && !output->is_unreached(level) &&
                          budget->row_is_missing(cell.name, load.name, law, options.strains[k]));
       }
     MPI_Bcast(is_missing.data(), static_cast<int>(is_missing.size()), MPI_CHAR, 0, communicator);
@@ -292,22 +293,20 @@ private:
     ReferenceStep fine      = reference.advance(strain);
     if (!fine.reached)
     {
+      const Stability at_the_end = reference.stability_of_last(fine);
       on_root(communicator,
               [&]()
               {
-                output->write_note(level, "no equilibrium found; " + fine.why);
+                output->write_note(level, note_of_stop(level, fine, at_the_end, sheet, cell));
                 output->write_unreached(level, sheet);
               });
       return false;
     }
     Stability stability            = Stability::every_triangle;
     const double seconds_stability = seconds_of([&]() { stability = reference.stabilize(fine); });
-    on_root(communicator,
-            [&]()
-            {
-              for (const std::string &note : notes_of(fine, stability))
-                output->write_note(level, note);
-            });
+    if (is_root)
+      for (const std::string &note : notes_of(fine, stability))
+        output->write_note(level, note);
     largest_residual = std::max(largest_residual, fine.relative_residual);
     UpsampledLevel solved;
     int is_solved = 0;
@@ -345,6 +344,7 @@ private:
 
   std::vector<Verdict> conclude()
   {
+    options = options_of(asked, cells);
     const double seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     const std::vector<double> memory = peak_memory_of_ranks(communicator);
@@ -356,7 +356,8 @@ private:
               verdicts.insert(verdicts.end(), of_tables.begin(), of_tables.end());
               output->write_validity();
               std::vector<std::string> notes = notes_on_cuts(cells);
-              for (const auto &more : {notes_on_yarns(cells, options.references), output->notes()})
+              for (const auto &more : {notes_on_references(asked, cells),
+                                       notes_on_yarns(cells, asked), output->notes()})
                 notes.insert(notes.end(), more.begin(), more.end());
               if (options.budget)
                 for (const std::string &note :
@@ -373,7 +374,8 @@ private:
     return verdicts;
   }
 
-  const StrainStudyOptions options;
+  const StrainStudyOptions asked;
+  StrainStudyOptions options; ///< the same, with the references of the present cell, or of all
   const MPI_Comm communicator;
   const unsigned int n_ranks;
   const bool is_root;
@@ -382,7 +384,7 @@ private:
   std::vector<UnitCell> cells;
   std::unique_ptr<RunFolder> folder;    ///< first rank
   std::unique_ptr<StrainOutput> output; ///< first rank
-  std::unique_ptr<BudgetStudy> budget;  ///< none where it is left out
+  std::unique_ptr<BudgetStudy> budget;  ///< of the present cell; none where it is left out
   KnownEdges edges;                     ///< of the present cell
   std::vector<Verdict> verdicts;
   double largest_residual = 0.;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "verification/strain/strain_verdicts.h"
 
+#include "verification/record/main_reference.h"
 #include "verification/record/number_text.h"
 #include "verification/reference/fine_reference.h"
 #include "verification/reference/loads.h"
@@ -36,6 +37,12 @@ std::vector<StrainRow> cases_of(const std::vector<StrainRow> &rows)
                      [&](const StrainRow &known) { return is_of_case(row, known); }))
       cases.push_back(row);
   return cases;
+}
+
+/// Whether the coarse cloth has the law of the reference, too.
+bool is_shared(const std::string &reference)
+{
+  return reference == name_of(Law::biot) || reference == name_of(Law::yarn);
 }
 
 Verdict verdict_of_reach(const std::vector<StrainRow> &rows, const StrainRow &of_case,
@@ -89,7 +96,8 @@ std::vector<Verdict> periodic_verdict(const std::vector<StrainRow> &rows, const 
       errors.push_back(error);
       largest = larger(largest, error / strain);
     }
-  const std::string what  = of_case.cell + ", " + of_case.load + ": localized error against biot ",
+  const std::string what = of_case.cell + ", " + of_case.load + ": localized error against " +
+                           of_case.reference + " ",
                     claim = what + "falls as strain squared (slope)";
   const double none       = std::numeric_limits<double>::quiet_NaN();
   const auto verdict = [&](const std::string &its_claim, const Outcome outcome, const double value,
@@ -182,9 +190,8 @@ std::vector<Verdict> sheet_verdict(const std::vector<StrainRow> &rows, const Str
   const Outcome outcome = gain > localized->uncertainty    ? Outcome::pass
                           : gain < -localized->uncertainty ? Outcome::fail
                                                            : Outcome::inconclusive;
-  return {{of_case.cell + ", " + of_case.load +
-             ": localized is closer to biot than affine at strain " + short_text(*nearest) +
-             " (ratio of errors)",
+  return {{of_case.cell + ", " + of_case.load + ": localized is closer to " + of_case.reference +
+             " than affine at strain " + short_text(*nearest) + " (ratio of errors)",
            outcome, localized->mean / affine->mean, "< 1 by more than the reference's error bar",
            "the error bar of the reference at this level, of the same run", Kind::method}};
 }
@@ -245,7 +252,7 @@ std::vector<Verdict> strain_verdicts(const std::vector<StrainRow> &rows,
   { verdicts.insert(verdicts.end(), some.begin(), some.end()); };
   const std::vector<StrainRow> cases = cases_of(rows);
   for (const StrainRow &of_case : cases)
-    if (of_case.reference == "biot")
+    if (is_shared(of_case.reference) && of_case.reference == main_reference(rows, of_case.cell))
     {
       const bool is_periodic = Load(of_case.load).is_periodic();
       add(is_periodic ? periodic_verdict(rows, of_case, strains)

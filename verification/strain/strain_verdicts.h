@@ -30,11 +30,13 @@ Verdict verdict_of_smallest(const std::string &claim, const std::vector<double> 
 /// Judges, for every cell and load among the rows of strain.csv:
 /// - every reference: an equilibrium is found at every level. FAIL where it is found at none, open
 ///   where some are missing, because a load whose limit was not shown may have one beyond
-/// - periodic loads, reference biot, where the study has three levels from 1e-4 to 0.1: the
+/// - periodic loads, reference biot or yarn, the main one of the cell, where the study has three
+/// levels from 1e-4 to 0.1: the
 ///   localized error falls as strain squared, slope 2 +- 0.1; or is zero at each (`solved_to`); or
 ///   as strain squared or faster at the three smallest levels, where their two slopes agree
 ///   (verdict_of_smallest()); FAIL where an error is not a number
-/// - sheet loads, reference biot, where the study has a level within a factor 1.5 of 1 %: localized
+/// - sheet loads, the same reference, where the study has a level within a factor 1.5 of 1 %:
+/// localized
 ///   is closer to the reference than affine, by more than the reference's error bar; INCONCLUSIVE
 ///   within the bar
 /// @param strains that the study was asked for: what they cannot decide is no claim

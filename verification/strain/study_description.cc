@@ -6,6 +6,7 @@
 #include "verification/record/provenance.h"
 #include "verification/reference/laws.h"
 #include "verification/reference/loads.h"
+#include "verification/strain/cell_references.h"
 
 #include <algorithm>
 #include <cmath>
@@ -44,7 +45,7 @@ nlohmann::ordered_json what_was_left_out(const StrainStudyOptions &options)
   left_out("contact", "no load has an obstacle");
   left_out("per-vertex coarse index of the up-sampling",
            "the coarse mesh is aligned with the lattice: all cells share one table");
-  if (has_periodic(options))
+  if (has_periodic(options) && !has_supercell(options))
     left_out("resolved sheet of the periodic loads",
              "an infinite cloth repeats one cell: one cell with periodic constraints is exact");
   if (has(options.references, "linear"))
@@ -65,6 +66,8 @@ nlohmann::ordered_json what_was_left_out(const StrainStudyOptions &options)
       std::any_of(options.loads.begin(), options.loads.end(),
                   [](const std::string &load) { return Load(load).has_free_sides(); }))
     left_out("error budget of uniaxial loads", "its parts are those of given macro strains");
+  if (options.budget && has_periodic(options) && has_supercell(options))
+    left_out("error budget of periodic loads", "its parts are those of one cell: --supercell");
   if (!options.budget)
     left_out("error budget", "--no-budget");
   if (!options.run_time)
@@ -109,6 +112,11 @@ std::vector<std::string> notes_on_the_method(const StrainStudyOptions &options,
     "single precision, median of five runs on one thread, beside the coarse solve on one thread."};
   if (const std::string note = note_of_fluctuation(record.steps); !note.empty())
     notes.push_back(note);
+  if (has_periodic(options) && has_supercell(options))
+    notes.push_back("Under periodic loads " + std::to_string(options.supercell[0]) + " x " +
+                    std::to_string(options.supercell[1]) +
+                    " cells repeat; a state of one cell that is not stable there is left along its "
+                    "mode. The error bar is that of one cell.");
   double smallest_bar = 1., largest_bar = 0.;
   for (const StrainRow &row : record.rows)
     if (row.method == "localized" && Load(row.load).is_periodic() && row.mean > 0. &&
@@ -182,20 +190,26 @@ nlohmann::ordered_json describe(const StrainStudyOptions &options, const StudyRe
           {"provenance", provenance(cost.ranks)}};
 }
 
-nlohmann::ordered_json strain_inputs(const StrainStudyOptions &options,
+nlohmann::ordered_json strain_inputs(const StrainStudyOptions &asked,
                                      const std::vector<homogenization::UnitCell> &cells)
 {
-  nlohmann::ordered_json inputs = {
-    {"cells per side", options.n_cells},
-    {"cells per side of the error bar", options.n_cells_of_error_bar},
-    {"strains", options.strains},
-    {"loads", options.loads},
-    {"references", options.references},
-    {"methods", options.methods},
-    {"budget", options.budget},
-    {"run time", options.run_time}};
+  const StrainStudyOptions options = options_of(asked, cells);
+  nlohmann::ordered_json inputs    = {
+       {"cells per side", options.n_cells},
+       {"cells per side of the error bar", options.n_cells_of_error_bar},
+       {"strains", options.strains},
+       {"loads", options.loads},
+       {"references", options.references},
+       {"methods", options.methods},
+       {"budget", options.budget},
+       {"run time", options.run_time}};
+  if (has_supercell(options))
+    inputs["supercell"] = options.supercell;
   for (const homogenization::UnitCell &cell : cells)
-    inputs["cell " + cell.name] = fingerprint(cell);
+  {
+    inputs["cell " + cell.name]          = fingerprint(cell);
+    inputs["references of " + cell.name] = options_of(asked, cell).references;
+  }
   return inputs;
 }
 } // namespace homespun::verification

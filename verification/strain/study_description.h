@@ -32,10 +32,12 @@ struct StudyRecord
 };
 
 /// study.json.
+/// @param options with the references of all cells
 nlohmann::ordered_json describe(const StrainStudyOptions &options, const StudyRecord &record,
                                 const StudyCost &cost);
 
 /// All that the numbers of a study depend on.
-nlohmann::ordered_json strain_inputs(const StrainStudyOptions &options,
+/// @param asked references empty: those of each cell
+nlohmann::ordered_json strain_inputs(const StrainStudyOptions &asked,
                                      const std::vector<homogenization::UnitCell> &cells);
 } // namespace homespun::verification

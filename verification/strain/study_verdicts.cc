@@ -18,8 +18,12 @@ std::vector<Verdict> study_verdicts(const StrainOutput &output, const StrainStud
   if (options.budget)
   {
     const std::vector<BudgetRow> &rows = output.budget->rows();
-    add(budget_verdicts(output.strain_rows(), rows, options.strains));
-    add(error_agreement_verdicts(output.strain_rows(), rows));
+    std::vector<StrainRow> with_budget;
+    for (const StrainRow &row : output.strain_rows())
+      if (has_budget(options, Load(row.load)))
+        with_budget.push_back(row);
+    add(budget_verdicts(with_budget, rows, options.strains));
+    add(error_agreement_verdicts(with_budget, rows));
     add(second_code_verdicts(output.second->rows()));
     add(energy_verdicts(output.energies->rows()));
   }

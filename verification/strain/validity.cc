@@ -34,6 +34,22 @@ struct Level
   double strain, error, bar; ///< in the unit of the measure
 };
 
+/// Beyond the first loss of ellipticity what is compared is one equilibrium of its mesh, and a
+/// small error says nothing: the range ends there.
+void end_at_loss(ValidityRow &row)
+{
+  if (!std::isfinite(row.elliptic_up_to) || row.relation == "-" ||
+      !(row.elliptic_up_to < row.largest))
+    return;
+  row.note +=
+    std::string(row.note.empty() ? "" : "; ") + "the range ends where " + row.reference +
+    " loses ellipticity in reference or coarse cloth; the error alone would keep the limit " +
+    (row.relation == ">" ? "at every level, to " : "to ") + percent_text(row.largest);
+  row.relation = "=";
+  for (double *const strain : {&row.largest, &row.lower, &row.upper})
+    *strain = std::fmin(*strain, row.elliptic_up_to);
+}
+
 ValidityRow row_of(const StrainRow &one, const std::string &measure, const double limit,
                    const std::vector<Level> &levels)
 {
@@ -133,6 +149,7 @@ std::vector<ValidityRow> validity_rows(const std::vector<StrainRow> &all,
                       "no equilibrium of reference or coarse cloth was found at strain " +
                       short_text(first_unreached);
         row.elliptic_up_to = up_to;
+        end_at_loss(row);
         rows.push_back(row);
       }
     }

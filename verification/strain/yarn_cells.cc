@@ -4,6 +4,7 @@
 #include "meshes/plain/errors.h"
 #include "meshes/plain/yarn_axes.h"
 #include "verification/record/number_text.h"
+#include "verification/strain/cell_references.h"
 
 #include <algorithm>
 #include <cmath>
@@ -59,13 +60,13 @@ void check_yarns(const std::vector<UnitCell> &cells, const std::vector<std::stri
 }
 
 std::vector<std::string> notes_on_yarns(const std::vector<UnitCell> &cells,
-                                        const std::vector<std::string> &references)
+                                        const StrainStudyOptions &asked)
 {
   std::vector<std::string> notes;
-  if (!is_asked_for(references))
-    return notes;
   for (const UnitCell &cell : cells)
   {
+    if (!is_asked_for(options_of(asked, cell).references))
+      continue;
     std::vector<std::string> alike;
     for (const int p : cell.phase_of_group())
     {

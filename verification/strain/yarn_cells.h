@@ -4,6 +4,7 @@
 #pragma once
 
 #include "homogenization/cell/unit_cell.h"
+#include "verification/strain/strain_options.h"
 
 #include <Eigen/Core>
 
@@ -18,9 +19,10 @@ void check_yarns(const std::vector<homogenization::UnitCell> &cells,
                  const std::vector<std::string> &references);
 
 /// Ready sentences: phases that keep `biot` under the law `yarn`, and the axes of those whose
-/// stiffness has others than the orthotropic axes that are given; none where it is not asked for.
+/// stiffness has others than the orthotropic axes that are given; none of a cell that is not
+/// studied under it.
 std::vector<std::string> notes_on_yarns(const std::vector<homogenization::UnitCell> &cells,
-                                        const std::vector<std::string> &references);
+                                        const StrainStudyOptions &asked);
 
 /// A sentence on the coarse cloth beside a reference of the law `yarn`: where its yarns lie, or
 /// that it stays corotational.

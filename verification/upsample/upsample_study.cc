@@ -323,7 +323,8 @@ private:
     return "strain: cell " + valid->cell + " was found valid " +
            (valid->is_open ? "at least up to " : "up to ") + short_text(valid->strain) +
            " (mean error within " + short_text(100. * valid->limit) +
-           " % of the cell side against biot; " + valid->load + " decides; " + valid->file + ")";
+           " % of the cell side against " + valid->law + "; " + valid->load + " decides; " +
+           valid->file + ")";
   }
 
   ordered_json description() const

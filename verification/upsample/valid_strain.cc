@@ -3,6 +3,7 @@
 
 #include "meshes/files/cell_file.h"
 #include "meshes/plain/errors.h"
+#include "verification/record/main_reference.h"
 #include "verification/record/number_text.h"
 #include "verification/record/run_folder.h"
 #include "verification/record/validity_table.h"
@@ -101,11 +102,12 @@ std::optional<ValidStrain> valid_strain(const meshes::HomogenizedCell &cell,
     throw meshes::BadInput(why + "; expected the table of " + cell_file +
                            ": run `homespun strain` with this cell");
   }
+  valid.law    = main_reference(rows, valid.cell) == "yarn" ? "yarn" : "biot";
   bool is_told = false;
   std::set<std::string> limits;
   for (const ValidityRow &row : rows)
   {
-    if (row.cell != valid.cell || row.reference != "biot" || row.measure != "cell side")
+    if (row.cell != valid.cell || row.reference != valid.law || row.measure != "cell side")
       continue;
     if (row.relation != "-" && !std::isfinite(row.largest))
       throw meshes::BadInput(file + ": the row of cell " + row.cell + ", load " + row.load +
@@ -124,11 +126,12 @@ std::optional<ValidStrain> valid_strain(const meshes::HomogenizedCell &cell,
     valid.is_open = row.relation == ">";
   }
   if (!is_told)
-    throw meshes::BadInput(file + ": has no row of cell " + valid.cell +
-                           ", reference biot, measure `cell side` and limit " + short_text(limit) +
+    throw meshes::BadInput(file + ": has no row of cell " + valid.cell + ", reference " +
+                           valid.law + ", measure `cell side` and limit " + short_text(limit) +
                            "; found the limits " + joined(limits) +
                            ": choose one of them with --limit, or run `homespun strain` with "
-                           "--references biot");
+                           "--references " +
+                           valid.law);
   return valid;
 }
 } // namespace homespun::verification

@@ -9,7 +9,8 @@
 
 namespace homespun::verification
 {
-/// The largest principal strain |E| up to which the mean error against `biot` stayed within a part
+/// The largest principal strain |E| up to which the mean error against the law that
+/// coarse cloth and reference share, biot or yarn, stayed within a part
 /// of the cell side at every load that was tried.
 ///
 /// A load's strain s is the largest principal strain itself, but for shear, where it is
@@ -18,6 +19,7 @@ struct ValidStrain
 {
   double strain = 0.;   ///< 0 where a load exceeds the limit at its smallest level already [-]
   std::string load;     ///< the one that decides
+  std::string law;      ///< of the reference: biot, or where the table has none of it yarn
   bool is_open = false; ///< the limit is kept at the largest level: more was not tried
   double limit = 0.;    ///< part of the cell side
   std::string cell, file;
@@ -32,8 +34,8 @@ struct ValidStrain
 /// one
 /// @param limit one of those of the table
 /// @return nothing where no table is asked for and there is none, or one of another cell
-/// @throws BadInput where the table cannot be read, or lacks the cell, `biot` or the limit, or is
-/// asked for and of another cell
+/// @throws BadInput where the table cannot be read, or lacks the cell, such a law or the limit, or
+/// is asked for and of another cell
 std::optional<ValidStrain> valid_strain(const meshes::HomogenizedCell &cell,
                                         const std::string &cell_file,
                                         const std::string &validity_file, double limit);

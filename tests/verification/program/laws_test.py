@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """What the program says of the laws of a study: where one of them stops being elliptic."""
+import json
 import unittest
 
 from cli import CELLS, InFolder, rows_of, run
@@ -38,6 +39,91 @@ class Ellipticity(InFolder):
         notes = [row["note"] for row in rows_of(self.folder / "run" / "notes.csv")]
         self.assertTrue([note for note in notes if "are not elliptic under biot" in note], notes)
         self.assertEqual(len([note for note in notes if "of the coarse cloth are not" in note]), 1)
+
+
+SMALL = ["--quick", "--loads", "periodic-11", "--strains", "0.001,0.01", "--methods",
+         "affine,localized", "--no-budget", "--no-runtime", "--no-report"]
+
+
+class Default(InFolder):
+    def test_each_cell_has_its_own_law_said_in_every_result(self):
+        result = run("strain", CELLS / "plain-weave.prm", CELLS / "layered.prm", *SMALL,
+                     "--output", self.folder / "run")
+        self.assertIn(result.returncode, (0, 1, 4), result.stderr)
+        rows = rows_of(self.folder / "run" / "strain.csv")
+        self.assertEqual({(row["cell"], row["reference"]) for row in rows},
+                         {("plain-weave", law) for law in ("linear", "yarn", "green")}
+                         | {("layered", law) for law in ("linear", "biot", "green")})
+        study = json.loads((self.folder / "run" / "study.json").read_text())
+        said = [note for note in study["notes"] if "the law is" in note]
+        self.assertEqual(len(said), 2, study["notes"])
+        for text, note in zip(("plain-weave: the law is yarn", "layered: the law is biot"), said):
+            self.assertTrue(note.startswith(text), note)
+            self.assertIn(note, result.stdout + result.stderr)
+        self.assertIn("up to 0.172 % (E/G 2333.33)", said[0])
+        inputs = (self.folder / "run" / "run.json").read_text()
+        self.assertIn("references of plain-weave", inputs)
+
+    def test_a_law_that_is_asked_for_wins(self):
+        result = run("strain", CELLS / "plain-weave.prm", *SMALL, "--references", "biot",
+                     "--output", self.folder / "run")
+        self.assertIn(result.returncode, (0, 1, 4), result.stderr)
+        self.assertEqual({row["reference"] for row in rows_of(self.folder / "run" / "strain.csv")},
+                         {"biot"})
+        study = json.loads((self.folder / "run" / "study.json").read_text())
+        self.assertFalse([note for note in study["notes"] if "the law is" in note])
+
+
+class Supercell(InFolder):
+    def test_cells_that_repeat_together_have_the_errors_of_one_where_it_is_stable(self):
+        study = ["strain", CELLS / "layered.prm", "--quick", "--strains", "0.001,0.01", "--methods",
+                 "affine,localized", "--loads", "periodic-12,uniaxial-2",
+                 "--references", "biot", "--no-runtime", "--no-report", "--output"]
+        for name, more in (("one", []), ("two", ["--supercell", "1x2"])):
+            result = run(*study, self.folder / name, *more)
+            self.assertIn(result.returncode, (0, 1, 4), result.stderr)
+        one, two = (rows_of(self.folder / name / "strain.csv") for name in ("one", "two"))
+        self.assertEqual(len(one), len(two))
+        for a, b in zip(one, two):
+            self.assertEqual((a["load"], a["strain"], a["method"], 2 * int(a["fine_triangles"])),
+                             (b["load"], b["strain"], b["method"], int(b["fine_triangles"])))
+            # The mean counts vertices on an outline more than once; both solvers leave 1e-9.
+            self.assertLess(abs(float(a["error_max_m"]) - float(b["error_max_m"])),
+                            1e-8 * float(a["strain"]) * 0.02)
+        # The second code and the budget are those of one cell.
+        self.assertEqual(rows_of(self.folder / "two" / "budget.csv"), [])
+        self.assertTrue(rows_of(self.folder / "one" / "budget.csv"))
+        notes = json.loads((self.folder / "two" / "study.json").read_text())["notes"]
+        self.assertEqual(sum("1 x 2 cells repeat" in note for note in notes), 1)
+
+    def test_what_is_no_supercell_is_refused(self):
+        for text, load, found in (("0x2", "periodic-12", "expected N1xN2"),
+                                  ("2x", "periodic-12", "expected N1xN2"),
+                                  ("1x1", "periodic-12", "expected N1xN2"),
+                                  ("2x2", "strip-1", "beside no periodic load")):
+            result = run("strain", CELLS / "layered.prm", "--supercell", text, "--loads", load,
+                         "--output", self.folder / "run")
+            self.assertEqual(result.returncode, 2)
+            self.assertIn("--supercell", result.stderr)
+            self.assertIn(found, result.stderr)
+            self.assertFalse((self.folder / "run").exists())
+
+
+class Stop(InFolder):
+    def test_a_path_that_the_law_ends_names_the_triangle(self):
+        result = run("strain", CELLS / "layered.prm", "--quick", "--loads", "shear-frame",
+                     "--references", "green,biot", "--strains", "0.05,0.15", "--methods",
+                     "affine,localized", "--no-budget", "--no-runtime", "--no-report",
+                     "--output", self.folder / "run")
+        self.assertIn(result.returncode, (0, 1, 4), result.stderr)
+        notes = [row for row in rows_of(self.folder / "run" / "notes.csv")
+                 if "no equilibrium" in row["note"]]
+        self.assertEqual([(row["reference"], row["strain"]) for row in notes], [("green", "0.15")])
+        # In a corner of the frame, where the soft stripe is pressed.
+        self.assertRegex(notes[0]["note"],
+                         r"the law ends there, not the solver: .* of phase soft, at "
+                         r"\((0\.0|0\.9)\d*, (0\.0|0\.9)\d*\) of the sides of the sheet, is "
+                         r".*pressed .* is not elliptic under green \(least wave -")
 
 
 class Yarns(InFolder):

@@ -49,6 +49,39 @@ TEST(exact_level_ellipticity, the_strain_of_loss_lies_between_the_levels)
     EXPECT_DOUBLE_EQ(valid.elliptic_up_to, 0.01);
 }
 
+TEST(tripwire_level_ellipticity, the_range_of_validity_ends_where_ellipticity_is_lost)
+{
+  std::vector<StrainRow> errors;
+  for (const double strain : {0.01, 0.02, 0.04})
+  {
+    StrainRow error = {"cell", "strip-1", strain, "biot", "localized"};
+    error.mean = error.per_cell = 0.1 * strain;
+    error.uncertainty           = 0.01 * strain;
+    errors.push_back(error);
+  }
+  const auto of_limit = [&](const double limit, const std::vector<EllipticityRow> &ellipticity)
+  {
+    for (const ValidityRow &valid : validity_rows(errors, ellipticity))
+      if (valid.measure == "cell side" && valid.limit == limit)
+        return valid;
+    return ValidityRow();
+  };
+  EXPECT_EQ(of_limit(0.05, {}).relation, ">");
+  EXPECT_DOUBLE_EQ(of_limit(0.05, {}).largest, 0.04);
+  const std::vector<EllipticityRow> lost = {row(0.02, 0, 0.1), row(0.04, 3, -0.3)}; // at 0.025
+  const ValidityRow found                = of_limit(0.05, lost);
+  EXPECT_EQ(found.relation, "=");
+  for (const double strain : {found.largest, found.lower, found.upper})
+    EXPECT_DOUBLE_EQ(strain, 0.025);
+  EXPECT_NE(found.note.find("loses ellipticity"), std::string::npos);
+  EXPECT_NE(found.note.find("at every level, to 4 %"), std::string::npos) << found.note;
+  // A loss beyond the range, or none, changes nothing.
+  errors[1].per_cell = errors[1].mean = 0.1;
+  EXPECT_LT(of_limit(0.05, lost).largest, 0.02);
+  EXPECT_EQ(of_limit(0.05, lost).note, "");
+  EXPECT_EQ(of_limit(0.05, {row(0.01, 0, 0.9), row(0.02, 0, 0.8)}).note, "");
+}
+
 TEST(exact_level_ellipticity, a_pulled_cloth_of_one_phase_is_lost_where_theory_says_and_told_once)
 {
   const homogenization::UnitCell cell = yarn_cell();

@@ -65,6 +65,39 @@ TEST(tripwire_verdicts, the_second_order_passes_and_the_first_fails)
   EXPECT_EQ(judged(periodic(3.))[0].outcome, Outcome::pass);
 }
 
+TEST(tripwire_verdicts, a_cell_without_biot_is_judged_against_yarn_and_one_with_both_against_biot)
+{
+  const auto of_law = [](Rows rows, const std::string &cell, const std::string &law)
+  {
+    for (StrainRow &one : rows)
+    {
+      one.cell      = cell;
+      one.reference = law;
+    }
+    return rows;
+  };
+  const auto slopes = [](const Rows &rows)
+  {
+    std::vector<std::pair<std::string, Outcome>> found;
+    for (const Verdict &verdict : judged(rows))
+      if (const auto at = verdict.claim.find("localized error against "); at != std::string::npos)
+        found.emplace_back(verdict.claim.substr(0, 5) + verdict.claim.substr(at + 24, 4),
+                           verdict.outcome);
+    return found;
+  };
+  // One study of two cells: each has its law.
+  Rows rows = of_law(periodic(1.), "weave", "yarn");
+  for (const StrainRow &one : of_law(periodic(2.), "plate", "biot"))
+    rows.push_back(one);
+  using Found = std::vector<std::pair<std::string, Outcome>>;
+  EXPECT_EQ(slopes(rows), (Found{{"weaveyarn", Outcome::fail}, {"platebiot", Outcome::pass}}));
+  for (const StrainRow &one : of_law(periodic(2.), "weave", "biot"))
+    rows.push_back(one);
+  EXPECT_EQ(slopes(rows), (Found{{"platebiot", Outcome::pass}, {"weavebiot", Outcome::pass}}));
+  // Green is no law of the coarse cloth, and its slope no claim.
+  EXPECT_TRUE(slopes(of_law(periodic(1.), "plate", "green")).empty());
+}
+
 TEST(tripwire_verdicts, the_affine_motion_must_not_pass_for_one_of_second_order)
 {
   const auto judged_of = [](const double affine)

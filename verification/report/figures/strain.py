@@ -78,7 +78,8 @@ def draw_panel(axes, rows, load, methods, references, key, factor, floor, side):
             band(axes, 100 * strain, bar, floor / 100.0, "uncertainty of the reference")
     for method in methods:
         for reference in references:
-            some = [r for r in rows if r["method"] == method and r["reference"] == reference]
+            shared = "biot" if any(r["reference"] == "biot" for r in rows) else "yarn"
+        some = [r for r in rows if r["method"] == method and r["reference"] == reference]
             strain, value, low = floored(some, key, factor)
             if not len(strain):
                 continue
@@ -109,7 +110,8 @@ def draw_panel(axes, rows, load, methods, references, key, factor, floor, side):
                     gid=ROUND_OFF_NOTE,
                 )
     if style.is_infinite(load) and key == "error_mean_per_cell":
-        some = [r for r in rows if r["method"] == "localized" and r["reference"] == "biot"]
+        shared = "biot" if any(r["reference"] == "biot" for r in rows) else "yarn"
+        some = [r for r in rows if r["method"] == "localized" and r["reference"] == shared]
         strain, value, low = floored(some, key, factor)
         if len(strain) > 1 and not low.any():
             slope_triangle(axes, strain, value, 2)

@@ -11,7 +11,7 @@ from read.verdicts import KINDS, MARKS, ORDER, WORDS, words_of
 # What to do, by words of the claim; the first that is found counts.
 ADVICE = (
     (
-        "closer to biot than affine",
+        "than affine at strain",
         "Under this load take the coarse mesh alone (`affine`), or remove the cause: a finer coarse"
         " mesh, a cell cut at another place (see the notes on the place of the cut), a smaller"
         " strain.",

@@ -46,8 +46,8 @@ CAPTIONS = {
         " between 1 and 2."
     ),
     "strain": (
-        "Infinite cloth under periodic loads against biot: the characteristic displacements are"
-        " linear in strain, so that the error of the localized positions is expected to fall as"
+        "Infinite cloth under periodic loads against the law of the cell, biot or yarn: the"
+        " characteristic displacements are linear in strain, so that the error of the localized positions is expected to fall as"
         " strain squared, that of the affine ones as strain. Loads under which it is zero to"
         " round-off are not drawn."
     ),

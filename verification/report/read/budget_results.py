@@ -39,11 +39,11 @@ def levels(rows):
     """(load, strain) -> region -> part -> row, of one cell, levels with a total alone.
 
     Of several reference laws, as a study that was taken up again with others leaves them, biot
-    counts, else the first.
+    counts, else yarn, else the first.
     """
     table = {}
     laws = [row["reference"] for row in rows]
-    law = "biot" if "biot" in laws else laws[0] if laws else None
+    law = next((law for law in ("biot", "yarn", *laws) if law in laws), None)
     for row in (row for row in rows if row["reference"] == law):
         table.setdefault((row["load"], row["strain"]), {}).setdefault(row["region"], {})[
             row["part"]
