@@ -32,6 +32,11 @@ std::string file_with(const char *name)
 }
 } // namespace
 
+void load_blas()
+{
+  dlopen("libblas.so.3", RTLD_NOW | RTLD_GLOBAL);
+}
+
 Blas loaded_blas()
 {
   const auto configuration = function<char *()>("openblas_get_config");

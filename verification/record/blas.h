@@ -12,6 +12,10 @@ struct Blas
   int threads;         ///< of each process; 0 where it does not say
 };
 
+/// Loads the machine's BLAS into a program that is not linked with it, for the functions below, by
+/// the name under which those that are linked find it. Where there is none, nothing happens.
+void load_blas();
+
 /// The library that is loaded, asked while the program runs.
 Blas loaded_blas();
 
