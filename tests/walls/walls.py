@@ -72,6 +72,9 @@ MAY_INCLUDE = {
                            "meshes/plain", "meshes/files"} | CELLS,
     "verification/scaling": {"meshes/plain", "meshes/files", "verification/record",
                              "verification/cell"} | CELLS,
+    "verification/benchmark": {"meshes/plain", "shell/algebra", "shell/terms",
+                               "homogenization/fem", "homogenization/lint", "localization",
+                               "verification/record", "verification/drape"},
     "verification/upsample": {"meshes/plain", "meshes/files", "meshes/cloth", "meshes/garment",
                               "verification/record", "localization"},
     "verification/program": {"verification/record", "verification/cell", "verification/laws",
@@ -80,6 +83,7 @@ MAY_INCLUDE = {
                              "verification/converge", "verification/drape",
                              "verification/extremes", "verification/load", "verification/bloch",
                              "verification/scaling", "verification/upsample",
+                             "verification/benchmark",
                              "meshes/plain", "meshes/files"} | CELLS,
 }
 FOLDERS = sorted({wing.split("/")[0] for wing in MAY_INCLUDE})

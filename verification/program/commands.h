@@ -48,6 +48,7 @@ void add_load_command(CommandLine &line);
 void add_stability_command(CommandLine &line);
 void add_upsample_command(CommandLine &line);
 void add_scaling_command(CommandLine &line);
+void add_benchmark_command(CommandLine &line);
 
 /// Makes report.html from folders of results, with Debian's Python.
 /// @throws BadInput where the results cannot be read or drawn

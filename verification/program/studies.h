@@ -4,6 +4,7 @@
 // what needs no study and hands all else over to `homespun-full`.
 #pragma once
 
+#include "verification/benchmark/benchmark_study.h"
 #include "verification/bloch/stability_study.h"
 #include "verification/converge/converge_study.h"
 #include "verification/drape/drape_study.h"
@@ -36,5 +37,6 @@ struct Studies
   Study<LoadStudyOptions> load;
   Study<StabilityStudyOptions> stability;
   std::function<Verification(const VerifyOptions &, MPI_Comm)> verify;
+  std::function<std::vector<BenchmarkRow>(const BenchmarkOptions &, MPI_Comm)> benchmark;
 };
 } // namespace homespun::verification
