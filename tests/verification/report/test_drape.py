@@ -65,8 +65,9 @@ class DrapePageTest(PageTest):
             "let go &lt;level&gt;",
             "the scene does not ask for it",
             "1.10 ms ± 20.0 µs",
-            # Median, mean and 95 % of a step.
-            "<td>1.10 ms</td><td>1.70 ms</td><td>5.90 ms</td>",
+            'data-label="Step">1.10 ms</td>',
+            'data-label="Mean">1.70 ms</td>',
+            'data-label="95 %">5.90 ms</td>',
             "+13.6 %",
             "+23.5 %",
             "solver/tolerance",
