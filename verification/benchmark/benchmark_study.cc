@@ -180,7 +180,7 @@ private:
     constexpr std::size_t large = 8u << 20; // numbers, 64 MB: in no cache
     add("copy", copy_limit(large * sizeof(double), options.runs), "B moved");
     add("triad", triad_limit(large, options.runs), "B moved");
-    add("dgemm", product_limit(768, options.runs), "flop");
+    add("dgemm", product_limit(256, options.runs), "flop");
     progress.done();
   }
 
