@@ -4,8 +4,6 @@
 #include "meshes/plain/errors.h"
 #include "meshes/plain/general_lattice.h"
 
-#include <deal.II/base/parameter_handler.h>
-
 #include <Eigen/LU>
 
 #include <algorithm>
@@ -207,31 +205,28 @@ Phase phase_of_group(const std::string &file, const GroupTables &tables, const G
 }
 } // namespace
 
-void CellKeys::declare(dealii::ParameterHandler &keys)
+void CellKeys::declare(ParameterKeys &keys)
 {
-  keys.add_parameter(
+  keys.add(
     "Mesh", mesh,
     "Mesh of one periodic cell, a file in the folder of this one or below, with triangles or "
     "quadrilaterals: .msh, .vtk, .vtu, .ucd, .inp, .unv, .med or any other that meshio reads.");
-  keys.add_parameter("Length unit", length_unit,
-                     "Metres per mesh unit [m], positive; 0.01 for a mesh in centimetres.");
-  keys.add_parameter(
-    "Young's modulus", young,
-    "[Pa] One value per group of the mesh, `group: value, ...`; a group is a physical name "
-    "or number.");
-  keys.add_parameter("Poisson's ratio", poisson,
-                     "[-] One value per group, strictly between -1 and 1.");
-  keys.add_parameter("Thickness", thickness, "[m] One value per group.");
-  keys.add_parameter("Density", density, "[kg/m^3] One value per group.");
-  keys.add_parameter(
+  keys.add("Length unit", length_unit,
+           "Metres per mesh unit [m], positive; 0.01 for a mesh in centimetres.");
+  keys.add("Young's modulus", young,
+           "[Pa] One value per group of the mesh, `group: value, ...`; a group is a physical name "
+           "or number.");
+  keys.add("Poisson's ratio", poisson, "[-] One value per group, strictly between -1 and 1.");
+  keys.add("Thickness", thickness, "[m] One value per group.");
+  keys.add("Density", density, "[kg/m^3] One value per group.");
+  keys.add(
     "Orthotropic", orthotropic,
     "`group: E1 E2 nu12 G12 angle, ...` in [Pa], [Pa], [-], [Pa] and [deg] from the x axis to "
     "the first axis of the material; replaces Young's modulus and Poisson's ratio for that "
     "group. Cell data `angle` [deg] of the mesh, one value per triangle, is added.");
-  keys.add_parameter(
-    "Lattice vectors", lattice,
-    "`auto` finds the sides of a parallelogram, or the translations that match any other "
-    "outline; or `x1 y1; x2 y2` in mesh units.");
+  keys.add("Lattice vectors", lattice,
+           "`auto` finds the sides of a parallelogram, or the translations that match any other "
+           "outline; or `x1 y1; x2 y2` in mesh units.");
 }
 
 std::optional<meshes::Lattice> lattice_from(const std::string &file, const CellKeys &keys,
@@ -314,10 +309,8 @@ std::vector<Phase> assign_phases(const std::string &file, const CellKeys &keys,
 std::string unit_cell_keys()
 {
   CellKeys keys;
-  dealii::ParameterHandler handler;
-  keys.declare(handler);
-  std::ostringstream text;
-  handler.print_parameters(text, dealii::ParameterHandler::PRM);
-  return text.str();
+  ParameterKeys documented;
+  keys.declare(documented);
+  return documented.documented();
 }
 } // namespace homespun::homogenization

@@ -4,7 +4,7 @@
 
 #include "homogenization/cell/cell_mesh_file.h"
 #include "homogenization/cell/material.h"
-#include "homogenization/cell/parameter_text.h"
+#include "homogenization/cell/parameter_keys.h"
 #include "meshes/plain/lattice.h"
 
 #include <optional>
@@ -21,7 +21,8 @@ struct CellKeys
   std::string young, poisson, thickness, density, orthotropic;
   std::string lattice = "auto";
 
-  void declare(dealii::ParameterHandler &keys);
+  /// Adds all keys; their values go here.
+  void declare(ParameterKeys &keys);
 };
 
 /// The lattice in metres that the key `Lattice vectors` names, or that of the outline.

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "homogenization/cell/parameter_text.h"
 
-#include <deal.II/base/parameter_handler.h>
-
 #include <algorithm>
 #include <cctype>
 #include <fstream>
@@ -107,23 +105,17 @@ std::string did_you_mean(const std::string &found, const std::vector<std::string
   return best.empty() ? "" : "; did you mean `" + best + "`?";
 }
 
-namespace
-{
-constexpr const char *byte_order_mark = "\xEF\xBB\xBF";
-
-/// The whole file, without a byte order mark.
 std::string text_of_file(const std::string &file)
 {
   std::ifstream input(file, std::ios::binary);
   std::ostringstream text;
   text << input.rdbuf();
   std::string content = text.str();
-  if (content.rfind(byte_order_mark, 0) == 0)
+  if (content.rfind("\xEF\xBB\xBF", 0) == 0) // a byte order mark
     content.erase(0, 3);
   return content;
 }
 
-/// The key of a line `set KEY = VALUE`, with single blanks; empty where the line is none.
 std::string key_of(const std::string &line)
 {
   const std::size_t equal = line.find('=');
@@ -136,56 +128,6 @@ std::string key_of(const std::string &line)
     key += (key.empty() ? "" : " ") + word;
   return key;
 }
-
-/// deal.II stops at the first unknown key; this finds all, with their lines.
-void find_unknown_keys(const std::string &file, const std::string &content,
-                       const dealii::ParameterHandler &keys, Faults &faults)
-{
-  std::stringstream declared;
-  keys.print_parameters(declared, dealii::ParameterHandler::ShortPRM);
-  std::set<std::string> known;
-  std::string line, expected;
-  while (std::getline(declared, line))
-    if (!key_of(line).empty())
-      known.insert(key_of(line));
-  for (const std::string &key : known)
-    expected += (expected.empty() ? "" : ", ") + key;
-
-  std::istringstream input(content);
-  for (int number = 1; std::getline(input, line); ++number)
-  {
-    line = trimmed(line.substr(0, line.find('#')));
-    if (line.empty())
-      continue;
-    const std::string place = file + ":" + std::to_string(number) + ": ";
-    const std::string key   = key_of(line);
-    if (key.empty())
-      faults.push_back(place + "found `" + line + "`; expected `set KEY = VALUE` or a # comment");
-    else if (known.count(key) == 0)
-      faults.push_back(place + "unknown key `" + key + "`; expected one of " + expected +
-                       did_you_mean(key, {known.begin(), known.end()}));
-  }
-}
-
-/// The sentence of a deal.II exception, without its frame of dashes and source lines.
-std::string reason_of(const std::exception &exception)
-{
-  std::istringstream text(exception.what());
-  std::string line, reason;
-  bool inside = false;
-  while (std::getline(text, line))
-  {
-    if (line.find("Additional information") != std::string::npos)
-      inside = true;
-    else if (inside &&
-             (line.empty() || line.find("Stacktrace") != std::string::npos || line[0] == '-'))
-      break;
-    else if (inside && !trimmed(line).empty())
-      reason += (reason.empty() ? "" : " ") + trimmed(line);
-  }
-  return reason.empty() ? "no reason given" : reason;
-}
-} // namespace
 
 std::string kind_of_other_file(const std::string &file)
 {
@@ -233,28 +175,5 @@ std::set<std::string> keys_set_in(const std::string &file)
     if (const std::string key = key_of(trimmed(line.substr(0, line.find('#')))); !key.empty())
       keys.insert(key);
   return keys;
-}
-
-void parse_parameters(const std::string &file, dealii::ParameterHandler &keys, Faults &faults)
-{
-  if (const std::string kind = kind_of_other_file(file); !kind.empty())
-  {
-    faults.push_back(file + ": is " + kind +
-                     "; expected a file of lines `set KEY = VALUE` (.prm): `homespun cells` lists "
-                     "examples");
-    return;
-  }
-  const std::string content = text_of_file(file);
-  find_unknown_keys(file, content, keys, faults);
-  if (faults.empty())
-    try
-    {
-      std::istringstream input(content);
-      keys.parse_input(input, file, "", true);
-    }
-    catch (const std::exception &exception)
-    {
-      faults.push_back(file + ": cannot be understood: " + reason_of(exception));
-    }
 }
 } // namespace homespun::homogenization

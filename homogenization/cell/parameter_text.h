@@ -1,16 +1,11 @@
 // SPDX-License-Identifier: MIT
-// Reading .prm files: flat lists of `set KEY = VALUE`, all faults of a file at once.
+// The text of .prm files: words, numbers, lines `set KEY = VALUE`, and what else a file may be.
 #pragma once
 
 #include <optional>
 #include <set>
 #include <string>
 #include <vector>
-
-namespace dealii
-{
-class ParameterHandler;
-}
 
 namespace homespun::homogenization
 {
@@ -32,15 +27,16 @@ std::string number_hint(const std::string &text);
 /// `; did you mean `NAME`?` of the name that is nearest in letters; empty where none is near.
 std::string did_you_mean(const std::string &found, const std::vector<std::string> &names);
 
+/// The whole file, without a byte order mark at its beginning.
+std::string text_of_file(const std::string &file);
+
+/// The key of a line `set KEY = VALUE`, with single blanks; empty where the line is none.
+std::string key_of(const std::string &line);
+
 /// What a file is that holds no keys, in words: a Gmsh mesh, an HDF5 file, ...; empty where it may
 /// hold some.
 std::string kind_of_other_file(const std::string &file);
 
 /// The keys that a file sets, known or not; none where it holds none.
 std::set<std::string> keys_set_in(const std::string &file);
-
-/// Parses a file into the declared keys. Lines that are no `set KEY = VALUE`, and unknown keys,
-/// become faults with their line; a file that holds no keys at all is one fault. A byte order mark
-/// at the beginning is passed over.
-void parse_parameters(const std::string &file, dealii::ParameterHandler &keys, Faults &faults);
 } // namespace homespun::homogenization

@@ -355,20 +355,6 @@ private:
 };
 } // namespace
 
-const char *name_of(const CellSolver solver)
-{
-  switch (solver)
-  {
-  case CellSolver::fastest:
-    return "fastest";
-  case CellSolver::direct:
-    return "direct";
-  case CellSolver::multigrid:
-    return "multigrid";
-  }
-  return "";
-}
-
 Homogenization homogenize(const UnitCell &cell, const HomogenizationOptions &options,
                           const MPI_Comm communicator)
 {

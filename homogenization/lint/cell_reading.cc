@@ -7,8 +7,6 @@
 #include "meshes/plain/errors.h"
 #include "meshes/plain/lattice.h"
 
-#include <deal.II/base/parameter_handler.h>
-
 #include <cmath>
 #include <filesystem>
 #include <set>
@@ -155,8 +153,8 @@ CellKeys read_keys(const std::string &prm_file, CellReading &reading)
 {
   Faults faults;
   CellKeys keys;
-  dealii::ParameterHandler handler;
-  keys.declare(handler);
+  ParameterKeys declared;
+  keys.declare(declared);
   const std::set<std::string> found = keys_set_in(prm_file);
   if (found.count("Terms") + found.count("Cells") > 0)
   {
@@ -165,7 +163,7 @@ CellKeys read_keys(const std::string &prm_file, CellReading &reading)
          "` runs it, its key `Cells` names the cells"});
     return keys;
   }
-  parse_parameters(prm_file, handler, faults);
+  parse_parameters(prm_file, declared, faults);
   if (!faults.empty())
   {
     add(reading.findings, "key", faults);

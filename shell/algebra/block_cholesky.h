@@ -31,8 +31,8 @@ public:
   {
     return nodes.back().start;
   }
-  /// Multiplications and additions of one factorisation, two flops each, without those on stored
-  /// zeros.
+  /// Multiplications and additions of one factorisation, two flops each, number by number: without
+  /// those on stored zeros and above diagonals. A division or a root counts as one of them.
   double n_multiply_adds() const
   {
     return multiply_adds;

@@ -41,13 +41,6 @@ ConvergenceSizes convergence_sizes(const bool quick)
   return sizes;
 }
 
-const std::vector<std::string> &convergence_studies()
-{
-  static const std::vector<std::string> all = {"mesh",   "adaptive", "scale",       "coarse",
-                                               "strain", "time",     "manufactured"};
-  return all;
-}
-
 namespace
 {
 bool has(const ConvergenceStudyOptions &options, const std::string &study)

@@ -4,7 +4,9 @@
 #include "meshes/plain/errors.h"
 #include "verification/record/json_files.h"
 #include "verification/record/number_text.h"
+#include "verification/record/step_times.h"
 
+#include <cmath>
 #include <filesystem>
 #include <limits>
 #include <optional>
@@ -77,6 +79,21 @@ private:
   std::vector<double> seconds;
   bool failed = false;
 };
+
+/// How many steps there were and how long they took, for drape.json.
+/// @param n_factorizations of all of them; zero: not counted
+nlohmann::ordered_json times_of_steps(const std::vector<double> &seconds,
+                                      const int n_factorizations)
+{
+  const StepTimes times = step_times(seconds);
+  const double per_step =
+    n_factorizations > 0 ? n_factorizations / static_cast<double>(seconds.size()) : std::nan("");
+  return {{"steps", seconds.size()},
+          {"seconds_per_coarse_step", json_number(times.median)},
+          {"seconds_per_coarse_step_mean", json_number(times.mean)},
+          {"seconds_per_coarse_step_95", json_number(times.percentile_95)},
+          {"factorizations_per_step", json_number(per_step)}};
+}
 } // namespace
 
 CoarseRun run_coarse(const DrapedCell &draped, const std::string &variant,
@@ -90,7 +107,7 @@ CoarseRun run_coarse(const DrapedCell &draped, const std::string &variant,
   std::filesystem::create_directories(folder);
   meshes::FrameCollection coarse_list(folder + "/coarse.pvd"), fine_list(folder + "/fine.pvd");
   std::vector<double> step_seconds, upsampling_seconds;
-  int cuts = 0;
+  int cuts = 0, n_factorizations = 0;
   Upsampler3f::Fine fine;
   const HeldMotion held = draped.coarse_motion();
   SceneCloth moving(draped.scene, draped.coarse, draped.effective, held,
@@ -109,7 +126,11 @@ CoarseRun run_coarse(const DrapedCell &draped, const std::string &variant,
             if (schedule.is_static)
               moving.solve_equilibrium(schedule.time_of(frame));
             else
-              cuts += moving.step(schedule.step).cuts;
+            {
+              const shell::StepReport report = moving.step(schedule.step);
+              cuts += report.cuts;
+              n_factorizations += report.newton_iterations;
+            }
           }));
         upsampling_seconds.push_back(seconds_of(upsample));
       }
@@ -154,12 +175,11 @@ CoarseRun run_coarse(const DrapedCell &draped, const std::string &variant,
   run.description            = {{"variant", variant},
                                 {"folder", name},
                                 {"frames", run.frames.size()},
-                                {"steps", step_seconds.size()},
                                 {"cut_steps", cuts},
-                                {"seconds_per_coarse_step", json_number(run.seconds_per_step)},
-                                {"seconds_per_upsampling", json_number(run.seconds_per_upsampling)},
                                 {"bytes", moving.cloth().bytes()},
                                 {"threads", 1}};
+  run.description.update(times_of_steps(step_seconds, n_factorizations));
+  run.description["seconds_per_upsampling"] = json_number(run.seconds_per_upsampling);
   return run;
 }
 

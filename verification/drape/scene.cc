@@ -7,8 +7,6 @@
 #include "verification/drape/held_place_text.h"
 #include "verification/drape/scene_keys.h"
 
-#include <deal.II/base/parameter_handler.h>
-
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -47,17 +45,17 @@ public:
                              "cells: with a shipped scene, `homespun drape meshes/scenes/hang.prm "
                              "--unit-cells " +
                              file + "`");
-    dealii::ParameterHandler handler;
+    homogenization::ParameterKeys declared;
     std::map<std::string, std::string> term_of;
-    keys.declare(handler, term_of);
-    homogenization::parse_parameters(file, handler, faults);
+    keys.declare(declared, term_of);
+    homogenization::parse_parameters(file, declared, faults);
     if (!faults.empty())
       throw meshes::BadInput(faults);
 
     scene.file  = file;
     scene.name  = std::filesystem::path(file).stem().string();
     scene.story = keys.story;
-    read_terms(handler, term_of);
+    read_terms(declared, term_of);
     read_cloth();
     read_time();
     read_loads();
@@ -111,7 +109,7 @@ private:
     return {v[0], v[1], v[2]};
   }
 
-  void read_terms(const dealii::ParameterHandler &handler,
+  void read_terms(const homogenization::ParameterKeys &declared,
                   const std::map<std::string, std::string> &term_of)
   {
     std::string names;
@@ -132,25 +130,17 @@ private:
     if (scene.has("friction") && !scene.has("obstacles"))
       faults.push_back(file + ": key `Terms`: `friction` without `obstacles`; expected both or "
                               "neither: add `obstacles` or remove `friction`");
-    dealii::ParameterHandler fresh;
-    std::map<std::string, std::string> unused;
-    SceneKeys defaults;
-    defaults.declare(fresh, unused);
-    for (const auto &[key, term] : term_of)
-      if (!scene.has(term) && handler.get(key) != fresh.get(key))
+    for (const auto &[name, key] : declared.all())
+    {
+      const auto term    = term_of.find(name);
+      const bool is_used = term == term_of.end() || scene.has(term->second);
+      if (is_used)
+        scene.echo[name] = *key.value;
+      else if (*key.value != key.initial)
         faults.push_back(
-          file + ": key `" + key + "` belongs to the term `" + term +
+          file + ": key `" + name + "` belongs to the term `" + term->second +
           "`, which `Terms` does not list; expected the term there, or remove the key");
-    std::stringstream text;
-    handler.print_parameters(text, dealii::ParameterHandler::ShortPRM);
-    std::string line;
-    while (std::getline(text, line))
-      if (const std::size_t equal = line.find('='); equal != std::string::npos)
-      {
-        const std::string key = trimmed(trimmed(line.substr(0, equal)).substr(3));
-        if (term_of.count(key) == 0 || scene.has(term_of.at(key)))
-          scene.echo[key] = trimmed(line.substr(equal + 1));
-      }
+    }
   }
 
   void read_cloth()
@@ -343,11 +333,9 @@ Scene read_scene(const std::string &file)
 std::string scene_keys()
 {
   SceneKeys keys;
-  dealii::ParameterHandler handler;
+  homogenization::ParameterKeys declared;
   std::map<std::string, std::string> term_of;
-  keys.declare(handler, term_of);
-  std::ostringstream text;
-  handler.print_parameters(text, dealii::ParameterHandler::PRM);
-  return text.str();
+  keys.declare(declared, term_of);
+  return declared.documented();
 }
 } // namespace homespun::verification

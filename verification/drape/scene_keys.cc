@@ -3,16 +3,15 @@
 
 #include "verification/drape/fabrics.h"
 
-#include <deal.II/base/parameter_handler.h>
-
 namespace homespun::verification
 {
-void SceneKeys::declare(dealii::ParameterHandler &keys, std::map<std::string, std::string> &term_of)
+void SceneKeys::declare(homogenization::ParameterKeys &keys,
+                        std::map<std::string, std::string> &term_of)
 {
   const auto add =
     [&](const char *key, std::string &value, const std::string &text, const char *term = "")
   {
-    keys.add_parameter(key, value, text);
+    keys.add(key, value, text);
     if (*term)
       term_of[key] = term;
   };

@@ -3,13 +3,10 @@
 // them.
 #pragma once
 
+#include "homogenization/cell/parameter_keys.h"
+
 #include <map>
 #include <string>
-
-namespace dealii
-{
-class ParameterHandler;
-}
 
 namespace homespun::verification
 {
@@ -27,6 +24,6 @@ struct SceneKeys
 
   /// Declares all keys.
   /// @param term_of receives the term that a key belongs to
-  void declare(dealii::ParameterHandler &keys, std::map<std::string, std::string> &term_of);
+  void declare(homogenization::ParameterKeys &keys, std::map<std::string, std::string> &term_of);
 };
 } // namespace homespun::verification

@@ -2,12 +2,11 @@
 // homespun homogenize, cells: what concerns a cell alone.
 #include "homogenization/lint/cell_reading.h"
 #include "meshes/plain/errors.h"
-#include "verification/cell/cell_study.h"
-#include "verification/cell/cell_summary.h"
 #include "verification/program/cells_make.h"
 #include "verification/program/check_command.h"
 #include "verification/program/commands.h"
 #include "verification/program/data_folder.h"
+#include "verification/program/studies.h"
 #include "verification/program/study_arguments.h"
 #include "verification/record/on_root.h"
 #include "verification/record/progress.h"
@@ -25,34 +24,8 @@
 
 namespace homespun::verification
 {
-using homogenization::UnitCell;
-
 namespace
 {
-struct HomogenizeArguments
-{
-  std::string file, uncertain;
-  CellStudyOptions study;
-};
-
-int homogenize(HomogenizeArguments arguments)
-{
-  const UnitCell cell     = homogenization::read_unit_cell(arguments.file, MPI_COMM_WORLD);
-  CellStudyOptions &study = arguments.study;
-  study.uncertain         = uncertain_inputs(cell, arguments.uncertain);
-  if (study.output.empty())
-    study.output = default_folder("homogenize", {cell.name}, false);
-  const AssessedCell assessed = run_cell_study(cell, study, MPI_COMM_WORLD);
-  if (is_root(MPI_COMM_WORLD) && !study.quiet)
-    std::cout << summary(cell, assessed, study.uncertain) << "Written to " << study.output
-              << ": homogenize.json, cell.h5, cell.json, characteristic-displacements.vtu"
-              << (assessed.bending && assessed.bending->bracket
-                    ? ", shell-section-abaqus.inp, shell-section-code_aster.comm"
-                    : "")
-              << (study.pieces ? ", characteristic-displacements-refined.pvtu\n" : "\n");
-  return status_of(assessed.checks);
-}
-
 /// The first sentence of the comment at the head of a cell file: its story in one line.
 std::string story_of(const std::string &file)
 {
@@ -111,9 +84,9 @@ int make(const CellVariant &variant)
 }
 } // namespace
 
-void add_homogenize_command(CLI::App &app, Action &action)
+void add_homogenize_command(CommandLine &line)
 {
-  CLI::App *command = app.add_subcommand(
+  CLI::App *command = line.app.add_subcommand(
     "homogenize",
     "C^H and the bending stiffness D^H with their guaranteed brackets, characteristic "
     "displacements, deflections, strains and stresses of the phases, moduli: cell.h5, "
@@ -183,22 +156,23 @@ void add_homogenize_command(CLI::App &app, Action &action)
     "  homespun homogenize meshes/cells/three-stiffness.prm --tolerance 1e-3\n"
     "  homespun homogenize meshes/cells/layered.prm --uncertain soft.E=20%,hard.E=20%\n"
     "  mpirun -n 2 homespun homogenize mycell.prm --refine 2 --pieces");
-  command->callback([&action, arguments]()
-                    { action = [arguments]() { return homogenize(*arguments); }; });
+  command->callback(
+    [&line, arguments]()
+    { line.solve = [&line, arguments]() { return line.studies.homogenize(*arguments); }; });
 }
 
-void add_cells_command(CLI::App &app, Action &action, AfterMpi &afterwards)
+void add_cells_command(CommandLine &line)
 {
   CLI::App *command =
-    app.add_subcommand("cells", "List the shipped cells with their parameters; make variants");
+    line.app.add_subcommand("cells", "List the shipped cells with their parameters; make variants");
   command->require_subcommand(0, 1);
   const auto pictures = std::make_shared<std::string>();
   command->add_option("--pictures", *pictures, "Folder for a picture of each cell, .svg and .png");
   command->callback(
-    [&action, &afterwards, command, pictures]()
+    [&line, command, pictures]()
     {
       if (command->get_subcommands().empty())
-        action = [&afterwards, pictures]() { return list_cells(*pictures, afterwards); };
+        line.at_once = [&line, pictures]() { return list_cells(*pictures, line.afterwards); };
     });
   command->footer("Example:\n  homespun cells\n  homespun cells --pictures out/cells\n  homespun "
                   "cells make twill --set yarn_width=0.4");
@@ -219,6 +193,7 @@ void add_cells_command(CLI::App &app, Action &action, AfterMpi &afterwards)
     "install gmsh.\nExample:\n"
     "  homespun cells make twill --set yarn_width=0.4 --output mine\n"
     "  homespun cells make random-dots --set seed=7 --set dots=20 --name random-7");
-  make_command->callback([&action, variant]() { action = [variant]() { return make(*variant); }; });
+  make_command->callback([&line, variant]()
+                         { line.at_once = [variant]() { return make(*variant); }; });
 }
 } // namespace homespun::verification

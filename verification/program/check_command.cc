@@ -234,9 +234,9 @@ CellReading tell_findings(const std::string &file)
   return reading;
 }
 
-void add_check_command(CLI::App &app, Action &action, AfterMpi &afterwards)
+void add_check_command(CommandLine &line)
 {
-  CLI::App *command = app.add_subcommand(
+  CLI::App *command = line.app.add_subcommand(
     "check",
     "Read and validate cells; tell every fault and all that may hurt later; solve nothing");
   const auto arguments = std::make_shared<CheckArguments>();
@@ -248,7 +248,7 @@ void add_check_command(CLI::App &app, Action &action, AfterMpi &afterwards)
     "Exit status: 0 sound, with warnings or without; 2 an error.\n\nKeys of a cell file:\n\n" +
     homogenization::unit_cell_keys());
   command->callback(
-    [&action, &afterwards, arguments]()
-    { action = [arguments, &afterwards]() { return check(*arguments, afterwards); }; });
+    [&line, arguments]()
+    { line.at_once = [&line, arguments]() { return check(*arguments, line.afterwards); }; });
 }
 } // namespace homespun::verification

@@ -1,15 +1,18 @@
 // SPDX-License-Identifier: MIT
-// The commands of the program. Each adds itself to the command line and, when chosen, leaves what
-// is to be run; the exit status is what that returns. Those whose action has `without_mpi` in its
-// name run on one process without MPI, on the ranks of a launcher with it.
+// The commands of the program. Each adds itself to the command line and, when chosen, leaves there
+// what is to be run; the exit status is what that returns.
 #pragma once
 
 #include <CLI/App.hpp>
 
 #include <functional>
+#include <string>
+#include <vector>
 
 namespace homespun::verification
 {
+struct Studies;
+
 /// What the chosen command does, made by the command line.
 using Action = std::function<int()>;
 
@@ -18,28 +21,34 @@ using Action = std::function<int()>;
 /// exit status.
 using AfterMpi = std::function<int()>;
 
-void add_check_command(CLI::App &app, Action &action_without_mpi, AfterMpi &afterwards);
-void add_homogenize_command(CLI::App &app, Action &action);
-void add_strain_command(CLI::App &app, Action &action, AfterMpi &afterwards,
-                        const std::string &command_line);
-void add_drape_command(CLI::App &app, Action &action, AfterMpi &afterwards,
-                       const std::string &command_line);
-void add_stress_command(CLI::App &app, Action &action, AfterMpi &afterwards,
-                        const std::string &command_line);
-void add_converge_command(CLI::App &app, Action &action, AfterMpi &afterwards,
-                          const std::string &command_line);
-void add_verify_command(CLI::App &app, Action &action, AfterMpi &afterwards,
-                        const std::string &command_line);
-void add_report_command(CLI::App &app, Action &action_without_mpi, AfterMpi &afterwards);
-void add_cells_command(CLI::App &app, Action &action_without_mpi, AfterMpi &afterwards);
-void add_load_command(CLI::App &app, Action &action, AfterMpi &afterwards,
-                      const std::string &command_line);
-void add_stability_command(CLI::App &app, Action &action, AfterMpi &afterwards,
-                           const std::string &command_line);
-void add_upsample_command(CLI::App &app, Action &action_without_mpi,
-                          const std::string &command_line);
-void add_scaling_command(CLI::App &app, Action &action_without_mpi, AfterMpi &afterwards,
-                         const std::string &command_line);
+/// What the commands add themselves to, and where the chosen one leaves its work in one of three
+/// places.
+struct CommandLine
+{
+  CLI::App &app;
+  const Studies &studies;
+  const std::string text; ///< the command line, for the records
+
+  Action solve;       ///< with MPI
+  Action without_mpi; ///< on one process without MPI, on the ranks of a launcher with it
+  Action at_once;     ///< as `without_mpi`, and leaves no record of a run: needs no deal.II
+  AfterMpi afterwards;
+};
+
+void add_check_command(CommandLine &line);
+void add_homogenize_command(CommandLine &line);
+void add_strain_command(CommandLine &line);
+void add_drape_command(CommandLine &line);
+void add_stress_command(CommandLine &line);
+void add_converge_command(CommandLine &line);
+void add_verify_command(CommandLine &line);
+void add_report_command(CommandLine &line);
+void add_cells_command(CommandLine &line);
+void add_load_command(CommandLine &line);
+void add_stability_command(CommandLine &line);
+void add_upsample_command(CommandLine &line);
+void add_scaling_command(CommandLine &line);
+void add_benchmark_command(CommandLine &line);
 
 /// Makes report.html from folders of results, with Debian's Python.
 /// @throws BadInput where the results cannot be read or drawn

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // homespun converge: observed orders of everything that is discretised.
 #include "verification/converge/converge_cases.h"
-#include "verification/converge/converge_study.h"
+#include "verification/program/studies.h"
 #include "verification/program/study_arguments.h"
 
 #include <CLI/Config.hpp>
@@ -19,7 +19,7 @@ struct ConvergeArguments
   StudyEnd end;
 };
 
-int run_converge(ConvergeArguments arguments, AfterMpi &afterwards)
+int run_converge(ConvergeArguments arguments, CommandLine &line)
 {
   ConvergenceStudyOptions &study = arguments.study;
   ArgumentFaults faults;
@@ -29,21 +29,20 @@ int run_converge(ConvergeArguments arguments, AfterMpi &afterwards)
   faults.throw_if_any();
   if (study.output.empty())
     study.output = default_folder("converge", stems(study.cell_files), study.quick);
-  return arguments.end.conclude(run_convergence_study(study, MPI_COMM_WORLD), study.output,
-                                study.quiet, afterwards);
+  return arguments.end.conclude(line.studies.converge(study, MPI_COMM_WORLD), study.output,
+                                study.quiet, line.afterwards);
 }
 } // namespace
 
-void add_converge_command(CLI::App &app, Action &action, AfterMpi &afterwards,
-                          const std::string &command_line)
+void add_converge_command(CommandLine &line)
 {
-  CLI::App *command = app.add_subcommand(
+  CLI::App *command = line.app.add_subcommand(
     "converge",
     "Observed orders in mesh, adaptivity, cells per sheet, coarse mesh, strain and time step");
   const auto arguments           = std::make_shared<ConvergeArguments>();
   ConvergenceStudyOptions &study = arguments->study;
   study.studies                  = convergence_studies();
-  study.command                  = command_line;
+  study.command                  = line.text;
   command->add_option("CELL.prm", study.cell_files, "Cell files")->required();
   add_list(*command, "--studies", study.studies, "Studies, comma-separated");
   command->add_flag("--quick", study.quick, "Fewer and smaller levels: a minute");
@@ -59,7 +58,7 @@ void add_converge_command(CLI::App &app, Action &action, AfterMpi &afterwards,
                   "Example:\n  homespun converge mycell.prm --quick\n"
                   "  mpirun -n 2 homespun converge mycell.prm --studies mesh,scale");
   command->callback(
-    [&action, &afterwards, arguments]()
-    { action = [&afterwards, arguments]() { return run_converge(*arguments, afterwards); }; });
+    [&line, arguments]()
+    { line.solve = [&line, arguments]() { return run_converge(*arguments, line); }; });
 }
 } // namespace homespun::verification

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Where the files are that the program brings along: cells, scenes, the report.
+// Where the files are that the program brings along: cells, scenes, the report, and its larger
+// part.
 #pragma once
 
 #include <string>
@@ -11,6 +12,10 @@ namespace homespun::verification
 /// found from the program itself, so that an installed tree may be moved and never reads the
 /// sources.
 std::string data_folder(const std::string &installed, const std::string &in_sources);
+
+/// The path of `homespun-full`: the running program itself, or beside it in a build tree, or where
+/// it was installed with the running one.
+std::string full_program();
 
 /// The folder of the shipped cells: where they were installed with the program, or in the sources.
 std::string cells_folder();

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 // homespun drape: a scene and its page.
 #include "meshes/plain/errors.h"
-#include "verification/drape/drape_study.h"
 #include "verification/drape/scene.h"
 #include "verification/drape/scene_cloth.h"
 #include "verification/method/lightweight_cloth.h"
+#include "verification/program/studies.h"
 #include "verification/program/study_arguments.h"
 
 #include <CLI/Config.hpp>
@@ -47,7 +47,7 @@ void check_arguments(const DrapeOptions &study)
   faults.throw_if_any();
 }
 
-int run_drape(DrapeArguments arguments, AfterMpi &afterwards)
+int run_drape(DrapeArguments arguments, CommandLine &line)
 {
   DrapeOptions &study = arguments.study;
   if (arguments.no_frames)
@@ -55,22 +55,21 @@ int run_drape(DrapeArguments arguments, AfterMpi &afterwards)
   check_arguments(study);
   if (study.output.empty())
     study.output = default_folder("drape", stems({study.scene_file}), arguments.quick);
-  return arguments.end.conclude(run_drape_study(study, MPI_COMM_WORLD), study.output, study.quiet,
-                                afterwards);
+  return arguments.end.conclude(line.studies.drape(study, MPI_COMM_WORLD), study.output,
+                                study.quiet, line.afterwards);
 }
 } // namespace
 
-void add_drape_command(CLI::App &app, Action &action, AfterMpi &afterwards,
-                       const std::string &command_line)
+void add_drape_command(CommandLine &line)
 {
-  CLI::App *command = app.add_subcommand(
+  CLI::App *command = line.app.add_subcommand(
     "drape",
     "Run a scene: the coarse cloth in motion, up-sampled every step, against the resolved one");
   const auto arguments = std::make_shared<DrapeArguments>();
   DrapeOptions &study  = arguments->study;
   study.variants       = {"corotational"};
   study.methods        = {"affine", "localized", "localized-affine-lift"};
-  study.command        = command_line;
+  study.command        = line.text;
 
   command
     ->add_option("SCENE.prm", study.scene_file, "Scene file; the shipped ones are in meshes/scenes")
@@ -109,7 +108,7 @@ void add_drape_command(CLI::App &app, Action &action, AfterMpi &afterwards,
     "Keys of a scene file:\n" +
     scene_keys());
   command->callback(
-    [&action, &afterwards, arguments]()
+    [&line, arguments]()
     {
       if (arguments->quick)
       {
@@ -117,7 +116,7 @@ void add_drape_command(CLI::App &app, Action &action, AfterMpi &afterwards,
           arguments->study.n_cells = 4;
         arguments->study.n_cells_of_error_bar = 0;
       }
-      action = [&afterwards, arguments]() { return run_drape(*arguments, afterwards); };
+      line.solve = [&line, arguments]() { return run_drape(*arguments, line); };
     });
 }
 } // namespace homespun::verification

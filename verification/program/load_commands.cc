@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // homespun load: an infinite cloth under prescribed stresses and strains.
-#include "verification/load/load_study.h"
+#include "verification/program/studies.h"
 #include "verification/program/study_arguments.h"
 #include "verification/record/on_root.h"
 
@@ -22,7 +22,7 @@ struct LoadArguments
   StudyEnd end;
 };
 
-int run_load(LoadArguments arguments, AfterMpi &afterwards)
+int run_load(LoadArguments arguments, CommandLine &line)
 {
   LoadStudyOptions &study = arguments.study;
   ArgumentFaults faults;
@@ -42,19 +42,18 @@ int run_load(LoadArguments arguments, AfterMpi &afterwards)
   if (!study.quiet && is_root(MPI_COMM_WORLD))
     std::cout << "Prescribed: " << study.control.text() << "; axis " << study.control.axis
               << " keeps its direction\n";
-  return arguments.end.conclude(run_load_study(study, MPI_COMM_WORLD), study.output, study.quiet,
-                                afterwards);
+  return arguments.end.conclude(line.studies.load(study, MPI_COMM_WORLD), study.output, study.quiet,
+                                line.afterwards);
 }
 } // namespace
 
-void add_load_command(CLI::App &app, Action &action, AfterMpi &afterwards,
-                      const std::string &command_line)
+void add_load_command(CommandLine &line)
 {
-  CLI::App *command = app.add_subcommand(
+  CLI::App *command = line.app.add_subcommand(
     "load", "An infinite cloth under given stresses and strains: its curve (load.csv)");
   const auto arguments    = std::make_shared<LoadArguments>();
   LoadStudyOptions &study = arguments->study;
-  study.command           = command_line;
+  study.command           = line.text;
   command->add_option("CELL.prm", study.cell_files, "Cell files")->required();
   add_list(*command, "--stress", arguments->stresses,
            "Nominal stresses by component, N per metre of rest width: 11=50,12=0");
@@ -85,8 +84,7 @@ void add_load_command(CLI::App &app, Action &action, AfterMpi &afterwards,
     "  homespun load dots.prm --stress 11=50,22=100                    biaxial 1:2\n"
     "  homespun load dots.prm --stress 11=50,12=0 --strain 22=0.02 --steps 40 --law biot,green\n"
     "  homespun load dots.prm --strain 22=-2%                          compression");
-  command->callback(
-    [&action, &afterwards, arguments]()
-    { action = [&afterwards, arguments]() { return run_load(*arguments, afterwards); }; });
+  command->callback([&line, arguments]()
+                    { line.solve = [&line, arguments]() { return run_load(*arguments, line); }; });
 }
 } // namespace homespun::verification

@@ -58,10 +58,10 @@ void make_report(const std::vector<std::string> &folders, const std::string &out
     std::printf("Report: %s/report.html\n", output.c_str());
 }
 
-void add_report_command(CLI::App &app, Action &action, AfterMpi &afterwards)
+void add_report_command(CommandLine &line)
 {
   CLI::App *command =
-    app.add_subcommand("report", "Make report.html and the figures again from stored results");
+    line.app.add_subcommand("report", "Make report.html and the figures again from stored results");
   struct Arguments
   {
     std::vector<std::string> folders;
@@ -77,12 +77,12 @@ void add_report_command(CLI::App &app, Action &action, AfterMpi &afterwards)
                       "Folder of the report (default DIR; of several out/report)");
   command->add_flag("--quiet", arguments->quiet, "Print nothing but faults");
   command->callback(
-    [&action, &afterwards, arguments]()
+    [&line, arguments]()
     {
-      action = [&afterwards, arguments]()
+      line.at_once = [&line, arguments]()
       {
         if (is_root(MPI_COMM_WORLD))
-          afterwards = [arguments]()
+          line.afterwards = [arguments]()
           {
             // A page of several runs belongs to none of them.
             const std::string output = !arguments->output.empty()       ? arguments->output

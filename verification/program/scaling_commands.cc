@@ -56,14 +56,13 @@ int prepare(ScalingOptions options, AfterMpi &afterwards)
 }
 } // namespace
 
-void add_scaling_command(CLI::App &app, Action &action, AfterMpi &afterwards,
-                         const std::string &command_line)
+void add_scaling_command(CommandLine &line)
 {
-  CLI::App *command = app.add_subcommand(
+  CLI::App *command = line.app.add_subcommand(
     "scaling",
     "Time and memory of the cell problems against mesh and number of ranks, on this machine");
   const auto options = std::make_shared<ScalingOptions>();
-  options->command   = command_line;
+  options->command   = line.text;
   command->add_option("CELL.prm", options->cell_file, "Cell file")->required();
   add_list(*command, "--refine", options->refinements,
            "Uniform refinements of the mesh, comma-separated");
@@ -92,7 +91,7 @@ void add_scaling_command(CLI::App &app, Action &action, AfterMpi &afterwards,
                   "  homespun scaling mycell.prm --refine 4,5,6 --ranks 16,64,256 --launcher "
                   "\"srun -n {ranks}\"");
   command->callback(
-    [&action, &afterwards, options]()
-    { action = [&afterwards, options]() { return prepare(*options, afterwards); }; });
+    [&line, options]()
+    { line.without_mpi = [&line, options]() { return prepare(*options, line.afterwards); }; });
 }
 } // namespace homespun::verification

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // homespun stability: where a periodic solution stops being the solution.
 #include "homogenization/cell/parameter_text.h"
-#include "verification/bloch/stability_study.h"
 #include "verification/bloch/strain_path.h"
+#include "verification/program/studies.h"
 #include "verification/program/study_arguments.h"
 #include "verification/record/number_text.h"
 #include "verification/record/on_root.h"
@@ -60,7 +60,7 @@ void read_strains(const std::vector<std::string> &texts, std::vector<double> &st
     faults.add("--strains: found nothing; expected one strain at least, like -5%");
 }
 
-int run_stability(StabilityArguments arguments, AfterMpi &afterwards)
+int run_stability(StabilityArguments arguments, CommandLine &line)
 {
   StabilityStudyOptions &study = arguments.study;
   ArgumentFaults faults;
@@ -74,20 +74,19 @@ int run_stability(StabilityArguments arguments, AfterMpi &afterwards)
   faults.throw_if_any();
   if (study.output.empty())
     study.output = default_folder("stability", stems(study.cell_files), false);
-  return arguments.end.conclude(run_stability_study(study, MPI_COMM_WORLD), study.output,
-                                study.quiet, afterwards);
+  return arguments.end.conclude(line.studies.stability(study, MPI_COMM_WORLD), study.output,
+                                study.quiet, line.afterwards);
 }
 } // namespace
 
-void add_stability_command(CLI::App &app, Action &action, AfterMpi &afterwards,
-                           const std::string &command_line)
+void add_stability_command(CommandLine &line)
 {
-  CLI::App *command = app.add_subcommand(
+  CLI::App *command = line.app.add_subcommand(
     "stability", "Where a periodic solution stops being the solution: the Bloch margin against "
                  "strain (stability.csv)");
   const auto arguments         = std::make_shared<StabilityArguments>();
   StabilityStudyOptions &study = arguments->study;
-  study.command                = command_line;
+  study.command                = line.text;
   command->add_option("CELL.prm", study.cell_files, "Cell files")->required();
   add_list(*command, "--load", study.loads,
            "Loads of an infinite cloth: periodic-11, -22 or -12 (all strains given), uniaxial-1 or "
@@ -116,7 +115,7 @@ void add_stability_command(CLI::App &app, Action &action, AfterMpi &afterwards,
     "  homespun stability layered.prm --load periodic-11 --strains=-1%,-5%,-10%,-20%\n"
     "  homespun stability mycell.prm --load uniaxial-2 --strains 5%,10%,20% --law biot,green");
   command->callback(
-    [&action, &afterwards, arguments]()
-    { action = [&afterwards, arguments]() { return run_stability(*arguments, afterwards); }; });
+    [&line, arguments]()
+    { line.solve = [&line, arguments]() { return run_stability(*arguments, line); }; });
 }
 } // namespace homespun::verification

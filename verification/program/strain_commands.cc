@@ -2,9 +2,9 @@
 // homespun strain: error against strain and its page.
 #include "homogenization/cell/parameter_text.h"
 #include "verification/method/lightweight_cloth.h"
+#include "verification/program/studies.h"
 #include "verification/program/study_arguments.h"
 #include "verification/record/number_text.h"
-#include "verification/strain/strain_study.h"
 
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
@@ -86,26 +86,25 @@ void check_arguments(StrainStudyOptions &study, const std::string &supercell)
   faults.throw_if_any();
 }
 
-int run_strain(StrainArguments arguments, AfterMpi &afterwards)
+int run_strain(StrainArguments arguments, CommandLine &line)
 {
   StrainStudyOptions &study = arguments.study;
   check_arguments(study, arguments.supercell);
   if (study.output.empty())
     study.output = default_folder("strain", stems(study.cell_files), study.is_quick);
-  return arguments.end.conclude(run_strain_study(study, MPI_COMM_WORLD), study.output, study.quiet,
-                                afterwards);
+  return arguments.end.conclude(line.studies.strain(study, MPI_COMM_WORLD), study.output,
+                                study.quiet, line.afterwards);
 }
 } // namespace
 
-void add_strain_command(CLI::App &app, Action &action, AfterMpi &afterwards,
-                        const std::string &command_line)
+void add_strain_command(CommandLine &line)
 {
-  CLI::App *command = app.add_subcommand(
+  CLI::App *command = line.app.add_subcommand(
     "strain", "Error against strain (Figure 3): up-sampled cloth held against the resolved one");
   const auto arguments      = std::make_shared<StrainArguments>();
   StrainStudyOptions &study = arguments->study;
   study                     = default_strain_study();
-  study.command             = command_line;
+  study.command             = line.text;
 
   command->add_option("CELL.prm", study.cell_files, "Cell files")->required();
   CLI::Option *cells =
@@ -146,7 +145,7 @@ void add_strain_command(CLI::App &app, Action &action, AfterMpi &afterwards,
     "Example:\n  homespun strain mycell.prm --quick\n"
     "  mpirun -n 2 homespun strain mycell.prm --loads strip-2,shear-frame --strains 0.01,0.1");
   command->callback(
-    [&action, &afterwards, arguments, cells, strains]()
+    [&line, arguments, cells, strains]()
     {
       if (arguments->quick)
       {
@@ -158,7 +157,7 @@ void add_strain_command(CLI::App &app, Action &action, AfterMpi &afterwards,
         if (strains->count() > 0)
           given.strains = asked.strains;
       }
-      action = [&afterwards, arguments]() { return run_strain(*arguments, afterwards); };
+      line.solve = [&line, arguments]() { return run_strain(*arguments, line); };
     });
 }
 } // namespace homespun::verification

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // homespun stress: the cell, the cloth and the up-sampling under what should break them.
-#include "verification/extremes/stress_study.h"
+#include "verification/program/studies.h"
 #include "verification/program/study_arguments.h"
 
 #include <CLI/Config.hpp>
@@ -19,7 +19,7 @@ struct StressArguments
   bool quick = false;
 };
 
-int run_stress(StressArguments arguments, AfterMpi &afterwards)
+int run_stress(StressArguments arguments, CommandLine &line)
 {
   StressStudyOptions &study = arguments.study;
   if (arguments.quick)
@@ -29,19 +29,18 @@ int run_stress(StressArguments arguments, AfterMpi &afterwards)
   }
   if (study.output.empty())
     study.output = default_folder("stress", stems(study.cell_files), arguments.quick);
-  return arguments.end.conclude(run_stress_study(study, MPI_COMM_WORLD), study.output, study.quiet,
-                                afterwards);
+  return arguments.end.conclude(line.studies.stress(study, MPI_COMM_WORLD), study.output,
+                                study.quiet, line.afterwards);
 }
 } // namespace
 
-void add_stress_command(CLI::App &app, Action &action, AfterMpi &afterwards,
-                        const std::string &command_line)
+void add_stress_command(CommandLine &line)
 {
-  CLI::App *command =
-    app.add_subcommand("stress", "What should break a cell or a cloth: each case must end in a "
-                                 "finite answer or a named refusal");
+  CLI::App *command = line.app.add_subcommand(
+    "stress", "What should break a cell or a cloth: each case must end in a "
+              "finite answer or a named refusal");
   const auto arguments     = std::make_shared<StressArguments>();
-  arguments->study.command = command_line;
+  arguments->study.command = line.text;
   command->add_option("CELL.prm", arguments->study.cell_files,
                       "Cells whose C^H and chi the cases take (default: built-in ones)");
   command->add_flag("--quick", arguments->quick,
@@ -56,7 +55,7 @@ void add_stress_command(CLI::App &app, Action &action, AfterMpi &afterwards,
     "its limit and where that comes from. A case that fails is a row, and exit status 1.\n"
     "Example:\n  homespun stress --quick\n  homespun stress mycell.prm");
   command->callback(
-    [&action, &afterwards, arguments]()
-    { action = [&afterwards, arguments]() { return run_stress(*arguments, afterwards); }; });
+    [&line, arguments]()
+    { line.solve = [&line, arguments]() { return run_stress(*arguments, line); }; });
 }
 } // namespace homespun::verification

@@ -43,13 +43,12 @@ int run_upsample(UpsampleOptions study)
 }
 } // namespace
 
-void add_upsample_command(CLI::App &app, Action &action_without_mpi,
-                          const std::string &command_line)
+void add_upsample_command(CommandLine &line)
 {
-  CLI::App *command = app.add_subcommand(
+  CLI::App *command = line.app.add_subcommand(
     "upsample", "Give the frames of your own coarse simulation their fine positions");
   const auto study = std::make_shared<UpsampleOptions>();
-  study->command   = command_line;
+  study->command   = line.text;
   command->add_option("CELL.h5", study->cell_file, "Cell of `homespun homogenize`")->required();
   command
     ->add_option("FRAMES", study->frames,
@@ -95,7 +94,7 @@ void add_upsample_command(CLI::App &app, Action &action_without_mpi,
     "Examples:\n  homespun upsample out/dots/homogenize/cell.h5 --rest rest.obj "
     "'sim/frame_*.obj'\n"
     "  homespun upsample cell.h5 --rest rest.ply sim/*.ply --format ply,usda --up y\n");
-  command->callback([&action_without_mpi, study]()
-                    { action_without_mpi = [study]() { return run_upsample(*study); }; });
+  command->callback([&line, study]()
+                    { line.without_mpi = [study]() { return run_upsample(*study); }; });
 }
 } // namespace homespun::verification

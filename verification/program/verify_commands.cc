@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // homespun verify: everything, for a list of cells.
+#include "verification/program/studies.h"
 #include "verification/program/study_arguments.h"
-#include "verification/program/verify_study.h"
 #include "verification/record/on_root.h"
 
 #include <CLI/Config.hpp>
@@ -21,7 +21,7 @@ struct VerifyArguments
   bool no_report = false;
 };
 
-int run_verify(VerifyArguments arguments, AfterMpi &afterwards)
+int run_verify(VerifyArguments arguments, CommandLine &line)
 {
   VerifyOptions &options = arguments.verify;
   ArgumentFaults faults;
@@ -38,7 +38,7 @@ int run_verify(VerifyArguments arguments, AfterMpi &afterwards)
   Verification result;
   try
   {
-    result = verify(options, MPI_COMM_WORLD);
+    result = line.studies.verify(options, MPI_COMM_WORLD);
   }
   catch (const meshes::BadInput &bad)
   {
@@ -65,7 +65,7 @@ int run_verify(VerifyArguments arguments, AfterMpi &afterwards)
       // end.
       std::vector<std::string> folders = {options.output};
       folders.insert(folders.end(), result.folders.begin(), result.folders.end());
-      afterwards = [folders, output = options.output, quiet = options.quiet]()
+      line.afterwards = [folders, output = options.output, quiet = options.quiet]()
       {
         make_report(folders, output, quiet);
         list_report(output);
@@ -77,15 +77,14 @@ int run_verify(VerifyArguments arguments, AfterMpi &afterwards)
 }
 } // namespace
 
-void add_verify_command(CLI::App &app, Action &action, AfterMpi &afterwards,
-                        const std::string &command_line)
+void add_verify_command(CommandLine &line)
 {
-  CLI::App *command = app.add_subcommand(
+  CLI::App *command = line.app.add_subcommand(
     "verify",
     "Everything, for a list of cells: one report with all claims; without a cell the self-tests");
   const auto arguments   = std::make_shared<VerifyArguments>();
   VerifyOptions &options = arguments->verify;
-  options.command        = command_line;
+  options.command        = line.text;
   command->add_option("CELL.prm", options.cell_files, "Cell files; none: the self-tests");
   add_list(*command, "--parts", options.parts,
            "What to run, comma-separated (default with cells "
@@ -108,7 +107,7 @@ void add_verify_command(CLI::App &app, Action &action, AfterMpi &afterwards,
     "Example:\n  homespun verify mycell.prm --quick\n  homespun verify --quick\n  mpirun -n 2 "
     "homespun verify mycell.prm");
   command->callback(
-    [&action, &afterwards, arguments]()
-    { action = [&afterwards, arguments]() { return run_verify(*arguments, afterwards); }; });
+    [&line, arguments]()
+    { line.solve = [&line, arguments]() { return run_verify(*arguments, line); }; });
 }
 } // namespace homespun::verification

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Writes schema.json, the columns of every table, for the report: run by the build.
+#include "verification/benchmark/benchmark_tables.h"
 #include "verification/bloch/pattern_tables.h"
 #include "verification/bloch/stability_tables.h"
 #include "verification/budget/budget_tables.h"
@@ -54,6 +55,7 @@ int main(int argc, char **argv)
   add_to_schema<PatternRow>(schema);
   add_to_schema<ScalingRun>(schema);
   add_to_schema<UpsampleRow>(schema);
+  add_to_schema<BenchmarkRow>(schema);
   write_json(argv[1], schema);
   return exit_status::good;
 }

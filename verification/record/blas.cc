@@ -32,6 +32,11 @@ std::string file_with(const char *name)
 }
 } // namespace
 
+void load_blas()
+{
+  dlopen("libblas.so.3", RTLD_NOW | RTLD_GLOBAL);
+}
+
 Blas loaded_blas()
 {
   const auto configuration = function<char *()>("openblas_get_config");
@@ -41,6 +46,19 @@ Blas loaded_blas()
   const std::string file = file_with("dgemm_");
   // The reference implementation of Debian knows no threads.
   return {file, file.find("/blas/libblas.so") != std::string::npos ? 1 : 0};
+}
+
+bool multiply_by_blas(const int n, const double *a, const double *b, double *c)
+{
+  using Product      = void(const char *, const char *, const int *, const int *, const int *,
+                       const double *, const double *, const int *, const double *, const int *,
+                       const double *, double *, const int *);
+  const auto product = function<Product>("dgemm_");
+  const double one = 1., zero = 0.;
+  if (product == nullptr)
+    return false;
+  product("N", "N", &n, &n, &n, &one, a, &n, b, &n, &zero, c, &n);
+  return true;
 }
 
 void choose_blas_kernels()

@@ -12,6 +12,14 @@ struct Blas
   int threads;         ///< of each process; 0 where it does not say
 };
 
+/// Loads the machine's BLAS into a program that is not linked with it, for the functions below, by
+/// the name under which those that are linked find it. Where there is none, nothing happens.
+void load_blas();
+
+/// c = a b of full matrices (n,n), column by column, by the BLAS that is loaded.
+/// @return whether there is one
+bool multiply_by_blas(int n, const double *a, const double *b, double *c);
+
 /// The library that is loaded, asked while the program runs.
 Blas loaded_blas();
 

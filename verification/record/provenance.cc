@@ -5,8 +5,6 @@
 #include "verification/record/blas.h"
 #include "verification/record/checksum.h"
 
-#include <deal.II/base/config.h>
-
 #include <Eigen/Core>
 #include <H5public.h>
 
@@ -42,6 +40,16 @@ std::string now()
   return text;
 }
 
+/// The revision that a program was built from, with a checksum of the program where that is not
+/// all.
+std::string revision_of(const std::string &program)
+{
+  const std::string described = HOMESPUN_GIT_REVISION;
+  const bool is_known         = described.find("dirty") == std::string::npos &&
+                        described.find("no revision") == std::string::npos;
+  return is_known ? described : described + "-" + checksum_of_file(program);
+}
+
 std::string host()
 {
   char name[256] = "";
@@ -52,13 +60,7 @@ std::string host()
 
 std::string revision()
 {
-  static const std::string text = []() -> std::string
-  {
-    const std::string described = HOMESPUN_GIT_REVISION;
-    const bool is_known         = described.find("dirty") == std::string::npos &&
-                          described.find("no revision") == std::string::npos;
-    return is_known ? described : described + "-" + checksum_of_file("/proc/self/exe");
-  }();
+  static const std::string text = revision_of("/proc/self/exe");
   return text;
 }
 
@@ -67,9 +69,8 @@ nlohmann::ordered_json provenance(const unsigned int n_ranks)
   const Blas blas = loaded_blas();
   return {{"homespun", HOMESPUN_VERSION},
           {"git", revision()},
-          {"dealii", DEAL_II_PACKAGE_VERSION},
-          {"trilinos", dotted(DEAL_II_TRILINOS_VERSION_MAJOR, DEAL_II_TRILINOS_VERSION_MINOR,
-                              DEAL_II_TRILINOS_VERSION_SUBMINOR)},
+          {"dealii", HOMESPUN_DEALII_VERSION},
+          {"trilinos", HOMESPUN_TRILINOS_VERSION},
           {"hdf5", dotted(H5_VERS_MAJOR, H5_VERS_MINOR, H5_VERS_RELEASE)},
           {"eigen", dotted(EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION)},
           {"compiler", std::string("GCC ") + __VERSION__},
@@ -87,12 +88,13 @@ nlohmann::ordered_json provenance(const unsigned int n_ranks)
 std::string provenance_line()
 {
   return std::string("homespun ") + HOMESPUN_VERSION + " (" + HOMESPUN_GIT_REVISION +
-         "), deal.II " + DEAL_II_PACKAGE_VERSION + ", " + now() + ", " + host();
+         "), deal.II " + HOMESPUN_DEALII_VERSION + ", " + now() + ", " + host();
 }
 
-std::string version_text()
+std::string version_text(const std::string &program)
 {
-  const nlohmann::ordered_json all = provenance(1);
+  nlohmann::ordered_json all = provenance(1);
+  all["git"]                 = revision_of(program);
   std::string text;
   for (const char *key : {"homespun", "git", "dealii", "trilinos", "hdf5", "eigen"})
     text += std::string(key) + " " + all[key].get<std::string>() + "\n";

@@ -19,5 +19,6 @@ nlohmann::ordered_json provenance(unsigned int n_ranks);
 std::string provenance_line();
 
 /// The text of `homespun --version`.
-std::string version_text();
+/// @param program the file that solves, whose checksum stands where the revision is not all
+std::string version_text(const std::string &program);
 } // namespace homespun::verification

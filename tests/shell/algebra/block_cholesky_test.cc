@@ -63,6 +63,40 @@ TEST(exact_block_cholesky, a_solution_times_the_matrix_is_the_right_side)
   }
 }
 
+// The textbook's elimination, number by number, which counts what it does.
+TEST(exact_block_cholesky, operations_are_counted_as_an_elimination_by_numbers_does_them)
+{
+  for (const int n : {1, 3, 8})
+  {
+    const BlockMatrix matrix = random_matrix(n);
+    const int n_unknowns     = 3 * matrix.n_free();
+    Eigen::Matrix<bool, Eigen::Dynamic, Eigen::Dynamic> is_filled =
+      Eigen::Matrix<bool, Eigen::Dynamic, Eigen::Dynamic>::Zero(n_unknowns, n_unknowns);
+    for (int c = 0; c < matrix.n_free(); ++c)
+      for (int k = matrix.first[static_cast<std::size_t>(c)];
+           k < matrix.first[static_cast<std::size_t>(c) + 1]; ++k)
+        if (const int r = matrix.row[static_cast<std::size_t>(k)]; r < matrix.n_free())
+          is_filled.block<3, 3>(3 * r, 3 * c).setConstant(true);
+    double operations = 0.;
+    for (int c = 0; c < n_unknowns; ++c)
+    {
+      operations += 1.; // the root
+      for (int r = c + 1; r < n_unknowns; ++r)
+        if (is_filled(r, c))
+        {
+          operations += 1.; // the division
+          for (int s = c + 1; s <= r; ++s)
+            if (is_filled(s, c))
+            {
+              operations += 1.;
+              is_filled(r, s) = true;
+            }
+        }
+    }
+    EXPECT_EQ(BlockCholesky(matrix).n_multiply_adds(), operations) << n;
+  }
+}
+
 TEST(tripwire_block_cholesky, a_matrix_that_is_not_positive_definite_is_refused_wherever_it_fails)
 {
   BlockMatrix matrix = random_matrix(20);

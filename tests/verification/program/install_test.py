@@ -24,6 +24,7 @@ class Install(InFolder):
 
     def test_everything_is_there(self):
         share = self.prefix / "share"
+        self.assertTrue((self.prefix / "libexec" / "homespun-full").is_file())
         for name in ("doc/homespun/LICENSE", "doc/homespun/README.md", "man/man1/homespun.1.gz",
                      "bash-completion/completions/homespun", "homespun/cells/layered.geo",
                      "homespun/scenes/skirt.obj", "homespun/report/report.py",

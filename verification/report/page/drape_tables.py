@@ -158,8 +158,8 @@ def error_rows(cell):
 
 
 def run_rows(cell):
-    """One row per variant and reference: what ran, on what, how long a step takes, and its ratio to
-    the first cloth.
+    """One row per variant and reference: what ran, on what, how long a step takes in the middle, in
+    the mean and in all but one of twenty cases, and its ratio to the first cloth.
     """
     light = light_seconds(main_run(cell)) if cell.runs else math.nan
 
@@ -179,6 +179,8 @@ def run_rows(cell):
             count(run, "threads"),
             count(run, "dofs"),
             seconds(number(run, "seconds_per_coarse_step")),
+            seconds(number(run, "seconds_per_coarse_step_mean")),
+            seconds(number(run, "seconds_per_coarse_step_95")),
             seconds(number(run, "seconds_per_upsampling")),
             ratio(light_seconds(run)),
         ]
@@ -194,6 +196,8 @@ def run_rows(cell):
             count(item, "threads"),
             count(item, "dofs"),
             seconds(number(item, "seconds_per_step")),
+            "–",
+            "–",
             "–",
             ratio(number(item, "seconds_per_step")),
         ]

@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: MIT
+#include "verification/converge/converge_cases.h"
+
+namespace homespun::verification
+{
+const std::vector<std::string> &convergence_studies()
+{
+  static const std::vector<std::string> all = {"mesh",   "adaptive", "scale",       "coarse",
+                                               "strain", "time",     "manufactured"};
+  return all;
+}
+} // namespace homespun::verification

@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: MIT
+#include "verification/program/command_line.h"
+
+#include "meshes/plain/errors.h"
+#include "verification/program/study_arguments.h"
+#include "verification/record/on_root.h"
+#include "verification/record/verdict.h"
+
+#include <CLI/App.hpp>
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <iostream>
+
+namespace homespun::verification
+{
+namespace
+{
+void add_commands(CommandLine &line)
+{
+  line.app.require_subcommand(1);
+  line.app.footer(
+    "Exit status, the worst in this order: 2 bad input; 3 a solver did not converge where "
+    "it had to; 1 a claim failed;\n4 a claim is open; 0 all claims hold. Claims are of "
+    "the program, of the input, or of the method.\n`homespun COMMAND --help` teaches a "
+    "command; `mpirun -n N homespun ...` works for every command that solves.");
+  add_check_command(line);
+  add_homogenize_command(line);
+  add_strain_command(line);
+  add_drape_command(line);
+  add_upsample_command(line);
+  add_stress_command(line);
+  add_converge_command(line);
+  add_verify_command(line);
+  add_report_command(line);
+  add_cells_command(line);
+  add_load_command(line);
+  add_stability_command(line);
+  add_scaling_command(line);
+  add_benchmark_command(line);
+}
+
+/// What was chosen, when all that it needs is there.
+const Action &chosen(const CommandLine &line, const Program &program)
+{
+  if (line.at_once)
+    return line.at_once;
+  if (program.before_records)
+    program.before_records();
+  if (line.without_mpi)
+    return line.without_mpi;
+  if (program.before_solving)
+    program.before_solving();
+  return line.solve;
+}
+} // namespace
+
+bool is_launched()
+{
+  for (const char *name : {"OMPI_COMM_WORLD_SIZE", "PMIX_RANK", "PMI_RANK", "SLURM_PROCID"})
+    if (std::getenv(name))
+      return true;
+  return false;
+}
+
+int guarded(const Action &action, const bool tells)
+{
+  try
+  {
+    return action();
+  }
+  catch (const meshes::BadInput &bad)
+  {
+    if (tells)
+      for (const std::string &fault : bad.faults())
+        std::cerr << "homespun: " << fault << "\n";
+    return exit_status::bad_input;
+  }
+  catch (const std::filesystem::filesystem_error &error)
+  {
+    if (tells)
+      std::cerr << "homespun: " << error.what()
+                << "; expected a folder that can be written: choose "
+                << "another --output\n";
+    return exit_status::bad_input;
+  }
+  catch (const meshes::NotConverged &failure)
+  {
+    if (tells)
+      std::cerr << "homespun: " << failure.what() << "\n";
+    return exit_status::not_converged;
+  }
+}
+
+int run_command_line(const std::vector<std::string> &arguments, const Program &program,
+                     AfterMpi &afterwards)
+{
+  const bool is_root         = verification::is_root(MPI_COMM_WORLD);
+  const unsigned int n_ranks = n_ranks_of(MPI_COMM_WORLD);
+  std::string text           = "homespun";
+  for (const std::string &word : arguments)
+    text += " " + word;
+  if (n_ranks > 1)
+    text = "mpirun -n " + std::to_string(n_ranks) + " " + text;
+
+  CLI::App app(
+    "homespun tells how far an up-sampled cloth is from the truth, and where the error comes "
+    "from.\nA periodic unit cell is homogenized once, a coarse cloth moves with the effective "
+    "stiffness, the fine\nmesh is restored from it and held against the resolved solution.",
+    "homespun");
+  app.set_version_flag("--version", program.version);
+  CommandLine line{app, program.studies, text, {}, {}, {}, {}};
+  add_commands(line);
+  try
+  {
+    std::vector<std::string> words = joined_lists(arguments);
+    std::reverse(words.begin(), words.end()); // as CLI11 takes them
+    app.parse(words);
+  }
+  catch (const CLI::ParseError &error)
+  {
+    const bool is_fault = error.get_exit_code() != 0;
+    if (is_root)
+      app.exit(error, std::cout, std::cerr);
+    return is_fault ? exit_status::bad_input : exit_status::good;
+  }
+  const int status = guarded([&]() { return chosen(line, program)(); }, is_root);
+  afterwards       = std::move(line.afterwards);
+  // A launcher ends all ranks when one of them ends with another status than zero, and the first
+  // one may have a report to make yet: what the claims come to is its word alone.
+  const bool is_of_claims =
+    status == exit_status::claim_failed || status == exit_status::claim_open;
+  return is_of_claims && !is_root ? exit_status::good : status;
+}
+} // namespace homespun::verification

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: MIT
+// The whole program with deal.II and MPI, `homespun-full`, which `homespun` hands over to.
+#include "verification/program/command_line.h"
+#include "verification/record/blas.h"
+#include "verification/record/provenance.h"
+#include "verification/record/verdict.h"
+
+#include <deal.II/base/mpi.h>
+
+#include <array>
+#include <cstdlib>
+#include <optional>
+
+namespace
+{
+/// MPI, for as long as it runs. With one thread per rank.
+class Mpi
+{
+public:
+  /// @param name of the program. The command line is not handed on: PETSc, which deal.II starts
+  ///   with MPI, would take our options for its own and warn of them at the end.
+  void start(char *const name)
+  {
+    if (running)
+      return;
+    // A process by itself needs no daemon of Open MPI, whose start takes longer than all else in
+    // MPI_Init; only processes that start others by MPI do.
+    if (!homespun::verification::is_launched())
+      setenv("OMPI_MCA_ess_singleton_isolated", "1", 0);
+    arguments[0] = name;
+    running.emplace(n_arguments, first_argument, 1);
+  }
+
+private:
+  int n_arguments = 1;
+  std::array<char *, 2> arguments{};
+  char **first_argument = arguments.data();
+  std::optional<dealii::Utilities::MPI::MPI_InitFinalize> running;
+};
+
+/// All that happens while MPI runs.
+/// @param afterwards receives what is left to do when it has ended
+int run(int argc, char **argv, homespun::verification::AfterMpi &afterwards)
+{
+  using namespace homespun::verification;
+  // Under a launcher at once: the first rank alone prints, and a launcher waits for MPI. A process
+  // by itself starts it where a command needs it.
+  Mpi mpi;
+  if (is_launched())
+    mpi.start(argv[0]);
+  Program program;
+  program.studies = {homogenize_cell,       run_strain_study, run_drape_study,     run_stress_study,
+                     run_convergence_study, run_load_study,   run_stability_study, verify,
+                     run_benchmark};
+  program.before_solving = [&]() { mpi.start(argv[0]); };
+  program.version        = []() { return version_text("/proc/self/exe"); };
+  return run_command_line({argv + 1, argv + argc}, program, afterwards);
+}
+} // namespace
+
+int main(int argc, char **argv)
+{
+  homespun::verification::choose_blas_kernels();
+  homespun::verification::limit_blas_threads();
+  homespun::verification::AfterMpi afterwards;
+  const int status = run(argc, argv, afterwards);
+  return afterwards ? homespun::verification::guarded(
+                        [&]() { return homespun::verification::worse(status, afterwards()); }, true)
+                    : status;
+}
