@@ -43,7 +43,7 @@ WorstTriangle worst_triangle(const meshes::TriangleMesh &rest,
 std::string stress_text(const WorstTriangle &worst)
 {
   const double size    = worst.stress.cwiseAbs().maxCoeff();
-  const bool is_pulled = worst.stress(1) > 0.1 * size, is_pressed = worst.stress(0) < -0.1 * size;
+  const bool is_pulled = worst.stress(1) > 1e-6 * size, is_pressed = worst.stress(0) < -1e-6 * size;
   return std::string("is ") + (is_pulled ? "pulled" : "") +
          (is_pulled && is_pressed ? " and " : "") + (is_pressed ? "pressed" : "") +
          (is_pulled || is_pressed ? "" : "without stress") + " (principal stresses " +

@@ -30,7 +30,7 @@ WorstTriangle worst_triangle(const meshes::TriangleMesh &rest,
                              const std::vector<Eigen::Matrix3d> &stiffness_of_phase, Law law,
                              const meshes::Points &positions);
 
-/// Its words: "is pulled", "is pressed", or "is pulled and pressed" where both stresses are more
-/// than a tenth of the larger, and how much.
+/// Its words: "is pulled", "is pressed", or "is pulled and pressed", and how much. Yarns give way
+/// to a small pressure beside a large pull: only what is below a millionth of the other is none.
 std::string stress_text(const WorstTriangle &worst);
 } // namespace homespun::verification

@@ -78,8 +78,7 @@ def draw_panel(axes, rows, load, methods, references, key, factor, floor, side):
             band(axes, 100 * strain, bar, floor / 100.0, "uncertainty of the reference")
     for method in methods:
         for reference in references:
-            shared = "biot" if any(r["reference"] == "biot" for r in rows) else "yarn"
-        some = [r for r in rows if r["method"] == method and r["reference"] == reference]
+            some = [r for r in rows if r["method"] == method and r["reference"] == reference]
             strain, value, low = floored(some, key, factor)
             if not len(strain):
                 continue

@@ -47,9 +47,9 @@ CAPTIONS = {
     ),
     "strain": (
         "Infinite cloth under periodic loads against the law of the cell, biot or yarn: the"
-        " characteristic displacements are linear in strain, so that the error of the localized positions is expected to fall as"
-        " strain squared, that of the affine ones as strain. Loads under which it is zero to"
-        " round-off are not drawn."
+        " characteristic displacements are linear in strain, so that the error of the localized"
+        " positions is expected to fall as strain squared, that of the affine ones as strain."
+        " Loads under which it is zero to round-off are not drawn."
     ),
     "time": (
         "The coarse cloth swings down from one held edge for 40 ms: mean error of the positions at"
