@@ -136,7 +136,9 @@ private:
       {
         const Load load(name);
         RunTimeOptions of_run;
-        of_run.strain = pictured_strain(options);
+        of_run.strain  = pictured_strain(options);
+        of_run.methods = options.methods;
+        of_run.edges   = edges.edges ? &*edges.edges : nullptr;
         const std::string fault =
           run_time_study(cell, homogenized, bounds, sheet, load, of_run,
                          output ? output->uncertainty.rows() : std::vector<UncertaintyRow>(),
