@@ -3,8 +3,11 @@
 // the method; the others are there so that a report can show what each choice costs.
 #pragma once
 
+#include "meshes/plain/cell_edges.h"
+
 #include <Eigen/Core>
 
+#include <array>
 #include <string>
 
 namespace homespun::localization
@@ -53,6 +56,14 @@ enum class Path
   general    ///< with point location, on any coarse mesh
 };
 
+/// What an edge of a sheet is to the modes that decay from it.
+enum class EdgeKind
+{
+  none,    ///< without modes
+  clamped, ///< held along its whole length
+  free
+};
+
 struct UpsamplerOptions
 {
   bool microscopic = true; ///< false: the coarse motion interpolated, the baseline `affine`
@@ -64,6 +75,10 @@ struct UpsamplerOptions
   /// Law of the phases (`biot`, `green`) whose quadratic modes are added to chi, for errors of
   /// third order in strain: HomogenizedCell::second_order. Empty: none. Not for garments.
   std::string second_order;
+  /// What the cell does at the edges of a sheet of whole cells: modes that decay from them are
+  /// added. Null: none. Read by the constructor alone; with Anchor::mean, and not for garments.
+  const meshes::CellEdges *edges                              = nullptr;
+  std::array<EdgeKind, meshes::CellEdges::n_sides> edge_kinds = {}; ///< numbered as there
   /// Of a garment: over which distance from a seam the fluctuation grows from zero to its full
   /// size, in cell sides sqrt(|Y|), 0 to meshes::seam_reach. With 0 it does not fade, and seams
   /// gape.

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <sstream>
 
 namespace homespun::localization
@@ -41,6 +42,8 @@ Upsampler<dim, Scalar>::Upsampler(const meshes::HomogenizedCell &cell,
     , options(options)
 {
   auto faults = sheet_faults(cell, fine);
+  for (const std::string &fault : edge_faults(cell, options))
+    faults.push_back(fault);
   if (!options.second_order.empty() && options.strain == Strain::linear)
     faults.push_back("up-sampling: quadratic modes of the law " + options.second_order +
                      " are asked for with the linear strain; expected Strain::biot, whose second "
@@ -48,28 +51,21 @@ Upsampler<dim, Scalar>::Upsampler(const meshes::HomogenizedCell &cell,
   if (!faults.empty())
     throw meshes::BadInput(faults);
   const CellModes modes = modes_of(cell);
-  n_total               = fine.mesh.n_vertices();
-  n_space               = coarse_rest.n_vertices();
-  aligned               = options.path == Path::automatic && is_lattice_of(fine, coarse_rest);
-  if (aligned)
+  const EdgeModes near_edges(cell, fine, options);
+  const auto modes_at = [&](const int v)
   {
-    n_cells = fine.n1 * fine.n2;
-    n_block = fine.n_per_cell;
-    n_below = fine.n_below;
-    for (int v = 0; v < n_block; ++v)
-    {
-      // s along a1 and t along a2: below, corners (0,0) (1,0) (1,1); above, (0,0) (1,1) (0,1).
-      const Eigen::RowVector2d f = fine.lattice.fractional(fine.mesh.vertices.row(v) - fine.origin);
-      const double s = f(0), t = f(1);
-      if (v == n_below)
-        shared.pad();
-      shared.append(v < n_below ? Eigen::Vector3d(1. - s, s - t, t)
-                                : Eigen::Vector3d(1. - t, s, t - s),
-                    modes.row(fine.cell_vertex(v)));
-    }
-    shared.pad();
-  }
-  place(modes, fine, n_cells * n_block);
+    Eigen::Matrix<double, 1, Eigen::Dynamic, Eigen::RowMajor, 1, 18> row =
+      modes.row(fine.cell_vertex(v));
+    if (near_edges.are_there() && options.microscopic)
+      row.template head<6>() -= near_edges.at(v);
+    return row;
+  };
+  n_total = fine.mesh.n_vertices();
+  n_space = coarse_rest.n_vertices();
+  aligned = options.path == Path::automatic && is_lattice_of(fine, coarse_rest);
+  if (aligned)
+    share_cells(modes_at, near_edges, fine);
+  place(modes_at, fine, n_cells * n_block);
   records.resize(static_cast<std::size_t>(coarse_rest.n_vertices()) * record_size);
 }
 
@@ -113,7 +109,42 @@ Upsampler<dim, Scalar>::modes_of(const meshes::HomogenizedCell &cell) const
 }
 
 template <int dim, typename Scalar>
-void Upsampler<dim, Scalar>::place(const CellModes &modes, const meshes::Sheet &fine,
+template <typename ModesAt>
+void Upsampler<dim, Scalar>::share_cells(const ModesAt &modes_at, const EdgeModes &near_edges,
+                                         const meshes::Sheet &fine)
+{
+  n_cells = fine.n1 * fine.n2;
+  n_block = fine.n_per_cell;
+  n_below = fine.n_below;
+  std::map<EdgeModes::Depths, int> table_of;
+  for (int cell = 0; cell < n_cells; ++cell)
+  {
+    const auto [found, is_new] = table_of.emplace(near_edges.depths(cell % fine.n1, cell / fine.n1),
+                                                  static_cast<int>(shared.size()));
+    shared_of_cell.push_back(found->second);
+    if (!is_new)
+      continue;
+    VertexTable<Scalar> &table = shared.emplace_back();
+    for (int k = 0; k < n_block; ++k)
+    {
+      // s along a1 and t along a2: below, corners (0,0) (1,0) (1,1); above, (0,0) (1,1) (0,1).
+      const Eigen::RowVector2d f = fine.lattice.fractional(fine.mesh.vertices.row(k) - fine.origin);
+      const double s = f(0), t = f(1);
+      if (k == n_below)
+        table.pad();
+      table.append(k < n_below ? Eigen::Vector3d(1. - s, s - t, t)
+                               : Eigen::Vector3d(1. - t, s, t - s),
+                   modes_at(cell * n_block + k));
+    }
+    table.pad();
+  }
+  if (shared.size() == 1)
+    shared_of_cell.clear();
+}
+
+template <int dim, typename Scalar>
+template <typename ModesAt>
+void Upsampler<dim, Scalar>::place(const ModesAt &modes_at, const meshes::Sheet &fine,
                                    const int from)
 {
   const meshes::PointLocation location(frames.rest());
@@ -140,7 +171,7 @@ void Upsampler<dim, Scalar>::place(const CellModes &modes, const meshes::Sheet &
   }
   if (!faults.empty())
     throw meshes::BadInput(faults);
-  tabulate(in_triangle, [&](const int v) { return modes.row(fine.cell_vertex(v)); });
+  tabulate(in_triangle, modes_at);
 }
 
 template <int dim, typename Scalar>
@@ -161,9 +192,11 @@ void Upsampler<dim, Scalar>::tabulate(const std::vector<std::vector<Member>> &in
     own.pad();
     target.resize(static_cast<std::size_t>(own.size), -1);
   }
-  if (!options.microscopic)
-    for (VertexTable<Scalar> *table : {&shared, &own})
-      table->chi_blocks = std::vector<ChiBlock<Scalar>>();
+  if (options.microscopic)
+    return;
+  own.chi_blocks = std::vector<ChiBlock<Scalar>>();
+  for (VertexTable<Scalar> &table : shared)
+    table.chi_blocks = std::vector<ChiBlock<Scalar>>();
 }
 
 template <int dim, typename Scalar>
@@ -187,11 +220,16 @@ int Upsampler<dim, Scalar>::n_coarse() const
 template <int dim, typename Scalar>
 std::size_t Upsampler<dim, Scalar>::table_bytes() const
 {
-  std::size_t bytes = sizeof(int) * target.size();
-  for (const VertexTable<Scalar> *table : {&shared, &own})
-    bytes += sizeof(Weights<Scalar>) * table->weights.size() +
-             sizeof(ChiBlock<Scalar>) * table->chi_blocks.size() +
-             sizeof(QuadraticBlock<Scalar>) * table->quadratic_blocks.size();
+  std::size_t bytes = sizeof(int) * (target.size() + shared_of_cell.size());
+  const auto add    = [&](const VertexTable<Scalar> &table)
+  {
+    bytes += sizeof(Weights<Scalar>) * table.weights.size() +
+             sizeof(ChiBlock<Scalar>) * table.chi_blocks.size() +
+             sizeof(QuadraticBlock<Scalar>) * table.quadratic_blocks.size();
+  };
+  add(own);
+  for (const VertexTable<Scalar> &table : shared)
+    add(table);
   return bytes;
 }
 
@@ -267,22 +305,27 @@ void Upsampler<dim, Scalar>::run(Scalar *const fine_current) const
   constexpr int chunk = 8 * lanes;
   Scalar buffer[chunk * dim];
   const int begin_above = (n_below + lanes - 1) / lanes * lanes;
-  const auto block      = [&](const int triangle, const int begin, const int first, const int count)
+  const auto block      = [&](const VertexTable<Scalar> &table, const int triangle, const int begin,
+                         const int first, const int count)
   {
     if (first + count + lanes <= n_total)
-      evaluate<terms, modes>(shared, triangle, begin, count, fine_current + first * dim);
+      evaluate<terms, modes>(table, triangle, begin, count, fine_current + first * dim);
     else
       for (int done = 0; done < count; done += chunk)
       {
         const int part = std::min(chunk, count - done);
-        evaluate<terms, modes>(shared, triangle, begin + done, part, buffer);
+        evaluate<terms, modes>(table, triangle, begin + done, part, buffer);
         std::copy_n(buffer, part * dim, fine_current + (first + done) * dim);
       }
   };
   for (int cell = 0; cell < n_cells; ++cell)
   {
-    block(2 * cell, 0, cell * n_block, n_below);
-    block(2 * cell + 1, begin_above, cell * n_block + n_below, n_block - n_below);
+    const VertexTable<Scalar> &table =
+      shared[shared_of_cell.empty()
+               ? 0
+               : static_cast<std::size_t>(shared_of_cell[static_cast<std::size_t>(cell)])];
+    block(table, 2 * cell, 0, cell * n_block, n_below);
+    block(table, 2 * cell + 1, begin_above, cell * n_block + n_below, n_block - n_below);
   }
   for (const Group &group : groups)
     for (int done = 0; done < group.count; done += chunk)

@@ -14,11 +14,14 @@
 //   vertices of the panels, so that each panel has strains in its own rest frame and averages over
 //   its own triangles only. chi turns with the grain of the panel, and fades to zero at its seams
 //   (not at free edges): there both sides lie on the same coarse edge, and the seam stays closed.
+// Modes of edges (edge_modes.h) are constants of the vertices near edges: on the aligned path cells
+// that edges reach have tables of their own, one for each way of being reached.
 // Terms that the options leave out have loops of their own without them; with quadratic modes there
 // are 18 multiply-adds in the place of 6 and 20 numbers per vertex in the place of 8.
 #pragma once
 
 #include "localization/coarse_frames.h"
+#include "localization/edge_modes.h"
 #include "localization/options.h"
 #include "localization/vertex_table.h"
 #include "meshes/cloth/cloth_mesh.h"
@@ -101,7 +104,10 @@ private:
     Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor, Eigen::Dynamic, 18>;
 
   CellModes modes_of(const meshes::HomogenizedCell &cell) const;
-  void place(const CellModes &modes, const meshes::Sheet &fine, int from);
+  template <typename ModesAt>
+  void share_cells(const ModesAt &modes_at, const EdgeModes &near_edges, const meshes::Sheet &fine);
+  template <typename ModesAt>
+  void place(const ModesAt &modes_at, const meshes::Sheet &fine, int from);
   template <typename ChiAt>
   void tabulate(const std::vector<std::vector<Member>> &in_triangle, const ChiAt &chi_at);
   PositionsOf<dim> gathered(PositionsOf<dim> coarse_current) const;
@@ -119,11 +125,14 @@ private:
   std::vector<int> space_of_rest; ///< garment: vertex in space of each rest vertex; else empty
   int n_space  = 0;               ///< coarse vertices
   bool aligned = false;
-  int n_cells  = 0;                        ///< aligned: cells, each with one block of vertices
-  int n_block  = 0;                        ///< aligned: vertices per block
-  int n_below  = 0;                        ///< aligned: of these, below the diagonal
-  int n_total  = 0;                        ///< fine vertices
-  VertexTable<Scalar> shared;              ///< aligned: below the diagonal, then above
+  int n_cells  = 0; ///< aligned: cells, each with one block of vertices
+  int n_block  = 0; ///< aligned: vertices per block
+  int n_below  = 0; ///< aligned: of these, below the diagonal
+  int n_total  = 0; ///< fine vertices
+  /// Aligned: below the diagonal, then above; one table, or with modes of edges one for each way in
+  /// which edges reach a cell.
+  std::vector<VertexTable<Scalar>> shared;
+  std::vector<int> shared_of_cell;         ///< empty: the first
   VertexTable<Scalar> own;                 ///< of all vertices that stand in no block
   std::vector<Group> groups;               ///< of `own`
   std::vector<int> target;                 ///< fine vertex of each row of `own`, −1 for padding

@@ -67,6 +67,9 @@ std::vector<std::string> garment_faults(const meshes::HomogenizedCell &cell,
                      " are asked for; of a garment, whose modes turn with the grain and fade at "
                      "seams, those of first order are all there is so far: leave second_order "
                      "empty");
+  if (options.edges != nullptr)
+    faults.emplace_back("up-sampling: modes of edges are asked for of a garment; its outlines and "
+                        "seams are no lattice lines and have none: leave edges empty");
   check_lattice(cell, fine.lattice, "fine cloth", faults);
   const auto n        = static_cast<Eigen::Index>(fine.n_vertices());
   const bool has_size = fine.panel.size() == n && fine.cell_vertex.size() == n &&

@@ -2,6 +2,7 @@
 #include "shell/membrane/triangle_packs.h"
 
 #include <algorithm>
+#include <numeric>
 
 namespace homespun::shell
 {
@@ -104,6 +105,12 @@ void TrianglePacks::set_stiffness(const std::vector<MembraneStiffness> &values)
     }
 }
 
+void TrianglePacks::set_stiffness_of_triangles(const std::vector<MembraneStiffness> &values)
+{
+  std::iota(phase.begin(), phase.end(), 0);
+  set_stiffness(values);
+}
+
 void TrianglePacks::set_initial_stress(const std::vector<Eigen::Vector3d> &stresses)
 {
   initial_stress = stresses;
@@ -166,6 +173,24 @@ TrianglePacks::State TrianglePacks::state(const int pack, const Positions<3> &po
   s.stress  = times(rest.D, s.strain);
   s.turning = {s.p * s.U12, -s.p * s.U12, s.p * (s.U2 - s.U1)};
   return s;
+}
+
+void TrianglePacks::strains(const Positions<3> &positions, std::vector<Eigen::Vector3d> &all) const
+{
+  all.resize(rest_triangles.size());
+  for (int p = 0; p < n_packs(); ++p)
+  {
+    const State s = state(p, positions);
+    for (int lane = 0; lane < size && p * size + lane < n_triangles(); ++lane)
+    {
+      const int t = p * size + lane;
+      all[static_cast<std::size_t>(t)] =
+        s.irregular[static_cast<std::size_t>(lane)]
+          ? biot_strain<3>(deformation_gradient<3>(rest_triangles[static_cast<std::size_t>(t)],
+                                                   corners_of(t, positions)))
+          : Eigen::Vector3d(s.strain[0](lane), s.strain[1](lane), s.strain[2](lane));
+    }
+  }
 }
 
 double TrianglePacks::scalar_energy(const int t, const Positions<3> &positions) const

@@ -27,9 +27,17 @@ public:
   /// The stiffness of each phase [N/m] from now on; at first those of the membrane.
   void set_stiffness(const std::vector<MembraneStiffness> &stiffness);
 
+  /// The stiffness of each triangle from now on (m) [N/m].
+  void set_stiffness_of_triangles(const std::vector<MembraneStiffness> &stiffness);
+
   /// Initial stresses T0 of the triangles from now on [N/m]: the energy is area (½ e·D·e + T0·e).
   /// @param stresses (m), or none, which is zero
   void set_initial_stress(const std::vector<Eigen::Vector3d> &stresses);
+
+  /// Biot strains of the triangles, Voigt.
+  /// @param positions (n,3) [m]
+  /// @param all (m), resized
+  void strains(const Positions<3> &positions, std::vector<Eigen::Vector3d> &all) const;
 
   /// Sum over all triangles [J].
   /// @param positions (n,3) [m]

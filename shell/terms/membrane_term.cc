@@ -26,6 +26,11 @@ public:
       , effective(this->membrane.stiffness)
       , packs(this->membrane)
   {
+    if (!this->membrane.cubic.empty())
+    {
+      tangent = std::make_unique<Tangent>(this->membrane);
+      tangent->stiffness.reserve(this->membrane.rest.size());
+    }
   }
 
   std::string name() const override
@@ -67,10 +72,12 @@ public:
     if (!acts())
       return 0.;
     double sum = packs.energy(positions);
-    for (int t = 0; t < n_triangles() && !membrane.cubic.empty(); ++t)
+    if (membrane.cubic.empty())
+      return sum;
+    packs.strains(positions, tangent->strains);
+    for (int t = 0; t < n_triangles(); ++t)
       sum += membrane.rest[index(t)].area *
-             membrane.cubic[phase_of(t)].value(biot_strain<3>(
-               deformation_gradient<3>(membrane.rest[index(t)], corners_of(positions, t))));
+             membrane.cubic[phase_of(t)].value(tangent->strains[index(t)]);
     return sum;
   }
 
@@ -115,8 +122,7 @@ public:
     if (membrane.cubic.empty())
       packs.derivatives(positions, kind, take);
     else
-      for (int t = 0; t < n_triangles(); ++t)
-        take(t, derivatives_of(t, corners_of(positions, t), kind));
+      tangent_at(positions).derivatives(positions, kind, take);
   }
 
   /// Forces that do the work of a cubic energy over a step are not known here.
@@ -151,7 +157,10 @@ public:
     return index(n_triangles()) *
              (3 * sizeof(int) + sizeof(RestTriangle) + sizeof(int) + sizeof(places[0]) +
               (viscosity > 0. ? sizeof(Eigen::Vector3d) : 0)) +
-           packs.bytes();
+           packs.bytes() +
+           (tangent ? tangent->packs.bytes() + index(n_triangles()) * (sizeof(MembraneStiffness) +
+                                                                       2 * sizeof(Eigen::Vector3d))
+                    : 0);
   }
 
 private:
@@ -175,16 +184,22 @@ private:
       corners.row(k) = positions.row(membrane.triangles(t, k));
     return corners;
   }
-  /// With a cubic energy.
-  TriangleDerivatives<3> derivatives_of(const int t, const Eigen::Matrix3d &corners,
-                                        const Hessian kind) const
+  /// With a cubic energy: the packs with the law of each triangle at its strain.
+  const TrianglePacks &tangent_at(const Vectors &positions) const
   {
-    const RestTriangle &rest           = membrane.rest[index(t)];
-    const MembraneStiffness &stiffness = effective[phase_of(t)];
-    const TangentLaw law =
-      tangent_law(stiffness.D, membrane.cubic[phase_of(t)],
-                  biot_strain<3>(deformation_gradient<3>(rest, corners)), initial_stress(t));
-    return triangle_derivatives<3>(rest, corners, law.stiffness, kind, law.initial_stress);
+    packs.strains(positions, tangent->strains);
+    tangent->stiffness.clear();
+    tangent->stress.clear();
+    for (int t = 0; t < n_triangles(); ++t)
+    {
+      const TangentLaw law = tangent_law(effective[phase_of(t)].D, membrane.cubic[phase_of(t)],
+                                         tangent->strains[index(t)], initial_stress(t));
+      tangent->stiffness.push_back(law.stiffness);
+      tangent->stress.push_back(law.initial_stress);
+    }
+    tangent->packs.set_stiffness_of_triangles(tangent->stiffness);
+    tangent->packs.set_initial_stress(tangent->stress);
+    return tangent->packs;
   }
   Eigen::Vector3d initial_stress(const int t) const
   {
@@ -200,7 +215,19 @@ private:
   std::vector<MembraneStiffness> effective; ///< (1 + β/h) D, or β/h D
   std::vector<Eigen::Vector3d> old_stress;  ///< −β/h D e_n; empty without viscosity
   TrianglePacks packs;                      ///< with the effective stiffness and the old stress
-  std::vector<TriangleSlots> places;        ///< (m)
+  /// Work space of a cubic energy; none without.
+  struct Tangent
+  {
+    explicit Tangent(const Membrane &membrane)
+        : packs(membrane)
+    {
+    }
+    TrianglePacks packs;
+    std::vector<MembraneStiffness> stiffness;
+    std::vector<Eigen::Vector3d> stress, strains;
+  };
+  std::unique_ptr<Tangent> tangent;
+  std::vector<TriangleSlots> places; ///< (m)
 };
 } // namespace
 

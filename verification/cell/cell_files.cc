@@ -15,6 +15,7 @@
 #include "verification/record/provenance.h"
 
 #include <array>
+#include <filesystem>
 #include <utility>
 
 namespace homespun::verification
@@ -340,6 +341,7 @@ void write_cell_results(const UnitCell &cell, const AssessedCell &assessed,
                         const std::vector<UncertainInput> &uncertain, const unsigned int n_ranks,
                         const std::string &folder)
 {
+  std::filesystem::create_directories(folder);
   const meshes::HomogenizedCell homogenized = homogenized_cell(cell, assessed, provenance_line());
   const KnownEdges known                    = known_edges(cell, assessed.options.order);
   if (known.edges)

@@ -10,8 +10,8 @@
 
 namespace homespun::verification
 {
-/// Writes homogenize.json, cell.h5, cell.json and characteristic-displacements.vtu into a folder;
-/// where D^H is known, shell-section-abaqus.inp and shell-section-code_aster.comm.
+/// Writes homogenize.json, cell.h5, cell.json and characteristic-displacements.vtu into a folder,
+/// which is made; where D^H is known, shell-section-abaqus.inp and shell-section-code_aster.comm.
 /// To be called on one rank.
 void write_cell_results(const homogenization::UnitCell &cell, const AssessedCell &assessed,
                         const std::vector<UncertainInput> &uncertain, unsigned int n_ranks,

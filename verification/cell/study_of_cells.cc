@@ -11,7 +11,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <utility>
 
 namespace homespun::verification
@@ -48,7 +47,6 @@ bool StudyOfCells::open(const std::string &name, nlohmann::ordered_json inputs)
 std::string StudyOfCells::write_cell(const UnitCell &cell, const AssessedCell &assessed) const
 {
   const std::string folder_of_cell = options.output + "/" + cell.name;
-  std::filesystem::create_directories(folder_of_cell);
   write_cell_results(cell, assessed, {}, n_ranks_of(communicator), folder_of_cell);
   return folder_of_cell;
 }

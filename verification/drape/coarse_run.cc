@@ -6,6 +6,7 @@
 #include "verification/record/number_text.h"
 #include "verification/record/step_times.h"
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <limits>
@@ -96,22 +97,30 @@ nlohmann::ordered_json times_of_steps(const std::vector<double> &seconds,
 }
 } // namespace
 
+bool belongs(const CoarseRun &run, const std::string &method)
+{
+  return run.is_of_method ? run.variant == method : !has_own_cloth(Method(method));
+}
+
 CoarseRun run_coarse(const DrapedCell &draped, const std::string &variant,
                      const DrapeSchedule &schedule, DrapeOutput &output, Progress &progress)
 {
   CoarseRun run;
   run.variant                 = variant;
+  const auto &methods         = Method::names();
+  run.is_of_method            = std::find(methods.begin(), methods.end(), variant) != methods.end();
+  const Method method         = Method(run.is_of_method ? variant : "localized");
   const std::string name      = draped.cell.name + "-" + variant;
   const std::string folder    = output.folder + "/" + name;
-  const Upsampler3f upsampler = draped.upsampler<float>(Method("localized"));
+  const Upsampler3f upsampler = draped.upsampler<float>(method);
   std::filesystem::create_directories(folder);
   meshes::FrameCollection coarse_list(folder + "/coarse.pvd"), fine_list(folder + "/fine.pvd");
   std::vector<double> step_seconds, upsampling_seconds;
   int cuts = 0, n_factorizations = 0;
   Upsampler3f::Fine fine;
   const HeldMotion held = draped.coarse_motion();
-  SceneCloth moving(draped.scene, draped.coarse, draped.effective, held,
-                    membrane_model_of(variant));
+  SceneCloth moving(draped.scene, draped.coarse, draped.effective_of(method), held,
+                    run.is_of_method ? MembraneModel::corotational : membrane_model_of(variant));
   const auto upsample = [&]() { upsampler.upsample(moving.cloth().positions(), fine); };
   for (int frame = 0; frame <= schedule.n_frames; ++frame)
   {
@@ -160,7 +169,7 @@ CoarseRun run_coarse(const DrapedCell &draped, const std::string &variant,
     row.upsampling_seconds = median(upsampling_seconds);
     output.write(row);
     // Of the variants one picture is enough: the report shows their curves.
-    if (run.is_method() || frame == schedule.n_frames)
+    if (run.is_method() || run.is_of_method || frame == schedule.n_frames)
     {
       output.write_frame(name, "coarse", frame, run.frames.back(), draped.coarse.triangles, {},
                          &coarse_list);

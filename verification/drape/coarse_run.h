@@ -19,7 +19,9 @@ namespace homespun::verification
 /// The coarse cloth of one variant at every frame.
 struct CoarseRun
 {
-  std::string variant, failure;
+  std::string variant;       ///< of the membrane, or the method whose own cloth it is
+  bool is_of_method = false; ///< the latter
+  std::string failure;
   std::vector<shell::Vectors> frames;                        ///< (n_coarse,3) [m]
   double seconds_per_step = 0., seconds_per_upsampling = 0.; ///< medians [s]
   nlohmann::ordered_json description;                        ///< for drape.json
@@ -30,6 +32,9 @@ struct CoarseRun
     return variant == "corotational";
   }
 };
+
+/// Whether a run is up-sampled by a method: one with a cloth of its own goes with that cloth alone.
+bool belongs(const CoarseRun &run, const std::string &method);
 
 /// Runs it and writes its frames and its rows of motion.csv. Takes seconds, and is computed again
 /// when a study is resumed. A cloth that does not converge ends the run, with the reason in

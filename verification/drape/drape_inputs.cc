@@ -2,6 +2,7 @@
 #include "verification/drape/drape_inputs.h"
 
 #include "meshes/plain/errors.h"
+#include "verification/cell/cell_edges.h"
 #include "verification/cell/study_inputs.h"
 #include "verification/drape/draped_cell.h"
 
@@ -29,6 +30,71 @@ bool is_dealii(const std::string &reference)
   return reference != "shell";
 }
 
+bool asks_for(const DrapeOptions &options, const std::function<bool(const Method &)> &is_of_it)
+{
+  return std::any_of(options.methods.begin(), options.methods.end(),
+                     [&](const std::string &name) { return is_of_it(Method(name)); });
+}
+
+std::vector<std::string> cloths(const DrapeOptions &options)
+{
+  std::vector<std::string> names = options.variants;
+  for (const std::string &name : options.methods)
+    if (has_own_cloth(Method(name)))
+      names.push_back(name);
+  return names;
+}
+
+std::optional<meshes::CellEdges> edges_for(const DrapeOptions &options, const UnitCell &cell)
+{
+  if (!asks_for(options, [](const Method &method) { return method.has_edge_terms(); }))
+    return {};
+  KnownEdges known = known_edges(cell, 1);
+  if (!known.edges)
+    throw meshes::BadInput("--methods edges: " + cell.name + ": " + known.why_not +
+                           "; expected a cell with terms of edges: leave the method out");
+  return std::move(known.edges);
+}
+
+std::vector<homogenization::MembraneLaw> laws_of_methods(const DrapeOptions &options)
+{
+  if (asks_for(options, [](const Method &method) { return method.is_of_second_order(); }))
+    return {homogenization::MembraneLaw::biot};
+  return {};
+}
+
+namespace
+{
+/// Faults of the methods that have cloths of their own.
+void check_methods(const DrapeOptions &options, const Scene &scene,
+                   std::vector<std::string> &faults)
+{
+  const bool edges = asks_for(options, [](const Method &of) { return of.has_edge_terms(); });
+  if (edges && !scene.is_sheet())
+    faults.push_back("--methods edges: scene `" + scene.name +
+                     "` is a garment, whose outlines and seams are no lattice lines; expected a "
+                     "sheet: leave the method out");
+  else if (edges && !scene.has("selvedge"))
+    faults.push_back(scene.file + ": key `Terms`: --methods edges asks for the term `selvedge`, "
+                                  "which is not listed; expected it there: slip of clamped edges "
+                                  "without tension of free ones can do harm");
+  if (!edges && scene.has("selvedge"))
+    faults.push_back(scene.file +
+                     ": key `Terms` lists `selvedge`, and no method takes it; expected "
+                     "`edges` among --methods, or a scene without the term");
+  for (const std::string &name : options.methods)
+    if (scene.integration == TimeIntegration::conserving && Method(name).is_of_second_order())
+      faults.push_back("--methods " + name + ": scene `" + scene.name +
+                       "` has the key `Integrator` = conserving, whose forces over a step are not "
+                       "known of this method; expected another integrator");
+  if (!scene.is_sheet() &&
+      asks_for(options, [](const Method &of) { return of.is_of_second_order(); }))
+    faults.push_back("--methods quadratic: scene `" + scene.name +
+                     "` is a garment, of which up-sampling has no quadratic modes; expected a "
+                     "sheet: leave the method out");
+}
+} // namespace
+
 Scene scene_of(const DrapeOptions &options)
 {
   Scene scene = read_scene(options.scene_file);
@@ -46,6 +112,7 @@ Scene scene_of(const DrapeOptions &options)
 void check_references(const DrapeOptions &options, const Scene &scene)
 {
   std::vector<std::string> faults;
+  check_methods(options, scene, faults);
   for (const std::string &reference : options.references)
   {
     if (!is_dealii(reference))

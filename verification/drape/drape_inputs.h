@@ -5,11 +5,16 @@
 #pragma once
 
 #include "homogenization/cell/unit_cell.h"
+#include "meshes/plain/cell_edges.h"
+#include "verification/cell/cell_study.h"
 #include "verification/drape/drape_options.h"
 #include "verification/drape/drape_schedule.h"
+#include "verification/method/lightweight_cloth.h"
 #include "verification/record/json_files.h"
 
 
+#include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,11 +23,28 @@ namespace homespun::verification
 /// Whether a reference is solved by finite elements, else by the shell's own code.
 bool is_dealii(const std::string &reference);
 
+/// Whether one of the methods is of a kind.
+bool asks_for(const DrapeOptions &options, const std::function<bool(const Method &)> &is_of_it);
+
+/// Names of the coarse cloths that are run: variants of the membrane, and the methods that have
+/// cloths of their own.
+std::vector<std::string> cloths(const DrapeOptions &options);
+
+/// What the cell does at edges, where a method asks for it.
+/// @throws BadInput where it has no terms of edges
+std::optional<meshes::CellEdges> edges_for(const DrapeOptions &options,
+                                           const homogenization::UnitCell &cell);
+
+/// Laws whose second order the methods ask for: that of the coarse cloth, or none.
+std::vector<homogenization::MembraneLaw> laws_of_methods(const DrapeOptions &options);
+
 /// The scene file with what the options replace.
 /// @throws BadInput with one message per fault
 Scene scene_of(const DrapeOptions &options);
 
-/// @throws BadInput where a reference lacks a term or a place, or a static scene has a motion
+/// @throws BadInput where a reference lacks a term or a place, or a static scene has a motion;
+/// where
+///   a method asks for a term that the scene does not list, or the other way round
 void check_references(const DrapeOptions &options, const Scene &scene);
 
 /// @throws BadInput where the cloth cannot be made of a cell, a held vertex does not exist, or a

@@ -43,7 +43,7 @@ public:
       , schedule(scene)
       , progress(is_root && !options.quiet,
                  static_cast<int>(scene.cell_files.size()) * schedule.n_frames *
-                   static_cast<int>(options.variants.size() + options.references.size()))
+                   static_cast<int>(cloths(options).size() + options.references.size()))
   {
   }
 
@@ -92,10 +92,14 @@ private:
   void study_cell(const UnitCell &cell)
   {
     progress.begin(cell.name + ": homogenization", true);
-    AssessedCell assessed = assess_for_study(cell, communicator, verdicts);
+    AssessedCell assessed =
+      assess_for_study(cell, communicator, verdicts, laws_of_methods(options));
     if (scene.has("bending") && !scene.bending)
       add_bending_for_study(cell, communicator, assessed, verdicts);
-    const DrapedCell draped(scene, cell, homogenized_cell(cell, assessed, provenance_line()));
+    const DrapedCell draped(scene, cell, homogenized_cell(cell, assessed, provenance_line()),
+                            edges_for(options, cell));
+    if (draped.edges)
+      note(cell.name + ": " + draped.moving_edges().sentence());
     nlohmann::ordered_json description = description_of(draped);
 
     std::vector<CoarseRun> runs;
@@ -106,7 +110,7 @@ private:
               write_obstacles(draped);
               for (const Verdict &check : checks_of_scene(draped))
                 verdicts.push_back(check);
-              for (const std::string &variant : options.variants)
+              for (const std::string &variant : cloths(options))
               {
                 runs.push_back(run_coarse(draped, variant, schedule, *output, progress));
                 judge(draped, runs.back());
@@ -166,7 +170,8 @@ private:
   void judge(const DrapedCell &draped, const CoarseRun &run)
   {
     const std::string title = draped.cell.name + ", " + run.variant;
-    verdicts.push_back(verdict_of_cloth(title, run.is_method(), static_cast<int>(run.frames.size()),
+    verdicts.push_back(verdict_of_cloth(title, run.is_method() || run.is_of_method,
+                                        static_cast<int>(run.frames.size()),
                                         schedule.n_frames + 1));
     if (!run.failure.empty())
       notes.push_back(title + ": " + run.failure);

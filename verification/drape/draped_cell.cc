@@ -59,6 +59,11 @@ std::vector<int> at_same_places(const std::vector<int> &vertices, const Scene &f
 }
 } // namespace
 
+bool has_own_cloth(const Method &method)
+{
+  return method.has_edge_terms() || method.is_of_second_order() || method.has_six_nodes();
+}
+
 Scene scaled(const Scene &scene, const int n_cells)
 {
   Scene result = scene;
@@ -106,10 +111,12 @@ HeldMotion CoarseCloth::motion(const Scene &scene) const
 }
 
 DrapedCell::DrapedCell(const Scene &given, const homogenization::UnitCell &cell,
-                       const meshes::HomogenizedCell &homogenized)
+                       const meshes::HomogenizedCell &homogenized,
+                       const std::optional<meshes::CellEdges> &edges)
     : scene(given)
     , cell(cell)
     , homogenized(homogenized)
+    , edges(edges)
     , side(std::sqrt(cell.lattice.area()))
 {
   effective        = {{homogenized.stiffness}, {homogenized.areal_density}};
@@ -176,6 +183,33 @@ DrapedCell::DrapedCell(const Scene &given, const homogenization::UnitCell &cell,
   for (int t = 0; t < rest.n_triangles(); ++t)
     material(t) = static_cast<float>(group_of_phase[static_cast<std::size_t>(rest.material(t))]);
   data.on_triangles = {{"material", material}};
+}
+
+MovingEdges DrapedCell::moving_edges() const
+{
+  if (!sheet || !edges)
+    throw meshes::BadInput(
+      scene.file + ": terms of edges are asked for, and " +
+      (sheet ? "the cell " + cell.name + " has none" : std::string("the cloth is a garment")) +
+      "; expected a sheet of whole cells: leave out `edges`");
+  return {homogenized, *edges, *sheet, coarse.rest, coarse_motion().vertices(coarse)};
+}
+
+ClothMaterial DrapedCell::effective_of(const Method &method) const
+{
+  ClothMaterial material = effective;
+  if (method.is_of_second_order())
+  {
+    const auto found = homogenized.second_order.find(name_of(Law::biot));
+    if (found == homogenized.second_order.end())
+      throw meshes::BadInput("method " + method.name + ": the cell " + cell.name +
+                             " has no cubic energy under the law biot; expected one: leave the "
+                             "method out");
+    material.cubic = {found->second.energy};
+  }
+  if (method.has_edge_terms())
+    material.edges = std::make_shared<const MovingEdges>(moving_edges());
+  return material;
 }
 
 HeldMotion DrapedCell::coarse_motion() const

@@ -21,6 +21,10 @@ namespace homespun::verification
 using Upsampler3f = localization::Upsampler<3, float>;
 using Upsampler3d = localization::Upsampler<3, double>;
 
+/// Whether a method moves a coarse cloth of its own: one with terms of edges or a cubic energy. The
+/// cloth has the name of the method, beside the variants of the membrane.
+bool has_own_cloth(const Method &method);
+
 /// The scene on a smaller or larger sheet: translations of handles go with its size, held vertices
 /// are those at the same places. A garment has no cells per side and stays as it is.
 /// @throws BadInput where a held vertex is none of the other sheet, or of the given one
@@ -47,7 +51,12 @@ public:
   /// by
   ///   the cell's D^H and there is none
   DrapedCell(const Scene &scene, const homogenization::UnitCell &cell,
-             const meshes::HomogenizedCell &homogenized);
+             const meshes::HomogenizedCell &homogenized,
+             const std::optional<meshes::CellEdges> &edges = {});
+
+  /// The coarse cloth of a method.
+  /// @throws BadInput where the cell lacks what it asks for
+  ClothMaterial effective_of(const Method &method) const;
 
   HeldMotion coarse_motion() const;
   /// @throws BadInput where a held vertex of the coarse cloth is none of the fine one
@@ -56,7 +65,9 @@ public:
   template <typename Scalar>
   localization::Upsampler<3, Scalar> upsampler(const Method &method) const
   {
-    const localization::UpsamplerOptions options = method.options(Law::biot);
+    localization::UpsamplerOptions options = method.options(Law::biot);
+    if (method.has_edge_terms())
+      moving_edges().give_edges(*edges, options);
     if (sheet)
       return {homogenized, coarse.rest, *sheet, options};
     return {homogenized, coarse, *garment, options};
@@ -80,13 +91,17 @@ public:
   const Scene scene;
   const homogenization::UnitCell cell;
   const meshes::HomogenizedCell homogenized;
-  const double side; ///< sqrt(|Y|) [m]
+  const std::optional<meshes::CellEdges> edges; ///< where a method asks for them
+  const double side;                            ///< sqrt(|Y|) [m]
   std::optional<meshes::Sheet> sheet;
   std::optional<meshes::FineCloth> garment;
   meshes::ClothMesh coarse, fine; ///< of `fine`, the vertices in space that the shell moves
   ClothMaterial effective, phases;
   int centre_vertex = 0, fine_centre_vertex = 0; ///< nearest to the middle of the cloth
   std::optional<SheetPlacement> placement;
+
+  /// @throws BadInput where the cell has no edges, or the cloth is no sheet
+  MovingEdges moving_edges() const;
 
 private:
   meshes::SurfaceData data;

@@ -6,6 +6,7 @@
 #include "shell/contact/obstacles.h"
 #include "shell/terms/bending.h"
 #include "shell/terms/inertial_terms.h"
+#include "shell/terms/lagged_load.h"
 #include "shell/terms/membrane_term.h"
 #include "shell/terms/warping.h"
 #include "shell/terms/wind.h"
@@ -96,6 +97,7 @@ SceneCloth::SceneCloth(const Scene &scene, const meshes::ClothMesh &mesh,
                        const MembraneModel model, const std::set<std::string> &forced)
     : mesh(mesh)
     , motion(std::move(given_motion))
+    , edges(material.edges)
     , held(motion.vertices(mesh))
 {
   const Eigen::VectorXd masses = shell::lumped_masses(mesh, material.areal_density);
@@ -109,7 +111,7 @@ SceneCloth::SceneCloth(const Scene &scene, const meshes::ClothMesh &mesh,
   switch (model)
   {
   case MembraneModel::corotational:
-    moving->add(shell::membrane_term(mesh, material.stiffness, viscosity));
+    moving->add(shell::membrane_term(mesh, material.stiffness, viscosity, material.cubic));
     break;
   case MembraneModel::triangle_warping:
     moving->add(shell::triangle_warping_term(mesh, material.stiffness));
@@ -121,6 +123,8 @@ SceneCloth::SceneCloth(const Scene &scene, const meshes::ClothMesh &mesh,
   // The scene is the same for every model of the elasticity.
   if (model != MembraneModel::corotational && viscosity > 0.)
     moving->add(shell::viscosity_term(mesh, material.stiffness, viscosity));
+  if (edges)
+    add_edges();
   if (scene.has("bending") || forces("bending"))
   {
     std::vector<shell::PlateStiffness> plates = material.bending;
@@ -165,24 +169,58 @@ SceneCloth::SceneCloth(const Scene &scene, const meshes::ClothMesh &mesh,
   }
 }
 
+void SceneCloth::add_edges()
+{
+  if (!edges->selvedges().empty())
+    moving->add(shell::selvedge_term(edges->selvedges()));
+  if (edges->has_bulk_forces())
+    moving->add(shell::lagged_load_term("strain gradient",
+                                        [of = edges](const shell::Vectors &positions)
+                                        { return shell::Vectors(of->bulk_forces(positions)); }));
+}
+
 void SceneCloth::prescribe(const double time)
 {
+  if (!edges)
+  {
+    for (const int v : held)
+      moving->prescribe(v, motion.position(v, mesh, time));
+    return;
+  }
+  const shell::Vectors slip = edges->slip(moving->positions());
   for (const int v : held)
-    moving->prescribe(v, motion.position(v, mesh, time));
+    moving->prescribe(v, motion.position(v, mesh, time) + slip.row(v));
 }
 
 shell::StepReport SceneCloth::step(const double h)
 {
-  if (motion.moves_after(moving->time()))
+  if (edges || motion.moves_after(moving->time()))
     prescribe(moving->time() + h);
   return moving->step(h);
 }
 
 void SceneCloth::solve_equilibrium(const double time)
 {
-  prescribe(time);
-  moving->solve_equilibrium();
-  moving->set_state(moving->positions(), moving->velocities(), time);
+  // Slip and gradient forces follow the equilibrium that they belong to: each time what is left of
+  // them is smaller by a cell over the sheet, or so.
+  constexpr int most = 30;
+  const double size =
+    (mesh.positions.colwise().maxCoeff() - mesh.positions.colwise().minCoeff()).maxCoeff();
+  double change = 0.;
+  for (int k = 0; k < most; ++k)
+  {
+    const shell::Vectors before = moving->positions();
+    prescribe(time);
+    moving->solve_equilibrium();
+    moving->set_state(moving->positions(), moving->velocities(), time);
+    change = (moving->positions() - before).cwiseAbs().maxCoeff();
+    if (!edges || change <= 1e-9 * size)
+      return;
+  }
+  throw meshes::NotConverged("terms of edges: after " + std::to_string(most) +
+                               " equilibria the cloth still moves by " + std::to_string(change) +
+                               " m from one to the next",
+                             {change});
 }
 
 double SceneCloth::elastic_energy() const

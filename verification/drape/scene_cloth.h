@@ -6,6 +6,7 @@
 #include "shell/solver/cloth.h"
 #include "verification/drape/held_motion.h"
 #include "verification/drape/scene.h"
+#include "verification/method/moving_edges.h"
 
 #include <memory>
 #include <string>
@@ -26,7 +27,7 @@ std::string name_of(MembraneModel model);
 /// @throws BadInput listing the names
 MembraneModel membrane_model_of(const std::string &name);
 
-/// One entry per phase of the mesh.
+/// One entry per phase of the mesh, and what a method adds.
 struct ClothMaterial
 {
   std::vector<Eigen::Matrix3d> stiffness; ///< [N/m]
@@ -34,6 +35,10 @@ struct ClothMaterial
   /// [N m], where the scene takes its bending from the cell; a stiffness of the scene's own is that
   /// of all phases.
   std::vector<shell::PlateStiffness> bending = {};
+  /// Cubic energies of the corotational membrane (membrane_term.h); empty: none.
+  std::vector<meshes::CubicForm> cubic = {};
+  /// What edges of a sheet add; none: null.
+  std::shared_ptr<const MovingEdges> edges = {};
 };
 
 class SceneCloth
@@ -48,7 +53,8 @@ public:
   /// Moves the handles to their places at the end of the step, and steps.
   shell::StepReport step(double h);
 
-  /// Equilibrium with the handles where they are at a time.
+  /// Equilibrium with the handles where they are at a time, and the edges' slip that of itself.
+  /// @throws NotConverged
   void solve_equilibrium(double time);
 
   /// What the membrane and the plate store [J]; not a number where the forces of the membrane have
@@ -66,9 +72,11 @@ public:
 
 private:
   void prescribe(double time);
+  void add_edges();
 
   const meshes::ClothMesh mesh;
   const HeldMotion motion;
+  const std::shared_ptr<const MovingEdges> edges;
   std::vector<int> held;
   std::unique_ptr<shell::Cloth> moving;
 };

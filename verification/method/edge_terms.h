@@ -52,36 +52,20 @@ public:
   /// @param positions of the coarse vertices without the terms (n,2) [m]
   MacroLoads macro_loads(const Positions &positions) const;
 
-  /// Adds (phi_a − d_a) E_a or phi_a E_a, lifted, to fine positions near edges.
-  /// @param positions of the coarse vertices with the terms (n,2) [m]
-  /// @param fine (n_fine,2) [m]
-  void add_modes(const Positions &positions, meshes::Points &fine) const;
+  /// Gives up-sampling the edges of the cell, with what each is.
+  void give_edges(localization::UpsamplerOptions &options) const;
 
   const CoarseGrid grid;
   const Law law;
 
 private:
-  /// A fine vertex near an edge.
-  struct Member
-  {
-    int vertex, triangle;
-    Eigen::Vector3d weights;
-    const meshes::EdgeModes *modes;
-    Eigen::Index row;
-  };
-
-  void add_bulk_forces(const Eigen::Matrix<double, Eigen::Dynamic, 7, Eigen::RowMajor> &frames,
-                       Positions &forces) const;
   void add_side(int side, const Eigen::Matrix<double, Eigen::Dynamic, 7, Eigen::RowMajor> &frames,
                 MacroLoads &loads) const;
-  void find_members(int side);
 
-  const meshes::HomogenizedCell &cell;
   const meshes::CellEdges &edges;
   const meshes::Sheet &sheet;
   const localization::CoarseFrames<2> frames;
   std::array<bool, meshes::CellEdges::n_sides> is_clamped;
-  std::vector<Member> members;
 };
 
 /// Coarse positions with the terms of edges: u0 + u1. In linear theory one more substitution with

@@ -7,6 +7,7 @@
 #include "shell/solver/cloth.h"
 #include "shell/terms/membrane_term.h"
 #include "shell/terms/warping.h"
+#include "verification/method/edge_terms.h"
 #include "verification/method/homogenized_sheet.h"
 #include "verification/method/lightweight_cloth.h"
 #include "verification/record/number_text.h"
@@ -25,6 +26,8 @@ namespace
 {
 using meshes::Points;
 using Clock = std::chrono::steady_clock;
+
+constexpr int runs_of_a_median = 5; // median_seconds()
 
 double seconds_since(const Clock::time_point begin)
 {
@@ -221,6 +224,9 @@ private:
     else
       coarse_cloth("reuss", "localized", sheet.n1, bounds.reuss);
 
+    for (const std::string &name : options.methods)
+      own_cloth(Method(name));
+
     const HomogenizedSheet coarse(homogenized.stiffness, sheet, load, sheet.n1, sheet.n2);
     const shell::Positions<2> start = coarse.prescribed(options.strain);
     std::vector<int> held;
@@ -239,6 +245,32 @@ private:
     const HomogenizedSheet coarse(stiffness, sheet, load, quads, across);
     const shell::Positions<2> start = coarse.prescribed(options.strain);
     upsampled(way, method, coarse, [&]() { return coarse.solve(Law::biot, start); });
+  }
+
+  void own_cloth(const Method &method)
+  {
+    const CoarseChoice choice = method.coarse(Law::biot);
+    const bool is_plain       = !(CoarseChoice() < choice) && !method.has_edge_terms();
+    if (is_plain || (method.has_edge_terms() && options.edges == nullptr) ||
+        !CoarseSpace::fits(sheet, choice.element))
+      return;
+    const std::string way = method.name + "-" + std::to_string(sheet.n1);
+    tell(way);
+    Timed outcome;
+    outcome.n_triangles = 2L * sheet.n1 * sheet.n2 / (method.has_six_nodes() ? 4 : 1);
+    attempt(way, outcome,
+            [&]()
+            {
+              LightweightCloth cloth(homogenized, sheet, load, choice);
+              const CoarseStep step = cloth.solve(Law::biot, options.strain);
+              const UpsampledSheet fine =
+                method.has_edge_terms()
+                  ? EdgedSheet({homogenized, *options.edges}, sheet, load, method)
+                      .upsample(Law::biot, step.positions)
+                  : cloth.upsample(method, Law::biot, step.positions);
+              outcome.positions = fine.positions;
+              outcome.seconds.assign(runs_of_a_median, step.seconds + fine.seconds);
+            });
   }
 
   /// Solves a coarse cloth and up-samples it: timed in single precision, held against the best in

@@ -8,6 +8,10 @@
 //                          all that follow
 //   affine-Q, localized-Q  coarse cloth of Q x Q quads, Q = 5, 10, 20, 40, coarse motion alone or
 //                          localized
+//   edges-N, quadratic-N, p2-N, full-N
+//                          those of --methods that have coarse cloths of their own, on the vertices
+//                          of one quad per cell; their times are medians of the equilibrium and of
+//                          what follows it, terms of edges included
 //   voigt, reuss           one quad per cell, localized, with the Voigt or Reuss stiffness in place
 //                          of C^H; Reuss not with holes
 //   nodal-warping          one quad per cell, localized, with the paper's warped stiffness
@@ -20,6 +24,7 @@
 #pragma once
 
 #include "homogenization/cell/unit_cell.h"
+#include "meshes/plain/cell_edges.h"
 #include "meshes/plain/homogenized_cell.h"
 #include "meshes/plain/sheet.h"
 #include "verification/reference/loads.h"
@@ -35,9 +40,11 @@ namespace homespun::verification
 {
 struct RunTimeOptions
 {
-  double strain           = 0.1;
-  int n_runs              = 5;    ///< per way, of which the median is taken
-  double seconds_of_a_way = 300.; ///< no further run of a way begins after this long
+  double strain                    = 0.1;
+  int n_runs                       = 5;       ///< per way, of which the median is taken
+  double seconds_of_a_way          = 300.;    ///< no further run of a way begins after this long
+  std::vector<std::string> methods = {};      ///< of which those with own cloths have rows
+  const meshes::CellEdges *edges   = nullptr; ///< of the cell; null: methods that ask have no rows
 };
 
 /// Stiffness of the cell in other ways than C^H [N/m].

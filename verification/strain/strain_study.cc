@@ -33,7 +33,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <filesystem>
 #include <memory>
 #include <numeric>
 
@@ -99,7 +98,6 @@ private:
     on_root(communicator,
             [&]()
             {
-              std::filesystem::create_directories(folder);
               write_cell_results(cell, assessed, {}, n_ranks, folder);
               for (const auto &some : {cell_file_verdicts(folder + "/cell.h5", cell),
                                        self_checks(cell, laws_of(options), options.strains.back())})
@@ -140,7 +138,9 @@ private:
       {
         const Load load(name);
         RunTimeOptions of_run;
-        of_run.strain = pictured_strain(options);
+        of_run.strain  = pictured_strain(options);
+        of_run.methods = options.methods;
+        of_run.edges   = edges.edges ? &*edges.edges : nullptr;
         const std::string fault =
           run_time_study(cell, homogenized, bounds, sheet, load, of_run,
                          output ? output->uncertainty.rows() : std::vector<UncertaintyRow>(),

@@ -4,6 +4,7 @@
 #include "shell/terms/membrane_term.h"
 #include "tests/refusal.h"
 #include "tests/shell/shell_cases.h"
+#include "tests/shell/terms/term_cases.h"
 
 #include <Eigen/Eigenvalues>
 #include <gtest/gtest.h>
@@ -212,6 +213,23 @@ TEST(exact_membrane_with_cubic_energy, the_term_of_a_moving_cloth_has_the_same_e
   EXPECT_NEAR(term->energy(x), energy, 1e-13 * energy);
   EXPECT_NEAR(term->stored_energy(x), energy, 1e-13 * energy);
   EXPECT_LT((gradient - membrane_gradient<3>(whole, x).gradient).norm(), 1e-13 * gradient.norm());
+  for (const Hessian kind : {Hessian::exact, Hessian::projected})
+  {
+    BlockMatrix matrix = tests::matrix_for(*term, static_cast<int>(x.rows()));
+    Vectors again      = Vectors::Zero(x.rows(), 3);
+    term->add_derivatives(x, kind, again, matrix);
+    EXPECT_LT((again - gradient).norm(), 1e-13 * gradient.norm());
+    Eigen::MatrixXd known = Eigen::MatrixXd::Zero(3 * x.rows(), 3 * x.rows());
+    for (int t = 0; t < mesh.n_triangles(); ++t)
+    {
+      const auto of = membrane_hessian<3>(whole, t, x, kind);
+      for (int k = 0; k < 3; ++k)
+        for (int l = 0; l < 3; ++l)
+          known.block<3, 3>(3 * mesh.triangles(t, k), 3 * mesh.triangles(t, l)) +=
+            of.block<3, 3>(3 * k, 3 * l);
+    }
+    EXPECT_LT((tests::dense(matrix) - known).norm(), 1e-12 * known.norm());
+  }
   EXPECT_FALSE(term->has_discrete_gradient());
   EXPECT_EQ(term->name(), "cubic membrane");
 }

@@ -173,8 +173,10 @@ TEST(tripwire_scene_cloth, bending_asked_of_a_cell_without_it_is_refused_by_name
   cell.mesh = lying().rest;
   cell.lattice.vectors << 0.01 * n, 0., 0., 0.01 * n;
   cell.phases = {homogenization::isotropic("soft", 1e6, 0.3, 5e-4, 400.)};
-  meshes::HomogenizedCell homogenized{cell.mesh, cell.lattice, {},           0, {},
-                                      0.2,       "",           std::nullopt, ""};
+  meshes::HomogenizedCell homogenized;
+  homogenized.mesh          = cell.mesh;
+  homogenized.lattice       = cell.lattice;
+  homogenized.areal_density = 0.2;
   homogenized.chi.setZero(cell.mesh.n_vertices(), 6);
   homogenized.stiffness = cell.stiffness_of_phase()[0];
   Scene scene           = scene_with({"membrane", "bending"});

@@ -65,6 +65,26 @@ class Budget(InFolder):
         self.assertEqual(len(claims), 4)
         self.assertEqual({v["verdict"] for v in claims}, {"PASS"})
 
+    def test_methods_with_coarse_cloths_of_their_own_have_run_times(self):
+        methods = ("edges", "quadratic", "p2", "full")
+        result = run("strain", CELLS / "layered.prm", "--cells", "4", "--strains", "0.01",
+                     "--loads", "shear-frame", "--references", "biot", "--methods",
+                     ",".join(("localized",) + methods), "--no-budget", "--no-report", "--quiet",
+                     "--output", self.folder)
+        self.assertIn(result.returncode, (0, 1, 4), result.stderr)
+        ways = {row["way"]: row for row in rows_of(self.folder / "runtime.csv")}
+        for method in methods:
+            row = ways[f"{method}-4"]
+            self.assertGreater(float(row["seconds"]), 0., method)
+            self.assertEqual(row["triangles"], "8" if method in ("p2", "full") else "32", method)
+            self.assertEqual((row["runs"], row["ranks"]), ("5", "1"), method)
+        # Against P1 the same positions err by as much, to the distance between P1 and P2.
+        for row in rows_of(self.folder / "strain.csv"):
+            if row["method"] in methods:
+                self.assertLessEqual(abs(float(ways[row["method"] + "-4"]["error_mean_m"]) -
+                                         float(row["error_mean_m"])),
+                                     float(ways["fine-p1"]["error_mean_m"]), row["method"])
+
     def test_of_a_cell_with_holes_the_way_of_reuss_is_left_out(self):
         result = run("strain", CELLS / "honeycomb.prm", "--cells", "2", "--strains", "0.01",
                      "--loads", "shear-frame", "--references", "biot", "--methods", "localized",

@@ -15,6 +15,8 @@ ENERGY_ROUND_OFF = 1e-14  # of the largest energy: sums of squares of positions 
 BLOWN = 1e3  # times the largest value of the first cloth
 VARIANTS = ("corotational", "triangle-warping", "nodal-warping")
 VARIANT_COLOURS = dict(zip(VARIANTS, (style.BLUE, style.GREEN, style.ORANGE, style.VERMILLION)))
+# Methods with coarse cloths of their own.
+VARIANT_COLOURS |= {name: style.METHOD_COLOURS[name] for name in ("edges", "quadratic")}
 REFERENCES = ("shell", "biot", "green")
 REFERENCE_LINES = dict(zip(REFERENCES, ("--", ":", "-.")))
 FALL = 3.0  # a height that ranges over so many times that of the others gets a panel of its own

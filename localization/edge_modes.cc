@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: MIT
+#include "localization/edge_modes.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace homespun::localization
+{
+namespace
+{
+std::vector<int> images_across(const meshes::HomogenizedCell &cell, const int axis)
+{
+  const meshes::ImageClasses images = meshes::match_images(cell.mesh.vertices, cell.lattice);
+  const int n                       = cell.mesh.n_vertices();
+  const Eigen::RowVector2d origin   = cell.mesh.vertices.row(cell.anchor);
+  const auto is_high                = [&](const int v)
+  { return cell.lattice.fractional(cell.mesh.vertices.row(v) - origin)(axis) > 0.5; };
+  std::vector<std::array<int, 2>> ends(static_cast<std::size_t>(n), {-1, -1});
+  std::vector<int> across(static_cast<std::size_t>(n));
+  for (int v = 0; v < n; ++v)
+    ends[static_cast<std::size_t>(images.representative[static_cast<std::size_t>(v)])][is_high(v)] =
+      v;
+  for (int v = 0; v < n; ++v)
+  {
+    const auto &of_class =
+      ends[static_cast<std::size_t>(images.representative[static_cast<std::size_t>(v)])];
+    const int other                     = of_class[is_high(v) ? 0 : 1];
+    across[static_cast<std::size_t>(v)] = other < 0 ? v : other;
+  }
+  return across;
+}
+} // namespace
+
+EdgeModes::EdgeModes(const meshes::HomogenizedCell &cell, const meshes::Sheet &sheet,
+                     const UpsamplerOptions &options)
+    : cell(cell)
+    , sheet(sheet)
+    , edges(options.edges)
+    , kinds(options.edge_kinds)
+{
+  for (std::size_t axis = 0; are_there() && axis < 2; ++axis)
+    across[axis] = images_across(cell, static_cast<int>(axis));
+}
+
+EdgeModes::Depths EdgeModes::depths(const int i, const int j) const
+{
+  Depths result;
+  for (int side = 0; side < meshes::CellEdges::n_sides; ++side)
+  {
+    const auto s    = static_cast<std::size_t>(side);
+    const int axis  = meshes::axis_of_side(side);
+    const int depth = meshes::is_far_side(side) ? (axis == 0 ? sheet.n1 - 1 - i : sheet.n2 - 1 - j)
+                                                : (axis == 0 ? i : j);
+    const bool is_reached =
+      are_there() && kinds[s] != EdgeKind::none && depth >= 0 && depth < edges->sides[s].n_cells;
+    result[s] = is_reached ? depth : -1;
+  }
+  return result;
+}
+
+EdgeModes::Row EdgeModes::at(const int vertex) const
+{
+  const Eigen::RowVector2d fraction = sheet.fraction(sheet.mesh.vertices.row(vertex)),
+                           origin   = cell.mesh.vertices.row(cell.anchor);
+  // In which cell, and as which vertex of it: one on a line between two cells is taken as the lower
+  // end of the upper one, but on the last line. Either of the two has the same modes.
+  std::array<int, 2> place, image;
+  for (int axis = 0; axis < 2; ++axis)
+  {
+    const int n        = axis == 0 ? sheet.n1 : sheet.n2;
+    const double along = fraction(axis) * n;
+    const int of_cell  = std::clamp(static_cast<int>(std::floor(along + 1e-6)), 0, n - 1);
+    int found          = sheet.cell_vertex(vertex);
+    const double f     = cell.lattice.fractional(cell.mesh.vertices.row(found) - origin)(axis);
+    if (std::abs(f - (along - of_cell)) > 0.5)
+      found = across[static_cast<std::size_t>(axis)][static_cast<std::size_t>(found)];
+    place[static_cast<std::size_t>(axis)] = of_cell;
+    image[static_cast<std::size_t>(axis)] = found;
+  }
+  const Depths depth = depths(place[0], place[1]);
+  Row sum            = Row::Zero();
+  for (std::size_t side = 0; side < depth.size(); ++side)
+    if (depth[side] >= 0)
+    {
+      const meshes::CellEdge &edge   = edges->sides[side];
+      const meshes::EdgeModes &modes = kinds[side] == EdgeKind::clamped ? edge.clamped : edge.free;
+      sum += modes.row(static_cast<Eigen::Index>(depth[side]) * cell.mesh.n_vertices() +
+                       image[side / 2]);
+    }
+  return sum;
+}
+
+std::vector<std::string> edge_faults(const meshes::HomogenizedCell &cell,
+                                     const UpsamplerOptions &options)
+{
+  std::vector<std::string> faults;
+  if (options.edges == nullptr || !options.microscopic)
+    return faults;
+  if (options.anchor != Anchor::mean)
+    faults.emplace_back("up-sampling: terms of edges are asked for with chi anchored at the "
+                        "lattice points; expected Anchor::mean, whose missing term they are");
+  for (std::size_t side = 0; side < options.edge_kinds.size(); ++side)
+  {
+    const meshes::CellEdge &edge = options.edges->sides[side];
+    const Eigen::Index rows      = static_cast<Eigen::Index>(edge.n_cells) * cell.mesh.n_vertices();
+    if (options.edge_kinds[side] != EdgeKind::none &&
+        (edge.clamped.rows() != rows || edge.free.rows() != rows))
+      faults.push_back("up-sampling: edge " + std::to_string(side) + " has modes of " +
+                       std::to_string(edge.clamped.rows()) + " and " +
+                       std::to_string(edge.free.rows()) + " rows; expected " +
+                       std::to_string(rows) + ", one per vertex of " +
+                       std::to_string(edge.n_cells) + " cells: they are those of another cell");
+  }
+  return faults;
+}
+} // namespace homespun::localization

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+// The modes that decay from the edges of a sheet inwards, vertex by vertex: there w is
+// w_a + phi_a − d_a (clamped) or w_a + phi_a (free) in the place of w_a, linear in the strain as
+// before (meshes::CellEdges). So they change constants of the vertices near edges and cost a frame
+// nothing but the memory of these. Private to upsampler.
+#pragma once
+
+#include "localization/options.h"
+#include "meshes/plain/homogenized_cell.h"
+#include "meshes/plain/sheet.h"
+
+#include <Eigen/Core>
+
+#include <array>
+#include <string>
+#include <vector>
+
+namespace homespun::localization
+{
+class EdgeModes
+{
+public:
+  using Row = Eigen::Matrix<double, 1, 6>;
+
+  /// @param options whose edges are taken, none or those of the cell; read here alone
+  EdgeModes(const meshes::HomogenizedCell &cell, const meshes::Sheet &sheet,
+            const UpsamplerOptions &options);
+
+  bool are_there() const
+  {
+    return edges != nullptr;
+  }
+
+  /// What the modes add to w at a fine vertex, per unit strain, column 2 a + c [m].
+  Row at(int vertex) const;
+
+  /// How far a cell of the sheet is from each edge that reaches it, in cells; −1: it does not. The
+  /// vertices of cells for which this is alike have the same modes.
+  using Depths = std::array<int, meshes::CellEdges::n_sides>;
+  Depths depths(int i, int j) const;
+
+private:
+  const meshes::HomogenizedCell &cell;
+  const meshes::Sheet &sheet;
+  const meshes::CellEdges *edges;
+  std::array<EdgeKind, meshes::CellEdges::n_sides> kinds;
+  /// By axis: of each vertex of the cell that lies at an end of the axis, its image at the other.
+  std::array<std::vector<int>, 2> across;
+};
+
+/// What hinders options with edges: chi without mean zero, modes of another mesh.
+std::vector<std::string> edge_faults(const meshes::HomogenizedCell &cell,
+                                     const UpsamplerOptions &options);
+} // namespace homespun::localization

@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: MIT
+// Up-sampling with the modes of edges: the definition, and what does not fit.
+#include "localization/upsampler.h"
+#include "tests/localization/garment_cases.h"
+#include "tests/localization/localization_cases.h"
+#include "tests/refusal.h"
+
+#include <gtest/gtest.h>
+
+using namespace homespun;
+using namespace homespun::localization;
+using homespun::tests::refusal;
+
+namespace
+{
+constexpr int n1 = 5, n2 = 4;
+
+/// Modes of two cells, of three at the last side, all entries different; at vertices that are
+/// images of each other along an edge they agree, and across it where one cell ends and the next
+/// begins.
+meshes::CellEdges edges_of(const meshes::HomogenizedCell &cell)
+{
+  meshes::CellEdges edges;
+  for (int side = 0; side < meshes::CellEdges::n_sides; ++side)
+  {
+    meshes::CellEdge &edge = edges.sides[static_cast<std::size_t>(side)];
+    edge.n_cells           = side == 3 ? 3 : 2;
+    const int n            = cell.mesh.n_vertices();
+    edge.clamped.resize(edge.n_cells * n, 6);
+    edge.free.resize(edge.n_cells * n, 6);
+    const int axis = meshes::axis_of_side(side);
+    for (int k = 0; k < edge.n_cells; ++k)
+      for (int v = 0; v < n; ++v)
+      {
+        const Eigen::RowVector2d f =
+          cell.lattice.fractional(cell.mesh.vertices.row(v) - cell.mesh.vertices.row(cell.anchor));
+        const double depth = k + (meshes::is_far_side(side) ? 1. - f(axis) : f(axis));
+        for (int c = 0; c < 6; ++c)
+        {
+          const double wave          = std::sin(2. * M_PI * f(1 - axis) + c + side);
+          edge.clamped(k * n + v, c) = 1e-3 * (wave + 0.3 * c) * std::exp(-depth);
+          edge.free(k * n + v, c)    = 1e-3 * (wave - 0.2 * c) * std::exp(-2. * depth);
+        }
+      }
+  }
+  return edges;
+}
+
+struct Case
+{
+  Case()
+      : cloth(tests::smooth_cell(tests::skewed_lattice(), 7, 6), n1, n2)
+      , edges(edges_of(cloth.cell))
+  {
+    options.anchor     = Anchor::mean;
+    options.edges      = &edges;
+    options.edge_kinds = {EdgeKind::free, EdgeKind::none, EdgeKind::clamped, EdgeKind::clamped};
+  }
+  tests::Cloth cloth;
+  meshes::CellEdges edges;
+  UpsamplerOptions options;
+};
+
+/// The closed form of edges_of() at a fine vertex, what it adds to w per unit strain.
+Eigen::Matrix<double, 1, 6> known_modes(const Case &of, const int vertex)
+{
+  const Eigen::RowVector2d at = of.cloth.sheet.fraction(of.cloth.sheet.mesh.vertices.row(vertex))
+                                  .cwiseProduct(Eigen::RowVector2d(n1, n2));
+  Eigen::Matrix<double, 1, 6> sum = Eigen::Matrix<double, 1, 6>::Zero();
+  for (const int side : {0, 2, 3})
+  {
+    const int axis     = meshes::axis_of_side(side);
+    const double depth = meshes::is_far_side(side) ? (axis == 0 ? n1 : n2) - at(axis) : at(axis);
+    // A line between two cells belongs to the upper one.
+    const double reach = of.edges.sides[static_cast<std::size_t>(side)].n_cells;
+    if (meshes::is_far_side(side) ? depth > reach + 1e-9 : depth > reach - 1e-9)
+      continue;
+    for (int c = 0; c < 6; ++c)
+    {
+      const double wave = std::sin(2. * M_PI * at(1 - axis) + c + side);
+      sum(c) += side == 0 ? 1e-3 * (wave - 0.2 * c) * std::exp(-2. * depth)
+                          : 1e-3 * (wave + 0.3 * c) * std::exp(-depth);
+    }
+  }
+  return sum;
+}
+
+template <int dim>
+void expect_the_definition(const Path path)
+{
+  Case with;
+  with.options.path            = path;
+  const Positions<dim> current = tests::wavy_motion<dim>(with.cloth.coarse.vertices);
+  const auto fine              = tests::upsampled<dim>(with.cloth, current, with.options);
+  UpsamplerOptions plain       = with.options;
+  plain.edges                  = nullptr;
+  const auto without           = tests::upsampled<dim>(with.cloth, current, plain);
+  const CoarseFrames<dim> frames(with.cloth.coarse, with.options);
+  const auto &values = frames.values(current);
+  double largest     = 0.;
+  for (int v = 0; v < with.cloth.sheet.mesh.n_vertices(); ++v)
+  {
+    const Eigen::RowVector2d at = with.cloth.sheet.fraction(with.cloth.sheet.mesh.vertices.row(v))
+                                    .cwiseProduct(Eigen::RowVector2d(n1, n2));
+    const int i    = std::min(n1 - 1, static_cast<int>(at(0) + 1e-9)),
+              j    = std::min(n2 - 1, static_cast<int>(at(1) + 1e-9));
+    const double x = at(0) - i, y = at(1) - j;
+    const int t = 2 * (j * n1 + i) + (y > x);
+    const Eigen::Vector3d weights =
+      y > x ? Eigen::Vector3d(1. - y, x, y - x) : Eigen::Vector3d(1. - x, x - y, y);
+    Eigen::Matrix<double, 1, 3 + 2 *dim> frame = Eigen::Matrix<double, 1, 3 + 2 * dim>::Zero();
+    for (int k = 0; k < 3; ++k)
+      frame += weights(k) * values.row(with.cloth.coarse.triangles(t, k));
+    const Eigen::Matrix<double, 1, 6> modes = known_modes(with, v);
+    Eigen::Vector2d w                       = Eigen::Vector2d::Zero();
+    for (int a = 0; a < 3; ++a)
+      w += frame(a) * modes.segment<2>(2 * a).transpose();
+    const Eigen::Matrix<double, dim, 2> lift =
+      Eigen::Map<const Eigen::Matrix<double, dim, 2, Eigen::RowMajor>>(frame.data() + 3);
+    largest = std::max(
+      largest, (fine.row(v) - without.row(v) - (lift * w).transpose()).cwiseAbs().maxCoeff());
+  }
+  EXPECT_LT(largest, 1e-12 * with.cloth.sheet.sides().norm());
+  EXPECT_GT((fine - without).cwiseAbs().maxCoeff(), 1e-5);
+}
+} // namespace
+
+TEST(exact_edge_modes, positions_near_edges_are_those_of_the_definition)
+{
+  for (const Path path : {Path::automatic, Path::general})
+  {
+    expect_the_definition<2>(path);
+    expect_the_definition<3>(path);
+  }
+}
+
+TEST(invariant_edge_modes, edges_without_modes_change_no_bit)
+{
+  Case of;
+  of.options.edge_kinds      = {};
+  const Positions<3> current = tests::wavy_motion<3>(of.cloth.coarse.vertices);
+  const auto fine            = tests::upsampled<3>(of.cloth, current, of.options);
+  of.options.edges           = nullptr;
+  EXPECT_EQ((fine - tests::upsampled<3>(of.cloth, current, of.options)).cwiseAbs().maxCoeff(), 0.);
+}
+
+TEST(tripwire_edge_modes, anchored_chi_and_modes_of_another_cell_are_refused)
+{
+  Case of;
+  const auto refused = [&]()
+  {
+    return refusal([&]
+                   { Upsampler<3>(of.cloth.cell, of.cloth.coarse, of.cloth.sheet, of.options); });
+  };
+  of.options.anchor = Anchor::lattice;
+  EXPECT_NE(refused().find("expected Anchor::mean"), std::string::npos);
+  of.options.anchor = Anchor::mean;
+  of.edges.sides[2].clamped.conservativeResize(5, 6);
+  EXPECT_NE(refused().find("edge 2 has modes of 5"), std::string::npos);
+}

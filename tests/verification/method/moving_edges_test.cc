@@ -1,0 +1,228 @@
+// SPDX-License-Identifier: MIT
+// Terms of edges in a moving cloth: where it comes to rest is the static method `edges`.
+#include "homogenization/edges/edge_layers.h"
+#include "homogenization/lint/cell_reading.h"
+#include "tests/homogenization/cell/cells.h"
+#include "verification/drape/draped_cell.h"
+#include "verification/method/edge_terms.h"
+
+#include <Eigen/LU>
+
+#include <gtest/gtest.h>
+
+using namespace homespun;
+using namespace homespun::verification;
+
+namespace
+{
+homogenization::UnitCell layers(const std::vector<homogenization::Phase> &phases)
+{
+  return tests::cell_of(tests::square_lattice(0.01), 4, 4, phases, tests::halves);
+}
+
+/// Two edges of n x n cells pulled apart by a strain, slowly enough to be at rest in the end.
+Scene pulled(const int n, const double strain, const double side, const int axis)
+{
+  Scene scene;
+  scene.n1 = scene.n2 = n;
+  scene.terms         = {"membrane", "damping", "pins", "handles", "selvedge"};
+  scene.standing      = false;
+  scene.damping_rate  = 40.;
+  scene.time_step     = 0.02;
+  HeldPlace bottom, top;
+  bottom.place           = axis == 0 ? "left" : "bottom";
+  top.place              = axis == 0 ? "right" : "top";
+  top.motion.kind        = Motion::Kind::translate;
+  top.motion.along(axis) = strain * side * n;
+  top.motion.seconds     = 1.;
+  scene.held             = {bottom, top};
+  return scene;
+}
+
+struct Pulled
+{
+  Pulled(const homogenization::UnitCell &cell, const int n, const double strain, const int axis = 1)
+      : homogenized(homogenization::homogenized_cell(cell, tests::solved(cell), "test"))
+      , edges(homogenization::edges_of(cell, {}))
+      , draped(pulled(n, strain, std::sqrt(cell.lattice.area()), axis), cell, homogenized, edges)
+  {
+  }
+
+  SceneCloth cloth(const char *method) const
+  {
+    return {draped.scene, draped.coarse, draped.effective_of(Method(method)),
+            draped.coarse_motion()};
+  }
+
+  /// In the plane of the sheet.
+  meshes::Points upsampled(const char *method, const shell::Vectors &positions) const
+  {
+    Upsampler3d::Fine fine;
+    draped.upsampler<double>(Method(method)).upsample(positions, fine);
+    return fine.leftCols<2>();
+  }
+
+  const meshes::HomogenizedCell homogenized;
+  const meshes::CellEdges edges;
+  const DrapedCell draped;
+};
+
+/// Moves the centre of the sheet to where the other has it.
+double mean_distance(meshes::Points a, const meshes::Points &b)
+{
+  a.rowwise() += b.colwise().mean() - a.colwise().mean();
+  return (a - b).rowwise().norm().mean();
+}
+} // namespace
+
+namespace
+{
+/// A pull along an axis with some of the terms, and the fixed point of those of the static method:
+/// that takes strains without the terms, the moving cloth those with them.
+struct BothWays
+{
+  BothWays(const homogenization::UnitCell &cell, const int axis, const meshes::CellEdges &edges)
+      : homogenized(homogenization::homogenized_cell(cell, tests::solved(cell), "test"))
+      , strain_side(strain * std::sqrt(cell.lattice.area()))
+      , draped(pulled(n, strain, std::sqrt(cell.lattice.area()), axis), cell, homogenized, edges)
+      , moving(draped.scene, draped.coarse, draped.effective_of(Method("edges")),
+               draped.coarse_motion())
+  {
+    const Load load(axis == 0 ? "strip-1" : "strip-2");
+    without = LightweightCloth(homogenized, *draped.sheet, load).solve(Law::biot, strain).positions;
+    const EdgeTerms terms({homogenized, edges}, *draped.sheet, load,
+                          CoarseGrid{draped.coarse.rest, n, n}, Law::biot);
+    const auto solver =
+      CoarseSpace(*draped.sheet, CoarseElement::three_nodes)
+        .solver(homogenized.stiffness, draped.coarse_motion().vertices(draped.coarse));
+    fixed_point = without;
+    for (int k = 0; k < 15; ++k)
+    {
+      const EdgeTerms::MacroLoads loads = terms.macro_loads(fixed_point);
+      fixed_point =
+        solver->solve_equilibrium(Law::biot, without + loads.slip, loads.forces).positions;
+    }
+  }
+
+  /// The scene begins with its sheet around the origin.
+  meshes::Points moved() const
+  {
+    meshes::Points positions = moving.cloth().positions().leftCols<2>();
+    positions.rowwise() +=
+      draped.coarse.rest.vertices.row(0) - draped.coarse.positions.row(0).head<2>();
+    return positions;
+  }
+
+  static constexpr int n         = 6;
+  static constexpr double strain = 0.01;
+  const meshes::HomogenizedCell homogenized;
+  const double strain_side;
+  const DrapedCell draped;
+  SceneCloth moving;
+  meshes::Points without, fixed_point;
+};
+} // namespace
+
+TEST(exact_moving_edges, slip_and_strain_gradients_of_a_slow_pull_end_in_those_of_the_static_method)
+{
+  for (const homogenization::UnitCell &cell :
+       {layers(tests::soft_and_hard()),
+        homogenization::read_unit_cell(CELLS "three-stiffness.prm")})
+    for (const int axis : {0, 1})
+    {
+      meshes::CellEdges edges = homogenization::edges_of(cell, {});
+      for (meshes::CellEdge &edge : edges.sides)
+        edge.tension.setZero();
+      BothWays ways(cell, axis, edges);
+      ways.moving.solve_equilibrium(3.);
+      const std::string name = cell.name + ", axis " + std::to_string(axis + 1);
+      EXPECT_GT(mean_distance(ways.without, ways.fixed_point), 1e-3 * ways.strain_side) << name;
+      EXPECT_LT((ways.moved() - ways.fixed_point).cwiseAbs().maxCoeff(), 1e-5 * ways.strain_side)
+        << name;
+      // In motion the terms lag by a step, and the cloth swings for a while.
+      SceneCloth slow(ways.draped.scene, ways.draped.coarse,
+                      ways.draped.effective_of(Method("edges")), ways.draped.coarse_motion());
+      for (int k = 0; k < 150; ++k)
+        slow.step(ways.draped.scene.time_step);
+      EXPECT_LT((slow.cloth().positions() - ways.moving.cloth().positions()).cwiseAbs().maxCoeff(),
+                1e-3 * ways.strain_side)
+        << name;
+    }
+}
+
+// The cable takes the strain of the edge, the static method that of the triangles around it: the
+// same where the mesh is fine, and on this one the same way with another size.
+TEST(bound_moving_edges, tension_moves_a_sheet_the_way_that_the_static_method_does)
+{
+  for (const homogenization::UnitCell &cell :
+       {layers(tests::soft_and_hard()),
+        homogenization::read_unit_cell(CELLS "three-stiffness.prm")})
+  {
+    meshes::CellEdges edges = homogenization::edges_of(cell, {});
+    for (meshes::CellEdge &edge : edges.sides)
+      edge.slip.setZero();
+    edges.bulk = {Eigen::Matrix3d::Zero(), Eigen::Matrix3d::Zero()};
+    BothWays ways(cell, 0, edges);
+    ways.moving.solve_equilibrium(3.);
+    const meshes::Points a = ways.moved() - ways.without, b = ways.fixed_point - ways.without;
+    EXPECT_GT(b.rowwise().norm().mean(), 1e-3 * ways.strain_side);
+    EXPECT_GT(a.cwiseProduct(b).sum() / (a.norm() * b.norm()), 0.8) << cell.name;
+    testing::Test::RecordProperty(
+      "left_" + cell.name.substr(0, 4),
+      std::to_string(a.norm() / b.norm()) + " at cosine " +
+        std::to_string(a.cwiseProduct(b).sum() / (a.norm() * b.norm())));
+  }
+}
+
+TEST(exact_moving_edges, a_cell_of_one_phase_moves_as_without_them)
+{
+  std::vector<homogenization::Phase> phases = tests::soft_and_hard();
+  phases[1]                                 = phases[0];
+  const Pulled sheet(layers(phases), 3, 0.05);
+  SceneCloth with = sheet.cloth("edges"), without = sheet.cloth("localized");
+  for (int k = 0; k < 10; ++k)
+  {
+    with.step(0.02);
+    without.step(0.02);
+  }
+  EXPECT_LT((with.cloth().positions() - without.cloth().positions()).cwiseAbs().maxCoeff(),
+            1e-12 * 0.03);
+  EXPECT_LT((sheet.upsampled("edges", with.cloth().positions()) -
+             sheet.upsampled("localized", without.cloth().positions()))
+              .cwiseAbs()
+              .maxCoeff(),
+            1e-12 * 0.03);
+}
+
+// kappa = (E_h − E_s) t eps (1/8 − s/2) of stripes, s eps the soft layer outside: the shipped cut
+// has a full soft stripe below, s = ½, and a full hard one above, s = 0.
+TEST(exact_moving_edges, stripes_have_the_selvedge_that_theory_says)
+{
+  const homogenization::UnitCell cell = layers(tests::soft_and_hard());
+  const meshes::CellEdges edges       = homogenization::edges_of(cell, {});
+  const auto homogenized = homogenization::homogenized_cell(cell, tests::solved(cell), "test");
+  const auto C           = cell.stiffness_of_phase();
+  const auto youngs      = [](const Eigen::Matrix3d &of) { return 1. / of.inverse()(0, 0); };
+  const double range     = (youngs(C[1]) - youngs(C[0])) * 0.01;
+  const auto kappa       = [&](const std::size_t side) {
+    return shell::selvedge_stiffness(edges.sides[side].tension, homogenized.stiffness, {1., 0.});
+  };
+  EXPECT_NEAR(kappa(2), -range / 8., 1e-9 * range);
+  EXPECT_NEAR(kappa(3), range / 8., 1e-9 * range);
+}
+
+TEST(invariant_moving_edges, edges_of_a_scene_are_clamped_free_or_neither)
+{
+  const homogenization::UnitCell cell = layers(tests::soft_and_hard());
+  const meshes::CellEdges edges       = homogenization::edges_of(cell, {});
+  const auto homogenized = homogenization::homogenized_cell(cell, tests::solved(cell), "test");
+  const auto sheet       = meshes::tile(cell.mesh, cell.lattice, 3, 3);
+  const auto coarse      = meshes::coarse_sheet(sheet.origin, sheet.lattice.vectors, 3, 3);
+  // The lower edge and one vertex within the upper one.
+  const MovingEdges moving(homogenized, edges, sheet, coarse, {0, 1, 2, 3, 13});
+  EXPECT_EQ(moving.sentence(),
+            "terms of edges: clamped, with slip and modes: axis 2, near end; free, with tension "
+            "and modes: axis 1, near end and axis 1, far end; held in part, without terms: axis 2, "
+            "far end");
+  EXPECT_EQ(moving.selvedges().size(), 6u);
+}
