@@ -61,8 +61,9 @@ MAY_INCLUDE = {
                               "verification/cell",
                               "verification/method", "homogenization/bracket", "localization"}
     | MESHES | CELLS | SHELL,
-    "verification/drape": {"verification/record", "verification/reference", "verification/cell",
-                           "verification/method", "localization", "shell/contact"}
+    "verification/drape": {"verification/record", "verification/reference", "verification/laws",
+                           "verification/cell", "verification/method", "localization",
+                           "shell/contact"}
     | MESHES | CELLS | SHELL,
     "verification/extremes": {"verification/record", "verification/laws", "verification/cell",
                               "localization",

@@ -12,6 +12,7 @@
 #include "verification/drape/drape_verdicts.h"
 #include "verification/drape/fine_run.h"
 #include "verification/drape/obstacle_surface.h"
+#include "verification/laws/default_law.h"
 #include "verification/record/json_files.h"
 #include "verification/record/number_text.h"
 #include "verification/record/on_root.h"
@@ -96,6 +97,9 @@ private:
       assess_for_study(cell, communicator, verdicts, laws_of_methods(options));
     if (scene.has("bending") && !scene.bending)
       add_bending_for_study(cell, communicator, assessed, verdicts);
+    if (const std::string loss = note_on_corotational_cloth(assessed.result.stiffness);
+        !loss.empty())
+      note(cell.name + ": " + loss);
     const DrapedCell draped(scene, cell, homogenized_cell(cell, assessed, provenance_line()),
                             edges_for(options, cell));
     if (draped.edges)

@@ -80,6 +80,19 @@ std::vector<std::string> default_references(const UnitCell &cell)
   return {name_of(Law::linear), name_of(default_law(cell)), name_of(Law::green)};
 }
 
+std::string note_on_corotational_cloth(const Eigen::Matrix3d &C)
+{
+  const PhaseLoss loss = loss_of_biot(C);
+  if (!(loss.strain < largest_strain_of_cloth))
+    return "";
+  return "moving cloth is corotational (law biot), under which its C^H, pulled along " +
+         axis_text(loss) + ", is elliptic up to " + percent_text(loss.strain) + " (E/G " +
+         short_text(loss.ratio) +
+         "); beyond it the law has no minimum that finer meshes approach, and what is found "
+         "belongs "
+         "to the mesh and the time step";
+}
+
 std::string note_on_default_law(const UnitCell &cell)
 {
   const PhaseLoss loss = first_loss_of_biot(cell);

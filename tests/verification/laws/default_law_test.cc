@@ -91,6 +91,22 @@ TEST(exact_default_law, weaves_have_yarn_and_all_other_shipped_cells_biot)
   }
 }
 
+TEST(exact_default_law, a_coarse_cloth_that_is_lost_early_is_told)
+{
+  Eigen::Matrix3d C;
+  const double E = 1000.;
+  for (const double ratio : {25., 500.})
+  {
+    C << E, 0., 0., 0., E, 0., 0., 0., E / ratio;
+    const std::string note = note_on_corotational_cloth(C);
+    EXPECT_NE(note.find("pulled along its axis 1"), std::string::npos) << note;
+    EXPECT_NE(note.find("(E/G " + std::to_string(static_cast<int>(ratio)) + ")"), std::string::npos)
+      << note;
+  }
+  C(2, 2) = E / 23.; // 4 / (23 - 4) = 21 %
+  EXPECT_EQ(note_on_corotational_cloth(C), "");
+}
+
 TEST(exact_default_law, claims_speak_of_biot_else_yarn_else_the_first)
 {
   using Names = std::vector<std::string>;
