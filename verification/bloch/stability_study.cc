@@ -5,6 +5,7 @@
 #include "verification/bloch/margin_path.h"
 #include "verification/bloch/pattern_rows.h"
 #include "verification/bloch/stability_verdicts.h"
+#include "verification/laws/default_law.h"
 #include "verification/record/number_text.h"
 #include "verification/record/on_root.h"
 #include "verification/record/progress.h"
@@ -12,6 +13,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <set>
 
 namespace homespun::verification
 {
@@ -66,11 +68,12 @@ private:
   {
     nlohmann::ordered_json inputs = {{"loads", options.loads},
                                      {"strains", options.strains},
-                                     {"laws", options.laws},
                                      {"refinements", options.n_refinements}};
     inputs["supercell"] = options.supercell ? std::to_string((*options.supercell)(0)) + "x" +
                                                 std::to_string((*options.supercell)(1))
                                             : "of the lowest wave";
+    for (const UnitCell &cell : study.cells())
+      inputs["law of " + cell.name] = laws_for(cell, options.laws);
     study.open("stability", inputs);
     levels   = std::make_unique<Table<StabilityRow>>(options.output);
     losses   = std::make_unique<Table<LossRow>>(options.output);
@@ -86,14 +89,15 @@ private:
     for (const double sign : {-1., 1.})
       if (const std::vector<double> strains = strains_of(options.strains, sign); !strains.empty())
         ways.push_back(strains);
-    Progress progress(!options.quiet, static_cast<int>(study.cells().size() * options.laws.size() *
+    const std::size_t n_laws = std::max<std::size_t>(1, options.laws.size());
+    Progress progress(!options.quiet, static_cast<int>(study.cells().size() * n_laws *
                                                        options.loads.size() * ways.size()));
     for (std::size_t k = 0; k < study.cells().size(); ++k)
     {
       const UnitCell &cell = study.cells()[k];
       study.write_cell(cell, assessed[k]);
       const double factor = factor_of_bars(cell);
-      for (const std::string &law : options.laws)
+      for (const std::string &law : laws_for(cell, options.laws))
       {
         const MeshOfCell given(cell, 0, law_of(law));
         std::unique_ptr<MeshOfCell> refined;
@@ -182,6 +186,9 @@ private:
     const std::vector<Verdict> of_patterns = verdicts_on_patterns(patterns->rows());
     verdicts.insert(verdicts.end(), of_patterns.begin(), of_patterns.end());
     std::vector<std::string> notes = notes_on_losses(losses->rows());
+    if (options.laws.empty())
+      for (const UnitCell &cell : study.cells())
+        notes.push_back(note_on_default_law(cell));
     for (const std::string &note : notes_on_patterns(patterns->rows()))
       notes.push_back(note);
     for (
@@ -208,8 +215,18 @@ private:
        {"why", "an infinite cloth in its plane, in equilibrium: a cloth that is free to leave its "
                "plane wrinkles sooner wherever it is pressed"}},
       {{"what", "edges and clamps"}, {"why", "an infinite cloth has none"}}};
-    study.conclude({{{"loads", options.loads}, {"laws", options.laws}}, left_out, notes, resumed},
+    study.conclude({{{"loads", options.loads}, {"laws", used_laws()}}, left_out, notes, resumed},
                    verdicts);
+  }
+
+  /// Of all cells, each once.
+  std::vector<std::string> used_laws() const
+  {
+    std::set<std::string> names;
+    for (const UnitCell &cell : study.cells())
+      for (const std::string &law : laws_for(cell, options.laws))
+        names.insert(law);
+    return {names.begin(), names.end()};
   }
 
   const StabilityStudyOptions options;

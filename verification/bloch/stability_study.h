@@ -19,8 +19,8 @@ struct StabilityStudyOptions : StudyOptions
 {
   std::vector<std::string> loads = {"uniaxial-1", "uniaxial-2"}; ///< of an infinite cloth
   std::vector<double> strains    = {-0.02, -0.05, -0.1, -0.15, -0.2};
-  std::vector<std::string> laws  = {"biot"};
-  int n_refinements              = 1; ///< 0: the given mesh alone
+  std::vector<std::string> laws; ///< none: the default of each cell
+  int n_refinements = 1;         ///< 0: the given mesh alone
   /// Cells along a1 and a2 that are solved as one beyond the first loss; nothing: those over which
   /// the lowest wave repeats.
   std::optional<Eigen::Vector2i> supercell;

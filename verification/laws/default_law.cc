@@ -75,6 +75,11 @@ Law default_law(const UnitCell &cell)
   return first_loss_of_biot(cell).strain < largest_strain_of_cloth ? Law::yarn : Law::biot;
 }
 
+std::vector<std::string> laws_for(const UnitCell &cell, const std::vector<std::string> &asked)
+{
+  return asked.empty() ? std::vector<std::string>{name_of(default_law(cell))} : asked;
+}
+
 std::vector<std::string> default_references(const UnitCell &cell)
 {
   return {name_of(Law::linear), name_of(default_law(cell)), name_of(Law::green)};

@@ -44,6 +44,10 @@ PhaseLoss first_loss_of_biot(const homogenization::UnitCell &cell);
 /// the law.
 Law default_law(const homogenization::UnitCell &cell);
 
+/// The laws that were asked for, or else the default one.
+std::vector<std::string> laws_for(const homogenization::UnitCell &cell,
+                                  const std::vector<std::string> &asked);
+
 constexpr std::size_t n_default_references = 3;
 
 /// Names of the laws that a study of this cell has where none are asked for: linear, the default

@@ -6,6 +6,7 @@
 #include "verification/cell/algebraic_limit.h"
 #include "verification/cell/energy_order.h"
 #include "verification/cell/study_inputs.h"
+#include "verification/laws/default_law.h"
 #include "verification/load/load_path.h"
 #include "verification/load/measured_curve.h"
 #include "verification/record/number_text.h"
@@ -195,8 +196,7 @@ private:
       }
     nlohmann::ordered_json inputs = {{"control", options.control.text()},
                                      {"axis", options.control.axis},
-                                     {"steps", options.n_steps},
-                                     {"laws", options.laws}};
+                                     {"steps", options.n_steps}};
     for (int k = 0; k < 3; ++k) // the text has six digits
       inputs["value " + std::to_string(k + 1)] = options.control.value(k);
     std::string points;
@@ -204,6 +204,8 @@ private:
       for (const std::string &field : fields_of_row(row))
         points += field + ",";
     inputs["measured"] = fingerprint(points);
+    for (const UnitCell &cell : study.cells())
+      inputs["law of " + cell.name] = laws_of(cell);
     study.open("load", inputs);
     table = std::make_unique<Table<LoadRow>>(options.output);
     // Paths are short, and solved whole.
@@ -214,12 +216,10 @@ private:
 
   void solve(const std::vector<AssessedCell> &assessed)
   {
-    std::vector<std::string> laws = {"linear"};
-    for (const std::string &law : options.laws)
-      if (std::find(laws.begin(), laws.end(), law) == laws.end())
-        laws.push_back(law);
-    Progress progress(!options.quiet,
-                      static_cast<int>(study.cells().size() * (2 * laws.size() - 1)));
+    std::size_t n_paths = 0;
+    for (const UnitCell &cell : study.cells())
+      n_paths += 2 * laws_of(cell).size() - 1;
+    Progress progress(!options.quiet, static_cast<int>(n_paths));
     for (std::size_t k = 0; k < study.cells().size(); ++k)
     {
       const UnitCell &cell = study.cells()[k];
@@ -227,7 +227,7 @@ private:
       const Cloths cloths(cell);
       verdicts.push_back(verdict_on_rest(cell, cloths, assessed[k]));
       const double factor = factor_of_bars(cell);
-      for (const std::string &law : laws)
+      for (const std::string &law : laws_of(cell))
       {
         progress.begin(cell.name + ", " + law, true);
         add_path({cell.name, law, "resolved"}, {cloths.given, cloths.phases, law_of(law)},
@@ -241,7 +241,17 @@ private:
         progress.done();
       }
     }
-    write(laws);
+    write();
+  }
+
+  /// Linear first.
+  std::vector<std::string> laws_of(const UnitCell &cell) const
+  {
+    std::vector<std::string> laws = {"linear"};
+    for (const std::string &law : laws_for(cell, options.laws))
+      if (std::find(laws.begin(), laws.end(), law) == laws.end())
+        laws.push_back(law);
+    return laws;
   }
 
   void add_path(const LoadRow &of_path, const CellAssembly &given, const CellAssembly &finer,
@@ -258,9 +268,13 @@ private:
     verdicts.push_back(verdict_on_stability(what, path));
   }
 
-  void write(const std::vector<std::string> &laws)
+  void write()
   {
-    const std::vector<std::string> notes = {
+    std::set<std::string> laws;
+    for (const UnitCell &cell : study.cells())
+      for (const std::string &law : laws_of(cell))
+        laws.insert(law);
+    std::vector<std::string> notes = {
       "Prescribed: " + options.control.text() + "; " + std::to_string(options.n_steps) + " steps.",
       "Strains are those of F = (1 + e11, " +
         std::string(options.control.axis == 1 ? "e12; 0" : "0; e12") +
@@ -275,6 +289,9 @@ private:
       "corners of the cell leave. They know nothing of the law.",
       "Stable means: against the fluctuation of one cell and the free strains; longer waves are "
       "not asked."};
+    if (options.laws.empty())
+      for (const UnitCell &cell : study.cells())
+        notes.push_back(note_on_default_law(cell));
     nlohmann::ordered_json left_out = {
       {{"what", "mass, damping, third dimension, contact"},
        {"why", "an infinite cloth in its plane, in equilibrium"}},

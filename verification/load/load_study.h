@@ -16,9 +16,10 @@ namespace homespun::verification
 struct LoadStudyOptions : StudyOptions
 {
   LoadControl control;
-  int n_steps                   = 20;
-  std::vector<std::string> laws = {"biot"}; ///< beside `linear`, which is always there
-  std::vector<std::string> measured;        ///< CSV files
+  int n_steps = 20;
+  /// Beside `linear`, which is always there; none: the default of each cell.
+  std::vector<std::string> laws;
+  std::vector<std::string> measured; ///< CSV files
 };
 
 /// Solves all paths on the first rank, writes load.csv, measured.csv where there is any, study.json

@@ -24,7 +24,6 @@ public:
   CellAssembly(const meshes::HomogenizedCell &cell, std::vector<Eigen::Matrix3d> stiffness_of_phase,
                Law law);
 
-  /// Which second derivative is assembled.
   using Sparse = Eigen::SparseMatrix<double>;
 
   /// Means over the cell, of 1/|Y| integral W(F + grad w).

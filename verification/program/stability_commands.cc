@@ -93,7 +93,10 @@ void add_stability_command(CommandLine &line)
            "-2 (sides free)");
   add_list(*command, "--strains", arguments->strains,
            "Strains, as fractions or percentages, negative where the cloth is pressed");
-  add_list(*command, "--law", study.laws, "Laws of the phases: linear, biot or green");
+  add_list(
+    *command, "--law", study.laws,
+    "Laws of the phases: linear, biot, green or yarn (default: yarn where biot loses a phase of "
+    "the cell before 20 %, else biot)");
   command
     ->add_option("--refine", study.n_refinements,
                  "1: each path once more on the refined mesh, for the error of the given one; 0: "

@@ -64,6 +64,21 @@ class Default(InFolder):
         inputs = (self.folder / "run" / "run.json").read_text()
         self.assertIn("references of plain-weave", inputs)
 
+    def test_load_and_stability_have_it_too(self):
+        for command, table in (("load --strain 11=0.1% --steps 1", "load.csv"),
+                               ("stability --load periodic-11 --strains 0.1% --refine 0",
+                                "stability.csv")):
+            name, *options = command.split()
+            result = run(name, CELLS / "plain-weave.prm", CELLS / "layered.prm", *options,
+                         "--no-report", "--output", self.folder / name)
+            self.assertIn(result.returncode, (0, 1, 4), result.stderr)
+            laws = {(row["cell"], row["law"]) for row in rows_of(self.folder / name / table)}
+            self.assertEqual(laws - {("plain-weave", "linear"), ("layered", "linear")},
+                             {("plain-weave", "yarn"), ("layered", "biot")})
+            study = json.loads((self.folder / name / "study.json").read_text())
+            said = [note for note in study["notes"] if "the law is" in note]
+            self.assertEqual(len(said), 2, study["notes"])
+
     def test_a_law_that_is_asked_for_wins(self):
         result = run("strain", CELLS / "plain-weave.prm", *SMALL, "--references", "biot",
                      "--output", self.folder / "run")
