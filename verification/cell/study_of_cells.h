@@ -4,7 +4,8 @@
 #pragma once
 
 #include "verification/cell/cell_study.h"
-#include "verification/record/run_folder.h"
+#include "verification/cell/study_options.h"
+#include "verification/record/json_files.h"
 #include "verification/record/verdict.h"
 
 #include <chrono>
@@ -14,16 +15,6 @@
 
 namespace homespun::verification
 {
-/// What every study of cells is told.
-struct StudyOptions
-{
-  std::vector<std::string> cell_files;
-  std::string output;
-  std::string command; ///< that reproduces the study
-  Earlier earlier = Earlier::keep_work;
-  bool quiet      = false;
-};
-
 /// What study.json says of a study, beside its command, ranks, seconds and provenance.
 struct StudyDescription
 {

@@ -1,21 +1,17 @@
 // SPDX-License-Identifier: MIT
 #include "verification/extremes/stress_study.h"
 
-#include "homogenization/lint/cell_reading.h"
 #include "meshes/plain/errors.h"
 #include "meshes/plain/sheet.h"
-#include "verification/cell/cell_study.h"
-#include "verification/cell/study_inputs.h"
+#include "verification/cell/study_of_cells.h"
 #include "verification/extremes/stress_cases.h"
 #include "verification/extremes/stress_solver.h"
-#include "verification/record/json_files.h"
 #include "verification/record/number_text.h"
 #include "verification/record/on_root.h"
 #include "verification/record/progress.h"
 #include "verification/record/provenance.h"
 #include "verification/record/table.h"
 
-#include <chrono>
 #include <memory>
 #include <set>
 
@@ -44,9 +40,10 @@ nlohmann::ordered_json what_was_left_out(const int most_triangles, const int n_r
   return all;
 }
 
-nlohmann::ordered_json notes(const std::vector<homogenization::UnitCell> &cells)
+/// @param has_cells whether any were given
+std::vector<std::string> notes(const bool has_cells)
 {
-  nlohmann::ordered_json all = {
+  std::vector<std::string> all = {
     "A case is repeated with different seeds where it has random numbers; else every repetition "
     "must give the same numbers to the last bit. Cells are homogenized twice, those of 100,000 "
     "triangles and more once.",
@@ -61,9 +58,7 @@ nlohmann::ordered_json notes(const std::vector<homogenization::UnitCell> &cells)
     "The figure of a case is the largest of its repetitions; the time is that of all of them.",
     "Each limit stands in stress.csv with where it comes from: theory, round-off, or a "
     "requirement. Iterations and times of the solver have none: they are reported."};
-  for (const std::string &note : notes_on_cuts(cells))
-    all.push_back(note);
-  if (cells.empty())
+  if (!has_cells)
     all.push_back(
       "No cell was given: the cloths are sheets of three built-in stiffnesses, and up-sampling "
       "takes a cell of smooth modes.");
@@ -77,13 +72,14 @@ public:
       : options(options)
       , communicator(communicator)
       , is_root(verification::is_root(communicator))
-      , begin(std::chrono::steady_clock::now())
+      , study(options, communicator)
   {
   }
 
   std::vector<Verdict> run()
   {
-    read_cells();
+    for (const homogenization::UnitCell &cell : study.cells())
+      meshes::tile(cell.mesh, cell.lattice, 1, 1); // refuses cells that make no sheet
     on_root(communicator, [&]() { open_folder(); });
     homogenize();
     homogenize_by_all_ranks();
@@ -100,31 +96,20 @@ public:
   }
 
 private:
-  void read_cells()
-  {
-    for (const std::string &file : options.cell_files)
-      unit_cells.push_back(homogenization::read_unit_cell(file, communicator));
-    check_names(unit_cells);
-    for (const homogenization::UnitCell &cell : unit_cells)
-      meshes::tile(cell.mesh, cell.lattice, 1, 1); // refuses cells that make no sheet
-  }
-
   void open_folder()
   {
     nlohmann::ordered_json inputs = {{"repeats", options.repeats},
                                      {"most_triangles", options.most_triangles},
                                      {"ranks", n_ranks()}};
-    for (const homogenization::UnitCell &cell : unit_cells)
-      inputs["cells"][cell.name] = fingerprint(cell);
-    folder = open_run_folder(options.output, {"stress", inputs}, options.earlier, options.quiet);
-    table  = std::make_unique<Table<StressRow>>(options.output);
+    is_taken_up                   = study.open("stress", inputs);
+    table                         = std::make_unique<Table<StressRow>>(options.output);
   }
 
   /// C^H and chi of the given cells.
   void homogenize()
   {
-    Progress progress(is_root && !options.quiet, static_cast<int>(unit_cells.size()));
-    for (const homogenization::UnitCell &cell : unit_cells)
+    Progress progress(is_root && !options.quiet, static_cast<int>(study.cells().size()));
+    for (const homogenization::UnitCell &cell : study.cells())
     {
       progress.begin(cell.name + ": homogenization", true);
       const AssessedCell assessed = assess_for_study(cell, communicator, verdicts);
@@ -147,7 +132,7 @@ private:
     if (n_ranks() == 1)
       return;
     std::vector<homogenization::UnitCell> moved = built_in_cells();
-    moved.insert(moved.end(), unit_cells.begin(), unit_cells.end());
+    moved.insert(moved.end(), study.cells().begin(), study.cells().end());
     homogenization::HomogenizationOptions p1;
     p1.order = 1;
     for (const homogenization::UnitCell &cell : moved)
@@ -163,7 +148,7 @@ private:
   {
     stiffnesses = with_twins_of_yarn(stiffnesses);
     for (const std::vector<StressCase> &some :
-         {cell_cases(unit_cells, by_all_ranks, n_ranks(), options.most_triangles),
+         {cell_cases(study.cells(), by_all_ranks, n_ranks(), options.most_triangles),
           time_step_cases(stiffnesses), stiffness_cases(), start_cases(stiffnesses),
           mesh_cases(stiffnesses[0]), rotation_cases(stiffnesses), spin_cases(stiffnesses),
           motion_cases(stiffnesses), scene_cases(stiffnesses[0]), localization_cases(cells, names)})
@@ -219,7 +204,6 @@ private:
   {
     for (const Verdict &verdict : stress_verdicts(table->rows()))
       verdicts.push_back(verdict);
-    write_json(options.output + "/verdicts.json", to_json(verdicts, options.command));
     nlohmann::ordered_json sheets = nlohmann::ordered_json::array();
     for (const SheetStiffness &sheet : stiffnesses)
     {
@@ -230,33 +214,23 @@ private:
                         {"stiffness_N_per_m", rows},
                         {"areal_density_kg_per_m2", sheet.areal_density}});
     }
-    const double seconds =
-      std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-    const nlohmann::ordered_json study = {
-      {"command", options.command},
-      {"cases", cases.size()},
-      {"repeats", options.repeats},
-      {"sheets", sheets},
-      {"seconds_total", seconds},
-      {"resumed", folder->is_taken_up()},
-      {"left_out", what_was_left_out(options.most_triangles, n_ranks())},
-      {"notes", notes(unit_cells)},
-      {"provenance", provenance(static_cast<unsigned int>(n_ranks()))}};
-    write_json(options.output + "/study.json", study);
-    folder->finish();
+    study.conclude({{{"cases", cases.size()}, {"repeats", options.repeats}, {"sheets", sheets}},
+                    what_was_left_out(options.most_triangles, n_ranks()),
+                    notes(!study.cells().empty()),
+                    is_taken_up},
+                   verdicts);
   }
 
   const StressStudyOptions options;
   const MPI_Comm communicator;
   const bool is_root;
-  const std::chrono::steady_clock::time_point begin;
-  std::vector<homogenization::UnitCell> unit_cells; ///< as given
-  std::vector<Eigen::Matrix3d> by_all_ranks;        ///< C^H of the cells that the cases move
+  StudyOfCells study;
+  std::vector<Eigen::Matrix3d> by_all_ranks; ///< C^H of the cells that the cases move
   std::vector<meshes::HomogenizedCell> cells;
   std::vector<std::string> names; ///< of the cells
   std::vector<SheetStiffness> stiffnesses;
   std::vector<StressCase> cases;
-  std::unique_ptr<RunFolder> folder;       ///< on the first rank alone
+  bool is_taken_up = false;                ///< on the first rank alone
   std::unique_ptr<Table<StressRow>> table; ///< on the first rank alone
   std::vector<Verdict> verdicts;
 };

@@ -2,7 +2,7 @@
 // All stress cases, each repeated, as a table with verdicts.
 #pragma once
 
-#include "verification/record/run_folder.h"
+#include "verification/cell/study_options.h"
 #include "verification/record/verdict.h"
 
 #include <mpi.h>
@@ -12,15 +12,11 @@
 
 namespace homespun::verification
 {
-struct StressStudyOptions
+/// Without cells: built-in ones.
+struct StressStudyOptions : StudyOptions
 {
-  std::vector<std::string> cell_files; ///< their C^H and chi; none: built-in ones
   int repeats        = 10;
   int most_triangles = 1000000; ///< of the largest cell
-  std::string output;
-  std::string command; ///< that reproduces the study
-  Earlier earlier = Earlier::keep_work;
-  bool quiet      = false;
 };
 
 /// Runs all cases and writes, into the output folder, stress.csv and solver.csv row by row,

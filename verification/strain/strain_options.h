@@ -2,7 +2,7 @@
 // What a strain study is asked for, whole or quick.
 #pragma once
 
-#include "verification/record/run_folder.h"
+#include "verification/cell/study_options.h"
 #include "verification/reference/loads.h"
 
 #include <array>
@@ -11,23 +11,18 @@
 
 namespace homespun::verification
 {
-struct StrainStudyOptions
+struct StrainStudyOptions : StudyOptions
 {
-  std::vector<std::string> cell_files;
   int n_cells                  = 20;     ///< per side of the sheet
   std::array<int, 2> supercell = {1, 1}; ///< cells that repeat under periodic loads
   std::vector<double> strains;           ///< as fractions, ascending
   std::vector<std::string> loads;
   std::vector<std::string> references; ///< empty: those of each cell, default_references()
   std::vector<std::string> methods;
-  int n_cells_of_error_bar = 4; ///< per side of the small sheet of the references' error bar
-  std::string output;
-  std::string command;     ///< that reproduces the study
-  bool budget     = true;  ///< budget.csv, the error split into its parts
-  bool run_time   = true;  ///< runtime.csv, every way to the positions at one strain
-  bool is_quick   = false; ///< the sizes are those of make_quick()
-  Earlier earlier = Earlier::keep_work;
-  bool quiet      = false;
+  int n_cells_of_error_bar = 4;     ///< per side of the small sheet of the references' error bar
+  bool budget              = true;  ///< budget.csv, the error split into its parts
+  bool run_time            = true;  ///< runtime.csv, every way to the positions at one strain
+  bool is_quick            = false; ///< the sizes are those of make_quick()
 };
 
 /// Whether more than one cell repeats under periodic loads.

@@ -1,16 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "verification/strain/strain_study.h"
 
-#include "homogenization/lint/cell_reading.h"
 #include "meshes/plain/errors.h"
 #include "verification/budget/budget_study.h"
 #include "verification/budget/budget_tables.h"
 #include "verification/budget/energy_sides.h"
 #include "verification/cell/cell_file_verdicts.h"
-#include "verification/cell/cell_files.h"
-#include "verification/cell/cell_study.h"
-#include "verification/cell/study_inputs.h"
-#include "verification/record/json_files.h"
 #include "verification/record/number_text.h"
 #include "verification/record/on_root.h"
 #include "verification/record/peak_memory.h"
@@ -31,7 +26,6 @@
 #include "verification/strain/yarn_cells.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <memory>
 #include <numeric>
@@ -50,7 +44,7 @@ public:
       , communicator(communicator)
       , n_ranks(n_ranks_of(communicator))
       , is_root(verification::is_root(communicator))
-      , begin(std::chrono::steady_clock::now())
+      , study(asked, communicator)
       , progress(is_root && !asked.quiet,
                  static_cast<int>(asked.cell_files.size() * asked.loads.size() *
                                   (1 + references_per_cell(asked) * asked.strains.size())))
@@ -59,9 +53,7 @@ public:
 
   std::vector<Verdict> run()
   {
-    for (const std::string &file : asked.cell_files)
-      cells.push_back(homogenization::read_unit_cell(file, communicator));
-    check_names(cells);
+    const std::vector<UnitCell> &cells = study.cells();
     check_yarns(cells, asked.references);
     options = options_of(asked, cells);
     for (const UnitCell &cell : cells)
@@ -76,11 +68,10 @@ private:
   /// Tables live on the first rank alone.
   void open_tables()
   {
-    folder = open_run_folder(options.output, {"strain", strain_inputs(asked, cells)},
-                             options.earlier, options.quiet);
-    output = std::make_unique<StrainOutput>(options, [this](const std::string &line)
+    is_taken_up = study.open("strain", strain_inputs(asked, study.cells()));
+    output      = std::make_unique<StrainOutput>(options, [this](const std::string &line)
                                             { progress.note(line); });
-    for (const std::string &note : notes_on_references(asked, cells))
+    for (const std::string &note : notes_on_references(asked, study.cells()))
       progress.note(note);
   }
 
@@ -94,11 +85,10 @@ private:
     progress.begin(cell.name + ": homogenization", true);
     const AssessedCell assessed =
       assess_for_study(cell, communicator, verdicts, laws_of_second_order(options));
-    const std::string folder = options.output + "/" + cell.name;
     on_root(communicator,
             [&]()
             {
-              write_cell_results(cell, assessed, {}, n_ranks, folder);
+              const std::string folder = study.write_cell(cell, assessed);
               for (const auto &some : {cell_file_verdicts(folder + "/cell.h5", cell),
                                        self_checks(cell, laws_of(options), options.strains.back())})
                 verdicts.insert(verdicts.end(), some.begin(), some.end());
@@ -344,9 +334,7 @@ private:
 
   std::vector<Verdict> conclude()
   {
-    options = options_of(asked, cells);
-    const double seconds =
-      std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    options                          = options_of(asked, study.cells());
     const std::vector<double> memory = peak_memory_of_ranks(communicator);
     const double peak_memory         = std::accumulate(memory.begin(), memory.end(), 0.);
     on_root(communicator,
@@ -355,20 +343,16 @@ private:
               const std::vector<Verdict> of_tables = study_verdicts(*output, options);
               verdicts.insert(verdicts.end(), of_tables.begin(), of_tables.end());
               output->write_validity();
-              std::vector<std::string> notes = notes_on_cuts(cells);
-              for (const auto &more : {notes_on_references(asked, cells),
-                                       notes_on_yarns(cells, asked), output->notes()})
+              std::vector<std::string> notes = notes_on_references(asked, study.cells());
+              for (const auto &more : {notes_on_yarns(study.cells(), asked), output->notes()})
                 notes.insert(notes.end(), more.begin(), more.end());
               if (options.budget)
                 for (const std::string &note :
                      budget_notes(output->strain_rows(), output->budget->rows()))
                   notes.push_back(note);
-              write_json(options.output + "/verdicts.json", to_json(verdicts, options.command));
-              write_json(
-                options.output + "/study.json",
-                describe(options, {output->strain_rows(), output->step_rows(), notes},
-                         {seconds, peak_memory, largest_residual, n_ranks, folder->is_taken_up()}));
-              folder->finish();
+              study.conclude(describe(options, {output->strain_rows(), output->step_rows(), notes},
+                                      {peak_memory, largest_residual, is_taken_up}),
+                             verdicts);
             });
     share_failure(verdicts, communicator);
     return verdicts;
@@ -379,10 +363,9 @@ private:
   const MPI_Comm communicator;
   const unsigned int n_ranks;
   const bool is_root;
-  const std::chrono::steady_clock::time_point begin;
+  StudyOfCells study;
   Progress progress;
-  std::vector<UnitCell> cells;
-  std::unique_ptr<RunFolder> folder;    ///< first rank
+  bool is_taken_up = false;             ///< first rank
   std::unique_ptr<StrainOutput> output; ///< first rank
   std::unique_ptr<BudgetStudy> budget;  ///< of the present cell; none where it is left out
   KnownEdges edges;                     ///< of the present cell

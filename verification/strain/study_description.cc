@@ -168,26 +168,22 @@ std::vector<std::string> notes_on_the_method(const StrainStudyOptions &options,
 }
 } // namespace
 
-nlohmann::ordered_json describe(const StrainStudyOptions &options, const StudyRecord &record,
-                                const StudyCost &cost)
+StudyDescription describe(const StrainStudyOptions &options, const StudyRecord &record,
+                          const StudyCost &cost)
 {
   std::vector<std::string> notes = notes_on_the_method(options, record);
   notes.insert(notes.end(), record.notes.begin(), record.notes.end());
-  return {{"command", options.command},
-          {"strains", options.strains},
-          {"loads", options.loads},
-          {"references", options.references},
-          {"methods", options.methods},
-          {"cells_per_side", options.n_cells},
-          {"ranks", cost.ranks},
-          {"threads_per_rank", 1},
-          {"seconds_total", cost.seconds},
-          {"resumed", cost.is_taken_up},
-          {"largest_relative_residual", cost.largest_residual},
-          {"peak_memory_bytes", cost.peak_memory},
-          {"left_out", what_was_left_out(options)},
-          {"notes", notes},
-          {"provenance", provenance(cost.ranks)}};
+  return {{{"strains", options.strains},
+           {"loads", options.loads},
+           {"references", options.references},
+           {"methods", options.methods},
+           {"cells_per_side", options.n_cells},
+           {"threads_per_rank", 1},
+           {"largest_relative_residual", cost.largest_residual},
+           {"peak_memory_bytes", cost.peak_memory}},
+          what_was_left_out(options),
+          notes,
+          cost.is_taken_up};
 }
 
 nlohmann::ordered_json strain_inputs(const StrainStudyOptions &asked,
@@ -206,10 +202,7 @@ nlohmann::ordered_json strain_inputs(const StrainStudyOptions &asked,
   if (has_supercell(options))
     inputs["supercell"] = options.supercell;
   for (const homogenization::UnitCell &cell : cells)
-  {
-    inputs["cell " + cell.name]          = fingerprint(cell);
     inputs["references of " + cell.name] = options_of(asked, cell).references;
-  }
   return inputs;
 }
 } // namespace homespun::verification

@@ -4,7 +4,7 @@
 #pragma once
 
 #include "homogenization/cell/unit_cell.h"
-#include "verification/record/json_files.h"
+#include "verification/cell/study_of_cells.h"
 #include "verification/strain/strain_options.h"
 #include "verification/strain/strain_tables.h"
 
@@ -16,10 +16,8 @@ namespace homespun::verification
 {
 struct StudyCost
 {
-  double seconds          = 0.;
-  double peak_memory      = 0.; ///< of all ranks together [B]
-  double largest_residual = 0.; ///< of the references, relative
-  unsigned int ranks      = 1;
+  double peak_memory      = 0.;    ///< of all ranks together [B]
+  double largest_residual = 0.;    ///< of the references, relative
   bool is_taken_up        = false; ///< an earlier process of the same run had begun
 };
 
@@ -31,12 +29,12 @@ struct StudyRecord
   std::vector<std::string> notes; ///< on levels and on the budget
 };
 
-/// study.json.
+/// What study.json says of it.
 /// @param options with the references of all cells
-nlohmann::ordered_json describe(const StrainStudyOptions &options, const StudyRecord &record,
-                                const StudyCost &cost);
+StudyDescription describe(const StrainStudyOptions &options, const StudyRecord &record,
+                          const StudyCost &cost);
 
-/// All that the numbers of a study depend on.
+/// All that the numbers of a study depend on beside its cells.
 /// @param asked references empty: those of each cell
 nlohmann::ordered_json strain_inputs(const StrainStudyOptions &asked,
                                      const std::vector<homogenization::UnitCell> &cells);

@@ -22,6 +22,16 @@ KNOWN_FAILURES = {
         ("1", "implicit", "anisotropic 1e4"), ("5", "implicit", "anisotropic 1e4"))
 }
 KNOWN_FAILURES["spin", "turns; 5 turns per step of 10 ms; conserving; isotropic"] = NO_RIGID_BODY
+KNOWN_FAILURES |= {
+    ("spin", f"{what}; 5 turns per step of 10 ms; implicit; anisotropic 1e4, yarn"):
+        "thrown apart by the same spin: the line search finds no lower potential; why is not known"
+    for what in ("keeps", "turns")
+}
+KNOWN_FAILURES |= {
+    ("start", f"flattened to a point; free; {step} ms; anisotropic 1e4, yarn"):
+        "a yarn without length has an infinite energy: no step begins there"
+    for step in (1, 20)
+}
 
 # Cases whose outcome rounding decides, so that it differs from compiler to compiler: the reason,
 # and what their figure stays below everywhere.
