@@ -38,7 +38,7 @@ StudyOfCells::StudyOfCells(StudyOptions given_options, const MPI_Comm communicat
 bool StudyOfCells::open(const std::string &name, nlohmann::ordered_json inputs)
 {
   for (const UnitCell &cell : all_cells)
-    inputs["cells"][cell.name] = fingerprint(cell);
+    inputs["cell " + cell.name] = fingerprint(cell);
   folder =
     open_run_folder(options.output, {name, std::move(inputs)}, options.earlier, options.quiet);
   return folder->is_taken_up();
