@@ -120,8 +120,7 @@ WorkCheck check_work(const CellAssembly &assembly, const LoadControl &control, c
   // Energies are sums over the triangles, known to 1e-14 of their size; and rounded gradients,
   // which near rest are 1 and a small number, move them too.
   const double moved =
-    assembly.sums(path.last.gradient, path.last.fluctuation, Tangent::none)
-      .energy_round_off;
+    assembly.sums(path.last.gradient, path.last.fluctuation, Tangent::none).energy_round_off;
   return {work, std::abs(narrow - work),
           std::abs(wide - narrow) + (1e-14 * level.energy + 2. * moved) / h};
 }

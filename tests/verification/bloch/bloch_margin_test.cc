@@ -59,8 +59,7 @@ double dense_least(const BlochCell &cell, const Load &load, const double strain,
   StrainPath path(assembly, load);
   const auto matrix = [&](const CellEquilibrium &state)
   {
-    return Eigen::MatrixXd(
-      assembly.sums(state.gradient, state.fluctuation, Tangent::exact).matrix);
+    return Eigen::MatrixXd(assembly.sums(state.gradient, state.fluctuation, Tangent::exact).matrix);
   };
   const Eigen::MatrixXd rest = matrix(path.at(0.)), there = matrix(path.at(strain));
   return Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd>(there, rest,

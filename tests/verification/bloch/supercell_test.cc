@@ -31,7 +31,7 @@ TEST(exact_supercell, the_periodic_state_repeated_is_in_equilibrium_with_the_sam
   const Supercell two(cell.cell, {2, 1});
   const CellAssembly all(two.cell, cell.phases, Law::biot);
   const CellEquilibrium both = two.repeated(state);
-  const auto sums = all.sums(both.gradient, both.fluctuation, Tangent::none);
+  const auto sums            = all.sums(both.gradient, both.fluctuation, Tangent::none);
   EXPECT_NEAR(sums.energy, state.energy, 1e-12 * state.energy);
   EXPECT_LE(sums.residual.norm(), 1e-10 * sums.force_size);
 }
@@ -52,8 +52,7 @@ TEST(bound_supercell, the_pattern_that_the_margin_predicts_has_less_energy)
   EXPECT_EQ(beyond->wave.wave.text(), "k = (0, 1/2)");
   EXPECT_LT(beyond->wave.beta, 0.);
   EXPECT_GT(beyond->lower(), 1e-3);
-  const auto sums =
-    all.sums(beyond->state.gradient, beyond->state.fluctuation, Tangent::none);
+  const auto sums = all.sums(beyond->state.gradient, beyond->state.fluctuation, Tangent::none);
   EXPECT_LE(sums.residual.norm(), 1e-9 * sums.force_size);
   std::printf("honeycomb, periodic-22, -16 %%: %.2f %% less energy\n", 100. * beyond->lower());
 }
