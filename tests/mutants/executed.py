@@ -8,7 +8,6 @@ executed.py BUILD WORK   builds the sound program with gcov's counters in WORK/s
 import csv
 import json
 import os
-import pathlib
 import shutil
 import subprocess
 import sys

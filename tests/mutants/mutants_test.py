@@ -13,13 +13,14 @@ import unittest
 import draw
 import executed
 import patches
+import results
 import run
 
 MOST_LINES = 5
 
 
 def row_of(mutant, **more):
-    return {**dict.fromkeys(run.COLUMNS, ""), "mutant": mutant, **more}
+    return {**dict.fromkeys(results.COLUMNS, ""), "mutant": mutant, **more}
 
 
 class InFolder(unittest.TestCase):
@@ -137,10 +138,10 @@ class Drawing(InFolder):
 
 class Running(InFolder):
     def test_a_table_is_taken_up(self):
-        table = run.Table(self.folder / "mutants.csv")
+        table = results.Table(self.folder / "mutants.csv")
         table.add(row_of("one", file="a, b", builds="true"))
         table.add(row_of("two", builds="false"))
-        table.add(row_of("half", builds="true", noticed_by_program=run.NOT_YET))
+        table.add(row_of("half", builds="true", noticed_by_program=results.NOT_YET))
         asked = []
 
         def row(mutant, row, who):
@@ -150,12 +151,12 @@ class Running(InFolder):
         mutants = [patches.Mutant(name, "chosen", "", ["shell/a.cc"], [])
                    for name in ("one", "two", "half", "three")]
         with contextlib.redirect_stdout(io.StringIO()):
-            run.measure(mutants, run.Table(self.folder / "mutants.csv"), row, ["tests"])
+            run.measure(mutants, results.Table(self.folder / "mutants.csv"), row, ["tests"])
         self.assertEqual(asked, [("three", ["tests"])])
         with contextlib.redirect_stdout(io.StringIO()):
-            run.measure(mutants, run.Table(self.folder / "mutants.csv"), row)
+            run.measure(mutants, results.Table(self.folder / "mutants.csv"), row)
         self.assertEqual(asked[1:], [("half", ["program"])])
-        again = run.Table(self.folder / "mutants.csv")
+        again = results.Table(self.folder / "mutants.csv")
         self.assertEqual(list(again.rows), ["one", "two", "half", "three"])
         self.assertEqual(again.rows["one"]["file"], "a, b")
         self.assertEqual(again.rows["three"]["noticed_by_test"], "x.y")
@@ -164,7 +165,7 @@ class Running(InFolder):
     def test_a_foreign_table_is_refused(self):
         (self.folder / "mutants.csv").write_text("mutant,other\n", encoding="utf-8")
         with self.assertRaises(SystemExit):
-            run.Table(self.folder / "mutants.csv")
+            results.Table(self.folder / "mutants.csv")
 
     def test_a_copy_is_mended_whatever_was_left_there(self):
         source, copy = self.folder / "source", self.folder / "copy"
@@ -234,11 +235,11 @@ class Running(InFolder):
         rows = [row_of("a", builds="true", noticed_by_test="x"),
                 row_of("b", builds="true", noticed_by_program="claim"),
                 row_of("c", builds="true"), row_of("d", builds="false"),
-                row_of("e", builds="true", noticed_by_test=run.NOT_YET)]
+                row_of("e", builds="true", noticed_by_test=results.NOT_YET)]
         self.assertIn("4 mutants build; tests notice 1 of 3, the program 1 of 4; unnoticed: c",
-                      run.score(rows, None))
+                      results.score(rows, None))
         self.assertIn("the program 1 of 3 in lines that it executes; unnoticed: c",
-                      run.score(rows, {"b", "c", "d", "e"}))
+                      results.score(rows, {"b", "c", "d", "e"}))
 
     def test_a_program_that_did_not_end_is_the_worst(self):
         self.assertEqual(sorted([0, 4, None, 1, 2, -11, 3], key=run.place_of)[2:], [2, 3, 1, 4, 0])
@@ -297,7 +298,7 @@ class Running(InFolder):
             workshop.builds = lambda who, answer=builds: answer
             text = patches.patch_of("shell/a.cc", old, old.replace(fault, "fault"), "A fault.")
             mutant = patches.parsed(text, fault, "chosen")
-            row = workshop.measured(mutant, run.new_row(mutant), ["tests", "program"])
+            row = workshop.measured(mutant, results.new_row(mutant), ["tests", "program"])
             self.assertEqual((row["builds"], row["noticed_by_test"], row["noticed_by_program"]),
                              (str(builds).lower(), test, claim))
             self.assertEqual(row["seconds_to_notice"] != "", test != "")
@@ -306,8 +307,8 @@ class Running(InFolder):
 
 class Readme(unittest.TestCase):
     def test_its_score_is_that_of_the_table(self):
-        table = run.Table(patches.HERE / "measured.csv")
-        said = run.score(list(table.rows.values()), run.executed_in(patches.HERE))
+        table = results.Table(patches.HERE / "measured.csv")
+        said = results.score(list(table.rows.values()), results.executed_in(patches.HERE))
         text = " ".join((patches.HERE / "README.md").read_text(encoding="utf-8").split())
         self.assertIn(said.split("; unnoticed")[0], text.replace("**", ""))
         names = {mutant.name for mutant in patches.read()}

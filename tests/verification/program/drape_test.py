@@ -10,13 +10,11 @@ import unittest
 import h5py
 import numpy
 
-from cli import CELLS, PROGRAM, InFolder, cut, rows_of, run
+from cli import CELLS, PROGRAM, cut, rows_of, run
+from scene_case import SCENES, TRIANGLE, SceneCase
 
 sys.path.append(str(CELLS.parents[1] / "verification" / "report"))
 from read.vtu import read_vtu  # noqa: E402
-
-SCENES = CELLS.parent / "scenes"
-TRIANGLE = "v 0 0 1\nv 0.1 0 0\nv 0 0.1 0\nvt 0 0\nvt 0.1 0\nvt 0 0.1\nf 1/1 2/2 3/3\n"
 
 
 def keep_rows(path, keep):
@@ -26,73 +24,6 @@ def keep_rows(path, keep):
     path.write_text(lines[0] + "".join(line for line in lines[1:]
                                        if keep(dict(zip(header, line.strip().split(","))))),
                     encoding="utf-8")
-
-
-class SceneCase(InFolder):
-    def scene(self, changes, name="hang", garment=None):
-        """A copy of a shipped scene with keys replaced, added, or, given None, removed."""
-        shipped = (SCENES / f"{name}.prm").read_text(encoding="utf-8")
-        lines = shipped.replace("../cells", str(CELLS)).splitlines()
-        for key, value in changes.items():
-            lines = [line for line in lines if line.split("=")[0].split()[1:] != key.split()]
-            if value is not None:
-                lines.append(f"set {key} = {value}")
-        if garment is not None:
-            (self.folder / "cloth.obj").write_text(garment, encoding="utf-8")
-            lines.append("set Mesh = cloth.obj")
-        path = self.folder / "scene.prm"
-        path.write_text("\n".join(lines) + "\n", encoding="utf-8")
-        return path
-
-
-class MethodsOfTheirOwn(SceneCase):
-    """`edges` and `quadratic` move coarse cloths of their own and leave that of others alone."""
-
-    TERMS = "membrane, damping, pins, handles, selvedge"
-    COMMON = ["--quick", "--duration", 0.2, "--no-report", "--frames", "obj", "--references",
-              "shell", "--unit-cells", CELLS / "three-stiffness.prm"]
-
-    def test_each_has_its_cloth_and_the_others_keep_every_byte(self):
-        with_them, without = self.folder / "with", self.folder / "without"
-        result = run("drape", self.scene({"Terms": self.TERMS}, "pull"), *self.COMMON,
-                     "--methods", "affine,localized,edges,quadratic", "--output", with_them)
-        self.assertEqual(result.returncode, 0, result.stdout + result.stderr)
-        self.assertIn("clamped, with slip and modes: axis 2, near end and axis 2, far end",
-                      result.stdout + result.stderr)
-        result = run("drape", self.scene({}, "pull"), *self.COMMON, "--methods",
-                     "affine,localized", "--output", without)
-        self.assertEqual(result.returncode, 0, result.stdout + result.stderr)
-        folder = "three-stiffness-corotational"
-        frames = sorted(path.name for path in (without / folder).glob("*.obj"))
-        self.assertGreater(len(frames), 3)
-        for frame in frames:
-            self.assertEqual((with_them / folder / frame).read_bytes(),
-                             (without / folder / frame).read_bytes(), frame)
-        for method in ("edges", "quadratic"):
-            self.assertNotEqual((with_them / f"three-stiffness-{method}" / frames[-1]).read_bytes(),
-                                (without / folder / frames[-1]).read_bytes())
-        rows = {(row["variant"], row["method"]) for row in rows_of(with_them / "drape.csv")}
-        self.assertEqual(rows, {("corotational", "affine"), ("corotational", "localized"),
-                                ("edges", "edges"), ("quadratic", "quadratic")})
-        self.assertEqual({row["variant"] for row in rows_of(with_them / "motion.csv")},
-                         {"corotational", "edges", "quadratic", "shell"})
-
-    def refused(self, changes, methods, **scene):
-        result = run("drape", self.scene(changes, **{"name": "pull", **scene}), "--quick",
-                     "--methods", methods, "--no-report", "--output", self.folder / "refused")
-        self.assertEqual(result.returncode, 2, result.stdout)
-        return result.stderr
-
-    def test_what_cannot_be_is_named(self):
-        self.assertIn("--methods edges asks for the term `selvedge`", self.refused({}, "edges"))
-        self.assertIn("lists `selvedge`, and no method takes it",
-                      self.refused({"Terms": self.TERMS}, "localized"))
-        self.assertIn("--methods quadratic: scene `scene` has the key `Integrator` = conserving",
-                      self.refused({"Integrator": "conserving"}, "localized,quadratic"))
-        held = {"Terms": "membrane, gravity, damping, pins, selvedge", "Pins": "vertices 0 1"}
-        self.assertIn("is a garment, whose outlines",
-                      self.refused(held, "edges", name="hang", garment=TRIANGLE))
-        self.assertIn("six-node triangles, which move in their plane", self.refused({}, "full"))
 
 
 class Scenes(SceneCase):
