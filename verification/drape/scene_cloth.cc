@@ -3,6 +3,7 @@
 
 #include "meshes/files/obj_file.h"
 #include "meshes/plain/errors.h"
+#include "meshes/plain/triangle_kinematics.h"
 #include "shell/contact/obstacles.h"
 #include "shell/terms/bending.h"
 #include "shell/terms/inertial_terms.h"
@@ -241,19 +242,12 @@ double largest_stretch(const meshes::ClothMesh &mesh, const shell::Vectors &posi
   double largest = 0.;
   for (int t = 0; t < mesh.n_triangles(); ++t)
   {
-    Eigen::Matrix2d rest;
-    Eigen::Matrix<double, 3, 2> current;
-    for (int k = 0; k < 2; ++k)
-    {
-      rest.col(k) = (mesh.rest.vertices.row(mesh.rest.triangles(t, k + 1)) -
-                     mesh.rest.vertices.row(mesh.rest.triangles(t, 0)))
-                      .transpose();
-      current.col(k) =
-        (positions.row(mesh.triangles(t, k + 1)) - positions.row(mesh.triangles(t, 0))).transpose();
-    }
-    const Eigen::Matrix<double, 3, 2> F = current * rest.inverse();
-    const Eigen::Matrix2d C             = F.transpose() * F;
-    const double mean                   = 0.5 * C.trace();
+    const Eigen::Matrix2d rest =
+      meshes::sides_of_triangle<2>(mesh.rest.triangles.row(t), mesh.rest.vertices);
+    const Eigen::Matrix<double, 3, 2> F =
+      meshes::sides_of_triangle<3>(mesh.triangles.row(t), positions) * rest.inverse();
+    const Eigen::Matrix2d C = F.transpose() * F;
+    const double mean       = 0.5 * C.trace();
     largest = std::max(largest, std::sqrt(mean + std::hypot(0.5 * (C(0, 0) - C(1, 1)), C(0, 1))));
   }
   return largest;

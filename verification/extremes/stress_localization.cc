@@ -4,6 +4,7 @@
 // the largest lift times the largest strain times the largest characteristic displacement.
 #include "localization/upsampler.h"
 #include "meshes/plain/sheet.h"
+#include "meshes/plain/triangle_kinematics.h"
 #include "verification/extremes/stress_cases.h"
 #include "verification/record/number_text.h"
 
@@ -97,20 +98,6 @@ StressAnswer uniform(const Sheets &sheets, const Eigen::Matrix<double, 3, 2> &F)
   return {worst / sheets.side, found};
 }
 
-Eigen::Matrix<double, 3, 2> gradient(const meshes::TriangleMesh &mesh, const int t,
-                                     const Positions<3> &x)
-{
-  const Eigen::RowVector3i v = mesh.triangles.row(t);
-  Eigen::Matrix2d rest;
-  Eigen::Matrix<double, 3, 2> moved;
-  for (int k = 0; k < 2; ++k)
-  {
-    rest.col(k)  = mesh.vertices.row(v(k + 1)) - mesh.vertices.row(v(0));
-    moved.col(k) = x.row(v(k + 1)) - x.row(v(0));
-  }
-  return moved * rest.inverse();
-}
-
 /// Largest microscopic displacement over its bound.
 StressAnswer violent(const Sheets &sheets, const Positions<3> &coarse)
 {
@@ -120,7 +107,9 @@ StressAnswer violent(const Sheets &sheets, const Positions<3> &coarse)
   double strain = 0., mode = 0.;
   for (int t = 0; t < sheets.coarse.n_triangles(); ++t)
     strain =
-      std::max(strain, strain_of(stretch(gradient(sheets.coarse, t, coarse))).cwiseAbs().sum());
+      std::max(strain, strain_of(stretch(meshes::deformation_gradient<3>(sheets.coarse, t, coarse)))
+                         .cwiseAbs()
+                         .sum());
   for (int k = 0; k < 3; ++k)
     mode = std::max(mode, chi.middleCols<2>(2 * k).rowwise().norm().maxCoeff());
   constexpr double lift = 1.; // of a rotation

@@ -94,16 +94,14 @@ std::string note_on_corotational_cloth(const Eigen::Matrix3d &C)
          axis_text(loss) + ", is elliptic up to " + percent_text(loss.strain) + " (E/G " +
          short_text(loss.ratio) +
          "); beyond it the law has no minimum that finer meshes approach, and what is found "
-         "belongs "
-         "to the mesh and the time step";
+         "belongs to the mesh and the time step";
 }
 
 std::string note_on_default_law(const UnitCell &cell)
 {
   const PhaseLoss loss = first_loss_of_biot(cell);
   const std::string is = cell.name + ": the law is " + name_of(default_law(cell)) +
-                         ", as none was "
-                         "asked for: under biot ";
+                         ", as none was asked for: under biot ";
   if (loss.strain == never)
     return is + "no phase that is pulled along its axes stops being elliptic";
   return is + "phase " + loss.phase + ", pulled along " + axis_text(loss) + ", is elliptic up to " +

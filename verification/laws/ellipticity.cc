@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "verification/laws/ellipticity.h"
 
-#include <Eigen/LU>
+#include "meshes/plain/triangle_kinematics.h"
 
 #include <algorithm>
 #include <array>
@@ -119,19 +119,6 @@ double EllipticityOfLaw::at(const Eigen::Matrix2d &F) const
   return std::isfinite(here.energy) ? least_wave(here.tangent).stiffness / at_rest : here.energy;
 }
 
-Eigen::Matrix2d deformation_gradient(const meshes::TriangleMesh &rest, const int triangle,
-                                     const meshes::Points &positions)
-{
-  Eigen::Matrix2d at_rest, now; // columns: the sides from the first corner
-  for (int k = 0; k < 2; ++k)
-  {
-    const int v = rest.triangles(triangle, k + 1), from = rest.triangles(triangle, 0);
-    at_rest.col(k) = (rest.vertices.row(v) - rest.vertices.row(from)).transpose();
-    now.col(k)     = (positions.row(v) - positions.row(from)).transpose();
-  }
-  return now * at_rest.inverse();
-}
-
 std::vector<PhaseEllipticity>
 ellipticity_of_phases(const meshes::TriangleMesh &rest,
                       const std::vector<Eigen::Matrix3d> &stiffness_of_phase, const Law law,
@@ -145,7 +132,7 @@ ellipticity_of_phases(const meshes::TriangleMesh &rest,
   {
     const auto phase    = static_cast<std::size_t>(rest.material(t));
     PhaseEllipticity &p = found[phase];
-    const double ratio  = laws[phase].at(deformation_gradient(rest, t, positions));
+    const double ratio  = laws[phase].at(meshes::deformation_gradient<2>(rest, t, positions));
     ++p.n_triangles;
     p.n_lost += ratio > 0. ? 0 : 1;
     p.least = std::min(p.least, ratio);

@@ -56,11 +56,6 @@ private:
   double at_rest;
 };
 
-/// F = dx/dX of a triangle, (2,2).
-/// @param positions (n,2) [m]
-Eigen::Matrix2d deformation_gradient(const meshes::TriangleMesh &rest, int triangle,
-                                     const meshes::Points &positions);
-
 /// The triangles of one phase in one state.
 struct PhaseEllipticity
 {

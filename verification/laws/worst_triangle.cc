@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "verification/laws/worst_triangle.h"
 
+#include "meshes/plain/triangle_kinematics.h"
 #include "verification/laws/ellipticity.h"
 #include "verification/record/number_text.h"
 
@@ -19,8 +20,8 @@ WorstTriangle worst_triangle(const meshes::TriangleMesh &rest,
   WorstTriangle worst;
   for (int t = 0; t < rest.n_triangles(); ++t)
   {
-    const double least =
-      laws[static_cast<std::size_t>(rest.material(t))].at(deformation_gradient(rest, t, positions));
+    const double least = laws[static_cast<std::size_t>(rest.material(t))].at(
+      meshes::deformation_gradient<2>(rest, t, positions));
     if (worst.triangle < 0 || least < worst.least)
     {
       worst.triangle = t;
@@ -29,7 +30,7 @@ WorstTriangle worst_triangle(const meshes::TriangleMesh &rest,
   }
   if (worst.triangle < 0)
     return worst;
-  const Eigen::Matrix2d F = deformation_gradient(rest, worst.triangle, positions);
+  const Eigen::Matrix2d F = meshes::deformation_gradient<2>(rest, worst.triangle, positions);
   const Response here =
     response(law, stiffness_of_phase[static_cast<std::size_t>(rest.material(worst.triangle))], F);
   Eigen::Matrix2d P;

@@ -2,10 +2,9 @@
 #include "verification/method/homogenized_sheet.h"
 
 #include "meshes/plain/errors.h"
+#include "meshes/plain/triangle_kinematics.h"
 #include "shell/algebra/free_vertex_matrix.h"
 #include "shell/membrane/corotational_energy.h"
-
-#include <Eigen/LU>
 
 #include <algorithm>
 #include <cmath>
@@ -180,16 +179,7 @@ std::vector<Eigen::Matrix2d> HomogenizedSheet::gradients(const shell::Positions<
   std::vector<Eigen::Matrix2d> result;
   result.reserve(static_cast<std::size_t>(mesh.n_triangles()));
   for (int t = 0; t < mesh.n_triangles(); ++t)
-  {
-    Eigen::Matrix2d rest, now;
-    for (int k = 0; k < 2; ++k)
-    {
-      const int a = mesh.triangles(t, 0), b = mesh.triangles(t, k + 1);
-      rest.col(k) = (mesh.vertices.row(b) - mesh.vertices.row(a)).transpose();
-      now.col(k)  = (positions.row(b) - positions.row(a)).transpose();
-    }
-    result.push_back(now * rest.inverse());
-  }
+    result.push_back(meshes::deformation_gradient<2>(mesh, t, positions));
   return result;
 }
 

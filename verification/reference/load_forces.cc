@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "verification/reference/load_forces.h"
 
+#include "meshes/plain/triangle_kinematics.h"
+
 #include <Eigen/LU>
 
 #include <cmath>
@@ -56,18 +58,11 @@ SheetEnergy sheet_energy(const meshes::Sheet &sheet,
   for (int t = 0; t < sheet.mesh.n_triangles(); ++t)
   {
     const Eigen::RowVector3i corners = sheet.mesh.triangles.row(t);
-    const auto legs                  = [&](const meshes::Points &points)
-    {
-      Eigen::Matrix2d columns;
-      columns << (points.row(corners(1)) - points.row(corners(0))).transpose(),
-        (points.row(corners(2)) - points.row(corners(0))).transpose();
-      return columns;
-    };
-    const Eigen::Matrix2d rest = legs(sheet.mesh.vertices);
-    const double area          = 0.5 * rest.determinant();
+    const double area =
+      0.5 * meshes::sides_of_triangle<2>(corners, sheet.mesh.vertices).determinant();
     const Response local =
       response(law, stiffness_of_phase[static_cast<std::size_t>(sheet.mesh.material(t))],
-               legs(positions) * rest.inverse());
+               meshes::deformation_gradient<2>(sheet.mesh, t, positions));
     sum.energy += area * local.energy;
     sum.stress += area * Eigen::Map<const Eigen::Matrix2d>(local.stress.data()).transpose();
   }

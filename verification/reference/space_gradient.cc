@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "verification/reference/space_gradient.h"
 
+#include "meshes/plain/triangle_kinematics.h"
+
 #include <Eigen/LU>
 
 namespace homespun::verification
@@ -12,15 +14,9 @@ meshes::SpacePoints space_gradient(const meshes::TriangleMesh &rest,
   meshes::SpacePoints gradient = meshes::SpacePoints::Zero(positions.rows(), 3);
   for (int t = 0; t < rest.n_triangles(); ++t)
   {
-    const Eigen::RowVector3i corners = rest.triangles.row(t);
-    Eigen::Matrix2d at_rest; // columns: the sides from the first corner
-    Eigen::Matrix<double, 3, 2> now;
-    for (int k = 0; k < 2; ++k)
-    {
-      at_rest.col(k) =
-        (rest.vertices.row(corners(k + 1)) - rest.vertices.row(corners(0))).transpose();
-      now.col(k) = (positions.row(corners(k + 1)) - positions.row(corners(0))).transpose();
-    }
+    const Eigen::RowVector3i corners      = rest.triangles.row(t);
+    const Eigen::Matrix2d at_rest         = meshes::sides_of_triangle<2>(corners, rest.vertices);
+    const Eigen::Matrix<double, 3, 2> now = meshes::sides_of_triangle<3>(corners, positions);
     const Eigen::Matrix2d inverse = at_rest.inverse(); // rows: the gradients of two of the shapes
     const SpaceGradient stress =
       space_response(law, stiffness_of_phase[static_cast<std::size_t>(rest.material(t))],

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Ellipticity against closed forms and a search of all directions.
 #include "verification/laws/ellipticity.h"
+
+#include "meshes/plain/sheet.h"
 #include "verification/laws/first_loss.h"
 
 #include <Eigen/LU>
@@ -178,12 +180,7 @@ TEST(invariant_ellipticity, it_turns_with_the_cloth_and_is_one_at_rest)
 
 TEST(exact_ellipticity, triangles_are_counted_by_phase)
 {
-  meshes::TriangleMesh mesh;
-  mesh.vertices.resize(4, 2);
-  mesh.vertices << 0., 0., 1., 0., 1., 1., 0., 1.;
-  mesh.triangles.resize(2, 3);
-  mesh.triangles << 0, 1, 2, 0, 2, 3;
-  mesh.material.resize(2);
+  meshes::TriangleMesh mesh = meshes::coarse_sheet({0., 0.}, Eigen::Matrix2d::Identity(), 1, 1);
   mesh.material << 0, 1;
   meshes::Points moved = mesh.vertices;
   moved.col(0) *= 1.01;

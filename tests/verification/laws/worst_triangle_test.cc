@@ -2,6 +2,8 @@
 // The worst triangle of a state that is known, and the stress there by the closed form of the law.
 #include "verification/laws/worst_triangle.h"
 
+#include "meshes/plain/sheet.h"
+#include "meshes/plain/triangle_kinematics.h"
 #include "verification/laws/ellipticity.h"
 
 #include <gtest/gtest.h>
@@ -14,12 +16,7 @@ namespace
 /// Two triangles of a square beside each other, the second of another phase.
 meshes::TriangleMesh two_triangles()
 {
-  meshes::TriangleMesh mesh;
-  mesh.vertices.resize(4, 2);
-  mesh.vertices << 0., 0., 1., 0., 1., 1., 0., 1.;
-  mesh.triangles.resize(2, 3);
-  mesh.triangles << 0, 1, 2, 0, 2, 3;
-  mesh.material.resize(2);
+  meshes::TriangleMesh mesh = meshes::coarse_sheet({0., 0.}, Eigen::Matrix2d::Identity(), 1, 1);
   mesh.material << 0, 1;
   return mesh;
 }
@@ -74,5 +71,5 @@ TEST(exact_worst_triangle, the_gradient_of_an_affine_motion_is_that_motion)
   F << 1.1, 0.3, -0.2, 0.9;
   const meshes::Points positions = rest.vertices * F.transpose();
   for (const int t : {0, 1})
-    EXPECT_LT((deformation_gradient(rest, t, positions) - F).norm(), 1e-14);
+    EXPECT_LT((meshes::deformation_gradient<2>(rest, t, positions) - F).norm(), 1e-14);
 }

@@ -110,7 +110,8 @@ class Stress(InFolder):
                     self.folder)
         self.assertEqual(other.returncode, 2)
         self.assertRegex(other.stderr,
-                         r"holds another run \(cells\), .* of work; .*--overwrite removes it")
+                         r"holds another run \(cell layered\), .* of work; "
+                         r".*--overwrite removes it")
         self.assertEqual(text, (self.folder / "stress.csv").read_text())
         (self.folder / "stress.csv").write_text(text.replace("FAIL", "PASS"))
         edited = run(*study)

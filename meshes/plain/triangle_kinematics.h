@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: MIT
+// How a triangle with linear shape functions deforms, in the plane or in space.
+#pragma once
+
+#include "meshes/plain/triangle_mesh.h"
+
+#include <Eigen/Core>
+#include <Eigen/LU>
+
+namespace homespun::meshes
+{
+/// The sides of a triangle from its first corner, one per column, (dim,2).
+/// @param corners indices of the rows of `points`
+/// @param points (n,dim) [m]
+template <int dim>
+Eigen::Matrix<double, dim, 2>
+sides_of_triangle(const Eigen::RowVector3i &corners,
+                  const Eigen::Matrix<double, Eigen::Dynamic, dim, Eigen::RowMajor> &points)
+{
+  Eigen::Matrix<double, dim, 2> sides;
+  for (int k = 0; k < 2; ++k)
+    sides.col(k) = (points.row(corners(k + 1)) - points.row(corners(0))).transpose();
+  return sides;
+}
+
+/// F = dx/dX of a triangle of a mesh, (dim,2): sides now times the inverse of the sides at rest.
+/// @param positions of the vertices (n,dim) [m]
+template <int dim>
+Eigen::Matrix<double, dim, 2>
+deformation_gradient(const TriangleMesh &rest, const int triangle,
+                     const Eigen::Matrix<double, Eigen::Dynamic, dim, Eigen::RowMajor> &positions)
+{
+  const Eigen::RowVector3i corners = rest.triangles.row(triangle);
+  return sides_of_triangle<dim>(corners, positions) *
+         sides_of_triangle<2>(corners, rest.vertices).inverse();
+}
+} // namespace homespun::meshes
