@@ -7,30 +7,32 @@
 
 namespace homespun::shell
 {
-template <int dim>
-FreeVertexMatrix<dim>::FreeVertexMatrix(const meshes::Triangles &triangles,
-                                        const std::vector<bool> &is_held)
-    : triangles(triangles)
-    , place(is_held.size(), -1)
-    , block_row(static_cast<std::size_t>(3 * triangles.rows()), -1)
+namespace
 {
-  const int n = static_cast<int>(is_held.size()), m = static_cast<int>(triangles.rows());
-  std::vector<int> free_index(is_held.size(), -1);
+/// Places of the vertices in the order in which the free ones come, −1 where held.
+std::vector<int> places_as_they_come(const std::vector<bool> &is_held)
+{
+  std::vector<int> place(is_held.size(), -1);
   int n_free = 0;
-  for (int v = 0; v < n; ++v)
-    if (!is_held[static_cast<std::size_t>(v)])
-      free_index[static_cast<std::size_t>(v)] = n_free++;
+  for (std::size_t v = 0; v < is_held.size(); ++v)
+    if (!is_held[v])
+      place[v] = n_free++;
+  return place;
+}
 
-  // The graph of the vertices is dim^2 times smaller than that of the unknowns, with the same
-  // order.
+/// Which free vertices have a side in common. This graph is dim^2 times smaller than that of the
+/// unknowns, with the same order.
+Eigen::SparseMatrix<double> graph_of(const meshes::Triangles &triangles,
+                                     const std::vector<int> &place, const int n_free)
+{
   std::vector<Eigen::Triplet<double>> edges;
   for (int v = 0; v < n_free; ++v)
     edges.emplace_back(v, v, 1.);
-  for (int t = 0; t < m; ++t)
+  for (int t = 0; t < static_cast<int>(triangles.rows()); ++t)
     for (int k = 0; k < 3; ++k)
     {
-      const int a = free_index[static_cast<std::size_t>(triangles(t, k))],
-                b = free_index[static_cast<std::size_t>(triangles(t, (k + 1) % 3))];
+      const int a = place[static_cast<std::size_t>(triangles(t, k))],
+                b = place[static_cast<std::size_t>(triangles(t, (k + 1) % 3))];
       if (a >= 0 && b >= 0)
       {
         edges.emplace_back(a, b, 1.);
@@ -39,36 +41,46 @@ FreeVertexMatrix<dim>::FreeVertexMatrix(const meshes::Triangles &triangles,
     }
   Eigen::SparseMatrix<double> graph(n_free, n_free);
   graph.setFromTriplets(edges.begin(), edges.end());
+  return graph;
+}
+
+/// The places above each in its column of vertex blocks, ascending, in a fill-reducing order.
+/// @param place as the vertices come; here they are put into that order
+std::vector<std::vector<int>> reorder(const Eigen::SparseMatrix<double> &graph,
+                                      std::vector<int> &place)
+{
   Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, int> order;
-  if (n_free > 0)
-    Eigen::AMDOrdering<int>()(graph, order); // order.indices()(new place) = free index
-  for (int v = 0, f = 0; v < n; ++v)
-    if (!is_held[static_cast<std::size_t>(v)])
-      place[static_cast<std::size_t>(v)] = f++;
-  std::vector<int> place_of_free(static_cast<std::size_t>(n_free));
-  for (int p = 0; p < n_free; ++p)
-    place_of_free[static_cast<std::size_t>(order.indices()(p))] = p;
+  if (graph.rows() > 0)
+    Eigen::AMDOrdering<int>()(graph, order); // order.indices()(new place) = old place
+  std::vector<int> new_place(static_cast<std::size_t>(graph.rows()));
+  for (int p = 0; p < static_cast<int>(graph.rows()); ++p)
+    new_place[static_cast<std::size_t>(order.indices()(p))] = p;
   for (int &p : place)
     if (p >= 0)
-      p = place_of_free[static_cast<std::size_t>(p)];
-
-  // Columns of vertex blocks, each with the places above it in ascending order.
-  std::vector<std::vector<int>> above(static_cast<std::size_t>(n_free));
-  for (int column = 0; column < n_free; ++column)
+      p = new_place[static_cast<std::size_t>(p)];
+  std::vector<std::vector<int>> above(new_place.size());
+  for (int column = 0; column < static_cast<int>(graph.cols()); ++column)
     for (Eigen::SparseMatrix<double>::InnerIterator entry(graph, column); entry; ++entry)
     {
-      const int a = place_of_free[static_cast<std::size_t>(entry.row())],
-                b = place_of_free[static_cast<std::size_t>(entry.col())];
+      const int a = new_place[static_cast<std::size_t>(entry.row())],
+                b = new_place[static_cast<std::size_t>(entry.col())];
       if (a < b)
         above[static_cast<std::size_t>(b)].push_back(a);
     }
-  Eigen::Index n_entries = 0;
   for (std::vector<int> &rows : above)
-  {
     std::sort(rows.begin(), rows.end());
+  return above;
+}
+
+/// The upper half, all zero.
+template <int dim>
+Eigen::SparseMatrix<double> upper_half(const std::vector<std::vector<int>> &above)
+{
+  const auto n_free      = static_cast<int>(above.size());
+  Eigen::Index n_entries = 0;
+  for (const std::vector<int> &rows : above)
     n_entries += static_cast<Eigen::Index>(rows.size()) * dim * dim + dim * (dim + 1) / 2;
-  }
-  upper.resize(dim * n_free, dim * n_free);
+  Eigen::SparseMatrix<double> upper(dim * n_free, dim * n_free);
   upper.reserve(n_entries);
   for (int column = 0; column < n_free; ++column)
     for (int j = 0; j < dim; ++j)
@@ -81,7 +93,21 @@ FreeVertexMatrix<dim>::FreeVertexMatrix(const meshes::Triangles &triangles,
         upper.insertBack(dim * column + i, dim * column + j) = 0.;
     }
   upper.finalize();
-  for (int t = 0; t < m; ++t)
+  return upper;
+}
+} // namespace
+
+template <int dim>
+FreeVertexMatrix<dim>::FreeVertexMatrix(const meshes::Triangles &triangles,
+                                        const std::vector<bool> &is_held)
+    : triangles(triangles)
+    , place(places_as_they_come(is_held))
+    , block_row(static_cast<std::size_t>(3 * triangles.rows()), -1)
+{
+  const auto n_free = static_cast<int>(std::count(is_held.begin(), is_held.end(), false));
+  const std::vector<std::vector<int>> above = reorder(graph_of(triangles, place, n_free), place);
+  upper                                     = upper_half<dim>(above);
+  for (int t = 0; t < static_cast<int>(triangles.rows()); ++t)
     for (int k = 0; k < 3; ++k)
     {
       const int a = place[static_cast<std::size_t>(triangles(t, k))],

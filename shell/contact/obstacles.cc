@@ -18,127 +18,21 @@ namespace
 constexpr double default_stiffness = 1000.;
 constexpr double infinite          = std::numeric_limits<double>::infinity();
 
-class Plane final : public Shape
-{
-public:
-  Plane(const Eigen::Vector3d &point, const Eigen::Vector3d &normal)
-      : normal(normal.normalized())
-      , height(this->normal.dot(point))
-  {
-  }
-  std::optional<SurfacePoint> nearest(const Eigen::Vector3d &point,
-                                      const double within) const override
-  {
-    const double distance = normal.dot(point) - height;
-    if (distance > within)
-      return std::nullopt;
-    return SurfacePoint{distance, normal};
-  }
-  std::optional<SurfaceEntry> first_entry(const Eigen::Vector3d &from,
-                                          const Eigen::Vector3d &to) const override
-  {
-    const double begin = normal.dot(from) - height, end = normal.dot(to) - height;
-    if (!(begin >= 0. && end < 0.))
-      return std::nullopt;
-    const double part = begin / (begin - end);
-    return SurfaceEntry{from + part * (to - from), normal, part};
-  }
-  std::size_t bytes() const override
-  {
-    return sizeof(*this);
-  }
-
-private:
-  Eigen::Vector3d normal;
-  double height;
-};
-
-class Sphere final : public Shape
-{
-public:
-  Sphere(const Eigen::Vector3d &centre, const double radius)
-      : centre(centre)
-      , radius(radius)
-  {
-  }
-  std::optional<SurfacePoint> nearest(const Eigen::Vector3d &point,
-                                      const double within) const override
-  {
-    const Eigen::Vector3d away = point - centre;
-    const double length        = away.norm();
-    if (length - radius > within)
-      return std::nullopt;
-    // At the centre all ways out are equally long; upwards is one of them.
-    if (length <= 1e-14 * radius)
-      return SurfacePoint{length - radius, Eigen::Vector3d::UnitZ()};
-    return SurfacePoint{length - radius, away / length};
-  }
-  std::optional<SurfaceEntry> first_entry(const Eigen::Vector3d &from,
-                                          const Eigen::Vector3d &to) const override
-  {
-    // |a + s w|² = r²: w² s² + 2 a·w s + (a² − r²) = 0, the smaller root in a form without
-    // cancellation.
-    const Eigen::Vector3d a = from - centre, w = to - from;
-    const double ww = w.squaredNorm(), aw = a.dot(w), c = a.squaredNorm() - radius * radius,
-                 discriminant = aw * aw - ww * c;
-    if (!(c >= 0. && aw < 0. && discriminant > 0.))
-      return std::nullopt;
-    const double part = c / (-aw + std::sqrt(discriminant));
-    if (part > 1.)
-      return std::nullopt;
-    const Eigen::Vector3d out = a + part * w;
-    return SurfaceEntry{centre + out, out.normalized(), part};
-  }
-  std::size_t bytes() const override
-  {
-    return sizeof(*this);
-  }
-
-private:
-  Eigen::Vector3d centre;
-  double radius;
-};
-
-class ClosedMesh final : public Shape
-{
-public:
-  explicit ClosedMesh(ClosedSurface surface)
-      : surface(std::move(surface))
-  {
-  }
-  std::optional<SurfacePoint> nearest(const Eigen::Vector3d &point,
-                                      const double within) const override
-  {
-    return surface.nearest(point, within);
-  }
-  std::optional<SurfaceEntry> first_entry(const Eigen::Vector3d &from,
-                                          const Eigen::Vector3d &to) const override
-  {
-    return surface.first_entry(from, to);
-  }
-  std::size_t bytes() const override
-  {
-    return surface.bytes();
-  }
-
-private:
-  ClosedSurface surface;
-};
-
-/// {x: n·x >= offset} that a way which begins outside and beyond the thickness runs into.
-struct Ahead
+/// {x: n·x >= offset}, in the frame of the body.
+struct Plane
 {
   Eigen::Vector3d normal;
   double offset = 0.;
 };
 
-std::optional<Ahead> contact_ahead(const Shape &shape, const Eigen::Vector3d &from,
+/// What a way that begins outside and beyond the thickness runs into.
+std::optional<Plane> contact_ahead(const Shape &shape, const Eigen::Vector3d &from,
                                    const Eigen::Vector3d &to, const double thickness)
 {
   if (const auto entry = shape.first_entry(from, to))
-    return Ahead{entry->normal, entry->normal.dot(entry->point) + thickness};
+    return Plane{entry->normal, entry->normal.dot(entry->point) + thickness};
   if (const auto near = shape.nearest(to, thickness))
-    return Ahead{near->normal, near->normal.dot(to) - near->distance + thickness};
+    return Plane{near->normal, near->normal.dot(to) - near->distance + thickness};
   return std::nullopt;
 }
 
@@ -147,6 +41,26 @@ double secant(const double speed, const double slip_speed)
 {
   return speed < slip_speed ? (2. - speed / slip_speed) / slip_speed : 1. / speed;
 }
+
+/// Whether a half-space holds a vertex that leaves it, too.
+enum class Sides
+{
+  one,
+  both
+};
+
+/// A vertex and where a step would bring it, in the frame of the body.
+struct Approach
+{
+  int index = 0;
+  Eigen::Vector3d after; ///< displacement of the body at the end of the step [m]
+  Eigen::Vector3d here;
+  Eigen::Vector3d way  = Eigen::Vector3d::Zero(); ///< by its velocity [m]
+  Eigen::Vector3d fall = Eigen::Vector3d::Zero(); ///< by gravity [m]
+  double step          = 0.;                      ///< h [s]
+  double inertia       = 0.;                      ///< m/h^2 [N/m]
+  double hard          = 0.;                      ///< stiffness of a contact [N/m]
+};
 
 class Contact final : public ExternalTerm
 {
@@ -261,6 +175,15 @@ private:
     }
   };
 
+  void add(const Approach &vertex, const Plane &plane, double stiffness, Sides sides,
+           double drag = 0.);
+  /// In an equilibrium, and of a vertex that is nearby and goes elsewhere.
+  void keep_out(const Approach &vertex, const SurfacePoint &near);
+  /// A vertex within the thickness.
+  void touch(const Approach &vertex, const SurfacePoint &near);
+  /// A vertex that may come within the thickness.
+  void look_ahead(const Approach &vertex, const SurfacePoint &near);
+
   Obstacle obstacle;
   Eigen::VectorXd masses;
   ContactParameters parameters;
@@ -280,107 +203,88 @@ void Contact::begin_step(const StepStart &start)
   { return obstacle.displacement ? obstacle.displacement(time) : Eigen::Vector3d::Zero(); };
   const Eigen::Vector3d before = displaced(start.time),
                         after  = moving ? displaced(start.time + h) : before;
-  const double t               = parameters.thickness;
   contacts.clear();
   for (int v = 0; v < static_cast<int>(start.positions.rows()); ++v)
   {
-    // All in the frame of the body.
-    const Eigen::Vector3d here = start.positions.row(v).transpose() - before;
-    Eigen::Vector3d way = Eigen::Vector3d::Zero(), fall = way;
+    Approach vertex;
+    vertex.index = v;
+    vertex.after = after;
+    vertex.here  = start.positions.row(v).transpose() - before;
     if (moving)
     {
-      way  = h * start.velocities.row(v).transpose() - (after - before);
-      fall = h * h * parameters.gravity;
+      vertex.step    = h;
+      vertex.way     = h * start.velocities.row(v).transpose() - (after - before);
+      vertex.fall    = h * h * parameters.gravity;
+      vertex.inertia = masses(v) / (h * h);
     }
-    const double reach = moving ? t + way.norm() + fall.norm() : infinite;
-    const auto near    = obstacle.shape->nearest(here, reach);
+    vertex.hard =
+      parameters.stiffness > 0. ? parameters.stiffness : default_stiffness * vertex.inertia;
+    const double reach =
+      moving ? parameters.thickness + vertex.way.norm() + vertex.fall.norm() : infinite;
+    const auto near = obstacle.shape->nearest(vertex.here, reach);
     if (!near)
       continue;
-    HalfSpace contact;
-    contact.vertex       = v;
-    contact.carried      = here + after;
-    const double inertia = moving ? masses(v) / (h * h) : 0.;
-    const double hard =
-      parameters.stiffness > 0. ? parameters.stiffness : default_stiffness * inertia;
-    // n·x = offset is said in the frame of the body.
-    const auto add = [&](const Eigen::Vector3d &normal, const double offset, const double stiffness,
-                         const bool one_sided, const double drag)
-    {
-      contact.normal    = normal;
-      contact.offset    = offset + normal.dot(after);
-      contact.stiffness = stiffness;
-      contact.one_sided = one_sided;
-      contact.drag      = drag;
-      contacts.push_back(contact);
-    };
     if (!moving)
-    {
-      add(near->normal, near->normal.dot(here) - near->distance + t, hard, true, 0.);
-      continue;
-    }
-
-    if (near->distance < t) // it touches
-    {
-      const Eigen::Vector3d &n = near->normal;
-      const double goal        = std::min(t, near->distance + h * parameters.recovery_speed),
-                   offset      = n.dot(here) - near->distance + goal,
-                   below       = offset - n.dot(here + way + fall);
-      if (!(below > 0.))
-        continue; // it leaves
-      const double force = hard * (goal - near->distance),
-                   speed = (way - n.dot(way) * n).norm() / h;
-      add(n, offset, hard, false,
-          obstacle.friction * force * secant(speed, parameters.slip_speed) / h);
-      const Eigen::Vector3d slid = here + way + fall + below * n;
-      if (near->distance >= 0.)
-        if (const auto entry = obstacle.shape->first_entry(here, slid))
-          add(entry->normal, entry->normal.dot(entry->point) + t, hard, false, 0.);
-      continue;
-    }
-    if (const auto there = contact_ahead(*obstacle.shape, here, here + way, t))
-      add(there->normal, there->offset, hard, false, 0.);
-    else if (const auto fallen = contact_ahead(*obstacle.shape, here, here + way + fall, t);
-             fallen && fallen->normal.dot(way) <= 0.)
-    {
-      // A spring of the vertex' own inertia, so placed that it would fall just onto the half-space.
-      const double gap = fallen->offset - fallen->normal.dot(here);
-      add(fallen->normal, fallen->normal.dot(here) + 2. * gap - fallen->normal.dot(way + fall),
-          inertia, false, 0.);
-    }
+      keep_out(vertex, *near);
+    else if (near->distance < parameters.thickness)
+      touch(vertex, *near);
     else
-      add(near->normal, near->normal.dot(here) - near->distance + t, hard, true, 0.);
+      look_ahead(vertex, *near);
   }
+}
+
+void Contact::add(const Approach &vertex, const Plane &plane, const double stiffness,
+                  const Sides sides, const double drag)
+{
+  contacts.push_back({vertex.index, sides == Sides::one, stiffness, plane.normal,
+                      plane.offset + plane.normal.dot(vertex.after), drag,
+                      vertex.here + vertex.after});
+}
+
+void Contact::keep_out(const Approach &vertex, const SurfacePoint &near)
+{
+  add(vertex, {near.normal, near.normal.dot(vertex.here) - near.distance + parameters.thickness},
+      vertex.hard, Sides::one);
+}
+
+void Contact::touch(const Approach &vertex, const SurfacePoint &near)
+{
+  const double h = vertex.step, t = parameters.thickness;
+  const Eigen::Vector3d &n = near.normal;
+  const double goal        = std::min(t, near.distance + h * parameters.recovery_speed),
+               offset      = n.dot(vertex.here) - near.distance + goal,
+               below       = offset - n.dot(vertex.here + vertex.way + vertex.fall);
+  if (!(below > 0.))
+    return; // it leaves
+  const double force = vertex.hard * (goal - near.distance),
+               speed = (vertex.way - n.dot(vertex.way) * n).norm() / h;
+  add(vertex, {n, offset}, vertex.hard, Sides::both,
+      obstacle.friction * force * secant(speed, parameters.slip_speed) / h);
+  const Eigen::Vector3d slid = vertex.here + vertex.way + vertex.fall + below * n;
+  if (near.distance >= 0.)
+    if (const auto entry = obstacle.shape->first_entry(vertex.here, slid))
+      add(vertex, {entry->normal, entry->normal.dot(entry->point) + t}, vertex.hard, Sides::both);
+}
+
+void Contact::look_ahead(const Approach &vertex, const SurfacePoint &near)
+{
+  const Eigen::Vector3d &here = vertex.here, &way = vertex.way, &fall = vertex.fall;
+  const double t = parameters.thickness;
+  if (const auto there = contact_ahead(*obstacle.shape, here, here + way, t))
+    add(vertex, *there, vertex.hard, Sides::both);
+  else if (const auto fallen = contact_ahead(*obstacle.shape, here, here + way + fall, t);
+           fallen && fallen->normal.dot(way) <= 0.)
+  {
+    // A spring of the vertex' own inertia, so placed that it would fall just onto the half-space.
+    const double gap = fallen->offset - fallen->normal.dot(here);
+    add(vertex,
+        {fallen->normal, fallen->normal.dot(here) + 2. * gap - fallen->normal.dot(way + fall)},
+        vertex.inertia, Sides::both);
+  }
+  else
+    keep_out(vertex, near);
 }
 } // namespace
-
-std::shared_ptr<const Shape> plane(const Eigen::Vector3d &point, const Eigen::Vector3d &normal)
-{
-  if (!point.allFinite() || !normal.allFinite() || !(normal.norm() > 0.))
-  {
-    std::ostringstream text;
-    text << "plane: point (" << point.transpose() << ") m, normal (" << normal.transpose()
-         << "); expected finite numbers and a normal that is not zero";
-    throw meshes::BadInput(text.str());
-  }
-  return std::make_shared<Plane>(point, normal);
-}
-
-std::shared_ptr<const Shape> sphere(const Eigen::Vector3d &centre, const double radius)
-{
-  if (!centre.allFinite() || !std::isfinite(radius) || !(radius > 0.))
-  {
-    std::ostringstream text;
-    text << "sphere: centre (" << centre.transpose() << ") m, radius " << radius
-         << " m; expected finite numbers and a positive radius";
-    throw meshes::BadInput(text.str());
-  }
-  return std::make_shared<Sphere>(centre, radius);
-}
-
-std::shared_ptr<const Shape> closed_mesh(ClosedSurface surface)
-{
-  return std::make_shared<ClosedMesh>(std::move(surface));
-}
 
 std::unique_ptr<Term> obstacle_term(const Obstacle &obstacle, const Eigen::VectorXd &masses,
                                     const ContactParameters &parameters)

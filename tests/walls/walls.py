@@ -61,9 +61,11 @@ MAY_INCLUDE = {
                               "verification/cell",
                               "verification/method", "homogenization/bracket", "localization"}
     | MESHES | CELLS | SHELL,
-    "verification/drape": {"verification/record", "verification/reference", "verification/laws",
-                           "verification/cell", "verification/method", "localization",
-                           "shell/contact"}
+    "verification/scene": {"meshes/plain", "shell/solver", "shell/terms",
+                           "homogenization/cell"},
+    "verification/drape": {"verification/scene", "verification/record",
+                           "verification/reference", "verification/laws", "verification/cell",
+                           "verification/method", "localization", "shell/contact"}
     | MESHES | CELLS | SHELL,
     "verification/extremes": {"verification/record", "verification/laws", "verification/cell",
                               "localization",
@@ -84,7 +86,8 @@ MAY_INCLUDE = {
     "verification/program": {"verification/record", "verification/cell", "verification/laws",
                              "verification/method",
                              "verification/budget", "verification/strain",
-                             "verification/converge", "verification/drape",
+                             "verification/converge", "verification/scene",
+                             "verification/drape",
                              "verification/extremes", "verification/load", "verification/bloch",
                              "verification/scaling", "verification/upsample",
                              "verification/benchmark",

@@ -149,7 +149,7 @@ private:
   /// P1 on the refined mesh: three loads, from the mesh to C^H.
   void cell_problems()
   {
-    progress.begin("cell problems", true);
+    progress.milestone("cell problems");
     MeasuredWork whole, assembly, setup, solve;
     for (int run = 0; run < options.runs; ++run)
     {
@@ -176,7 +176,7 @@ private:
 
   void machine()
   {
-    progress.begin("memory and multiplications", true);
+    progress.milestone("memory and multiplications");
     constexpr std::size_t large = 8u << 20; // numbers, 64 MB: in no cache
     add("copy", copy_limit(large * sizeof(double), options.runs), "B moved");
     add("triad", triad_limit(large, options.runs), "B moved");
@@ -196,7 +196,7 @@ private:
     MeasuredWork step, upsampling;
     step.work = draped.coarse.n_triangles();
     std::unique_ptr<SceneCloth> moving;
-    progress.begin("coarse steps", true);
+    progress.milestone("coarse steps");
     for (int run = 0; run < options.runs; ++run)
     {
       moving         = std::make_unique<SceneCloth>(scene, draped.coarse, draped.effective, motion);
@@ -212,7 +212,7 @@ private:
     }
     add("step", step, "triangle");
     progress.done();
-    progress.begin("parts of a step", true);
+    progress.milestone("parts of a step");
     parts_of_a_step(*moving, draped, schedule.step);
     upsampling.work    = 2. * static_cast<double>(fine.size()) * sizeof(float);
     n_fine             = draped.fine_triangles().rows();

@@ -107,9 +107,8 @@ private:
         for (const std::string &load : options.loads)
           for (const std::vector<double> &strains : ways)
           {
-            progress.begin(cell.name + ", " + law + ", " + load +
-                             (strains.front() < 0. ? ", pressed" : ", pulled"),
-                           true);
+            progress.milestone(cell.name + ", " + law + ", " + load +
+                               (strains.front() < 0. ? ", pressed" : ", pulled"));
             LossRow names;
             names.cell = cell.name;
             names.law  = law;

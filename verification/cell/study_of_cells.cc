@@ -35,12 +35,17 @@ StudyOfCells::StudyOfCells(StudyOptions given_options, const MPI_Comm communicat
   check_names(all_cells);
 }
 
-bool StudyOfCells::open(const std::string &name, nlohmann::ordered_json inputs)
+nlohmann::ordered_json StudyOfCells::with_cells(nlohmann::ordered_json inputs) const
 {
   for (const UnitCell &cell : all_cells)
     inputs["cell " + cell.name] = fingerprint(cell);
-  folder =
-    open_run_folder(options.output, {name, std::move(inputs)}, options.earlier, options.quiet);
+  return inputs;
+}
+
+bool StudyOfCells::open(const std::string &name, nlohmann::ordered_json inputs)
+{
+  folder = open_run_folder(options.output, {name, with_cells(std::move(inputs))}, options.earlier,
+                           options.quiet);
   return folder->is_taken_up();
 }
 
@@ -66,7 +71,7 @@ void StudyOfCells::conclude(StudyDescription description, const std::vector<Verd
   study["notes"]      = description.notes;
   study["provenance"] = provenance(n_ranks);
   write_json(options.output + "/verdicts.json", to_json(verdicts, options.command));
-  write_json(options.output + "/study.json", study);
+  write_json(options.output + "/" + description.file, study);
   folder->finish();
 }
 } // namespace homespun::verification

@@ -15,13 +15,14 @@
 
 namespace homespun::verification
 {
-/// What study.json says of a study, beside its command, ranks, seconds and provenance.
+/// What a study says of itself, beside its command, ranks, seconds and provenance.
 struct StudyDescription
 {
   nlohmann::ordered_json told;     ///< what it was told, by name
   nlohmann::ordered_json left_out; ///< a list of {what, why}
   std::vector<std::string> notes;  ///< what a reader has to know
-  bool is_resumed = false;
+  bool is_resumed  = false;
+  std::string file = "study.json"; ///< in which it is said
 };
 
 /// 1.25 / (1 - 2^-q), q twice the exponent of the strongest corner and at most 2, the order of the
@@ -41,6 +42,9 @@ public:
     return all_cells;
   }
 
+  /// Inputs with what the cells are made of, by name.
+  nlohmann::ordered_json with_cells(nlohmann::ordered_json inputs) const;
+
   /// Takes the folder for a run of these inputs and cells. First rank.
   /// @param name of the command
   /// @return whether the folder held this run already
@@ -50,8 +54,8 @@ public:
   /// The folder of a cell, made, with the files of write_cell_results(). First rank.
   std::string write_cell(const homogenization::UnitCell &cell, const AssessedCell &assessed) const;
 
-  /// Writes study.json and verdicts.json, adds how cells were cut to the notes, and ends the run.
-  /// First rank.
+  /// Writes the description and verdicts.json, adds how cells were cut to the notes, and ends the
+  /// run. First rank.
   void conclude(StudyDescription description, const std::vector<Verdict> &verdicts);
 
 private:

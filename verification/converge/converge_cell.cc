@@ -65,21 +65,10 @@ struct MethodOfOrder
   std::string error, theory;
 };
 
-/// The distance of methods from the default law on one cell, along a ladder of strains.
-ConvergenceResult climb_strains(const UnitCell &cell, const meshes::HomogenizedCell &homogenized,
-                                const Load &load, const ConvergenceSizes &sizes,
-                                const MPI_Comm communicator)
+/// Those that have a meaning under a law. The third order is seen over fewer levels before the
+/// solver's share: 0.2.
+std::vector<MethodOfOrder> methods_under(const Law law)
 {
-  constexpr double floor    = 1e-12; // of errors in cell sides: solvers stop at 1e-11 of the strain
-  const meshes::Sheet sheet = meshes::tile(cell.mesh, cell.lattice, 1, 1);
-  ReferenceOptions options;
-  options.tolerance = 1e-11;
-  FineReference reference(sheet, cell.stiffness_of_phase(), options, communicator);
-  const Law law = default_law(cell);
-  reference.start(load, law);
-  LightweightCloth cloth(homogenized, sheet, load);
-  const double side = std::sqrt(cell.lattice.area());
-  // The third order is seen over fewer levels before the solver's share: 0.2.
   std::vector<MethodOfOrder> methods = {
     {"localized", 2., 0.1, "strain squared", "chi is exact to first order in strain: order 2"},
     {"affine", 1., 0.1, "strain", "affine lacks the fluctuation: order 1"},
@@ -89,6 +78,54 @@ ConvergenceResult climb_strains(const UnitCell &cell, const meshes::HomogenizedC
                                [&](const MethodOfOrder &method)
                                { return !Method(method.name).has_meaning(law); }),
                 methods.end());
+  return methods;
+}
+
+/// Adds the errors of a method along the ladder, and what they say of its order.
+/// @param what the method is compared with
+void judge_method(const MethodOfOrder &method, const std::string &what, const UnitCell &cell,
+                  Series errors, ConvergenceResult &result)
+{
+  constexpr double floor = 1e-12; // of errors in cell sides: solvers stop at 1e-11 of the strain
+  double largest         = 0.;    // per strain
+  for (const ConvergenceLevel &level : errors.levels)
+    largest = larger(largest, *level.error / level.h);
+  if (largest < 1e-10)
+  {
+    const bool is_laminate =
+      homogenization::corners_of(cell.mesh, cell.lattice, cell.stiffness_of_phase()).empty();
+    result.verdicts.push_back({what + ": zero to round-off at every level; only in a laminate "
+                                      "can the law be linear in a load (largest error per "
+                                      "strain and cell side)",
+                               is_laminate ? Outcome::pass : Outcome::fail, largest,
+                               is_laminate ? "< 1e-10" : "not zero: the cell has corners",
+                               "the reference stops where 1e-11 of the element forces are left; "
+                               "positions per strain have ten times that"});
+    result.add(errors);
+    return;
+  }
+  errors.judgement =
+    judge_errors(errors.sizes(), errors.errors(), about(method.order, method.tolerance), floor);
+  result.add(errors, {what + " errs by " + method.error,
+                      method.theory + " +- " + short_text(method.tolerance) +
+                        ", at least the change from level to level that counts as settled; "
+                        "levels below 1e-12 of a cell side are the solver's"});
+}
+
+/// The distance of methods from the default law on one cell, along a ladder of strains.
+ConvergenceResult climb_strains(const UnitCell &cell, const meshes::HomogenizedCell &homogenized,
+                                const Load &load, const ConvergenceSizes &sizes,
+                                const MPI_Comm communicator)
+{
+  const meshes::Sheet sheet = meshes::tile(cell.mesh, cell.lattice, 1, 1);
+  ReferenceOptions options;
+  options.tolerance = 1e-11;
+  FineReference reference(sheet, cell.stiffness_of_phase(), options, communicator);
+  const Law law = default_law(cell);
+  reference.start(load, law);
+  LightweightCloth cloth(homogenized, sheet, load);
+  const double side                        = std::sqrt(cell.lattice.area());
+  const std::vector<MethodOfOrder> methods = methods_under(law);
   std::vector<Series> all(methods.size());
   for (std::size_t m = 0; m < methods.size(); ++m)
   {
@@ -121,34 +158,9 @@ ConvergenceResult climb_strains(const UnitCell &cell, const meshes::HomogenizedC
   if (all[0].levels.empty())
     return result;
   result.outcome_of_unfinished = Outcome::inconclusive; // a limit point, or one that was missed
-  const bool is_laminate =
-    homogenization::corners_of(cell.mesh, cell.lattice, cell.stiffness_of_phase()).empty();
   for (std::size_t m = 0; m < methods.size(); ++m)
-  {
-    const MethodOfOrder &method = methods[m];
-    double largest              = 0.; // per strain
-    for (const ConvergenceLevel &level : all[m].levels)
-      largest = larger(largest, *level.error / level.h);
-    const std::string what = method.name + " against " + name_of(law);
-    if (largest < 1e-10)
-    {
-      result.verdicts.push_back({what + ": zero to round-off at every level; only in a laminate "
-                                        "can the law be linear in a load (largest error per "
-                                        "strain and cell side)",
-                                 is_laminate ? Outcome::pass : Outcome::fail, largest,
-                                 is_laminate ? "< 1e-10" : "not zero: the cell has corners",
-                                 "the reference stops where 1e-11 of the element forces are left; "
-                                 "positions per strain have ten times that"});
-      result.add(all[m]);
-      continue;
-    }
-    all[m].judgement =
-      judge_errors(all[m].sizes(), all[m].errors(), about(method.order, method.tolerance), floor);
-    result.add(all[m], {what + " errs by " + method.error,
-                        method.theory + " +- " + short_text(method.tolerance) +
-                          ", at least the change from level to level that counts as settled; "
-                          "levels below 1e-12 of a cell side are the solver's"});
-  }
+    judge_method(methods[m], methods[m].name + " against " + name_of(law), cell, std::move(all[m]),
+                 result);
   return result;
 }
 } // namespace

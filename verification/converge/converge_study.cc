@@ -211,7 +211,10 @@ private:
     for (const ConvergenceCase &one : cases)
     {
       const std::string here = one.cell == "none" ? one.study : one.cell + ", " + one.study;
-      progress.begin(here + ": " + one.name, here != group);
+      if (here == group)
+        progress.begin(here + ": " + one.name);
+      else
+        progress.milestone(here + ": " + one.name);
       group        = here;
       int is_there = is_root && record->is_complete(one);
       MPI_Bcast(&is_there, 1, MPI_INT, 0, communicator);

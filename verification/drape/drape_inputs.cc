@@ -36,7 +36,7 @@ bool asks_for(const DrapeOptions &options, const std::function<bool(const Method
                      [&](const std::string &name) { return is_of_it(Method(name)); });
 }
 
-std::vector<std::string> cloths(const DrapeOptions &options)
+std::vector<std::string> cloths_of(const DrapeOptions &options)
 {
   std::vector<std::string> names = options.variants;
   for (const std::string &name : options.methods)
@@ -196,9 +196,9 @@ nlohmann::ordered_json rows_of(const Eigen::Matrix3d &m)
   return {{m(0, 0), m(0, 1), m(0, 2)}, {m(1, 0), m(1, 1), m(1, 2)}, {m(2, 0), m(2, 1), m(2, 2)}};
 }
 
-std::vector<std::string> scene_warnings(const Scene &scene, const std::vector<UnitCell> &cells)
+std::vector<std::string> scene_warnings(const Scene &scene)
 {
-  std::vector<std::string> warnings = notes_on_cuts(cells);
+  std::vector<std::string> warnings;
   std::string points;
   for (const HeldPlace &held : scene.held)
     // A corner is named by two words, an edge by one.
@@ -214,8 +214,7 @@ std::vector<std::string> scene_warnings(const Scene &scene, const std::vector<Un
 }
 
 nlohmann::ordered_json drape_inputs(const DrapeOptions &options, const Scene &scene,
-                                    const DrapeSchedule &schedule,
-                                    const std::vector<UnitCell> &cells)
+                                    const DrapeSchedule &schedule)
 {
   nlohmann::ordered_json inputs = {{"scene", scene.echo},
                                    {"time_step", scene.time_step},
@@ -233,8 +232,6 @@ nlohmann::ordered_json drape_inputs(const DrapeOptions &options, const Scene &sc
   for (const SceneObstacle &obstacle : scene.obstacles)
     if (!obstacle.file.empty())
       inputs["meshes"].push_back(fingerprint_of_file(obstacle.file));
-  for (const UnitCell &cell : cells)
-    inputs["cells"][cell.name] = fingerprint(cell);
   return inputs;
 }
 

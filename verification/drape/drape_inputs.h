@@ -28,7 +28,7 @@ bool asks_for(const DrapeOptions &options, const std::function<bool(const Method
 
 /// Names of the coarse cloths that are run: variants of the membrane, and the methods that have
 /// cloths of their own.
-std::vector<std::string> cloths(const DrapeOptions &options);
+std::vector<std::string> cloths_of(const DrapeOptions &options);
 
 /// What the cell does at edges, where a method asks for it.
 /// @throws BadInput where it has no terms of edges
@@ -55,16 +55,14 @@ void check_cloth(const DrapeOptions &options, const Scene &scene,
 /// The rows of a matrix, for drape.json.
 nlohmann::ordered_json rows_of(const Eigen::Matrix3d &m);
 
-/// What is to be known of a scene that can be run: cells that are not cut from the cloth as they
-/// are drawn, and single points that are held, at which a membrane yields without bound as the mesh
-/// becomes finer.
-std::vector<std::string> scene_warnings(const Scene &scene,
-                                        const std::vector<homogenization::UnitCell> &cells);
+/// What is to be known of a scene that can be run: single points that are held, at which a membrane
+/// yields without bound as the mesh becomes finer.
+std::vector<std::string> scene_warnings(const Scene &scene);
 
-/// All that the rows, frames and states of a run depend on.
+/// All that the rows, frames and states of a run depend on, beside its cells.
 nlohmann::ordered_json drape_inputs(const DrapeOptions &options, const Scene &scene,
-                                    const DrapeSchedule &schedule,
-                                    const std::vector<homogenization::UnitCell> &cells);
+                                    const DrapeSchedule &schedule);
+
 /// What was not asked for, and what that leaves open, for drape.json.
 nlohmann::ordered_json what_was_left_out(const DrapeOptions &options, const Scene &scene);
 } // namespace homespun::verification

@@ -5,8 +5,8 @@
 
 #include "shell/solver/cloth.h"
 #include "verification/drape/held_motion.h"
-#include "verification/drape/scene.h"
 #include "verification/method/moving_edges.h"
+#include "verification/scene/scene.h"
 
 #include <memory>
 #include <string>

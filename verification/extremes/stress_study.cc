@@ -111,7 +111,7 @@ private:
     Progress progress(is_root && !options.quiet, static_cast<int>(study.cells().size()));
     for (const homogenization::UnitCell &cell : study.cells())
     {
-      progress.begin(cell.name + ": homogenization", true);
+      progress.milestone(cell.name + ": homogenization");
       const AssessedCell assessed = assess_for_study(cell, communicator, verdicts);
       cells.push_back(homogenization::homogenized_cell(cell, assessed.result, provenance_line()));
       names.push_back(cell.name);
@@ -171,7 +171,10 @@ private:
         progress.done();
         continue;
       }
-      progress.begin(one.group + (one.group == group ? ": " + one.name : ""), one.group != group);
+      if (one.group == group)
+        progress.begin(one.group + ": " + one.name);
+      else
+        progress.milestone(one.group);
       group                     = one.group;
       const StressResult result = run_case(one, options.repeats);
       table->append(stress_row(one, result));
@@ -191,8 +194,11 @@ private:
     std::string parameter;
     for (const SolverMeasurement &one : all)
     {
-      progress.begin("solver: " + one.keys.parameter + " " + short_text(one.keys.value),
-                     one.keys.parameter != parameter);
+      const std::string what = "solver: " + one.keys.parameter + " " + short_text(one.keys.value);
+      if (one.keys.parameter == parameter)
+        progress.begin(what);
+      else
+        progress.milestone(what);
       parameter = one.keys.parameter;
       if (!rows.contains(one.keys))
         rows.append(one.run(options.repeats > 2 ? 3 : 1));

@@ -229,7 +229,7 @@ private:
       const double factor = factor_of_bars(cell);
       for (const std::string &law : laws_of(cell))
       {
-        progress.begin(cell.name + ", " + law, true);
+        progress.milestone(cell.name + ", " + law);
         add_path({cell.name, law, "resolved"}, {cloths.given, cloths.phases, law_of(law)},
                  {cloths.finer, cloths.phases, law_of(law)}, factor);
         progress.done();

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 // homespun drape: a scene and its page.
 #include "meshes/plain/errors.h"
-#include "verification/drape/scene.h"
 #include "verification/drape/scene_cloth.h"
 #include "verification/method/lightweight_cloth.h"
 #include "verification/program/studies.h"
 #include "verification/program/study_arguments.h"
+#include "verification/scene/scene.h"
 
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>

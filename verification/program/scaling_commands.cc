@@ -37,7 +37,7 @@ int prepare(ScalingOptions options, AfterMpi &afterwards)
                "`; expected {ranks} where the number of ranks stands, like `srun -n {ranks}`");
   faults.throw_if_any();
   if (options.output.empty())
-    options.output = default_folder("scaling", stems({options.cell_file}), false);
+    options.output = default_folder("scaling", stems(options.cell_files), false);
   afterwards = [options]()
   {
     const ScalingResult result = run_scaling_study(options);
@@ -63,7 +63,8 @@ void add_scaling_command(CommandLine &line)
     "Time and memory of the cell problems against mesh and number of ranks, on this machine");
   const auto options = std::make_shared<ScalingOptions>();
   options->command   = line.text;
-  command->add_option("CELL.prm", options->cell_file, "Cell file")->required();
+  options->cell_files.resize(1);
+  command->add_option("CELL.prm", options->cell_files.front(), "Cell file")->required();
   add_list(*command, "--refine", options->refinements,
            "Uniform refinements of the mesh, comma-separated");
   add_list(*command, "--ranks", options->ranks, "Numbers of MPI ranks, comma-separated");

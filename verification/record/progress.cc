@@ -45,16 +45,20 @@ Progress::~Progress()
     std::fprintf(stderr, "\r\033[K");
 }
 
-void Progress::begin(const std::string &what, const bool is_milestone)
+void Progress::begin(const std::string &what)
 {
   const std::lock_guard<std::mutex> lock(mutex);
   current    = what;
   step_began = Clock::now();
-  if (!is_shown)
-    return;
-  if (is_terminal)
+  if (is_shown && is_terminal)
     draw();
-  else if (is_milestone)
+}
+
+void Progress::milestone(const std::string &what)
+{
+  begin(what);
+  const std::lock_guard<std::mutex> lock(mutex);
+  if (is_shown && !is_terminal)
     std::fprintf(stderr, "[%3.0f%%] %s\n", std::floor(100. * part()), what.c_str());
 }
 

@@ -28,9 +28,11 @@ public:
   Progress(bool is_shown, int n_steps, Seconds period = Seconds(20.));
   ~Progress();
 
-  /// The step that begins now; on a terminal it replaces the line, elsewhere it is a line when
-  /// `is_milestone`.
-  void begin(const std::string &what, bool is_milestone = false);
+  /// The step that begins now: on a terminal it replaces the line, elsewhere nothing is said.
+  void begin(const std::string &what);
+
+  /// A step that is a line elsewhere, too.
+  void milestone(const std::string &what);
 
   /// One step more is done.
   void done();

@@ -179,6 +179,16 @@ void ClothReference::Solver::add_blocks(const Element &element, const int *const
   }
 }
 
+/// A zero matrix, but for the rows of held nodes, which have their diagonal only.
+void ClothReference::Solver::clear_matrix()
+{
+  solver->matrix = 0.;
+  for (std::size_t node = 0; node < node_points.size(); ++node)
+    if (owned_row[node] >= 0 && is_held[node])
+      for (int c = 0; c < 3; ++c)
+        row_values[static_cast<std::size_t>(owned_row[node] + c)][0] = 1.;
+}
+
 /// Energy, residual and, where asked for, the matrix, whose tangent has `tension` added to its
 /// stress (a fictitious isotropic one, for continuation; neither energy nor residual know of it).
 template <int n_shapes>
@@ -199,13 +209,7 @@ ClothReference::Solver::assemble(const Vector &positions, const Inertia &inertia
   residual                      = 0.;
   double *const r               = residual.begin();
   if (tangent != Tangent::none)
-  {
-    solver->matrix = 0.;
-    for (std::size_t node = 0; node < node_points.size(); ++node)
-      if (owned_row[node] >= 0 && is_held[node]) // rows with their diagonal only
-        for (int c = 0; c < 3; ++c)
-          row_values[static_cast<std::size_t>(owned_row[node] + c)][0] = 1.;
-  }
+    clear_matrix();
   const Eigen::Matrix<double, n_shapes, n_shapes> unit_mass = reference_mass;
 
   std::vector<double> sums(4, 0.); // energy, its size, force size², round off²
@@ -262,6 +266,15 @@ ClothReference::Solver::assemble(const Vector &positions, const Inertia &inertia
                            mass_scale * inertia.factor);
     first_block += n_shapes * n_shapes;
   }
+  return summed(std::move(sums), positions, residual);
+}
+
+/// An evaluation from the sums over the elements of this rank, with what the body force adds.
+/// @param sums energy, its size, force size squared, round-off squared
+ClothReference::Solver::Evaluation ClothReference::Solver::summed(std::vector<double> sums,
+                                                                  const Vector &positions,
+                                                                  Vector &residual) const
+{
   const std::vector<double> of_this_rank = sums;
   Utilities::MPI::sum(of_this_rank, discretization.communicator, sums);
   Evaluation state;

@@ -73,6 +73,8 @@ private:
   template <int n_shapes>
   void add_blocks(const Element &element, const int *offsets,
                   const Eigen::Matrix<double, 3 * n_shapes, 3 * n_shapes> &K, double inertia);
+  void clear_matrix();
+  Evaluation summed(std::vector<double> sums, const Vector &positions, Vector &residual) const;
   template <int n_shapes>
   Evaluation assemble(const Vector &positions, const Inertia &inertia, Vector &residual,
                       Tangent tangent, double tension);

@@ -2,15 +2,12 @@
 #include "verification/scaling/scaling_study.h"
 
 #include "homogenization/cell/unit_cell.h"
-#include "homogenization/lint/cell_reading.h"
 #include "meshes/files/child_process.h"
 #include "meshes/files/temporary_folder.h"
 #include "meshes/plain/errors.h"
-#include "verification/cell/study_inputs.h"
-#include "verification/record/json_files.h"
+#include "verification/cell/study_of_cells.h"
 #include "verification/record/number_text.h"
 #include "verification/record/progress.h"
-#include "verification/record/provenance.h"
 
 #include <Eigen/QR>
 
@@ -68,7 +65,7 @@ ScalingRun measure(const ScalingOptions &options, const int refine, const int ra
   }
   for (const std::string &word :
        {std::filesystem::read_symlink("/proc/self/exe").string(), std::string("homogenize"),
-        options.cell_file, std::string("--order"), std::to_string(options.order),
+        options.cell_files.front(), std::string("--order"), std::to_string(options.order),
         std::string("--refine"), std::to_string(refine), std::string("--no-bars"),
         std::string("--solver"), std::string("multigrid"), std::string("--quiet"),
         std::string("--output"), folder})
@@ -260,14 +257,14 @@ std::string table_of(const std::vector<ScalingRun> &runs)
 
 ScalingResult run_scaling_study(const ScalingOptions &options)
 {
-  const homogenization::UnitCell cell = homogenization::read_unit_cell(options.cell_file);
-  const nlohmann::ordered_json inputs = {
-    {"cell", fingerprint(cell)},        {"refinements", options.refinements},
-    {"ranks", options.ranks},           {"repeats", options.repeats},
-    {"order", options.order},           {"launcher", options.launcher},
-    {"cores", number_of_cores(options)}};
-  const auto folder =
-    open_run_folder(options.output, {"scaling", inputs}, options.earlier, options.quiet);
+  StudyOfCells study(options, MPI_COMM_NULL);
+  const homogenization::UnitCell &cell = study.cells().front();
+  const bool is_taken_up = study.open("scaling", {{"refinements", options.refinements},
+                                                  {"ranks", options.ranks},
+                                                  {"repeats", options.repeats},
+                                                  {"order", options.order},
+                                                  {"launcher", options.launcher},
+                                                  {"cores", number_of_cores(options)}});
   Table<ScalingRun> table(options.output);
   const int n_runs =
     static_cast<int>(options.refinements.size() * options.ranks.size()) * options.repeats;
@@ -296,25 +293,22 @@ ScalingResult run_scaling_study(const ScalingOptions &options)
   }
   const std::vector<ScalingRun> &runs = table.rows();
   const std::vector<Verdict> verdicts = verdicts_of(runs);
-  nlohmann::ordered_json json         = {
+  nlohmann::ordered_json told         = {
             {"cell", cell.name},       {"triangles_of_given_mesh", cell.mesh.n_triangles()},
             {"order", options.order},  {"launcher", options.launcher},
             {"memory_model", nullptr}, {"time_model", nullptr}};
   const int cores = number_of_cores(options);
   if (const auto memory = memory_model_of(runs))
-    json["memory_model"] = {{"bytes_per_rank", memory->fixed},
+    told["memory_model"] = {{"bytes_per_rank", memory->fixed},
                             {"bytes_per_dof", memory->shared},
                             {"misfit", memory->misfit}};
   if (const auto time = time_model_of(runs, cores))
-    json["time_model"] = {{"cores", cores},
+    told["time_model"] = {{"cores", cores},
                           {"serial_seconds_per_dof", time->fixed},
                           {"seconds_per_dof", time->shared},
                           {"misfit", time->misfit}};
-  json["notes"]      = notes_of(runs);
-  json["provenance"] = provenance(1);
-  write_json(options.output + "/scaling.json", json);
-  write_json(options.output + "/verdicts.json", to_json(verdicts, options.command));
-  folder->finish();
+  study.conclude(
+    {told, nlohmann::ordered_json::array(), notes_of(runs), is_taken_up, "scaling.json"}, verdicts);
   return {runs, verdicts};
 }
 } // namespace homespun::verification

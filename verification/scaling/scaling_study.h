@@ -3,7 +3,7 @@
 // machine at hand.
 #pragma once
 
-#include "verification/record/run_folder.h"
+#include "verification/cell/study_options.h"
 #include "verification/record/verdict.h"
 #include "verification/scaling/scaling_tables.h"
 
@@ -13,9 +13,9 @@
 
 namespace homespun::verification
 {
-struct ScalingOptions
+/// One cell file.
+struct ScalingOptions : StudyOptions
 {
-  std::string cell_file;
   std::vector<int> refinements = {3, 4, 5};
   std::vector<int> ranks       = {1, 2, 4};
   int order                    = 1;
@@ -24,10 +24,6 @@ struct ScalingOptions
   std::string launcher = "mpirun --oversubscribe -n {ranks}";
   int cores = 0; ///< that ranks can have to themselves; with more ranks times are not modelled. 0:
                  ///< those of this machine
-  std::string output;
-  std::string command;
-  Earlier earlier = Earlier::keep_work;
-  bool quiet      = false;
 };
 
 /// What does not fall with the number of ranks, what falls as one over it, and the largest relative

@@ -82,7 +82,7 @@ private:
       budget = std::make_unique<BudgetStudy>(options.references, options.strains,
                                              output ? output->budget.get() : nullptr,
                                              output ? output->second.get() : nullptr, communicator);
-    progress.begin(cell.name + ": homogenization", true);
+    progress.milestone(cell.name + ": homogenization");
     const AssessedCell assessed =
       assess_for_study(cell, communicator, verdicts, laws_of_second_order(options));
     on_root(communicator,
@@ -165,13 +165,13 @@ private:
     if (std::all_of(laws.begin(), laws.end(),
                     [&](const Law law) { return missing_strains(cell, load, law).empty(); }))
     {
-      progress.begin(cell.name + ", " + load.name + ": all rows are there", true);
+      progress.milestone(cell.name + ", " + load.name + ": all rows are there");
       for (int k = 0; k < n_steps; ++k)
         progress.done();
       return;
     }
 
-    progress.begin(cell.name + ", " + load.name + ": error bar of the reference", true);
+    progress.milestone(cell.name + ", " + load.name + ": error bar of the reference");
     const ReferenceUncertainty uncertainty(
       cell, load, laws,
       {options.n_cells, options.n_cells_of_error_bar,
@@ -197,9 +197,8 @@ private:
       bool is_reached = !is_unreached_below(cell, load, laws[k], missing.front());
       for (const double strain : missing)
       {
-        progress.begin(cell.name + ", " + load.name + ": " + name_of(laws[k]) +
-                         " reference, strain " + short_text(strain),
-                       true);
+        progress.milestone(cell.name + ", " + load.name + ": " + name_of(laws[k]) +
+                           " reference, strain " + short_text(strain));
         if (is_reached)
           is_reached = study_strain(cell, sheet, load, laws[k], strain, *reference, method,
                                     uncertainty.at(laws[k], strain), has_budget);

@@ -60,7 +60,7 @@ class Resume(InFolder):
         result = run(*(other if word == CELLS / "layered.prm" else word for word in scene),
                      "--resume")
         self.assertEqual(result.returncode, 2)
-        self.assertIn("holds another run (cells)", result.stderr)
+        self.assertIn("holds another run (cell layered)", result.stderr)
 
     def test_a_finished_scene_whose_tables_lost_rows_is_completed(self):
         output = self.folder / "scene"

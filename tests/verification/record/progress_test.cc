@@ -35,7 +35,7 @@ TEST(exact_progress, a_step_that_takes_long_is_told_about_without_a_terminal)
   testing::internal::CaptureStderr();
   {
     Progress progress(true, 4, std::chrono::duration<double>(0.05));
-    progress.begin("a long step", true);
+    progress.milestone("a long step");
     std::this_thread::sleep_for(milliseconds(400));
     progress.done();
   }
@@ -49,7 +49,7 @@ TEST(exact_progress, nothing_is_told_when_quiet)
   testing::internal::CaptureStderr();
   {
     Progress progress(false, 4, std::chrono::duration<double>(0.01));
-    progress.begin("a step", true);
+    progress.milestone("a step");
     std::this_thread::sleep_for(std::chrono::milliseconds(50));
     progress.note("a note");
     progress.done();

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "verification/drape/scene_keys.h"
+#include "verification/scene/scene_keys.h"
 
-#include "verification/drape/fabrics.h"
+#include "verification/scene/fabrics.h"
 
 namespace homespun::verification
 {

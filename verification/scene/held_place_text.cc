@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "verification/drape/held_place_text.h"
+#include "verification/scene/held_place_text.h"
 
 #include "homogenization/cell/parameter_text.h"
 

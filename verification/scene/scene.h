@@ -6,7 +6,7 @@
 
 #include "shell/solver/cloth.h"
 #include "shell/terms/bending.h"
-#include "verification/drape/held_place.h"
+#include "verification/scene/held_place.h"
 
 #include <Eigen/Core>
 

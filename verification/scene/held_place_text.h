@@ -3,7 +3,7 @@
 // 1 2`; `right: translate 0.02 0 0 during 1`.
 #pragma once
 
-#include "verification/drape/held_place.h"
+#include "verification/scene/held_place.h"
 
 #include <functional>
 #include <optional>

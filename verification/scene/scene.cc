@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "verification/drape/scene.h"
+#include "verification/scene/scene.h"
 
 #include "homogenization/cell/parameter_text.h"
 #include "meshes/plain/errors.h"
-#include "verification/drape/fabrics.h"
-#include "verification/drape/held_place_text.h"
-#include "verification/drape/scene_keys.h"
+#include "verification/scene/fabrics.h"
+#include "verification/scene/held_place_text.h"
+#include "verification/scene/scene_keys.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "verification/drape/fabrics.h"
+#include "verification/scene/fabrics.h"
 
 #include <array>
 #include <map>
