@@ -73,6 +73,42 @@ const meshes::YarnAxes *yarns_of(const Membrane &membrane, const int t)
   return &membrane.yarns[phase_of(membrane, t)];
 }
 
+/// The relaxed energy of a triangle of yarns.
+template <int dim>
+TensionField<dim> tension_field_of(const RestTriangle &rest,
+                                   const Eigen::Matrix<double, 3, dim> &corners,
+                                   const meshes::YarnAxes &yarns, const Hessian kind)
+{
+  return tension_field<dim>(deformation_gradient<dim>(rest, corners), yarns, kind);
+}
+
+/// Of a triangle's energy A W, from the derivatives of W by F.
+template <int dim>
+TriangleDerivatives<dim> by_corners(const RestTriangle &rest, const TensionField<dim> &field)
+{
+  TriangleDerivatives<dim> result;
+  result.gradient  = rest.shape_gradients * (rest.area * field.gradient).transpose();
+  const auto block = [&](const int k, const int l)
+  {
+    Eigen::Matrix<double, dim, dim> sum = Eigen::Matrix<double, dim, dim>::Zero();
+    for (int a = 0; a < 2; ++a)
+      for (int b = 0; b < 2; ++b)
+        sum += rest.area * rest.shape_gradients(k, a) * rest.shape_gradients(l, b) *
+               field.hessian.template block<dim, dim>(dim * a, dim * b);
+    return sum;
+  };
+  // The blocks of corner 0 are minus the sums of the others: a translation costs nothing, to
+  // round-off.
+  auto &blocks = result.blocks;
+  blocks[3]    = block(1, 1);
+  blocks[4]    = block(1, 2);
+  blocks[5]    = block(2, 2);
+  blocks[1]    = -(blocks[3] + blocks[4].transpose());
+  blocks[2]    = -(blocks[4] + blocks[5]);
+  blocks[0]    = -(blocks[1] + blocks[2]).transpose();
+  return result;
+}
+
 /// The energy of a triangle but for its cubic part.
 template <int dim>
 double energy_of(const Membrane &membrane, const int t,
@@ -80,7 +116,10 @@ double energy_of(const Membrane &membrane, const int t,
 {
   const RestTriangle &rest = membrane.rest[static_cast<std::size_t>(t)];
   if (const meshes::YarnAxes *const yarns = yarns_of(membrane, t))
-    return rest.area * yarn_energy_density<dim>(deformation_gradient<dim>(rest, corners), *yarns);
+    return rest.area *
+           (membrane.compression == Compression::relaxed
+              ? tension_field_of<dim>(rest, corners, *yarns, Hessian::exact).energy
+              : yarn_energy_density<dim>(deformation_gradient<dim>(rest, corners), *yarns));
   return triangle_energy<dim>(rest, corners, stiffness_of(membrane, t).D);
 }
 
@@ -92,7 +131,12 @@ Eigen::Matrix<double, 3, dim> forces_of(const Membrane &membrane, const int t,
   const RestTriangle &rest = membrane.rest[static_cast<std::size_t>(t)];
   const Eigen::Matrix3d &D = stiffness_of(membrane, t).D;
   if (const meshes::YarnAxes *const yarns = yarns_of(membrane, t))
+  {
+    if (membrane.compression == Compression::relaxed)
+      return by_corners<dim>(rest, tension_field_of<dim>(rest, corners, *yarns, Hessian::exact))
+        .gradient;
     return yarn_triangle_gradient<dim>(rest, corners, *yarns);
+  }
   if (membrane.cubic.empty())
     return triangle_gradient<dim>(rest, corners, D);
   const DeformationGradient<dim> F = deformation_gradient<dim>(rest, corners);
@@ -183,7 +227,7 @@ void add_cubic_energy(Membrane &membrane, const std::vector<meshes::CubicForm> &
   }
 }
 
-void take_yarn_law(Membrane &membrane)
+void take_yarn_law(Membrane &membrane, const Compression compression)
 {
   if (!membrane.cubic.empty())
     throw meshes::BadInput("law yarn: the membrane has a cubic energy, which is one of the "
@@ -193,7 +237,21 @@ void take_yarn_law(Membrane &membrane)
     yarns.push_back(meshes::yarn_axes(stiffness.D));
   if (std::any_of(yarns.begin(), yarns.end(),
                   [](const meshes::YarnAxes &each) { return each.are_there; }))
-    membrane.yarns = std::move(yarns);
+  {
+    membrane.yarns       = std::move(yarns);
+    membrane.compression = compression;
+  }
+}
+
+template <int dim>
+TensionState tension_state(const Membrane &membrane, const int t, const Positions<dim> &positions)
+{
+  const meshes::YarnAxes *const yarns = yarns_of(membrane, t);
+  if (yarns == nullptr || membrane.compression == Compression::carried)
+    return TensionState::taut;
+  return tension_field_of<dim>(membrane.rest[static_cast<std::size_t>(t)],
+                               corners_of<dim>(membrane, positions, t), *yarns, Hessian::exact)
+    .state;
 }
 
 template <int dim>
@@ -264,14 +322,35 @@ Positions<2> linear_membrane_gradient(const Membrane &membrane, const Positions<
 }
 
 template <int dim>
+TriangleDerivatives<dim> membrane_triangle_derivatives(const Membrane &membrane, const int t,
+                                                       const Eigen::Matrix<double, 3, dim> &corners,
+                                                       const Hessian kind)
+{
+  const RestTriangle &rest            = membrane.rest[static_cast<std::size_t>(t)];
+  const meshes::YarnAxes *const yarns = yarns_of(membrane, t);
+  if (yarns == nullptr)
+    return triangle_derivatives<dim>(rest, corners, stiffness_of(membrane, t), kind);
+  if (membrane.compression == Compression::relaxed)
+    return by_corners<dim>(rest, tension_field_of<dim>(rest, corners, *yarns, kind));
+  return yarn_triangle_derivatives<dim>(rest, corners, *yarns, kind);
+}
+
+template <int dim>
 Eigen::Matrix<double, 3 * dim, 3 * dim> membrane_hessian(const Membrane &membrane, const int t,
                                                          const Positions<dim> &positions,
                                                          const Hessian kind)
 {
   const RestTriangle &rest = membrane.rest[static_cast<std::size_t>(t)];
   const auto corners       = corners_of<dim>(membrane, positions, t);
-  if (const meshes::YarnAxes *const yarns = yarns_of(membrane, t))
-    return yarn_triangle_hessian<dim>(rest, corners, *yarns, kind);
+  if (yarns_of(membrane, t) != nullptr)
+  {
+    const auto blocks = membrane_triangle_derivatives<dim>(membrane, t, corners, kind).blocks;
+    Eigen::Matrix<double, 3 * dim, 3 * dim> hessian;
+    hessian << blocks[0], blocks[1], blocks[2],    //
+      blocks[1].transpose(), blocks[3], blocks[4], //
+      blocks[2].transpose(), blocks[4].transpose(), blocks[5];
+    return hessian;
+  }
   if (membrane.cubic.empty())
     return triangle_hessian<dim>(rest, corners, stiffness_of(membrane, t), kind);
   const TangentLaw law = tangent_law(
@@ -299,6 +378,9 @@ int first_not_finite(const Positions<dim> &positions)
 
 #define HOMESPUN_INSTANTIATE(dim)                                                                  \
   template double membrane_energy<dim>(const Membrane &, const Positions<dim> &);                  \
+  template TensionState tension_state<dim>(const Membrane &, int, const Positions<dim> &);         \
+  template TriangleDerivatives<dim> membrane_triangle_derivatives<dim>(                            \
+    const Membrane &, int, const Eigen::Matrix<double, 3, dim> &, Hessian);                        \
   template MembraneGradient<dim> membrane_gradient<dim>(const Membrane &, const Positions<dim> &); \
   template Eigen::Matrix<double, 3 * dim, 3 * dim> membrane_hessian<dim>(                          \
     const Membrane &, int, const Positions<dim> &, Hessian);                                       \

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // The membrane term of a cloth: the corotational energy of corotational_energy.h, or that of
-// yarn_energy.h, summed over a triangle mesh with a stiffness per phase. Value, gradient and
-// Hessian take the same arguments and keep no state, so that a solver adds further terms beside it
-// or leaves this one out.
+// yarn_energy.h or tension_field.h, summed over a triangle mesh with a stiffness per phase. Value,
+// gradient and Hessian take the same arguments and keep no state, so that a solver adds further
+// terms beside it or leaves this one out.
 #pragma once
 
 #include "meshes/cloth/cloth_mesh.h"
@@ -11,6 +11,7 @@
 #include "shell/algebra/free_vertex_matrix.h"
 #include "shell/membrane/corotational_energy.h"
 #include "shell/membrane/guarded_cubic.h"
+#include "shell/membrane/tension_field.h"
 
 #include <Eigen/Core>
 
@@ -22,6 +23,13 @@ namespace homespun::shell
 template <int dim>
 using Positions = Eigen::Matrix<double, Eigen::Dynamic, dim, Eigen::RowMajor>;
 
+/// What yarns do where they, or the sheet between them, are compressed.
+enum class Compression
+{
+  carried, ///< yarn_energy.h
+  relaxed  ///< tension_field.h: wrinkles take it
+};
+
 /// A membrane at rest.
 struct Membrane
 {
@@ -32,6 +40,7 @@ struct Membrane
   std::vector<MembraneStiffness> stiffness; ///< Voigt 11, 22, 12, engineering shear [N/m]
   std::vector<GuardedCubic> cubic;          ///< one per phase; empty: the energy is quadratic
   std::vector<meshes::YarnAxes> yarns;      ///< one per phase; empty: all are corotational
+  Compression compression = Compression::carried; ///< of yarns
 };
 
 /// Prepares the rest state of a membrane, mesh.material being the phase of each triangle.
@@ -51,10 +60,14 @@ Membrane membrane(const meshes::ClothMesh &cloth, const std::vector<Eigen::Matri
 /// @throws BadInput where their number is wrong, or one is not finite
 void add_cubic_energy(Membrane &membrane, const std::vector<meshes::CubicForm> &energies);
 
-/// Gives the phases whose stiffness has axes the law of yarns (yarn_energy.h). One that is alike in
-/// all directions stays corotational; where every phase is so, nothing changes.
+/// Gives the phases whose stiffness has axes the law of yarns. One that is alike in all directions
+/// stays corotational; where every phase is so, nothing changes.
 /// @throws BadInput where the membrane has a cubic energy, which is one of the corotational law
-void take_yarn_law(Membrane &membrane);
+void take_yarn_law(Membrane &membrane, Compression compression = Compression::carried);
+
+/// The state of a triangle under Compression::relaxed; one that is not of yarns is taut.
+template <int dim>
+TensionState tension_state(const Membrane &membrane, int triangle, const Positions<dim> &positions);
 
 /// Total energy, sum of area times W [J].
 /// @param positions (n,dim) [m]
@@ -79,6 +92,13 @@ MembraneGradient<dim> membrane_gradient(const Membrane &membrane, const Position
 /// @param displacement u (n,2) [m]
 /// @return (n,2) [N]
 Positions<2> linear_membrane_gradient(const Membrane &membrane, const Positions<2> &displacement);
+
+/// Gradient and Hessian of the energy of one triangle, its cubic part left out, in one pass.
+/// @param corners (3,dim) [m]
+template <int dim>
+TriangleDerivatives<dim> membrane_triangle_derivatives(const Membrane &membrane, int triangle,
+                                                       const Eigen::Matrix<double, 3, dim> &corners,
+                                                       Hessian kind);
 
 /// The Hessian of the energy of one triangle; component i of corner k is unknown k dim + i.
 /// @return (3 dim, 3 dim) [N/m]

@@ -18,7 +18,7 @@
 // Of a yarn without length the energy is infinite, which makes a line search step back, and the
 // derivatives are zero. All functions are stateless. Not-a-number in gives not-a-number out.
 //
-// Written apart from verification/reference/yarn_law.h, which it must equal.
+// Written apart from verification/yarns/yarn_law.h, which it must equal.
 #pragma once
 
 #include "meshes/plain/yarn_axes.h"

@@ -4,7 +4,8 @@
 #include "meshes/plain/errors.h"
 #include "shell/algebra/index.h"
 #include "shell/algebra/triangle_slots.h"
-#include "shell/membrane/yarn_energy.h"
+#include "shell/algebra/vertex_matrix.h"
+#include "shell/membrane/yarn_discrete_gradient.h"
 
 #include <utility>
 
@@ -22,7 +23,7 @@ public:
 
   std::string name() const override
   {
-    return "yarn membrane";
+    return carries_compression() ? "yarn membrane" : "yarn-tension membrane";
   }
 
   void couple(std::vector<std::array<int, 2>> &pairs) const override
@@ -45,7 +46,8 @@ public:
     for (int t = 0; t < n_triangles(); ++t)
     {
       const Eigen::Matrix3d forces =
-        yarn_triangle_gradient<3>(membrane.rest[index(t)], corners_of(positions, t), yarns_of(t));
+        membrane_triangle_derivatives<3>(membrane, t, corners_of(positions, t), Hessian::exact)
+          .gradient;
       for (int k = 0; k < 3; ++k)
         gradient.row(membrane.triangles(t, k)) += forces.row(k);
     }
@@ -56,12 +58,39 @@ public:
   {
     for (int t = 0; t < n_triangles(); ++t)
     {
-      const TriangleDerivatives<3> local = yarn_triangle_derivatives<3>(
-        membrane.rest[index(t)], corners_of(positions, t), yarns_of(t), kind);
+      const TriangleDerivatives<3> local =
+        membrane_triangle_derivatives<3>(membrane, t, corners_of(positions, t), kind);
       for (int k = 0; k < 3; ++k)
         gradient.row(membrane.triangles(t, k)) += local.gradient.row(k);
       for (std::size_t b = 0; b < 6; ++b)
         matrix.add(places[index(t)][b], local.blocks[b]);
+    }
+  }
+
+  bool has_discrete_gradient() const override
+  {
+    return carries_compression();
+  }
+
+  void add_discrete_gradient(const Vectors &old, const Vectors &positions, Vectors &gradient,
+                             VertexMatrix &jacobian) const override
+  {
+    for (int t = 0; t < n_triangles(); ++t)
+    {
+      const RestTriangle &rest    = membrane.rest[index(t)];
+      const std::size_t phase     = index(membrane.phase[index(t)]);
+      const Eigen::Matrix3d begin = corners_of(old, t), end = corners_of(positions, t);
+      const TriangleStep step =
+        membrane.yarns[phase].are_there
+          ? yarn_triangle_step(rest, begin, end, membrane.yarns[phase])
+          : triangle_step(rest, begin, end, membrane.stiffness[phase].D, {});
+      for (int a = 0; a < 3; ++a)
+      {
+        gradient.row(membrane.triangles(t, a)) += step.gradient.row(a);
+        for (int b = 0; b < 3; ++b)
+          jacobian.add(membrane.triangles(t, a), membrane.triangles(t, b),
+                       step.jacobian.block<3, 3>(3 * a, 3 * b));
+      }
     }
   }
 
@@ -76,9 +105,9 @@ private:
   {
     return static_cast<int>(membrane.triangles.rows());
   }
-  const meshes::YarnAxes &yarns_of(const int t) const
+  bool carries_compression() const
   {
-    return membrane.yarns[index(membrane.phase[index(t)])];
+    return membrane.compression == Compression::carried;
   }
   Eigen::Matrix3d corners_of(const Vectors &positions, const int t) const
   {
@@ -94,17 +123,14 @@ private:
 } // namespace
 
 std::unique_ptr<Term> yarn_term(const meshes::ClothMesh &cloth,
-                                const std::vector<Eigen::Matrix3d> &stiffness)
+                                const std::vector<Eigen::Matrix3d> &stiffness,
+                                const Compression compression)
 {
   Membrane whole = membrane(cloth, stiffness);
-  std::vector<std::string> faults;
-  for (std::size_t phase = 0; phase < stiffness.size(); ++phase)
-    if (!meshes::yarn_axes(stiffness[phase]).are_there)
-      faults.push_back("law yarn: stiffness of phase " + std::to_string(phase) +
-                       " is alike in all directions; expected one with axes, or membrane_term()");
-  if (!faults.empty())
-    throw meshes::BadInput(faults);
-  take_yarn_law(whole);
+  take_yarn_law(whole, compression);
+  if (whole.yarns.empty())
+    throw meshes::BadInput("law yarn: the stiffness of every phase is alike in all directions; "
+                           "expected one with axes, or membrane_term()");
   return std::make_unique<YarnTerm>(std::move(whole));
 }
 } // namespace homespun::shell

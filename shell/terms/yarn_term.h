@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: MIT
-// The membrane of a moving cloth of yarns: the energy of yarn_energy.h in the place of the
-// corotational one of membrane_term.h, E = Σ_triangles A W. Its viscosity, where there is one, is
-// viscosity_term() beside it; it has no discrete gradient, and so no conserving step.
+// The membrane of a moving cloth of yarns: the energy of yarn_energy.h, or of tension_field.h, in
+// the place of the corotational one of membrane_term.h, E = Σ_triangles A W. Phases that are alike
+// in all directions stay corotational. Its viscosity, where there is one, is viscosity_term()
+// beside it.
+//
+// A conserving step takes it where compression is carried (yarn_discrete_gradient.h); a relaxed
+// energy has no discrete gradient here.
 #pragma once
 
 #include "meshes/cloth/cloth_mesh.h"
@@ -14,7 +18,8 @@ namespace homespun::shell
 {
 /// @param stiffness one symmetric positive definite matrix (3,3) per phase, cloth.rest.material,
 ///   whose axes are those of its yarns [N/m]
-/// @throws BadInput as membrane() does, and where a stiffness has no axes
+/// @throws BadInput as membrane() does, and where no stiffness has axes
 std::unique_ptr<Term> yarn_term(const meshes::ClothMesh &cloth,
-                                const std::vector<Eigen::Matrix3d> &stiffness);
+                                const std::vector<Eigen::Matrix3d> &stiffness,
+                                Compression compression = Compression::carried);
 } // namespace homespun::shell

@@ -6,6 +6,7 @@
 #include "verification/bloch/pattern_rows.h"
 #include "verification/bloch/stability_verdicts.h"
 #include "verification/laws/default_law.h"
+#include "verification/laws/yarn_cells.h"
 #include "verification/record/number_text.h"
 #include "verification/record/on_root.h"
 #include "verification/record/progress.h"
@@ -54,6 +55,7 @@ public:
 
   std::vector<Verdict> run()
   {
+    check_yarns(study.cells(), "--law", options.laws);
     on_root(communicator, [&]() { open(); });
     std::vector<AssessedCell> assessed;
     for (const UnitCell &cell : study.cells())

@@ -141,7 +141,7 @@ meshes::Points second_linear_sheet(const meshes::HomogenizedCell &cell,
 
 bool second_code_has(const Law law)
 {
-  return law == Law::linear || law == Law::biot || law == Law::yarn;
+  return law == Law::linear || law == Law::biot || is_of_yarns(law);
 }
 
 meshes::Points second_nonlinear_sheet(const Law law, const meshes::HomogenizedCell &cell,
@@ -162,8 +162,9 @@ meshes::Points second_nonlinear_sheet(const Law law, const meshes::HomogenizedCe
   }
   const Prescribed known   = prescribed(sheet, load, strain);
   shell::Membrane membrane = shell::membrane(second_mesh(cell, sheet), stiffness_of_phase);
-  if (law == Law::yarn)
-    shell::take_yarn_law(membrane);
+  if (is_of_yarns(law))
+    shell::take_yarn_law(membrane, law == Law::yarn_tension ? shell::Compression::relaxed
+                                                            : shell::Compression::carried);
   const shell::MembraneSolver<2> solver(std::move(membrane), known.held);
   shell::EquilibriumOptions tight;
   tight.relative_tolerance = 1e-13; // round-off counts as zero before

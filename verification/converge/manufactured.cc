@@ -3,8 +3,10 @@
 
 #include <Eigen/LU>
 
+#include <array>
 #include <cmath>
 #include <complex>
+#include <limits>
 
 namespace homespun::verification
 {
@@ -75,8 +77,93 @@ Scalar yarn_energy(const Eigen::Matrix3d &stiffness, const Eigen::Vector2d &alon
                                        2. * p * q * (e[0] - e[1]) + (p * p - q * q) * e[2]});
 }
 
-/// W of biot, green or yarn as a function of C11, C22, C12 of C = F^T F, which may have imaginary
-/// parts.
+/// The metric of a cloth that cannot be pressed, C + A of least energy with A = α (c, s) (c, s)^T:
+/// for each direction α by halves on its slope, the direction by a search and by halves. Slopes are
+/// those of complex steps, and have all digits.
+class Wrinkle
+{
+public:
+  Wrinkle(const Eigen::Matrix3d &stiffness, const Eigen::Vector2d &along, const double (&c)[3])
+      : stiffness(stiffness)
+      , along(along)
+      , c{c[0], c[1], c[2]}
+  {
+  }
+
+  /// C11, C22, C12 to be added. Where no stretch is above 1 the cloth is slack: up to I.
+  std::array<double, 3> added() const
+  {
+    const double missing1 = 1. - c[0], missing2 = 1. - c[1];
+    if (missing1 + missing2 > 0. && missing1 * missing2 > c[2] * c[2])
+      return {missing1, missing2, -c[2]};
+    constexpr int n = 64; // directions of half a turn
+    int best        = 0;
+    double least    = std::numeric_limits<double>::infinity();
+    for (int k = 0; k < n; ++k)
+    {
+      const double angle = M_PI * k / n, energy = real_at(length(angle), angle);
+      if (energy < least)
+      {
+        least = energy;
+        best  = k;
+      }
+    }
+    double from = M_PI * (best - 1) / n, to = M_PI * (best + 1) / n;
+    if (length(M_PI * best / n) == 0.)
+      return {0., 0., 0.};
+    for (int halving = 0; halving < 50; ++halving)
+    {
+      const double middle = 0.5 * (from + to);
+      // The slope by the angle at the best α is that of the best energy.
+      (slope(length(middle), middle, {0., 1.}) < 0. ? from : to) = middle;
+    }
+    const double angle = 0.5 * (from + to), alpha = length(angle);
+    return {alpha * std::cos(angle) * std::cos(angle), alpha * std::sin(angle) * std::sin(angle),
+            alpha * std::cos(angle) * std::sin(angle)};
+  }
+
+private:
+  template <typename Scalar>
+  Scalar at(const Scalar &alpha, const Scalar &angle) const
+  {
+    using std::cos;
+    using std::sin;
+    const Scalar x = cos(angle), y = sin(angle);
+    return yarn_energy<Scalar>(stiffness, along,
+                               {c[0] + alpha * x * x, c[1] + alpha * y * y, c[2] + alpha * x * y});
+  }
+  double real_at(const double alpha, const double angle) const
+  {
+    return at<double>(alpha, angle);
+  }
+  double slope(const double alpha, const double angle, const std::array<double, 2> &by) const
+  {
+    constexpr double small = 1e-30;
+    using Complex          = std::complex<double>;
+    return at<Complex>(Complex(alpha, small * by[0]), Complex(angle, small * by[1])).imag() / small;
+  }
+  double length(const double angle) const
+  {
+    if (slope(0., angle, {1., 0.}) >= 0.)
+      return 0.;
+    double from = 0., to = 0.1;
+    for (int doubling = 0; doubling < 8 && slope(to, angle, {1., 0.}) < 0.; ++doubling)
+      to *= 2.;
+    for (int halving = 0; halving < 54; ++halving)
+    {
+      const double middle                               = 0.5 * (from + to);
+      (slope(middle, angle, {1., 0.}) < 0. ? from : to) = middle;
+    }
+    return 0.5 * (from + to);
+  }
+
+  const Eigen::Matrix3d &stiffness;
+  const Eigen::Vector2d &along;
+  const double c[3];
+};
+
+/// W of a law but linear as a function of C11, C22, C12 of C = F^T F, which may have imaginary
+/// parts; of yarn-tension where A has been added.
 /// @param along direction of the first yarns
 template <typename Scalar>
 Scalar energy(const Law law, const Eigen::Matrix3d &stiffness, const Eigen::Vector2d &along,
@@ -85,7 +172,7 @@ Scalar energy(const Law law, const Eigen::Matrix3d &stiffness, const Eigen::Vect
   using std::sqrt;
   if (law == Law::green)
     return quadratic<Scalar>(stiffness, {0.5 * (c[0] - 1.), 0.5 * (c[1] - 1.), c[2]});
-  if (law == Law::yarn)
+  if (is_of_yarns(law))
     return yarn_energy(stiffness, along, c);
   const Scalar root  = sqrt(c[0] * c[1] - c[2] * c[2]);
   const Scalar trace = sqrt(c[0] + c[1] + 2. * root);
@@ -111,15 +198,22 @@ EnergyAndStress energy_and_stress(const Law law, const Eigen::Matrix3d &stiffnes
     return linear_law(stiffness, F);
   const Eigen::Matrix2d C = F.transpose() * F;
   const Eigen::Vector2d along =
-    law == Law::yarn ? stiffest_direction(stiffness) : Eigen::Vector2d::UnitX();
+    is_of_yarns(law) ? stiffest_direction(stiffness) : Eigen::Vector2d::UnitX();
+  double c[3] = {C(0, 0), C(1, 1), C(0, 1)};
+  if (law == Law::yarn_tension)
+  { // of the least energy the slope by A is none: the stress is that of yarns at C + A
+    const std::array<double, 3> added = Wrinkle(stiffness, along, c).added();
+    for (int a = 0; a < 3; ++a)
+      c[a] += added[static_cast<std::size_t>(a)];
+  }
   EnergyAndStress result;
-  result.energy          = energy<double>(law, stiffness, along, {C(0, 0), C(1, 1), C(0, 1)});
+  result.energy          = energy<double>(law, stiffness, along, c);
   constexpr double small = 1e-30; // no difference is taken: any small number serves
   using Complex          = std::complex<double>;
   double slope[3]; // of W by C11, C22, C12
   for (int a = 0; a < 3; ++a)
   {
-    Complex moved[3] = {C(0, 0), C(1, 1), C(0, 1)};
+    Complex moved[3] = {c[0], c[1], c[2]};
     moved[a] += Complex(0., small);
     slope[a] = energy<Complex>(law, stiffness, along, moved).imag() / small;
   }

@@ -87,6 +87,13 @@ ManufacturedCase plane_case(const std::string &load_name, const Law law, const u
   return result;
 }
 
+/// Beside the pull of `periodic-all` it leaves no pressure anywhere.
+Wave small_wave(const Eigen::RowVector2d &point, const double strain)
+{
+  const Wave wave = periodic_wave(point, strain);
+  return {0.1 * wave.value, 0.1 * wave.gradient};
+}
+
 /// A motion through time, held at its rim.
 using SpaceMotion = std::function<Wave(const Eigen::RowVector2d &point, double time)>;
 
@@ -252,8 +259,13 @@ std::vector<ManufacturedCase> reference_cases()
   for (const unsigned int order : {1u, 2u})
     for (const Law law : all_laws())
     {
-      cases.push_back(plane_case("periodic-12", law, order, anisotropic(), periodic_wave));
-      cases.push_back(plane_case("strip-2", law, order, without_contraction(), clamped_wave));
+      if (law == Law::yarn_tension) // in tension: wrinkles resist nothing, and have no orders
+        cases.push_back(plane_case("periodic-all", law, order, anisotropic(), small_wave));
+      else
+      {
+        cases.push_back(plane_case("periodic-12", law, order, anisotropic(), periodic_wave));
+        cases.push_back(plane_case("strip-2", law, order, without_contraction(), clamped_wave));
+      }
     }
   for (const unsigned int order : {1u, 2u})
     for (const Law law : {Law::biot, Law::green, Law::yarn})

@@ -38,8 +38,8 @@ class TimedCloth
 public:
   TimedCloth(const DrapedCell &draped, const std::set<std::string> &forced)
       : step_length(draped.scene.time_step)
-      , moving(draped.scene, draped.coarse, draped.effective, draped.coarse_motion(),
-               MembraneModel::corotational, forced)
+      , moving(draped.scene, draped.coarse, draped.effective, draped.coarse_motion(), draped.model,
+               forced)
   {
   }
 
@@ -109,6 +109,7 @@ CoarseRun run_coarse(const DrapedCell &draped, const std::string &variant,
   run.variant                 = variant;
   const auto &methods         = Method::names();
   run.is_of_method            = std::find(methods.begin(), methods.end(), variant) != methods.end();
+  run.is_main                 = variant == name_of(draped.model);
   const Method method         = Method(run.is_of_method ? variant : "localized");
   const std::string name      = draped.cell.name + "-" + variant;
   const std::string folder    = output.folder + "/" + name;
@@ -120,7 +121,7 @@ CoarseRun run_coarse(const DrapedCell &draped, const std::string &variant,
   Upsampler3f::Fine fine;
   const HeldMotion held = draped.coarse_motion();
   SceneCloth moving(draped.scene, draped.coarse, draped.effective_of(method), held,
-                    run.is_of_method ? MembraneModel::corotational : membrane_model_of(variant));
+                    run.is_of_method ? draped.model_of(method) : membrane_model_of(variant));
   const auto upsample = [&]() { upsampler.upsample(moving.cloth().positions(), fine); };
   for (int frame = 0; frame <= schedule.n_frames; ++frame)
   {
@@ -169,7 +170,7 @@ CoarseRun run_coarse(const DrapedCell &draped, const std::string &variant,
     row.upsampling_seconds = median(upsampling_seconds);
     output.write(row);
     // Of the variants one picture is enough: the report shows their curves.
-    if (run.is_method() || run.is_of_method || frame == schedule.n_frames)
+    if (run.is_main || run.is_of_method || frame == schedule.n_frames)
     {
       output.write_frame(name, "coarse", frame, run.frames.back(), draped.coarse.triangles, {},
                          &coarse_list);

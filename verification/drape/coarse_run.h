@@ -21,16 +21,11 @@ struct CoarseRun
 {
   std::string variant;       ///< of the membrane, or the method whose own cloth it is
   bool is_of_method = false; ///< the latter
+  bool is_main      = false; ///< the variant that is the method, against which others are held
   std::string failure;
   std::vector<shell::Vectors> frames;                        ///< (n_coarse,3) [m]
   double seconds_per_step = 0., seconds_per_upsampling = 0.; ///< medians [s]
   nlohmann::ordered_json description;                        ///< for drape.json
-
-  /// The variant that is the method, against which the others are held.
-  bool is_method() const
-  {
-    return variant == "corotational";
-  }
 };
 
 /// Whether a run is up-sampled by a method: one with a cloth of its own goes with that cloth alone.

@@ -53,7 +53,7 @@ std::vector<meshes::VertexData> DrapeComparison::compare(const std::string &refe
     if (run.frames.size() <= at)
       continue;
     const SpacePoints affine = upsampled("affine", run.frames[at]);
-    if (run.is_method())
+    if (run.is_main)
     {
       fluctuation = (positions - affine).rowwise().norm().mean();
       // Where nothing has moved yet, round-off over round-off is no figure.
@@ -81,7 +81,7 @@ std::vector<meshes::VertexData> DrapeComparison::compare(const std::string &refe
       row.uncertainty          = bar.of_mesh_at(at, fluctuation);
       row.time_step            = bar.of_time_step_at(at, fluctuation);
       output.write(row);
-      if (run.is_method() && method == "localized")
+      if (run.is_main && method == "localized")
         error = {{"error", distance.cast<float>()}};
     }
   }

@@ -2,9 +2,11 @@
 #include "verification/drape/drape_inputs.h"
 
 #include "meshes/plain/errors.h"
+#include "meshes/plain/yarn_axes.h"
 #include "verification/cell/cell_edges.h"
 #include "verification/cell/study_inputs.h"
 #include "verification/drape/draped_cell.h"
+#include "verification/laws/default_law.h"
 
 #include <algorithm>
 #include <fstream>
@@ -36,9 +38,23 @@ bool asks_for(const DrapeOptions &options, const std::function<bool(const Method
                      [&](const std::string &name) { return is_of_it(Method(name)); });
 }
 
-std::vector<std::string> cloths_of(const DrapeOptions &options)
+MembraneModel default_model(const UnitCell &cell, const Eigen::Matrix3d &stiffness)
+{
+  return default_law(cell) == Law::yarn && meshes::yarn_axes(stiffness).are_there
+           ? MembraneModel::woven
+           : MembraneModel::corotational;
+}
+
+std::string note_on_default_model(const UnitCell &cell, const MembraneModel model)
+{
+  return note_on_default_law(cell) + "; the moving cloth is " + name_of(model);
+}
+
+std::vector<std::string> cloths_of(const DrapeOptions &options, const MembraneModel main)
 {
   std::vector<std::string> names = options.variants;
+  if (names.empty())
+    names.push_back(name_of(main));
   for (const std::string &name : options.methods)
     if (has_own_cloth(Method(name)))
       names.push_back(name);
@@ -151,10 +167,12 @@ void check_references(const DrapeOptions &options, const Scene &scene)
                          "`; expected `implicit` or `linearly implicit`");
   if (scene.integration == TimeIntegration::conserving)
     for (const std::string &variant : options.variants)
-      if (variant != "corotational")
+      if (const MembraneModel model = membrane_model_of(variant);
+          !has_energy(model) || model == MembraneModel::woven_tension)
         faults.push_back("--variants " + variant + ": scene `" + scene.name +
-                         "` has the key `Integrator` = conserving, which asks for a membrane with "
-                         "an energy; expected corotational alone, or another integrator");
+                         "` has the key `Integrator` = conserving, which asks for a membrane whose "
+                         "forces over a step are known; expected corotational or woven, or another "
+                         "integrator");
   if (!faults.empty())
     throw meshes::BadInput(faults);
 }

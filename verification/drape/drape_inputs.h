@@ -9,6 +9,7 @@
 #include "verification/cell/cell_study.h"
 #include "verification/drape/drape_options.h"
 #include "verification/drape/drape_schedule.h"
+#include "verification/drape/scene_cloth.h"
 #include "verification/method/lightweight_cloth.h"
 #include "verification/record/json_files.h"
 
@@ -26,9 +27,18 @@ bool is_dealii(const std::string &reference);
 /// Whether one of the methods is of a kind.
 bool asks_for(const DrapeOptions &options, const std::function<bool(const Method &)> &is_of_it);
 
-/// Names of the coarse cloths that are run: variants of the membrane, and the methods that have
-/// cloths of their own.
-std::vector<std::string> cloths_of(const DrapeOptions &options);
+/// The membrane that the moving cloth of a cell has where none is asked for: woven where the law of
+/// the cell is `yarn` (laws/default_law.h) and C^H has axes, else corotational.
+/// @param stiffness C^H (3,3) [N/m]
+MembraneModel default_model(const homogenization::UnitCell &cell, const Eigen::Matrix3d &stiffness);
+
+/// A sentence on the default model: which law it has, and why.
+std::string note_on_default_model(const homogenization::UnitCell &cell, MembraneModel model);
+
+/// Names of the coarse cloths that are run: variants of the membrane, the main one first, and the
+/// methods that have cloths of their own.
+/// @param main where no variants are asked for
+std::vector<std::string> cloths_of(const DrapeOptions &options, MembraneModel main);
 
 /// What the cell does at edges, where a method asks for it.
 /// @throws BadInput where it has no terms of edges

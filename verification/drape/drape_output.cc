@@ -115,11 +115,12 @@ void DrapeOutput::list_earlier_frames(const std::string &run, const int n,
       collection.append(frame * interval, name);
 }
 
-std::vector<std::string> DrapeOutput::worst_errors() const
+std::vector<std::string>
+DrapeOutput::worst_errors(const std::map<std::string, std::string> &main_variants) const
 {
   std::map<std::string, double> worst;
   for (const DrapeRow &row : errors.rows())
-    if (row.variant == "corotational" && row.method == "localized" &&
+    if (row.variant == main_variants.at(row.cell) && row.method == "localized" &&
         std::isfinite(row.mean_per_cell))
     {
       double &largest = worst[row.cell + " against " + row.reference];

@@ -12,6 +12,7 @@
 
 #include <Eigen/Core>
 
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -92,7 +93,9 @@ public:
 
   /// Largest mean error of `localized` over time, in cell sides, of each cell against each
   /// reference; from the table, so that a resumed run speaks of all its frames. Ready lines.
-  std::vector<std::string> worst_errors() const;
+  /// @param main_variants by cell, whose rows count
+  std::vector<std::string>
+  worst_errors(const std::map<std::string, std::string> &main_variants) const;
 
   const std::string folder;
 

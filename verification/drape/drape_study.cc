@@ -11,10 +11,13 @@
 #include "verification/drape/obstacle_surface.h"
 #include "verification/drape/reference_run.h"
 #include "verification/laws/default_law.h"
+#include "verification/laws/yarn_cells.h"
 #include "verification/record/number_text.h"
 #include "verification/record/on_root.h"
 #include "verification/record/provenance.h"
 
+#include <algorithm>
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -41,16 +44,16 @@ public:
       , communicator(communicator)
       , scene(scene)
       , study(options_of_study(options, scene), communicator)
-      , cloths(cloths_of(options))
       , run{options, DrapeSchedule(scene), communicator,
             Progress(verification::is_root(communicator) && !options.quiet,
                      static_cast<int>(scene.cell_files.size()) * DrapeSchedule(scene).n_frames *
-                       static_cast<int>(cloths.size() + options.references.size()))}
+                       static_cast<int>(cloths_of(options, {}).size() + options.references.size()))}
   {
   }
 
   std::vector<Verdict> to_the_end()
   {
+    check_yarns(study.cells(), "--references", options.references);
     check_cloth(options, scene, study.cells());
     const nlohmann::ordered_json inputs =
       study.with_cells(drape_inputs(options, scene, run.schedule));
@@ -81,11 +84,14 @@ private:
       assess_for_study(cell, communicator, run.verdicts, laws_of_methods(options));
     if (scene.has("bending") && !scene.bending)
       add_bending_for_study(cell, communicator, assessed, run.verdicts);
-    if (const std::string loss = note_on_corotational_cloth(assessed.result.stiffness);
-        !loss.empty())
-      run.note(cell.name + ": " + loss);
+    const Eigen::Matrix3d &C   = assessed.result.stiffness;
+    const MembraneModel chosen = options.variants.empty()
+                                   ? default_model(cell, C)
+                                   : membrane_model_of(options.variants.front());
     const DrapedCell draped(scene, cell, homogenized_cell(cell, assessed, provenance_line()),
-                            edges_for(options, cell));
+                            edges_for(options, cell), chosen);
+    main_variants[cell.name] = name_of(draped.model);
+    write_notes_on_laws(draped);
     if (draped.edges)
       run.note(cell.name + ": " + draped.moving_edges().sentence());
     nlohmann::ordered_json description = description_of(draped);
@@ -97,7 +103,7 @@ private:
               write_obstacles(draped);
               for (const Verdict &check : checks_of_scene(draped))
                 run.verdicts.push_back(check);
-              for (const std::string &variant : cloths)
+              for (const std::string &variant : cloths_of(options, draped.model))
               {
                 coarse.all.push_back(
                   run_coarse(draped, variant, run.schedule, *run.output, run.progress));
@@ -113,6 +119,26 @@ private:
     for (const std::string &reference : options.references)
       description["references"].push_back(run_reference(run, draped, reference, coarse));
     cell_descriptions.push_back(description);
+  }
+
+  void write_notes_on_laws(const DrapedCell &draped)
+  {
+    const std::vector<std::string> cloths = cloths_of(options, draped.model);
+    if (options.variants.empty())
+      run.note(note_on_default_model(draped.cell, draped.model));
+    for (const std::string &note : notes_on_yarns(draped.cell, options.references))
+      run.note(note);
+    const Eigen::Matrix3d &C = draped.homogenized.stiffness;
+    const bool is_corotational =
+      std::any_of(cloths.begin(), cloths.end(),
+                  [](const std::string &name)
+                  { return name == name_of(MembraneModel::corotational) || name == "quadratic"; });
+    if (const std::string loss = note_on_corotational_cloth(C); is_corotational && !loss.empty())
+      run.note(draped.cell.name + ": " + loss);
+    if (is_woven(draped.model))
+      run.note(draped.cell.name + ": " +
+               note_on_coarse_yarns(
+                 draped.model == MembraneModel::woven ? Law::yarn : Law::yarn_tension, C));
   }
 
   nlohmann::ordered_json description_of(const DrapedCell &draped)
@@ -133,6 +159,7 @@ private:
       {"phase_stiffness", stiffness}, // trace [N/m]: pictures are darker with it
       {"C", rows_of(draped.homogenized.stiffness)},
       {"areal_density", draped.homogenized.areal_density},
+      {"model", name_of(draped.model)},
       {"runs", nlohmann::ordered_json::array()},
       {"references", nlohmann::ordered_json::array()}};
     if (scene.has("bending"))
@@ -159,7 +186,7 @@ private:
   void judge(const DrapedCell &draped, const CoarseRun &cloth)
   {
     const std::string title = draped.cell.name + ", " + cloth.variant;
-    run.verdicts.push_back(verdict_of_cloth(title, cloth.is_method() || cloth.is_of_method,
+    run.verdicts.push_back(verdict_of_cloth(title, cloth.is_main || cloth.is_of_method,
                                             static_cast<int>(cloth.frames.size()),
                                             run.schedule.n_frames + 1));
     if (!cloth.failure.empty())
@@ -177,7 +204,7 @@ private:
                                  {"present", scene.has(term)},
                                  {scene.has(term) ? "parameters" : "why",
                                   scene.has(term) ? what : "the scene does not list it"}});
-              for (const std::string &line : run.output->worst_errors())
+              for (const std::string &line : run.output->worst_errors(main_variants))
                 run.progress.note(line);
               nlohmann::ordered_json told = {
                 {"scene", scene.name},
@@ -201,9 +228,9 @@ private:
   const MPI_Comm communicator;
   const Scene scene;
   StudyOfCells study;
-  const std::vector<std::string> cloths;
   DrapeRun run;
-  bool is_taken_up                         = false;
+  bool is_taken_up = false;
+  std::map<std::string, std::string> main_variants; ///< of each cell
   nlohmann::ordered_json cell_descriptions = nlohmann::ordered_json::array(), sizes;
 };
 } // namespace

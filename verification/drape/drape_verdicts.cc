@@ -18,13 +18,13 @@ struct OverTime
   double bar          = 0.; ///< not a number where that of some frame is not known
 };
 
-OverTime over_time(const std::vector<DrapeRow> &rows, const std::string &cell,
+OverTime over_time(const std::vector<DrapeRow> &rows, const JudgedCloth &cloth,
                    const std::string &reference, const std::string &method)
 {
   OverTime mean;
   for (const DrapeRow &row : rows)
-    if (row.cell == cell && row.reference == reference && row.method == method &&
-        row.variant == "corotational" && row.frame > 0)
+    if (row.cell == cloth.cell && row.reference == reference && row.method == method &&
+        row.variant == cloth.variant && row.frame > 0)
     {
       ++mean.n_frames;
       mean.error += row.mean;
@@ -49,15 +49,14 @@ const char *const derivation_of_bar =
 } // namespace
 
 std::vector<Verdict> verdicts_of_accuracy(const std::vector<DrapeRow> &rows,
-                                          const std::string &cell, const std::string &reference,
-                                          const double side)
+                                          const JudgedCloth &method, const std::string &reference)
 {
-  const OverTime localized = over_time(rows, cell, reference, "localized"),
-                 affine    = over_time(rows, cell, reference, "affine");
+  const OverTime localized = over_time(rows, method, reference, "localized"),
+                 affine    = over_time(rows, method, reference, "affine");
   std::vector<Verdict> verdicts;
   if (localized.n_frames == 0)
     return verdicts;
-  const std::string title = cell + " against " + reference + ": ";
+  const std::string title = method.cell + " against " + reference + ": ";
   if (affine.n_frames == localized.n_frames)
     verdicts.push_back({title + "localized is closer than affine (ratio of mean errors)",
                         is_below(localized.error, localized.bar, affine.error),
@@ -77,7 +76,7 @@ std::vector<Verdict> verdicts_of_accuracy(const std::vector<DrapeRow> &rows,
                         Kind::method});
   };
   require("mean displacement", localized.displacement, most_per_displacement);
-  require("side of a cell", side, most_per_cell);
+  require("side of a cell", method.side, most_per_cell);
   return verdicts;
 }
 } // namespace homespun::verification

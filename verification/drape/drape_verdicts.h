@@ -44,12 +44,19 @@ inline Verdict verdict_of_reference(const std::string &title, const int n_found,
                          n_found <= 1 ? Outcome::fail : Outcome::inconclusive, Kind::program);
 }
 
+/// The coarse cloth of a cell that is judged.
+struct JudgedCloth
+{
+  std::string cell, variant;
+  double side = 0.; ///< of a cell [m]
+};
+
 /// What is asked of the method in a scene: places in the fabric to a twentieth of the way that they
 /// went, and to a tenth of a cell.
 constexpr double most_per_displacement = 0.05, most_per_cell = 0.1;
 
-/// Judges the method (variant corotational) against one reference that has an error bar, over the
-/// frames after the beginning:
+/// Judges the method (its main variant) against one reference that has an error bar, over
+/// the frames after the beginning:
 /// - localized is closer to it than affine, by more than the bar
 /// - the error over the displacement of the reference, and over the side of a cell, is below what
 ///   is asked
@@ -57,10 +64,9 @@ constexpr double most_per_displacement = 0.05, most_per_cell = 0.1;
 /// and that of the time step together; a claim that the bar could turn round is open, as is one of
 /// which some frame has no bar.
 /// @param rows of drape.csv of one scene
-/// @param side of a cell [m]
+/// @param method whose rows are judged
 std::vector<Verdict> verdicts_of_accuracy(const std::vector<DrapeRow> &rows,
-                                          const std::string &cell, const std::string &reference,
-                                          double side);
+                                          const JudgedCloth &method, const std::string &reference);
 
 /// What is known of a scene before it runs:
 /// - where it moves what it holds: that starts and ends at rest, evenly accelerated

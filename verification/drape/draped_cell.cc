@@ -3,6 +3,7 @@
 
 #include "meshes/files/obj_file.h"
 #include "meshes/plain/errors.h"
+#include "meshes/plain/yarn_axes.h"
 
 #include <algorithm>
 #include <cmath>
@@ -112,13 +113,18 @@ HeldMotion CoarseCloth::motion(const Scene &scene) const
 
 DrapedCell::DrapedCell(const Scene &given, const homogenization::UnitCell &cell,
                        const meshes::HomogenizedCell &homogenized,
-                       const std::optional<meshes::CellEdges> &edges)
+                       const std::optional<meshes::CellEdges> &edges, const MembraneModel model)
     : scene(given)
     , cell(cell)
     , homogenized(homogenized)
     , edges(edges)
+    , model(model)
     , side(std::sqrt(cell.lattice.area()))
 {
+  if (is_woven(model) && !meshes::yarn_axes(homogenized.stiffness).are_there)
+    throw meshes::BadInput("--variants " + name_of(model) + ": C^H of " + cell.file +
+                           " is alike in all directions and has no yarns; expected a cell whose "
+                           "C^H has axes, or corotational");
   effective        = {{homogenized.stiffness}, {homogenized.areal_density}};
   phases.stiffness = cell.stiffness_of_phase();
   for (const homogenization::Phase &phase : cell.phases)
@@ -210,6 +216,14 @@ ClothMaterial DrapedCell::effective_of(const Method &method) const
   if (method.has_edge_terms())
     material.edges = std::make_shared<const MovingEdges>(moving_edges());
   return material;
+}
+
+MembraneModel DrapedCell::fine_model() const
+{
+  const bool has_yarns = std::any_of(phases.stiffness.begin(), phases.stiffness.end(),
+                                     [](const Eigen::Matrix3d &stiffness)
+                                     { return meshes::yarn_axes(stiffness).are_there; });
+  return is_woven(model) && has_yarns ? model : MembraneModel::corotational;
 }
 
 HeldMotion DrapedCell::coarse_motion() const

@@ -47,16 +47,26 @@ struct CoarseCloth
 class DrapedCell
 {
 public:
-  /// @throws BadInput where the cloth of the scene or the cell cannot be used, or the scene bends
-  /// by
-  ///   the cell's D^H and there is none
+  /// @param model of the coarse cloth that is the method
+  /// @throws BadInput where the cloth of the scene or the cell cannot be used, the scene bends by
+  ///   the cell's D^H and there is none, or the model is woven and C^H has no axes
   DrapedCell(const Scene &scene, const homogenization::UnitCell &cell,
              const meshes::HomogenizedCell &homogenized,
-             const std::optional<meshes::CellEdges> &edges = {});
+             const std::optional<meshes::CellEdges> &edges = {},
+             MembraneModel model                           = MembraneModel::corotational);
 
   /// The coarse cloth of a method.
   /// @throws BadInput where the cell lacks what it asks for
   ClothMaterial effective_of(const Method &method) const;
+
+  /// The model of the coarse cloth of a method: the cell's cubic energy is one of the law biot.
+  MembraneModel model_of(const Method &method) const
+  {
+    return method.is_of_second_order() ? MembraneModel::corotational : model;
+  }
+
+  /// The same model with a stiffness per triangle; corotational where no phase has yarns.
+  MembraneModel fine_model() const;
 
   HeldMotion coarse_motion() const;
   /// @throws BadInput where a held vertex of the coarse cloth is none of the fine one
@@ -92,7 +102,8 @@ public:
   const homogenization::UnitCell cell;
   const meshes::HomogenizedCell homogenized;
   const std::optional<meshes::CellEdges> edges; ///< where a method asks for them
-  const double side;                            ///< sqrt(|Y|) [m]
+  const MembraneModel model;
+  const double side; ///< sqrt(|Y|) [m]
   std::optional<meshes::Sheet> sheet;
   std::optional<meshes::FineCloth> garment;
   meshes::ClothMesh coarse, fine; ///< of `fine`, the vertices in space that the shell moves

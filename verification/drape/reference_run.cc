@@ -177,7 +177,8 @@ private:
               [&]()
               {
                 for (const Verdict &verdict : verdicts_of_accuracy(
-                       run.output->error_rows(), draped.cell.name, reference, draped.side))
+                       run.output->error_rows(),
+                       {draped.cell.name, name_of(draped.model), draped.side}, reference))
                   run.verdicts.push_back(verdict);
               });
   }
@@ -187,7 +188,7 @@ private:
     // A time depends on the machine: reported, never judged.
     double ratio = std::numeric_limits<double>::quiet_NaN();
     for (const CoarseRun &cloth : coarse.all)
-      if (cloth.is_method())
+      if (cloth.is_main)
         ratio = median(seconds) / (cloth.seconds_per_step + cloth.seconds_per_upsampling);
     if (std::isfinite(ratio))
       run.progress.note(title + ": one step takes as long as " + short_text(ratio) +

@@ -11,12 +11,14 @@
 #include "shell/terms/membrane_term.h"
 #include "shell/terms/warping.h"
 #include "shell/terms/wind.h"
+#include "shell/terms/yarn_term.h"
 
 #include <Eigen/LU>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <stdexcept>
 
 namespace homespun::verification
 {
@@ -60,19 +62,42 @@ shell::Integrator integrator_of(const TimeIntegration integration)
 
 std::string name_of(const MembraneModel model)
 {
-  return model == MembraneModel::corotational       ? "corotational"
-         : model == MembraneModel::triangle_warping ? "triangle-warping"
-                                                    : "nodal-warping";
+  switch (model)
+  {
+  case MembraneModel::corotational:
+    return "corotational";
+  case MembraneModel::woven:
+    return "woven";
+  case MembraneModel::woven_tension:
+    return "woven-tension";
+  case MembraneModel::triangle_warping:
+    return "triangle-warping";
+  case MembraneModel::nodal_warping:
+    return "nodal-warping";
+  }
+  throw std::logic_error("a model without a name");
+}
+
+bool has_energy(const MembraneModel model)
+{
+  return model == MembraneModel::corotational || is_woven(model);
+}
+
+bool is_woven(const MembraneModel model)
+{
+  return model == MembraneModel::woven || model == MembraneModel::woven_tension;
 }
 
 MembraneModel membrane_model_of(const std::string &name)
 {
   for (const MembraneModel model :
-       {MembraneModel::corotational, MembraneModel::triangle_warping, MembraneModel::nodal_warping})
+       {MembraneModel::corotational, MembraneModel::woven, MembraneModel::woven_tension,
+        MembraneModel::triangle_warping, MembraneModel::nodal_warping})
     if (name_of(model) == name)
       return model;
   throw meshes::BadInput("found `" + name +
-                         "`; expected corotational, triangle-warping or nodal-warping");
+                         "`; expected corotational, woven, woven-tension, triangle-warping or "
+                         "nodal-warping");
 }
 
 std::vector<std::string> terms_with_a_cost(const Scene &scene)
@@ -113,6 +138,12 @@ SceneCloth::SceneCloth(const Scene &scene, const meshes::ClothMesh &mesh,
   {
   case MembraneModel::corotational:
     moving->add(shell::membrane_term(mesh, material.stiffness, viscosity, material.cubic));
+    break;
+  case MembraneModel::woven:
+    moving->add(shell::yarn_term(mesh, material.stiffness));
+    break;
+  case MembraneModel::woven_tension:
+    moving->add(shell::yarn_term(mesh, material.stiffness, shell::Compression::relaxed));
     break;
   case MembraneModel::triangle_warping:
     moving->add(shell::triangle_warping_term(mesh, material.stiffness));

@@ -14,13 +14,22 @@
 
 namespace homespun::verification
 {
-/// How the membrane is modelled; corotational is the method, the others are variants of the paper.
+/// How the membrane is modelled: by an energy, corotational or of yarns, or by what the paper has
+/// in its place, without one.
 enum class MembraneModel
 {
-  corotational,
+  corotational,  ///< law biot
+  woven,         ///< law yarn, shell/terms/yarn_term.h
+  woven_tension, ///< law yarn-tension
   triangle_warping,
   nodal_warping
 };
+
+/// Whether a model has an energy, and so may be the method, against which variants are held.
+bool has_energy(MembraneModel model);
+
+/// Whether it is one of yarns: a stiffness needs axes.
+bool is_woven(MembraneModel model);
 
 std::string name_of(MembraneModel model);
 

@@ -261,14 +261,6 @@ std::string called(const shell::Integrator integrator)
 const Figure growth = {energy_round_off, "largest growth in a step over the largest energy [-]"};
 constexpr const char *never_grows = "finite; the energy of the damped sheet never grows";
 
-std::vector<shell::Integrator> integrators_of(const SheetStiffness &stiffness)
-{
-  std::vector<shell::Integrator> all = {shell::Integrator::linearly_implicit,
-                                        shell::Integrator::implicit};
-  if (stiffness.has_conserving_steps())
-    all.push_back(shell::Integrator::conserving);
-  return all;
-}
 } // namespace
 
 std::vector<StressCase> motion_cases(const std::vector<SheetStiffness> &stiffnesses)
@@ -277,7 +269,9 @@ std::vector<StressCase> motion_cases(const std::vector<SheetStiffness> &stiffnes
   CaseGroup group("motion", cases);
   for (const SheetStiffness &stiffness : stiffnesses)
   {
-    for (const shell::Integrator integrator : integrators_of(stiffness))
+    for (const shell::Integrator integrator :
+         {shell::Integrator::linearly_implicit, shell::Integrator::implicit,
+          shell::Integrator::conserving})
       group
         .finite("free fall of one second; turned at random; " + called(integrator) + stiffness.name,
                 "finite; straight and as the integrator falls",
@@ -295,7 +289,7 @@ std::vector<StressCase> motion_cases(const std::vector<SheetStiffness> &stiffnes
                      return hung_by_one_corner(stiffness, h, shell::Integrator::linearly_implicit);
                    });
       // Beyond 10 ms it takes minutes, and at 10 ms half of one: once.
-      if (h < 0.02 && stiffness.has_conserving_steps())
+      if (h < 0.02)
         group
           .finite(hung + "conserving; " + stiffness.name, never_grows, growth,
                   [=](unsigned int)

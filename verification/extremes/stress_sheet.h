@@ -19,7 +19,7 @@ namespace homespun::verification
 enum class SheetLaw
 {
   corotational,
-  yarn ///< shell/terms/yarn_term.h: without conserving steps
+  yarn ///< shell/terms/yarn_term.h
 };
 
 /// A membrane stiffness by name.
@@ -29,11 +29,6 @@ struct SheetStiffness
   Eigen::Matrix3d D;          ///< Voigt 11, 22, 12, engineering shear [N/m]
   double areal_density = 0.2; ///< [kg/m^2]
   SheetLaw law         = SheetLaw::corotational;
-
-  bool has_conserving_steps() const
-  {
-    return law == SheetLaw::corotational;
-  }
 };
 
 /// The same, and a twin under the law `yarn`, named so, of each that loses ellipticity under the

@@ -54,7 +54,7 @@ std::vector<std::string> notes(const bool has_cells)
     "and the energy. That a sheet turns is judged by (x_new − x_old)/h: half of what a rigid body "
     "would turn by is asked for.",
     "A stiffness that loses ellipticity under the corotational law, pulled along its yarns, before "
-    "20 %, has a twin under the law yarn, without conserving steps.",
+    "20 %, has a twin under the law yarn.",
     "The figure of a case is the largest of its repetitions; the time is that of all of them.",
     "Each limit stands in stress.csv with where it comes from: theory, round-off, or a "
     "requirement. Iterations and times of the solver have none: they are reported."};

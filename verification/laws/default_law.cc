@@ -90,9 +90,8 @@ std::string note_on_corotational_cloth(const Eigen::Matrix3d &C)
   const PhaseLoss loss = loss_of_biot(C);
   if (!(loss.strain < largest_strain_of_cloth))
     return "";
-  return "moving cloth is corotational (law biot), under which its C^H, pulled along " +
-         axis_text(loss) + ", is elliptic up to " + percent_text(loss.strain) + " (E/G " +
-         short_text(loss.ratio) +
+  return "the corotational cloth (law biot) of C^H, pulled along " + axis_text(loss) +
+         ", is elliptic up to " + percent_text(loss.strain) + " (E/G " + short_text(loss.ratio) +
          "); beyond it the law has no minimum that finer meshes approach, and what is found "
          "belongs to the mesh and the time step";
 }

@@ -54,8 +54,8 @@ constexpr std::size_t n_default_references = 3;
 /// law, green.
 std::vector<std::string> default_references(const homogenization::UnitCell &cell);
 
-/// What a coarse cloth that is corotational, as every moving one is, loses of ellipticity before
-/// 20 %: a sentence; empty where nothing.
+/// What a coarse cloth that is corotational loses of ellipticity before 20 %: a sentence; empty
+/// where nothing.
 /// @param C C^H (3,3) [N/m]
 std::string note_on_corotational_cloth(const Eigen::Matrix3d &C);
 

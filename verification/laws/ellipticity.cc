@@ -2,6 +2,7 @@
 #include "verification/laws/ellipticity.h"
 
 #include "meshes/plain/triangle_kinematics.h"
+#include "verification/yarns/tension_field.h"
 
 #include <algorithm>
 #include <array>
@@ -119,6 +120,12 @@ double EllipticityOfLaw::at(const Eigen::Matrix2d &F) const
   return std::isfinite(here.energy) ? least_wave(here.tangent).stiffness / at_rest : here.energy;
 }
 
+bool EllipticityOfLaw::is_lost(const double least) const
+{
+  constexpr double round_off = 1e-9;
+  return law == Law::yarn_tension ? least < -round_off : !(least > 0.);
+}
+
 std::vector<PhaseEllipticity>
 ellipticity_of_phases(const meshes::TriangleMesh &rest,
                       const std::vector<Eigen::Matrix3d> &stiffness_of_phase, const Law law,
@@ -130,12 +137,18 @@ ellipticity_of_phases(const meshes::TriangleMesh &rest,
   std::vector<PhaseEllipticity> found(laws.size());
   for (int t = 0; t < rest.n_triangles(); ++t)
   {
-    const auto phase    = static_cast<std::size_t>(rest.material(t));
-    PhaseEllipticity &p = found[phase];
-    const double ratio  = laws[phase].at(meshes::deformation_gradient<2>(rest, t, positions));
+    const auto phase        = static_cast<std::size_t>(rest.material(t));
+    PhaseEllipticity &p     = found[phase];
+    const Eigen::Matrix2d F = meshes::deformation_gradient<2>(rest, t, positions);
+    const double ratio      = laws[phase].at(F);
     ++p.n_triangles;
-    p.n_lost += ratio > 0. ? 0 : 1;
+    p.n_lost += laws[phase].is_lost(ratio) ? 1 : 0;
     p.least = std::min(p.least, ratio);
+    if (law != Law::yarn_tension)
+      continue;
+    const ClothState state = cloth_state(stiffness_of_phase[phase], F);
+    p.n_wrinkled += state == ClothState::wrinkled ? 1 : 0;
+    p.n_slack += state == ClothState::slack ? 1 : 0;
   }
   return found;
 }

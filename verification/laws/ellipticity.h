@@ -40,7 +40,7 @@ struct LeastWave
 LeastWave least_wave(const Eigen::Matrix4d &tangent);
 
 /// The least wave of a stiffness under a law, as a part of the one at rest: 1 at rest, whatever the
-/// unit; not positive where ellipticity is lost. Not finite where the law is not.
+/// unit; is_lost() where ellipticity is. Not finite where the law is not.
 class EllipticityOfLaw
 {
 public:
@@ -49,6 +49,10 @@ public:
 
   /// @param F deformation gradient (2,2)
   double at(const Eigen::Matrix2d &F) const;
+
+  /// Whether a value of at() is of a state that is lost: not positive; under yarn-tension, whose
+  /// wrinkles have waves that cost nothing, negative by more than round-off.
+  bool is_lost(double least) const;
 
 private:
   Law law;
@@ -60,8 +64,9 @@ private:
 struct PhaseEllipticity
 {
   int n_triangles = 0;
-  int n_lost      = 0;  ///< of them not elliptic
-  double least    = 1.; ///< as a part of the value at rest, of the worst triangle
+  int n_lost      = 0;             ///< of them not elliptic
+  double least    = 1.;            ///< as a part of the value at rest, of the worst triangle
+  int n_wrinkled = 0, n_slack = 0; ///< under yarn-tension: relaxed (yarns/tension_field.h)
 };
 
 /// Of each phase of a mesh whose triangles deform evenly.

@@ -14,8 +14,9 @@ namespace homespun::verification
 {
 struct WorstTriangle
 {
-  int triangle = -1; ///< −1: of a mesh without triangles
-  double least = 1.; ///< its least wave as a part of that at rest; not positive: not elliptic
+  int triangle = -1;    ///< −1: of a mesh without triangles
+  double least = 1.;    ///< its least wave as a part of that at rest
+  bool is_lost = false; ///< not elliptic
   Eigen::Vector2d stress =
     Eigen::Vector2d::Zero(); ///< principal second Piola stresses, the smaller
                              ///< first: negative where it is pressed [N/m]

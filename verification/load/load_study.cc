@@ -7,6 +7,7 @@
 #include "verification/cell/energy_order.h"
 #include "verification/cell/study_inputs.h"
 #include "verification/laws/default_law.h"
+#include "verification/laws/yarn_cells.h"
 #include "verification/load/load_path.h"
 #include "verification/load/measured_curve.h"
 #include "verification/record/number_text.h"
@@ -173,6 +174,7 @@ public:
 
   std::vector<Verdict> run()
   {
+    check_yarns(study.cells(), "--law", options.laws);
     on_root(communicator, [&]() { open(); });
     std::vector<AssessedCell> assessed;
     for (const UnitCell &cell : study.cells())

@@ -12,7 +12,8 @@ Law homogenized_law(const Law of_reference, const Eigen::Matrix3d &stiffness)
   case Law::linear:
     return Law::linear;
   case Law::yarn:
-    return meshes::yarn_axes(stiffness).are_there ? Law::yarn : Law::biot;
+  case Law::yarn_tension:
+    return meshes::yarn_axes(stiffness).are_there ? of_reference : Law::biot;
   case Law::biot:
   case Law::green:
     break;
@@ -33,14 +34,19 @@ const shell::Membrane &law_of(const shell::SixNodeMembrane &membrane)
   return membrane.points;
 }
 
-void give_yarns(shell::Membrane &membrane)
+shell::Compression compression_under(const Law law)
 {
-  shell::take_yarn_law(membrane);
+  return law == Law::yarn_tension ? shell::Compression::relaxed : shell::Compression::carried;
 }
 
-void give_yarns(shell::SixNodeMembrane &membrane)
+void give_yarns(shell::Membrane &membrane, const Law law)
 {
-  shell::take_yarn_law(membrane.points);
+  shell::take_yarn_law(membrane, compression_under(law));
+}
+
+void give_yarns(shell::SixNodeMembrane &membrane, const Law law)
+{
+  give_yarns(membrane.points, law);
 }
 } // namespace
 
@@ -64,15 +70,16 @@ typename SheetSolvers<Sheet>::OfLaw SheetSolvers<Sheet>::made(Sheet membrane) co
 template <typename Sheet>
 const typename SheetSolvers<Sheet>::OfLaw &SheetSolvers<Sheet>::under(const Law of_reference) const
 {
-  if (homogenized_law(of_reference, law_of(corotational.membrane).stiffness.front().D) != Law::yarn)
+  const Law law = homogenized_law(of_reference, law_of(corotational.membrane).stiffness.front().D);
+  if (!is_of_yarns(law))
     return corotational;
-  if (!of_yarns)
+  if (of_yarns.count(law) == 0)
   {
     Sheet membrane = corotational.membrane;
-    give_yarns(membrane);
-    of_yarns = std::make_unique<OfLaw>(made(std::move(membrane)));
+    give_yarns(membrane, law);
+    of_yarns.emplace(law, made(std::move(membrane)));
   }
-  return *of_yarns;
+  return of_yarns.at(law);
 }
 
 template <typename Sheet>

@@ -37,10 +37,15 @@ void check_arguments(const DrapeOptions &study)
                            "mass so far: expected another; `homespun strain` has it");
                        return Method(name);
                      });
-  faults.check_names("--references", study.references, {"shell", "biot", "green"});
+  faults.check_names("--references", study.references,
+                     {"shell", "biot", "green", "yarn", "yarn-tension"});
   faults.check_names("--frames", study.frames, {"vtu", "ply", "obj"});
-  if (study.variants.empty() || study.variants.front() != "corotational")
-    faults.add("--variants: expected `corotational` first, against which the others are held");
+  if (!study.variants.empty() &&
+      (study.variants.front() == name_of(MembraneModel::nodal_warping) ||
+       study.variants.front() == name_of(MembraneModel::triangle_warping)))
+    faults.add("--variants: found `" + study.variants.front() +
+               "` first; expected corotational, woven or woven-tension, which have an energy: "
+               "references and other variants are held against the first");
   if (!(study.time_step >= 0.) || !(study.duration >= 0.))
     faults.add("--time-step, --duration: expected positive numbers in seconds");
   faults.throw_if_any();
@@ -66,7 +71,6 @@ void add_drape_command(CommandLine &line)
     "Run a scene: the coarse cloth in motion, up-sampled every step, against the resolved one");
   const auto arguments = std::make_shared<DrapeArguments>();
   DrapeOptions &study  = arguments->study;
-  study.variants       = {"corotational"};
   study.methods        = {"affine", "localized", "localized-affine-lift"};
   study.command        = line.text;
 
@@ -76,9 +80,12 @@ void add_drape_command(CommandLine &line)
   add_list(*command, "--unit-cells", study.cell_files,
            "Cell files in place of the scene's, comma-separated");
   add_list(*command, "--references", study.references,
-           "Full-resolution cloths to run beside it, comma-separated: shell, biot, green");
+           "Full-resolution cloths to run beside it, comma-separated: shell, biot, green, yarn,\n"
+           "yarn-tension");
   add_list(*command, "--variants", study.variants,
-           "Membrane models of the coarse cloth: corotational, triangle-warping, nodal-warping");
+           "Membrane models of the coarse cloth, the method's first: corotational, woven (law\n"
+           "yarn), woven-tension (yarn-tension), triangle-warping, nodal-warping (default: woven\n"
+           "where a phase loses ellipticity under biot before 20 %, else corotational)");
   add_list(*command, "--methods", study.methods,
            "Ways to the fine positions; edges (of a scene with the term selvedge) and quadratic\n"
            "move coarse cloths of their own");
@@ -98,9 +105,9 @@ void add_drape_command(CommandLine &line)
   command->footer(
     "References: shell is this program's own cloth with a stiffness per triangle, the naive way at "
     "its\n"
-    "best; biot and green are finite elements (deal.II), on all ranks, for sheets under gravity "
-    "that are\n"
-    "held by edges, corners or vertices.\n"
+    "best, with the model of the method; the laws are finite elements (deal.II), on all ranks, for "
+    "sheets\n"
+    "under gravity that are held by edges, corners or vertices.\n"
     "Of each frame: errors (drape.csv), motion and energies (motion.csv), what each pin and\n"
     "handle exerts (held-forces.csv), the cloth for ParaView.\n"
     "Examples:\n  homespun drape meshes/scenes/hang.prm\n"

@@ -48,6 +48,7 @@ FineReference::Solver::TriangleSums<n_shapes> FineReference::Solver::integrate(
   const ReferenceElement &reference =
     law == Law::linear ? discretization.stiffness_quadrature : discretization.nonlinear_quadrature;
   const double rounded = std::numeric_limits<double>::epsilon() * C.cwiseAbs().maxCoeff();
+  const double steady  = steadying(law, C);
   TriangleSums<n_shapes> sums;
   for (std::size_t q = 0; q < reference.weights.size(); ++q)
   {
@@ -88,6 +89,8 @@ FineReference::Solver::TriangleSums<n_shapes> FineReference::Solver::integrate(
     }
     else if (tangent == Tangent::projected)
       sums.K.noalias() += weight * D.transpose() * positive_part(local.tangent) * D;
+    if (tangent != Tangent::none && steady > 0.)
+      sums.K.noalias() += weight * steady * D.transpose() * D;
   }
   return sums;
 }

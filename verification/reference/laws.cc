@@ -2,10 +2,12 @@
 #include "verification/reference/laws.h"
 
 #include "meshes/plain/errors.h"
-#include "verification/reference/yarn_law.h"
+#include "verification/yarns/tension_field.h"
+#include "verification/yarns/yarn_law.h"
 
 #include <Eigen/Eigenvalues>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
@@ -93,13 +95,16 @@ std::string name_of(const Law law)
     return "green";
   case Law::yarn:
     return "yarn";
+  case Law::yarn_tension:
+    return "yarn-tension";
   }
   throw std::logic_error("a law without a name");
 }
 
 const std::vector<Law> &all_laws()
 {
-  static const std::vector<Law> all = {Law::linear, Law::biot, Law::green, Law::yarn};
+  static const std::vector<Law> all = {Law::linear, Law::biot, Law::green, Law::yarn,
+                                       Law::yarn_tension};
   return all;
 }
 
@@ -108,7 +113,9 @@ Law law_of(const std::string &name)
   for (const Law law : all_laws())
     if (name == name_of(law))
       return law;
-  throw meshes::BadInput("unknown reference `" + name + "`; expected linear, biot, green or yarn");
+  throw meshes::BadInput("unknown reference `" + name +
+                         "`; expected linear, biot, green, yarn or "
+                         "yarn-tension");
 }
 
 Response response(const Law law, const Eigen::Matrix3d &C, const Eigen::Matrix2d &F)
@@ -120,8 +127,9 @@ Response response(const Law law, const Eigen::Matrix3d &C, const Eigen::Matrix2d
   case Law::green:
     return green_response(C, F);
   case Law::yarn:
+  case Law::yarn_tension:
     if (const meshes::YarnAxes yarns = meshes::yarn_axes(C); yarns.are_there)
-      return yarn_response(yarns, F);
+      return law == Law::yarn ? yarn_response(yarns, F) : tension_response(yarns, F);
     return biot_response(C, F);
   default:
     return biot_response(C, F);
@@ -133,5 +141,11 @@ Eigen::Matrix4d positive_part(const Eigen::Matrix4d &tangent)
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix4d> eigen(tangent);
   return eigen.eigenvectors() * eigen.eigenvalues().cwiseMax(0.).asDiagonal() *
          eigen.eigenvectors().transpose();
+}
+
+double steadying(const Law law, const Eigen::Matrix3d &C)
+{
+  constexpr double part = 1e-3;
+  return law == Law::yarn_tension ? part * std::min({C(0, 0), C(1, 1), C(2, 2)}) : 0.;
 }
 } // namespace homespun::verification

@@ -3,7 +3,7 @@
 // gradient F. Written apart from the coarse cloth's element, which one of them must equal.
 #pragma once
 
-#include "verification/reference/response.h"
+#include "verification/yarns/response.h"
 
 #include <Eigen/Core>
 
@@ -17,13 +17,22 @@ namespace homespun::verification
 /// green:  W = ½ E:C:E,            E = ½ (F^T F − I)  (St. Venant-Kirchhoff)
 /// yarn:   W = ½ e:C:e,            e of the stretches of two yarns and their angle (yarn_law.h);
 ///         biot where C has no axes
+/// yarn-tension: yarn without compression, relaxed by wrinkles (tension_field.h); biot where C has
+///         no axes
 enum class Law
 {
   linear,
   biot,
   green,
-  yarn
+  yarn,
+  yarn_tension
 };
+
+/// Whether a law is one of yarns: it needs axes.
+inline bool is_of_yarns(const Law law)
+{
+  return law == Law::yarn || law == Law::yarn_tension;
+}
 
 /// Every law, in this order.
 const std::vector<Law> &all_laws();
@@ -45,4 +54,11 @@ Response response(Law law, const Eigen::Matrix3d &C, const Eigen::Matrix2d &F);
 
 /// The tangent with its negative eigenvalues set to zero, for Newton steps away from stability.
 Eigen::Matrix4d positive_part(const Eigen::Matrix4d &tangent);
+
+/// What a solver adds to a tangent under yarn-tension, whose wrinkles and slack triangles resist
+/// nothing: a part of the resistance at rest, so that its matrix stays regular. It changes the way
+/// to an equilibrium and not the equilibrium. Zero of other laws.
+/// @param C membrane stiffness (3,3) [N/m]
+/// @return multiple of |grad v|² [N/m]
+double steadying(Law law, const Eigen::Matrix3d &C);
 } // namespace homespun::verification

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "verification/reference/space_laws.h"
 
-#include "verification/reference/yarn_law.h"
+#include "verification/yarns/metric_response.h"
+#include "verification/yarns/tension_field.h"
+#include "verification/yarns/yarn_law.h"
 
 #include <Eigen/Cholesky>
 #include <Eigen/Geometry>
@@ -13,14 +15,6 @@ namespace homespun::verification
 {
 namespace
 {
-/// W as a function of E: value, S = dW/dE and H = d²W/dE² in Voigt order.
-struct MetricResponse
-{
-  double energy;
-  Eigen::Vector3d force;
-  Eigen::Matrix3d stiffness;
-};
-
 /// Turns a strain (E11, E22, 2 E12) into axes at an angle with the given cosine and sine.
 Eigen::Matrix3d strain_rotation(const double c, const double s)
 {
@@ -75,39 +69,12 @@ MetricResponse metric_response(const Law law, const Eigen::Matrix3d &C, const Sp
 {
   if (law == Law::green)
     return green_response(C, F);
-  if (law == Law::yarn)
+  if (law == Law::yarn || law == Law::yarn_tension)
     if (const meshes::YarnAxes yarns = meshes::yarn_axes(C); yarns.are_there)
-    {
-      const auto [energy, force, stiffness] =
-        yarn_metric_response(yarns, F * yarns.axes.col(0), F * yarns.axes.col(1));
-      return {energy, force, stiffness};
-    }
+      return law == Law::yarn_tension
+               ? tension_field(yarns, F.transpose() * F).response
+               : yarn_metric_response(yarns, F * yarns.axes.col(0), F * yarns.axes.col(1));
   return biot_response(C, F);
-}
-
-/// B dF = dE with the entries of F row by row.
-template <int dim>
-Eigen::Matrix<double, 3, 2 * dim> strain_derivative(const Eigen::Matrix<double, dim, 2> &F)
-{
-  Eigen::Matrix<double, 3, 2 * dim> B;
-  for (int a = 0; a < dim; ++a)
-  {
-    B.col(2 * a) << F(a, 0), 0., F(a, 1);
-    B.col(2 * a + 1) << 0., F(a, 1), F(a, 0);
-  }
-  return B;
-}
-
-template <int dim>
-Eigen::Matrix<double, 2 * dim, 2 * dim> tangent_of(const Eigen::Matrix<double, dim, 2> &F,
-                                                   const Eigen::Matrix3d &H,
-                                                   const Eigen::Matrix2d &S)
-{
-  const Eigen::Matrix<double, 3, 2 *dim> B       = strain_derivative<dim>(F);
-  Eigen::Matrix<double, 2 * dim, 2 *dim> tangent = B.transpose() * (H * B);
-  for (int a = 0; a < dim; ++a)
-    tangent.template block<2, 2>(2 * a, 2 * a) += S;
-  return tangent;
 }
 
 /// S without its compression.
@@ -164,8 +131,7 @@ SpaceResponse space_response(const Law law, const Eigen::Matrix3d &C, const Spac
                              const Tangent tangent)
 {
   const MetricResponse metric = metric_response(law, C, F);
-  Eigen::Matrix2d S;
-  S << metric.force(0), metric.force(2), metric.force(2), metric.force(1);
+  const Eigen::Matrix2d S     = symmetric(metric.force);
   SpaceResponse response;
   response.energy = metric.energy;
   response.stress = F * S;

@@ -4,10 +4,9 @@
 // the coarse cloth's element, which works with the closed form of U: here the matrix square root is
 // differentiated in its own eigenvectors.
 //
-// With E = ½ (F^T F − I) in Voigt order, S = dW/dE and H = d²W/dE², every such law has
-//   P = F S    and    dF : dP = dE · H · dE + tr(dF S dF^T),    dE = sym(F^T dF).
-// green: S = C E, H = C. yarn: yarn_law.h. biot: from U U = F^T F, in the frame of the principal
-// stretches l1, l2,
+// All are functions of E = ½ (F^T F − I) (metric_response.h), with S = dW/dE and H = d²W/dE².
+// green: S = C E, H = C. yarn: yarn_law.h. yarn-tension: tension_field.h. biot: from U U = F^T F,
+// in the frame of the principal stretches l1, l2,
 //   dU_ij = 2 dE_ij / (l_i + l_j),   d²U_ij = −2 (dU dU)_ij / (l_i + l_j)   along straight E,
 // and W = ½ (U − I):C:(U − I) follows by the chain rule. No difference l1 − l2 is divided by.
 #pragma once
@@ -30,12 +29,11 @@ struct SpaceResponse
   SpaceTangent tangent; ///< dP/dF [N/m]
 };
 
-/// The response of biot, green or yarn in space.
+/// The response of a law but linear in space.
 ///
 /// Where a triangle has collapsed to a line or a point, W of biot has no derivative; the smaller
 /// stretch is then taken as 1e-9 of the larger one (or of 1), which keeps all values finite.
-/// @param law biot, green or yarn; linear is no law in space, because it is not indifferent to
-/// rotations
+/// @param law not linear, which is no law in space, because it is not indifferent to rotations
 /// @param C membrane stiffness (3,3) [N/m], Voigt 11, 22, 12 with engineering shear
 SpaceResponse space_response(Law law, const Eigen::Matrix3d &C, const SpaceGradient &F,
                              Tangent tangent);

@@ -7,6 +7,7 @@
 #include "verification/strain/ellipticity_rows.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace homespun::verification
 {
@@ -36,6 +37,8 @@ EllipticityRow row_of(const StrainLevel &level, const std::string &part,
   row.triangles = found.n_triangles;
   row.lost      = found.n_lost;
   row.least     = found.least;
+  row.wrinkled  = found.n_wrinkled;
+  row.slack     = found.n_slack;
   return row;
 }
 
@@ -50,20 +53,23 @@ std::string words_of(const WorstTriangle &worst, const meshes::Sheet &sheet)
          ") of the sides of the sheet, " + stress_text(worst);
 }
 
+/// What the relaxed law gave away; empty where every triangle is taut.
+std::string relaxed_of_all(const EllipticityRow &row)
+{
+  if (row.wrinkled + row.slack == 0)
+    return "";
+  return std::to_string(row.wrinkled) + " wrinkled and " + std::to_string(row.slack) +
+         " slack of " + std::to_string(row.triangles) + " triangles";
+}
+
 std::string lost_of_all(const EllipticityRow &row)
 {
   return std::to_string(row.lost) + " of " + std::to_string(row.triangles) + " triangles";
 }
-} // namespace
-
-void write_ellipticity(const StrainLevel &level, const ResolvedLevel &resolved,
-                       const std::vector<Eigen::Matrix3d> &stiffness_of_phase,
-                       const std::vector<std::string> &phases, StrainOutput &output)
+/// Groups of phases of one name, and their triangles.
+std::pair<std::vector<std::string>, std::vector<PhaseEllipticity>>
+by_group(const std::vector<PhaseEllipticity> &found, const std::vector<std::string> &phases)
 {
-  if (level.law == Law::linear)
-    return;
-  const std::vector<PhaseEllipticity> found = ellipticity_of_phases(
-    resolved.sheet.mesh, stiffness_of_phase, level.law, resolved.fine.positions);
   std::vector<std::string> groups;
   std::vector<PhaseEllipticity> of_group;
   for (std::size_t p = 0; p < found.size(); ++p)
@@ -77,8 +83,23 @@ void write_ellipticity(const StrainLevel &level, const ResolvedLevel &resolved,
     }
     of_group[g].n_triangles += found[p].n_triangles;
     of_group[g].n_lost += found[p].n_lost;
+    of_group[g].n_wrinkled += found[p].n_wrinkled;
+    of_group[g].n_slack += found[p].n_slack;
     of_group[g].least = std::min(of_group[g].least, found[p].least);
   }
+  return {groups, of_group};
+}
+} // namespace
+
+void write_ellipticity(const StrainLevel &level, const ResolvedLevel &resolved,
+                       const std::vector<Eigen::Matrix3d> &stiffness_of_phase,
+                       const std::vector<std::string> &phases, StrainOutput &output)
+{
+  if (level.law == Law::linear)
+    return;
+  const std::vector<PhaseEllipticity> found = ellipticity_of_phases(
+    resolved.sheet.mesh, stiffness_of_phase, level.law, resolved.fine.positions);
+  const auto [groups, of_group] = by_group(found, phases);
   std::string worst_group, worst_words;
   if (std::any_of(of_group.begin(), of_group.end(),
                   [](const PhaseEllipticity &one) { return one.n_lost > 0; }))
@@ -92,6 +113,10 @@ void write_ellipticity(const StrainLevel &level, const ResolvedLevel &resolved,
   {
     const EllipticityRow row = row_of(level, groups[g], of_group[g]);
     output.ellipticity.append_if_missing(row);
+    if (const std::string relaxed = relaxed_of_all(row); !relaxed.empty())
+      output.write_note(level, relaxed + " of phase " + groups[g] + " under " + row.reference +
+                                 ": what was pressed there is relaxed, and where the cloth lies "
+                                 "within is not determined by the law");
     if (row.lost > 0)
       output.write_note(
         level,
@@ -116,7 +141,7 @@ std::string note_of_stop(const StrainLevel &level, const ReferenceStep &stopped,
   const WorstTriangle worst = worst_triangle(sheet.mesh, stiffness, level.law, stopped.positions);
   const std::string phase =
     cell.phases[static_cast<std::size_t>(sheet.mesh.material(worst.triangle))].name;
-  if (!(worst.least > 0.))
+  if (worst.is_lost)
     return none +
            "; the law ends there, not the solver: at the last equilibrium a triangle of phase " +
            phase + ", " + words_of(worst, sheet) + ", is not elliptic under " + name_of(level.law) +
@@ -139,6 +164,24 @@ std::string note_of_stop(const StrainLevel &level, const ReferenceStep &stopped,
   return all + "; whether it is a minimum is not known";
 }
 
+void write_ellipticity_of_stop(const StrainLevel &level, const ReferenceStep &stopped,
+                               const meshes::Sheet &sheet, const homogenization::UnitCell &cell,
+                               StrainOutput &output)
+{
+  if (level.law == Law::linear || stopped.positions.rows() == 0 || !(stopped.stopped_at > 0.))
+    return;
+  StrainLevel last = level;
+  last.strain      = stopped.stopped_at;
+  std::vector<std::string> names;
+  for (const homogenization::Phase &phase : cell.phases)
+    names.push_back(phase.name);
+  const auto [groups, of_group] = by_group(
+    ellipticity_of_phases(sheet.mesh, cell.stiffness_of_phase(), level.law, stopped.positions),
+    names);
+  for (std::size_t g = 0; g < groups.size(); ++g)
+    output.ellipticity.append_if_missing(row_of(last, groups[g], of_group[g]));
+}
+
 void write_coarse_ellipticity(const StrainLevel &level, const MethodOnSheet &method,
                               const meshes::Points &positions, StrainOutput &output)
 {
@@ -158,6 +201,8 @@ void write_coarse_ellipticity(const StrainLevel &level, const MethodOnSheet &met
                                             known.part == coarse_cloth_part && known.lost > 0;
                                    });
   output.ellipticity.append_if_missing(row);
+  if (const std::string relaxed = relaxed_of_all(row); !relaxed.empty())
+    output.write_note(level, relaxed + " of the coarse cloth under its law, " + name_of(law));
   if (row.lost > 0 && !is_told)
     output.write_note(
       level, lost_of_all(row) + " of the coarse cloth are not elliptic under its law, " +

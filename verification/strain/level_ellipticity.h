@@ -31,6 +31,12 @@ std::string note_of_stop(const StrainLevel &level, const ReferenceStep &stopped,
                          Stability at_the_end, const meshes::Sheet &sheet,
                          const homogenization::UnitCell &cell);
 
+/// Rows of ellipticity.csv of the last equilibrium before a stop, at its own strain, between the
+/// levels.
+void write_ellipticity_of_stop(const StrainLevel &level, const ReferenceStep &stopped,
+                               const meshes::Sheet &sheet, const homogenization::UnitCell &cell,
+                               StrainOutput &output);
+
 /// The same of the coarse cloth; its note is written at the first level of a load that needs it.
 /// @param positions of the vertices of the coarse cloth [m]
 void write_coarse_ellipticity(const StrainLevel &level, const MethodOnSheet &method,

@@ -2,13 +2,13 @@
 #include "verification/strain/strain_comparison.h"
 
 #include "meshes/plain/errors.h"
+#include "verification/laws/yarn_cells.h"
 #include "verification/method/anchor_choice.h"
 #include "verification/record/main_reference.h"
 #include "verification/record/number_text.h"
 #include "verification/strain/force_rows.h"
 #include "verification/strain/level_ellipticity.h"
 #include "verification/strain/sheet_fields.h"
-#include "verification/strain/yarn_cells.h"
 
 #include <algorithm>
 #include <cmath>
@@ -241,8 +241,8 @@ void write_first_notes(const StrainStudyOptions &options, const StrainLevel &lev
 {
   if (name_of(level.law) == options.references.front())
     write_notes_of_methods(level, methods, sheet, method, output);
-  if (level.law == Law::yarn && level.load == options.loads.front())
-    output.write_note(level, note_on_coarse_yarns(method.cell.stiffness));
+  if (is_of_yarns(level.law) && level.load == options.loads.front())
+    output.write_note(level, note_on_coarse_yarns(level.law, method.cell.stiffness));
 }
 
 void write_step(const StrainLevel &level, const ResolvedLevel &resolved, const CoarseStep &coarse,

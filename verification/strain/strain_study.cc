@@ -6,6 +6,7 @@
 #include "verification/budget/budget_tables.h"
 #include "verification/budget/energy_sides.h"
 #include "verification/cell/cell_file_verdicts.h"
+#include "verification/laws/yarn_cells.h"
 #include "verification/record/number_text.h"
 #include "verification/record/on_root.h"
 #include "verification/record/peak_memory.h"
@@ -23,7 +24,6 @@
 #include "verification/strain/strain_output.h"
 #include "verification/strain/study_description.h"
 #include "verification/strain/study_verdicts.h"
-#include "verification/strain/yarn_cells.h"
 
 #include <algorithm>
 #include <cmath>
@@ -54,7 +54,7 @@ public:
   std::vector<Verdict> run()
   {
     const std::vector<UnitCell> &cells = study.cells();
-    check_yarns(cells, asked.references);
+    check_yarns(cells, "--references", asked.references);
     options = options_of(asked, cells);
     for (const UnitCell &cell : cells)
       meshes::tile(cell.mesh, cell.lattice, 1, 1); // refuses what makes no sheet, before any file
@@ -287,6 +287,7 @@ private:
               [&]()
               {
                 output->write_note(level, note_of_stop(level, fine, at_the_end, sheet, cell));
+                write_ellipticity_of_stop(level, fine, sheet, cell, *output);
                 output->write_unreached(level, sheet);
               });
       return false;
@@ -343,8 +344,12 @@ private:
               verdicts.insert(verdicts.end(), of_tables.begin(), of_tables.end());
               output->write_validity();
               std::vector<std::string> notes = notes_on_references(asked, study.cells());
-              for (const auto &more : {notes_on_yarns(study.cells(), asked), output->notes()})
-                notes.insert(notes.end(), more.begin(), more.end());
+              for (const UnitCell &cell : study.cells())
+                for (const std::string &note :
+                     notes_on_yarns(cell, options_of(asked, cell).references))
+                  notes.push_back(note);
+              for (const std::string &note : output->notes())
+                notes.push_back(note);
               if (options.budget)
                 for (const std::string &note :
                      budget_notes(output->strain_rows(), output->budget->rows()))

@@ -5,9 +5,11 @@
 #include "verification/record/number_text.h"
 #include "verification/reference/fine_reference.h"
 #include "verification/reference/loads.h"
+#include "verification/strain/ellipticity_rows.h"
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <utility>
 
@@ -42,16 +44,35 @@ std::vector<StrainRow> cases_of(const std::vector<StrainRow> &rows)
 /// Whether the coarse cloth has the law of the reference, too.
 bool is_shared(const std::string &reference)
 {
-  return reference == name_of(Law::biot) || reference == name_of(Law::yarn);
+  return reference == name_of(Law::biot) || is_of_yarns(law_of(reference));
 }
 
+/// The rows up to where the law of their case is lost: beyond, no minimum need exist, and what was
+/// found there, or was not, is no claim of the method or of the solver.
+/// @param ellipticity rows of ellipticity.csv
+std::vector<StrainRow> rows_of_laws(const std::vector<StrainRow> &rows,
+                                    const std::vector<EllipticityRow> &ellipticity)
+{
+  std::vector<StrainRow> kept;
+  for (const StrainRow &row : rows)
+    if (!(row.strain > elliptic_up_to(ellipticity, row.cell, row.load, row.reference)))
+      kept.push_back(row);
+  return kept;
+}
+
+/// @param lost strain from which on the law is lost; not a number where it never is
 Verdict verdict_of_reach(const std::vector<StrainRow> &rows, const StrainRow &of_case,
-                         const std::size_t n_levels)
+                         const std::size_t n_levels, const double lost)
 {
   std::vector<double> missing;
+  bool ends = false; // the law, before a level that was not reached
   for (const StrainRow &row : rows)
     if (is_of_case(row, of_case) && !row.is_reached())
-      missing.push_back(row.strain);
+    {
+      ends = ends || row.strain > lost;
+      if (!(row.strain > lost))
+        missing.push_back(row.strain);
+    }
   const std::string from =
     missing.empty() ? ""
                     : "; none from strain " +
@@ -59,14 +80,17 @@ Verdict verdict_of_reach(const std::vector<StrainRow> &rows, const StrainRow &of
   return {
     of_case.cell + ", " + of_case.load + ", " + of_case.reference +
       ": reference and coarse cloth find an equilibrium at each of " + std::to_string(n_levels) +
-      " levels (levels without" + from + ")",
+      " levels" +
+      (ends ? " up to where the law is lost, at " + percent_text(lost) : std::string()) +
+      " (levels without" + from + ")",
     missing.empty()              ? Outcome::pass
     : missing.size() == n_levels ? Outcome::fail
                                  : Outcome::inconclusive,
     static_cast<double>(missing.size()),
     "0",
     "every level of --strains is to be compared; one without equilibrium is open, because the "
-    "cloth itself may have none there, and a load without a single level says nothing",
+    "cloth itself may have none there, but where triangles that are not elliptic say so; a load "
+    "without a single level says nothing",
     Kind::program};
 }
 
@@ -244,29 +268,44 @@ double log_slope(const std::vector<double> &x, const std::vector<double> &y)
   return covariance / variance;
 }
 
-std::vector<Verdict> strain_verdicts(const std::vector<StrainRow> &rows,
-                                     const std::vector<double> &strains)
+std::vector<Verdict> strain_verdicts(const std::vector<StrainRow> &all,
+                                     const std::vector<double> &strains,
+                                     const std::vector<EllipticityRow> &ellipticity)
 {
+  const std::vector<StrainRow> rows = rows_of_laws(all, ellipticity);
   std::vector<Verdict> verdicts;
   const auto add = [&](const std::vector<Verdict> &some)
   { verdicts.insert(verdicts.end(), some.begin(), some.end()); };
-  const std::vector<StrainRow> cases = cases_of(rows);
+  const std::vector<StrainRow> cases = cases_of(all);
   for (const StrainRow &of_case : cases)
     if (is_shared(of_case.reference) && of_case.reference == main_reference(rows, of_case.cell))
     {
+      const double lost =
+        elliptic_up_to(ellipticity, of_case.cell, of_case.load, of_case.reference);
+      std::vector<double> asked;
+      std::copy_if(strains.begin(), strains.end(), std::back_inserter(asked),
+                   [=](const double strain) { return !(strain > lost); });
       const bool is_periodic = Load(of_case.load).is_periodic();
-      add(is_periodic ? periodic_verdict(rows, of_case, strains)
-                      : sheet_verdict(rows, of_case, strains));
+      add(is_periodic ? periodic_verdict(rows, of_case, asked)
+                      : sheet_verdict(rows, of_case, asked));
       if (is_periodic)
-        add(affine_verdict(rows, of_case, strains));
+        add(affine_verdict(rows, of_case, asked));
     }
   for (const StrainRow &of_case : cases)
-    verdicts.push_back(verdict_of_reach(rows, of_case, strains.size()));
+    verdicts.push_back(
+      verdict_of_reach(all, of_case, strains.size(),
+                       elliptic_up_to(ellipticity, of_case.cell, of_case.load, of_case.reference)));
   return verdicts;
 }
 
-std::vector<Verdict> stability_verdicts(const std::vector<StepRow> &steps)
+std::vector<Verdict> stability_verdicts(const std::vector<StepRow> &all,
+                                        const std::vector<EllipticityRow> &ellipticity)
 {
+  std::vector<StepRow> steps;
+  for (const StepRow &step : all)
+    if (!(step.strain > elliptic_up_to(ellipticity, step.cell, step.load, step.reference)))
+      steps.push_back(step);
+
   std::vector<Verdict> verdicts;
   std::vector<std::vector<std::string>> seen;
   for (const StepRow &of_case : steps)

@@ -29,7 +29,8 @@ Verdict verdict_of_smallest(const std::string &claim, const std::vector<double> 
 
 /// Judges, for every cell and load among the rows of strain.csv:
 /// - every reference: an equilibrium is found at every level. FAIL where it is found at none, open
-///   where some are missing, because a load whose limit was not shown may have one beyond
+///   where some are missing, because a load whose limit was not shown may have one beyond; levels
+///   beyond the first loss of ellipticity are not missing: there the law ends, which is a result
 /// - periodic loads, reference biot or yarn, the main one of the cell, where the study has three
 /// levels from 1e-4 to 0.1: the
 ///   localized error falls as strain squared, slope 2 +- 0.1; or is zero at each (`solved_to`); or
@@ -39,12 +40,16 @@ Verdict verdict_of_smallest(const std::string &claim, const std::vector<double> 
 /// localized
 ///   is closer to the reference than affine, by more than the reference's error bar; INCONCLUSIVE
 ///   within the bar
+/// Levels beyond that loss decide no claim.
 /// @param strains that the study was asked for: what they cannot decide is no claim
-std::vector<Verdict> strain_verdicts(const std::vector<StrainRow> &rows,
-                                     const std::vector<double> &strains);
+/// @param ellipticity rows of ellipticity.csv
+std::vector<Verdict> strain_verdicts(const std::vector<StrainRow> &all,
+                                     const std::vector<double> &strains,
+                                     const std::vector<EllipticityRow> &ellipticity = {});
 
 /// For every cell, load and nonlinear reference among the rows of steps.csv: each equilibrium that
-/// is compared is a minimum of the reference's energy. Open where one is not, or is not known to
-/// be: what the cloth does there is not what it is compared with.
-std::vector<Verdict> stability_verdicts(const std::vector<StepRow> &steps);
+/// is compared is a minimum of the reference's energy, as long as the law is elliptic. Open where
+/// one is not, or is not known to be: what the cloth does there is not what it is compared with.
+std::vector<Verdict> stability_verdicts(const std::vector<StepRow> &all,
+                                        const std::vector<EllipticityRow> &ellipticity = {});
 } // namespace homespun::verification

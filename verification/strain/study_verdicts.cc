@@ -11,10 +11,11 @@ namespace homespun::verification
 {
 std::vector<Verdict> study_verdicts(const StrainOutput &output, const StrainStudyOptions &options)
 {
-  std::vector<Verdict> verdicts = strain_verdicts(output.strain_rows(), options.strains);
-  const auto add                = [&](const std::vector<Verdict> &some)
+  std::vector<Verdict> verdicts =
+    strain_verdicts(output.strain_rows(), options.strains, output.ellipticity.rows());
+  const auto add = [&](const std::vector<Verdict> &some)
   { verdicts.insert(verdicts.end(), some.begin(), some.end()); };
-  add(stability_verdicts(output.step_rows()));
+  add(stability_verdicts(output.step_rows(), output.ellipticity.rows()));
   if (options.budget)
   {
     const std::vector<BudgetRow> &rows = output.budget->rows();

@@ -102,8 +102,9 @@ std::optional<ValidStrain> valid_strain(const meshes::HomogenizedCell &cell,
     throw meshes::BadInput(why + "; expected the table of " + cell_file +
                            ": run `homespun strain` with this cell");
   }
-  valid.law    = main_reference(rows, valid.cell) == "yarn" ? "yarn" : "biot";
-  bool is_told = false;
+  const std::string main = main_reference(rows, valid.cell);
+  valid.law              = main.rfind("yarn", 0) == 0 ? main : "biot";
+  bool is_told           = false;
   std::set<std::string> limits;
   for (const ValidityRow &row : rows)
   {

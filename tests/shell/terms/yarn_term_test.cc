@@ -100,6 +100,6 @@ TEST(tripwire_yarn_term, a_stiffness_without_axes_is_named)
 {
   const meshes::ClothMesh mesh = lying_sheet(2);
   EXPECT_NE(refusal([&] { yarn_term(mesh, {isotropic(1., 0.3)}); })
-              .find("law yarn: stiffness of phase 0 is alike in all directions"),
+              .find("law yarn: the stiffness of every phase is alike in all directions"),
             std::string::npos);
 }

@@ -36,7 +36,7 @@ std::vector<DrapeRow> rows_of(const double affine, const double localized, const
 std::vector<Outcome> outcomes_of(const std::vector<DrapeRow> &rows, const double side)
 {
   std::vector<Outcome> outcomes;
-  for (const Verdict &verdict : verdicts_of_accuracy(rows, "cell", "biot", side))
+  for (const Verdict &verdict : verdicts_of_accuracy(rows, {"cell", "corotational", side}, "biot"))
     outcomes.push_back(verdict.outcome);
   return outcomes;
 }

@@ -179,6 +179,38 @@ TEST(tripwire_verdicts, two_of_three_levels_leave_the_claim_open)
   EXPECT_EQ(strain_verdicts(rows, {1e-3, 1e-2, 0.1})[0].outcome, Outcome::inconclusive);
 }
 
+TEST(tripwire_verdicts, a_level_beyond_the_loss_of_the_law_is_a_result_and_one_before_it_is_open)
+{
+  // Not reached at 10 %. The last equilibrium, at 5 %, has a triangle that is lost: the law ends.
+  Rows rows   = periodic(2.);
+  rows.back() = row("periodic-12", 0.1, unreached, 0.);
+  EllipticityRow last;
+  last.cell                         = "cell";
+  last.load                         = "periodic-12";
+  last.reference                    = "biot";
+  last.strain                       = 0.05;
+  last.part                         = "yarn";
+  last.triangles                    = 10;
+  last.lost                         = 1;
+  last.least                        = -0.25; // from 1 at rest: zero at 4 %
+  const std::vector<double> strains = {1e-3, 1e-2, 0.1};
+  const auto claim_of_reach         = [&](const std::vector<EllipticityRow> &ellipticity)
+  {
+    const std::vector<Verdict> all = strain_verdicts(rows, strains, ellipticity);
+    for (const Verdict &one : all)
+      EXPECT_EQ(one.claim.find("slope") != std::string::npos, ellipticity.empty()) << one.claim;
+    return all.back();
+  };
+  EXPECT_EQ(claim_of_reach({}).outcome, Outcome::inconclusive);
+  const Verdict told = claim_of_reach({last});
+  EXPECT_EQ(told.outcome, Outcome::pass);
+  EXPECT_NE(told.claim.find("up to where the law is lost, at 4 %"), std::string::npos)
+    << told.claim;
+  // Lost only beyond the level that is missing: that explains nothing.
+  last.strain = 0.2;
+  EXPECT_EQ(strain_verdicts(rows, strains, {last}).back().outcome, Outcome::inconclusive);
+}
+
 TEST(tripwire_verdicts, what_the_strains_of_a_study_cannot_decide_is_no_claim)
 {
   Rows rows = periodic(2.);

@@ -11,7 +11,7 @@ from figures import style
 
 GUIDE = "#6B6B6B"
 THEORY = "order of the theory, or its bounds"
-LAW_COLOURS = {"linear": style.GREEN, "biot": style.BLUE, "green": style.VERMILLION, "yarn": style.PURPLE}
+LAW_COLOURS = {"linear": style.GREEN, "biot": style.BLUE, "green": style.VERMILLION, "yarn": style.PURPLE, "yarn-tension": style.ORANGE}
 ORDER_MARKERS = {1: "o", 2: "^"}
 TIME_COLOURS = (style.BLUE, style.VERMILLION)
 METHOD_LINES = {"localized": "-", "affine": "--"}

@@ -15,10 +15,14 @@ ENERGY_ROUND_OFF = 1e-14  # of the largest energy: sums of squares of positions 
 BLOWN = 1e3  # times the largest value of the first cloth
 VARIANTS = ("corotational", "triangle-warping", "nodal-warping")
 VARIANT_COLOURS = dict(zip(VARIANTS, (style.BLUE, style.GREEN, style.ORANGE, style.VERMILLION)))
+# Of yarns: in the place of the corotational one where that is no law for the cell.
+WOVEN = ("woven", "woven-tension")
+VARIANTS = (VARIANTS[0], *WOVEN, *VARIANTS[1:])
+VARIANT_COLOURS |= dict(zip(WOVEN, ("#332288", "#AA4499")))
 # Methods with coarse cloths of their own.
 VARIANT_COLOURS |= {name: style.METHOD_COLOURS[name] for name in ("edges", "quadratic")}
-REFERENCES = ("shell", "biot", "green")
-REFERENCE_LINES = dict(zip(REFERENCES, ("--", ":", "-.")))
+REFERENCES = ("shell", "biot", "green", "yarn", "yarn-tension")
+REFERENCE_LINES = dict(zip(REFERENCES, ("--", ":", "-.", (0, (5, 1)), (0, (1, 3)))))
 FALL = 3.0  # a height that ranges over so many times that of the others gets a panel of its own
 
 
@@ -318,9 +322,8 @@ def light_seconds(run):
 
 
 def main_run(cell):
-    """The run that references are held against: the corotational one, or the first."""
-    order = ordered_variants(run["variant"] for run in cell.runs)
-    return next((run for run in cell.runs if run["variant"] == order[0]), None) if order else None
+    """The run that references are held against: the first."""
+    return cell.runs[0] if cell.runs else None
 
 
 def step_bars(cell):

@@ -13,7 +13,8 @@
 #pragma once
 
 #include "meshes/plain/yarn_axes.h"
-#include "verification/reference/response.h"
+#include "verification/yarns/metric_response.h"
+#include "verification/yarns/response.h"
 
 #include <Eigen/Core>
 
@@ -24,18 +25,11 @@ namespace homespun::verification
 /// infinite, which makes a line search step back.
 Response yarn_response(const meshes::YarnAxes &yarns, const Eigen::Matrix2d &F);
 
-/// W, its gradient and its second derivative by E = ½ (F^T F − I) in Voigt order, for a sheet in
-/// space, where the area has no sign.
-struct YarnMetricResponse
-{
-  double energy;             ///< [N/m]
-  Eigen::Vector3d force;     ///< dW/dE [N/m]
-  Eigen::Matrix3d stiffness; ///< d²W/dE² [N/m]
-};
-
+/// The response of a sheet in space, where the area has no sign, by E = ½ (F^T F − I).
+///
 /// Where yarns lie along each other the angle has no derivative; the area ratio is then taken as
 /// 1e-9 of |f1| |f2|, and a yarn's length as 1e-9 at least, which keeps all values finite.
 /// @param f1,f2 F a1, F a2
-YarnMetricResponse yarn_metric_response(const meshes::YarnAxes &yarns, const Eigen::Vector3d &f1,
-                                        const Eigen::Vector3d &f2);
+MetricResponse yarn_metric_response(const meshes::YarnAxes &yarns, const Eigen::Vector3d &f1,
+                                    const Eigen::Vector3d &f2);
 } // namespace homespun::verification

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "verification/reference/yarn_law.h"
+#include "verification/yarns/yarn_law.h"
 
 #include <Eigen/Geometry>
 
@@ -46,8 +46,8 @@ Response yarn_response(const YarnAxes &yarns, const Eigen::Matrix2d &F)
   return {0.5 * strain.dot(T), G.transpose() * (B.transpose() * T), G.transpose() * tangent * G};
 }
 
-YarnMetricResponse yarn_metric_response(const YarnAxes &yarns, const Eigen::Vector3d &f1,
-                                        const Eigen::Vector3d &f2)
+MetricResponse yarn_metric_response(const YarnAxes &yarns, const Eigen::Vector3d &f1,
+                                    const Eigen::Vector3d &f2)
 {
   constexpr double least = 1e-9;
   const double length1 = f1.norm(), length2 = f2.norm();

@@ -4,7 +4,7 @@
 #include "verification/laws/ellipticity.h"
 #include "verification/laws/first_loss.h"
 #include "verification/reference/space_laws.h"
-#include "verification/reference/yarn_law.h"
+#include "verification/yarns/yarn_law.h"
 
 #include <Eigen/LU>
 #include <gtest/gtest.h>
