@@ -1,0 +1,93 @@
+# SPDX-License-Identifier: MIT
+"""Cloth of yarns: in motion, and where it cannot be pressed."""
+import json
+import unittest
+
+from cli import CELLS, InFolder, rows_of, run
+from scene_case import SCENES
+
+HANGING = ["drape", SCENES / "hang.prm", "--unit-cells", CELLS / "plain-weave.prm", "--cells", 2,
+           "--duration", 0.1, "--frames", "vtu", "--methods", "affine,localized", "--no-report"]
+
+
+class Moving(InFolder):
+    def run_scene(self, *options, cell=None):
+        study = [option if option != CELLS / "plain-weave.prm" or cell is None else CELLS / cell
+                 for option in HANGING]
+        result = run(*study, "--quick", *options, "--output", self.folder / "run")
+        return result
+
+    def variants(self):
+        return {row["variant"] for row in rows_of(self.folder / "run" / "motion.csv")}
+
+    def notes(self):
+        return json.loads((self.folder / "run" / "drape.json").read_text())["notes"]
+
+    def test_a_weave_moves_as_one_by_default_beside_references_of_its_law(self):
+        result = self.run_scene("--references", "shell,yarn")
+        self.assertIn(result.returncode, (0, 1, 4), result.stderr)
+        self.assertEqual(self.variants(), {"woven", "shell", "yarn"})
+        self.assertTrue([note for note in self.notes() if "the law is yarn" in note
+                         and "the moving cloth is woven" in note], self.notes())
+        self.assertFalse([note for note in self.notes() if "corotational cloth" in note])
+        # Both references, in two codes, are one cloth, up to what their integrators differ by.
+        rows = rows_of(self.folder / "run" / "motion.csv")
+        height = {name: [float(row["centre_z_m"]) for row in rows if row["variant"] == name]
+                  for name in ("shell", "yarn")}
+        self.assertEqual(len(height["shell"]), len(height["yarn"]))
+        fall = max(abs(one - height["yarn"][0]) for one in height["yarn"])
+        for shell, yarn in zip(height["shell"], height["yarn"]):
+            self.assertAlmostEqual(shell, yarn, delta=0.1 * fall)
+
+    def test_a_cell_whose_law_is_biot_moves_corotationally(self):
+        self.assertIn(self.run_scene(cell="layered.prm").returncode, (0, 1, 4))
+        self.assertEqual(self.variants(), {"corotational"})
+
+    def test_the_model_that_is_asked_for_wins_and_what_it_loses_is_told(self):
+        result = self.run_scene("--variants", "corotational,woven,woven-tension")
+        self.assertIn(result.returncode, (0, 1, 4), result.stderr)
+        self.assertEqual(self.variants(), {"corotational", "woven", "woven-tension"})
+        self.assertTrue([note for note in self.notes() if "corotational cloth (law biot)" in note])
+
+    def test_what_has_no_yarns_or_no_energy_is_refused(self):
+        for options, cell, texts in (
+                (("--references", "yarn"), "layered.prm", ("layered.prm", "--references yarn")),
+                (("--variants", "nodal-warping,woven"), None, ("found `nodal-warping` first",)),
+                (("--variants", "knitted"), None, ("corotational, woven, woven-tension",))):
+            result = self.run_scene(*options, cell=cell)
+            self.assertEqual(result.returncode, 2, result.stdout)
+            for text in texts:
+                self.assertIn(text, result.stderr)
+
+
+class Tension(InFolder):
+    def test_what_is_relaxed_is_counted_and_told(self):
+        result = run("strain", CELLS / "plain-weave.prm", "--cells", 2, "--quick", "--loads",
+                     "shear-frame", "--references", "yarn-tension", "--strains", "0.001,0.002",
+                     "--methods", "affine,localized", "--no-budget", "--no-runtime", "--no-report",
+                     "--output", self.folder / "run")
+        self.assertIn(result.returncode, (0, 1, 4), result.stderr)
+        rows = rows_of(self.folder / "run" / "ellipticity.csv")
+        self.assertEqual({row["not_elliptic"] for row in rows}, {"0"})
+        self.assertGreater(sum(int(row["wrinkled"]) for row in rows), 0)
+        notes = [row["note"] for row in rows_of(self.folder / "run" / "notes.csv")]
+        self.assertTrue([note for note in notes if "wrinkled and" in note
+                         and "what was pressed there is relaxed" in note], notes)
+
+    def test_it_is_refused_without_yarns_and_where_its_margin_says_nothing(self):
+        for study, texts in (
+                (("strain", CELLS / "layered.prm", "--references", "yarn-tension"),
+                 ("--references yarn-tension", "alike in all directions")),
+                (("load", CELLS / "layered.prm", "--strain", "11=1%", "--law", "yarn-tension"),
+                 ("--law yarn-tension", "alike in all directions")),
+                (("stability", CELLS / "plain-weave.prm", "--law", "yarn-tension"),
+                 ("--law", "waves without cost"))):
+            result = run(*study, "--output", self.folder / "run")
+            self.assertEqual(result.returncode, 2, study)
+            for text in texts:
+                self.assertIn(text, result.stderr)
+            self.assertFalse((self.folder / "run").exists())
+
+
+if __name__ == "__main__":
+    unittest.main()
