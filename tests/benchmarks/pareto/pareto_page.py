@@ -68,8 +68,10 @@ def draw_panel(axes, rows, column):
                 label="homespun, width of the bracket",
             )
     known = max(row["error_of_answer"] for row in rows)
+    errors = [max(row["error"], FLOOR) for row in rows]
+    axes.set_ylim(min(*errors, known or FLOOR) / 3, 3 * max(*errors, 1e2 * FLOOR))
     if known > 0:
-        axes.axhspan(FLOOR / 2, known, color="0.9", zorder=0)
+        axes.axhspan(FLOOR / 10, known, color="0.9", zorder=0)
     axes.grid(True, which="major", linewidth=0.3)
 
 
