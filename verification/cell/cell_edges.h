@@ -20,4 +20,8 @@ struct KnownEdges
 /// Slip, tension, modes and bulk term of a cell, on the triangles as given; on one rank.
 /// @param order 1 or 2, that of its chi
 KnownEdges known_edges(const homogenization::UnitCell &cell, unsigned int order);
+
+/// The same for a file that carries them in case somebody asks; none, with an estimate, where they
+/// would take longer than all else. Studies that need them make them whatever it takes.
+KnownEdges affordable_edges(const homogenization::UnitCell &cell, unsigned int order);
 } // namespace homespun::verification

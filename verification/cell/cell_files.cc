@@ -343,7 +343,7 @@ void write_cell_results(const UnitCell &cell, const AssessedCell &assessed,
 {
   std::filesystem::create_directories(folder);
   const meshes::HomogenizedCell homogenized = homogenized_cell(cell, assessed, provenance_line());
-  const KnownEdges known                    = known_edges(cell, assessed.options.order);
+  const KnownEdges known                    = affordable_edges(cell, assessed.options.order);
   if (known.edges)
     meshes::write_cell(homogenized, *known.edges, folder + "/cell.h5");
   else

@@ -51,7 +51,9 @@ def write_report(folders, output, tells=False):
     try:
         sheets = sum(len(cell.field_files) for cell in results.cells.values())
         gallery = Gallery(os.path.join(workplace, "figures"), sheets, tells)
-        html = render(page_contents(results, gallery, output))
+        contents = page_contents(results, gallery, output)
+        gallery.finish()
+        html = render(contents)
         html = fitted(
             html, {name[:-5] for name in os.listdir(gallery.folder) if name.endswith(".webp")}
         )

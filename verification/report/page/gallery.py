@@ -1,15 +1,21 @@
 # SPDX-License-Identifier: MIT
 """Saves figures as PDF and SVG with their numbers as CSV, animations as WebP, and inlines them into
 the page.
+
+Laying a figure out and writing it in three formats takes most of the time of a page, and no figure
+knows of another: each is saved by a process of its own, a copy of this one, as many at once as
+there are cores, while the next is drawn.
 """
 import base64
 import io
 import json
+import multiprocessing
 import os
 import re
 import sys
 import urllib.parse
 from dataclasses import dataclass
+from multiprocessing import connection
 
 from matplotlib import pyplot
 from markupsafe import Markup
@@ -25,7 +31,8 @@ FULL_IMAGES = 6  # that the page takes at this resolution; more of them become c
 
 @dataclass
 class Picture:
-    """A drawn figure as the template shows it."""
+    """A drawn figure as the template shows it; of one that is still being saved, the name and the
+    caption alone are known."""
 
     name: str  # file name without ending
     source: str  # data URI
@@ -102,6 +109,8 @@ class Gallery:
         self.dpi = PAGE_DPI * min(1.0, (FULL_IMAGES / max(1, images)) ** 0.5)
         os.makedirs(folder, exist_ok=True)
         self.names = set()
+        self.at_once = len(os.sched_getaffinity(0))
+        self.saving = {}  # connection: process and Picture
 
     def tell(self, name):
         """What is drawn now, on a line that rewrites itself; nothing where no terminal shows it."""
@@ -129,6 +138,44 @@ class Gallery:
         """
         name = self.own_name(name)
         self.tell(name)
+        picture = Picture(name, "", caption, 0, view=in_page(view))
+        theirs, mine = multiprocessing.Pipe(duplex=False)
+        process = multiprocessing.get_context("fork").Process(
+            target=self.send_saved, args=(mine, figure, name, as_image, table, plotted), daemon=True
+        )
+        process.start()
+        mine.close()
+        pyplot.close(figure)
+        self.saving[theirs] = (process, picture)
+        self.finish(self.at_once - 1)
+        return picture
+
+    def send_saved(self, to, *figure):
+        """save(), in a process of its own: what it returns or raises goes to the one that asked."""
+        try:
+            to.send(self.save(*figure))
+        except Exception as error:  # pylint: disable=broad-exception-caught
+            to.send(error)
+
+    def finish(self, unfinished=0):
+        """Waits until no more than so many figures are still being saved.
+
+        @throws what went wrong with one of them
+        """
+        while len(self.saving) > unfinished:
+            for theirs in connection.wait(list(self.saving)):
+                process, picture = self.saving.pop(theirs)
+                try:
+                    saved = theirs.recv()
+                except EOFError:
+                    saved = RuntimeError(f"saving the figure {picture.name} ended without a word")
+                process.join()
+                if isinstance(saved, Exception):
+                    raise saved
+                picture.source, picture.width, picture.endings, picture.plot = saved
+
+    def save(self, figure, name, as_image, table, plotted):
+        """The files of a figure, and source, width, endings and plot of its Picture."""
         figure.draw_without_rendering()  # lays the figure out, once for all formats
         figure.set_layout_engine("none")
         box = figure.get_tightbbox().padded(PAD)
@@ -152,10 +199,7 @@ class Gallery:
         if rows:
             with open(os.path.join(self.folder, name + ".csv"), "w", encoding="utf-8") as file:
                 file.write(plot_data.csv_text(rows, header))
-        pyplot.close(figure)
-        return Picture(
-            name, source, caption, round(105.0 * box.width), endings, in_page(panels), in_page(view)
-        )
+        return source, round(105.0 * box.width), endings, in_page(panels)
 
     def add_animation(self, data, name, width, caption):
         """Saves `name`.webp, a looping picture of so many pixels' width.
