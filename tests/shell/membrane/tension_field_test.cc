@@ -148,7 +148,10 @@ TYPED_TEST(exact_tension_field, pulled_along_a_yarn_the_width_is_free_as_long_as
         DeformationGradient<dim>::Identity() * Eigen::Vector2d(1. + strain, width).asDiagonal();
       const TensionField<dim> field = tension_field<dim>(F, yarns);
       EXPECT_EQ(field.state, TensionState::wrinkled);
-      EXPECT_NEAR(field.energy, 0.5 * young * strain * strain, 1e-11 * young * strain * strain);
+      // A strain is known up to a rounding of 1.
+      constexpr double rounding = std::numeric_limits<double>::epsilon();
+      EXPECT_NEAR(field.energy, 0.5 * young * strain * strain,
+                  young * strain * (1e-11 * strain + 4. * rounding));
       DeformationGradient<dim> P = DeformationGradient<dim>::Zero();
       P(0, 0)                    = young * strain;
       EXPECT_LT((field.gradient - P).norm(), 1e-9 * young * strain) << strain << " " << width;
@@ -268,7 +271,7 @@ TYPED_TEST(invariant_tension_field, rotations_turn_the_stress_and_the_tangent_an
       const double size              = yarns.C.norm();
       EXPECT_EQ(turned.state, field.state);
       EXPECT_NEAR(turned.energy, field.energy, 1e-12 * size);
-      EXPECT_LT((turned.gradient - R * field.gradient).norm(), 1e-10 * size);
+      EXPECT_LT((turned.gradient - R * field.gradient).norm(), 1e-9 * size);
       GradientHessian<dim> turn                   = GradientHessian<dim>::Zero();
       turn.template topLeftCorner<dim, dim>()     = R;
       turn.template bottomRightCorner<dim, dim>() = R;
