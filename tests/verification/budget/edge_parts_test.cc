@@ -84,15 +84,14 @@ TEST(exact_edge_parts, together_they_lead_from_localized_to_the_method_edges)
     }
 }
 
-// Two stripes have a centre of symmetry, three have none; in the strip pulled across its stripes
-// nothing is at the free edges that a cable could carry before the stripes contract.
+// Two stripes have a centre of symmetry, three have none.
 TEST(exact_edge_parts, a_cell_with_a_centre_of_symmetry_has_no_part_of_strain_gradients)
 {
   const EdgeParts two   = Resolved("layered", "shear-frame", Law::linear).parts(),
                   three = Resolved("three-stiffness", "shear-frame", Law::linear).parts();
   const double unit     = 0.01 * 0.01; // strain x cell side
   EXPECT_LT(mean(two.bulk), 1e-9 * unit);
-  EXPECT_GT(mean(three.bulk), 1e-3 * unit);
+  EXPECT_GT(mean(three.bulk), 1e5 * 1e-9 * unit);
   EXPECT_GT(mean(two.slip), 1e-3 * unit);
   EXPECT_GT(mean(two.selvedge), 1e-3 * unit);
   EXPECT_GT(mean(two.layer), 1e-4 * unit);
