@@ -219,7 +219,7 @@ std::vector<double> exponents_of(const Corner &corner)
     size = std::max(size, sector.stiffness.cwiseAbs().maxCoeff());
   }
   const int n_nodes = static_cast<int>(pieces.size()) * degree + (corner.is_closed ? 0 : 1);
-  const int n       = 2 * n_nodes;
+  int n             = 2 * n_nodes;
   // lambda² M U = (K + lambda (G − G^T)) U
   Eigen::MatrixXd M = Eigen::MatrixXd::Zero(n, n), G = M, K = M;
   for (std::size_t piece = 0; piece < pieces.size(); ++piece)
@@ -249,6 +249,14 @@ std::vector<double> exponents_of(const Corner &corner)
         }
     }
   }
+  const bool is_clamped = !corner.is_closed && corner.clamped != ClampedRay::none;
+  if (is_clamped)
+  {
+    const int first = corner.clamped == ClampedRay::first ? 2 : 0;
+    n -= 2;
+    for (Eigen::MatrixXd *const matrix : {&M, &G, &K})
+      *matrix = matrix->block(first, first, n, n).eval();
+  }
   const Eigen::LLT<Eigen::MatrixXd> inverse(M);
   Eigen::MatrixXd linear                  = Eigen::MatrixXd::Zero(2 * n, 2 * n);
   linear.topRightCorner(n, n)             = Eigen::MatrixXd::Identity(n, n);
@@ -259,11 +267,11 @@ std::vector<double> exponents_of(const Corner &corner)
   std::sort(found.begin(), found.end(),
             [](const auto &a, const auto &b) { return std::abs(a) < std::abs(b); });
   // The first four are the two translations and the two point forces, lambda = 0 with Jordan
-  // blocks.
+  // blocks; a clamped ray leaves neither.
   std::vector<double> exponents;
-  for (std::size_t k = 4; k < found.size(); ++k)
+  for (std::size_t k = is_clamped ? 0 : 4; k < found.size(); ++k)
     if (found[k].real() > 0. && found[k].real() < 2. - near_unit &&
-        std::abs(found[k] - 1.) > near_unit)
+        (is_clamped || std::abs(found[k] - 1.) > near_unit))
       exponents.push_back(found[k].real());
   std::sort(exponents.begin(), exponents.end());
   return exponents;

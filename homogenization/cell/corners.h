@@ -22,13 +22,23 @@ struct Sector
   Eigen::Matrix3d stiffness; ///< [N/m]
 };
 
+/// An outer ray of an open corner that is held; the others are free. For the sheets of a study: the
+/// rims of a cell's holes are free.
+enum class ClampedRay
+{
+  none,
+  first, ///< where the first sector begins
+  last   ///< where the last one ends
+};
+
 /// The sectors around a vertex, each beginning where the one before ends; no two neighbours have
 /// the same stiffness.
 struct Corner
 {
   std::vector<Sector> sectors;
   bool is_closed =
-    true; ///< the last one ends where the first begins; otherwise both outer rays are free
+    true; ///< the last one ends where the first begins; otherwise it has two outer rays
+  ClampedRay clamped = ClampedRay::none; ///< of an open corner
 };
 
 /// The corners of a periodic mesh, periodic images once: vertices around which phases of different
@@ -39,7 +49,7 @@ std::vector<Corner> corners_of(const meshes::TriangleMesh &mesh, const meshes::L
                                const std::vector<Eigen::Matrix3d> &stiffness_of_material);
 
 /// The real parts of all exponents with 0 < Re lambda < 2, ascending, without lambda = 1, which
-/// every corner has (the rotation). Found from
+/// every corner without a clamped ray has (the rotation). Found from
 ///   integral (B_t V')·c (lambda B_r U + B_t U') − lambda (B_r V)·c (lambda B_r U + B_t U') dtheta
 ///     = 0 for all V,
 /// B_d the strain of a gradient along d, e_r for B_r and e_theta for B_t, with polynomials of high

@@ -4,6 +4,7 @@
 #include "homogenization/fem/homogenize.h"
 #include "meshes/plain/errors.h"
 #include "verification/budget/second_code.h"
+#include "verification/cell/cell_edges.h"
 #include "verification/cell/energy_order.h"
 #include "verification/record/main_reference.h"
 #include "verification/record/number_text.h"
@@ -72,7 +73,10 @@ void BudgetStudy::begin_cell(const homogenization::UnitCell &new_cell,
   on_root(communicator,
           [&]()
           {
-            SecondCodeRow row = {cell->name, "-", 1., "linear", "p2-cell"};
+            const KnownEdges known = known_edges(*cell, 1); // P1, as the method has it
+            cells.edges            = known.edges;
+            why_no_edges           = known.why_not;
+            SecondCodeRow row      = {cell->name, "-", 1., "linear", "p2-cell"};
             const Eigen::Matrix3d other =
               second_p2_stiffness(cells.given, cells.stiffness_of_phase);
             row.distance = energy_difference(cells.best.stiffness, other);
@@ -101,7 +105,8 @@ void BudgetStudy::begin_load(const homogenization::UnitCell &new_cell,
               second_linear_sheet(cells.given, cells.stiffness_of_phase, *sheet, load, strain),
               strain, budget_refinement(*sheet));
           });
-  load_name = load.name;
+  load_name   = load.name;
+  is_periodic = load.is_periodic();
 }
 
 std::string BudgetStudy::measure(const Law law, const double strain,
@@ -128,6 +133,12 @@ std::string BudgetStudy::measure(const Law law, const double strain,
                                       tight.positions, of_p2.reached ? &of_p2.positions : nullptr,
                                       second_sheet ? &*second_sheet : nullptr});
               fault += (fault.empty() || of_parts.empty() ? "" : "; ") + of_parts;
+            }
+            if (fault.empty() && !why_no_edges.empty() && !is_periodic)
+            {
+              fault =
+                "the terms of edges are not known, and stand in the part `rest`; " + why_no_edges;
+              why_no_edges.clear(); // once per cell
             }
             if (fault.empty() && is_judged && !of_p2.reached)
               fault = "the part `reference` is not known: P2 is not reached; " + of_p2.why;

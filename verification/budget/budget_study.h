@@ -79,5 +79,7 @@ private:
   const meshes::Sheet *sheet = nullptr;
   std::vector<int> regions;
   std::string load_name;
+  bool is_periodic = false;
+  std::string why_no_edges; ///< told once per cell; first rank
 };
 } // namespace homespun::verification

@@ -5,8 +5,6 @@
 #include "meshes/plain/errors.h"
 #include "verification/budget/second_code.h"
 
-#include <Eigen/QR>
-
 #include <algorithm>
 #include <limits>
 
@@ -17,8 +15,8 @@ using meshes::Points;
 const std::vector<std::string> &budget_parts()
 {
   static const std::vector<std::string> names = {
-    "scale",  "nonlinearity", "coarse-mesh", "cell",      "blending",  "time-step",
-    "solver", "precision",    "convention",  "reference", "resolution"};
+    "slip", "selvedge", "bulk",      "layer",  "rest",      "macro-law", "modes",     "coarse-mesh",
+    "cell", "blending", "time-step", "solver", "precision", "reference", "resolution"};
   return names;
 }
 
@@ -53,27 +51,11 @@ Points upsampled(const meshes::HomogenizedCell &cell, const meshes::TriangleMesh
   return fine;
 }
 
-/// The constants c (3,2) of w for which E · c comes nearest to a field, in least squares.
-/// Directions of strain that the sheet hardly knows are left alone.
-Eigen::Matrix<double, 3, 2> best_constant(const LocalState &state, const Points &field)
+/// S4 − S0 of a budget: what the terms of edges add.
+Points edge_terms_of(const ErrorBudget &budget)
 {
-  Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> solver;
-  solver.setThreshold(1e-6);
-  solver.compute(state.frames.leftCols<3>());
-  return solver.solve(Eigen::MatrixXd(field));
-}
-
-/// L (E · c): what a constant of w adds to the positions.
-Points from_constant(const LocalState &state, const Eigen::Matrix<double, 3, 2> &constant)
-{
-  Points result = state.frames.leftCols<3>() * constant;
-  for (Eigen::Index v = 0; v < result.rows(); ++v)
-  {
-    const Eigen::RowVector2d w = result.row(v);
-    const auto &lift           = state.frames.row(v).tail<4>();
-    result.row(v) << lift(0) * w(0) + lift(1) * w(1), lift(2) * w(0) + lift(3) * w(1);
-  }
-  return result;
+  return -(budget.parts.at("slip") + budget.parts.at("selvedge") + budget.parts.at("bulk") +
+           budget.parts.at("layer"));
 }
 } // namespace
 
@@ -91,14 +73,30 @@ LoadBudget::LoadBudget(const BudgetCells &cells, const meshes::Sheet &sheet, con
                     load.is_periodic() ? 1 : sheet.n1 * refinement / 2,
                     load.is_periodic() ? 1 : sheet.n2 * refinement / 2)
 {
-  const LocalState state = resolved.at_fine_vertices(
-    Law::linear, resolved.solve(Law::linear, resolved.prescribed(linear_strain)));
-  const Points error = localized(state, cells.given, sheet) - second;
-  constant           = best_constant(state, error);
-  shift              = from_constant(state, constant) / linear_strain;
-  scale              = error / linear_strain - shift;
-  fluctuation        = (second - state.positions) / linear_strain;
-  localization       = (localized(state, cells.given, sheet) - state.positions) / linear_strain;
+  const shell::Positions<2> u = resolved.solve(Law::linear, resolved.prescribed(linear_strain));
+  const LocalState state      = resolved.at_fine_vertices(Law::linear, u);
+  if (cells.edges && !load.is_periodic())
+    edges.emplace(cells.given, *cells.edges, sheet, load, refinement);
+  const Points with_chi = localized(state, cells.given, sheet);
+  ErrorBudget linear;
+  measure_edges(Law::linear, u, with_chi, linear);
+  with_terms   = edge_terms_of(linear) / linear_strain;
+  rest         = (with_chi - second) / linear_strain + with_terms;
+  fluctuation  = (second - state.positions) / linear_strain;
+  localization = (with_chi - state.positions) / linear_strain;
+}
+
+/// The parts that edges make up, at a strain and law: fields of zeros where there are none.
+void LoadBudget::measure_edges(const Law law, const shell::Positions<2> &u,
+                               const Points &with_exact, ErrorBudget &budget) const
+{
+  const Points zero = Points::Zero(with_exact.rows(), 2);
+  const EdgeParts parts =
+    edges ? edges->measure(law, u, with_exact) : EdgeParts{zero, zero, zero, zero};
+  budget.parts["slip"]     = parts.slip;
+  budget.parts["selvedge"] = parts.selvedge;
+  budget.parts["bulk"]     = parts.bulk;
+  budget.parts["layer"]    = parts.layer;
 }
 
 double LoadBudget::bar_of_sum(const Law law, const SolvedLevel &level, const Points &homogenized,
@@ -106,15 +104,15 @@ double LoadBudget::bar_of_sum(const Law law, const SolvedLevel &level, const Poi
 {
   const auto mean        = [](const Points &field) { return field.rowwise().norm().mean(); };
   const double strain    = level.strain;
-  const Points &part_2   = budget.parts.at("nonlinearity");
+  const Points part_2    = budget.parts.at("macro-law") + budget.parts.at("modes");
   const double of_part_2 = budget.misfit_of_localization * mean(part_2);
   const double of_codes  = agreement * strain * std::sqrt(sheet.lattice.area());
   if (law == Law::linear || load.is_periodic())
     return of_part_2 + of_codes;
   const Points of_sheet = *level.second - homogenized - strain * fluctuation;
   const Points of_cell  = with_exact - part_2 - homogenized - strain * localization;
-  const Points of_shift = budget.parts.at("convention") - strain * shift;
-  return mean(of_sheet) + mean(of_cell) + mean(of_shift) + of_part_2 + of_codes;
+  const Points of_edges = edge_terms_of(budget) - strain * with_terms;
+  return mean(of_sheet) + mean(of_cell) + mean(of_edges) + of_part_2 + of_codes;
 }
 
 ErrorBudget LoadBudget::measure(const Law law, const SolvedLevel &level)
@@ -135,10 +133,11 @@ ErrorBudget LoadBudget::measure(const Law law, const SolvedLevel &level)
   const Points with_exact     = localized(exact, cells.given, sheet);
   const Points with_averaged  = localized(averaged, cells.given, sheet);
 
-  budget.parts["convention"] = from_constant(exact, constant);
-  budget.parts["nonlinearity"] =
-    law == Law::linear ? zero : nonlinearity(law, u, with_exact, budget);
-  budget.parts["scale"] = strain * scale;
+  measure_edges(law, u, with_exact, budget);
+  budget.parts["rest"]      = strain * rest;
+  budget.parts["macro-law"] = budget.parts["modes"] = zero;
+  if (law != Law::linear)
+    measure_nonlinearity(law, u, with_exact, budget);
   if (law == Law::linear || level.second != nullptr)
     budget.bar = bar_of_sum(law, level, exact.positions, with_exact, budget);
   budget.parts["coarse-mesh"] =
@@ -191,15 +190,17 @@ Points LoadBudget::resolution(const Law law, const double strain, const Points &
 }
 
 /// Part 2: the homogenized sheet and its localization by the small-strain theory, against both at
-/// finite strain.
-Points LoadBudget::nonlinearity(const Law law, const shell::Positions<2> &u,
-                                const Points &with_exact, ErrorBudget &budget) const
+/// finite strain, one after the other.
+void LoadBudget::measure_nonlinearity(const Law law, const shell::Positions<2> &u,
+                                      const Points &with_exact, ErrorBudget &budget) const
 {
   const NonlinearCell cell(cells.given, cells.stiffness_of_phase, law);
   const NonlinearLocalization at_finite_strain(cell, cells.given, resolved.strains(law, u));
   budget.misfit_of_localization         = at_finite_strain.misfit();
   const shell::Positions<2> u_nonlinear = resolved.solve(law, at_finite_strain, u);
-  return with_exact - localized(resolved.at_fine_vertices(law, u_nonlinear), cells.given, sheet,
-                                &at_finite_strain);
+  const LocalState state                = resolved.at_fine_vertices(law, u_nonlinear);
+  const Points with_small_chi           = localized(state, cells.given, sheet);
+  budget.parts["macro-law"]             = with_exact - with_small_chi;
+  budget.parts["modes"] = with_small_chi - localized(state, cells.given, sheet, &at_finite_strain);
 }
 } // namespace homespun::verification

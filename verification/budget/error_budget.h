@@ -9,25 +9,25 @@
 // triangle, averaged to the coarse vertices, linear in between (what the method does). w(E) =
 // −chi : E.
 //
-//  1 scale         [u + w(E) with the best constant of chi] − T', in linear theory, times strain:
-//                  what separation of scales and the boundary layers at free and held edges cost,
-//                  whatever the constant. Against T', never against the reference that is
-//                  explained
-//  2 nonlinearity  [u + R w(E)] − [û + R^ ŵ(Ê)], û in equilibrium with the stress of the cell at
-//                  finite strain, ŵ its fluctuation (nonlinear_cell.h): small-strain stiffness and
-//                  chi in place of those at finite strain
+//  1 the order of the cell at edges, each at the strain and law itself (edge_parts.h); S0 = u + R
+//    w(E) with chi anchored at the lattice, S4 the same with all terms of edges and chi of mean
+//    zero slip        slip of clamped edges, and with it the constant of chi selvedge    tension of
+//    free edges bulk        the force of strain gradients layer       modes that decay from the
+//    edges rest        S4 − T', in linear theory, times strain: what is of higher order in the
+//    cell, and
+//                corners between clamped and free edges. Against T', never against the reference
+//                that is explained. Of a cell without terms of edges S4 is S0
+//  2 geometric nonlinearity; û in equilibrium with the stress of the cell at finite strain, ŵ its
+//    fluctuation (nonlinear_cell.h)
+//    macro-law   S0 − [û + R^ w(Ê)]: small-strain stiffness in place of that at finite strain
+//    modes       [û + R^ w(Ê)] − [û + R^ ŵ(Ê)]: small-strain chi in place of that at finite strain
 //  3 coarse-mesh   [u_H + R_H w(<E_H>)] − [u + R w(<E>)]: solving and interpolating on the coarse
 //                  mesh
 //  5 blending      [R w(<E>)] − [R w(E)] at the resolved solution: averaging and blending of the
 //                  strain
 //  6 time-step     0: the loads are static
 //  7 solver        [M − M with tight tolerances] − [T − T with a tight tolerance]
-//  9 convention    [R w(E)] with chi anchored at the lattice − the same with its best constant, at
-//                  the resolved solution. The best constant (per unit strain) is the one of part 1:
-//                  it brings u + w nearest to T' in least squares. So 1 and 9 share what linear
-//                  theory leaves: 9 is its projection on L (E c), 1 the rest, and a boundary layer
-//                  that looks like a constant counts as 9. The rotation lift needs no part: for a
-//                  frame indifferent law it is exact in an infinite cloth
+// The rotation lift needs no part: for a frame indifferent law it is exact in an infinite cloth.
 // Their sum stands against M − T; what it leaves is `unexplained`. Beside the sum, because method
 // and reference share the mesh of the cell and its discretization hits both:
 //  4 cell          M − M with chi* and C^H*
@@ -37,30 +37,34 @@
 //                  if u converges with order two, and as much as it lacks if corners leave it order
 //                  one
 //
-// What the sum tests. In linear theory 1, 3, 5 and 9 are links of one chain from M to T', whatever
-// u is: there the sum says that Upsampler and LightweightCloth do what the parts say of them, and
+// What the sum tests. In linear theory 1, 3 and 5 are links of one chain from M to T', whatever u
+// is: there the sum says that Upsampler and LightweightCloth do what the parts say of them, and
 // that T is T', which shares with T the mesh, the stiffness of the phases and the load. At finite
-// strain the same holds up to what boundary layers do beyond linear theory, which is in no part. In
-// an infinite cloth there are none: there the sum tests part 2 as well. That a link has its right
-// name is said by its order: 2 in strain for part 2; 2 in H for part 3, which `resolution` is read
-// off; for part 1 by the study of scale separation (converge). Part 1 is not measured at the strain
-// itself: as [û + R^ ŵ(Ê)] − T' it would take up whatever part 2 has wrong, and the sum would close
-// for any part 2.
+// strain the same holds up to what `rest` does beyond linear theory, which is in no part. In an
+// infinite cloth there is none: there the sum tests part 2 as well. That a link has its right name
+// is said by its order: 2 in strain for part 2; 2 in H for part 3, which `resolution` is read off;
+// for part 1 by the study of cells per sheet (converge), and by the method `edges`, which lacks
+// what the four terms are without `rest`. `rest` is not measured at the strain itself: as [û + R^
+// ŵ(Ê)] + S4 − S0 − T' it would take up whatever part 2 has wrong, and the sum would close for any
+// part 2.
 //
 // The bar of `unexplained`, from means over the vertices. With f = T' − u, g = û + R^ ŵ(Ê) − u and
-// c = part 9, and a prime for the same per unit strain in linear theory, the chain leaves
-// (f − s f') − (g − s g') + (c − s c'), so that |unexplained| <= |f − s f'| + |g − s g'| +
+// c = S4 − S0, and a prime for the same per unit strain in linear theory, the chain leaves
+// −(f − s f') + (g − s g') + (c − s c'), so that |unexplained| <= |f − s f'| + |g − s g'| +
 // |c − s c'| (triangle inequality) + misfit |2| (what the table of part 2 is known to) + what the
 // solvers leave. Linear law and infinite cloth: the last two alone.
 #pragma once
 
+#include "meshes/plain/cell_edges.h"
 #include "meshes/plain/homogenized_cell.h"
+#include "verification/budget/edge_parts.h"
 #include "verification/method/homogenized_sheet.h"
 #include "verification/method/lightweight_cloth.h"
 
 #include <limits>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -73,6 +77,7 @@ struct BudgetCells
   meshes::HomogenizedCell best;  ///< P2
   meshes::HomogenizedCell tight; ///< P1 with a tighter solver
   std::vector<Eigen::Matrix3d> stiffness_of_phase;
+  std::optional<meshes::CellEdges> edges; ///< none: their terms stand in `rest`
 };
 
 /// The names of the parts by their numbers, then what stands beside them.
@@ -122,8 +127,10 @@ public:
   ErrorBudget measure(Law law, const SolvedLevel &level);
 
 private:
-  meshes::Points nonlinearity(Law law, const shell::Positions<2> &u,
-                              const meshes::Points &with_exact, ErrorBudget &budget) const;
+  void measure_edges(Law law, const shell::Positions<2> &u, const meshes::Points &with_exact,
+                     ErrorBudget &budget) const;
+  void measure_nonlinearity(Law law, const shell::Positions<2> &u, const meshes::Points &with_exact,
+                            ErrorBudget &budget) const;
   meshes::Points resolution(Law law, double strain, const meshes::Points &with_exact);
   double bar_of_sum(Law law, const SolvedLevel &level, const meshes::Points &homogenized,
                     const meshes::Points &with_exact, const ErrorBudget &budget) const;
@@ -132,9 +139,9 @@ private:
   const meshes::Sheet &sheet;
   const Load load;
   HomogenizedSheet coarse, coarse_best, coarse_tight, resolved, half_resolved;
-  meshes::Points scale;                            ///< per unit strain [m]
-  meshes::Points fluctuation, localization, shift; ///< f', g', c' of the bar [m]
-  Eigen::Matrix<double, 3, 2> constant;            ///< of w, per unit strain [m]
+  std::optional<EdgePartsOfSheet> edges;
+  meshes::Points rest;                                  ///< per unit strain [m]
+  meshes::Points fluctuation, localization, with_terms; ///< f', g', c' of the bar [m]
   shell::Positions<2> last_displacement,
     last_half_displacement; ///< of the resolved sheets, per strain
 };

@@ -14,6 +14,9 @@
 //               1 per sheet side. `localized` has at least that order, and at most 2.
 // coarse        coarse triangles per cell side at a fixed sheet. The energy falls (nested). Where a
 //               clamped edge meets a free one the exponent lies above ½: orders between 1 and 2.
+// edges         cells per sheet with all terms of the method `full`, the macro problem resolved. On
+//               a sheet that closes along one axis: order 1 per cell side. Corners between clamped
+//               and free edges leave 2 lambda − 1, lambda their exponent.
 // strain        periodic loads under the cell's default law: the linear characteristic
 // displacements err by strain
 //               squared, `affine` by strain.
@@ -40,6 +43,7 @@ struct ConvergenceSizes
   std::vector<int> refinements_p1, refinements_p2;
   unsigned adaptive_dofs = 400000; ///< of the larger of the two problems of a bracket
   std::vector<int> cells_per_sheet;
+  std::vector<int> cells_of_edges; ///< per side of the sheets of the study of edges
   int cells_of_coarse_study = 8;
   std::vector<double> coarse_per_cell; ///< coarse parallelograms per cell side
   std::vector<double> strains;         ///< descending
@@ -66,6 +70,10 @@ std::vector<ConvergenceCase> scale_cases(const homogenization::UnitCell &cell,
 std::vector<ConvergenceCase> coarse_cases(const homogenization::UnitCell &cell,
                                           const meshes::HomogenizedCell &homogenized,
                                           const ConvergenceSizes &sizes, MPI_Comm communicator);
+/// @param homogenized as above
+std::vector<ConvergenceCase> edge_cases(const homogenization::UnitCell &cell,
+                                        const meshes::HomogenizedCell &homogenized,
+                                        const ConvergenceSizes &sizes, MPI_Comm communicator);
 std::vector<ConvergenceCase> time_cases(const homogenization::UnitCell &cell,
                                         const meshes::HomogenizedCell &homogenized,
                                         const ConvergenceSizes &sizes);

@@ -28,6 +28,7 @@ ConvergenceSizes convergence_sizes(const bool quick)
   sizes.refinements_p2  = quick ? std::vector<int>{0, 1, 2, 3} : std::vector<int>{0, 1, 2, 3, 4};
   sizes.adaptive_dofs   = quick ? 60000 : 400000;
   sizes.cells_per_sheet = quick ? std::vector<int>{2, 4, 8, 16} : std::vector<int>{2, 4, 8, 16, 32};
+  sizes.cells_of_edges  = quick ? std::vector<int>{4, 6, 10, 16} : std::vector<int>{5, 10, 20, 40};
   sizes.cells_of_coarse_study = quick ? 4 : 16;
   sizes.coarse_per_cell       = {0.5, 1., 2., 4., 8.};
   if (!quick)
@@ -158,6 +159,7 @@ private:
     inputs["refinements_p2"]        = sizes.refinements_p2;
     inputs["adaptive_dofs"]         = sizes.adaptive_dofs;
     inputs["cells_per_sheet"]       = sizes.cells_per_sheet;
+    inputs["cells_of_edges"]        = sizes.cells_of_edges;
     inputs["cells_of_coarse_study"] = sizes.cells_of_coarse_study;
     inputs["coarse_per_cell"]       = sizes.coarse_per_cell;
     inputs["strains"]               = sizes.strains;
@@ -196,6 +198,8 @@ private:
         { return scale_cases(cell, h, sizes, communicator); });
     add("coarse", [&](const UnitCell &cell, const auto &h)
         { return coarse_cases(cell, h, sizes, communicator); });
+    add("edges", [&](const UnitCell &cell, const auto &h)
+        { return edge_cases(cell, h, sizes, communicator); });
     add("strain", [&](const UnitCell &cell, const auto &h)
         { return strain_cases(cell, h, sizes, communicator); });
     add("time", [&](const UnitCell &cell, const auto &h) { return time_cases(cell, h, sizes); });

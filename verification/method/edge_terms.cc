@@ -97,8 +97,18 @@ void EdgeTerms::give_edges(localization::UpsamplerOptions &options) const
       is_clamped[side] ? localization::EdgeKind::clamped : localization::EdgeKind::free;
 }
 
-EdgeTerms::Positions with_edges(const EdgeTerms &terms, const CoarseSpace &space,
-                                const CoarseSolver &solver, const EdgeTerms::Positions &positions)
+std::vector<int> held_by(const Load &load, const meshes::Sheet &sheet,
+                         const meshes::TriangleMesh &mesh)
+{
+  std::vector<int> held;
+  for (int v = 0; v < mesh.n_vertices(); ++v)
+    if (!load.is_periodic() && load.holds(sheet.fraction(mesh.vertices.row(v))))
+      held.push_back(v);
+  return held;
+}
+
+shell::Equilibrium<2> with_edges(const EdgeTerms &terms, const CoarseSpace &space,
+                                 const CoarseSolver &solver, const EdgeTerms::Positions &positions)
 {
   const EdgeTerms::MacroLoads loads = terms.macro_loads(space.on_grid(positions));
   const EdgeTerms::Positions slip   = space.at_nodes(loads.slip),
@@ -106,9 +116,12 @@ EdgeTerms::Positions with_edges(const EdgeTerms &terms, const CoarseSpace &space
   if (terms.law == Law::linear)
   {
     const meshes::Points &rest = space.nodes.mesh.vertices;
-    return positions + (solver.solve_linear(rest + slip, forces) - rest);
+    shell::Equilibrium<2> result;
+    result.positions  = positions + (solver.solve_linear(rest + slip, forces) - rest);
+    result.iterations = 1;
+    return result;
   }
-  return solver.solve_equilibrium(terms.law, positions + slip, forces).positions;
+  return solver.solve_equilibrium(terms.law, positions + slip, forces);
 }
 
 bool has_meaning(const Method &method, const Load &load)
@@ -120,20 +133,6 @@ bool has_meaning(const Method &method, const Law law, const Load &load)
 {
   return method.has_meaning(law) && has_meaning(method, load);
 }
-
-namespace
-{
-/// The vertices of a coarse mesh that a load holds; none of an infinite cloth.
-std::vector<int> held_by(const Load &load, const meshes::Sheet &sheet,
-                         const meshes::TriangleMesh &mesh)
-{
-  std::vector<int> held;
-  for (int v = 0; v < mesh.n_vertices(); ++v)
-    if (!load.is_periodic() && load.holds(sheet.fraction(mesh.vertices.row(v))))
-      held.push_back(v);
-  return held;
-}
-} // namespace
 
 EdgedSheet::EdgedSheet(const CellWithEdges &cell, const meshes::Sheet &sheet, const Load &load,
                        const Method &method, const int quads_per_cell)
@@ -150,7 +149,7 @@ EdgedSheet::EdgedSheet(const CellWithEdges &cell, const meshes::Sheet &sheet, co
       solvers[law] = space.solver(cell.cell.stiffness, held, {second.energy});
 }
 
-UpsampledSheet EdgedSheet::upsample(const Law law,
+EdgedPositions EdgedSheet::upsample(const Law law,
                                     const EdgeTerms::Positions &coarse_positions) const
 {
   const EdgeTerms terms(cell, sheet, load, space.grid, law);
@@ -160,20 +159,21 @@ UpsampledSheet EdgedSheet::upsample(const Law law,
   if (found == solvers.end())
     throw meshes::BadInput("method " + method.name +
                            ": the cell has no cubic energy under the law " + name_of(law));
-  const auto moved_grid = [&]()
-  { return space.on_grid(with_edges(terms, space, *found->second, coarse_positions)); };
-  UpsampledSheet result;
-  const EdgeTerms::Positions moved = moved_grid();
+  shell::Equilibrium<2> moved;
+  EdgedPositions result;
+  result.seconds_of_terms =
+    median_seconds([&]() { moved = with_edges(terms, space, *found->second, coarse_positions); });
+  result.steps_of_terms = moved.iterations;
   localization::Upsampler<2, double>::Fine in_double;
   localization::Upsampler<2, double>(cell.cell, space.grid.mesh, sheet, options)
-    .upsample(moved, in_double);
+    .upsample(space.on_grid(moved.positions), in_double);
   result.positions = in_double;
 
   const localization::Upsampler<2, float> in_float(cell.cell, space.grid.mesh, sheet, options);
   localization::Upsampler<2, float>::Fine fine;
-  const auto run = [&]() { in_float.upsample(moved_grid(), fine); };
+  const auto run = [&]() { in_float.upsample(space.on_grid(moved.positions), fine); };
   run(); // memory and caches, as in every frame but the first
-  result.seconds = median_seconds(run);
+  result.seconds = result.seconds_of_terms + median_seconds(run);
   return result;
 }
 

@@ -68,19 +68,30 @@ private:
   std::array<bool, meshes::CellEdges::n_sides> is_clamped;
 };
 
-/// Coarse positions with the terms of edges: u0 + u1. In linear theory one more substitution with
+/// The vertices of a coarse mesh that a load holds; none of an infinite cloth.
+std::vector<int> held_by(const Load &load, const meshes::Sheet &sheet,
+                         const meshes::TriangleMesh &mesh);
+
+/// The coarse cloth with the terms of edges: u0 + u1. In linear theory one more substitution with
 /// the factored stiffness; under other laws the equilibrium under the same forces, from u0.
 /// @param terms on the grid of the space
 /// @param solver of the nodes of the space, the held ones on clamped edges
 /// @param positions of the nodes in equilibrium without the terms (n,2) [m]
 /// @throws NotConverged
-EdgeTerms::Positions with_edges(const EdgeTerms &terms, const CoarseSpace &space,
-                                const CoarseSolver &solver, const EdgeTerms::Positions &positions);
+shell::Equilibrium<2> with_edges(const EdgeTerms &terms, const CoarseSpace &space,
+                                 const CoarseSolver &solver, const EdgeTerms::Positions &positions);
 
 /// Whether a method of this name has a meaning under a load: an infinite cloth has no edges,
 /// and the motion of its coarse cloth is given.
 bool has_meaning(const Method &method, const Load &load);
 bool has_meaning(const Method &method, Law law, const Load &load);
+
+/// What a sheet with terms of edges is up-sampled to; `seconds` holds both.
+struct EdgedPositions : UpsampledSheet
+{
+  double seconds_of_terms = 0.; ///< of the coarse cloth with the terms
+  int steps_of_terms      = 0;  ///< Newton steps of that
+};
 
 /// The methods `edges` and `full` on a sheet: chi with mean zero, the terms of edges in coarse and
 /// in fine positions. It keeps a factored stiffness of its own.
@@ -94,9 +105,8 @@ public:
              const Method &method = Method("edges"), int quads_per_cell = 1);
 
   /// @param coarse_positions of the nodes in equilibrium without the terms (n,2) [m]
-  /// @return seconds with those of the terms
   /// @throws NotConverged; BadInput where the cell has no cubic energy under the law
-  UpsampledSheet upsample(Law law, const EdgeTerms::Positions &coarse_positions) const;
+  EdgedPositions upsample(Law law, const EdgeTerms::Positions &coarse_positions) const;
 
   /// Which of the four edges have which terms.
   std::string sentence() const;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Writes schema.json, the columns of every table, for the report: run by the build.
+// Writes schema.json, the columns of every table and the rank of the methods, for the report: run
+// by the build.
 #include "verification/benchmark/benchmark_tables.h"
 #include "verification/bloch/pattern_tables.h"
 #include "verification/bloch/stability_tables.h"
@@ -10,6 +11,7 @@
 #include "verification/extremes/stress_tables.h"
 #include "verification/load/load_tables.h"
 #include "verification/record/json_files.h"
+#include "verification/record/main_method.h"
 #include "verification/record/schema.h"
 #include "verification/scaling/scaling_tables.h"
 #include "verification/strain/strain_tables.h"
@@ -56,6 +58,7 @@ int main(int argc, char **argv)
   add_to_schema<ScalingRun>(schema);
   add_to_schema<UpsampleRow>(schema);
   add_to_schema<BenchmarkRow>(schema);
+  schema["methods_by_rank"] = methods_by_rank;
   write_json(argv[1], schema);
   return exit_status::good;
 }

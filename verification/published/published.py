@@ -22,11 +22,12 @@ sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), os.p
 # pylint: disable=wrong-import-position
 from read.cell_results import relative_width  # noqa: E402
 from read.runs import read_run  # noqa: E402
-from read.schema import NoSchema  # noqa: E402
+from read.schema import NoSchema, main_method  # noqa: E402
 from read.stored import BadResults  # noqa: E402
 from run_files import Results  # noqa: E402
 
-STRAIN, REFERENCE = 0.01, "biot"
+STRAIN, LARGE_STRAIN, REFERENCE = 0.01, 0.1, "biot"
+LADDER = ("affine", "localized", "edges", "quadratic", "p2", "full")
 SCENE = "pull"
 SHEETS = ("strip-1", "strip-2", "shear-frame")
 KEYS = {  # columns that name a row of each file, for README's marks
@@ -40,43 +41,69 @@ KEYS = {  # columns that name a row of each file, for README's marks
 }
 
 
+def level(rows, cell, load, strain):
+    """{method: row} of one level against the law that the claims of the cell speak of."""
+    laws = [row["reference"] for row in rows if row["cell"] == cell]
+    law = next((one for one in ("biot", "yarn") if one in laws), None)
+    return {
+        row["method"]: row
+        for row in rows
+        if (row["cell"], row["load"], row["reference"]) == (cell, load, law)
+        and math.isclose(row["strain"], strain, rel_tol=1e-6)
+        and not math.isnan(row["error_mean_m"])
+    }
+
+
 def errors(results):
-    """Mean errors of the sheets at 1 % strain against biot, in 1/1000 of strain x cell side; shares
-    in percent.
+    """Mean errors of the sheets at 1 % and 10 % strain against biot, or of weaves against yarn, in
+    1/1000 of strain x cell side; shares in percent. Columns of 10 % end in `_10`, empty where no
+    equilibrium was reached.
 
     Share of the affine error left: localized / affine. Share of the fluctuation left: localized /
-    mean |reference − homogenized sheet resolved on a fine mesh|.
+    mean |reference − homogenized sheet resolved on a fine mesh|. Gain: localized / main, the method
+    that pages speak of.
     """
-    rows = [
-        row
-        for row in results.table("strain.csv")
-        if row["reference"] == REFERENCE
-        and row["load"] in SHEETS
-        and math.isclose(row["strain"], STRAIN, rel_tol=1e-6)
-    ]
+    rows = [row for row in results.table("strain.csv") if row["load"] in SHEETS]
     for cell, load in dict.fromkeys((row["cell"], row["load"]) for row in rows):
-        some = {row["method"]: row for row in rows if (row["cell"], row["load"]) == (cell, load)}
-        if not {"affine", "localized"} <= some.keys():
+        small, large = (level(rows, cell, load, strain) for strain in (STRAIN, LARGE_STRAIN))
+        if not {"affine", "localized"} <= small.keys():
             continue
-        affine, localized = some["affine"], some["localized"]
-        per = {
-            name: 1000.0 * row["error_mean_per_cell"] / row["strain"] for name, row in some.items()
-        }
-        side = affine["error_mean_m"] / affine["error_mean_per_cell"]
+        localized = small["localized"]
         yield {
             "cell": cell,
             "load": load,
-            "cells_per_side": affine["cells"],
-            "affine": per["affine"],
-            "localized": per["localized"],
-            "reference_bar": (
-                1000.0 * localized["reference_uncertainty_m"] / side / localized["strain"]
-            ),
-            "share_of_affine_left": 100.0 * per["localized"] / per["affine"],
+            "reference": localized["reference"],
+            "cells_per_side": localized["cells"],
+            **of_ladder(small, ""),
+            "share_of_affine_left": 100.0 * localized["error_mean_m"] / small["affine"]["error_mean_m"],
             "share_of_fluctuation_left": 100.0 * localized["error_mean_per_fluctuation"],
-            "mean_anchor": per.get("localized-mean-anchor", math.nan),
-            "affine_lift": per.get("localized-affine-lift", math.nan),
+            "mean_anchor": per_strain(small, "localized-mean-anchor"),
+            "main_method": main_method(small),
+            **of_ladder(large, "_10"),
         }
+
+
+def per_strain(some, method):
+    """Mean error of a method at a level [1/1000 of strain x cell side]; nan where it has none."""
+    row = some.get(method)
+    return math.nan if row is None else 1000.0 * row["error_mean_per_cell"] / row["strain"]
+
+
+def of_ladder(some, ending):
+    """Errors of all methods at one level, the bar of the reference, and the gain."""
+    localized = some.get("localized")
+    bar = math.nan
+    if localized:
+        side = localized["error_mean_m"] / localized["error_mean_per_cell"]
+        bar = 1000.0 * localized["reference_uncertainty_m"] / side / localized["strain"]
+    main = per_strain(some, main_method(some))
+    values = {
+        **{method: per_strain(some, method) for method in LADDER},
+        "reference_bar": bar,
+        "main": main,
+        "gain": per_strain(some, "localized") / main,
+    }
+    return {name + ending: value for name, value in values.items()}
 
 
 def times(results):

@@ -17,14 +17,15 @@ namespace homespun::verification
 /// `lower` and `upper` are where the error with the reference's error bar added, and taken off,
 /// meets the limit. `elliptic_up_to` is the strain of the load from which on a triangle of
 /// reference or coarse cloth is not elliptic, the same for every measure and limit; empty where all
-/// levels that were reached are.
+/// levels that were reached are. Rows are of `localized`, which up-samples whatever moved the
+/// coarse cloth, and of the method that the study speaks of (main_method.h).
 struct ValidityRow
 {
   static constexpr const char *file   = "validity.csv";
-  static constexpr std::size_t n_keys = 5;
+  static constexpr std::size_t n_keys = 6;
   static constexpr double none        = std::numeric_limits<double>::quiet_NaN();
 
-  std::string cell, load, reference, measure;
+  std::string cell, load, reference, method, measure;
   double limit = 0.;
   std::string relation;
   double largest = none, lower = none, upper = none;
@@ -37,6 +38,7 @@ struct ValidityRow
     column("cell", &ValidityRow::cell, Domain::name);
     column("load", &ValidityRow::load, Domain::name);
     column("reference", &ValidityRow::reference, Domain::name);
+    column("method", &ValidityRow::method, Domain::name);
     column("measure", &ValidityRow::measure, Domain::name);
     column("limit", &ValidityRow::limit, Domain::positive);
     column("relation", &ValidityRow::relation, Domain::name);

@@ -90,9 +90,9 @@ void judge_level(const std::vector<BudgetRow> &rows, const BudgetRow &level,
                    (bar > widest_bar ? "; a bar above a fifth of the error "
                                        "decides nothing"
                                      : ""),
-     "triangle inequality: parts 1 and 9 are of linear theory, which the sheet of the second "
-     "code, the cell and the constant leave by what was measured at that level; part 2 is known "
-     "to the misfit of its table; and what the solvers leave",
+     "triangle inequality: the part `rest` is of linear theory, which the sheet of the second "
+     "code, the cell and the terms of edges leave by what was measured at that level; part 2 is "
+     "known to the misfit of its table; and what the solvers leave",
      Kind::program});
   const double beyond_solvers = mean_of(rows, level, "reference") - solved_to * level.strain,
                covered        = beyond_solvers / bar_of_reference;
@@ -117,8 +117,15 @@ bool is_small(const double strain)
   return strain <= 0.0201;
 }
 
-void judge_slope(const std::vector<BudgetRow> &rows, const BudgetRow &of_case,
-                 const std::vector<double> &asked, std::vector<Verdict> &verdicts)
+/// A part of second order in strain, and what it is called in a claim.
+struct SecondOrderPart
+{
+  const char *part, *words;
+};
+
+void judge_slope(const SecondOrderPart &of, const std::vector<BudgetRow> &rows,
+                 const BudgetRow &of_case, const std::vector<double> &asked,
+                 std::vector<Verdict> &verdicts)
 {
   const auto in_window = [](const double strain) { return strain >= 0.99e-4 && is_small(strain); };
   std::vector<double> strains = asked, x, y, small_x, small_y;
@@ -130,7 +137,7 @@ void judge_slope(const std::vector<BudgetRow> &rows, const BudgetRow &of_case,
   {
     BudgetRow level   = of_case;
     level.strain      = strain;
-    const double mean = mean_of(rows, level, "nonlinearity");
+    const double mean = mean_of(rows, level, of.part);
     if (!is_small(strain) || !std::isfinite(mean))
       continue;
     if (mean > 10. * solved_to * strain)
@@ -148,8 +155,8 @@ void judge_slope(const std::vector<BudgetRow> &rows, const BudgetRow &of_case,
   const bool is_decided  = is_all_zero || (x.size() >= 3 && n_round_off == 0);
   const double slope =
     is_decided && !is_all_zero ? log_slope(x, y) : std::numeric_limits<double>::quiet_NaN();
-  const std::string what = of_case.cell + ", " + of_case.load +
-                           ": geometric nonlinearity, measured apart, grows as strain squared";
+  const std::string what = of_case.cell + ", " + of_case.load + ": " + of.words +
+                           ", measured apart, grows as strain squared";
   // 2 % is not small for a weave, and symmetry may leave no quadratic term.
   if (std::abs(slope - 2.) > 0.1 && small_x.size() >= 3)
   {
@@ -217,7 +224,13 @@ std::vector<Verdict> budget_verdicts(const std::vector<StrainRow> &strain_rows,
   at_judged_levels(strain_rows, [&](const BudgetRow &level)
                    { judge_level(budget_rows, level, bar_of(strain_rows, level), verdicts); });
   for (const auto &[of_case, its_strains] : cases_of(strain_rows))
-    judge_slope(budget_rows, of_case, strains, verdicts);
+  {
+    if (!Load(of_case.load).is_periodic()) // whose motion no law decides
+      judge_slope({"macro-law", "geometric nonlinearity of the macro law"}, budget_rows, of_case,
+                  strains, verdicts);
+    judge_slope({"modes", "geometric nonlinearity of the modes"}, budget_rows, of_case, strains,
+                verdicts);
+  }
   return verdicts;
 }
 

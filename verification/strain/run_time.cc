@@ -39,8 +39,10 @@ struct Timed
 {
   Points positions;            ///< at the fine vertices [m]
   std::vector<double> seconds; ///< of each run
-  long n_triangles = 0;
-  std::string note;
+  long n_triangles     = 0;
+  std::string note     = {};
+  double seconds_step  = std::numeric_limits<double>::quiet_NaN();
+  double seconds_apart = std::numeric_limits<double>::quiet_NaN(); ///< of up-sampling
 };
 
 /// The paper's warped cloth brought to rest: implicit steps so long that inertia plays no part,
@@ -234,7 +236,7 @@ private:
       if (load.holds(sheet.fraction(coarse.mesh.vertices.row(v))))
         held.push_back(v);
     upsampled("nodal-warping", "localized", coarse,
-              [&]() { return warped_equilibrium(coarse.mesh, homogenized, start, held); });
+              [&]() { return Moved{warped_equilibrium(coarse.mesh, homogenized, start, held)}; });
   }
 
   void coarse_cloth(const std::string &way, const std::string &method, const int quads,
@@ -244,7 +246,13 @@ private:
     const int across = std::max(1, quads * sheet.n2 / sheet.n1);
     const HomogenizedSheet coarse(stiffness, sheet, load, quads, across);
     const shell::Positions<2> start = coarse.prescribed(options.strain);
-    upsampled(way, method, coarse, [&]() { return coarse.solve(Law::biot, start); });
+    upsampled(way, method, coarse,
+              [&]()
+              {
+                Moved moved;
+                moved.positions = coarse.solve(Law::biot, start, {}, &moved.steps);
+                return moved;
+              });
   }
 
   void own_cloth(const Method &method)
@@ -263,15 +271,27 @@ private:
             {
               LightweightCloth cloth(homogenized, sheet, load, choice);
               const CoarseStep step = cloth.solve(Law::biot, options.strain);
-              const UpsampledSheet fine =
-                method.has_edge_terms()
-                  ? EdgedSheet({homogenized, *options.edges}, sheet, load, method)
-                      .upsample(Law::biot, step.positions)
-                  : cloth.upsample(method, Law::biot, step.positions);
+              EdgedPositions fine;
+              if (method.has_edge_terms())
+                fine = EdgedSheet({homogenized, *options.edges}, sheet, load, method)
+                         .upsample(Law::biot, step.positions);
+              else
+                static_cast<UpsampledSheet &>(fine) =
+                  cloth.upsample(method, Law::biot, step.positions);
               outcome.positions = fine.positions;
               outcome.seconds.assign(runs_of_a_median, step.seconds + fine.seconds);
+              outcome.seconds_step =
+                (step.seconds + fine.seconds_of_terms) / (step.iterations + fine.steps_of_terms);
+              outcome.seconds_apart = fine.seconds - fine.seconds_of_terms;
             });
   }
+
+  /// A coarse cloth in equilibrium.
+  struct Moved
+  {
+    shell::Positions<2> positions;
+    int steps = 0; ///< Newton steps; 0 where there are none
+  };
 
   /// Solves a coarse cloth and up-samples it: timed in single precision, held against the best in
   /// double.
@@ -288,16 +308,21 @@ private:
     attempt(way, outcome,
             [&]()
             {
-              shell::Positions<2> positions;
+              Moved moved;
               repeat(outcome,
                      [&]()
                      {
-                       positions = solve();
-                       in_float.upsample(positions, fine);
+                       moved = solve();
+                       in_float.upsample(moved.positions, fine);
                      });
+              outcome.seconds_apart =
+                median_seconds([&]() { in_float.upsample(moved.positions, fine); });
+              if (moved.steps > 0)
+                outcome.seconds_step =
+                  (median(outcome.seconds) - outcome.seconds_apart) / moved.steps;
               localization::Upsampler<2, double>::Fine in_double;
               localization::Upsampler<2, double>(homogenized, coarse.mesh, sheet, choices)
-                .upsample(positions, in_double);
+                .upsample(moved.positions, in_double);
               outcome.positions = in_double;
             });
   }
@@ -336,9 +361,11 @@ private:
     row.uncertainty = bar;
     if (is_known)
       row.seconds = median(outcome.seconds);
-    row.runs  = static_cast<int>(outcome.seconds.size());
-    row.ranks = ranks;
-    row.note  = outcome.note;
+    row.step     = outcome.seconds_step;
+    row.upsample = outcome.seconds_apart;
+    row.runs     = static_cast<int>(outcome.seconds.size());
+    row.ranks    = ranks;
+    row.note     = outcome.note;
     table->append(row);
   }
 

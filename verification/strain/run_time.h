@@ -20,7 +20,9 @@
 // Every run begins with the affine motion that agrees with what is prescribed; there is no warm
 // start from a smaller strain. A time holds the equilibrium and, of coarse cloths, up-sampling in
 // single precision; not what is done once per sheet: numbering, location of vertices, symbolic
-// factorisation. Errors are those of double precision.
+// factorisation. Errors are those of double precision. Of coarse cloths a step stands beside it,
+// the mean over Newton's method: assembly, factor and substitution, as of a linearly implicit step
+// of a moving cloth; and up-sampling alone.
 #pragma once
 
 #include "homogenization/cell/unit_cell.h"

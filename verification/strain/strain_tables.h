@@ -259,6 +259,8 @@ struct RunTimeRow
   double per_cell    = none;
   double uncertainty = none; ///< of the best solution [m]
   double seconds     = none; ///< median of the runs
+  double step        = none; ///< mean Newton step of the coarse cloth, of methods of their own [s]
+  double upsample    = none; ///< up-sampling alone [s]
   int runs           = 0;
   unsigned int ranks = 1;
   int threads        = 1;
@@ -277,6 +279,8 @@ struct RunTimeRow
     column("error_mean_per_cell", &RunTimeRow::per_cell, Domain::not_negative);
     column("reference_uncertainty_m", &RunTimeRow::uncertainty, Domain::not_negative);
     column("seconds", &RunTimeRow::seconds, Domain::not_negative);
+    column("seconds_step", &RunTimeRow::step, Domain::not_negative);
+    column("seconds_upsample", &RunTimeRow::upsample, Domain::not_negative);
     column("runs", &RunTimeRow::runs, Domain::not_negative);
     column("ranks", &RunTimeRow::ranks, Domain::positive);
     column("threads", &RunTimeRow::threads, Domain::positive);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "verification/strain/strain_verdicts.h"
 
+#include "verification/record/main_method.h"
 #include "verification/record/main_reference.h"
 #include "verification/record/number_text.h"
 #include "verification/reference/fine_reference.h"
@@ -198,26 +199,37 @@ std::vector<Verdict> sheet_verdict(const std::vector<StrainRow> &rows, const Str
                      [&](const double a, const double b) { return distance(a) < distance(b); });
   if (nearest == asked.end() || distance(*nearest) > std::log(1.5))
     return {};
-  const StrainRow *affine = nullptr, *localized = nullptr;
-  for (const StrainRow &row : rows)
-    if (is_of_case(row, of_case) && row.strain == *nearest)
-    {
-      if (row.method == "affine")
-        affine = &row;
-      if (row.method == "localized")
-        localized = &row;
-    }
+  const auto row_of = [&](const std::string &method)
+  {
+    const auto found = std::find_if(rows.begin(), rows.end(),
+                                    [&](const StrainRow &row) {
+                                      return is_of_case(row, of_case) && row.method == method &&
+                                             row.strain == *nearest;
+                                    });
+    return found == rows.end() ? nullptr : &*found;
+  };
   // A level that was not reached has a claim of its own.
-  if (affine == nullptr || localized == nullptr)
-    return {};
-  const double gain     = affine->mean - localized->mean;
-  const Outcome outcome = gain > localized->uncertainty    ? Outcome::pass
-                          : gain < -localized->uncertainty ? Outcome::fail
-                                                           : Outcome::inconclusive;
-  return {{of_case.cell + ", " + of_case.load + ": localized is closer to " + of_case.reference +
-             " than affine at strain " + short_text(*nearest) + " (ratio of errors)",
-           outcome, localized->mean / affine->mean, "< 1 by more than the reference's error bar",
-           "the error bar of the reference at this level, of the same run", Kind::method}};
+  const StrainRow *const affine = row_of("affine"), *const localized = row_of("localized"),
+                         *const main = row_of(main_method(rows, of_case));
+  std::vector<Verdict> verdicts;
+  const auto add_closer = [&](const StrainRow *const one, const StrainRow *const other)
+  {
+    if (one == nullptr || other == nullptr || one == other)
+      return;
+    const double gain     = other->mean - one->mean; // not a number without an equilibrium
+    const Outcome outcome = gain > one->uncertainty    ? Outcome::pass
+                            : gain < -one->uncertainty ? Outcome::fail
+                                                       : Outcome::inconclusive;
+    verdicts.push_back(
+      {of_case.cell + ", " + of_case.load + ": " + one->method + " is closer to " +
+         of_case.reference + " than " + other->method + " at strain " + short_text(*nearest) +
+         " (ratio of errors)",
+       outcome, one->mean / other->mean, "< 1 by more than the reference's error bar",
+       "the error bar of the reference at this level, of the same run", Kind::method});
+  };
+  add_closer(main, affine);
+  add_closer(main, localized);
+  return verdicts;
 }
 } // namespace
 

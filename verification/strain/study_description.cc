@@ -147,18 +147,24 @@ std::vector<std::string> notes_on_the_method(const StrainStudyOptions &options,
       "small strain, 5 % and the largest strain, on lines per strain between.");
   if (options.budget)
     notes.emplace_back(
-      "Error budget: every part is measured on its own; none is what others leave. Part 1 and the "
-      "constant of part 9 are measured in linear theory, against the sheet of a second code, and "
-      "scaled with strain; parts 2, 3 and 5 at the strain itself, on a homogenized sheet whose "
-      "coarse mesh is refined four to sixteen times. What they leave of the error is "
-      "`unexplained`: on a sheet mostly what boundary layers do beyond linear theory. Its bar is "
-      "how far the second code's sheet and the cell have left linear theory. The sum tests that "
-      "the method does what its parts say of it, the reference against the second code, with "
-      "which it shares the mesh, the stiffness of the phases and the load, and part 2 under "
-      "periodic loads. Part 4 and `reference` stand beside the sum: they hit method and reference "
-      "alike, which share the mesh of the cell. Part 2 takes its stiffness and chi at finite "
-      "strain from cell problems over the strains of the sheet, all but 0.5 % at either end of "
-      "each component.");
+      "Error budget, of localized: every part is measured on its own; none is what others leave. "
+      "The "
+      "part `rest` is measured in linear theory, against the sheet of a second code, and scaled "
+      "with "
+      "strain; all others at the strain itself, on a homogenized sheet whose coarse mesh is "
+      "refined "
+      "four to sixteen times. What they leave of the error is `unexplained`: on a sheet mostly "
+      "what "
+      "`rest` does beyond linear theory. Its bar is how far the second code's sheet, the terms of "
+      "edges and the cell have left linear theory. The sum tests that the method does what its "
+      "parts "
+      "say of it, the reference against the second code, with which it shares the mesh, the "
+      "stiffness of the phases and the load, and part 2 under periodic loads. Part 4 and "
+      "`reference` "
+      "stand beside the sum: they hit method and reference alike, which share the mesh of the "
+      "cell. "
+      "Part 2 takes its stiffness and chi at finite strain from cell problems over the strains of "
+      "the sheet, all but 0.5 % at either end of each component.");
   if (options.run_time && has_sheet(options) && has(options.references, "biot"))
     notes.emplace_back(
       "Run times: every run begins with the affine motion that agrees with what is prescribed; "

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "verification/strain/validity.h"
 
+#include "verification/record/main_method.h"
 #include "verification/record/number_text.h"
 #include "verification/strain/ellipticity_rows.h"
 
@@ -83,6 +84,7 @@ ValidityRow row_of(const StrainRow &one, const std::string &measure, const doubl
   return {one.cell,
           one.load,
           one.reference,
+          one.method,
           measure,
           limit,
           std::string(1, best.relation),
@@ -99,11 +101,14 @@ std::vector<ValidityRow> validity_rows(const std::vector<StrainRow> &all,
 {
   const auto same_case = [](const StrainRow &a, const StrainRow &b)
   { return a.cell == b.cell && a.load == b.load && a.reference == b.reference; };
-  std::vector<StrainRow> cases;
+  const auto is_judged = [&](const StrainRow &row)
+  { return row.method == "localized" || row.method == main_method(all, row); };
+  std::vector<StrainRow> cases; // and their methods
   for (const StrainRow &row : all)
-    if (row.method == "localized" &&
-        std::none_of(cases.begin(), cases.end(),
-                     [&](const StrainRow &known) { return same_case(known, row); }))
+    if (is_judged(row) && std::none_of(cases.begin(), cases.end(),
+                                       [&](const StrainRow &known) {
+                                         return same_case(known, row) && known.method == row.method;
+                                       }))
       cases.push_back(row);
   struct Measure
   {
@@ -124,7 +129,7 @@ std::vector<ValidityRow> validity_rows(const std::vector<StrainRow> &all,
       {
         if (!row.is_reached())
           first_unreached = std::min(first_unreached, row.strain);
-        else if (row.method == "localized" && std::isfinite(row.mean))
+        else if (row.method == one.method && std::isfinite(row.mean))
           of_case.push_back(row);
       }
     std::sort(of_case.begin(), of_case.end(),

@@ -23,11 +23,11 @@ struct Crossing
 Crossing crossing(const std::vector<double> &strains, const std::vector<double> &errors,
                   double limit);
 
-/// Rows of validity.csv from those of strain.csv: method `localized`, every reference, limits of 1,
-/// 5 and 10 % of the mean fluctuation of the reference and 1 and 5 % of the cell side. Levels that
-/// were not reached end the ladder, and the first loss of ellipticity, of the worst triangle of
-/// reference or coarse cloth, ends the range: beyond it the reference is one equilibrium of its
-/// mesh.
+/// Rows of validity.csv from those of strain.csv: `localized` and the main method of each case
+/// (record/main_method.h), every reference, limits of 1, 5 and 10 % of the mean fluctuation of the
+/// reference and 1 and 5 % of the cell side. Levels that were not reached end the ladder, and the
+/// first loss of ellipticity, of the worst triangle of reference or coarse cloth, ends the range:
+/// beyond it the reference is one equilibrium of its mesh.
 /// @param ellipticity rows of ellipticity.csv, for the strain of the first loss
 std::vector<ValidityRow> validity_rows(const std::vector<StrainRow> &rows,
                                        const std::vector<EllipticityRow> &ellipticity = {});

@@ -63,6 +63,24 @@ TEST(exact_corners, a_stiff_and_a_soft_inclusion_tend_to_a_clamped_and_to_a_free
   EXPECT_GT(exponents_of(quarter(1. + 1e-4))[0], 0.999);
 }
 
+TEST(exact_corners, a_corner_between_a_clamped_and_a_free_edge_has_the_exponents_of_williams)
+{
+  // kappa sin²(lambda a) = (kappa + 1)²/4 − lambda² sin²(a), kappa = (3 − nu)/(1 + nu) in plane
+  // stress (Williams).
+  const double kappa = (3. - 0.3) / (1. + 0.3);
+  for (const double width : {0.4 * M_PI, 0.5 * M_PI, 0.8 * M_PI})
+    for (const ClampedRay clamped : {ClampedRay::first, ClampedRay::last})
+    {
+      Corner corner       = free_wedge(width, tests::isotropic_stiffness(3., 0.3));
+      corner.clamped      = clamped;
+      const double lambda = exponents_of(corner).front();
+      EXPECT_LT(lambda, 1.);
+      EXPECT_NEAR(kappa * std::pow(std::sin(lambda * width), 2),
+                  0.25 * std::pow(kappa + 1., 2) - std::pow(lambda * std::sin(width), 2), 1e-7)
+        << width;
+    }
+}
+
 TEST(exact_corners, a_stiff_square_in_a_soft_plane_has_the_roots_of_its_determinant)
 {
   // Zeros of the 8 x 8 determinant of Muskhelishvili's potentials in both sectors, plane stress, nu

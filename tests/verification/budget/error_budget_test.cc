@@ -7,6 +7,7 @@
 #include "verification/budget/budget_rows.h"
 #include "verification/budget/error_budget.h"
 #include "verification/budget/second_code.h"
+#include "verification/cell/cell_edges.h"
 #include "verification/reference/fine_reference.h"
 #include "verification/strain/budget_verdicts.h"
 #include "verification/strain/strain_verdicts.h"
@@ -32,7 +33,7 @@ BudgetCells budget_cells(const UnitCell &cell)
       cell, homogenization::homogenize(cell, options, MPI_COMM_WORLD), "");
   };
   return {homogenized(1, 1e-11), homogenized(2, 1e-11), homogenized(1, 1e-13),
-          cell.stiffness_of_phase()};
+          cell.stiffness_of_phase(), known_edges(cell, 1).edges};
 }
 
 /// The resolved sheet in linear theory at 1 %.
@@ -93,9 +94,9 @@ TEST(exact_error_budget, an_infinite_cloth_errs_by_geometric_nonlinearity_alone)
   const double total       = mean(budget.total);
   EXPECT_GT(total, 1e-5 * 0.01);
   // Part 2 comes from a cell problem that shares no code with the resolved reference.
-  EXPECT_LT(mean(budget.parts.at("nonlinearity") - budget.total), 1e-5 * total);
-  for (const char *part :
-       {"scale", "coarse-mesh", "cell", "blending", "time-step", "solver", "convention"})
+  EXPECT_LT(mean(budget.parts.at("modes") - budget.total), 1e-5 * total);
+  for (const char *part : {"slip", "selvedge", "bulk", "layer", "rest", "macro-law", "coarse-mesh",
+                           "cell", "blending", "time-step", "solver"})
     EXPECT_LT(mean(budget.parts.at(part)), 1e-5 * total) << part;
   EXPECT_LT(budget.misfit_of_localization, 1e-3);
 }
@@ -146,11 +147,12 @@ TEST(exact_error_budget, a_homogeneous_sheet_errs_by_its_coarse_mesh_alone)
   const ErrorBudget budget = measured(cell, cells, Load("shear-frame"), 3, 0.01, cells.given);
   const double coarse      = mean(budget.parts.at("coarse-mesh"));
   EXPECT_NEAR(coarse / mean(budget.total), 1., 0.1);
-  for (const char *part : {"nonlinearity", "cell", "blending", "solver", "convention"})
+  for (const char *part :
+       {"slip", "selvedge", "bulk", "layer", "macro-law", "modes", "cell", "blending", "solver"})
     EXPECT_LT(mean(budget.parts.at(part)), 1e-6 * coarse) << part;
   // The resolved sheet and the reference have meshes of their own; with eightfold refinement an
   // error of order two is down to 1/64, at the corners of the frame less.
-  EXPECT_LT(mean(budget.parts.at("scale")), 0.1 * coarse);
+  EXPECT_LT(mean(budget.parts.at("rest")), 0.1 * coarse);
 }
 
 TEST(order_error_budget, the_homogenized_sheet_that_counts_as_resolved_approaches_its_limit)
@@ -182,6 +184,33 @@ TEST(exact_error_budget, the_parts_of_a_sheet_leave_nothing_in_linear_theory)
   }
 }
 
+TEST(tripwire_error_budget, a_piece_at_edges_that_is_wrong_by_half_is_not_made_up_for_by_others)
+{
+  const UnitCell cell     = layered();
+  const BudgetCells cells = budget_cells(cell);
+  for (const char *part : {"slip", "selvedge", "layer", "rest"})
+  {
+    ErrorBudget budget =
+      measured(cell, cells, Load("shear-frame"), 4, 0.01, cells.given, 8, Law::linear);
+    budget.parts[part] *= 0.5;
+    EXPECT_GT(mean(budget.sum() - budget.total), 10. * budget.bar) << part;
+  }
+}
+
+TEST(exact_error_budget, without_terms_of_edges_their_pieces_stand_in_the_rest)
+{
+  const UnitCell cell     = layered();
+  const BudgetCells cells = budget_cells(cell);
+  BudgetCells without     = cells;
+  without.edges           = std::nullopt;
+  const auto budget_of    = [&](const BudgetCells &some)
+  { return measured(cell, some, Load("strip-1"), 4, 0.01, cells.given, 8, Law::linear); };
+  const ErrorBudget with = budget_of(cells), none = budget_of(without);
+  EXPECT_EQ(mean(none.parts.at("selvedge")), 0.);
+  EXPECT_LT(mean(with.sum() - none.sum()), 1e-9 * mean(with.total));
+  EXPECT_LT(mean(with.parts.at("rest")), 0.5 * mean(none.parts.at("rest")));
+}
+
 TEST(order_error_budget, what_the_parts_of_a_sheet_leave_falls_with_second_order_in_strain)
 {
   const UnitCell cell     = layered();
@@ -206,7 +235,7 @@ TEST(tripwire_error_budget, a_part_2_that_is_wrong_by_half_is_not_made_up_for_by
   const BudgetCells cells = budget_cells(cell);
   ErrorBudget budget      = measured(cell, cells, Load("periodic-12"), 1, 0.1, cells.given);
   EXPECT_LT(mean(budget.sum() - budget.total), budget.bar);
-  budget.parts["nonlinearity"] *= 0.5;
+  budget.parts["modes"] *= 0.5;
   EXPECT_GT(mean(budget.sum() - budget.total), 10. * budget.bar);
 }
 

@@ -19,6 +19,7 @@ from page.run_contents import self_tests
 from page_case import PageTest
 from read.cell_results import Cell
 from read.results import read_results
+from read.schema import main_method
 from test_budget import write_budget
 
 BAR = 1e-6  # of the reference, cell sides of 1 cm
@@ -41,17 +42,17 @@ class SentenceTest(unittest.TestCase):
         return answer.line_of("strip-1", row(before), row(after), budget)
 
     def test_a_gain_says_how_much_goes_and_why_the_rest_stays(self):
-        line = self.line(1e-2, 0.26e-2, parts(scale=0.1, coarse_mesh=0.6, convention=0.3))
+        line = self.line(1e-2, 0.26e-2, parts(rest=0.1, coarse_mesh=0.6, slip=0.3))
         self.assertEqual((line["change"], line["mark"]), ("−74 %", "better"))
         self.assertEqual(
             line["sentence"],
             "Up-sampling takes away 74 % of the error; 26.0 µm (0.260 % of a cell side) are left"
-            " because the coarse mesh is too coarse (60 % of it) and the anchor holds the corners"
-            " of the cell still (30 % of it).",
+            " because the coarse mesh is too coarse (60 % of it) and clamped edges slip by a"
+            " part of a cell, which the anchor leaves out (30 % of it).",
         )
 
     def test_a_loss_says_how_much_worse_and_why(self):
-        line = self.line(1e-2, 1.58e-2, parts(scale=0.9, blending=-0.2, convention=0.1))
+        line = self.line(1e-2, 1.58e-2, parts(layer=0.9, blending=-0.2, slip=0.1))
         self.assertEqual((line["change"], line["mark"]), ("+58 %", "worse"))
         self.assertIn("makes the error 58 % worse", line["sentence"])
         self.assertTrue(line["sentence"].endswith("the cells do not repeat (90 % of it)."))
@@ -70,6 +71,25 @@ class SentenceTest(unittest.TestCase):
         self.assertIn("the error budget did not run", self.line(1e-2, 5e-3)["sentence"])
         # Parts beside the sum are no causes.
         self.assertIn("compensate", answer.why(parts(reference=0.9, cell=0.9)))
+
+    def test_another_method_stands_beside_the_paper_s(self):
+        best, paper = {**row(1e-3), "method": "full"}, {**row(8e-3), "method": "localized"}
+        self.assertEqual(
+            answer.beside_the_paper(best, paper),
+            " The paper's method, localized, leaves 8.00 times as much as full.",
+        )
+        self.assertIn("leaves less: 0.125 times", answer.beside_the_paper(
+            {**paper, "method": "full"}, {**best, "method": "localized"}))
+        self.assertIn("less than the bar", answer.beside_the_paper(
+            {**row(1e-3, bar=1e-2), "method": "full"}, paper))
+        self.assertEqual(answer.beside_the_paper(paper, paper), "")
+        self.assertEqual(answer.beside_the_paper(best, None), "")
+
+    def test_the_method_of_a_page_is_the_first_of_the_rank_that_its_load_has(self):
+        for methods, main in ((("affine", "localized", "edges", "full"), "full"),
+                              (("affine", "localized", "quadratic"), "quadratic"),
+                              (("affine", "edges", "quadratic"), "edges"), (("affine",), "localized")):
+            self.assertEqual(main_method(methods), main, methods)
 
     def test_shares_keep_a_digit_where_none_would_say_nothing_or_all(self):
         for value, text in ((0.7412, "74"), (0.9989, "99.89"), (0.001, "0.1"), (0.5, "50")):
@@ -145,8 +165,9 @@ class ClaimTest(unittest.TestCase):
             "region": "all",
             "part": part,
             "share": value,
+            "mean_m": value,
         }
-        for part, value in (("convention", 0.8), ("scale", 0.2), ("total", 1.0))
+        for part, value in (("slip", 0.8), ("rest", 0.2), ("total", 1.0))
     ]
 
     def claim(self, text, outcome, kind):
@@ -156,9 +177,15 @@ class ClaimTest(unittest.TestCase):
     def test_a_claim_on_the_method_that_fails_says_why_and_what_to_do(self):
         text = "a, strip-2: localized is closer to biot than affine at strain 0.01 (ratio)"
         row = self.claim(text, "FAIL", "method")
-        self.assertIn("the anchor holds the corners of the cell still (80 % of it)", row["why"])
+        self.assertIn("which the anchor leaves out (80 % of it)", row["why"])
         self.assertIn("coarse mesh alone", row["advice"])
         self.assertEqual(self.claim(text, "PASS", "method")["advice"], "")
+        # What a method takes away is no reason for what it leaves.
+        row = self.claim(text.replace("localized", "full"), "FAIL", "method")
+        self.assertIn("above all because cells are not small", row["why"])
+        row = self.claim(text.replace("localized is", "full is").replace("affine", "localized"),
+                         "FAIL", "method")
+        self.assertIn("take the paper's method", row["advice"])
 
     def test_every_kind_says_what_to_do_where_nothing_else_is_known(self):
         for kind, words in (
@@ -197,7 +224,7 @@ class AnswerPageTest(PageTest):
         first = page[page.index("<h1>") : page.index("<nav")]
         for words in (
             "Up-sampling takes away 96 % of the error",
-            "because near the edges the cells do not repeat (70 % of it)",
+            "because cells are not small beside the sheet and its corners (70 % of it)",
             'id="stripes-answer"',
             "C<sup>H</sup> [N/m]",
             "program: ",

@@ -42,8 +42,8 @@ def way(name, time, error, bar=1e-7):
 def write_budget(folder):
     """A budget whose two parts make up the total, run times, and a range of validity."""
     shares = {
-        "scale": 0.7,
-        "nonlinearity": 0.4,
+        "rest": 0.7,
+        "modes": 0.4,
         "blending": -0.1,
         "sum": 1.0,
         "total": 1.0,
@@ -136,6 +136,7 @@ def write_budget(folder):
         ("fluctuation", 0.1, "=", 0.0312, 0.0301, 0.0324, ""),
         ("cell side", 0.05, ">", 0.2, 0.2, 0.2, ""),
     ]
+    level["method"] = "localized"
     names = (
         "measure",
         "limit",
@@ -170,6 +171,18 @@ class Budget(unittest.TestCase):
         self.assertIn("within 0.05 % of the cell side fine-p1", sentence)
         self.assertEqual(sentence.count("localized-10"), 1)
         self.assertNotIn("voigt", sentence)
+
+    def test_the_methods_on_the_front_are_named_and_what_beats_the_others(self):
+        ways = [way(*w) for w in (*WAYS, ("full-10", 1.5e-3, 0.002), ("edges-10", 2e-3, 0.004))]
+        self.assertEqual(
+            budget_contents.front_sentence(ways),
+            "On the front of error against run time: affine-5, localized-5, localized-10, full-10."
+            " Beaten in both: edges-10 by full-10.",
+        )
+        self.assertIsNone(budget_contents.front_sentence([way(*w) for w in WAYS[:3]]))
+        figure = budget.way_figure(ways, 0.01)
+        self.addCleanup(pyplot.close, figure)
+        self.assertIn("full", [curve["label"] for curve in plot_data.panels_of(figure)[0]["curves"]])
 
     def test_a_way_whose_error_bar_crosses_a_limit_is_not_said_to_keep_it(self):
         ways = [way(*w, bar=3e-5) for w in WAYS]  # 0.003 cell sides
@@ -268,7 +281,9 @@ class BudgetReport(PageTest):
                 "Fastest way to a given mean error, error bar of the best solution included, under"
                 " shear-frame"
             ),
-            "1 scale separation",
+            "1 rest: higher order in the cell",
+            "2 geometric nonlinearity, modes",
+            "On the front of error against run time: affine-5",
             "3.1 % (3 to 3.2)",
             "already 3 % of the fluctuation",
             "a note, with a comma",

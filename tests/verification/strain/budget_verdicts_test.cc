@@ -38,7 +38,7 @@ ErrorBudget known_budget(const double strain)
   double turn  = 0.;
   for (const std::string &name : budget_parts())
   {
-    budget.parts[name] = field(name == "nonlinearity"                     ? 1e-3 * strain * strain
+    budget.parts[name] = field(name == "macro-law" || name == "modes"     ? 1e-3 * strain * strain
                                : name == "solver" || name == "resolution" ? 1e-9 * strain
                                                                           : size,
                                turn);
@@ -108,11 +108,12 @@ const std::vector<double> strains = {0.001, 0.005, 0.01, 0.1};
 TEST(exact_budget, parts_that_make_up_the_total_leave_nothing)
 {
   const auto verdicts = judged(strains, ladder(strains));
-  EXPECT_EQ(verdicts.size(), 7u); // two levels, three claims each, and the slope
+  EXPECT_EQ(verdicts.size(), 8u); // two levels, three claims each, and two slopes
   for (const Verdict &verdict : verdicts)
     EXPECT_EQ(verdict.outcome, Outcome::pass) << verdict.claim;
   EXPECT_LT(verdict_with(verdicts, "the parts leave").value, 1e-12);
-  EXPECT_NEAR(verdict_with(verdicts, "slope").value, 2., 1e-4);
+  for (const char *words : {"of the macro law", "of the modes"})
+    EXPECT_NEAR(verdict_with(verdicts, words).value, 2., 1e-4);
 }
 
 TEST(exact_budget, the_shares_of_the_parts_are_the_share_of_their_sum)
@@ -143,7 +144,7 @@ TEST(exact_budget, regions_are_averaged_apart)
 
 TEST(tripwire_budget, a_part_wrong_by_half_is_noticed)
 {
-  for (const char *part : {"scale", "coarse-mesh", "blending", "convention"})
+  for (const char *part : {"slip", "selvedge", "bulk", "layer", "rest", "coarse-mesh", "blending"})
     for (const double factor : {-1., 0., 0.5, 1.5})
       EXPECT_EQ(
         verdict_with(judged(strains, ladder(strains, part, factor)), "the parts leave").outcome,
@@ -177,15 +178,15 @@ TEST(exact_budget, a_bar_above_a_fifth_of_the_error_decides_nothing)
 TEST(exact_budget, parts_larger_than_the_error_are_named)
 {
   ErrorBudget budget = known_budget(0.01);
-  budget.parts["scale"] += 10. * budget.total;
-  budget.parts["convention"] -= 10. * budget.total;
+  budget.parts["rest"] += 10. * budget.total;
+  budget.parts["slip"] -= 10. * budget.total;
   std::vector<BudgetRow> rows;
   add_level(0.01, budget, rows);
   const auto notes = budget_notes(strain_rows({0.01}), rows);
   ASSERT_EQ(notes.size(), 2u);
   EXPECT_NE(notes[0].find("larger than the error"), std::string::npos) << notes[0];
-  EXPECT_NE(notes[0].find("scale ("), std::string::npos) << notes[0];
-  EXPECT_NE(notes[0].find("convention ("), std::string::npos) << notes[0];
+  EXPECT_NE(notes[0].find("rest ("), std::string::npos) << notes[0];
+  EXPECT_NE(notes[0].find("slip ("), std::string::npos) << notes[0];
 }
 
 TEST(tripwire_budget, an_error_bar_that_does_not_cover_the_distance_from_p2_is_noticed)
@@ -250,11 +251,15 @@ TEST(tripwire_budget, a_solver_that_stops_early_is_noticed)
 
 TEST(tripwire_budget, a_nonlinearity_of_first_order_is_noticed)
 {
-  std::vector<BudgetRow> rows = ladder(strains);
-  for (BudgetRow &row : rows)
-    if (row.part == "nonlinearity")
-      row.per_cell = 1e-3 * row.strain;
-  EXPECT_EQ(verdict_with(judged(strains, rows), "slope").outcome, Outcome::fail);
+  for (const auto &[part, words] :
+       {std::pair("macro-law", "of the macro law"), std::pair("modes", "of the modes")})
+  {
+    std::vector<BudgetRow> rows = ladder(strains);
+    for (BudgetRow &row : rows)
+      if (row.part == part)
+        row.per_cell = 1e-3 * row.strain;
+    EXPECT_EQ(verdict_with(judged(strains, rows), words).outcome, Outcome::fail);
+  }
 }
 
 TEST(exact_budget, a_slope_needs_three_levels_or_nothing_to_measure)
@@ -264,8 +269,8 @@ TEST(exact_budget, a_slope_needs_three_levels_or_nothing_to_measure)
     EXPECT_EQ(verdict.claim.find("slope"), std::string::npos); // such a study cannot decide it
   EXPECT_EQ(verdict_with(judged(strains, ladder({0.01, 0.1})), "slope").outcome,
             Outcome::inconclusive);
-  const auto nothing = judged(strains, ladder(strains, "nonlinearity", 0.));
-  EXPECT_EQ(verdict_with(nothing, "slope").outcome, Outcome::pass);
+  const auto nothing = judged(strains, ladder(strains, "modes", 0.));
+  EXPECT_EQ(verdict_with(nothing, "of the modes").outcome, Outcome::pass);
 }
 
 TEST(exact_budget, a_level_without_a_budget_is_inconclusive)
@@ -331,6 +336,21 @@ TEST(exact_validity, rows_carry_the_error_bar_and_the_reason)
   EXPECT_NEAR(found[3].largest, 0.01, 1e-12);
   EXPECT_NEAR(found[3].lower, 0.01 / 1.1, 1e-12);
   EXPECT_NEAR(found[3].upper, 0.01 / 0.9, 1e-12);
+  std::vector<StrainRow> both = rows; // and of the method that the study speaks of
+  for (StrainRow row : rows)
+  {
+    row.method   = "full";
+    row.per_cell = 0.1 * row.per_cell;
+    both.push_back(row);
+    row.method = "edges";
+    both.push_back(row);
+  }
+  const std::vector<ValidityRow> of_both = validity_rows(both);
+  ASSERT_EQ(of_both.size(), 10u);
+  EXPECT_EQ(of_both[3].method, "localized");
+  EXPECT_NEAR(of_both[3].largest, 0.01, 1e-12);
+  EXPECT_EQ(of_both[8].method, "full");
+  EXPECT_GT(of_both[8].largest, 0.09);
   rows.push_back({"cell", "strip-2", 0.05, "biot", unreached});
   EXPECT_EQ(validity_rows(rows)[4].relation, ">"); // the ladder ends at 0.01
   EXPECT_NE(validity_rows(rows)[4].note.find("no equilibrium"), std::string::npos);

@@ -300,3 +300,28 @@ TEST(exact_verdicts, levels_that_were_not_reached_are_left_out_of_slopes)
   EXPECT_EQ(judged(rows)[0].outcome, Outcome::pass);
   EXPECT_NEAR(judged(rows)[0].value, 2., 1e-5);
 }
+
+TEST(tripwire_verdicts, the_method_that_a_study_speaks_of_is_held_against_affine_and_the_paper_s)
+{
+  const auto with_full = [](const double error)
+  {
+    Rows rows = sheet(2e-5, 1e-5, 1e-7);
+    rows.push_back(row("strip-1", 0.01, "full", error, 1e-7));
+    return judged(rows);
+  };
+  const std::vector<Verdict> better = with_full(2e-6);
+  for (const std::size_t k : {0u, 1u})
+    EXPECT_EQ(better[k].outcome, Outcome::pass) << better[k].claim;
+  EXPECT_NE(better[0].claim.find("full is closer to biot than affine"), std::string::npos);
+  EXPECT_NE(better[1].claim.find("full is closer to biot than localized"), std::string::npos);
+  EXPECT_EQ(better[0].kind, Kind::method);
+  EXPECT_NEAR(better[1].value, 0.2, 1e-12);
+  // Better than the coarse mesh alone, and worse than the paper's method.
+  const std::vector<Verdict> worse = with_full(1.5e-5);
+  EXPECT_EQ(worse[0].outcome, Outcome::pass);
+  EXPECT_EQ(worse[1].outcome, Outcome::fail);
+  // Where its coarse cloth finds no equilibrium both stay open.
+  const std::vector<Verdict> unknown = with_full(std::numeric_limits<double>::quiet_NaN());
+  for (const std::size_t k : {0u, 1u})
+    EXPECT_EQ(unknown[k].outcome, Outcome::inconclusive) << unknown[k].claim;
+}

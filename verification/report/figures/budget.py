@@ -12,23 +12,19 @@ from figures import style
 from figures.plot_data import BAND_ALPHA, BAND_COLOUR, band, name_unseen
 from read.budget_results import BESIDE_THE_SUM, PARTS, levels, pareto_front, unexplained
 
-PART_COLOURS = dict(
-    zip(
-        PARTS,
-        (
-            style.BLUE,
-            style.VERMILLION,
-            style.GREEN,
-            style.YELLOW,
-            style.SKY,
-            "#B0B0B0",
-            style.BLACK,
-            "#8A3A00",
-            style.ORANGE,
-            "#7F7F7F",
-        ),
-    )
-)
+PART_COLOURS = {
+    "slip": style.BLUE,
+    "selvedge": style.SKY,
+    "bulk": "#882255",
+    "layer": style.PURPLE,
+    "rest": "#7F7F7F",
+    "macro-law": style.VERMILLION,
+    "modes": style.ORANGE,
+    "coarse-mesh": style.GREEN,
+    "blending": style.YELLOW,
+    "time-step": "#B0B0B0",
+    "solver": style.BLACK,
+}
 SMALL = 0.005  # a share below this is not drawn: it would be thinner than a line
 
 
@@ -134,11 +130,16 @@ def draw_stack(axes, x, parts, drawn):
 FAMILIES = {
     "fine": ("resolved sheet", "s", "#666666"),
     "affine": ("coarse motion alone", "o", style.VERMILLION),
-    "localized": ("localized", "o", style.BLUE),
+    "localized": ("localized, the paper's method", "o", style.BLUE),
+    "edges": ("edges", "o", style.METHOD_COLOURS["edges"]),
+    "quadratic": ("quadratic", "o", style.METHOD_COLOURS["quadratic"]),
+    "p2": ("p2", "o", style.METHOD_COLOURS["p2"]),
+    "full": ("full", "o", style.METHOD_COLOURS["full"]),
     "voigt": ("Voigt stiffness, localized", "^", style.PURPLE),
     "reuss": ("Reuss stiffness, localized", "v", style.PURPLE),
     "nodal": ("the paper's nodal warping, localized", "D", style.GREEN),
 }
+LADDER = ("affine", "localized", "edges", "quadratic", "p2", "full")
 BAR_LABEL = "error bar of the best reference"
 
 
@@ -151,7 +152,7 @@ def label_of(way):
     ways.
     """
     kind, _, detail = way.partition("-")
-    return {"fine": detail, "affine": detail, "localized": detail}.get(kind, "")
+    return detail if kind in ("fine", *LADDER) else ""
 
 
 def front_line(front, end):

@@ -14,7 +14,7 @@ THEORY = "order of the theory, or its bounds"
 LAW_COLOURS = {"linear": style.GREEN, "biot": style.BLUE, "green": style.VERMILLION, "yarn": style.PURPLE, "yarn-tension": style.ORANGE}
 ORDER_MARKERS = {1: "o", 2: "^"}
 TIME_COLOURS = (style.BLUE, style.VERMILLION)
-METHOD_LINES = {"localized": "-", "affine": "--"}
+METHOD_LINES = {"localized": "-", "affine": "--", "full": "-."}
 MESH_LINES = {"adaptive": "-", "uniform": "--"}
 
 
@@ -224,6 +224,20 @@ def coarse_figure(convergence):
     return order_figure(panels, min(3, len(convergence.cells("coarse"))))
 
 
+def edges_figure(convergence):
+    return order_figure(
+        [
+            (
+                cell,
+                "cell sides per sheet side",
+                "mean error per strain [cell sides]",
+                method_lines(convergence.of("edges", cell)),
+            )
+            for cell in convergence.cells("edges")
+        ]
+    )
+
+
 def strain_figure(convergence):
     # What is zero to round-off is not judged and has no order.
     return order_figure(
@@ -290,6 +304,7 @@ FIGURES = {
     "adaptive": adaptive_figure,
     "scale": scale_figure,
     "coarse": coarse_figure,
+    "edges": edges_figure,
     "strain": strain_figure,
     "time": time_figure,
     "manufactured": manufactured_figure,

@@ -13,8 +13,19 @@ from matplotlib.patches import Patch
 from figures import style
 from figures.plot_data import ROUND_OFF_NOTE, name_unseen
 from figures.strain import series
+from read.schema import main_method
 
 METHOD = "localized"
+
+
+def of_main_method(rows):
+    """Those of the method that a page speaks of, load by load and law by law."""
+    methods = {}
+    for row in rows:
+        methods.setdefault((row["load"], row["reference"]), set()).add(row["method"])
+    return [
+        row for row in rows if row["method"] == main_method(methods[row["load"], row["reference"]])
+    ]
 
 
 def positive(rows, *keys):
@@ -24,10 +35,10 @@ def positive(rows, *keys):
 def run_time_figure(rows, reference):
     """Seconds against strain: coarse solve with up-sampling, and the full-resolution solve.
 
-    @return figure, or None where no row of `localized` has both times
+    @return figure, or None where no row has both times
     """
     rows = positive(
-        [row for row in rows if row["method"] == METHOD and row["reference"] == reference],
+        [row for row in of_main_method(rows) if row["reference"] == reference],
         "seconds_method",
         "seconds_reference",
     )
@@ -230,7 +241,14 @@ def error_time_figure(rows, methods, reference, strains, side):
     grid[0][0].set_ylim(floor, 10.0 ** math.ceil(math.log10(2.0 * max(values))))
     grid[0][0].set_ylabel("mean error [cell sides]")
     handles = [
-        Line2D([], [], ls="", marker="o", color=style.method_colour(m, methods), label=m)
+        Line2D(
+            [],
+            [],
+            ls="",
+            marker="o",
+            color=style.method_colour(m, methods),
+            label=style.METHOD_LABELS.get(m, m),
+        )
         for m in methods
         if any(row["method"] == m for row in shown)
     ]
@@ -268,9 +286,8 @@ def speed_ratio(rows, reference):
     rows = positive(
         [
             row
-            for row in rows
-            if row["method"] == METHOD
-            and row["reference"] == reference
+            for row in of_main_method(rows)
+            if row["reference"] == reference
             and not style.is_infinite(row["load"])
         ],
         "seconds_method",

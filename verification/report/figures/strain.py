@@ -143,7 +143,14 @@ def limits(rows, key, factor):
 
 def legend(figure, methods, references, uncertainty, at_floor):
     entries = [
-        Line2D([], [], color=style.method_colour(m, methods), lw=2.2, label=m) for m in methods
+        Line2D(
+            [],
+            [],
+            color=style.method_colour(m, methods),
+            lw=2.2,
+            label=style.METHOD_LABELS.get(m, m),
+        )
+        for m in methods
     ]
     for reference in references:
         line, marker = style.reference_style(reference)

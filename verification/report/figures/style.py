@@ -34,6 +34,8 @@ METHOD_COLOURS = {
     "localized-mean-anchor": ORANGE,
     "localized-piecewise": PURPLE,
 }
+COLOUR_NAMES = {"edges": "wine", "quadratic": "light blue", "p2": "olive", "full": "black"}
+METHOD_LABELS = {"localized": "localized (the paper's method)"}
 SPARE_COLOURS = ("#7F7F7F", YELLOW)
 
 # Line style and marker of each reference law.

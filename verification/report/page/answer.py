@@ -5,13 +5,14 @@ sentences that need no other part of the page.
 import math
 
 from figures import style
-from figures.run_time import METHOD, speed_ratio
+from figures.run_time import speed_ratio
 from figures.strain import error_figure
 from figures.style import percent, three
 from page import tables
 from page.budget_contents import validity_text
 from read.budget_results import levels
 from read.results import cell_side
+from read.schema import main_method
 
 # A load as a picture in words, and the same where the subject is the cloth.
 LOADS = {
@@ -26,13 +27,21 @@ LOADS = {
 }
 # What each part of the budget is, after "because"; only parts of the sum are causes.
 CAUSES = {
-    "scale": "near the edges the cells do not repeat",
-    "nonlinearity": "a cell answers finite strain otherwise than small strain",
+    "slip": "clamped edges slip by a part of a cell, which the anchor leaves out",
+    "selvedge": "free edges are stiffer or softer than the rest",
+    "bulk": "the cell resists gradients of strain",
+    "layer": "near the edges the cells do not repeat",
+    "rest": "cells are not small beside the sheet and its corners",
+    "macro-law": "the cloth answers finite strain otherwise than small strain",
+    "modes": "a cell answers finite strain otherwise than small strain",
     "coarse-mesh": "the coarse mesh is too coarse",
     "blending": "strain is averaged between coarse triangles",
     "solver": "the solvers stopped early",
-    "convention": "the anchor holds the corners of the cell still",
 }
+# What a method takes away of the budget, which is that of `localized`.
+EDGES, NONLINEARITY = ("slip", "selvedge", "bulk", "layer"), ("macro-law", "modes")
+TAKEN_AWAY = {"edges": EDGES, "quadratic": NONLINEARITY, "full": EDGES + NONLINEARITY}
+PAPER = "localized"
 SECOND_CAUSE = 0.25  # share of the error from which a second cause is named
 VALIDITY_LIMIT = 0.01  # of a cell side
 PANEL = (1.78, 1.32)  # inches of a panel of the small Figure 3
@@ -55,19 +64,20 @@ def answer_of(results, name, gallery):
     lines = []
     for load in sheets_first(row["load"] for row in here):
         some = {row["method"]: row for row in here if row["load"] == load}
-        if METHOD in some and "affine" in some:
+        method = main_method(some)
+        if method in some and "affine" in some:
             parts = budget.get((load, strains[0]), {}).get("all")
-            lines.append(
-                {
-                    **line_of(load, some["affine"], some[METHOD], parts),
-                    "valid": valid_up_to(results, name, load, reference),
-                }
-            )
+            line = line_of(load, some["affine"], some[method], parts)
+            line["sentence"] += beside_the_paper(some[method], some.get(PAPER))
+            lines.append({**line, "valid": valid_up_to(results, name, load, reference, method)})
     if not lines:
         return None
     side = cell_side(results, name)
     ratio = speed_ratio(results.reached(name), reference)
-    methods = ["affine", METHOD]
+    methods = style.ordered_methods(
+        {"affine", PAPER} | {main_method({r["method"] for r in here if r["load"] == load})
+                             for load in {r["load"] for r in here}}
+    )
     figure, _ = error_figure(rows, methods, [reference], side, panel=PANEL)
     return {
         "name": name,
@@ -80,8 +90,10 @@ def answer_of(results, name, gallery):
             figure,
             f"{name}-answer",
             f"{name}: mean error per vertex, in cell sides, against strain, of the coarse mesh"
-            f" alone (orange) and with up-sampling (blue), against {reference}. Grey: not resolved"
-            " by the reference. All laws and variants stand below.",
+            f" alone (orange), by the paper's method (blue)"
+            + "".join(f", by {m} ({style.COLOUR_NAMES[m]})" for m in methods[2:])
+            + f", against {reference}. Grey: not resolved by the reference. All laws and variants"
+            " stand below.",
             plotted=False,
         ),
     }
@@ -92,11 +104,14 @@ def sheets_first(loads):
     return sorted(style.ordered_loads(loads), key=lambda load: style.is_infinite(load))
 
 
-def line_of(load, affine, localized, parts):
-    """One load: the change of the error in percent, and its sentence."""
+def line_of(load, affine, best, parts):
+    """One load: the change of the error in percent, and its sentence.
+
+    @param best row of the method that the page speaks of
+    """
     title = LOADS.get(load, load)
-    before, after = (row["error_mean_per_cell"] for row in (affine, localized))
-    bar = localized["reference_uncertainty_m"]
+    before, after = (row["error_mean_per_cell"] for row in (affine, best))
+    bar = best["reference_uncertainty_m"]
     if before < style.ROUND_OFF and after < style.ROUND_OFF:
         change, mark = "0", "none"
         words = "nothing is to be added: the coarse mesh alone is exact to round-off."
@@ -106,8 +121,8 @@ def line_of(load, affine, localized, parts):
     else:
         gain = 1.0 - after / before if before > 0.0 else -math.inf
         change, mark = change_of(gain), "better" if gain > 0.0 else "worse"
-        words = sentence_of(gain, after, localized["error_mean_m"], parts)
-        if abs(affine["error_mean_m"] - localized["error_mean_m"]) <= bar:
+        words = sentence_of(gain, after, best["error_mean_m"], why(parts, best.get("method", PAPER)))
+        if abs(affine["error_mean_m"] - best["error_mean_m"]) <= bar:
             mark = "open"
             words = (
                 "up-sampling makes no difference that the error bar of the reference"
@@ -138,24 +153,52 @@ def share(value):
     return whole
 
 
-def sentence_of(gain, left_per_cell, left, parts):
+def beside_the_paper(best, paper):
+    """How far another method than the paper's takes its error."""
+    if paper is None or best["method"] == PAPER:
+        return ""
+    error, of_paper = best["error_mean_per_cell"], paper["error_mean_per_cell"]
+    if not of_paper > style.ROUND_OFF:
+        return ""
+    if abs(paper["error_mean_m"] - best["error_mean_m"]) <= best["reference_uncertainty_m"]:
+        return f" The paper's method, {PAPER}, differs from {best['method']} by less than the bar."
+    more = of_paper / error if error > 0.0 else math.inf
+    return (
+        f" The paper's method, {PAPER}, leaves {three(float(more))} times as much as"
+        f" {best['method']}."
+        if more >= 1.0
+        else f" The paper's method, {PAPER}, leaves less: {three(float(more))} times as much as"
+        f" {best['method']}."
+    )
+
+
+def sentence_of(gain, left_per_cell, left, reason):
     if math.isinf(gain):
-        return f"up-sampling adds {tables.length(left)} of error to none {why(parts)}."
+        return f"up-sampling adds {tables.length(left)} of error to none {reason}."
     size = f"{tables.length(left)}, {three(100.0 * left_per_cell)} % of a cell side"
     if gain > 0.0:
         size = size.replace(", ", " (") + ")"
     if gain > 0.0:
-        return f"up-sampling takes away {share(gain)} % of the error; {size} are left {why(parts)}."
-    return f"up-sampling makes the error {share(-gain)} % worse ({size}) {why(parts)}."
+        return f"up-sampling takes away {share(gain)} % of the error; {size} are left {reason}."
+    return f"up-sampling makes the error {share(-gain)} % worse ({size}) {reason}."
 
 
-def why(parts):
+def why(parts, method=PAPER):
     """What the error that is left comes from, in words; from the budget where there is one.
+
+    The budget is that of the paper's method, whose shares are of its error; another method leaves
+    what it does not take away, of which the largest part is named without a share.
 
     @param parts part -> row of budget.csv over the whole sheet, or None
     """
     if not parts:
         return "for a reason that was not measured: the error budget did not run at this level"
+    if method != PAPER:
+        left = [part for part in CAUSES if part in parts and part not in TAKEN_AWAY.get(method, ())]
+        left = [part for part in left if parts[part]["mean_m"] > 0.0]
+        if not left:
+            return "for a reason that no part of the error budget has"
+        return f"above all because {CAUSES[max(left, key=lambda part: parts[part]['mean_m'])]}"
     known = [(parts[part]["share"], part) for part in CAUSES if part in parts]
     known = sorted((pair for pair in known if pair[0] > 0.0), reverse=True)
     if not known:
@@ -171,13 +214,14 @@ def capital(text):
     return text[:1].upper() + text[1:]
 
 
-def valid_up_to(results, name, load, reference):
+def valid_up_to(results, name, load, reference, method):
     """The strain up to which the mean error stays within 1 % of the cell side, as text."""
     return next(
         (
             validity_text(row)
             for row in results.validity
-            if (row["cell"], row["load"], row["reference"]) == (name, load, reference)
+            if (row["cell"], row["load"], row["reference"], row["method"])
+            == (name, load, reference, method)
             and float(row["limit"]) == VALIDITY_LIMIT
             and row["measure"].startswith("cell")
         ),

@@ -3,7 +3,7 @@
 import math
 
 from figures import style
-from figures.budget import budget_figure, way_figure
+from figures.budget import LADDER, budget_figure, family, way_figure
 from figures.style import percent, seconds, three
 from read.budget_results import (
     BESIDE_THE_SUM,
@@ -14,6 +14,8 @@ from read.budget_results import (
     worst_error,
 )
 
+# Of a coarse cloth, a step and up-sampling alone.
+STEP = ("seconds_step", "seconds_upsample")
 # Cell sides, of which those are named that lie among the ways.
 LIMITS = (0.05, 0.01, 0.005, 0.002, 0.001, 0.0005)
 
@@ -32,6 +34,7 @@ def budget_contents(results, name, side, strains, gallery):
         "ways": None,
         "way_rows": [],
         "way_sentence": None,
+        "front_sentence": None,
         "validity": validity_table([row for row in results.validity if row["cell"] == name]),
     }
     if figure := budget_figure(budget, strains, side):
@@ -61,6 +64,7 @@ def budget_contents(results, name, side, strains, gallery):
                 ),
             )
             contents["way_sentence"] = fastest_sentence(ways, side, load, strain)
+            contents["front_sentence"] = front_sentence(ways)
     return contents
 
 
@@ -160,6 +164,7 @@ def way_rows(ways):
             three(int(w["triangles"])) if w["triangles"] > 0 else "–",
             three(w["error_mean_per_cell"]),
             seconds(w["seconds"]),
+            *("–" if math.isnan(w[key]) else seconds(w[key]) for key in STEP),
             f"{w['runs']:.0f}",
             f"{w['ranks']:.0f}",
             f"{w['threads']:.0f}",
@@ -200,27 +205,54 @@ def fastest_sentence(ways, side, load, strain):
     )
 
 
+def front_sentence(ways):
+    """Which methods are on the front, and by which way each other one is beaten; None where no
+    method has both time and error.
+    """
+    known = [w for w in ways if w["seconds"] > 0 and not math.isnan(w["error_mean_per_cell"])]
+    ladder = [w for w in known if family(w["way"]) in LADDER]
+    if not ladder:
+        return None
+    front = pareto_front(known)
+    on = [w["way"] for w in front if w in ladder]
+    off = []
+    for way in ladder:
+        if way not in front:
+            better = [w for w in front if w["seconds"] <= way["seconds"]][-1]
+            off.append(f"{way['way']} by {better['way']}")
+    return (
+        f"On the front of error against run time: {', '.join(on) or 'none of the methods'}."
+        + (f" Beaten in both: {', '.join(off)}." if off else "")
+    )
+
+
 def validity_table(rows):
-    """Columns (measure, limit), and one line of text per load and reference; notes apart."""
+    """Columns (measure, limit), and one line of text per load, reference and method; notes apart.
+    """
     columns = list(dict.fromkeys((row["measure"], row["limit"]) for row in rows))
     loads = style.ordered_loads(row["load"] for row in rows)
+    cases = [
+        (load, reference, method)
+        for load in loads
+        for reference in style.ordered_references(r["reference"] for r in rows if r["load"] == load)
+        for method in style.ordered_methods(
+            r["method"] for r in rows if (r["load"], r["reference"]) == (load, reference)
+        )
+    ]
     lines, notes = [], []
-    for load in loads:
-        for reference in style.ordered_references(
-            row["reference"] for row in rows if row["load"] == load
-        ):
-            some = {
-                (row["measure"], row["limit"]): row
-                for row in rows
-                if row["load"] == load and row["reference"] == reference
-            }
-            line = [load, reference]
-            for column in columns:
-                row = some.get(column)
-                line.append(validity_text(row) if row else "–")
-                if row and row["note"]:
-                    notes.append((f"{load}, {reference}", row["note"]))
-            lines.append(line)
+    for case in cases:
+        some = {
+            (row["measure"], row["limit"]): row
+            for row in rows
+            if (row["load"], row["reference"], row["method"]) == case
+        }
+        line = list(case)
+        for column in columns:
+            row = some.get(column)
+            line.append(validity_text(row) if row else "–")
+            if row and row["note"]:
+                notes.append((", ".join(case), row["note"]))
+        lines.append(line)
     grouped = {}
     for where, note in notes:
         grouped.setdefault(note, [])

@@ -21,9 +21,8 @@ from page.force_contents import force_contents
 from page.gallery import file_name
 from read.cell_results import grouped, read_fields
 from read.results import BadResults, cell_side
+from read.schema import main_method
 from read.verdicts import MARKS, WORDS
-
-MAIN_METHODS = ("affine", "localized")
 
 
 def contents_of_cells(results, gallery):
@@ -174,7 +173,12 @@ def check_contents(check):
 def draw_strain(contents, rows, methods, reference, side, gallery):
     """The three error figures of one cell."""
     name = contents["name"]
-    main = [method for method in MAIN_METHODS if method in methods] or methods
+    of_load = {}
+    for row in rows:
+        if row["reference"] == reference:
+            of_load.setdefault(row["load"], set()).add(row["method"])
+    spoken_of = {"affine", "localized"} | {main_method(some) for some in of_load.values()}
+    main = [method for method in methods if method in spoken_of] or methods
     references = style.ordered_references(row["reference"] for row in rows)
     floor = f" Triangles at the lower edge: below {style.ROUND_OFF_TEXT}, zero to round-off."
     figure, at_floor = error_figure(rows, main, references, side)
@@ -193,14 +197,14 @@ def draw_strain(contents, rows, methods, reference, side, gallery):
         "the fine vertices of |reference − homogenized sheet resolved on a fine mesh|."
         + (floor if at_floor else ""),
     )
-    variants = [method for method in methods if method not in MAIN_METHODS]
+    variants = [method for method in methods if method not in spoken_of]
     if variants:
         shown = [method for method in methods if method != "affine"]
         figure, at_floor = error_figure(rows, shown, [reference], side)
         contents["variants"] = gallery.add(
             figure,
             f"{name}-variants",
-            f"{name}: variants of localization (second order, lift, anchor, blending) against {reference}."
+            f"{name}: all methods, and variants of the paper's (lift, anchor, blending), against {reference}."
             + (floor if at_floor else ""),
         )
 

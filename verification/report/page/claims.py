@@ -4,7 +4,7 @@ import re
 from collections import Counter
 
 from page import tables
-from page.answer import why
+from page.answer import PAPER, why
 from read.budget_results import levels
 from read.verdicts import KINDS, MARKS, ORDER, WORDS, words_of
 
@@ -15,6 +15,11 @@ ADVICE = (
         "Under this load take the coarse mesh alone (`affine`), or remove the cause: a finer coarse"
         " mesh, a cell cut at another place (see the notes on the place of the cut), a smaller"
         " strain.",
+    ),
+    (
+        "than localized at strain",
+        "Under this load take the paper's method (`localized`): the terms that the other one adds"
+        " do not pay on this cell.",
     ),
     (
         "find an equilibrium",
@@ -85,6 +90,7 @@ OPEN = {
     " solved finer.",
 }
 LEVEL = re.compile(r"([\w.-]+), (periodic-\d\d|uniaxial-\d|strip-\d|shear-frame)\b")
+METHOD = re.compile(r": ([\w-]+) is closer to ")
 STRAIN = re.compile(r"at (?:strain )?([\d.e-]+)( %)?")
 
 
@@ -126,7 +132,9 @@ def cause_of(verdict, budget):
     known = levels([row for row in budget if row["cell"] == case[1]])
     value = float(strain[1]) / (100.0 if strain[2] else 1.0)
     near = [key for key in known if key[0] == case[2] and abs(key[1] / value - 1.0) < 1e-6]
-    return f"The error is left {why(known[near[0]]['all'] if near else None)}."
+    method = METHOD.search(verdict["claim"])
+    left = why(known[near[0]]["all"] if near else None, method[1] if method else PAPER)
+    return f"The error is left {left}."
 
 
 def advice_of(verdict):

@@ -8,15 +8,19 @@ from read.stored import read_csv
 
 # In their order, and what each is called in a figure.
 PARTS = {
-    "scale": "1 scale separation, boundary layer",
-    "nonlinearity": "2 geometric nonlinearity",
+    "slip": "1 slip of clamped edges, anchor",
+    "selvedge": "1 tension of free edges",
+    "bulk": "1 strain gradients",
+    "layer": "1 modes near edges",
+    "rest": "1 rest: higher order in the cell, corners",
+    "macro-law": "2 geometric nonlinearity, macro law",
+    "modes": "2 geometric nonlinearity, modes",
     "coarse-mesh": "3 coarse mesh",
     "cell": "4 cell discretization",
     "blending": "5 strain averaging, blending",
     "time-step": "6 time step",
     "solver": "7 solver tolerance",
     "precision": "8 float against double",
-    "convention": "9 convention (anchor)",
     "reference": "the reference's own discretization",
     "resolution": "change of the resolved homogenized sheet from a mesh half as fine",
 }

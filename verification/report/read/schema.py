@@ -2,10 +2,11 @@
 """The tables that the program writes, as its build says them in schema.json: columns in their
 order, what each may hold, and how many of the first ones name a row.
 
-    {"format_version": 1,
+    {"format_version": 1, "methods_by_rank": ["full", ...],
      FILE: {"keys": 5, "columns": [{"name": "strain", "domain": "positive"}, ...]}, ...}
 
-`format_version` is that of all files that this version of the program writes.
+`format_version` is that of all files that this version of the program writes; the first of
+`methods_by_rank` that a study has under a load is the one that its page speaks of.
 
 The program hands on where the file lies in HOMESPUN_SCHEMA; an installed report has it beside
 report.py.
@@ -101,6 +102,15 @@ def format_version():
     return read(place())[0]
 
 
+def main_method(methods):
+    """The method that a page speaks of among those of a load and law.
+
+    @throws NoSchema
+    """
+    rank = read(place())[2]
+    return next((name for name in rank if name in methods), rank[-1])
+
+
 def table(file):
     """@throws NoSchema where the program writes no such file"""
     known = tables()
@@ -118,13 +128,21 @@ def read(path):
         with open(path, encoding="utf-8") as file:
             value = json.load(file)
         version = int(value.pop("format_version"))
-        return version, {
-            name: Table(
-                tuple(Column(column["name"], known(column["domain"])) for column in one["columns"]),
-                one["keys"],
-            )
-            for name, one in value.items()
-        }
+        rank = [str(name) for name in value.pop("methods_by_rank")]
+        return (
+            version,
+            {
+                name: Table(
+                    tuple(
+                        Column(column["name"], known(column["domain"]))
+                        for column in one["columns"]
+                    ),
+                    one["keys"],
+                )
+                for name, one in value.items()
+            },
+            rank,
+        )
     except OSError as error:
         raise NoSchema(
             f"schema.json is missing ({path}: {error.strerror}): build homespun, or set"
