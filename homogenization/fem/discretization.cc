@@ -6,12 +6,14 @@
 #include <deal.II/distributed/fully_distributed_tria.h>
 #include <deal.II/dofs/dof_tools.h>
 #include <deal.II/fe/fe_simplex_p.h>
-#include <deal.II/grid/grid_tools.h>
+#include <deal.II/grid/cell_id.h>
 #include <deal.II/grid/tria_description.h>
 
 #include <Eigen/LU>
 
 #include <algorithm>
+#include <numeric>
+#include <utility>
 
 namespace homespun::homogenization
 {
@@ -33,9 +35,94 @@ void make_serial(const meshes::TriangleMesh &mesh, Triangulation<2> &triangulati
   triangulation.create_triangulation(points, cells, SubCellData());
 }
 
-/// Ranks to which one of them hands out the parts of the mesh: of so many one holds the whole, and
-/// goes through it once for each of the others.
-constexpr int ranks_per_group = 8;
+using Order = std::vector<unsigned int>::iterator;
+
+/// Gives the triangles of an interval the parts from the first on.
+void cut(const Eigen::MatrixX2d &centres, const Order begin, const Order end,
+         const unsigned int first_part, const unsigned int n_parts, std::vector<unsigned int> &part)
+{
+  if (n_parts == 1)
+  {
+    for (Order t = begin; t != end; ++t)
+      part[*t] = first_part;
+    return;
+  }
+  if (begin == end)
+    return;
+  Eigen::RowVector2d lowest  = centres.row(*begin);
+  Eigen::RowVector2d highest = lowest;
+  for (Order t = begin; t != end; ++t)
+  {
+    lowest  = lowest.cwiseMin(centres.row(*t));
+    highest = highest.cwiseMax(centres.row(*t));
+  }
+  Eigen::Index axis = 0;
+  (highest - lowest).maxCoeff(&axis);
+  const unsigned int n_left = n_parts / 2;
+  const Order middle        = begin + (end - begin) * n_left / n_parts;
+  std::nth_element(begin, middle, end,
+                   [&](const unsigned int one, const unsigned int other) {
+                     return std::make_pair(centres(one, axis), one) <
+                            std::make_pair(centres(other, axis), other);
+                   });
+  cut(centres, begin, middle, first_part, n_left, part);
+  cut(centres, middle, end, first_part + n_left, n_parts - n_left, part);
+}
+
+/// What this rank needs of the mesh: the triangles of its part, and those that share a vertex with
+/// them, of whom it learns whose they are. Written here, because deal.II's way goes over the whole
+/// triangulation on one rank, once for each of the others.
+TriangulationDescription::Description<2, 2> part_of(const meshes::TriangleMesh &mesh,
+                                                    const MPI_Comm communicator)
+{
+  const unsigned int rank = Utilities::MPI::this_mpi_process(communicator);
+  const std::vector<unsigned int> parts =
+    parts_of(mesh, Utilities::MPI::n_mpi_processes(communicator));
+  std::vector<char> is_touched(static_cast<std::size_t>(mesh.n_vertices()), 0);
+  for (std::size_t t = 0; t < parts.size(); ++t)
+    if (parts[t] == rank)
+      for (const int vertex : mesh.triangles.row(static_cast<Eigen::Index>(t)))
+        is_touched[static_cast<std::size_t>(vertex)] = 1;
+
+  TriangulationDescription::Description<2, 2> part;
+  part.comm      = communicator;
+  part.settings  = TriangulationDescription::Settings::default_setting;
+  part.smoothing = Triangulation<2>::MeshSmoothing::none;
+  part.cell_infos.resize(1);
+  constexpr unsigned int unknown = numbers::invalid_unsigned_int;
+  std::vector<unsigned int> place(static_cast<std::size_t>(mesh.n_vertices()), unknown);
+  for (std::size_t t = 0; t < parts.size(); ++t)
+  {
+    const Eigen::RowVector3i corners = mesh.triangles.row(static_cast<Eigen::Index>(t));
+    if (std::none_of(corners.begin(), corners.end(),
+                     [&](const int vertex)
+                     { return is_touched[static_cast<std::size_t>(vertex)]; }))
+      continue;
+    dealii::CellData<2> cell(3);
+    for (int k = 0; k < 3; ++k)
+    {
+      unsigned int &its = place[static_cast<std::size_t>(corners(k))];
+      if (its == unknown)
+      {
+        its = static_cast<unsigned int>(part.coarse_cell_vertices.size());
+        part.coarse_cell_vertices.emplace_back(mesh.vertices(corners(k), 0),
+                                               mesh.vertices(corners(k), 1));
+      }
+      cell.vertices[static_cast<std::size_t>(k)] = its;
+    }
+    part.coarse_cells.push_back(cell);
+    part.coarse_cell_index_to_coarse_cell_id.push_back(t);
+    TriangulationDescription::CellData<2> info;
+    info.id                 = CellId(t, std::vector<std::uint8_t>()).to_binary<2>();
+    info.subdomain_id       = parts[t];
+    info.level_subdomain_id = numbers::artificial_subdomain_id;
+    info.manifold_id        = numbers::flat_manifold_id;
+    info.manifold_line_ids.fill(numbers::flat_manifold_id);
+    info.manifold_quad_ids.fill(numbers::flat_manifold_id);
+    part.cell_infos[0].push_back(info);
+  }
+  return part;
+}
 
 std::unique_ptr<Triangulation<2>> make_triangulation(const meshes::TriangleMesh &mesh,
                                                      const MPI_Comm communicator)
@@ -46,16 +133,8 @@ std::unique_ptr<Triangulation<2>> make_triangulation(const meshes::TriangleMesh 
     make_serial(mesh, *serial);
     return serial;
   }
-  // One rank of each group makes the whole triangulation, cuts it, hands out the parts and forgets
-  // it.
-  const auto description =
-    TriangulationDescription::Utilities::create_description_from_triangulation_in_groups<2, 2>(
-      [&mesh](Triangulation<2> &serial) { make_serial(mesh, serial); },
-      [](Triangulation<2> &serial, const MPI_Comm &ranks, const unsigned int)
-      { GridTools::partition_triangulation(Utilities::MPI::n_mpi_processes(ranks), serial); },
-      communicator, ranks_per_group);
   auto distributed = std::make_unique<parallel::fullydistributed::Triangulation<2>>(communicator);
-  distributed->create_triangulation(description);
+  distributed->create_triangulation(part_of(mesh, communicator));
   return distributed;
 }
 
@@ -105,6 +184,11 @@ Discretization::Discretization(const meshes::TriangleMesh &mesh, const unsigned 
       cell->get_dof_indices(dofs);
       for (unsigned int i = 0; i < dofs.size(); ++i)
         AssertThrow(dofs[i] == dofs[i - i % n_components] + i % n_components, ExcInternalError());
+      if (!cell->is_locally_owned())
+        continue;
+      owned_triangles.push_back(triangle_of(cell));
+      for (unsigned int i = 0; i < dofs.size(); i += n_components)
+        first_dofs.push_back(dofs[i]);
     }
   const FE_SimplexP<2> scalar(order);
   const Quadrature<2> three_points({{1. / 6., 1. / 6.}, {2. / 3., 1. / 6.}, {1. / 6., 2. / 3.}},
@@ -113,6 +197,12 @@ Discretization::Discretization(const meshes::TriangleMesh &mesh, const unsigned 
   stiffness_quadrature          = reference_element(scalar, order == 1 ? one_point : three_points);
   nonlinear_quadrature =
     reference_element(scalar, order == 1 ? one_point : QWitherdenVincentSimplex<2>(2));
+}
+
+void Discretization::forget_triangulation()
+{
+  dof_handler.reinit(nothing);
+  triangulation.reset();
 }
 
 unsigned int Discretization::triangle_of(const DoFHandler<2>::active_cell_iterator &cell)
@@ -134,7 +224,7 @@ std::vector<Node> Discretization::owned_nodes() const
 {
   std::vector<Node> nodes;
   nodes.reserve(locally_owned.n_elements() / n_components);
-  std::vector<char> is_listed(locally_owned.n_elements(), 0);
+  std::vector<bool> is_listed(locally_owned.n_elements(), false);
   std::vector<types::global_dof_index> dofs(element.n_dofs_per_cell());
   for (const auto &cell : dof_handler.active_cell_iterators())
   {
@@ -146,7 +236,7 @@ std::vector<Node> Discretization::owned_nodes() const
       const types::global_dof_index dof = dofs[n_components * shape];
       if (!locally_owned.is_element(dof) || is_listed[locally_owned.index_within_set(dof)])
         continue;
-      is_listed[locally_owned.index_within_set(dof)] = 1;
+      is_listed[locally_owned.index_within_set(dof)] = true;
       nodes.push_back({dof, dof + 1, point_of(cell, shape)});
     }
   }
@@ -198,20 +288,33 @@ DofTable Discretization::vertex_dofs() const
 {
   DofTable of_vertex;
   of_vertex.setZero(mesh.n_vertices(), n_components);
-  std::vector<types::global_dof_index> dofs(element.n_dofs_per_cell());
-  for (const auto &cell : dof_handler.active_cell_iterators())
-    if (cell->is_locally_owned())
+  for_owned_triangles(
+    [&](const unsigned int t, const std::vector<types::global_dof_index> &dofs)
     {
-      cell->get_dof_indices(dofs);
       for (int k = 0; k < 3; ++k)
         for (unsigned int c = 0; c < n_components; ++c)
-          of_vertex(mesh.triangles(triangle_of(cell), k), c) =
+          of_vertex(mesh.triangles(t, k), c) =
             dofs[n_components * static_cast<unsigned int>(k) + c];
-    }
+    });
   // Ranks that share a vertex agree on its DoF; the others hold zero.
   MPI_Allreduce(MPI_IN_PLACE, of_vertex.data(), static_cast<int>(of_vertex.size()),
                 DEAL_II_DOF_INDEX_MPI_TYPE, MPI_MAX, communicator);
   return of_vertex;
+}
+
+std::vector<unsigned int> parts_of(const meshes::TriangleMesh &mesh, const unsigned int n_parts)
+{
+  const auto n = static_cast<std::size_t>(mesh.n_triangles());
+  Eigen::MatrixX2d centres(mesh.n_triangles(), 2);
+  for (int t = 0; t < mesh.n_triangles(); ++t)
+    centres.row(t) =
+      (mesh.vertices.row(mesh.triangles(t, 0)) + mesh.vertices.row(mesh.triangles(t, 1)) +
+       mesh.vertices.row(mesh.triangles(t, 2))) /
+      3.;
+  std::vector<unsigned int> order(n), part(n);
+  std::iota(order.begin(), order.end(), 0u);
+  cut(centres, order.begin(), order.end(), 0, n_parts, part);
+  return part;
 }
 
 AffineTriangle::AffineTriangle(const meshes::TriangleMesh &mesh, const unsigned int triangle)

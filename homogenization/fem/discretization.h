@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Displacement finite elements on a plane triangle mesh, distributed over MPI ranks by METIS: the
-// ground on which the cell problems and the fine-scale references stand. Displacements have two
-// components in the plane, or three for a sheet that moves in space above its flat rest mesh.
+// Displacement finite elements on a plane triangle mesh, distributed over MPI ranks: the ground on
+// which the cell problems and the fine-scale references stand. Displacements have two components in
+// the plane, or three for a sheet that moves in space above its flat rest mesh.
 #pragma once
 
 #include "meshes/plain/triangle_mesh.h"
@@ -39,8 +39,8 @@ using DofTable =
   Eigen::Matrix<dealii::types::global_dof_index, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
 /// P1 or P2 displacements on a mesh. With one rank the triangulation is serial; with more it is
-/// fully distributed, in the parts that METIS makes; while it is made one rank of eight holds the
-/// whole.
+/// fully distributed: each rank, which knows the mesh, takes its part (parts_of()) and the
+/// triangles that touch it, and asks no other.
 class Discretization
 {
 public:
@@ -58,6 +58,27 @@ public:
   Eigen::RowVector2d point_of(const dealii::DoFHandler<2>::active_cell_iterator &cell,
                               unsigned int shape) const;
 
+  /// Calls work(t, dofs) for each triangle t of the mesh that this rank owns, with the DoFs of its
+  /// shapes, node after node.
+  template <typename Work>
+  void for_owned_triangles(const Work &work) const
+  {
+    const std::size_t n_shapes = stiffness_quadrature.n_shapes;
+    std::vector<dealii::types::global_dof_index> dofs(n_components * n_shapes);
+    for (std::size_t k = 0; k < owned_triangles.size(); ++k)
+    {
+      for (std::size_t i = 0; i < dofs.size(); ++i)
+        dofs[i] = first_dofs[k * n_shapes + i / n_components] +
+                  static_cast<dealii::types::global_dof_index>(i % n_components);
+      work(owned_triangles[k], dofs);
+    }
+  }
+
+  /// Frees triangulation and dof_handler, of which nothing may be asked afterwards. They take more
+  /// memory than the matrix of P1, and after it is laid out for_owned_triangles() and vertex_dofs()
+  /// need neither.
+  void forget_triangulation();
+
   /// The nodes that this rank owns.
   std::vector<Node> owned_nodes() const;
 
@@ -72,7 +93,8 @@ public:
   const unsigned int n_components;
   const MPI_Comm communicator;
 
-  const std::unique_ptr<dealii::Triangulation<2>> triangulation;
+  std::unique_ptr<dealii::Triangulation<2>> triangulation;
+  const dealii::Triangulation<2> nothing; ///< of a dof_handler whose triangulation is forgotten
   const dealii::FESystem<2> element;
   dealii::DoFHandler<2> dof_handler;
   dealii::IndexSet locally_owned;
@@ -81,7 +103,15 @@ public:
   ReferenceElement stiffness_quadrature;
   /// For laws that are not quadratic: 1 point for P1 (F is constant), 6 (degree 4) for P2.
   ReferenceElement nonlinear_quadrature;
+
+private:
+  std::vector<unsigned int> owned_triangles;               ///< in the order of the cells
+  std::vector<dealii::types::global_dof_index> first_dofs; ///< (triangle, shape) of its node
 };
+
+/// The part of each triangle: as many parts as ranks, of equal size to one triangle, by cuts across
+/// the longer side of the box of their centres. The same on every rank.
+std::vector<unsigned int> parts_of(const meshes::TriangleMesh &mesh, unsigned int n_parts);
 
 /// The Jacobian [x1 − x0, x2 − x0] of an affine triangle, as J^-T and det J = twice the area.
 struct AffineTriangle

@@ -2,6 +2,7 @@
 #include "homogenization/fem/elastic_solver.h"
 
 #include "homogenization/algebra/cholesky_factor.h"
+#include "homogenization/fem/rigid_modes.h"
 #include "meshes/plain/errors.h"
 
 #include <deal.II/dofs/dof_tools.h>
@@ -16,7 +17,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <sstream>
+#include <utility>
 
 namespace homespun::homogenization
 {
@@ -24,36 +27,15 @@ using namespace dealii;
 
 namespace
 {
-/// The translations and, in the plane, the rotation about the centre, mode after mode, on the owned
-/// DoFs. The rotation is scaled by the size of the mesh so that the modes do not depend on the unit
-/// of length.
-std::vector<double> rigid_body_modes(const Discretization &discretization)
-{
-  const IndexSet &owned            = discretization.locally_owned;
-  const std::size_t n              = owned.n_elements();
-  const meshes::TriangleMesh &mesh = discretization.mesh;
-  const Eigen::RowVector2d lowest  = mesh.vertices.colwise().minCoeff();
-  const Eigen::RowVector2d highest = mesh.vertices.colwise().maxCoeff();
-  const Eigen::RowVector2d centre  = 0.5 * (lowest + highest);
-  const double size                = (highest - lowest).maxCoeff();
-
-  std::vector<double> modes(3 * n, 0.);
-  for (const Node &node : discretization.owned_nodes())
-  {
-    const Eigen::RowVector2d arm = (node.point - centre) / size;
-    const std::size_t first      = owned.index_within_set(node.first_dof);
-    for (unsigned int c = 0; c < discretization.n_components; ++c)
-      modes[c * n + first + c] = 1.;
-    if (discretization.n_components == 2)
-    {
-      modes[2 * n + first]     = -arm(1);
-      modes[2 * n + first + 1] = arm(0);
-    }
-  }
-  return modes;
-}
-
 using Block = Epetra_MultiVector; ///< a column for each right-hand side
+
+/// One of several systems with the same matrix.
+struct Load
+{
+  ElasticSolver::Vector *solution; ///< the start, and the answer
+  ElasticSolver::Vector *residual; ///< begins as the right-hand side
+  ElasticSolver::Target target;
+};
 
 /// Some columns of a block.
 Block columns_of(const Block &block, std::vector<int> &columns)
@@ -61,9 +43,14 @@ Block columns_of(const Block &block, std::vector<int> &columns)
   return {View, block, columns.data(), static_cast<int>(columns.size())};
 }
 
-void copy(const ElasticSolver::Vector &from, Block &to, const int column)
+/// One vector of each load as a block, not copied.
+Block block_of(const std::vector<Load> &loads, ElasticSolver::Vector *Load::*vector,
+               const Epetra_BlockMap &map)
 {
-  std::copy(from.begin(), from.end(), to[column]);
+  std::vector<double *> columns;
+  for (const Load &load : loads)
+    columns.push_back((load.*vector)->begin());
+  return {View, map, columns.data(), static_cast<int>(columns.size())};
 }
 
 void copy(const Block &from, const int column, ElasticSolver::Vector &to)
@@ -93,30 +80,22 @@ public:
 
   LoadsAbreast(const Epetra_CrsMatrix &A,
                const std::function<void(const Block &, Block &)> &preconditioner,
-               std::vector<Vector> &solutions, const std::vector<Vector> &right_hand_sides,
-               const std::vector<ElasticSolver::Target> &targets,
-               const std::function<void(std::size_t)> &done)
+               std::vector<Load> given, const std::function<void(std::size_t)> &done)
       : A(A)
       , preconditioner(preconditioner)
-      , solutions(solutions)
-      , targets(targets)
+      , loads(std::move(given))
       , done(done)
-      , x(A.DomainMap(), static_cast<int>(right_hand_sides.size()))
-      , residual(x)
-      , image(x)
-      , direction(x)
-      , preconditioned(x)
-      , product(targets.size(), 0.)
-      , found(targets.size(), 0.)
-      , histories(targets.size())
-      , iterations(targets.size(), 0)
+      , x(block_of(loads, &Load::solution, A.DomainMap()))
+      , residual(block_of(loads, &Load::residual, A.DomainMap()))
+      , image(A.DomainMap(), x.NumVectors())
+      , direction(A.DomainMap(), x.NumVectors())
+      , product(loads.size(), 0.)
+      , found(loads.size(), 0.)
+      , histories(loads.size())
+      , iterations(loads.size(), 0)
   {
-    for (int k = 0; k < x.NumVectors(); ++k)
-    {
-      copy(solutions[static_cast<std::size_t>(k)], x, k);
-      copy(right_hand_sides[static_cast<std::size_t>(k)], residual, k);
-      open.push_back(k);
-    }
+    open.resize(loads.size());
+    std::iota(open.begin(), open.end(), 0);
     A.Apply(x, image);
     residual.Update(-1., image, 1.);
     note_residuals();
@@ -130,22 +109,22 @@ public:
       const std::vector<double> old_product = product;
       precondition();
       close([this](const std::size_t load)
-            { return is_small(load) && std::abs(product[load]) <= targets[load].energy; });
+            { return is_small(load) && std::abs(product[load]) <= loads[load].target.energy; });
       for (const int k : open)
       {
         const auto load = static_cast<std::size_t>(k);
         if (iteration == max_iterations)
-          throw not_converged(targets[load], product[load], histories[load]);
+          throw not_converged(loads[load].target, product[load], histories[load]);
         if (!(product[load] > 0.) || !std::isfinite(product[load]))
           throw meshes::NotConverged(
             "conjugate gradients: the preconditioner is not positive definite", histories[load]);
-        direction(k)->Update(1., *preconditioned(k),
+        direction(k)->Update(1., *image(k),
                              iteration == 0 ? 0. : product[load] / old_product[load]);
       }
       if (!open.empty())
         step();
       close([this](const std::size_t load)
-            { return std::isinf(targets[load].energy) && is_small(load); });
+            { return std::isinf(loads[load].target.energy) && is_small(load); });
     }
     return iterations;
   }
@@ -153,7 +132,7 @@ public:
 private:
   bool is_small(const std::size_t load) const
   {
-    return histories[load].back() <= targets[load].residual;
+    return histories[load].back() <= loads[load].target.residual;
   }
 
   void note_residuals()
@@ -176,17 +155,17 @@ private:
         left.push_back(k);
         continue;
       }
-      copy(x, k, solutions[load]);
       iterations[load] = static_cast<unsigned int>(histories[load].size()) - 1;
       done(load);
     }
     open = left;
   }
 
+  /// M^-1 r, in the place of the image of the last direction, which nobody needs any more.
   void precondition()
   {
     const Block from = columns_of(residual, open);
-    Block to         = columns_of(preconditioned, open);
+    Block to         = columns_of(image, open);
     preconditioner(from, to);
     from.Dot(to, found.data());
     for (std::size_t k = 0; k < open.size(); ++k)
@@ -205,7 +184,7 @@ private:
       const double curvature = found[k];
       if (!(curvature > 0.) || !std::isfinite(curvature))
       {
-        Vector flat = solutions[load];
+        Vector flat = *loads[load].solution;
         copy(direction, open[k], flat);
         throw IndefiniteMatrix(histories[load], flat);
       }
@@ -218,10 +197,10 @@ private:
 
   const Epetra_CrsMatrix &A;
   const std::function<void(const Block &, Block &)> &preconditioner;
-  std::vector<Vector> &solutions;
-  const std::vector<ElasticSolver::Target> &targets;
+  const std::vector<Load> loads;
   const std::function<void(std::size_t)> &done;
-  Block x, residual, image, direction, preconditioned;
+  Block x, residual; ///< the vectors of the caller
+  Block image, direction;
   std::vector<double> product; ///< r . M^-1 r of each
   std::vector<double> found;   ///< of each that is open
   std::vector<std::vector<double>> histories;
@@ -320,12 +299,11 @@ void ElasticSolver::factorize()
   int *first = nullptr, *columns = nullptr;
   double *values = nullptr;
   stored.ExtractCrsDataPointers(first, columns, values);
-  const Eigen::Map<const Eigen::SparseMatrix<double, Eigen::RowMajor>> rows(n, n, first[n], first,
-                                                                            columns, values);
+  // The matrix is symmetric: its rows are its columns, and nothing has to be transposed.
+  const Eigen::Map<const Eigen::SparseMatrix<double>> all(n, n, first[n], first, columns, values);
   preconditioner         = std::make_unique<Preconditioner>();
   preconditioner->factor = std::make_unique<CholeskyFactor>(
-    Eigen::SparseMatrix<double>(Eigen::SparseMatrix<double>(rows).triangularView<Eigen::Lower>()),
-    "cell problems");
+    Eigen::SparseMatrix<double>(all.triangularView<Eigen::Lower>()), "cell problems");
 }
 
 unsigned int ElasticSolver::solve(Vector &solution, const Vector &right_hand_side,
@@ -373,15 +351,26 @@ unsigned int ElasticSolver::solve(Vector &solution, const Vector &right_hand_sid
 }
 
 std::vector<unsigned int> ElasticSolver::solve_abreast(std::vector<Vector> &solutions,
-                                                       const std::vector<Vector> &right_hand_sides,
+                                                       std::vector<Vector> right_hand_sides,
                                                        const std::vector<Target> &targets,
                                                        const unsigned int max_iterations,
                                                        const std::function<void(std::size_t)> &done)
 {
   const std::function<void(const Block &, Block &)> apply = [this](const Block &from, Block &to)
   { preconditioner->apply(from, to); };
-  return LoadsAbreast(matrix.trilinos_matrix(), apply, solutions, right_hand_sides, targets, done)
-    .run(max_iterations);
+  const std::size_t at_once = preconditioner->factor ? targets.size() : 3;
+  std::vector<unsigned int> iterations;
+  for (std::size_t first = 0; first < targets.size(); first += at_once)
+  {
+    std::vector<Load> loads;
+    for (std::size_t k = first; k < std::min(first + at_once, targets.size()); ++k)
+      loads.push_back({&solutions[k], &right_hand_sides[k], targets[k]});
+    const std::function<void(std::size_t)> its_done = [&](const std::size_t k) { done(first + k); };
+    const std::vector<unsigned int> its =
+      LoadsAbreast(matrix.trilinos_matrix(), apply, loads, its_done).run(max_iterations);
+    iterations.insert(iterations.end(), its.begin(), its.end());
+  }
+  return iterations;
 }
 
 ElasticSolver::MatrixRow ElasticSolver::matrix_row(const int row) const

@@ -79,14 +79,16 @@ public:
   };
 
   /// solve() for several right-hand sides abreast: conjugate gradients of each by itself, whose
-  /// iterations pass over the matrix once for all of them. One that has met its target is left as
-  /// it is.
+  /// iterations pass over the matrix once for all of them; with multigrid for three at a time,
+  /// because vectors of more take as much memory as the matrix. One that has met its target is left
+  /// as it is.
   /// @param solutions the starts, and the answers
+  /// @param right_hand_sides become the residuals: hand over what is not needed afterwards
   /// @param done is told the place of each, once it is solved
   /// @return number of iterations of each
   /// @throws as solve()
   std::vector<unsigned int> solve_abreast(std::vector<Vector> &solutions,
-                                          const std::vector<Vector> &right_hand_sides,
+                                          std::vector<Vector> right_hand_sides,
                                           const std::vector<Target> &targets,
                                           unsigned int max_iterations,
                                           const std::function<void(std::size_t)> &done);

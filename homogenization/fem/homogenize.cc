@@ -16,6 +16,7 @@
 #include <Eigen/Cholesky>
 
 #include <cmath>
+#include <utility>
 
 namespace homespun::homogenization
 {
@@ -74,6 +75,8 @@ public:
   {
     constrain();
     solver = std::make_unique<ElasticSolver>(discretization, constraints);
+    if (options.pieces.empty()) // which are written cell by cell
+      discretization.forget_triangulation();
     lap(result.seconds.setup);
     options.order == 1 ? assemble<3>() : assemble<6>();
     lap(result.seconds.assembly);
@@ -145,41 +148,38 @@ private:
       load_sizes[a] = 0.;
     }
     const ReferenceElement &reference = discretization.stiffness_quadrature;
-    std::vector<types::global_dof_index> dofs(n);
     FullMatrix<double> matrix(n, n);
     dealii::Vector<double> load(n);
-    for (const auto &dealii_cell : discretization.dof_handler.active_cell_iterators())
-    {
-      if (!dealii_cell->is_locally_owned())
-        continue;
-      const unsigned int t = Discretization::triangle_of(dealii_cell);
-      const AffineTriangle triangle(discretization.mesh, t);
-      const Eigen::Matrix3d &c =
-        stiffness_of_phase[static_cast<std::size_t>(discretization.mesh.material(t))];
+    discretization.for_owned_triangles(
+      [&](const unsigned int t, const std::vector<types::global_dof_index> &dofs)
+      {
+        const AffineTriangle triangle(discretization.mesh, t);
+        const Eigen::Matrix3d &c =
+          stiffness_of_phase[static_cast<std::size_t>(discretization.mesh.material(t))];
 
-      Eigen::Matrix<double, n, n> element_matrix = Eigen::Matrix<double, n, n>::Zero();
-      Eigen::Matrix<double, n, 3> element_loads  = Eigen::Matrix<double, n, 3>::Zero();
-      for (std::size_t q = 0; q < reference.weights.size(); ++q)
-      {
-        const auto B        = strain_displacement<n_shapes>(triangle, reference.gradients[q]);
-        const double weight = reference.weights[q] * triangle.determinant;
-        const Eigen::Matrix<double, n, 3> stress_rows = weight * B.transpose() * c;
-        element_matrix.noalias() += stress_rows * B;
-        element_loads += stress_rows; // B^T c e_a for the three unit strains
-      }
-      dealii_cell->get_dof_indices(dofs);
-      for (int i = 0; i < n; ++i)
-        for (int j = 0; j < n; ++j)
-          matrix(static_cast<unsigned int>(i), static_cast<unsigned int>(j)) = element_matrix(i, j);
-      constraints.distribute_local_to_global(matrix, dofs, solver->matrix);
-      for (int a = 0; a < 3; ++a)
-      {
+        Eigen::Matrix<double, n, n> element_matrix = Eigen::Matrix<double, n, n>::Zero();
+        Eigen::Matrix<double, n, 3> element_loads  = Eigen::Matrix<double, n, 3>::Zero();
+        for (std::size_t q = 0; q < reference.weights.size(); ++q)
+        {
+          const auto B        = strain_displacement<n_shapes>(triangle, reference.gradients[q]);
+          const double weight = reference.weights[q] * triangle.determinant;
+          const Eigen::Matrix<double, n, 3> stress_rows = weight * B.transpose() * c;
+          element_matrix.noalias() += stress_rows * B;
+          element_loads += stress_rows; // B^T c e_a for the three unit strains
+        }
         for (int i = 0; i < n; ++i)
-          load(static_cast<unsigned int>(i)) = element_loads(i, a);
-        constraints.distribute_local_to_global(load, dofs, loads[a]);
-        load_sizes[a] += element_loads.col(a).squaredNorm();
-      }
-    }
+          for (int j = 0; j < n; ++j)
+            matrix(static_cast<unsigned int>(i), static_cast<unsigned int>(j)) =
+              element_matrix(i, j);
+        constraints.distribute_local_to_global(matrix, dofs, solver->matrix);
+        for (int a = 0; a < 3; ++a)
+        {
+          for (int i = 0; i < n; ++i)
+            load(static_cast<unsigned int>(i)) = element_loads(i, a);
+          constraints.distribute_local_to_global(load, dofs, loads[a]);
+          load_sizes[a] += element_loads.col(a).squaredNorm();
+        }
+      });
     solver->matrix.compress(VectorOperation::add);
     for (int a = 0; a < 3; ++a)
     {
@@ -220,7 +220,7 @@ private:
          std::pow(1e2 * options.tolerance, 2) * softest(static_cast<Eigen::Index>(a))});
     }
     const std::vector<unsigned int> iterations =
-      solver->solve_abreast(owned, loads, targets, most_iterations,
+      solver->solve_abreast(owned, std::move(loads), targets, most_iterations,
                             [&](const std::size_t a)
                             {
                               if (!is_taken_up[a])
@@ -256,39 +256,35 @@ private:
   {
     constexpr int n                   = 2 * n_shapes;
     const ReferenceElement &reference = discretization.stiffness_quadrature;
-    std::vector<types::global_dof_index> dofs(n);
     Eigen::Matrix3d energy = Eigen::Matrix3d::Zero(), flux = Eigen::Matrix3d::Zero();
     Eigen::Matrix3d mean = Eigen::Matrix3d::Zero(), mean_compliance = Eigen::Matrix3d::Zero();
     std::vector<Eigen::Matrix3d> compliance_of_phase;
     for (const Eigen::Matrix3d &c : stiffness_of_phase)
       compliance_of_phase.push_back(inverse_of(c));
     result.strains.setZero(cell.mesh.n_triangles(), 9);
-    for (const auto &dealii_cell : discretization.dof_handler.active_cell_iterators())
-    {
-      if (!dealii_cell->is_locally_owned())
-        continue;
-      const unsigned int t = Discretization::triangle_of(dealii_cell);
-      const AffineTriangle triangle(discretization.mesh, t);
-      const auto phase         = static_cast<std::size_t>(discretization.mesh.material(t));
-      const Eigen::Matrix3d &c = stiffness_of_phase[phase];
-      dealii_cell->get_dof_indices(dofs);
-      Eigen::Matrix<double, n, 3> chi;
-      for (int a = 0; a < 3; ++a)
-        for (int i = 0; i < n; ++i)
-          chi(i, a) = solutions[a](dofs[static_cast<std::size_t>(i)]);
-      for (std::size_t q = 0; q < reference.weights.size(); ++q)
+    discretization.for_owned_triangles(
+      [&](const unsigned int t, const std::vector<types::global_dof_index> &dofs)
       {
-        const auto B        = strain_displacement<n_shapes>(triangle, reference.gradients[q]);
-        const double weight = reference.weights[q] * triangle.determinant;
-        const Eigen::Matrix3d strain = Eigen::Matrix3d::Identity() - B * chi;
-        energy += weight * strain.transpose() * c * strain;
-        flux += weight * c * strain;
-        mean += weight * c;
-        mean_compliance += weight * compliance_of_phase[phase];
-        result.strains.row(static_cast<Eigen::Index>(t >> 2 * options.refine)) +=
-          weight * Eigen::Map<const Eigen::Matrix<double, 1, 9>>(strain.data());
-      }
-    }
+        const AffineTriangle triangle(discretization.mesh, t);
+        const auto phase         = static_cast<std::size_t>(discretization.mesh.material(t));
+        const Eigen::Matrix3d &c = stiffness_of_phase[phase];
+        Eigen::Matrix<double, n, 3> chi;
+        for (int a = 0; a < 3; ++a)
+          for (int i = 0; i < n; ++i)
+            chi(i, a) = solutions[a](dofs[static_cast<std::size_t>(i)]);
+        for (std::size_t q = 0; q < reference.weights.size(); ++q)
+        {
+          const auto B        = strain_displacement<n_shapes>(triangle, reference.gradients[q]);
+          const double weight = reference.weights[q] * triangle.determinant;
+          const Eigen::Matrix3d strain = Eigen::Matrix3d::Identity() - B * chi;
+          energy += weight * strain.transpose() * c * strain;
+          flux += weight * c * strain;
+          mean += weight * c;
+          mean_compliance += weight * compliance_of_phase[phase];
+          result.strains.row(static_cast<Eigen::Index>(t >> 2 * options.refine)) +=
+            weight * Eigen::Map<const Eigen::Matrix<double, 1, 9>>(strain.data());
+        }
+      });
     const auto averaged = [&](Eigen::Matrix3d matrix) -> Eigen::Matrix3d
     {
       MPI_Allreduce(MPI_IN_PLACE, matrix.data(), 9, MPI_DOUBLE, MPI_SUM,
@@ -345,7 +341,7 @@ private:
   const HomogenizationOptions options;
   const std::vector<Eigen::Matrix3d> stiffness_of_phase;
   Timer timer; ///< started before the discretization is made
-  const Discretization discretization;
+  Discretization discretization;
   AffineConstraints<double> constraints;
   std::unique_ptr<ElasticSolver> solver;
   std::vector<Vector> loads = std::vector<Vector>(3);

@@ -64,50 +64,47 @@ QuadraticLoads quadratic_loads(const SolvedCell &solved, const MembraneLaw law, 
   result.loads.assign(meshes::strain_pairs.size(), zero);
   result.sizes.fill(0.);
   const auto n = static_cast<Eigen::Index>(2 * reference.n_shapes);
-  std::vector<types::global_dof_index> dofs(static_cast<std::size_t>(n));
   dealii::Vector<double> load(static_cast<unsigned int>(n));
-  for (const auto &dealii_cell : discretization.dof_handler.active_cell_iterators())
-  {
-    if (!dealii_cell->is_locally_owned())
-      continue;
-    const unsigned int t = Discretization::triangle_of(dealii_cell);
-    const AffineTriangle triangle(discretization.mesh, t);
-    const auto phase = static_cast<std::size_t>(discretization.mesh.material(t));
-    dealii_cell->get_dof_indices(dofs);
-    Unknowns chi(n, 3);
-    for (int a = 0; a < 3; ++a)
-      for (Eigen::Index i = 0; i < n; ++i)
-        chi(i, a) = solved.chi[static_cast<std::size_t>(a)](dofs[static_cast<std::size_t>(i)]);
-    ElementLoads element_loads = ElementLoads::Zero(n, 6);
-    for (std::size_t point = 0; point < reference.weights.size(); ++point)
+  discretization.for_owned_triangles(
+    [&](const unsigned int t, const std::vector<types::global_dof_index> &dofs)
     {
-      const GradientMatrix G              = gradient_matrix(triangle, reference.gradients[point]);
-      const Eigen::Matrix<double, 4, 3> H = macro - G * chi;
-      const double weight                 = reference.weights[point] * triangle.determinant;
-      std::array<GradientEntries, 6> stresses;
-      for (std::size_t k = 0; k < stresses.size(); ++k)
+      const AffineTriangle triangle(discretization.mesh, t);
+      const auto phase = static_cast<std::size_t>(discretization.mesh.material(t));
+      Unknowns chi(n, 3);
+      for (int a = 0; a < 3; ++a)
+        for (Eigen::Index i = 0; i < n; ++i)
+          chi(i, a) = solved.chi[static_cast<std::size_t>(a)](dofs[static_cast<std::size_t>(i)]);
+      ElementLoads element_loads = ElementLoads::Zero(n, 6);
+      for (std::size_t point = 0; point < reference.weights.size(); ++point)
       {
-        const auto [a, b] = meshes::strain_pairs[k];
-        stresses[k] = weight * second_order_stress(stiffness[phase], q[phase], H.col(a), H.col(b));
-        element_loads.col(static_cast<Eigen::Index>(k)) += G.transpose() * stresses[k];
-      }
-      for (std::size_t m = 0; m < meshes::CubicForm::indices.size(); ++m)
-      {
-        const auto [a, b, c] = meshes::CubicForm::indices[m];
+        const GradientMatrix G              = gradient_matrix(triangle, reference.gradients[point]);
+        const Eigen::Matrix<double, 4, 3> H = macro - G * chi;
+        const double weight                 = reference.weights[point] * triangle.determinant;
+        std::array<GradientEntries, 6> stresses;
         for (std::size_t k = 0; k < stresses.size(); ++k)
-          if (meshes::strain_pairs[k][0] == a && meshes::strain_pairs[k][1] == b)
-            result.energy.derivatives(static_cast<Eigen::Index>(m)) += stresses[k].dot(H.col(c));
+        {
+          const auto [a, b] = meshes::strain_pairs[k];
+          stresses[k] =
+            weight * second_order_stress(stiffness[phase], q[phase], H.col(a), H.col(b));
+          element_loads.col(static_cast<Eigen::Index>(k)) += G.transpose() * stresses[k];
+        }
+        for (std::size_t m = 0; m < meshes::CubicForm::indices.size(); ++m)
+        {
+          const auto [a, b, c] = meshes::CubicForm::indices[m];
+          for (std::size_t k = 0; k < stresses.size(); ++k)
+            if (meshes::strain_pairs[k][0] == a && meshes::strain_pairs[k][1] == b)
+              result.energy.derivatives(static_cast<Eigen::Index>(m)) += stresses[k].dot(H.col(c));
+        }
       }
-    }
-    for (std::size_t k = 0; k < result.loads.size(); ++k)
-    {
-      const auto column = element_loads.col(static_cast<Eigen::Index>(k));
-      for (Eigen::Index i = 0; i < n; ++i)
-        load(static_cast<unsigned int>(i)) = column(i);
-      solved.constraints.distribute_local_to_global(load, dofs, result.loads[k]);
-      result.sizes[k] += column.squaredNorm();
-    }
-  }
+      for (std::size_t k = 0; k < result.loads.size(); ++k)
+      {
+        const auto column = element_loads.col(static_cast<Eigen::Index>(k));
+        for (Eigen::Index i = 0; i < n; ++i)
+          load(static_cast<unsigned int>(i)) = column(i);
+        solved.constraints.distribute_local_to_global(load, dofs, result.loads[k]);
+        result.sizes[k] += column.squaredNorm();
+      }
+    });
   for (std::size_t k = 0; k < result.loads.size(); ++k)
   {
     result.loads[k].compress(VectorOperation::add);
@@ -123,7 +120,7 @@ QuadraticLoads quadratic_loads(const SolvedCell &solved, const MembraneLaw law, 
 SecondOrderFields second_order_fields(const SolvedCell &solved, const MembraneLaw law,
                                       const SecondOrderTarget &target, ElasticSolver &solver)
 {
-  const QuadraticLoads right = quadratic_loads(solved, law, solver.owned_vector());
+  QuadraticLoads right = quadratic_loads(solved, law, solver.owned_vector());
   std::vector<Vector> modes(right.loads.size(), solver.owned_vector());
   std::vector<ElasticSolver::Target> targets;
   for (std::size_t k = 0; k < modes.size(); ++k)
@@ -133,7 +130,8 @@ SecondOrderFields second_order_fields(const SolvedCell &solved, const MembraneLa
     targets.push_back(
       {target.tolerance * right.sizes[k], std::pow(1e2 * target.tolerance, 2) * energy});
   }
-  solver.solve_abreast(modes, right.loads, targets, target.most_iterations, [](std::size_t) {});
+  solver.solve_abreast(modes, std::move(right.loads), targets, target.most_iterations,
+                       [](std::size_t) {});
   for (Vector &mode : modes)
     solved.constraints.distribute(mode);
   return {modes, right.energy};

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 """Edges as a user finds them: in cell.h5, as a method of strain, and where there are none."""
 import json
+import sys
 import unittest
 
 import h5py
@@ -34,6 +35,24 @@ class Edges(InFolder):
             strain = numpy.linalg.inv(stiffness)[:, 0]
             tension = edges["tension"][2] @ strain / strain[0]
             self.assertAlmostEqual(tension / (9e6 * 5e-4 * 0.01), -1. / 8., delta=1e-9)
+
+    def test_edges_that_would_take_longer_than_all_else_are_left_out_with_an_estimate(self):
+        sys.path.insert(0, str(CELLS.parents[1] / "tests" / "benchmarks" / "pareto"))
+        import answered_cells  # pylint: disable=import-outside-toplevel,import-error
+        answered_cells.write_cell_file(answered_cells.make_cell("laminate", 180),
+                                       self.folder / "fine")
+        output = self.folder / "out"
+        result = run("homogenize", self.folder / "fine.prm", "--order", "1", "--no-bars", "--quiet",
+                     "--output", output)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        summary = json.loads((output / "homogenize.json").read_text())
+        self.assertFalse(summary["edges"]["stored"])
+        self.assertRegex(summary["edges"]["why_not"],
+                         r"^they would take about 1[0-9] s on this mesh, more than 10: strain")
+        # The closed form of the laminate: what is left out touches nothing else.
+        for found, known in zip(summary["C"], answered_cells.laminate_stiffness()):
+            for entry, answer in zip(found, known):
+                self.assertAlmostEqual(entry, answer, delta=1e-6)
 
     def test_strain_holds_the_method_against_the_resolved_sheet(self):
         output = self.folder / "out"

@@ -88,6 +88,13 @@ def file_name(name):
     return re.sub(r"[^A-Za-z0-9._-]+", "-", name).strip("-.")
 
 
+def fault_of_system(error):
+    """The OSError that a chain of exceptions began with, or None; pickling keeps no chain."""
+    while error is not None and not isinstance(error, OSError):
+        error = error.__cause__ or error.__context__
+    return error
+
+
 def in_page(value):
     """JSON that may stand in a script element; empty for None."""
     if value is None:
@@ -155,7 +162,7 @@ class Gallery:
         try:
             to.send(self.save(*figure))
         except Exception as error:  # pylint: disable=broad-exception-caught
-            to.send(error)
+            to.send(fault_of_system(error) or error)
 
     def finish(self, unfinished=0):
         """Waits until no more than so many figures are still being saved.
