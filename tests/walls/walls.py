@@ -46,8 +46,8 @@ MAY_INCLUDE = {
     "verification/cell": {"meshes/plain", "meshes/files", "homogenization/bracket",
                           "homogenization/edges",
                           "verification/record"} | CELLS,
-    "verification/method": {"meshes/plain", "localization", "shell/algebra", "shell/membrane",
-                            "shell/solver", "shell/terms", "verification/record",
+    "verification/method": {"meshes/plain", "meshes/cloth", "localization", "shell/algebra",
+                            "shell/membrane", "shell/solver", "shell/terms", "verification/record",
                             "verification/reference", "verification/periodic_cell"},
     "verification/budget": {"meshes/plain", "localization", "shell/solver",
                             "homogenization/bracket", "verification/record",
@@ -60,7 +60,8 @@ MAY_INCLUDE = {
     | MESHES | CELLS | SHELL,
     "verification/converge": {"verification/record", "verification/reference", "verification/laws",
                               "verification/cell",
-                              "verification/method", "homogenization/bracket", "localization"}
+                              "verification/method", "homogenization/bracket",
+                              "homogenization/algebra", "localization"}
     | MESHES | CELLS | SHELL,
     "verification/scene": {"meshes/plain", "shell/solver", "shell/terms",
                            "homogenization/cell"},

@@ -4,7 +4,7 @@
 
     published.py OUTPUT DIR [DIR...]
 
-Of runs of `homespun strain` errors.csv, times.csv and budget.csv, of `drape` pull.csv, of
+Of runs of `homespun strain` errors.csv, ladder.csv, times.csv and budget.csv, of `drape` pull.csv, of
 `homogenize` brackets.csv, of `converge` orders.csv, of all with claims claims.csv. Each row ends
 with the run and the revision that its figures are of. A run that did not end, or whose files were
 changed since, is refused. Exit status: 0, or 2 with one message per fault.
@@ -32,6 +32,7 @@ SCENE = "pull"
 SHEETS = ("strip-1", "strip-2", "shear-frame")
 KEYS = {  # columns that name a row of each file, for README's marks
     "errors.csv": ("cell", "load"),
+    "ladder.csv": ("cell", "load"),
     "pull.csv": ("cell",),
     "brackets.csv": ("cell",),
     "claims.csv": ("command", "of"),
@@ -55,18 +56,53 @@ def level(rows, cell, load, strain):
 
 
 def errors(results):
-    """Mean errors of the sheets at 1 % and 10 % strain against biot, or of weaves against yarn, in
-    1/1000 of strain x cell side; shares in percent. Columns of 10 % end in `_10`, empty where no
-    equilibrium was reached.
+    """Mean errors of the sheets at 1 % strain against biot, in 1/1000 of strain x cell side; shares
+    in percent.
 
     Share of the affine error left: localized / affine. Share of the fluctuation left: localized /
-    mean |reference − homogenized sheet resolved on a fine mesh|. Gain: localized / main, the method
-    that pages speak of.
+    mean |reference − homogenized sheet resolved on a fine mesh|.
+    """
+    rows = [
+        row
+        for row in results.table("strain.csv")
+        if row["reference"] == REFERENCE
+        and row["load"] in SHEETS
+        and math.isclose(row["strain"], STRAIN, rel_tol=1e-6)
+    ]
+    for cell, load in dict.fromkeys((row["cell"], row["load"]) for row in rows):
+        some = {row["method"]: row for row in rows if (row["cell"], row["load"]) == (cell, load)}
+        if not {"affine", "localized"} <= some.keys():
+            continue
+        affine, localized = some["affine"], some["localized"]
+        per = {
+            name: 1000.0 * row["error_mean_per_cell"] / row["strain"] for name, row in some.items()
+        }
+        side = affine["error_mean_m"] / affine["error_mean_per_cell"]
+        yield {
+            "cell": cell,
+            "load": load,
+            "cells_per_side": affine["cells"],
+            "affine": per["affine"],
+            "localized": per["localized"],
+            "reference_bar": (
+                1000.0 * localized["reference_uncertainty_m"] / side / localized["strain"]
+            ),
+            "share_of_affine_left": 100.0 * per["localized"] / per["affine"],
+            "share_of_fluctuation_left": 100.0 * localized["error_mean_per_fluctuation"],
+            "mean_anchor": per.get("localized-mean-anchor", math.nan),
+            "affine_lift": per.get("localized-affine-lift", math.nan),
+        }
+
+
+def ladder(results):
+    """Mean errors of all methods on the sheets at 1 % and 10 % strain against biot, or of weaves
+    against yarn, in 1/1000 of strain x cell side. Columns of 10 % end in `_10`, empty where no
+    equilibrium was reached. Gain: localized / main, the method that pages speak of.
     """
     rows = [row for row in results.table("strain.csv") if row["load"] in SHEETS]
     for cell, load in dict.fromkeys((row["cell"], row["load"]) for row in rows):
         small, large = (level(rows, cell, load, strain) for strain in (STRAIN, LARGE_STRAIN))
-        if not {"affine", "localized"} <= small.keys():
+        if not set(LADDER[:2]) < small.keys() or main_method(small) == "localized":
             continue
         localized = small["localized"]
         yield {
@@ -75,9 +111,6 @@ def errors(results):
             "reference": localized["reference"],
             "cells_per_side": localized["cells"],
             **of_ladder(small, ""),
-            "share_of_affine_left": 100.0 * localized["error_mean_m"] / small["affine"]["error_mean_m"],
-            "share_of_fluctuation_left": 100.0 * localized["error_mean_per_fluctuation"],
-            "mean_anchor": per_strain(small, "localized-mean-anchor"),
             "main_method": main_method(small),
             **of_ladder(large, "_10"),
         }
@@ -319,7 +352,7 @@ def claims(results):
 
 
 TABLES = {
-    "strain": {"errors.csv": errors, "times.csv": times, "budget.csv": budget},
+    "strain": {"errors.csv": errors, "ladder.csv": ladder, "times.csv": times, "budget.csv": budget},
     "drape": {"pull.csv": pull},
     "homogenize": {"brackets.csv": brackets},
     "converge": {"orders.csv": orders},

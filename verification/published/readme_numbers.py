@@ -12,7 +12,7 @@ the digits of the text, and each row of the file must stand in the table, unless
 one above; of names what follows a comma is for readers.
 
 A row is named by its first columns, joined by `/`; with `*` it stands for several, of which the
-column says `:min`, `:max`, `:sum` or `:count`. Names with blanks stand in quotes. Every number that
+column says `:min`, `:max`, `:median`, `:sum` or `:count`. Names with blanks stand in quotes. Every number that
 has no mark is a fault, outside of code and of the kinds that are no results (ALLOWED).
 """
 import csv
@@ -21,11 +21,12 @@ import math
 import os
 import re
 import shlex
+import statistics
 
 MARK = re.compile(r"<!--\s*published:\s*(.*?)\s*-->")
 NUMBER = r"[−-]?\d+(?:,\d{3})*(?:\.\d+)?(?:e[−+-]?\d+)?"
 BARE = re.compile(rf"(?<![\w.^/-]){NUMBER}(?![\w^]|\.\d|/)")
-FOLDS = {"min": min, "max": max, "sum": sum, "count": len}
+FOLDS = {"min": min, "max": max, "median": statistics.median, "sum": sum, "count": len}
 
 # Numbers that are no results, by kind.
 ALLOWED = {

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Which of several methods the claims, the range of validity and the sentences of a page speak of:
-// the best that keeps the speed of the paper's.
+// Which of several methods the claims, the range of validity and the sentences of a page speak of.
 #pragma once
 
 #include <algorithm>
@@ -11,10 +10,9 @@
 namespace homespun::verification
 {
 /// The first of them that has a meaning under a law and load is the method that a study speaks of.
-/// The first of all is the one with the least error among those whose step and up-sampling stay
-/// under a millisecond in the mean for the paper's sheet; the others stand for it where it has no
-/// meaning, as `quadratic` in an infinite cloth, which has no edges, or `localized` under a law
-/// without a second order.
+/// The first of all errs least; `runtime.csv` says what its step takes beside those of the others.
+/// These stand for it where it has no meaning, as `quadratic` in an infinite cloth, which has no
+/// edges, or `edges` under a law without a second order.
 inline constexpr std::array<const char *, 4> methods_by_rank = {"full", "edges", "quadratic",
                                                                 "localized"};
 

@@ -20,8 +20,8 @@ class Budget(InFolder):
 
         budget = rows_of(self.folder / "budget.csv")
         whole = [row for row in budget if row["region"] == "all"]
-        # loads, strains; eleven parts, sum, unexplained and its bar, total
-        self.assertEqual(len(whole), 2 * 2 * 15)
+        # loads, strains; fifteen parts, sum, unexplained and its bar, total
+        self.assertEqual(len(whole), 2 * 2 * 19)
         for row in budget:
             is_bar = row["part"] == "unexplained-bar"
             for key in ("mean_m", "mean_per_cell") if is_bar else NORMS:

@@ -72,6 +72,11 @@ class SentenceTest(unittest.TestCase):
         # Parts beside the sum are no causes.
         self.assertIn("compensate", answer.why(parts(reference=0.9, cell=0.9)))
 
+    def test_what_is_small_beside_the_error_is_no_cause_of_it(self):
+        some = {"solver": {"mean_m": 1e-12}, "modes": {"mean_m": 1e-6}, "rest": {"mean_m": 1e-9}}
+        self.assertIn("no part of the error budget", answer.why(some, "quadratic", 1e-8))
+        self.assertIn("cells are not small", answer.why(some, "quadratic", 2e-9))
+
     def test_another_method_stands_beside_the_paper_s(self):
         best, paper = {**row(1e-3), "method": "full"}, {**row(8e-3), "method": "localized"}
         self.assertEqual(

@@ -121,7 +121,8 @@ def line_of(load, affine, best, parts):
     else:
         gain = 1.0 - after / before if before > 0.0 else -math.inf
         change, mark = change_of(gain), "better" if gain > 0.0 else "worse"
-        words = sentence_of(gain, after, best["error_mean_m"], why(parts, best.get("method", PAPER)))
+        left = best["error_mean_m"]
+        words = sentence_of(gain, after, left, why(parts, best.get("method", PAPER), left))
         if abs(affine["error_mean_m"] - best["error_mean_m"]) <= bar:
             mark = "open"
             words = (
@@ -183,21 +184,23 @@ def sentence_of(gain, left_per_cell, left, reason):
     return f"up-sampling makes the error {share(-gain)} % worse ({size}) {reason}."
 
 
-def why(parts, method=PAPER):
+def why(parts, method=PAPER, left_m=0.0):
     """What the error that is left comes from, in words; from the budget where there is one.
 
     The budget is that of the paper's method, whose shares are of its error; another method leaves
-    what it does not take away, of which the largest part is named without a share.
+    what it does not take away, of which the largest part is named without a share, where it is not
+    small beside the error.
 
     @param parts part -> row of budget.csv over the whole sheet, or None
+    @param left_m the error that is left, 0 where it is not known [m]
     """
     if not parts:
         return "for a reason that was not measured: the error budget did not run at this level"
     if method != PAPER:
         left = [part for part in CAUSES if part in parts and part not in TAKEN_AWAY.get(method, ())]
-        left = [part for part in left if parts[part]["mean_m"] > 0.0]
+        left = [part for part in left if parts[part]["mean_m"] > SECOND_CAUSE * left_m]
         if not left:
-            return "for a reason that no part of the error budget has"
+            return "for a reason that no part of the error budget has, as a higher order in strain"
         return f"above all because {CAUSES[max(left, key=lambda part: parts[part]['mean_m'])]}"
     known = [(parts[part]["share"], part) for part in CAUSES if part in parts]
     known = sorted((pair for pair in known if pair[0] > 0.0), reverse=True)

@@ -204,7 +204,8 @@ def draw_strain(contents, rows, methods, reference, side, gallery):
         contents["variants"] = gallery.add(
             figure,
             f"{name}-variants",
-            f"{name}: all methods, and variants of the paper's (lift, anchor, blending), against {reference}."
+            f"{name}: all methods, and variants of the paper's (lift, anchor, blending), against"
+            f" {reference}."
             + (floor if at_floor else ""),
         )
 
