@@ -125,7 +125,7 @@ std::vector<StressCase> spin_cases(const std::vector<SheetStiffness> &stiffnesse
     for (const Spin &spin : spins())
       for (const auto &[integrator, name] : integrators)
       {
-        const bool keeps_all = integrator == Integrator::conserving;
+        const bool keeps_all     = integrator == Integrator::conserving;
         const int n_steps        = spin.is_thrown ? 100 : 50;
         const std::string called = spin.name + "; " + name + "; " + stiffness.name;
         const auto add           = [&](const std::string &what, const std::string &expected,
