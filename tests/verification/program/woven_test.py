@@ -61,19 +61,6 @@ class Moving(InFolder):
 
 
 class Tension(InFolder):
-    def test_what_is_relaxed_is_counted_and_told(self):
-        result = run("strain", CELLS / "plain-weave.prm", "--cells", 2, "--quick", "--loads",
-                     "shear-frame", "--references", "yarn-tension", "--strains", "0.001,0.002",
-                     "--methods", "affine,localized", "--no-budget", "--no-runtime", "--no-report",
-                     "--output", self.folder / "run")
-        self.assertIn(result.returncode, (0, 1, 4), result.stderr)
-        rows = rows_of(self.folder / "run" / "ellipticity.csv")
-        self.assertEqual({row["not_elliptic"] for row in rows}, {"0"})
-        self.assertGreater(sum(int(row["wrinkled"]) for row in rows), 0)
-        notes = [row["note"] for row in rows_of(self.folder / "run" / "notes.csv")]
-        self.assertTrue([note for note in notes if "wrinkled and" in note
-                         and "what was pressed there is relaxed" in note], notes)
-
     def test_it_is_refused_without_yarns_and_where_its_margin_says_nothing(self):
         for study, texts in (
                 (("strain", CELLS / "layered.prm", "--references", "yarn-tension"),
