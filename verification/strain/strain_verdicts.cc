@@ -66,9 +66,11 @@ Verdict verdict_of_reach(const std::vector<StrainRow> &rows, const StrainRow &of
                          const std::size_t n_levels, const double lost)
 {
   std::vector<double> missing;
-  bool ends = false; // the law, before a level that was not reached
+  bool ends = false, any = false; // the law, before a level that was not reached; level was reached
   for (const StrainRow &row : rows)
-    if (is_of_case(row, of_case) && !row.is_reached())
+    if (is_of_case(row, of_case) && row.is_reached())
+      any = true;
+    else if (is_of_case(row, of_case))
     {
       ends = ends || row.strain > lost;
       if (!(row.strain > lost))
@@ -84,7 +86,7 @@ Verdict verdict_of_reach(const std::vector<StrainRow> &rows, const StrainRow &of
       " levels" +
       (ends ? " up to where the law is lost, at " + percent_text(lost) : std::string()) +
       " (levels without" + from + ")",
-    missing.empty()              ? Outcome::pass
+    missing.empty() && any       ? Outcome::pass
     : missing.size() == n_levels ? Outcome::fail
                                  : Outcome::inconclusive,
     static_cast<double>(missing.size()),

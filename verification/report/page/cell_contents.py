@@ -32,8 +32,16 @@ def contents_of_cells(results, gallery):
     # Names that differ in odd characters only: one gallery.
     if len(names) < 2 or len(files) < len(names):
         return [cell_contents(results, name, gallery) for name in names]
+    gallery.finish()  # what is still being saved cannot be handed to another process
     with ProcessPoolExecutor(max_workers=min(len(names), os.cpu_count() or 1)) as pool:
-        return list(pool.map(cell_contents, [results] * len(names), names, [gallery] * len(names)))
+        return list(pool.map(saved_contents, [results] * len(names), names, [gallery] * len(names)))
+
+
+def saved_contents(results, name, gallery):
+    """cell_contents() whose pictures are all saved."""
+    contents = cell_contents(results, name, gallery)
+    gallery.finish()
+    return contents
 
 
 def cell_contents(results, name, gallery):
