@@ -26,8 +26,8 @@ class OneRun(InFolder):
                      "green", "--strains", "60%,80%", "--no-budget", "--no-runtime", "--no-report",
                      "--output", self.folder / "run")
         self.assertEqual(result.returncode, 4, result.stderr)
-        self.assertRegex(result.stdout, "INCONCLUSIVE +program +layered, shear-frame, green: .*each "
-                                        "of 2 levels up to where the law is lost")
+        self.assertRegex(result.stdout, "INCONCLUSIVE +program +layered, shear-frame, green: .*"
+                                        "each of 2 levels up to where the law is lost")
         self.assertIn("no equilibrium found", result.stderr)
 
     def test_on_two_ranks_the_page_is_made_also_where_a_claim_is_open(self):

@@ -29,7 +29,7 @@ KNOWN_FAILURES |= {
 }
 KNOWN_FAILURES |= {
     ("spin", f"{what}; {turns} turns per step of 10 ms; conserving; anisotropic 1e4, yarn"):
-        "thrown apart by the same spin: the line search of the conserving step finds no lower residual"
+        "thrown apart by the same spin: the line search of its step finds no lower residual"
     for what in ("keeps", "turns") for turns in ("0.5", "1", "5")
 }
 KNOWN_FAILURES |= {
