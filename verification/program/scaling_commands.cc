@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 // homespun scaling: time and memory against mesh and ranks.
+#include "verification/program/studies.h"
 #include "verification/program/study_arguments.h"
 #include "verification/record/on_root.h"
-#include "verification/scaling/scaling_study.h"
+#include "verification/scaling/scaling_summary.h"
 
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
@@ -14,7 +15,7 @@ namespace homespun::verification
 {
 namespace
 {
-int prepare(ScalingOptions options, AfterMpi &afterwards)
+int prepare(CommandLine &line, ScalingOptions options)
 {
   ArgumentFaults faults;
   if (n_ranks_of(MPI_COMM_WORLD) > 1)
@@ -38,9 +39,9 @@ int prepare(ScalingOptions options, AfterMpi &afterwards)
   faults.throw_if_any();
   if (options.output.empty())
     options.output = default_folder("scaling", stems(options.cell_files), false);
-  afterwards = [options]()
+  line.afterwards = [options, run = line.studies.scaling]()
   {
-    const ScalingResult result = run_scaling_study(options);
+    const ScalingResult result = run(options);
     if (!options.quiet)
     {
       std::cout << table_of(result.runs);
@@ -93,6 +94,6 @@ void add_scaling_command(CommandLine &line)
                   "\"srun -n {ranks}\"");
   command->callback(
     [&line, options]()
-    { line.without_mpi = [&line, options]() { return prepare(*options, line.afterwards); }; });
+    { line.without_mpi = [&line, options]() { return prepare(line, *options); }; });
 }
 } // namespace homespun::verification

@@ -13,6 +13,7 @@
 #include "verification/program/homogenize_command.h"
 #include "verification/program/verify_study.h"
 #include "verification/record/verdict.h"
+#include "verification/scaling/scaling_study.h"
 #include "verification/strain/strain_study.h"
 
 #include <mpi.h>
@@ -38,5 +39,6 @@ struct Studies
   Study<StabilityStudyOptions> stability;
   std::function<Verification(const VerifyOptions &, MPI_Comm)> verify;
   std::function<std::vector<BenchmarkRow>(const BenchmarkOptions &, MPI_Comm)> benchmark;
+  std::function<ScalingResult(const ScalingOptions &)> scaling; ///< starts its ranks itself
 };
 } // namespace homespun::verification

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The judgement of scaling on made-up runs, where the truth is known.
 #include "verification/scaling/scaling_study.h"
+#include "verification/scaling/scaling_summary.h"
 
 #include <gtest/gtest.h>
 
