@@ -1,6 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "homogenization/cell/quadratic_strain.h"
 
+#include "meshes/plain/yarn_axes.h"
+
+#include <Eigen/LU>
+
+#include <algorithm>
+
 namespace homespun::homogenization
 {
 std::string name_of(const MembraneLaw law)
@@ -11,6 +17,8 @@ std::string name_of(const MembraneLaw law)
     return "biot";
   case MembraneLaw::green:
     return "green";
+  case MembraneLaw::yarn:
+    return "yarn";
   }
   return "";
 }
@@ -22,10 +30,43 @@ Eigen::Matrix4d product(const GradientEntries &first, const GradientEntries &sec
 {
   return 0.5 * (first * second.transpose() + second * first.transpose());
 }
+
+/// q of the strain e in the axes of yarns, as the strain turns^-1 e in those of the cell.
+QuadraticStrain of_yarns(const meshes::YarnAxes &yarns)
+{
+  const auto entry = [&](const int i, const int j) // a_i.H a_j
+  {
+    const Eigen::Vector2d a = yarns.axes.col(i), b = yarns.axes.col(j);
+    return GradientEntries(a(0) * b(0), a(0) * b(1), a(1) * b(0), a(1) * b(1));
+  };
+  const GradientEntries H11 = entry(0, 0), H12 = entry(0, 1), H21 = entry(1, 0), H22 = entry(1, 1);
+  const QuadraticStrain in_axes = {0.5 * product(H21, H21), 0.5 * product(H12, H12),
+                                   -(product(H11, H21) + product(H22, H12))};
+  const Eigen::Matrix3d back    = yarns.turns.inverse();
+  QuadraticStrain q;
+  for (std::size_t k = 0; k < q.size(); ++k)
+    q[k] = back(static_cast<Eigen::Index>(k), 0) * in_axes[0] +
+           back(static_cast<Eigen::Index>(k), 1) * in_axes[1] +
+           back(static_cast<Eigen::Index>(k), 2) * in_axes[2];
+  return q;
+}
 } // namespace
 
-QuadraticStrain quadratic_strain(const MembraneLaw law, const Phase &)
+std::vector<MembraneLaw> laws_of_second_order(const std::vector<Phase> &phases)
 {
+  std::vector<MembraneLaw> laws = {MembraneLaw::biot, MembraneLaw::green};
+  if (std::any_of(phases.begin(), phases.end(),
+                  [](const Phase &phase)
+                  { return meshes::yarn_axes(plane_stress_stiffness(phase)).are_there; }))
+    laws.push_back(MembraneLaw::yarn);
+  return laws;
+}
+
+QuadraticStrain quadratic_strain(const MembraneLaw law, const Phase &phase)
+{
+  if (law == MembraneLaw::yarn)
+    if (const auto yarns = meshes::yarn_axes(plane_stress_stiffness(phase)); yarns.are_there)
+      return of_yarns(yarns);
   const GradientEntries H11 = GradientEntries::Unit(0), H12 = GradientEntries::Unit(1),
                         H21 = GradientEntries::Unit(2), H22 = GradientEntries::Unit(3);
   if (law == MembraneLaw::green)

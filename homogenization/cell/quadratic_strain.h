@@ -9,6 +9,9 @@
 //   biot:   U − I:      q = (½ (g om + om²), ½ (−g om + om²), (H22 − H11) om),
 //           g = H12 + H21, om = (H21 − H12)/2: where nothing turns there is no second order
 //   green:  ½ (F^T F − I):  q = ½ H^T H
+//   yarn:   stretches of two yarns and their angle:  in the axes of the yarns
+//           q = (½ H21², ½ H12², −(H11 H21 + H22 H12)), turned back; a phase without axes has
+//           biot's
 #pragma once
 
 #include "homogenization/cell/material.h"
@@ -17,17 +20,19 @@
 
 #include <array>
 #include <string>
+#include <vector>
 
 namespace homespun::homogenization
 {
 /// The laws of phases whose second order is known.
 enum class MembraneLaw
 {
-  biot, ///< W = ½ (U − I).c.(U − I)
-  green ///< W = ½ E.c.E, E = ½ (F^T F − I)
+  biot,  ///< W = ½ (U − I).c.(U − I)
+  green, ///< W = ½ E.c.E, E = ½ (F^T F − I)
+  yarn   ///< W = ½ e.c.e, e = (|F a1| − 1, |F a2| − 1, angle) in the axes a1, a2 of the phase
 };
 
-/// `biot` or `green`.
+/// `biot`, `green` or `yarn`.
 std::string name_of(MembraneLaw law);
 
 /// The entries of a displacement gradient, H11, H12, H21, H22.
@@ -36,8 +41,12 @@ using GradientEntries = Eigen::Vector4d;
 /// q of a law: component k of q(F, G) is F.Q_k G, each Q_k symmetric [-].
 using QuadraticStrain = std::array<Eigen::Matrix4d, 3>;
 
-/// @param phase whose axes a law may refer to; `biot` and `green` have none
+/// @param phase whose axes `yarn` refers to (meshes/plain/yarn_axes.h)
 QuadraticStrain quadratic_strain(MembraneLaw law, const Phase &phase);
+
+/// The laws of a cell: `biot` and `green`, and `yarn` where a phase has axes; one without them
+/// keeps `biot` under that law.
+std::vector<MembraneLaw> laws_of_second_order(const std::vector<Phase> &phases);
 
 /// eps of the entries of a gradient, (H11, H22, H12 + H21): a matrix (3,4).
 Eigen::Matrix<double, 3, 4> linear_strain();

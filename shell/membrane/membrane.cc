@@ -73,6 +73,12 @@ const meshes::YarnAxes *yarns_of(const Membrane &membrane, const int t)
   return &membrane.yarns[phase_of(membrane, t)];
 }
 
+/// Of a triangle, null where the energy is quadratic.
+const GuardedCubic *cubic_of(const Membrane &membrane, const int t)
+{
+  return membrane.cubic.empty() ? nullptr : &membrane.cubic[phase_of(membrane, t)];
+}
+
 /// The relaxed energy of a triangle of yarns.
 template <int dim>
 TensionField<dim> tension_field_of(const RestTriangle &rest,
@@ -109,17 +115,17 @@ TriangleDerivatives<dim> by_corners(const RestTriangle &rest, const TensionField
   return result;
 }
 
-/// The energy of a triangle but for its cubic part.
+/// The energy of a triangle but for the cubic part of the corotational law.
 template <int dim>
 double energy_of(const Membrane &membrane, const int t,
                  const Eigen::Matrix<double, 3, dim> &corners)
 {
   const RestTriangle &rest = membrane.rest[static_cast<std::size_t>(t)];
   if (const meshes::YarnAxes *const yarns = yarns_of(membrane, t))
-    return rest.area *
-           (membrane.compression == Compression::relaxed
-              ? tension_field_of<dim>(rest, corners, *yarns, Hessian::exact).energy
-              : yarn_energy_density<dim>(deformation_gradient<dim>(rest, corners), *yarns));
+    return rest.area * (membrane.compression == Compression::relaxed
+                          ? tension_field_of<dim>(rest, corners, *yarns, Hessian::exact).energy
+                          : yarn_energy_density<dim>(deformation_gradient<dim>(rest, corners),
+                                                     *yarns, cubic_of(membrane, t)));
   return triangle_energy<dim>(rest, corners, stiffness_of(membrane, t).D);
 }
 
@@ -135,7 +141,7 @@ Eigen::Matrix<double, 3, dim> forces_of(const Membrane &membrane, const int t,
     if (membrane.compression == Compression::relaxed)
       return by_corners<dim>(rest, tension_field_of<dim>(rest, corners, *yarns, Hessian::exact))
         .gradient;
-    return yarn_triangle_gradient<dim>(rest, corners, *yarns);
+    return yarn_triangle_gradient<dim>(rest, corners, *yarns, cubic_of(membrane, t));
   }
   if (membrane.cubic.empty())
     return triangle_gradient<dim>(rest, corners, D);
@@ -229,18 +235,21 @@ void add_cubic_energy(Membrane &membrane, const std::vector<meshes::CubicForm> &
 
 void take_yarn_law(Membrane &membrane, const Compression compression)
 {
-  if (!membrane.cubic.empty())
-    throw meshes::BadInput("law yarn: the membrane has a cubic energy, which is one of the "
-                           "corotational law; expected none");
   std::vector<meshes::YarnAxes> yarns;
   for (const MembraneStiffness &stiffness : membrane.stiffness)
     yarns.push_back(meshes::yarn_axes(stiffness.D));
-  if (std::any_of(yarns.begin(), yarns.end(),
-                  [](const meshes::YarnAxes &each) { return each.are_there; }))
-  {
-    membrane.yarns       = std::move(yarns);
-    membrane.compression = compression;
-  }
+  if (std::none_of(yarns.begin(), yarns.end(),
+                   [](const meshes::YarnAxes &each) { return each.are_there; }))
+    return;
+  if (compression == Compression::relaxed && !membrane.cubic.empty())
+    throw meshes::BadInput("law yarn-tension: the membrane has a cubic energy, which is one of "
+                           "cloth that carries compression; expected none");
+  for (std::size_t phase = 0; phase < membrane.cubic.size(); ++phase)
+    if (const meshes::YarnAxes &axes = yarns[phase]; axes.are_there)
+      membrane.cubic[phase] =
+        GuardedCubic(cubic_of_yarn_strain(membrane.cubic[phase].form(), axes), axes.C);
+  membrane.yarns       = std::move(yarns);
+  membrane.compression = compression;
 }
 
 template <int dim>
@@ -261,6 +270,8 @@ double membrane_energy(const Membrane &membrane, const Positions<dim> &positions
   if (!membrane.cubic.empty())
     for (int t = 0; t < static_cast<int>(membrane.triangles.rows()); ++t)
     {
+      if (yarns_of(membrane, t) != nullptr)
+        continue;
       const RestTriangle &rest = membrane.rest[static_cast<std::size_t>(t)];
       energy +=
         rest.area * membrane.cubic[phase_of(membrane, t)].value(biot_strain<dim>(
@@ -332,7 +343,7 @@ TriangleDerivatives<dim> membrane_triangle_derivatives(const Membrane &membrane,
     return triangle_derivatives<dim>(rest, corners, stiffness_of(membrane, t), kind);
   if (membrane.compression == Compression::relaxed)
     return by_corners<dim>(rest, tension_field_of<dim>(rest, corners, *yarns, kind));
-  return yarn_triangle_derivatives<dim>(rest, corners, *yarns, kind);
+  return yarn_triangle_derivatives<dim>(rest, corners, *yarns, kind, cubic_of(membrane, t));
 }
 
 template <int dim>

@@ -38,8 +38,9 @@ struct Membrane
   std::vector<RestTriangle> rest;           ///< (m)
   std::vector<int> phase;                   ///< (m) index into stiffness
   std::vector<MembraneStiffness> stiffness; ///< Voigt 11, 22, 12, engineering shear [N/m]
-  std::vector<GuardedCubic> cubic;          ///< one per phase; empty: the energy is quadratic
-  std::vector<meshes::YarnAxes> yarns;      ///< one per phase; empty: all are corotational
+  /// One per phase, of the strain of the phase's law; empty: the energy is quadratic.
+  std::vector<GuardedCubic> cubic;
+  std::vector<meshes::YarnAxes> yarns; ///< one per phase; empty: all are corotational
   Compression compression = Compression::carried; ///< of yarns
 };
 
@@ -60,9 +61,10 @@ Membrane membrane(const meshes::ClothMesh &cloth, const std::vector<Eigen::Matri
 /// @throws BadInput where their number is wrong, or one is not finite
 void add_cubic_energy(Membrane &membrane, const std::vector<meshes::CubicForm> &energies);
 
-/// Gives the phases whose stiffness has axes the law of yarns. One that is alike in all directions
-/// stays corotational; where every phase is so, nothing changes.
-/// @throws BadInput where the membrane has a cubic energy, which is one of the corotational law
+/// Gives the phases whose stiffness has axes the law of yarns (yarn_energy.h). One that is alike in
+/// all directions stays corotational; where every phase is so, nothing changes. A cubic energy
+/// stays that of the Biot strain: the whole energy keeps its third order (cubic_of_yarn_strain()).
+/// @throws BadInput where the membrane has a cubic energy and compression is relaxed
 void take_yarn_law(Membrane &membrane, Compression compression = Compression::carried);
 
 /// The state of a triangle under Compression::relaxed; one that is not of yarns is taut.

@@ -251,6 +251,7 @@ Eigen::Matrix<double, 1, 6> six_node_values(const Eigen::RowVector3d &at)
   return values;
 }
 
+template Positions<3> corners_of_points<3>(const SixNodeMembrane &, const Positions<3> &);
 template Positions<2> corners_of_points<2>(const SixNodeMembrane &, const Positions<2> &);
 template double membrane_energy<2>(const SixNodeMembrane &, const Positions<2> &);
 template MembraneGradient<2> membrane_gradient<2>(const SixNodeMembrane &, const Positions<2> &);

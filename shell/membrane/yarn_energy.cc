@@ -3,6 +3,7 @@
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
+#include <Eigen/LU>
 
 #include <algorithm>
 #include <array>
@@ -29,12 +30,14 @@ struct Frames
   std::array<Vector, 2> n;        ///< across it, counter-clockwise; zero at a collapse
   Vector normal = Vector::Zero(); ///< of the sheet in space; zero at a collapse
   double sine = 0., cosine = 1.;  ///< of gamma
-  Eigen::Vector3d strain = Eigen::Vector3d::Zero(); ///< e
-  Eigen::Vector3d stress = Eigen::Vector3d::Zero(); ///< T = C e [N/m]
+  Eigen::Vector3d strain    = Eigen::Vector3d::Zero(); ///< e
+  Eigen::Vector3d stress    = Eigen::Vector3d::Zero(); ///< T [N/m]
+  Eigen::Matrix3d stiffness = Eigen::Matrix3d::Zero(); ///< dT/de [N/m]
 };
 
 template <int dim>
-Frames<dim> frames_of(const DeformationGradient<dim> &F, const YarnAxes &yarns)
+Frames<dim> frames_of(const DeformationGradient<dim> &F, const YarnAxes &yarns,
+                      const GuardedCubic *const cubic)
 {
   Frames<dim> frames;
   for (std::size_t i = 0; i < 2; ++i)
@@ -66,7 +69,14 @@ Frames<dim> frames_of(const DeformationGradient<dim> &F, const YarnAxes &yarns)
       frames.n[i] = frames.normal.cross(t[i]);
   }
   frames.strain << frames.l[0] - 1., frames.l[1] - 1., std::atan2(frames.sine, frames.cosine);
-  frames.stress = yarns.C * frames.strain;
+  frames.stress    = yarns.C * frames.strain;
+  frames.stiffness = yarns.C;
+  if (cubic != nullptr)
+  {
+    const GuardedCubic::Derivatives of = cubic->derivatives(frames.strain);
+    frames.stress += of.gradient;
+    frames.stiffness += of.hessian;
+  }
   return frames;
 }
 
@@ -98,7 +108,7 @@ Eigen::Matrix<double, size, size> positive_part_of(const Eigen::Matrix<double, s
 
 /// d²W over (α1, β1, α2, β2).
 template <int dim>
-Eigen::Matrix4d in_plane_part(const Frames<dim> &frames, const Eigen::Matrix3d &C)
+Eigen::Matrix4d in_plane_part(const Frames<dim> &frames)
 {
   const double l1 = frames.l[0], l2 = frames.l[1];
   const Eigen::Vector3d &T = frames.stress;
@@ -106,7 +116,7 @@ Eigen::Matrix4d in_plane_part(const Frames<dim> &frames, const Eigen::Matrix3d &
   strain << 1., 0., 0., 0.,           //
     0., 0., 1., 0.,                   //
     0., 1. / l1, 0., -1. / l2;
-  Eigen::Matrix4d hessian = strain.transpose() * C * strain;
+  Eigen::Matrix4d hessian = strain.transpose() * frames.stiffness * strain;
   hessian(1, 1) += T(0) / l1;
   hessian(3, 3) += T(1) / l2;
   hessian(0, 1) -= T(2) / (l1 * l1);
@@ -131,13 +141,12 @@ Eigen::Matrix2d out_of_plane_part(const Frames<3> &frames)
 
 /// d²W by (f1, f2).
 template <int dim>
-GradientHessian<dim> hessian_of(const Frames<dim> &frames, const Eigen::Matrix3d &C,
-                                const Hessian kind)
+GradientHessian<dim> hessian_of(const Frames<dim> &frames, const Hessian kind)
 {
   GradientHessian<dim> hessian = GradientHessian<dim>::Zero();
   if (!frames.defined)
     return hessian;
-  Eigen::Matrix4d in_plane = in_plane_part(frames, C);
+  Eigen::Matrix4d in_plane = in_plane_part(frames);
   if (kind == Hessian::projected)
     in_plane = positive_part_of<4>(in_plane);
   Eigen::Matrix<double, 2 * dim, 4> directions = Eigen::Matrix<double, 2 * dim, 4>::Zero();
@@ -174,34 +183,60 @@ Eigen::Matrix<double, dim, dim> block_of(const GradientHessian<dim> &hessian,
 }
 } // namespace
 
+meshes::CubicForm cubic_of_yarn_strain(const meshes::CubicForm &energy, const YarnAxes &yarns)
+{
+  const Eigen::Matrix3d back = yarns.turns.inverse();
+  const auto value           = [&](const Eigen::Vector3d &E)
+  {
+    const double shear = 0.5 * E(2); // E12
+    const Eigen::Vector3d q(0.5 * shear * shear, 0.5 * shear * shear, -(E(0) + E(1)) * shear);
+    return energy.value(back * E) - (yarns.C * E).dot(q);
+  };
+  meshes::CubicForm form; // by polarisation, which is exact
+  for (std::size_t k = 0; k < form.indices.size(); ++k)
+  {
+    const Eigen::Vector3d a                        = Eigen::Vector3d::Unit(form.indices[k][0]),
+                          b                        = Eigen::Vector3d::Unit(form.indices[k][1]),
+                          c                        = Eigen::Vector3d::Unit(form.indices[k][2]);
+    form.derivatives(static_cast<Eigen::Index>(k)) = value(a + b + c) - value(a + b) -
+                                                     value(a + c) - value(b + c) + value(a) +
+                                                     value(b) + value(c);
+  }
+  return form;
+}
+
 template <int dim>
 Eigen::Vector3d yarn_strain(const DeformationGradient<dim> &F, const YarnAxes &yarns)
 {
-  const Frames<dim> frames = frames_of<dim>(F, yarns);
+  const Frames<dim> frames = frames_of<dim>(F, yarns, nullptr);
   return frames.defined ? frames.strain
                         : Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
 }
 
 template <int dim>
-double yarn_energy_density(const DeformationGradient<dim> &F, const YarnAxes &yarns)
+double yarn_energy_density(const DeformationGradient<dim> &F, const YarnAxes &yarns,
+                           const GuardedCubic *const cubic)
 {
-  const Frames<dim> frames = frames_of<dim>(F, yarns);
-  return frames.defined ? 0.5 * frames.strain.dot(frames.stress)
-                        : std::numeric_limits<double>::infinity();
+  const Frames<dim> frames = frames_of<dim>(F, yarns, nullptr);
+  if (!frames.defined)
+    return std::numeric_limits<double>::infinity();
+  return 0.5 * frames.strain.dot(frames.stress) +
+         (cubic != nullptr ? cubic->value(frames.strain) : 0.);
 }
 
 template <int dim>
 DeformationGradient<dim> yarn_energy_gradient(const DeformationGradient<dim> &F,
-                                              const YarnAxes &yarns)
+                                              const YarnAxes &yarns,
+                                              const GuardedCubic *const cubic)
 {
-  return pulls_of(frames_of<dim>(F, yarns)) * yarns.axes.transpose();
+  return pulls_of(frames_of<dim>(F, yarns, cubic)) * yarns.axes.transpose();
 }
 
 template <int dim>
 GradientHessian<dim> yarn_energy_hessian(const DeformationGradient<dim> &F, const YarnAxes &yarns,
-                                         const Hessian kind)
+                                         const Hessian kind, const GuardedCubic *const cubic)
 {
-  const GradientHessian<dim> by_yarns = hessian_of(frames_of<dim>(F, yarns), yarns.C, kind);
+  const GradientHessian<dim> by_yarns = hessian_of(frames_of<dim>(F, yarns, cubic), kind);
   GradientHessian<dim> hessian;
   for (int a = 0; a < 2; ++a)
     for (int b = 0; b < 2; ++b)
@@ -211,22 +246,23 @@ GradientHessian<dim> yarn_energy_hessian(const DeformationGradient<dim> &F, cons
 }
 
 template <int dim>
-Eigen::Matrix<double, 3, dim> yarn_triangle_gradient(const RestTriangle &rest,
-                                                     const Eigen::Matrix<double, 3, dim> &corners,
-                                                     const YarnAxes &yarns)
+Eigen::Matrix<double, 3, dim>
+yarn_triangle_gradient(const RestTriangle &rest, const Eigen::Matrix<double, 3, dim> &corners,
+                       const YarnAxes &yarns, const GuardedCubic *const cubic)
 {
   const DeformationGradient<dim> P =
-    rest.area * yarn_energy_gradient<dim>(deformation_gradient<dim>(rest, corners), yarns);
+    rest.area * yarn_energy_gradient<dim>(deformation_gradient<dim>(rest, corners), yarns, cubic);
   return rest.shape_gradients * P.transpose();
 }
 
 template <int dim>
 TriangleDerivatives<dim> yarn_triangle_derivatives(const RestTriangle &rest,
                                                    const Eigen::Matrix<double, 3, dim> &corners,
-                                                   const YarnAxes &yarns, const Hessian kind)
+                                                   const YarnAxes &yarns, const Hessian kind,
+                                                   const GuardedCubic *const cubic)
 {
-  const Frames<dim> frames = frames_of<dim>(deformation_gradient<dim>(rest, corners), yarns);
-  const GradientHessian<dim> hessian     = rest.area * hessian_of(frames, yarns.C, kind);
+  const Frames<dim> frames = frames_of<dim>(deformation_gradient<dim>(rest, corners), yarns, cubic);
+  const GradientHessian<dim> hessian     = rest.area * hessian_of(frames, kind);
   const Eigen::Matrix<double, 3, 2> hats = rest.shape_gradients * yarns.axes; // along the yarns
   TriangleDerivatives<dim> result;
   result.gradient = rest.area * (hats * pulls_of(frames).transpose());
@@ -245,9 +281,9 @@ TriangleDerivatives<dim> yarn_triangle_derivatives(const RestTriangle &rest,
 template <int dim>
 Eigen::Matrix<double, 3 * dim, 3 * dim>
 yarn_triangle_hessian(const RestTriangle &rest, const Eigen::Matrix<double, 3, dim> &corners,
-                      const YarnAxes &yarns, const Hessian kind)
+                      const YarnAxes &yarns, const Hessian kind, const GuardedCubic *const cubic)
 {
-  const auto blocks = yarn_triangle_derivatives<dim>(rest, corners, yarns, kind).blocks;
+  const auto blocks = yarn_triangle_derivatives<dim>(rest, corners, yarns, kind, cubic).blocks;
   Eigen::Matrix<double, 3 * dim, 3 * dim> hessian;
   hessian << blocks[0], blocks[1], blocks[2],    //
     blocks[1].transpose(), blocks[3], blocks[4], //
@@ -258,17 +294,21 @@ yarn_triangle_hessian(const RestTriangle &rest, const Eigen::Matrix<double, 3, d
 // In the plane and in space.
 #define HOMESPUN_INSTANTIATE(dim)                                                                \
   template Eigen::Vector3d yarn_strain<dim>(const DeformationGradient<dim> &, const YarnAxes &); \
-  template double yarn_energy_density<dim>(const DeformationGradient<dim> &, const YarnAxes &);  \
-  template DeformationGradient<dim> yarn_energy_gradient<dim>(const DeformationGradient<dim> &,  \
-                                                              const YarnAxes &);                 \
-  template GradientHessian<dim> yarn_energy_hessian<dim>(const DeformationGradient<dim> &,       \
-                                                         const YarnAxes &, Hessian);             \
+  template double yarn_energy_density<dim>(const DeformationGradient<dim> &, const YarnAxes &,   \
+                                           const GuardedCubic *);                                \
+  template DeformationGradient<dim> yarn_energy_gradient<dim>(                                   \
+    const DeformationGradient<dim> &, const YarnAxes &, const GuardedCubic *);                   \
+  template GradientHessian<dim> yarn_energy_hessian<dim>(                                        \
+    const DeformationGradient<dim> &, const YarnAxes &, Hessian, const GuardedCubic *);          \
   template Eigen::Matrix<double, 3, dim> yarn_triangle_gradient<dim>(                            \
-    const RestTriangle &, const Eigen::Matrix<double, 3, dim> &, const YarnAxes &);              \
+    const RestTriangle &, const Eigen::Matrix<double, 3, dim> &, const YarnAxes &,               \
+    const GuardedCubic *);                                                                       \
   template TriangleDerivatives<dim> yarn_triangle_derivatives<dim>(                              \
-    const RestTriangle &, const Eigen::Matrix<double, 3, dim> &, const YarnAxes &, Hessian);     \
+    const RestTriangle &, const Eigen::Matrix<double, 3, dim> &, const YarnAxes &, Hessian,      \
+    const GuardedCubic *);                                                                       \
   template Eigen::Matrix<double, 3 * dim, 3 * dim> yarn_triangle_hessian<dim>(                   \
-    const RestTriangle &, const Eigen::Matrix<double, 3, dim> &, const YarnAxes &, Hessian);
+    const RestTriangle &, const Eigen::Matrix<double, 3, dim> &, const YarnAxes &, Hessian,      \
+    const GuardedCubic *);
 HOMESPUN_INSTANTIATE(2)
 HOMESPUN_INSTANTIATE(3)
 #undef HOMESPUN_INSTANTIATE

@@ -13,6 +13,7 @@
 #include "shell/terms/bending.h"
 #include "shell/terms/inertial_terms.h"
 #include "shell/terms/membrane_term.h"
+#include "shell/terms/six_node_term.h"
 #include "tests/benchmarks/machine.h"
 #include "tests/meshes/plain/shapes.h"
 
@@ -85,6 +86,19 @@ struct Hanging
       result->add(bending_term(mesh, {PlateStiffness::isotropic(1e-6, 0.3)}));
     result->add(gravity_term(masses, {0., 0., -9.81}));
     result->add(mass_damping_term(masses, 1.));
+    return result;
+  }
+
+  /// The same of triangles with six nodes, on the same vertices.
+  std::unique_ptr<Cloth> six_node_cloth(const int n,
+                                        const std::vector<meshes::CubicForm> &cubic) const
+  {
+    const SixNodeMesh six_nodes        = six_node_mesh(mesh.rest, n, n);
+    const Eigen::VectorXd their_masses = six_node_masses(six_nodes, density);
+    auto result = std::make_unique<Cloth>(mesh.positions, their_masses, held, ClothOptions());
+    result->add(six_node_term(six_nodes, stiffness(), 0., cubic));
+    result->add(gravity_term(their_masses, {0., 0., -9.81}));
+    result->add(mass_damping_term(their_masses, 1.));
     return result;
   }
 
@@ -307,12 +321,9 @@ void conjugate_gradients_iterations(benchmark::State &state)
     iterations, benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
 }
 
-/// Whole steps, linearly implicit, of a sheet that swings.
-void step(benchmark::State &state, const LinearSolver solver, const bool with_bending,
-          const double linear_tolerance = 1e-6, const std::vector<meshes::CubicForm> &cubic = {})
+/// Steps of a cloth, with what they took.
+void take_steps(benchmark::State &state, const std::unique_ptr<Cloth> &cloth, const int n_triangles)
 {
-  const Hanging sheet(static_cast<int>(state.range(0)));
-  const auto cloth = sheet.cloth(solver, with_bending, linear_tolerance, cubic);
   cloth->step(time_step); // lays out
   StepReport sum;
   for (auto _ : state)
@@ -324,8 +335,7 @@ void step(benchmark::State &state, const LinearSolver solver, const bool with_be
   }
   const auto per_step = [&](const int amount)
   { return benchmark::Counter(amount, benchmark::Counter::kAvgIterations); };
-  state.counters["triangles"] =
-    benchmark::Counter(sheet.mesh.n_triangles(), benchmark::Counter::kAvgThreads);
+  state.counters["triangles"] = benchmark::Counter(n_triangles, benchmark::Counter::kAvgThreads);
   state.counters["bytes"] =
     benchmark::Counter(static_cast<double>(cloth->bytes()), benchmark::Counter::kAvgThreads);
   state.counters["factorisations"] = per_step(sum.newton_iterations);
@@ -333,13 +343,40 @@ void step(benchmark::State &state, const LinearSolver solver, const bool with_be
   state.counters["guarded"]        = per_step(sum.guarded);
 }
 
-/// The same with a cubic energy as large as a cell's: a tenth of the stress at 10 % strain.
-void step_of_second_order(benchmark::State &state)
+/// Whole steps, linearly implicit, of a sheet that swings.
+void step(benchmark::State &state, const LinearSolver solver, const bool with_bending,
+          const double linear_tolerance = 1e-6, const std::vector<meshes::CubicForm> &cubic = {})
+{
+  const Hanging sheet(static_cast<int>(state.range(0)));
+  take_steps(state, sheet.cloth(solver, with_bending, linear_tolerance, cubic),
+             sheet.mesh.n_triangles());
+}
+
+/// A cubic energy as large as a cell's: a tenth of the stress at 10 % strain.
+meshes::CubicForm cubic_energy()
 {
   meshes::CubicForm cubic;
   cubic.derivatives << 1., -0.5, 0.3, 0.8, -0.2, 1.5, 1.2, 0.4, -1., 0.6;
   cubic.derivatives *= stiffness()(2, 2);
-  step(state, LinearSolver::direct, false, 1e-6, {cubic});
+  return cubic;
+}
+
+/// The same with one.
+void step_of_second_order(benchmark::State &state)
+{
+  step(state, LinearSolver::direct, false, 1e-6, {cubic_energy()});
+}
+
+/// The same of triangles with six nodes; with everything, a cubic energy too.
+template <bool with_cubic>
+void step_of_six_nodes(benchmark::State &state)
+{
+  const int n = static_cast<int>(state.range(0));
+  const Hanging sheet(n);
+  take_steps(state,
+             sheet.six_node_cloth(n, with_cubic ? std::vector<meshes::CubicForm>{cubic_energy()}
+                                                : std::vector<meshes::CubicForm>()),
+             sheet.mesh.n_triangles());
 }
 
 BENCHMARK(triangle_strain);
@@ -359,6 +396,8 @@ BENCHMARK(conjugate_gradients_iterations) HOMESPUN_SIZES;
   BENCHMARK_CAPTURE(step, name, solver, with_bending)
 HOMESPUN_STEP(direct, LinearSolver::direct, false) HOMESPUN_SIZES;
 BENCHMARK(step_of_second_order) HOMESPUN_SIZES;
+BENCHMARK_TEMPLATE(step_of_six_nodes, false) HOMESPUN_SIZES;
+BENCHMARK_TEMPLATE(step_of_six_nodes, true) HOMESPUN_SIZES;
 HOMESPUN_STEP(iterative, LinearSolver::iterative, false) HOMESPUN_SIZES;
 HOMESPUN_STEP(direct_bending, LinearSolver::direct, true) HOMESPUN_SIZES;
 HOMESPUN_STEP(direct_on_all_cores, LinearSolver::direct, false)

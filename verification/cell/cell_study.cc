@@ -46,7 +46,7 @@ AssessedCell run_cell_study(const homogenization::UnitCell &cell, const CellStud
 {
   homogenization::HomogenizationOptions solve = options.solve;
   solve.checkpoint                            = options.output + "/.homespun-loads";
-  solve.second_order = {homogenization::MembraneLaw::biot, homogenization::MembraneLaw::green};
+  solve.second_order                          = homogenization::laws_of_second_order(cell.phases);
   if (options.pieces)
     solve.pieces = options.output + "/" + name_of_pieces;
   std::unique_ptr<RunFolder> folder; // on the first rank

@@ -122,8 +122,7 @@ std::vector<std::string> notes_on_laws(const ConvergenceStudyOptions &options,
   std::vector<std::string> all;
   if (has(options, "strain"))
     for (const UnitCell &cell : cells)
-      all.push_back("strain: " + note_on_default_law(cell) +
-                    (default_law(cell) == Law::biot ? "" : "; quadratic has no modes of that law"));
+      all.push_back("strain: " + note_on_default_law(cell));
   return all;
 }
 
@@ -177,9 +176,9 @@ private:
     for (const UnitCell &cell : cells)
     {
       homogenization::HomogenizationOptions p1;
-      p1.order = 1;
-      if (default_law(cell) == Law::biot)
-        p1.second_order = {homogenization::MembraneLaw::biot};
+      p1.order        = 1;
+      p1.second_order = {default_law(cell) == Law::yarn ? homogenization::MembraneLaw::yarn
+                                                        : homogenization::MembraneLaw::biot};
       homogenized.push_back(homogenization::homogenized_cell(
         cell, homogenization::homogenize(cell, p1, communicator), provenance_line()));
     }

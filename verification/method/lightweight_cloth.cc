@@ -2,6 +2,7 @@
 #include "verification/method/lightweight_cloth.h"
 
 #include "meshes/plain/errors.h"
+#include "shell/membrane/yarn_energy.h"
 #include "verification/reference/free_sides.h"
 
 #include <algorithm>
@@ -88,7 +89,7 @@ UpsamplerOptions Method::options(const Law law) const
 
 bool Method::is_of_second_order(const Law law) const
 {
-  return is_of_second_order() && (law == Law::biot || law == Law::green);
+  return is_of_second_order() && law != Law::linear && law != Law::yarn_tension;
 }
 
 CoarseChoice Method::coarse(const Law law) const
@@ -120,6 +121,20 @@ Method Method::without_six_nodes() const
 
 namespace
 {
+/// The law of yarns with a cubic energy.
+Response response_with(const shell::GuardedCubic &cubic, const meshes::YarnAxes &yarns,
+                       const Eigen::Matrix2d &F)
+{
+  const Eigen::Matrix2d P = shell::yarn_energy_gradient<2>(F, yarns, &cubic);
+  const Eigen::Matrix4d A = shell::yarn_energy_hessian<2>(F, yarns, shell::Hessian::exact, &cubic);
+  const Eigen::PermutationMatrix<4> row_by_row(Eigen::Vector4i(0, 2, 1, 3)); // from columns of F
+  Response result;
+  result.energy = shell::yarn_energy_density<2>(F, yarns, &cubic);
+  result.stress << P(0, 0), P(0, 1), P(1, 0), P(1, 1);
+  result.tangent = row_by_row.transpose() * A * row_by_row;
+  return result;
+}
+
 /// The corotational law with a cubic energy; its tangent is that of the energy at the strain, but
 /// for what the cubic stress itself turns: good enough for steps of Newton's method.
 Response response_with(const shell::GuardedCubic &cubic, const Eigen::Matrix3d &C,
@@ -145,7 +160,12 @@ Load LightweightCloth::with_own_sides(const Load &load, const Eigen::Matrix3d &s
       if (!sides->cubic)
         return free_strains_of(load, sides->law, stiffness, strain);
       return free_strains_of(
-        load, [&](const Eigen::Matrix2d &F) { return response_with(*sides->cubic, stiffness, F); },
+        load,
+        [&](const Eigen::Matrix2d &F)
+        {
+          return sides->yarns.are_there ? response_with(*sides->cubic, sides->yarns, F)
+                                        : response_with(*sides->cubic, stiffness, F);
+        },
         stiffness, strain);
     });
 }
@@ -184,9 +204,16 @@ void LightweightCloth::take_cubic(const Law law)
                            "`, which methods of second order ask for: make its cell.h5 again with "
                            "`homespun homogenize`, or leave the method out");
   const std::vector<meshes::CubicForm> cubic = {found->second.energy};
-  own_sides->cubic = std::make_unique<shell::GuardedCubic>(cubic.front(), cell.stiffness);
-  solver           = made_solver(cubic);
-  law_of_cubic     = law;
+  own_sides->yarns                           = homogenized_law(law, cell.stiffness) == Law::yarn
+                                                 ? meshes::yarn_axes(cell.stiffness)
+                                                 : meshes::YarnAxes();
+  own_sides->cubic =
+    own_sides->yarns.are_there
+      ? std::make_unique<shell::GuardedCubic>(
+          shell::cubic_of_yarn_strain(cubic.front(), own_sides->yarns), own_sides->yarns.C)
+      : std::make_unique<shell::GuardedCubic>(cubic.front(), cell.stiffness);
+  solver       = made_solver(cubic);
+  law_of_cubic = law;
 }
 
 /// The affine motion that agrees with what is prescribed.

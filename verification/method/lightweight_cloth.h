@@ -145,6 +145,7 @@ private:
   {
     Law law = Law::biot;
     std::unique_ptr<shell::GuardedCubic> cubic; ///< none where the energy is quadratic
+    meshes::YarnAxes yarns;                     ///< of a cubic energy that is one of their strain
   };
   static Load with_own_sides(const Load &load, const Eigen::Matrix3d &stiffness,
                              const std::shared_ptr<Sides> &sides);

@@ -28,7 +28,8 @@ std::vector<homogenization::MembraneLaw> laws_of_second_order(const StrainStudyO
   std::vector<homogenization::MembraneLaw> laws;
   if (std::any_of(options.methods.begin(), options.methods.end(),
                   [](const std::string &name) { return Method(name).is_of_second_order(); }))
-    for (const auto law : {homogenization::MembraneLaw::biot, homogenization::MembraneLaw::green})
+    for (const auto law : {homogenization::MembraneLaw::biot, homogenization::MembraneLaw::green,
+                           homogenization::MembraneLaw::yarn})
       if (std::find(options.references.begin(), options.references.end(), name_of(law)) !=
           options.references.end())
         laws.push_back(law);

@@ -54,6 +54,11 @@ nlohmann::ordered_json what_was_left_out(const StrainStudyOptions &options)
         left_out(method + " against the linear reference", Method(method).is_of_second_order()
                                                              ? "linear theory has no second order"
                                                              : "linear theory knows no lift");
+  if (has(options.references, "yarn-tension"))
+    for (const std::string &method : options.methods)
+      if (!Method(method).has_meaning(Law::yarn_tension))
+        left_out(method + " against the reference yarn-tension",
+                 "cells have no second order under a law whose stress has kinks");
   for (const std::string &method : options.methods)
     if (has_periodic(options) && !has_meaning(Method(method), Load("periodic-11")))
       left_out(method + " under periodic loads", Method(method).has_edge_terms()

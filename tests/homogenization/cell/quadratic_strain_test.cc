@@ -12,6 +12,11 @@ using namespace homespun::homogenization;
 
 namespace
 {
+constexpr double pi = 3.14159265358979323846;
+
+const Phase phase   = {"any", 10., 3., 0.3, 0.4, 25., 1., 1.};
+const auto all_laws = {MembraneLaw::biot, MembraneLaw::green, MembraneLaw::yarn};
+
 Eigen::Matrix2d matrix_of(const GradientEntries &H)
 {
   Eigen::Matrix2d matrix;
@@ -23,6 +28,15 @@ Eigen::Matrix2d matrix_of(const GradientEntries &H)
 Eigen::Vector3d strain_of(const MembraneLaw law, const GradientEntries &H)
 {
   const Eigen::Matrix2d F = Eigen::Matrix2d::Identity() + matrix_of(H);
+  if (law == MembraneLaw::yarn)
+  {
+    const double angle = pi / 180. * phase.angle, c = std::cos(angle), s = std::sin(angle);
+    const Eigen::Vector2d f1 = F * Eigen::Vector2d(c, s), f2 = F * Eigen::Vector2d(-s, c);
+    const Eigen::Vector3d e(f1.norm() - 1., f2.norm() - 1.,
+                            std::asin(f1.dot(f2) / (f1.norm() * f2.norm())));
+    return {c * c * e(0) + s * s * e(1) - c * s * e(2), s * s * e(0) + c * c * e(1) + c * s * e(2),
+            2. * c * s * (e(0) - e(1)) + (c * c - s * s) * e(2)};
+  }
   const Eigen::Matrix2d E =
     law == MembraneLaw::green
       ? Eigen::Matrix2d(0.5 * (F.transpose() * F - Eigen::Matrix2d::Identity()))
@@ -36,13 +50,11 @@ Eigen::Vector3d value_of(const QuadraticStrain &q, const GradientEntries &H)
 {
   return {H.dot(q[0] * H), H.dot(q[1] * H), H.dot(q[2] * H)};
 }
-
-const Phase phase = {"any", 1., 1., 0.3, 0.4, 0., 1., 1.};
 } // namespace
 
 TEST(derivative_quadratic_strain, strains_agree_with_their_second_order_up_to_the_third)
 {
-  for (const MembraneLaw law : {MembraneLaw::biot, MembraneLaw::green})
+  for (const MembraneLaw law : all_laws)
     for (const GradientEntries &H :
          {GradientEntries(0.3, -0.8, 0.5, 0.7), GradientEntries(-0.2, 0.9, 0.4, 0.1)})
     {
@@ -60,6 +72,17 @@ TEST(derivative_quadratic_strain, strains_agree_with_their_second_order_up_to_th
     }
 }
 
+TEST(exact_quadratic_strain, a_phase_without_axes_has_no_yarns_and_keeps_biot)
+{
+  const Phase isotropic_phase   = isotropic("plain", 3., 0.2, 1., 1.);
+  const QuadraticStrain of_yarn = quadratic_strain(MembraneLaw::yarn, isotropic_phase),
+                        of_biot = quadratic_strain(MembraneLaw::biot, isotropic_phase);
+  for (std::size_t k = 0; k < of_yarn.size(); ++k)
+    EXPECT_EQ(of_yarn[k], of_biot[k]);
+  EXPECT_EQ(laws_of_second_order({isotropic_phase}).size(), 2u);
+  EXPECT_EQ(laws_of_second_order({isotropic_phase, phase}).back(), MembraneLaw::yarn);
+}
+
 TEST(exact_quadratic_strain, a_symmetric_gradient_has_no_second_order_under_biot)
 {
   const QuadraticStrain q = quadratic_strain(MembraneLaw::biot, phase);
@@ -70,7 +93,7 @@ TEST(derivative_quadratic_strain, the_stress_of_second_order_is_the_third_deriva
 {
   Eigen::Matrix3d c;
   c << 5., 1.2, 0.3, 1.2, 4., -0.4, 0.3, -0.4, 1.5;
-  for (const MembraneLaw law : {MembraneLaw::biot, MembraneLaw::green})
+  for (const MembraneLaw law : all_laws)
   {
     const QuadraticStrain q = quadratic_strain(law, phase);
     const auto W3           = [&](const GradientEntries &H)

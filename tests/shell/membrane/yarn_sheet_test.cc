@@ -2,7 +2,6 @@
 // Sheets under the law of yarns: the sum over a mesh, and its equilibria.
 #include "meshes/plain/errors.h"
 #include "shell/membrane/yarn_energy.h"
-#include "tests/refusal.h"
 #include "tests/shell/shell_cases.h"
 
 #include <gtest/gtest.h>
@@ -11,7 +10,6 @@
 
 using namespace homespun;
 using namespace homespun::shell;
-using homespun::tests::refusal;
 
 namespace
 {
@@ -201,13 +199,4 @@ TEST(exact_yarn_sheet, a_stiffness_alike_in_all_directions_stays_corotational)
   };
   EXPECT_EQ(energy_of_first(both), energy_of_first(corotational));
   EXPECT_NE(membrane_energy<2>(both, x), membrane_energy<2>(corotational, x));
-}
-
-TEST(tripwire_yarn_sheet, a_cubic_energy_beside_yarns_is_refused)
-{
-  Membrane sheet = membrane(tests::irregular_sheet(2), {plain_weave()});
-  add_cubic_energy(sheet, {meshes::CubicForm()});
-  EXPECT_NE(
-    refusal([&] { take_yarn_law(sheet); }).find("law yarn: the membrane has a cubic energy"),
-    std::string::npos);
 }
