@@ -242,8 +242,36 @@ TensionField<dim> tension_field(const DeformationGradient<dim> &F, const YarnAxe
   return field;
 }
 
+template <int dim>
+TriangleDerivatives<dim> by_corners(const RestTriangle &rest, const TensionField<dim> &field)
+{
+  TriangleDerivatives<dim> result;
+  result.gradient  = rest.shape_gradients * (rest.area * field.gradient).transpose();
+  const auto block = [&](const int k, const int l)
+  {
+    Eigen::Matrix<double, dim, dim> sum = Eigen::Matrix<double, dim, dim>::Zero();
+    for (int a = 0; a < 2; ++a)
+      for (int b = 0; b < 2; ++b)
+        sum += rest.area * rest.shape_gradients(k, a) * rest.shape_gradients(l, b) *
+               field.hessian.template block<dim, dim>(dim * a, dim * b);
+    return sum;
+  };
+  // The blocks of corner 0 are minus the sums of the others: a translation costs nothing, to
+  // round-off.
+  auto &blocks = result.blocks;
+  blocks[3]    = block(1, 1);
+  blocks[4]    = block(1, 2);
+  blocks[5]    = block(2, 2);
+  blocks[1]    = -(blocks[3] + blocks[4].transpose());
+  blocks[2]    = -(blocks[4] + blocks[5]);
+  blocks[0]    = -(blocks[1] + blocks[2]).transpose();
+  return result;
+}
+
 template TensionField<2> tension_field<2>(const DeformationGradient<2> &, const YarnAxes &,
                                           Hessian);
 template TensionField<3> tension_field<3>(const DeformationGradient<3> &, const YarnAxes &,
                                           Hessian);
+template TriangleDerivatives<2> by_corners<2>(const RestTriangle &, const TensionField<2> &);
+template TriangleDerivatives<3> by_corners<3>(const RestTriangle &, const TensionField<3> &);
 } // namespace homespun::shell

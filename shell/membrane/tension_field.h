@@ -57,4 +57,9 @@ struct TensionField
 template <int dim>
 TensionField<dim> tension_field(const DeformationGradient<dim> &F, const meshes::YarnAxes &yarns,
                                 Hessian kind = Hessian::exact);
+
+/// Gradient [N] and Hessian [N/m] of a triangle's energy A W_r by its corners, from those of W_r by
+/// F = x^T B, B the gradients of the shape functions.
+template <int dim>
+TriangleDerivatives<dim> by_corners(const RestTriangle &rest, const TensionField<dim> &field);
 } // namespace homespun::shell
