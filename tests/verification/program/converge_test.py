@@ -65,8 +65,8 @@ class Converge(InFolder):
         # The last case counts as not complete.
         (self.folder / "cases.csv").write_text("".join(lines[:-1]))
         verdicts = (self.folder / "verdicts.json").read_text()
-        self.assertEqual(run(*options, "--resume").returncode, 2,
-                         "its tables were changed after it ended")
+        changed = run(*options, "--resume")  # its tables were changed after it ended
+        self.assertEqual(changed.returncode, 2, changed.stdout + changed.stderr)
         cut(self.folder)
         self.assertEqual(run(*options).returncode, first.returncode)
         self.assertTrue(json.loads((self.folder / "study.json").read_text())["resumed"])
