@@ -58,7 +58,7 @@ int main(int argc, char **argv)
   add_to_schema<ScalingRun>(schema);
   add_to_schema<UpsampleRow>(schema);
   add_to_schema<BenchmarkRow>(schema);
-  schema["methods_by_rank"] = methods_by_rank;
+  schema["methods_by_rank"] = {{"yarn", methods_by_rank_of_yarns}, {"others", methods_by_rank}};
   write_json(argv[1], schema);
   return exit_status::good;
 }

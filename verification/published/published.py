@@ -102,7 +102,7 @@ def ladder(results):
     rows = [row for row in results.table("strain.csv") if row["load"] in SHEETS]
     for cell, load in dict.fromkeys((row["cell"], row["load"]) for row in rows):
         small, large = (level(rows, cell, load, strain) for strain in (STRAIN, LARGE_STRAIN))
-        if not set(LADDER[:2]) < small.keys() or main_method(small) == "localized":
+        if not set(LADDER[:2]) < small.keys() or spoken_of(small) == "localized":
             continue
         localized = small["localized"]
         yield {
@@ -111,9 +111,14 @@ def ladder(results):
             "reference": localized["reference"],
             "cells_per_side": localized["cells"],
             **of_ladder(small, ""),
-            "main_method": main_method(small),
+            "main_method": spoken_of(small),
             **of_ladder(large, "_10"),
         }
+
+
+def spoken_of(some):
+    """The method that pages speak of among the rows of a level, by method."""
+    return main_method(some, next((row["reference"] for row in some.values()), None))
 
 
 def per_strain(some, method):
@@ -129,7 +134,7 @@ def of_ladder(some, ending):
     if localized:
         side = localized["error_mean_m"] / localized["error_mean_per_cell"]
         bar = 1000.0 * localized["reference_uncertainty_m"] / side / localized["strain"]
-    main = per_strain(some, main_method(some))
+    main = per_strain(some, spoken_of(some))
     values = {
         **{method: per_strain(some, method) for method in LADDER},
         "reference_bar": bar,

@@ -16,15 +16,32 @@ namespace homespun::verification
 inline constexpr std::array<const char *, 4> methods_by_rank = {"full", "edges", "quadratic",
                                                                 "localized"};
 
-/// @param methods names
-/// @return `localized` where none of the rank is among them
-inline std::string main_method(const std::vector<std::string> &methods)
+/// The same against the law `yarn`, under which second order gains in the first tenths of a per
+/// cent alone, as its modes grow with the anisotropy of the phases: plain-weave, pulled along a yarn
+/// in an infinite cloth, `localized` -> `quadratic`, mean error over mean fluctuation: 0.1 % strain
+/// 0.052 -> 0.024, 0.3 % 0.101 -> 0.135, 1 % 0.158 -> 0.661. Its methods stand in the tables, and
+/// no page speaks of them.
+inline constexpr std::array<const char *, 2> methods_by_rank_of_yarns = {"edges", "localized"};
+
+/// The first of a rank that is among names; the last where none is.
+template <std::size_t n>
+std::string first_of(const std::array<const char *, n> &rank, const std::vector<std::string> &names)
 {
-  const auto *const found =
-    std::find_if(methods_by_rank.begin(), methods_by_rank.end(),
-                 [&](const char *one)
-                 { return std::find(methods.begin(), methods.end(), one) != methods.end(); });
-  return found == methods_by_rank.end() ? methods_by_rank.back() : *found;
+  const auto found = std::find_if(rank.begin(), rank.end(),
+                                  [&](const char *one) {
+                                    return std::find(names.begin(), names.end(), one) !=
+                                           names.end();
+                                  });
+  return found == rank.end() ? rank.back() : *found;
+}
+
+/// @param methods names
+/// @param reference the law against which they are measured
+inline std::string main_method(const std::vector<std::string> &methods,
+                               const std::string &reference)
+{
+  return reference == "yarn" ? first_of(methods_by_rank_of_yarns, methods)
+                             : first_of(methods_by_rank, methods);
 }
 
 /// The same of the rows of one case.
@@ -36,6 +53,6 @@ std::string main_method(const std::vector<Row> &rows, const Row &of_case)
   for (const Row &row : rows)
     if (row.cell == of_case.cell && row.load == of_case.load && row.reference == of_case.reference)
       methods.push_back(row.method);
-  return main_method(methods);
+  return main_method(methods, of_case.reference);
 }
 } // namespace homespun::verification

@@ -94,7 +94,12 @@ class SentenceTest(unittest.TestCase):
         for methods, main in ((("affine", "localized", "edges", "full"), "full"),
                               (("affine", "localized", "quadratic"), "quadratic"),
                               (("affine", "edges", "quadratic"), "edges"), (("affine",), "localized")):
-            self.assertEqual(main_method(methods), main, methods)
+            self.assertEqual(main_method(methods, "biot"), main, methods)
+
+    def test_against_yarn_no_page_speaks_of_second_order(self):
+        for methods, main in ((("localized", "edges", "quadratic", "full"), "edges"),
+                              (("localized", "quadratic"), "localized")):
+            self.assertEqual(main_method(methods, "yarn"), main, methods)
 
     def test_shares_keep_a_digit_where_none_would_say_nothing_or_all(self):
         for value, text in ((0.7412, "74"), (0.9989, "99.89"), (0.001, "0.1"), (0.5, "50")):

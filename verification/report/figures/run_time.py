@@ -24,7 +24,10 @@ def of_main_method(rows):
     for row in rows:
         methods.setdefault((row["load"], row["reference"]), set()).add(row["method"])
     return [
-        row for row in rows if row["method"] == main_method(methods[row["load"], row["reference"]])
+        row
+        for row in rows
+        if row["method"]
+        == main_method(methods[row["load"], row["reference"]], row["reference"])
     ]
 
 

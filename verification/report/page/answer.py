@@ -64,7 +64,7 @@ def answer_of(results, name, gallery):
     lines = []
     for load in sheets_first(row["load"] for row in here):
         some = {row["method"]: row for row in here if row["load"] == load}
-        method = main_method(some)
+        method = main_method(some, reference)
         if method in some and "affine" in some:
             parts = budget.get((load, strains[0]), {}).get("all")
             line = line_of(load, some["affine"], some[method], parts)
@@ -75,8 +75,11 @@ def answer_of(results, name, gallery):
     side = cell_side(results, name)
     ratio = speed_ratio(results.reached(name), reference)
     methods = style.ordered_methods(
-        {"affine", PAPER} | {main_method({r["method"] for r in here if r["load"] == load})
-                             for load in {r["load"] for r in here}}
+        {"affine", PAPER}
+        | {
+            main_method({r["method"] for r in here if r["load"] == load}, reference)
+            for load in {r["load"] for r in here}
+        }
     )
     figure, _ = error_figure(rows, methods, [reference], side, panel=PANEL)
     return {

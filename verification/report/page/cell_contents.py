@@ -185,7 +185,9 @@ def draw_strain(contents, rows, methods, reference, side, gallery):
     for row in rows:
         if row["reference"] == reference:
             of_load.setdefault(row["load"], set()).add(row["method"])
-    spoken_of = {"affine", "localized"} | {main_method(some) for some in of_load.values()}
+    spoken_of = {"affine", "localized"} | {
+        main_method(some, reference) for some in of_load.values()
+    }
     main = [method for method in methods if method in spoken_of] or methods
     references = style.ordered_references(row["reference"] for row in rows)
     floor = f" Triangles at the lower edge: below {style.ROUND_OFF_TEXT}, zero to round-off."

@@ -165,7 +165,7 @@ def error_rows(results, subjects, strain):
                 and row["reference"] == reference
                 and math.isclose(row["strain"], strain, rel_tol=1e-6)
             }
-            best = main_method(here)
+            best = main_method(here, reference)
             beside = "" if best == METHOD else f"{thousandths(here.get(METHOD))}; "
             texts.append(
                 f"{thousandths(here[best])} ({beside}{thousandths(here.get('affine'))})"

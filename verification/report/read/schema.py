@@ -2,11 +2,11 @@
 """The tables that the program writes, as its build says them in schema.json: columns in their
 order, what each may hold, and how many of the first ones name a row.
 
-    {"format_version": 1, "methods_by_rank": ["full", ...],
+    {"format_version": 1, "methods_by_rank": {"yarn": ["edges", ...], "others": ["full", ...]},
      FILE: {"keys": 5, "columns": [{"name": "strain", "domain": "positive"}, ...]}, ...}
 
 `format_version` is that of all files that this version of the program writes; the first of
-`methods_by_rank` that a study has under a load is the one that its page speaks of.
+`methods_by_rank` that a study has under a load and law is the one that its page speaks of.
 
 The program hands on where the file lies in HOMESPUN_SCHEMA; an installed report has it beside
 report.py.
@@ -102,12 +102,13 @@ def format_version():
     return read(place())[0]
 
 
-def main_method(methods):
-    """The method that a page speaks of among those of a load and law.
+def main_method(methods, reference):
+    """The method that a page speaks of among those of a load against a law.
 
     @throws NoSchema
     """
-    rank = read(place())[2]
+    ranks = read(place())[2]
+    rank = ranks.get(reference, ranks["others"])
     return next((name for name in rank if name in methods), rank[-1])
 
 
@@ -128,7 +129,10 @@ def read(path):
         with open(path, encoding="utf-8") as file:
             value = json.load(file)
         version = int(value.pop("format_version"))
-        rank = [str(name) for name in value.pop("methods_by_rank")]
+        ranks = {
+            law: [str(name) for name in rank]
+            for law, rank in value.pop("methods_by_rank").items()
+        }
         return (
             version,
             {
@@ -141,7 +145,7 @@ def read(path):
                 )
                 for name, one in value.items()
             },
-            rank,
+            ranks,
         )
     except OSError as error:
         raise NoSchema(
