@@ -40,7 +40,7 @@ struct Membrane
   std::vector<MembraneStiffness> stiffness; ///< Voigt 11, 22, 12, engineering shear [N/m]
   /// One per phase, of the strain of the phase's law; empty: the energy is quadratic.
   std::vector<GuardedCubic> cubic;
-  std::vector<meshes::YarnAxes> yarns; ///< one per phase; empty: all are corotational
+  std::vector<meshes::YarnAxes> yarns;            ///< one per phase; empty: all are corotational
   Compression compression = Compression::carried; ///< of yarns
 };
 

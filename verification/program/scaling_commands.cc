@@ -92,8 +92,7 @@ void add_scaling_command(CommandLine &line)
                   "Example:\n  homespun scaling meshes/cells/three-stiffness.prm\n"
                   "  homespun scaling mycell.prm --refine 4,5,6 --ranks 16,64,256 --launcher "
                   "\"srun -n {ranks}\"");
-  command->callback(
-    [&line, options]()
-    { line.without_mpi = [&line, options]() { return prepare(line, *options); }; });
+  command->callback([&line, options]()
+                    { line.without_mpi = [&line, options]() { return prepare(line, *options); }; });
 }
 } // namespace homespun::verification

@@ -17,21 +17,19 @@ inline constexpr std::array<const char *, 4> methods_by_rank = {"full", "edges",
                                                                 "localized"};
 
 /// The same against the law `yarn`, under which second order gains in the first tenths of a per
-/// cent alone, as its modes grow with the anisotropy of the phases: plain-weave, pulled along a yarn
-/// in an infinite cloth, `localized` -> `quadratic`, mean error over mean fluctuation: 0.1 % strain
-/// 0.052 -> 0.024, 0.3 % 0.101 -> 0.135, 1 % 0.158 -> 0.661. Its methods stand in the tables, and
-/// no page speaks of them.
+/// cent alone, as its modes grow with the anisotropy of the phases: plain-weave, pulled along a
+/// yarn in an infinite cloth, `localized` -> `quadratic`, mean error over mean fluctuation: 0.1 %
+/// strain 0.052 -> 0.024, 0.3 % 0.101 -> 0.135, 1 % 0.158 -> 0.661. Its methods stand in the
+/// tables, and no page speaks of them.
 inline constexpr std::array<const char *, 2> methods_by_rank_of_yarns = {"edges", "localized"};
 
 /// The first of a rank that is among names; the last where none is.
 template <std::size_t n>
 std::string first_of(const std::array<const char *, n> &rank, const std::vector<std::string> &names)
 {
-  const auto found = std::find_if(rank.begin(), rank.end(),
-                                  [&](const char *one) {
-                                    return std::find(names.begin(), names.end(), one) !=
-                                           names.end();
-                                  });
+  const auto found = std::find_if(
+    rank.begin(), rank.end(),
+    [&](const char *one) { return std::find(names.begin(), names.end(), one) != names.end(); });
   return found == rank.end() ? rank.back() : *found;
 }
 
