@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "tests/shell/dimensions.h"
 #include "tests/shell/shell_cases.h"
 
 #include <Eigen/Eigenvalues>
@@ -8,20 +9,11 @@
 
 using namespace homespun;
 using namespace homespun::shell;
+using homespun::tests::Dimensions;
+using homespun::tests::InPlaneAndSpace;
 
 namespace
 {
-template <int dim>
-struct Dimension
-{
-  static constexpr int value = dim;
-};
-template <typename Dim>
-struct InPlaneAndSpace : ::testing::Test
-{
-};
-using Dimensions = ::testing::Types<Dimension<2>, Dimension<3>>;
-
 /// A stretch of moderate size, turned by an angle; not inverted.
 template <int dim>
 DeformationGradient<dim> some_gradient(std::mt19937 &generator)

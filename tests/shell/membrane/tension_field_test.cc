@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "shell/membrane/tension_field.h"
 #include "shell/membrane/yarn_energy.h"
+#include "tests/shell/dimensions.h"
 #include "tests/shell/shell_cases.h"
 
 #include <Eigen/Eigenvalues>
@@ -12,22 +13,13 @@
 
 using namespace homespun;
 using namespace homespun::shell;
+using homespun::tests::Dimensions;
+using homespun::tests::InPlaneAndSpace;
 using meshes::yarn_axes;
 using meshes::YarnAxes;
 
 namespace
 {
-template <int dim>
-struct Dimension
-{
-  static constexpr int value = dim;
-};
-template <typename Dim>
-struct InPlaneAndSpace : ::testing::Test
-{
-};
-using Dimensions = ::testing::Types<Dimension<2>, Dimension<3>>;
-
 // gtest's typed suites carry their label as every suite does: by the first word of their name.
 template <typename Dim>
 using exact_tension_field = InPlaneAndSpace<Dim>;

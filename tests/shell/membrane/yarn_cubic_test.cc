@@ -4,6 +4,7 @@
 #include "shell/membrane/membrane.h"
 #include "shell/membrane/yarn_energy.h"
 #include "tests/refusal.h"
+#include "tests/shell/dimensions.h"
 #include "tests/shell/shell_cases.h"
 
 #include <gtest/gtest.h>
@@ -12,21 +13,12 @@
 
 using namespace homespun;
 using namespace homespun::shell;
+using homespun::tests::Dimensions;
+using homespun::tests::InPlaneAndSpace;
 using homespun::tests::refusal;
 
 namespace
 {
-template <int dim>
-struct Dimension
-{
-  static constexpr int value = dim;
-};
-template <typename Dim>
-struct InPlaneAndSpace : ::testing::Test
-{
-};
-using Dimensions = ::testing::Types<Dimension<2>, Dimension<3>>;
-
 /// Of moderate anisotropy, its axes askew, so that the next order is small at some per cent.
 Eigen::Matrix3d stiffness()
 {

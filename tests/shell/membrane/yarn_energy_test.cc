@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "shell/membrane/yarn_energy.h"
+#include "tests/shell/dimensions.h"
 #include "tests/shell/shell_cases.h"
 
 #include <Eigen/Eigenvalues>
@@ -9,22 +10,13 @@
 
 using namespace homespun;
 using namespace homespun::shell;
+using homespun::tests::Dimensions;
+using homespun::tests::InPlaneAndSpace;
 using meshes::yarn_axes;
 using meshes::YarnAxes;
 
 namespace
 {
-template <int dim>
-struct Dimension
-{
-  static constexpr int value = dim;
-};
-template <typename Dim>
-struct InPlaneAndSpace : ::testing::Test
-{
-};
-using Dimensions = ::testing::Types<Dimension<2>, Dimension<3>>;
-
 /// C^H of the cell plain-weave, rounded: E/G = 1113 [N/m].
 Eigen::Matrix3d plain_weave()
 {

@@ -2,6 +2,7 @@
 // Sheets under the law of yarns: the sum over a mesh, and its equilibria.
 #include "meshes/plain/errors.h"
 #include "shell/membrane/yarn_energy.h"
+#include "tests/shell/dimensions.h"
 #include "tests/shell/shell_cases.h"
 
 #include <gtest/gtest.h>
@@ -10,20 +11,11 @@
 
 using namespace homespun;
 using namespace homespun::shell;
+using homespun::tests::Dimensions;
+using homespun::tests::InPlaneAndSpace;
 
 namespace
 {
-template <int dim>
-struct Dimension
-{
-  static constexpr int value = dim;
-};
-template <typename Dim>
-struct InPlaneAndSpace : ::testing::Test
-{
-};
-using Dimensions = ::testing::Types<Dimension<2>, Dimension<3>>;
-
 /// C^H of the cell plain-weave, rounded: E/G = 1113 [N/m].
 Eigen::Matrix3d plain_weave()
 {
