@@ -4,6 +4,7 @@
 #include "verification/budget/budget_rows.h"
 #include "verification/budget/budget_tables.h"
 #include "verification/record/timing.h"
+#include "verification/record/main_method.h"
 #include "verification/strain/budget_verdicts.h"
 #include "verification/strain/run_time.h"
 #include "verification/strain/validity.h"
@@ -364,4 +365,14 @@ TEST(exact_run_time, the_bar_of_the_best_solution_is_carried_to_the_full_sheet)
     {"cell", "strip-2", "biot", 0.05, 4, 1e-7, 1e-7, 2e-8}};
   EXPECT_NEAR(bar_of_p2(rows, "cell", "strip-2", 20, 0.1), 2e-8 / 0.05 * 0.5 * 0.1, 1e-15);
   EXPECT_TRUE(std::isnan(bar_of_p2(rows, "cell", "strip-1", 20, 0.1)));
+}
+
+// Second order gains against `yarn` in the first tenths of a per cent alone.
+TEST(tripwire_validity, against_yarn_no_study_speaks_of_second_order)
+{
+  const std::vector<std::string> all = {"affine", "localized", "quadratic", "edges", "full"};
+  EXPECT_EQ(main_method(all, "biot"), "full");
+  EXPECT_EQ(main_method(all, "yarn"), "edges");
+  const std::vector<std::string> without_edges = {"localized", "quadratic"};
+  EXPECT_EQ(main_method(without_edges, "yarn"), "localized");
 }
