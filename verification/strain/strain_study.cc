@@ -6,6 +6,7 @@
 #include "verification/budget/budget_tables.h"
 #include "verification/budget/energy_sides.h"
 #include "verification/cell/cell_file_verdicts.h"
+#include "verification/laws/end_of_path.h"
 #include "verification/record/number_text.h"
 #include "verification/record/on_root.h"
 #include "verification/record/peak_memory.h"
@@ -286,7 +287,8 @@ private:
       on_root(communicator,
               [&]()
               {
-                output->write_note(level, note_of_stop(level, fine, at_the_end, sheet, cell));
+                output->write_note(level, note_of_stop(level, fine, at_the_end, sheet, cell) +
+                                            note_of_path(cell, load, law, strain));
                 output->write_unreached(level, sheet);
               });
       return false;
@@ -329,6 +331,20 @@ private:
               });
     }
     return is_solved == 1;
+  }
+
+  /// Why the path of a load ends below a strain, found on a small sheet.
+  std::string note_of_path(const UnitCell &cell, const Load &load, const Law law,
+                           const double strain) const
+  {
+    if (load.is_periodic() || law == Law::linear)
+      return {};
+    std::vector<double> strains;
+    for (const double level : options.strains)
+      if (level <= strain)
+        strains.push_back(level);
+    return "; " + text_of(end_of_path(cell, load, law, strains,
+                                      std::min(options.n_cells, options.n_cells_of_error_bar)));
   }
 
   std::vector<Verdict> conclude()
