@@ -89,6 +89,6 @@ std::string text_of(const EndOfPath &end)
   case Ending::solver:
     break;
   }
-  return text + ": the equilibria go on, and it is the solver that stopped";
+  return text + ": there the equilibria go on";
 }
 } // namespace homespun::verification
