@@ -7,6 +7,8 @@
 #include <Eigen/Core>
 #include <Eigen/LU>
 
+#include <cmath>
+
 namespace homespun::meshes
 {
 /// The sides of a triangle from its first corner, one per column, (dim,2).
@@ -33,5 +35,14 @@ deformation_gradient(const TriangleMesh &rest, const int triangle,
   const Eigen::RowVector3i corners = rest.triangles.row(triangle);
   return sides_of_triangle<dim>(corners, positions) *
          sides_of_triangle<2>(corners, rest.vertices).inverse();
+}
+
+/// R of F = R U in the plane, the proper rotation nearest to F; the identity where F = 0.
+inline Eigen::Matrix2d nearest_rotation(const Eigen::Matrix2d &F)
+{
+  const double angle = std::atan2(F(1, 0) - F(0, 1), F(0, 0) + F(1, 1));
+  Eigen::Matrix2d R;
+  R << std::cos(angle), -std::sin(angle), std::sin(angle), std::cos(angle);
+  return R;
 }
 } // namespace homespun::meshes

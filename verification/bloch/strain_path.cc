@@ -2,6 +2,7 @@
 #include "verification/bloch/strain_path.h"
 
 #include "meshes/plain/errors.h"
+#include "verification/newton/halved_parts.h"
 
 #include <algorithm>
 #include <cmath>
@@ -71,7 +72,6 @@ CellEquilibrium StrainPath::guess(const double strain) const
 
 const CellEquilibrium &StrainPath::at(const double strain)
 {
-  int halvings = 0;
   while (true)
   {
     if (const auto found = known.find(strain); found != known.end())
@@ -80,20 +80,20 @@ const CellEquilibrium &StrainPath::at(const double strain)
     for (const auto &[there, state] : known)
       if (std::abs(there - strain) < std::abs(nearest - strain))
         nearest = there;
-    const double step = longest_step / (1 << halvings);
-    const double way  = strain - nearest;
-    const double next = std::abs(way) <= 1.5 * step ? strain : nearest + std::copysign(step, way);
-    CellEquilibrium trial = guess(next);
-    try
-    {
-      find_equilibrium(assembly, loads, trial);
-      known[next] = trial;
-    }
-    catch (const meshes::NotConverged &)
-    {
-      if (++halvings > most_halvings)
-        throw;
-    }
+    const double way = strain - nearest;
+    const double next =
+      std::abs(way) <= 1.5 * longest_step ? strain : nearest + std::copysign(longest_step, way);
+    const GoneWay gone = go_in_halves(most_halvings,
+                                      [&](double, const double part)
+                                      {
+                                        const double there =
+                                          part == 1. ? next : nearest + part * (next - nearest);
+                                        CellEquilibrium trial = guess(there);
+                                        find_equilibrium(assembly, loads, trial);
+                                        known[there] = trial;
+                                      });
+    if (gone.reached < 1.)
+      throw meshes::NotConverged(*gone.failure);
   }
 }
 } // namespace homespun::verification

@@ -3,6 +3,7 @@
 
 #include "homogenization/bracket/compatible_strain.h"
 #include "homogenization/cell/torus_mesh.h"
+#include "meshes/plain/triangle_kinematics.h"
 #include "shell/solver/equilibrium.h"
 #include "verification/periodic_cell/nonlinear_cell.h"
 
@@ -30,27 +31,6 @@ meshes::TriangleMesh second_mesh(const meshes::HomogenizedCell &cell, const mesh
   meshes::TriangleMesh mesh = sheet.mesh;
   mesh.material             = phases_of_sheet(cell, sheet);
   return mesh;
-}
-
-/// Held vertices, and all vertices where the affine motion of a load has them.
-struct Prescribed
-{
-  std::vector<int> held;
-  shell::Positions<2> positions; ///< [m]
-};
-
-Prescribed prescribed(const meshes::Sheet &sheet, const Load &load, const double strain)
-{
-  Prescribed result;
-  result.positions = sheet.mesh.vertices;
-  for (int v = 0; v < sheet.mesh.n_vertices(); ++v)
-  {
-    const Eigen::RowVector2d fraction = sheet.fraction(sheet.mesh.vertices.row(v));
-    result.positions.row(v) += load.displacement(fraction, sheet.sides(), strain);
-    if (load.holds(fraction))
-      result.held.push_back(v);
-  }
-  return result;
 }
 
 /// An infinite cloth: the affine motion, and a fluctuation of each vertex of the cell.
@@ -134,9 +114,9 @@ meshes::Points second_linear_sheet(const meshes::HomogenizedCell &cell,
       fluctuation -= e(a) * chi.middleCols<2>(2 * a);
     return infinite_cloth(sheet, gradient, Eigen::Matrix2d::Identity(), fluctuation, cell.anchor);
   }
-  const Prescribed known = prescribed(sheet, load, strain);
-  return shell::MembraneSolver<2>(second_mesh(cell, sheet), stiffness_of_phase, known.held)
-    .solve_linear(known.positions);
+  return shell::MembraneSolver<2>(second_mesh(cell, sheet), stiffness_of_phase,
+                                  held_vertices(load, sheet, sheet.mesh.vertices))
+    .solve_linear(moved_affinely(load, sheet, sheet.mesh.vertices, strain));
 }
 
 bool second_code_has(const Law law)
@@ -152,23 +132,21 @@ meshes::Points second_nonlinear_sheet(const Law law, const meshes::HomogenizedCe
   if (load.is_periodic())
   {
     const Eigen::Matrix2d F = load.gradient(strain);
-    const double angle      = std::atan2(F(1, 0) - F(0, 1), F(0, 0) + F(1, 1));
-    Eigen::Matrix2d R;
-    R << std::cos(angle), -std::sin(angle), std::sin(angle), std::cos(angle);
-    const Eigen::Matrix2d U = R.transpose() * F;
-    const CellState state   = NonlinearCell(cell, stiffness_of_phase, law)
+    const Eigen::Matrix2d R = meshes::nearest_rotation(F), U = R.transpose() * F;
+    const CellState state = NonlinearCell(cell, stiffness_of_phase, law)
                               .solve({U(0, 0) - 1., U(1, 1) - 1., U(0, 1) + U(1, 0)});
     return infinite_cloth(sheet, F, R, state.fluctuation, cell.anchor);
   }
-  const Prescribed known   = prescribed(sheet, load, strain);
   shell::Membrane membrane = shell::membrane(second_mesh(cell, sheet), stiffness_of_phase);
   if (is_of_yarns(law))
     shell::take_yarn_law(membrane, law == Law::yarn_tension ? shell::Compression::relaxed
                                                             : shell::Compression::carried);
-  const shell::MembraneSolver<2> solver(std::move(membrane), known.held);
+  const shell::MembraneSolver<2> solver(std::move(membrane),
+                                        held_vertices(load, sheet, sheet.mesh.vertices));
   shell::EquilibriumOptions tight;
-  tight.relative_tolerance = 1e-13; // round-off counts as zero before
-  return solver.solve_equilibrium(solver.solve_linear(known.positions), tight).positions;
+  tight.relative_tolerance   = 1e-13; // round-off counts as zero before
+  const meshes::Points moved = moved_affinely(load, sheet, sheet.mesh.vertices, strain);
+  return solver.solve_equilibrium(solver.solve_linear(moved), tight).positions;
 }
 
 Eigen::Matrix3d second_p2_stiffness(const meshes::HomogenizedCell &cell,

@@ -113,17 +113,11 @@ CoarseSolution solve_coarse(const meshes::HomogenizedCell &homogenized, const me
                             const Load &load, const int n, const double strain)
 {
   CoarseSolution result;
-  result.mesh               = meshes::coarse_sheet(sheet.origin, sheet.sides() / n, n, n);
-  shell::Positions<2> start = result.mesh.vertices;
-  std::vector<int> held;
-  for (int v = 0; v < result.mesh.n_vertices(); ++v)
-  {
-    const Eigen::RowVector2d fraction = sheet.fraction(result.mesh.vertices.row(v));
-    start.row(v) += load.displacement(fraction, sheet.sides(), strain);
-    if (load.holds(fraction))
-      held.push_back(v);
-  }
-  const shell::MembraneSolver<2> solver(result.mesh, {homogenized.stiffness}, held);
+  result.mesh                     = meshes::coarse_sheet(sheet.origin, sheet.sides() / n, n, n);
+  const meshes::Points &rest      = result.mesh.vertices;
+  const shell::Positions<2> start = moved_affinely(load, sheet, rest, strain);
+  const shell::MembraneSolver<2> solver(result.mesh, {homogenized.stiffness},
+                                        held_vertices(load, sheet, rest));
   result.linear = solver.solve_linear(start);
   result.energy = solver.solve_equilibrium(result.linear).energy;
   return result;

@@ -30,7 +30,8 @@ struct Acoustic
   /// The least eigenvalue, as determinant over the other where that keeps its digits.
   double least() const
   {
-    const double mean = 0.5 * (Q11 + Q22), half = std::hypot(0.5 * (Q11 - Q22), Q12);
+    const double mean = 0.5 * (Q11 + Q22),
+                 half = std::sqrt(0.25 * (Q11 - Q22) * (Q11 - Q22) + Q12 * Q12);
     return mean > 0. ? (Q11 * Q22 - Q12 * Q12) / (mean + half) : mean - half;
   }
 
@@ -45,32 +46,90 @@ struct Acoustic
   }
 };
 
-/// The angle of a minimum between two others, by the golden section.
-double refined(const Eigen::Matrix4d &A, double from, double to)
+/// A term of Q by twice the angle of n: mean + cosine cos + sine sin, with its derivatives.
+struct Harmonic
 {
-  constexpr double golden = 0.61803398874989485;
-  const auto value        = [&](const double angle)
-  { return Acoustic(A, std::cos(angle), std::sin(angle)).least(); };
-  double low = to - golden * (to - from), high = from + golden * (to - from);
-  double at_low = value(low), at_high = value(high);
-  while (to - from > 1e-9)
-    if (at_low <= at_high)
-    {
-      to      = high;
-      high    = low;
-      at_high = at_low;
-      low     = to - golden * (to - from);
-      at_low  = value(low);
-    }
-    else
-    {
-      from    = low;
-      low     = high;
-      at_low  = at_high;
-      high    = from + golden * (to - from);
-      at_high = value(high);
-    }
-  return 0.5 * (from + to);
+  double mean, cosine, sine;
+
+  /// Of x c² + y c s + z s².
+  Harmonic(const double x, const double y, const double z)
+      : mean(0.5 * (x + z))
+      , cosine(0.5 * (x - z))
+      , sine(0.5 * y)
+  {
+  }
+
+  double change(const double c, const double s) const
+  {
+    return sine * c - cosine * s;
+  }
+
+  double bend(const double c, const double s) const
+  {
+    return -cosine * c - sine * s;
+  }
+
+  double at(const double c, const double s) const
+  {
+    return mean - bend(c, s);
+  }
+};
+
+/// The least eigenvalue of Q by twice the angle of n, half of the trace less a root.
+class LeastEigenvalue
+{
+public:
+  explicit LeastEigenvalue(const Eigen::Matrix4d &A)
+      : Q11(A(0, 0), 2. * A(0, 1), A(1, 1))
+      , Q22(A(2, 2), 2. * A(2, 3), A(3, 3))
+      , Q12(A(0, 2), A(0, 3) + A(1, 2), A(1, 3))
+  {
+  }
+
+  struct Derivatives
+  {
+    double first, second;
+  };
+
+  Derivatives at(const double twice) const
+  {
+    const double c = std::cos(twice), s = std::sin(twice);
+    const double half = 0.5 * (Q11.at(c, s) - Q22.at(c, s)), off = Q12.at(c, s);
+    const double by_half = 0.5 * (Q11.change(c, s) - Q22.change(c, s)), by_off = Q12.change(c, s);
+    const double root  = std::sqrt(half * half + off * off);
+    const double root1 = (half * by_half + off * by_off) / root;
+    const double root2 =
+      (by_half * by_half + by_off * by_off + half * 0.5 * (Q11.bend(c, s) - Q22.bend(c, s)) +
+       off * Q12.bend(c, s) - root1 * root1) /
+      root;
+    return {0.5 * (Q11.change(c, s) + Q22.change(c, s)) - root1,
+            0.5 * (Q11.bend(c, s) + Q22.bend(c, s)) - root2};
+  }
+
+private:
+  Harmonic Q11, Q22, Q12;
+};
+
+/// The angle of a minimum between two others, where the derivative has its zero: Newton's method,
+/// and halves where it leaves them. The value is flat there, so that 1e-8 of an angle is its
+/// round-off.
+double refined(const Eigen::Matrix4d &A, const double from, const double middle, const double to)
+{
+  const LeastEigenvalue least(A);
+  double low = 2. * from, high = 2. * to, angle = 2. * middle;
+  for (int k = 0; k < 60 && high - low > 1e-8; ++k)
+  {
+    const LeastEigenvalue::Derivatives here = least.at(angle);
+    (here.first > 0. ? high : low)          = angle;
+    double next                             = angle - here.first / here.second;
+    if (!(here.second > 0.) || !(next > low) || !(next < high))
+      next = 0.5 * (low + high);
+    const double moved = std::abs(next - angle);
+    angle              = next;
+    if (moved <= 1e-8)
+      break;
+  }
+  return 0.5 * angle;
 }
 } // namespace
 
@@ -95,7 +154,7 @@ LeastWave least_wave(const Eigen::Matrix4d &tangent)
         values[k] <= values[(k + directions - 1) % directions])
     {
       const double middle = pi * static_cast<double>(k) / directions, step = pi / directions;
-      const double angle = refined(tangent, middle - step, middle + step);
+      const double angle = refined(tangent, middle - step, middle, middle + step);
       // An axis of the cloth is often the minimum itself: then the sample has all digits.
       Eigen::Vector2d normal(std::cos(angle), std::sin(angle));
       if (Acoustic(tangent, normal(0), normal(1)).least() > values[k])

@@ -2,6 +2,7 @@
 #include "verification/load/load_path.h"
 
 #include "meshes/plain/errors.h"
+#include "verification/newton/halved_parts.h"
 
 #include <Eigen/Cholesky>
 
@@ -63,29 +64,21 @@ LoadPath load_path(const CellAssembly &assembly, const LoadControl &control, con
   Point before = last;
   for (int step = 1; step <= n_steps; ++step)
   {
-    const double goal = static_cast<double>(step) / n_steps;
-    int halvings      = 0;
-    while (last.factor < goal)
+    const double begin = last.factor, goal = static_cast<double>(step) / n_steps;
+    const GoneWay way =
+      go_in_halves(most_halvings,
+                   [&](double, const double part)
+                   {
+                     const double next = part == 1. ? goal : begin + part * (goal - begin);
+                     Point trial{next, extrapolated(before, last, control, next)};
+                     find_equilibrium(assembly, control.dead_loads(next), trial.state);
+                     before = last;
+                     last   = trial;
+                   });
+    if (way.reached < 1.)
     {
-      const double full   = goal - static_cast<double>(step - 1) / n_steps;
-      const double length = full / (1 << halvings);
-      // The goal itself at the last part, free of rounding.
-      const double next = last.factor + 1.5 * length > goal ? goal : last.factor + length;
-      Point trial{next, extrapolated(before, last, control, next)};
-      try
-      {
-        find_equilibrium(assembly, control.dead_loads(next), trial.state);
-        before = last;
-        last   = trial;
-      }
-      catch (const meshes::NotConverged &failure)
-      {
-        if (++halvings > most_halvings)
-        {
-          path.why = failure.what();
-          return path;
-        }
-      }
+      path.why = way.failure->what();
+      return path;
     }
     path.last = last.state;
     path.levels.push_back({goal, control.strain(last.state.gradient),

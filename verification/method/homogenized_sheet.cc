@@ -23,10 +23,7 @@ Eigen::Matrix<double, 1, 7> frame_of(const Law law, const Eigen::Matrix2d &F)
     frame << F(0, 0) - 1., F(1, 1) - 1., F(0, 1) + F(1, 0), 1., 0., 0., 1.;
     return frame;
   }
-  const double angle = std::atan2(F(1, 0) - F(0, 1), F(0, 0) + F(1, 1));
-  Eigen::Matrix2d R;
-  R << std::cos(angle), -std::sin(angle), std::sin(angle), std::cos(angle);
-  const Eigen::Matrix2d U = R.transpose() * F;
+  const Eigen::Matrix2d R = meshes::nearest_rotation(F), U = R.transpose() * F;
   frame << U(0, 0) - 1., U(1, 1) - 1., U(0, 1) + U(1, 0), R(0, 0), R(0, 1), R(1, 0), R(1, 1);
   return frame;
 }
@@ -64,10 +61,8 @@ HomogenizedSheet::HomogenizedSheet(const Eigen::Matrix3d &stiffness, const meshe
     , load(load)
     , n1(n1)
     , n2(n2)
+    , held(held_vertices(load, sheet, mesh.vertices))
 {
-  for (int v = 0; v < mesh.n_vertices(); ++v)
-    if (!load.is_periodic() && load.holds(sheet.fraction(mesh.vertices.row(v))))
-      held.push_back(v);
   solvers = std::make_unique<SheetSolvers<>>(shell::membrane(mesh, {stiffness}), held);
 
   for (int v = 0; v < sheet.mesh.n_vertices(); ++v)
@@ -84,15 +79,7 @@ HomogenizedSheet::HomogenizedSheet(const Eigen::Matrix3d &stiffness, const meshe
 
 shell::Positions<2> HomogenizedSheet::prescribed(const double strain) const
 {
-  shell::Positions<2> positions = mesh.vertices;
-  for (int v = 0; v < mesh.n_vertices(); ++v)
-    if (load.is_periodic())
-      positions.row(v) =
-        sheet.origin + (mesh.vertices.row(v) - sheet.origin) * load.gradient(strain).transpose();
-    else
-      positions.row(v) +=
-        load.displacement(sheet.fraction(mesh.vertices.row(v)), sheet.sides(), strain);
-  return positions;
+  return moved_affinely(load, sheet, mesh.vertices, strain);
 }
 
 shell::Positions<2> HomogenizedSheet::with_held(shell::Positions<2> positions,

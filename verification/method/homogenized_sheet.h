@@ -89,7 +89,7 @@ private:
   const meshes::Sheet &sheet;
   const Load load;
   const int n1, n2;
-  std::vector<int> held;
+  const std::vector<int> held;
   std::unique_ptr<SheetSolvers<>> solvers; ///< they do not exist under periodic loads
   std::vector<int> triangle;               ///< that holds a fine vertex
   std::vector<Eigen::Vector3d> weights;    ///< of its corners

@@ -186,11 +186,7 @@ LightweightCloth::LightweightCloth(const meshes::HomogenizedCell &cell, const me
 std::unique_ptr<CoarseSolver>
 LightweightCloth::made_solver(const std::vector<meshes::CubicForm> &cubic) const
 {
-  std::vector<int> held;
-  for (int v = 0; v < coarse.n_vertices(); ++v)
-    if (!load.is_periodic() && load.holds(sheet.fraction(coarse.vertices.row(v))))
-      held.push_back(v);
-  return space.solver(cell.stiffness, held, cubic);
+  return space.solver(cell.stiffness, held_vertices(load, sheet, coarse.vertices), cubic);
 }
 
 /// Each law has its own cubic energy, in the same strain.
@@ -216,26 +212,11 @@ void LightweightCloth::take_cubic(const Law law)
   law_of_cubic = law;
 }
 
-/// The affine motion that agrees with what is prescribed.
-shell::Positions<2> LightweightCloth::prescribed(const double strain) const
-{
-  shell::Positions<2> positions = coarse.vertices;
-  for (int v = 0; v < coarse.n_vertices(); ++v)
-    if (load.is_periodic())
-      positions.row(v) =
-        sheet.origin + (coarse.vertices.row(v) - sheet.origin) * load.gradient(strain).transpose();
-    else
-      positions.row(v) +=
-        load.displacement(sheet.fraction(coarse.vertices.row(v)), sheet.sides(), strain);
-  return positions;
-}
-
 void LightweightCloth::put_held(const shell::Positions<2> &prescribed,
                                 shell::Positions<2> &positions) const
 {
-  for (int v = 0; v < coarse.n_vertices(); ++v)
-    if (load.holds(sheet.fraction(coarse.vertices.row(v))))
-      positions.row(v) = prescribed.row(v);
+  for (const int v : held_vertices(load, sheet, coarse.vertices))
+    positions.row(v) = prescribed.row(v);
 }
 
 LoadForces LightweightCloth::forces_at(const Law law, const shell::Positions<2> &positions) const
@@ -247,7 +228,7 @@ shell::Positions<2> LightweightCloth::near(const CoarseStep &step, const Law law
                                            const double strain) const
 {
   own_sides->law            = homogenized_law(law, cell.stiffness);
-  shell::Positions<2> moved = prescribed(strain);
+  shell::Positions<2> moved = moved_affinely(load, sheet, coarse.vertices, strain);
   if (load.is_periodic())
     return moved;
   shell::Positions<2> start = step.positions;
@@ -261,7 +242,7 @@ CoarseStep LightweightCloth::solve(const Law law, const double strain)
   CoarseStep step;
   take_cubic(law);
   own_sides->law = homogenized_law(law, cell.stiffness);
-  step.positions = prescribed(strain);
+  step.positions = moved_affinely(load, sheet, coarse.vertices, strain);
   if (load.is_periodic())
   {
     step.forces = forces_at(law, step.positions);

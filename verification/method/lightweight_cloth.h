@@ -151,7 +151,6 @@ private:
                              const std::shared_ptr<Sides> &sides);
   std::unique_ptr<CoarseSolver> made_solver(const std::vector<meshes::CubicForm> &cubic) const;
   void take_cubic(Law law);
-  shell::Positions<2> prescribed(double strain) const;
   void put_held(const shell::Positions<2> &prescribed, shell::Positions<2> &positions) const;
   LoadForces forces_at(Law law, const shell::Positions<2> &positions) const;
 

@@ -5,8 +5,8 @@
 #pragma once
 
 #include "meshes/plain/homogenized_cell.h"
+#include "verification/newton/tangent.h"
 #include "verification/reference/laws.h"
-#include "verification/reference/tangent.h"
 
 #include <Eigen/Core>
 #include <Eigen/SparseCore>

@@ -2,6 +2,7 @@
 #include "verification/periodic_cell/cell_equilibrium.h"
 
 #include "meshes/plain/errors.h"
+#include "verification/newton/newton.h"
 
 #include <Eigen/Cholesky>
 #include <Eigen/SparseCholesky>
@@ -10,7 +11,6 @@
 #include <cmath>
 #include <limits>
 #include <optional>
-#include <vector>
 
 namespace homespun::verification
 {
@@ -63,20 +63,112 @@ std::optional<NewtonStep> newton_step(Sums sums, const DeadLoads &loads, const d
   return step;
 }
 
-/// Newton's own step where the second derivative is positive definite; else that of the projected
-/// one, which is only semi-definite, with as little of its own diagonal as makes it definite.
-NewtonStep definite_step(const CellAssembly &assembly, const DeadLoads &loads,
-                         const CellEquilibrium &state, const std::vector<double> &history)
+/// A cell as Newton's method sees it. What is left of the forces on w and of the stresses along the
+/// free directions counts each in parts of its own size.
+class CellProblem final : public NewtonProblem
 {
-  const auto sums = [&](const Tangent tangent)
-  { return assembly.sums(state.gradient, state.fluctuation, tangent); };
-  if (const auto step = newton_step(sums(Tangent::exact), loads, 0.))
-    return *step;
-  for (double shift = 1e-10; shift <= 1.; shift *= 100.)
-    if (const auto step = newton_step(sums(Tangent::projected), loads, shift))
-      return *step;
-  throw meshes::NotConverged("cell at finite strain: no definite matrix", history);
-}
+public:
+  CellProblem(const CellAssembly &assembly, const DeadLoads &loads, CellEquilibrium &kept)
+      : assembly(assembly)
+      , loads(loads)
+      , kept(kept)
+      , now(sums_at(kept))
+      , trial(kept)
+  {
+  }
+
+  NewtonState state() override
+  {
+    return summary(now, 0.);
+  }
+
+  /// The system is factored, exact whatever the reduction. The projected tangent is only
+  /// semi-definite: as little of its own diagonal is added as makes it definite.
+  double find_step(const Tangent tangent, double) override
+  {
+    const Sums with_matrix       = assembly.sums(kept.gradient, kept.fluctuation, tangent);
+    std::optional<NewtonStep> of = newton_step(with_matrix, loads, 0.);
+    if (tangent == Tangent::projected)
+      for (double shift = 1e-10; !of && shift <= 1.; shift *= 100.)
+        of = newton_step(with_matrix, loads, shift);
+    if (!of)
+      throw meshes::NotConverged("cell at finite strain: no definite matrix", {});
+    step = *of;
+    return step.unknowns.dot(now.residual) + step.along.dot(unbalanced(now));
+  }
+
+  NewtonState at(const double length) override
+  {
+    trial = kept;
+    trial.gradient += gradient_of(length * (loads.directions * step.along));
+    trial.fluctuation += length * assembly.spread(step.unknowns);
+    next = sums_at(trial);
+    return summary(next, length * step.along.dot(loads.stresses));
+  }
+
+  void keep(double, double) override
+  {
+    kept = trial;
+    now  = next;
+  }
+
+  const Sums &sums() const
+  {
+    return now;
+  }
+
+private:
+  Sums sums_at(const CellEquilibrium &at) const
+  {
+    return assembly.sums(at.gradient, at.fluctuation, Tangent::none);
+  }
+
+  Eigen::VectorXd unbalanced(const Sums &sums) const
+  {
+    return loads.directions.transpose() * sums.force - loads.stresses;
+  }
+
+  double stress_scale(const Sums &sums) const
+  {
+    return std::max(sums.stress_size, loads.stresses.norm());
+  }
+
+  bool is_below(const Sums &sums, const double limit, const double round_offs) const
+  {
+    return sums.residual.norm() < std::max(limit * sums.force_size, round_offs * sums.round_off) &&
+           unbalanced(sums).norm() <=
+             std::max(limit * stress_scale(sums), round_offs * sums.stress_round_off);
+  }
+
+  /// @param work of the dead loads since the state that is kept
+  NewtonState summary(const Sums &sums, const double work) const
+  {
+    constexpr double rounding = 1e-14; // of an energy that is a sum over the triangles
+    const double of_forces    = sums.force_size > 0. ? sums.residual.norm() / sums.force_size : 0.;
+    const double scale        = stress_scale(sums);
+    const double of_stress    = scale > 0. ? unbalanced(sums).norm() / scale : 0.;
+    NewtonState state;
+    state.energy = sums.energy - work;
+    // Close to the answer the energy changes by less than its rounding, and the step is Newton's
+    // own.
+    state.energy_round_off =
+      is_below(sums, 1e-7, 10.)
+        ? std::numeric_limits<double>::infinity()
+        : rounding * (std::abs(sums.energy) + std::abs(work)) + sums.energy_round_off;
+    state.residual        = std::max(of_forces, of_stress);
+    state.least           = 1e-14;
+    state.is_at_round_off = is_below(sums, 1e-10, 1.);
+    return state;
+  }
+
+  const CellAssembly &assembly;
+  const DeadLoads &loads;
+  CellEquilibrium &kept;
+  Sums now;
+  CellEquilibrium trial;
+  Sums next;
+  NewtonStep step;
+};
 } // namespace
 
 Eigen::Matrix4d macro_tangent(const CellAssembly &assembly, const CellEquilibrium &state)
@@ -93,61 +185,13 @@ Eigen::Matrix4d macro_tangent(const CellAssembly &assembly, const CellEquilibriu
 
 void find_equilibrium(const CellAssembly &assembly, const DeadLoads &loads, CellEquilibrium &state)
 {
-  constexpr double rounding = 1e-14; // of an energy that is a sum over the triangles
-  const auto &G             = loads.directions;
-  const auto sums_at        = [&](const CellEquilibrium &at)
-  { return assembly.sums(at.gradient, at.fluctuation, Tangent::none); };
-  // What is left of the forces on w and of the stresses along G, each in parts of its own size.
-  const auto unbalanced = [&](const Sums &sums)
-  { return (G.transpose() * sums.force - loads.stresses).norm(); };
-  const double prescribed = loads.stresses.norm();
-  const auto is_below     = [&](const Sums &sums, const double limit, const double round_offs)
-  {
-    return sums.residual.norm() < std::max(limit * sums.force_size, round_offs * sums.round_off) &&
-           unbalanced(sums) <= std::max(limit * std::max(sums.stress_size, prescribed),
-                                        round_offs * sums.stress_round_off);
-  };
-  std::vector<double> history;
-  Sums now = sums_at(state);
-  for (int newton = 0;; ++newton)
-  {
-    const double of_forces = now.force_size > 0. ? now.residual.norm() / now.force_size : 0.;
-    const double scale     = std::max(now.stress_size, prescribed);
-    const double of_stress = scale > 0. ? unbalanced(now) / scale : 0.;
-    history.push_back(std::max(of_forces, of_stress));
-    const bool is_stuck =
-      newton > 2 && is_below(now, 1e-10, 1.) && history.back() > 0.5 * history[history.size() - 2];
-    if (history.back() <= 1e-14 || is_stuck || assembly.size() + G.cols() == 0)
-      break;
-    if (newton == 40 || !std::isfinite(now.energy))
-      throw meshes::NotConverged("cell at finite strain: Newton's method stalls", history);
-    const NewtonStep step = definite_step(assembly, loads, state, history);
-    const double slope =
-      step.unknowns.dot(now.residual) + step.along.dot(G.transpose() * now.force - loads.stresses);
-    // Close to the answer the energy changes by less than its rounding, and the step is Newton's
-    // own.
-    const bool is_close = is_below(now, 1e-7, 10.);
-    for (double length = 1.;; length *= 0.5)
-    {
-      CellEquilibrium trial = state;
-      trial.gradient += gradient_of(length * (G * step.along));
-      trial.fluctuation += length * assembly.spread(step.unknowns);
-      const Sums next   = sums_at(trial);
-      const double work = length * step.along.dot(loads.stresses);
-      if (is_close || next.energy - work <= now.energy + 1e-4 * length * slope +
-                                              rounding * (std::abs(now.energy) + std::abs(work)) +
-                                              now.energy_round_off)
-      {
-        state = trial;
-        now   = next;
-        break;
-      }
-      if (length < 1e-4)
-        throw meshes::NotConverged("cell at finite strain: the line search found no lower energy",
-                                   history);
-    }
-  }
-  state.energy = now.energy;
-  state.stress = now.force;
+  CellProblem problem(assembly, loads, state);
+  NewtonOptions options;
+  options.most_steps      = 40;
+  options.shortest_length = 1e-4;
+  if (assembly.size() + loads.directions.cols() > 0)
+    minimize(problem, options);
+  state.energy = problem.sums().energy;
+  state.stress = problem.sums().force;
 }
 } // namespace homespun::verification

@@ -58,8 +58,7 @@ void ClothReference::Solver::lay_out_matrix()
       for (unsigned int c = 0; c < 3; ++c)
         constraints.add_line(node_dofs[node] + c);
   constraints.close();
-  solver                = std::make_unique<ElasticSolver>(discretization, constraints);
-  preconditioner_is_old = true;
+  solver = std::make_unique<ElasticSolver>(discretization, constraints);
 
   row_values.resize(discretization.locally_owned.n_elements());
   const std::size_t n_shapes = elements.empty() ? 0 : elements.front().nodes.size();

@@ -3,6 +3,7 @@
 
 #include "meshes/plain/errors.h"
 #include "meshes/plain/refine.h"
+#include "verification/newton/halved_parts.h"
 #include "verification/record/number_text.h"
 #include "verification/reference/cloth_reference_faults.h"
 #include "verification/reference/field_integrals.h"
@@ -21,6 +22,8 @@ using homogenization::ElasticSolver;
 
 namespace
 {
+constexpr unsigned int most_halvings = 6; // of a time step
+
 meshes::TriangleMesh checked(const meshes::TriangleMesh &rest,
                              const std::vector<Eigen::Matrix3d> &stiffness,
                              const std::vector<double> &density,
@@ -226,33 +229,21 @@ void ClothReference::Solver::put_held(Vector &positions) const
         positions.begin()[owned_row[node] + c] = (*held_at[node])(c);
 }
 
-void ClothReference::Solver::advance(const double dt, const unsigned int cuts, ClothStep &step)
+void ClothReference::Solver::advance(const double dt, ClothStep &step)
 {
   const double new_time = present_time + dt;
-  try
-  {
-    hold(new_time);
-    Inertia inertia{1. / (dt * dt) + loads.mass_damping / dt, position};
-    inertia.centre.add(1. / (dt * inertia.factor), velocity);
-    Vector next = position;
-    next.add(dt, velocity);
-    put_held(next);
-    minimize(next, inertia, 0., step);
-    velocity = next;
-    velocity.add(-1., position);
-    velocity *= 1. / dt;
-    position     = next;
-    present_time = new_time;
-    ++step.n_parts;
-  }
-  catch (const meshes::NotConverged &failure)
-  {
-    step.why = failure.what();
-    if (cuts == 6)
-      throw;
-    advance(0.5 * dt, cuts + 1, step);
-    advance(0.5 * dt, cuts + 1, step);
-  }
+  hold(new_time);
+  Inertia inertia{1. / (dt * dt) + loads.mass_damping / dt, position};
+  inertia.centre.add(1. / (dt * inertia.factor), velocity);
+  Vector next = position;
+  next.add(dt, velocity);
+  put_held(next);
+  minimize(next, inertia, 0., step);
+  velocity = next;
+  velocity.add(-1., position);
+  velocity *= 1. / dt;
+  position     = next;
+  present_time = new_time;
 }
 
 ClothStep ClothReference::Solver::step(const double dt)
@@ -264,17 +255,18 @@ ClothStep ClothReference::Solver::step(const double dt)
   ClothStep step;
   const Vector old_position = position, old_velocity = velocity;
   const double old_time = present_time;
-  try
+  const GoneWay way     = go_in_halves(most_halvings, [&](const double from, const double to)
+                                       { advance((to - from) * dt, step); });
+  step.n_parts          = way.n_parts;
+  step.reached          = way.reached == 1.;
+  if (step.reached)
   {
-    advance(dt, 0, step);
-    present_time = old_time + dt;
-    step.reached = true;
-    step.why.clear();
+    present_time          = old_time + dt;
     positions_at_vertices = at_vertices(position);
   }
-  catch (const meshes::NotConverged &)
+  else
   {
-    step.why     = "stopped at " + short_text(present_time) + " s: " + step.why;
+    step.why     = "stopped at " + short_text(present_time) + " s: " + way.failure->what();
     position     = old_position;
     velocity     = old_velocity;
     present_time = old_time;

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
-// What solves a ClothReference: its finite elements, mass, constraints and Newton's method.
+// What solves a ClothReference: its finite elements, mass and constraints, from time to time.
 #pragma once
 
 #include "homogenization/fem/elastic_solver.h"
+#include "homogenization/fem/kept_multigrid.h"
 #include "verification/reference/cloth_reference.h"
 
 #include <memory>
@@ -57,8 +58,8 @@ private:
     double residual    = 0.; ///< norm over free DoFs [N]
     double force_size  = 0.; ///< norm of the element forces before they cancel [N]
     double round_off   = 0.; ///< norm of what one rounding of the positions changes them by [N]
-    bool is_converged(double tolerance) const;
   };
+  class Minimum; ///< as Newton's method sees it
 
   void lay_out();
   void hold(double new_time);
@@ -80,9 +81,8 @@ private:
                       Tangent tangent, double tension);
   Evaluation evaluate(const Vector &positions, const Inertia &inertia, Vector &residual,
                       Tangent tangent, double tension);
-  void solve_linearized(Vector &increment, const Vector &forces, double target, ClothStep &step);
   void minimize(Vector &positions, const Inertia &inertia, double tension, ClothStep &step);
-  void advance(double dt, unsigned int cuts, ClothStep &step);
+  void advance(double dt, ClothStep &step);
   meshes::SpacePoints at_vertices(const Vector &values) const;
 
   const ClothReferenceOptions options;
@@ -108,8 +108,7 @@ private:
   std::unique_ptr<homogenization::ElasticSolver> solver;
   std::vector<double *> row_values; ///< of the owned rows
   std::vector<int> block_offset;    ///< (element, shape, shape): where in a row, −1 where nowhere
-  bool preconditioner_is_old           = true;
-  double iterations_per_digit_when_new = 0.;
+  homogenization::KeptMultigrid multigrid;
 
   Vector position, velocity, load_origin;
   Vector body_load; ///< at the end of the step; empty without a body force

@@ -5,6 +5,7 @@
 #pragma once
 
 #include "meshes/plain/sheet.h"
+#include "verification/newton/arc_length.h"
 #include "verification/reference/known_field.h"
 #include "verification/reference/laws.h"
 #include "verification/reference/load_forces.h"
@@ -57,6 +58,14 @@ std::string name_of(Stability stability);
 /// What a reader has to know of a level that ended at round-off: empty unless it left more than a
 /// millionth of the forces.
 std::string note_of_round_off(const ReferenceStep &step);
+
+/// The equilibria beyond the level solved last, followed by their arc length.
+struct ReferencePath
+{
+  FollowedPath path;
+  meshes::Points
+    positions; ///< (n,2) of the equilibrium at the largest strain, none without one [m]
+};
 
 struct ReferenceOptions
 {
@@ -113,6 +122,12 @@ public:
   /// What the last equilibrium before a level that was not reached is. Nothing goes on from it.
   /// @return `unknown` where there is none
   Stability stability_of_last(const ReferenceStep &stopped);
+
+  /// Follows the equilibria from the level solved last by their arc length, round a limit point if
+  /// there is one. Nothing goes on from it. On one rank, by factors of the tangent; of a load with
+  /// free sides, and under `linear`, nothing is followed.
+  /// @param first_step of the strain
+  ReferencePath follow(double goal, double first_step);
 
   unsigned long n_dofs() const;
 

@@ -4,6 +4,7 @@
 #include "homogenization/fem/periodic_constraints.h"
 #include "meshes/plain/errors.h"
 #include "meshes/plain/refine.h"
+#include "verification/newton/halved_parts.h"
 #include "verification/record/number_text.h"
 #include "verification/reference/field_integrals.h"
 
@@ -19,14 +20,10 @@
 namespace homespun::verification
 {
 using namespace dealii;
-using homogenization::AffineTriangle;
-using homogenization::Discretization;
-using homogenization::ReferenceElement;
 
 namespace
 {
-/// Sheets of weaves, a thousand times as stiff along the yarns as in shear, take some hundreds.
-constexpr unsigned int most_linear_iterations = 3000;
+constexpr unsigned int most_halvings = 3; // of the way from one level to the next
 } // namespace
 
 FineReference::Solver::Solver(const meshes::Sheet &sheet,
@@ -77,12 +74,15 @@ void FineReference::Solver::start(const Load &new_load, const Law new_law, BodyF
   if (!load || load->name != new_load.name)
   {
     solver.reset(); // before its constraints change
+    linear_rate.reset();
     load = std::make_unique<Load>(new_load);
     constrain(*load);
     solver = std::make_unique<homogenization::ElasticSolver>(discretization, constraints);
   }
   law        = new_law;
   body_force = std::move(new_body_force);
+  if (body_force)
+    linear_rate.reset();
   body_load.clear();
   levels.clear();
   free_strains.setZero();
@@ -107,122 +107,74 @@ FineReference::Solver::Vector FineReference::Solver::affine(const double strain)
   return displacement;
 }
 
-/// All loads are proportional to strain, u = s v(s): v is extrapolated from the last two levels.
-FineReference::Solver::Vector FineReference::Solver::guess(const double strain) const
+/// All loads are proportional to strain, u = s v(s), and v(0) is that of linear theory under any
+/// law: v is the polynomial through some levels.
+FineReference::Solver::SolvedLevel
+FineReference::Solver::extrapolated(const std::vector<const SolvedLevel *> &from,
+                                    const double strain) const
 {
-  if (levels.empty())
-    return affine(strain);
-  Vector displacement = levels.back().displacement;
-  if (levels.size() == 1 || law == Law::linear)
-    displacement *= strain / levels.back().strain;
-  else
+  SolvedLevel result{strain, solver->owned_vector(), Eigen::Vector2d::Zero()};
+  for (const SolvedLevel *const level : from)
   {
-    const double s0 = levels[0].strain, s1 = levels[1].strain;
-    displacement *= strain / s1 * (strain - s0) / (s1 - s0);
-    displacement.add(strain / s0 * (s1 - strain) / (s1 - s0), levels[0].displacement);
+    double weight = strain * level->rate;
+    for (const SolvedLevel *const other : from)
+      if (other != level)
+        weight *= (strain - other->strain) / (level->strain - other->strain);
+    result.displacement.add(weight, level->displacement);
+    result.free_strains += weight * level->free_strains;
   }
-  return displacement;
+  return result;
 }
 
-/// Conjugate gradients with the multigrid hierarchy of an earlier matrix, as long as that serves.
-unsigned int FineReference::Solver::solve_linearized(Vector &increment, const Vector &forces,
-                                                     const double target)
+/// Where Newton's method begins: of the polynomials through fewer and fewer levels the one whose
+/// residual is smallest. Far from linear theory the long ones overshoot.
+FineReference::Solver::SolvedLevel FineReference::Solver::guess(const double strain)
 {
-  const bool is_new = !solver->has_preconditioner() || preconditioner_is_old;
-  if (is_new)
-    solver->build_preconditioner();
-  // Should this solve fail, the next one has a hierarchy of its own.
-  preconditioner_is_old   = true;
-  increment               = 0.;
-  const unsigned int used = solver->solve(increment, forces, target, most_linear_iterations);
-  // A hierarchy serves until it costs half as much again, per digit gained.
-  const double digits    = std::log10(std::max(10., forces.l2_norm() / target));
-  const double per_digit = (used + 1) / digits;
-  if (is_new)
-    iterations_per_digit_when_new = per_digit;
-  preconditioner_is_old = per_digit > 1.5 * iterations_per_digit_when_new;
-  return used;
-}
-
-/// Newton's method from `displacement`, which carries the prescribed values of this strain.
-/// @throws NotConverged
-void FineReference::Solver::solve(Vector &displacement, const double strain, const double tolerance,
-                                  ReferenceStep &step)
-{
-  const Eigen::Matrix2d mean_gradient = mean_gradient_at(strain);
-  if (body_force)
-    body_load = load_vector(discretization, constraints,
-                            [&](const Eigen::RowVector2d &point)
-                            {
-                              const Eigen::RowVector2d force = body_force(point, strain);
-                              return FieldValue(force(0), force(1), 0.);
-                            });
-  Vector residual = solver->owned_vector(), increment = solver->owned_vector();
-  Vector trial     = solver->owned_vector();
-  Evaluation state = evaluate(displacement, mean_gradient, residual, Tangent::none);
-  std::vector<double> history;
-  constexpr unsigned int most_steps = 30;
-  for (unsigned int newton = 0; newton <= most_steps; ++newton)
+  std::vector<const SolvedLevel *> from;
+  if (linear_rate && law != Law::linear)
+    from.push_back(&*linear_rate);
+  for (const SolvedLevel &level : levels)
+    from.push_back(&level);
+  if (from.empty())
+    return {strain, affine(strain), Eigen::Vector2d::Zero()};
+  if (law == Law::linear)
+    return extrapolated({from.back()}, strain);
+  std::optional<SolvedLevel> best;
+  double least    = 0.;
+  Vector residual = solver->owned_vector();
+  for (; !from.empty(); from.erase(from.begin()))
   {
-    history.push_back(state.residual / state.force_size);
-    step.relative_residual = history.back();
-    step.energy            = state.energy;
-    step.forces            = state.forces;
-    if (!std::isfinite(state.residual) || !std::isfinite(state.energy))
-      throw meshes::NotConverged("the sheet collapsed under the load step", history);
-    // A sheet without load has no forces at all.
-    if (state.residual <= state.least_residual(tolerance))
-    {
-      step.n_inverted      = law == Law::linear ? 0 : state.n_inverted;
-      step.is_at_round_off = state.residual > tolerance * state.force_size;
-      return;
-    }
-    if (newton == most_steps || (newton >= 15 && history[newton] > 0.5 * history[newton - 10]))
+    const SolvedLevel next = extrapolated(from, strain);
+    free_strains           = next.free_strains;
+    const Evaluation state =
+      evaluate(next.displacement, mean_gradient_at(strain), residual, Tangent::none);
+    const double left =
+      std::isfinite(state.energy) ? state.residual : std::numeric_limits<double>::infinity();
+    if (best && !(left < least))
       break;
-
-    // As exact as the next step of Newton's method can use; a linear law needs one step.
-    const double needed = 0.1 * state.least_residual(tolerance);
-    const double target = law == Law::linear ? needed : std::max(needed, 1e-3 * state.residual);
-    residual *= -1.;
-    const Vector forces = residual;
-    // The exact tangent first, which ends quadratically; where it is indefinite, the projected one.
-    for (const Tangent tangent : {Tangent::exact, Tangent::projected})
-      try
-      {
-        const Evaluation assembled = evaluate(displacement, mean_gradient, trial, tangent);
-        if (tangent == Tangent::exact)
-          step.n_indefinite = assembled.n_indefinite;
-        step.n_linear += solve_linearized(increment, forces, target);
-        break;
-      }
-      catch (const meshes::NotConverged &)
-      {
-        if (tangent == Tangent::projected || law == Law::linear)
-          throw;
-      }
-    constraints.distribute(increment);
-    ++step.n_newton;
-
-    const double slope = -(forces * increment);
-    double length      = 1.;
-    Evaluation next;
-    while (true)
-    {
-      trial = displacement;
-      trial.add(length, increment);
-      next                 = evaluate(trial, mean_gradient, residual, Tangent::none);
-      const double allowed = state.energy + 1e-4 * length * slope + 1e-13 * std::abs(state.energy) +
-                             state.energy_round_off;
-      if (next.energy <= allowed || (law == Law::linear && std::isfinite(next.energy)))
-        break;
-      length *= 0.5;
-      if (length < 1e-3)
-        throw meshes::NotConverged("the line search found no lower energy", history);
-    }
-    displacement = trial;
-    state        = next;
+    best  = next;
+    least = left;
   }
-  throw meshes::NotConverged("Newton's method stalls", history);
+  return *best;
+}
+
+/// Solves at a strain, which becomes the last level.
+/// @throws NotConverged
+void FineReference::Solver::go_to(const double strain, ReferenceStep &step)
+{
+  take_body_force(strain);
+  SolvedLevel next = guess(strain);
+  if (levels.empty())
+    side_slope.setZero(); // what a first step that failed has left of it is no start
+  free_strains = next.free_strains;
+  solve_with_sides(next.displacement, strain, options.tolerance, step);
+  next.free_strains = free_strains;
+  next.rate         = 1. / strain;
+  if (levels.size() == 3)
+    levels.erase(levels.begin());
+  levels.push_back(next);
+  if (law == Law::linear && !body_force)
+    linear_rate = SolvedLevel{0., next.displacement, next.free_strains, next.rate};
 }
 
 ReferenceStep FineReference::Solver::advance(const double strain)
@@ -231,44 +183,17 @@ ReferenceStep FineReference::Solver::advance(const double strain)
   ReferenceStep step;
   step.strain = strain;
 
-  double reached   = levels.empty() ? 0. : levels.back().strain;
-  double next      = strain;
-  unsigned int cut = 0;
-  while (!step.reached && cut <= (law == Law::linear ? 0u : 3u))
-  {
-    Vector displacement = guess(next);
-    if (levels.empty())
-    { // what a first step that failed has left of them is no start
-      free_strains.setZero();
-      side_slope.setZero();
-    }
-    else
-      free_strains = next / levels.back().strain * levels.back().free_strains;
-    try
-    {
-      solve_with_sides(displacement, next, options.tolerance, step);
-      if (levels.size() == 2)
-        levels.erase(levels.begin());
-      levels.push_back({next, displacement, free_strains});
-      reached      = next;
-      step.reached = next == strain;
-      next         = strain;
-    }
-    catch (const meshes::NotConverged &failure)
-    {
-      step.why = failure.what();
-      next     = 0.5 * (reached + next);
-      ++cut;
-    }
-  }
+  const double before = levels.empty() ? 0. : levels.back().strain;
+  const GoneWay way =
+    go_in_halves(law == Law::linear ? 0 : most_halvings, [&](double, const double part)
+                 { go_to(part == 1. ? strain : before + part * (strain - before), step); });
+  const double reached = levels.empty() ? 0. : levels.back().strain;
+  step.reached         = way.reached == 1.;
   if (step.reached)
-  {
-    step.why.clear();
     step.positions = positions_of(levels.back().displacement, strain);
-  }
   else
   {
-    step.why        = "stopped at strain " + short_text(reached) + ": " + step.why;
+    step.why        = "stopped at strain " + short_text(reached) + ": " + way.failure->what();
     step.stopped_at = reached;
     if (!levels.empty())
     {

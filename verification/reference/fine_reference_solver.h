@@ -1,14 +1,16 @@
 // SPDX-License-Identifier: MIT
-// What solves a FineReference: its finite elements, constraints and Newton's method.
+// What solves a FineReference: its finite elements and constraints, from level to level.
 #pragma once
 
 #include "homogenization/fem/elastic_solver.h"
+#include "homogenization/fem/kept_multigrid.h"
+#include "verification/newton/tangent.h"
 #include "verification/reference/fine_reference.h"
-#include "verification/reference/tangent.h"
 
 #include <algorithm>
 #include <map>
 #include <memory>
+#include <optional>
 #include <vector>
 
 namespace homespun::verification
@@ -25,6 +27,7 @@ public:
   FieldDistance distance_from(const KnownField &known) const;
   ReferenceStep tighten(double tolerance);
   Stability stabilize(ReferenceStep &step);
+  ReferencePath follow(double goal, double first_step);
   unsigned long n_dofs() const;
 
 private:
@@ -47,9 +50,22 @@ private:
     }
   };
 
+  class Level; ///< as Newton's method sees it
+  class Path;  ///< as its arc length sees it
+  struct SolvedLevel
+  {
+    double strain; ///< 0 of linear theory, whose rates are known
+    Vector displacement;
+    Eigen::Vector2d free_strains;
+    double rate = 0.; ///< what makes rates by strain of them
+  };
+
   void constrain(const Load &load);
   Vector affine(double strain) const;
-  Vector guess(double strain) const;
+  SolvedLevel extrapolated(const std::vector<const SolvedLevel *> &from, double strain) const;
+  SolvedLevel guess(double strain);
+  void take_body_force(double strain);
+  void go_to(double strain, ReferenceStep &step);
   void solve(Vector &displacement, double strain, double tolerance, ReferenceStep &step);
   void solve_with_sides(Vector &displacement, double strain, double tolerance, ReferenceStep &step);
   Eigen::Matrix2d slope_of_sides(const Vector &displacement, double strain, double tolerance,
@@ -87,17 +103,11 @@ private:
   dealii::AffineConstraints<double> constraints; ///< homogeneous: held nodes, periodic images
   std::map<dealii::types::global_dof_index, int> clamp_of_node; ///< by the first DoF; 1 moves
   std::unique_ptr<homogenization::ElasticSolver> solver;
-  double seconds_of_linear_solve       = 0.;
-  bool preconditioner_is_old           = false;
-  double iterations_per_digit_when_new = 0.; ///< of the present preconditioner
+  homogenization::KeptMultigrid multigrid;
+  double seconds_of_linear_solve = 0.;
 
-  struct Level
-  {
-    double strain;
-    Vector displacement;
-    Eigen::Vector2d free_strains;
-  };
-  std::vector<Level> levels; ///< the last two
+  std::vector<SolvedLevel> levels;        ///< the last three
+  std::optional<SolvedLevel> linear_rate; ///< of the present load, where it was asked for
 
   // Of a load with free sides:
   Eigen::Vector2d free_strains = Eigen::Vector2d::Zero();

@@ -63,8 +63,7 @@ Stability FineReference::Solver::examine(const Vector &displacement, const doubl
         break;
       // A preconditioner of this very state, made definite.
       evaluate(displacement, mean_gradient, answer, Tangent::projected);
-      solver->build_preconditioner();
-      preconditioner_is_old = false;
+      multigrid.build(*solver);
       evaluate(displacement, mean_gradient, answer, Tangent::exact);
     }
   return Stability::unknown;

@@ -99,4 +99,32 @@ Eigen::RowVector2d Load::displacement(const Eigen::RowVector2d &fraction,
                                         : Eigen::RowVector2d(sides.row(clamped_axis()));
   return strain * fraction(clamped_axis()) * far_edge;
 }
+
+std::vector<int> held_vertices(const Load &load, const meshes::Sheet &sheet,
+                               const meshes::Points &rest)
+{
+  std::vector<int> held;
+  if (!load.is_periodic())
+    for (int v = 0; v < static_cast<int>(rest.rows()); ++v)
+      if (load.holds(sheet.fraction(rest.row(v))))
+        held.push_back(v);
+  return held;
+}
+
+meshes::Points moved_affinely(const Load &load, const meshes::Sheet &sheet,
+                              const meshes::Points &rest, const double strain)
+{
+  meshes::Points moved = rest;
+  if (load.is_periodic())
+  {
+    const Eigen::Matrix2d F = load.gradient(strain);
+    for (Eigen::Index v = 0; v < rest.rows(); ++v)
+      moved.row(v) = sheet.origin + (rest.row(v) - sheet.origin) * F.transpose();
+    return moved;
+  }
+  const Eigen::Matrix2d sides = sheet.sides();
+  for (Eigen::Index v = 0; v < rest.rows(); ++v)
+    moved.row(v) += load.displacement(sheet.fraction(rest.row(v)), sides, strain);
+  return moved;
+}
 } // namespace homespun::verification

@@ -3,7 +3,7 @@
 // cloth and for the fine references alike.
 #pragma once
 
-#include "meshes/plain/lattice.h"
+#include "meshes/plain/sheet.h"
 
 #include <Eigen/Core>
 
@@ -78,4 +78,16 @@ public:
 private:
   FreeStrains free_strains;
 };
+
+/// The vertices of a mesh of a sheet that a load holds; of an infinite cloth none.
+/// @param rest (n,2) of the resolved mesh or of a coarse one [m]
+std::vector<int> held_vertices(const Load &load, const meshes::Sheet &sheet,
+                               const meshes::Points &rest);
+
+/// The affine motion that agrees with what is prescribed, of any points of a sheet; of an infinite
+/// cloth that of its deformation gradient.
+/// @param rest (n,2) [m]
+/// @return (n,2) [m]
+meshes::Points moved_affinely(const Load &load, const meshes::Sheet &sheet,
+                              const meshes::Points &rest, double strain);
 } // namespace homespun::verification

@@ -11,8 +11,8 @@
 // and W = ½ (U − I):C:(U − I) follows by the chain rule. No difference l1 − l2 is divided by.
 #pragma once
 
+#include "verification/newton/tangent.h"
 #include "verification/reference/laws.h"
-#include "verification/reference/tangent.h"
 
 namespace homespun::verification
 {

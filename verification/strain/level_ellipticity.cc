@@ -2,6 +2,7 @@
 #include "verification/strain/level_ellipticity.h"
 
 #include "verification/laws/ellipticity.h"
+#include "verification/laws/end_of_path.h"
 #include "verification/laws/worst_triangle.h"
 #include "verification/record/number_text.h"
 #include "verification/strain/ellipticity_rows.h"
@@ -162,6 +163,20 @@ std::string note_of_stop(const StrainLevel &level, const ReferenceStep &stopped,
     break;
   }
   return all + "; whether it is a minimum is not known";
+}
+
+std::string note_of_path(const StrainLevel &level, const ReferenceStep &stopped,
+                         const meshes::Sheet &sheet, const homogenization::UnitCell &cell,
+                         const std::vector<double> &strains)
+{
+  constexpr int most_cells = 2; // a sheet that is resolved twice, by a direct solver
+  const Load load(level.load);
+  if (load.is_periodic() || level.law == Law::linear || stopped.positions.rows() == 0 ||
+      worst_triangle(sheet.mesh, cell.stiffness_of_phase(), level.law, stopped.positions).is_lost)
+    return {};
+  const auto end = std::upper_bound(strains.begin(), strains.end(), level.strain);
+  return "; " + text_of(end_of_path(cell, load, level.law, {strains.begin(), end},
+                                    std::min({sheet.n1, sheet.n2, most_cells})));
 }
 
 void write_ellipticity_of_stop(const StrainLevel &level, const ReferenceStep &stopped,

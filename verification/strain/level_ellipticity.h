@@ -31,6 +31,14 @@ std::string note_of_stop(const StrainLevel &level, const ReferenceStep &stopped,
                          Stability at_the_end, const meshes::Sheet &sheet,
                          const homogenization::UnitCell &cell);
 
+/// Why the path ends where all triangles of the last equilibrium are elliptic, found on a sheet of
+/// 2 x 2 cells by arc length, a clause that follows the note of the stop. Nothing where the law
+/// ends or the load is of an infinite cloth.
+/// @param strains that the study asks for, ascending
+std::string note_of_path(const StrainLevel &level, const ReferenceStep &stopped,
+                         const meshes::Sheet &sheet, const homogenization::UnitCell &cell,
+                         const std::vector<double> &strains);
+
 /// Rows of ellipticity.csv of the last equilibrium before a stop, at its own strain, between the
 /// levels.
 void write_ellipticity_of_stop(const StrainLevel &level, const ReferenceStep &stopped,

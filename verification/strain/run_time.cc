@@ -159,18 +159,12 @@ private:
   void full_resolution()
   {
     tell("fine corotational");
-    std::vector<int> held;
-    shell::Positions<2> start = sheet.mesh.vertices;
-    for (int v = 0; v < sheet.mesh.n_vertices(); ++v)
-    {
-      const Eigen::RowVector2d fraction = sheet.fraction(sheet.mesh.vertices.row(v));
-      start.row(v) += load.displacement(fraction, sheet.sides(), options.strain);
-      if (load.holds(fraction))
-        held.push_back(v);
-    }
+    const shell::Positions<2> start =
+      moved_affinely(load, sheet, sheet.mesh.vertices, options.strain);
     Timed outcome;
     outcome.n_triangles = sheet.mesh.n_triangles();
-    const shell::MembraneSolver<2> solver(sheet.mesh, cell.stiffness_of_phase(), held);
+    const shell::MembraneSolver<2> solver(sheet.mesh, cell.stiffness_of_phase(),
+                                          held_vertices(load, sheet, sheet.mesh.vertices));
     attempt("fine-corotational", outcome,
             [&]() {
               repeat(outcome,
@@ -198,10 +192,7 @@ private:
 
     const HomogenizedSheet coarse(homogenized.stiffness, sheet, load, sheet.n1, sheet.n2);
     const shell::Positions<2> start = coarse.prescribed(options.strain);
-    std::vector<int> held;
-    for (int v = 0; v < coarse.mesh.n_vertices(); ++v)
-      if (load.holds(sheet.fraction(coarse.mesh.vertices.row(v))))
-        held.push_back(v);
+    const std::vector<int> held     = held_vertices(load, sheet, coarse.mesh.vertices);
     upsampled("nodal-warping", "localized", coarse,
               [&]() { return Moved{warped_rest(coarse.mesh, homogenized, start, held)}; });
   }

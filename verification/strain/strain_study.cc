@@ -286,7 +286,10 @@ private:
       on_root(communicator,
               [&]()
               {
-                output->write_note(level, note_of_stop(level, fine, at_the_end, sheet, cell));
+                std::string note = note_of_stop(level, fine, at_the_end, sheet, cell);
+                if (options.n_cells_of_error_bar > 0)
+                  note += note_of_path(level, fine, sheet, cell, options.strains);
+                output->write_note(level, note);
                 write_ellipticity_of_stop(level, fine, sheet, cell, *output);
                 output->write_unreached(level, sheet);
               });
