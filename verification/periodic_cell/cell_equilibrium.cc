@@ -79,7 +79,7 @@ public:
 
   NewtonState state() override
   {
-    return summary(now, 0.);
+    return summary(now, work);
   }
 
   /// The system is factored, exact whatever the reduction. The projected tangent is only
@@ -103,11 +103,12 @@ public:
     trial.gradient += gradient_of(length * (loads.directions * step.along));
     trial.fluctuation += length * assembly.spread(step.unknowns);
     next = sums_at(trial);
-    return summary(next, length * step.along.dot(loads.stresses));
+    return summary(next, work_at(length));
   }
 
-  void keep(double, double) override
+  void keep(const double length, double) override
   {
+    work = work_at(length);
     kept = trial;
     now  = next;
   }
@@ -121,6 +122,11 @@ private:
   Sums sums_at(const CellEquilibrium &at) const
   {
     return assembly.sums(at.gradient, at.fluctuation, Tangent::none);
+  }
+
+  double work_at(const double length) const
+  {
+    return work + length * step.along.dot(loads.stresses);
   }
 
   Eigen::VectorXd unbalanced(const Sums &sums) const
@@ -140,21 +146,20 @@ private:
              std::max(limit * stress_scale(sums), round_offs * sums.stress_round_off);
   }
 
-  /// @param work of the dead loads since the state that is kept
-  NewtonState summary(const Sums &sums, const double work) const
+  NewtonState summary(const Sums &sums, const double by_then) const
   {
     constexpr double rounding = 1e-14; // of an energy that is a sum over the triangles
     const double of_forces    = sums.force_size > 0. ? sums.residual.norm() / sums.force_size : 0.;
     const double scale        = stress_scale(sums);
     const double of_stress    = scale > 0. ? unbalanced(sums).norm() / scale : 0.;
     NewtonState state;
-    state.energy = sums.energy - work;
+    state.energy = sums.energy - by_then;
     // Close to the answer the energy changes by less than its rounding, and the step is Newton's
     // own.
     state.energy_round_off =
       is_below(sums, 1e-7, 10.)
         ? std::numeric_limits<double>::infinity()
-        : rounding * (std::abs(sums.energy) + std::abs(work)) + sums.energy_round_off;
+        : rounding * (std::abs(sums.energy) + std::abs(by_then)) + sums.energy_round_off;
     state.residual        = std::max(of_forces, of_stress);
     state.least           = 1e-14;
     state.is_at_round_off = is_below(sums, 1e-10, 1.);
@@ -163,6 +168,7 @@ private:
 
   const CellAssembly &assembly;
   const DeadLoads &loads;
+  double work = 0.; ///< of the dead loads since the start
   CellEquilibrium &kept;
   Sums now;
   CellEquilibrium trial;
