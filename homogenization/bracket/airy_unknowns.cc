@@ -1,17 +1,16 @@
 // SPDX-License-Identifier: MIT
 #include "homogenization/bracket/airy_unknowns.h"
 
+#include "meshes/plain/index.h"
+
 #include <cmath>
 
 namespace homespun::homogenization
 {
+using meshes::at;
+
 namespace
 {
-std::size_t at(const int index)
-{
-  return static_cast<std::size_t>(index);
-}
-
 /// (value, d/dx, d/dy) of the stress functions of the unit mean stresses, one load per column:
 /// y²/2 for 11, x²/2 for 22, −xy for 12.
 Eigen::Matrix3d stress_functions_of_means(const Eigen::Vector2d &p)

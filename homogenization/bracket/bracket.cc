@@ -5,6 +5,7 @@
 #include "homogenization/bracket/drawn_mesh.h"
 #include "homogenization/bracket/equilibrated_stress.h"
 #include "homogenization/bracket/loewner.h"
+#include "meshes/plain/index.h"
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
@@ -16,13 +17,10 @@
 
 namespace homespun::homogenization
 {
+using meshes::at;
+
 namespace
 {
-std::size_t at(const int index)
-{
-  return static_cast<std::size_t>(index);
-}
-
 /// Triangles of a mesh, as a mesh.
 struct Part
 {

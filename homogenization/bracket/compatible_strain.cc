@@ -2,6 +2,7 @@
 #include "homogenization/bracket/compatible_strain.h"
 
 #include "homogenization/algebra/cholesky_solver.h"
+#include "meshes/plain/index.h"
 
 #include <Eigen/LU>
 
@@ -10,14 +11,11 @@
 
 namespace homespun::homogenization
 {
+using meshes::at;
+
 namespace
 {
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
-
-std::size_t at(const int index)
-{
-  return static_cast<std::size_t>(index);
-}
 
 /// The 3 x 2n strain-displacement matrix B at a point. P2 shapes 3, 4, 5 stand on the edges 0, 1,
 /// 2.

@@ -3,6 +3,7 @@
 
 #include "homogenization/bracket/loewner.h"
 #include "meshes/plain/errors.h"
+#include "meshes/plain/index.h"
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
@@ -16,6 +17,8 @@
 
 namespace homespun::homogenization
 {
+using meshes::at;
+
 namespace
 {
 /// Uncertain triangles are at least this high, relative to their chord: flatter ones would cost the
@@ -24,11 +27,6 @@ constexpr double least_height = 1e-4;
 
 /// In the place of a material: a hole.
 constexpr int no_material = -1;
-
-std::size_t at(const int index)
-{
-  return static_cast<std::size_t>(index);
-}
 
 double cross(const Eigen::Vector2d &u, const Eigen::Vector2d &v)
 {

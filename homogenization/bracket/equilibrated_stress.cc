@@ -2,6 +2,7 @@
 #include "homogenization/bracket/equilibrated_stress.h"
 
 #include "homogenization/algebra/cholesky_solver.h"
+#include "meshes/plain/index.h"
 
 #include <Eigen/LU>
 
@@ -10,29 +11,11 @@
 
 namespace homespun::homogenization
 {
+using meshes::at;
+
 namespace
 {
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
-
-std::size_t at(const int index)
-{
-  return static_cast<std::size_t>(index);
-}
-
-double area_of(const std::array<Eigen::Vector2d, 3> &shape)
-{
-  return 0.5 * (shape[1](0) * shape[2](1) - shape[1](1) * shape[2](0));
-}
-
-/// The stresses of the shape functions, rows 11, 22, 12.
-Eigen::Matrix<double, 3, 12> stress_of_airy(const CloughTocher &element, const int piece,
-                                            const Eigen::Vector3d &barycentric)
-{
-  const auto second = element.second_derivatives(piece, barycentric);
-  Eigen::Matrix<double, 3, 12> stress;
-  stress << second.row(1), second.row(0), -second.row(2);
-  return stress;
-}
 } // namespace
 
 const std::array<FieldPoint, n_field_points> &field_points()
@@ -56,27 +39,44 @@ const std::array<FieldPoint, n_field_points> &field_points()
   return points;
 }
 
+double area_of(const std::array<Eigen::Vector2d, 3> &shape)
+{
+  return 0.5 * (shape[1](0) * shape[2](1) - shape[1](1) * shape[2](0));
+}
+
+Eigen::Matrix<double, 3, 12> stress_of_airy(const CloughTocher &element, const int piece,
+                                            const Eigen::Vector3d &barycentric)
+{
+  const auto second = element.second_derivatives(piece, barycentric);
+  Eigen::Matrix<double, 3, 12> stress;
+  stress << second.row(1), second.row(0), -second.row(2);
+  return stress;
+}
+Compliances::Compliances(const std::vector<Eigen::Matrix3d> &stiffnesses)
+{
+  for (const Eigen::Matrix3d &c : stiffnesses)
+  {
+    const Eigen::Matrix3d s = c.cast<long double>().inverse().cast<double>();
+    inverses.push_back(0.5 * (s + s.transpose()));
+    error = std::max(error, (c.cast<long double>() * inverses.back().cast<long double>() -
+                             Eigen::Matrix<long double, 3, 3>::Identity())
+                              .cast<double>()
+                              .cwiseAbs()
+                              .rowwise()
+                              .sum()
+                              .maxCoeff());
+  }
+}
+
 EquilibratedStress::EquilibratedStress(const TorusMesh &mesh,
                                        const std::vector<Eigen::Matrix3d> &stiffness_of_material,
                                        std::vector<char> flat, const Holes holes)
     : mesh(mesh)
     , holes(holes)
     , numbering(mesh, holes)
+    , compliances(stiffness_of_material)
     , flat(std::move(flat))
 {
-  for (const Eigen::Matrix3d &c : stiffness_of_material)
-  {
-    const Eigen::Matrix3d s = c.cast<long double>().inverse().cast<double>();
-    compliances.push_back(0.5 * (s + s.transpose()));
-    inversion_error =
-      std::max(inversion_error, (c.cast<long double>() * compliances.back().cast<long double>() -
-                                 Eigen::Matrix<long double, 3, 3>::Identity())
-                                  .cast<double>()
-                                  .cwiseAbs()
-                                  .rowwise()
-                                  .sum()
-                                  .maxCoeff());
-  }
   n_dofs = static_cast<unsigned>(numbering.number - 1);
   unknowns.setZero(numbering.number, 3);
   assemble_and_solve();
@@ -325,6 +325,6 @@ void EquilibratedStress::evaluate()
     (energy / static_cast<long double>(mesh.lattice.area())).cast<double>();
   compliance = 0.5 * (unsymmetric + unsymmetric.transpose());
   bars /= mesh.lattice.area() * compliance.diagonal().array();
-  round_off = bars.maxCoeff() + inversion_error;
+  round_off = bars.maxCoeff() + compliances.error;
 }
 } // namespace homespun::homogenization

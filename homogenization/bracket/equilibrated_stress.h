@@ -13,6 +13,7 @@
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
 
+#include <array>
 #include <vector>
 
 namespace homespun::homogenization
@@ -30,6 +31,27 @@ struct FieldPoint
   Eigen::Vector3d in_piece, in_triangle;
 };
 const std::array<FieldPoint, n_field_points> &field_points();
+
+/// The stresses of the shape functions of an Airy function at a point of a piece, rows 11, 22, 12.
+Eigen::Matrix<double, 3, 12> stress_of_airy(const CloughTocher &element, int piece,
+                                            const Eigen::Vector3d &barycentric);
+
+/// Signed area of a triangle.
+double area_of(const std::array<Eigen::Vector2d, 3> &shape);
+
+/// Inverses of stiffnesses, and what they miss by.
+struct Compliances
+{
+  explicit Compliances(const std::vector<Eigen::Matrix3d> &stiffnesses);
+
+  const Eigen::Matrix3d &operator[](const std::size_t material) const
+  {
+    return inverses[material];
+  }
+
+  std::vector<Eigen::Matrix3d> inverses;
+  double error = 0.; ///< largest row sum of |c s − 1|
+};
 
 /// Minimises 1/|Y| integral sigma : c^-1 : sigma for the three unit mean stresses.
 ///
@@ -88,9 +110,8 @@ private:
   const TorusMesh &mesh;
   const Holes holes;
   const AiryUnknowns numbering;
-  std::vector<Eigen::Matrix3d> compliances; ///< c^-1 of each material
+  const Compliances compliances; ///< of each material
   const std::vector<char> flat;
-  double inversion_error = 0.; ///< of the compliances, relative
   Eigen::MatrixXd unknowns;
 };
 } // namespace homespun::homogenization

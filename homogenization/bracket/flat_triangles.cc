@@ -4,8 +4,12 @@
 // condition.
 #include "homogenization/bracket/equilibrated_stress.h"
 
+#include "meshes/plain/index.h"
+
 namespace homespun::homogenization
 {
+using meshes::at;
+
 namespace
 {
 /// Degrees of freedom of a flat triangle: at both ends of the long side and in its middle; at the
@@ -13,10 +17,6 @@ namespace
 constexpr std::array<int, 7> long_side = {0, 1, 2, 3, 4, 5, 9};
 constexpr std::array<int, 5> near_side = {6, 7, 8, 10, 11};
 
-std::size_t at(const int index)
-{
-  return static_cast<std::size_t>(index);
-}
 } // namespace
 
 /// On a flat triangle phi(x, y) = a(x) + y b(x) goes on from its long side, x along it and y

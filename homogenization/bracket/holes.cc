@@ -2,19 +2,14 @@
 #include "homogenization/bracket/holes.h"
 
 #include "meshes/plain/errors.h"
+#include "meshes/plain/index.h"
 
 #include <cmath>
 #include <numeric>
 
 namespace homespun::homogenization
 {
-namespace
-{
-std::size_t at(const int index)
-{
-  return static_cast<std::size_t>(index);
-}
-} // namespace
+using meshes::at;
 
 Rims rims_of(const TorusMesh &mesh)
 {

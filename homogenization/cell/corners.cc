@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "homogenization/cell/corners.h"
 
+#include "meshes/plain/index.h"
+
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 
@@ -12,6 +14,8 @@
 
 namespace homespun::homogenization
 {
+using meshes::at;
+
 namespace
 {
 /// Angles that differ by less are the same: coordinates in files have some eight digits.
@@ -23,11 +27,6 @@ constexpr double same_angle = 1e-6;
 constexpr int degree       = 8;
 constexpr double widest    = M_PI / 4.;
 constexpr double near_unit = 1e-6;
-
-std::size_t at(const int index)
-{
-  return static_cast<std::size_t>(index);
-}
 
 /// A corner of a triangle: between the edges to the next vertex and to the one before.
 struct TriangleCorner

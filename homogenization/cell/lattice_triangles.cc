@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "homogenization/cell/lattice_triangles.h"
 
+#include "meshes/plain/index.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -8,13 +10,10 @@
 
 namespace homespun::homogenization
 {
+using meshes::at;
+
 namespace
 {
-std::size_t at(const int index)
-{
-  return static_cast<std::size_t>(index);
-}
-
 double cross(const Eigen::RowVector2d &u, const Eigen::RowVector2d &v)
 {
   return u(0) * v(1) - u(1) * v(0);

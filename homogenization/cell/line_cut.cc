@@ -2,6 +2,8 @@
 // cut_along() of lattice_triangles.h.
 #include "homogenization/cell/lattice_triangles.h"
 
+#include "meshes/plain/index.h"
+
 #include <Eigen/Geometry>
 
 #include <algorithm>
@@ -9,6 +11,8 @@
 
 namespace homespun::homogenization
 {
+using meshes::at;
+
 namespace
 {
 /// An edge that is cut nearer to one of its ends than this part of it has that end moved onto the
@@ -17,11 +21,6 @@ constexpr double near = 0.3;
 
 /// Moving a vertex must not make an angle smaller than this, unless one there is [degrees].
 constexpr double fair_angle = 15.;
-
-std::size_t at(const int index)
-{
-  return static_cast<std::size_t>(index);
-}
 
 /// What is the same wherever a mesh is cut.
 struct Surroundings

@@ -1,18 +1,17 @@
 // SPDX-License-Identifier: MIT
 #include "homogenization/cell/torus_mesh.h"
 
+#include "meshes/plain/index.h"
+
 #include <algorithm>
 #include <cmath>
 
 namespace homespun::homogenization
 {
+using meshes::at;
+
 namespace
 {
-std::size_t at(const int index)
-{
-  return static_cast<std::size_t>(index);
-}
-
 /// Both halves of an edge and the vertex between them.
 struct Halves
 {

@@ -2,6 +2,8 @@
 #include "homogenization/cell/torus_mesh.h"
 
 #include "meshes/plain/errors.h"
+#include "meshes/plain/index.h"
+#include "meshes/plain/vertex_images.h"
 
 #include <algorithm>
 #include <cmath>
@@ -11,13 +13,10 @@
 
 namespace homespun::homogenization
 {
+using meshes::at;
+
 namespace
 {
-std::size_t at(const int index)
-{
-  return static_cast<std::size_t>(index);
-}
-
 /// Vertices of the torus in the order of their first vertex in the mesh, and where that one lies.
 struct GluedVertices
 {
@@ -29,31 +28,20 @@ struct GluedVertices
 GluedVertices glue_vertices(const meshes::TriangleMesh &mesh, const meshes::Lattice &lattice)
 {
   // The outline alone: a rim may come near the image of another one without being it.
-  const std::vector<int> outline = meshes::outline(mesh);
-  meshes::Points points(static_cast<Eigen::Index>(outline.size()), 2);
-  for (std::size_t k = 0; k < outline.size(); ++k)
-    points.row(static_cast<Eigen::Index>(k)) = mesh.vertices.row(outline[k]);
-  const meshes::ImageClasses classes = meshes::match_images(points, lattice);
+  const std::vector<int> outline     = meshes::outline(mesh);
+  const meshes::ImageClasses classes = meshes::match_images(mesh, outline, lattice);
 
   GluedVertices glued;
   const Eigen::RowVector2d origin = mesh.vertices.row(0);
   glued.positions                 = mesh.vertices.rowwise() - origin;
-  std::vector<int> master(at(mesh.n_vertices()));
-  for (int v = 0; v < mesh.n_vertices(); ++v)
-    master[at(v)] = v;
-  for (std::size_t k = 0; k < outline.size(); ++k)
-  {
-    const int first                 = outline[at(classes.representative[k])];
-    master[at(outline[k])]          = first;
-    const Eigen::Index row          = static_cast<Eigen::Index>(k);
-    const Eigen::Vector2d n         = classes.offset.row(row).cast<double>();
-    glued.positions.row(outline[k]) = glued.positions.row(first) + n.transpose() * lattice.vectors;
-  }
+  for (const int v : outline)
+    glued.positions.row(v) = glued.positions.row(classes.representative[at(v)]) +
+                             classes.offset.row(v).cast<double>() * lattice.vectors;
   std::vector<int> number(at(mesh.n_vertices()), -1);
   glued.of_original.resize(at(mesh.n_vertices()));
   for (int v = 0; v < mesh.n_vertices(); ++v)
   {
-    int &its_number = number[at(master[at(v)])];
+    int &its_number = number[at(classes.representative[at(v)])];
     if (its_number < 0)
       its_number = glued.n++;
     glued.of_original[at(v)] = its_number;

@@ -31,7 +31,7 @@ struct CellForces
 /// strain,
 ///   integral eps(v) : c : eps(chi_a) = integral eps(v) : c : e_a + v . f_a   for all periodic v,
 /// by the same assembly, constraints and solver.
-/// @param options whose checkpoint and pieces are empty
+/// @param options whose pieces are empty
 /// @return chi (n,6) at the vertices of the given mesh [m]
 /// @throws as homogenize()
 meshes::Chi chi_under_forces(const UnitCell &cell, const HomogenizationOptions &options,

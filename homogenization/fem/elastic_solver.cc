@@ -80,11 +80,10 @@ public:
 
   LoadsAbreast(const Epetra_CrsMatrix &A,
                const std::function<void(const Block &, Block &)> &preconditioner,
-               std::vector<Load> given, const std::function<void(std::size_t)> &done)
+               std::vector<Load> given)
       : A(A)
       , preconditioner(preconditioner)
       , loads(std::move(given))
-      , done(done)
       , x(block_of(loads, &Load::solution, A.DomainMap()))
       , residual(block_of(loads, &Load::residual, A.DomainMap()))
       , image(A.DomainMap(), x.NumVectors())
@@ -156,7 +155,6 @@ private:
         continue;
       }
       iterations[load] = static_cast<unsigned int>(histories[load].size()) - 1;
-      done(load);
     }
     open = left;
   }
@@ -198,7 +196,6 @@ private:
   const Epetra_CrsMatrix &A;
   const std::function<void(const Block &, Block &)> &preconditioner;
   const std::vector<Load> loads;
-  const std::function<void(std::size_t)> &done;
   Block x, residual; ///< the vectors of the caller
   Block image, direction;
   std::vector<double> product; ///< r . M^-1 r of each
@@ -353,8 +350,7 @@ unsigned int ElasticSolver::solve(Vector &solution, const Vector &right_hand_sid
 std::vector<unsigned int> ElasticSolver::solve_abreast(std::vector<Vector> &solutions,
                                                        std::vector<Vector> right_hand_sides,
                                                        const std::vector<Target> &targets,
-                                                       const unsigned int max_iterations,
-                                                       const std::function<void(std::size_t)> &done)
+                                                       const unsigned int max_iterations)
 {
   const std::function<void(const Block &, Block &)> apply = [this](const Block &from, Block &to)
   { preconditioner->apply(from, to); };
@@ -365,9 +361,8 @@ std::vector<unsigned int> ElasticSolver::solve_abreast(std::vector<Vector> &solu
     std::vector<Load> loads;
     for (std::size_t k = first; k < std::min(first + at_once, targets.size()); ++k)
       loads.push_back({&solutions[k], &right_hand_sides[k], targets[k]});
-    const std::function<void(std::size_t)> its_done = [&](const std::size_t k) { done(first + k); };
     const std::vector<unsigned int> its =
-      LoadsAbreast(matrix.trilinos_matrix(), apply, loads, its_done).run(max_iterations);
+      LoadsAbreast(matrix.trilinos_matrix(), apply, loads).run(max_iterations);
     iterations.insert(iterations.end(), its.begin(), its.end());
   }
   return iterations;

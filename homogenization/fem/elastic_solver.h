@@ -11,7 +11,6 @@
 #include <deal.II/lac/trilinos_sparse_matrix.h>
 #include <deal.II/lac/trilinos_vector.h>
 
-#include <functional>
 #include <limits>
 #include <memory>
 #include <utility>
@@ -84,14 +83,12 @@ public:
   /// as it is.
   /// @param solutions the starts, and the answers
   /// @param right_hand_sides become the residuals: hand over what is not needed afterwards
-  /// @param done is told the place of each, once it is solved
   /// @return number of iterations of each
   /// @throws as solve()
   std::vector<unsigned int> solve_abreast(std::vector<Vector> &solutions,
                                           std::vector<Vector> right_hand_sides,
                                           const std::vector<Target> &targets,
-                                          unsigned int max_iterations,
-                                          const std::function<void(std::size_t)> &done);
+                                          unsigned int max_iterations);
 
   /// What is stored of a row of the matrix that this rank owns.
   struct MatrixRow

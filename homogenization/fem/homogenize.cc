@@ -3,7 +3,6 @@
 
 #include "homogenization/fem/cell_forces.h"
 #include "homogenization/fem/elastic_solver.h"
-#include "homogenization/fem/load_checkpoint.h"
 #include "homogenization/fem/periodic_constraints.h"
 #include "homogenization/fem/second_order.h"
 #include "homogenization/fem/solution_pieces.h"
@@ -206,26 +205,15 @@ private:
   void solve()
   {
     const Eigen::Vector3d softest = energies_at_equal_stress();
-    const LoadCheckpoint checkpoint(options.checkpoint, discretization.communicator);
-    const IndexSet ghosted = constraints.get_local_lines();
+    const IndexSet ghosted        = constraints.get_local_lines();
     std::vector<Vector> owned(3, solver->owned_vector());
     std::vector<ElasticSolver::Target> targets;
-    std::array<bool, 3> is_taken_up;
     for (std::size_t a = 0; a < 3; ++a)
-    {
-      is_taken_up[a] = checkpoint.read(static_cast<int>(a), owned[a]);
-      result.loads_taken_up += is_taken_up[a] ? 1 : 0;
       targets.push_back(
         {options.tolerance * load_sizes[a],
          std::pow(1e2 * options.tolerance, 2) * softest(static_cast<Eigen::Index>(a))});
-    }
     const std::vector<unsigned int> iterations =
-      solver->solve_abreast(owned, std::move(loads), targets, most_iterations,
-                            [&](const std::size_t a)
-                            {
-                              if (!is_taken_up[a])
-                                checkpoint.write(static_cast<int>(a), owned[a]);
-                            });
+      solver->solve_abreast(owned, std::move(loads), targets, most_iterations);
     for (std::size_t a = 0; a < 3; ++a)
     {
       result.iterations[a] = iterations[a];

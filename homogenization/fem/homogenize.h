@@ -33,9 +33,7 @@ struct HomogenizationOptions
   unsigned int order  = 2;     ///< 1 or 2, of the displacement elements
   unsigned int refine = 0;     ///< uniform refinements of the given mesh before the solve
   double tolerance    = 1e-11; ///< of |residual|, relative to the summed size of the element loads
-  std::string checkpoint; ///< folder of the loads that are done (LoadCheckpoint), of this problem
-                          ///< alone; empty: none
-  CellSolver solver = CellSolver::multigrid;
+  CellSolver solver   = CellSolver::multigrid;
   std::string pieces; ///< path without ending of .pvtu and its pieces (write_pieces()); empty: none
   /// Whose quadratic modes and cubic energy are computed too: six more right-hand sides each.
   std::vector<MembraneLaw> second_order;
@@ -63,9 +61,8 @@ struct Homogenization
   Eigen::Matrix3d reuss;             ///< inverse of the mean of c^-1 [N/m]
   unsigned long n_dofs;
   std::array<unsigned int, 3>
-    iterations; ///< of the conjugate gradients, per load, since the start of this run
-  unsigned int loads_taken_up = 0;                         ///< of a run before, see LoadCheckpoint
-  CellSolver solver;                                       ///< the one that was taken
+    iterations;      ///< of the conjugate gradients, per load, since the start of this run
+  CellSolver solver; ///< the one that was taken
   std::map<std::string, meshes::SecondOrder> second_order; ///< by law: those of the options
   ConstraintAudit audit;
   HomogenizationSeconds seconds;

@@ -130,8 +130,7 @@ SecondOrderFields second_order_fields(const SolvedCell &solved, const MembraneLa
     targets.push_back(
       {target.tolerance * right.sizes[k], std::pow(1e2 * target.tolerance, 2) * energy});
   }
-  solver.solve_abreast(modes, std::move(right.loads), targets, target.most_iterations,
-                       [](std::size_t) {});
+  solver.solve_abreast(modes, std::move(right.loads), targets, target.most_iterations);
   for (Vector &mode : modes)
     solved.constraints.distribute(mode);
   return {modes, right.energy};

@@ -2,17 +2,23 @@
 #include "homogenization/lint/cell_lint.h"
 
 #include "homogenization/lint/mechanisms.h"
+#include "meshes/plain/index.h"
+#include "meshes/plain/vertex_images.h"
 
 #include <Eigen/Geometry>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
+#include <map>
+#include <set>
 #include <sstream>
 #include <unordered_map>
 
 namespace homespun::homogenization
 {
+using meshes::at;
 using meshes::Lattice;
 using meshes::Place;
 using meshes::TriangleMesh;
@@ -90,21 +96,19 @@ std::vector<Finding> lint_slivers(const TriangleMesh &mesh, const double metres_
 std::vector<Finding> lint_coincidence(const TriangleMesh &mesh, const double metres_per_unit)
 {
   // Only vertices on a boundary can lie side by side without being joined.
-  std::unordered_map<long, int> n_triangles;
-  const auto key = [&](const int a, const int b)
-  { return static_cast<long>(std::min(a, b)) * mesh.n_vertices() + std::max(a, b); };
+  // Edges are counted whatever their direction: a folded mesh is told by another check.
+  std::map<std::array<int, 2>, int> n_triangles;
   for (int t = 0; t < mesh.n_triangles(); ++t)
     for (int k = 0; k < 3; ++k)
-      ++n_triangles[key(mesh.triangles(t, k), mesh.triangles(t, (k + 1) % 3))];
-  std::vector<int> boundary;
+    {
+      const int a = mesh.triangles(t, k), b = mesh.triangles(t, (k + 1) % 3);
+      ++n_triangles[{std::min(a, b), std::max(a, b)}];
+    }
+  std::set<int> ends;
   for (const auto &[edge, n] : n_triangles)
     if (n == 1)
-    {
-      boundary.push_back(static_cast<int>(edge / mesh.n_vertices()));
-      boundary.push_back(static_cast<int>(edge % mesh.n_vertices()));
-    }
-  std::sort(boundary.begin(), boundary.end());
-  boundary.erase(std::unique(boundary.begin(), boundary.end()), boundary.end());
+      ends.insert(edge.begin(), edge.end());
+  std::vector<int> boundary(ends.begin(), ends.end());
   // By x, so that candidates are neighbours.
   std::stable_sort(boundary.begin(), boundary.end(),
                    [&](const int a, const int b)
@@ -147,29 +151,24 @@ std::vector<Finding> lint_coincidence(const TriangleMesh &mesh, const double met
 std::vector<Finding> lint_sides(const TriangleMesh &mesh, const Lattice &lattice,
                                 const double metres_per_unit)
 {
-  const std::vector<int> outer = meshes::outline(mesh);
-  meshes::Points points(static_cast<Eigen::Index>(outer.size()), 2);
-  for (std::size_t k = 0; k < outer.size(); ++k)
-    points.row(static_cast<Eigen::Index>(k)) = mesh.vertices.row(outer[k]);
-  const meshes::ImageClasses classes = meshes::match_images(points, lattice);
+  const std::vector<int> outer       = meshes::outline(mesh);
+  const meshes::ImageClasses classes = meshes::match_images(mesh, outer, lattice);
   const double tolerance             = meshes::image_tolerance * std::sqrt(lattice.area());
   double widest                      = nearly * tolerance;
-  Eigen::Index worst                 = -1;
-  for (Eigen::Index k = 0; k < points.rows(); ++k)
+  int vertex = -1, image = -1;
+  for (const int v : outer)
   {
-    const int image  = classes.representative[static_cast<std::size_t>(k)];
-    const double gap = lattice.shortest(points.row(k) - points.row(image)).norm();
+    const int first  = classes.representative[at(v)];
+    const double gap = lattice.shortest(mesh.vertices.row(v) - mesh.vertices.row(first)).norm();
     if (gap > widest)
     {
       widest = gap;
-      worst  = k;
+      vertex = v;
+      image  = first;
     }
   }
-  if (worst < 0)
+  if (vertex < 0)
     return {};
-  const int vertex = outer[static_cast<std::size_t>(worst)];
-  const int image =
-    outer[static_cast<std::size_t>(classes.representative[static_cast<std::size_t>(worst)])];
   std::ostringstream what, remedy;
   what << "opposite sides match only just: vertex " << vertex
        << at(mesh.vertices.row(vertex), metres_per_unit) << " and its image, vertex " << image
@@ -269,19 +268,7 @@ namespace
 /// Vertices as their images: the sides of the cell are no boundary of a part.
 std::vector<int> vertices_of_torus(const UnitCell &cell)
 {
-  const TriangleMesh &mesh = cell.mesh;
-  std::vector<int> torus(static_cast<std::size_t>(mesh.n_vertices()));
-  for (int v = 0; v < mesh.n_vertices(); ++v)
-    torus[static_cast<std::size_t>(v)] = v;
-  const std::vector<int> outer = meshes::outline(mesh);
-  meshes::Points points(static_cast<Eigen::Index>(outer.size()), 2);
-  for (std::size_t k = 0; k < outer.size(); ++k)
-    points.row(static_cast<Eigen::Index>(k)) = mesh.vertices.row(outer[k]);
-  const meshes::ImageClasses classes = meshes::match_images(points, cell.lattice);
-  for (std::size_t k = 0; k < outer.size(); ++k)
-    torus[static_cast<std::size_t>(outer[k])] =
-      outer[static_cast<std::size_t>(classes.representative[k])];
-  return torus;
+  return meshes::match_images(cell.mesh, meshes::outline(cell.mesh), cell.lattice).representative;
 }
 
 /// The edges of a cell on the torus, and which of them lie within a group.

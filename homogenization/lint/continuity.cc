@@ -2,7 +2,8 @@
 // Whether the phases of a cell go on across its sides: where the border between two phases meets a
 // side, the repeated cell must have one at the same place of the opposite side.
 #include "homogenization/lint/cell_lint.h"
-#include "meshes/plain/lattice.h"
+#include "meshes/plain/index.h"
+#include "meshes/plain/vertex_images.h"
 
 #include <algorithm>
 #include <map>
@@ -10,6 +11,8 @@
 
 namespace homespun::homogenization
 {
+using meshes::at;
+
 namespace
 {
 constexpr int most_told = 3;
@@ -32,27 +35,25 @@ std::vector<Finding> lint_continuity(const UnitCell &cell, const double metres_p
   const std::vector<int> outer = meshes::outline(cell.mesh);
   const auto groups            = groups_at_edges(cell);
   const std::size_t n          = outer.size();
-  meshes::Points points(static_cast<Eigen::Index>(n), 2);
-  std::vector<char> is_border(n); // between two phases along the outline
+  std::vector<char> is_border(at(cell.mesh.n_vertices())); // between two phases along the outline
   for (std::size_t k = 0; k < n; ++k)
   {
-    points.row(static_cast<Eigen::Index>(k)) = cell.mesh.vertices.row(outer[k]);
-    const auto before                        = groups.find({outer[(k + n - 1) % n], outer[k]}),
-               after                         = groups.find({outer[k], outer[(k + 1) % n]});
-    is_border[k] =
+    const auto before = groups.find({outer[(k + n - 1) % n], outer[k]}),
+               after  = groups.find({outer[k], outer[(k + 1) % n]});
+    is_border[at(outer[k])] =
       before != groups.end() && after != groups.end() && before->second != after->second;
   }
   // Corners belong to two pairs of sides, each of which may be a border by itself.
-  const meshes::ImageClasses classes = meshes::match_images(points, cell.lattice);
+  const meshes::ImageClasses classes = meshes::match_images(cell.mesh, outer, cell.lattice);
   std::vector<Finding> findings;
   int n_found = 0;
-  for (std::size_t k = 0; k < n; ++k)
+  for (const int v : outer)
   {
-    const auto first = static_cast<std::size_t>(classes.representative[k]);
-    if (first == k || classes.size[k] != 2 || is_border[k] == is_border[first] ||
+    const int first = classes.representative[at(v)];
+    if (first == v || classes.size[at(v)] != 2 || is_border[at(v)] == is_border[at(first)] ||
         ++n_found > most_told)
       continue;
-    const int vertex = outer[is_border[k] ? k : first], image = outer[is_border[k] ? first : k];
+    const int vertex = is_border[at(v)] ? v : first, image = is_border[at(v)] ? first : v;
     const Eigen::RowVector2d x = cell.mesh.vertices.row(vertex) / metres_per_unit,
                              y = cell.mesh.vertices.row(image) / metres_per_unit;
     std::ostringstream what;

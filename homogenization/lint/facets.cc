@@ -3,6 +3,7 @@
 
 #include "homogenization/cell/torus_mesh.h"
 #include "homogenization/lint/cell_lint.h"
+#include "meshes/plain/index.h"
 
 #include <Eigen/LU>
 
@@ -12,16 +13,13 @@
 
 namespace homespun::homogenization
 {
+using meshes::at;
+
 namespace
 {
 constexpr double smallest_turn = 0.05 * M_PI / 180., largest_turn = 31. * M_PI / 180.;
 constexpr double largest_ratio = 1.5;
 constexpr std::size_t fewest   = 3;
-
-std::size_t at(const int index)
-{
-  return static_cast<std::size_t>(index);
-}
 
 double cross(const Eigen::Vector2d &u, const Eigen::Vector2d &v)
 {

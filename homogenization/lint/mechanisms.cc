@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "homogenization/lint/mechanisms.h"
 
+#include "meshes/plain/index.h"
+#include "meshes/plain/vertex_images.h"
+
 #include <Eigen/LU>
 #include <Eigen/SVD>
 
@@ -14,6 +17,8 @@
 
 namespace homespun::homogenization
 {
+using meshes::at;
+using meshes::ImageClasses;
 using meshes::Lattice;
 using meshes::TriangleMesh;
 
@@ -21,38 +26,13 @@ namespace
 {
 using Shift = Eigen::RowVector2i; ///< in lattice vectors
 
-/// Vertices of the cell with opposite sides glued: x_v = x_representative + offset in lattice
-/// vectors.
-struct TorusVertices
+/// Vertices of the cell with opposite sides glued: of each boundary, for only they have images.
+ImageClasses torus_vertices(const TriangleMesh &mesh, const Lattice &lattice)
 {
-  std::vector<int> representative;
-  std::vector<Shift> offset;
-};
-
-TorusVertices torus_vertices(const TriangleMesh &mesh, const Lattice &lattice)
-{
-  TorusVertices torus;
-  torus.representative.resize(static_cast<std::size_t>(mesh.n_vertices()));
-  std::iota(torus.representative.begin(), torus.representative.end(), 0);
-  torus.offset.assign(static_cast<std::size_t>(mesh.n_vertices()), Shift(0, 0));
-  // Only vertices of a boundary have images.
   std::set<int> boundary;
   for (const std::array<int, 2> &edge : meshes::boundary_edges(mesh))
     boundary.insert(edge.begin(), edge.end());
-  const std::vector<int> vertices(boundary.begin(), boundary.end());
-  meshes::Points points(static_cast<Eigen::Index>(vertices.size()), 2);
-  for (std::size_t k = 0; k < vertices.size(); ++k)
-    points.row(static_cast<Eigen::Index>(k)) = mesh.vertices.row(vertices[k]);
-  const meshes::ImageClasses classes = meshes::match_images(points, lattice);
-  for (std::size_t k = 0; k < vertices.size(); ++k)
-  {
-    const auto row          = static_cast<Eigen::Index>(k);
-    const int lowest        = vertices[static_cast<std::size_t>(classes.representative[k])];
-    const auto v            = static_cast<std::size_t>(vertices[k]);
-    torus.representative[v] = lowest;
-    torus.offset[v]         = classes.offset.row(row);
-  }
-  return torus;
+  return meshes::match_images(mesh, {boundary.begin(), boundary.end()}, lattice);
 }
 
 /// Triangles in disjoint sets, each with the shift that brings it beside the first of its set.
@@ -238,7 +218,7 @@ struct Joined
   std::vector<std::pair<int, Shift>> cycles; ///< a triangle that meets its own image, and which
 };
 
-Joined join_triangles(const TriangleMesh &mesh, const TorusVertices &torus)
+Joined join_triangles(const TriangleMesh &mesh, const ImageClasses &torus)
 {
   struct Side
   {
@@ -250,13 +230,12 @@ Joined join_triangles(const TriangleMesh &mesh, const TorusVertices &torus)
   for (int t = 0; t < mesh.n_triangles(); ++t)
     for (int k = 0; k < 3; ++k)
     {
-      auto u                  = static_cast<std::size_t>(mesh.triangles(t, k)),
-           v                  = static_cast<std::size_t>(mesh.triangles(t, (k + 1) % 3));
-      Shift step              = torus.offset[v] - torus.offset[u];
+      int u = mesh.triangles(t, k), v = mesh.triangles(t, (k + 1) % 3);
+      Shift step              = torus.offset.row(v) - torus.offset.row(u);
       const auto is_backwards = [&]()
       {
-        if (torus.representative[u] != torus.representative[v])
-          return torus.representative[u] > torus.representative[v];
+        if (torus.representative[at(u)] != torus.representative[at(v)])
+          return torus.representative[at(u)] > torus.representative[at(v)];
         return step(0) < 0 || (step(0) == 0 && step(1) < 0);
       };
       if (is_backwards())
@@ -264,13 +243,13 @@ Joined join_triangles(const TriangleMesh &mesh, const TorusVertices &torus)
         std::swap(u, v);
         step = -step;
       }
-      const Edge edge(torus.representative[u], torus.representative[v], step(0), step(1));
-      const auto [place, is_new] = first_side.insert({edge, {t, torus.offset[u]}});
+      const Edge edge(torus.representative[at(u)], torus.representative[at(v)], step(0), step(1));
+      const auto [place, is_new] = first_side.insert({edge, {t, torus.offset.row(u)}});
       ++joined.n_sides[edge];
       if (is_new)
         continue;
       const Shift left =
-        joined.sets.join(place->second.triangle, t, place->second.offset - torus.offset[u]);
+        joined.sets.join(place->second.triangle, t, place->second.offset - torus.offset.row(u));
       if (left != Shift(0, 0))
         joined.cycles.emplace_back(t, left);
     }
@@ -346,7 +325,7 @@ void find_hinges(const std::map<Edge, int> &n_sides, Mechanisms &found)
 }
 
 /// Which parts meet in which hinges.
-void find_joints(const TriangleMesh &mesh, const TorusVertices &torus, ShiftedSets &sets,
+void find_joints(const TriangleMesh &mesh, const ImageClasses &torus, ShiftedSets &sets,
                  Structure &structure, Mechanisms &found)
 {
   const std::set<int> hinges(found.hinges.begin(), found.hinges.end());
@@ -355,11 +334,11 @@ void find_joints(const TriangleMesh &mesh, const TorusVertices &torus, ShiftedSe
     for (int k = 0; k < 3; ++k)
     {
       const auto v = static_cast<std::size_t>(mesh.triangles(t, k));
-      if (hinges.count(torus.representative[v]) == 0)
+      if (hinges.count(torus.representative[at(v)]) == 0)
         continue;
-      const Shift shift = torus.offset[v] + sets.find(t).second;
+      const Shift shift = torus.offset.row(v) + sets.find(t).second;
       incidences.insert(
-        {torus.representative[v], found.part[static_cast<std::size_t>(t)], shift(0), shift(1)});
+        {torus.representative[at(v)], found.part[static_cast<std::size_t>(t)], shift(0), shift(1)});
     }
   for (const auto &[vertex, part, n1, n2] : incidences)
     structure.joints.push_back({vertex, part, Shift(n1, n2)});
@@ -376,9 +355,9 @@ void find_joints(const TriangleMesh &mesh, const TorusVertices &torus, ShiftedSe
 
 Mechanisms find_mechanisms(const TriangleMesh &mesh, const Lattice &lattice)
 {
-  const TorusVertices torus = torus_vertices(mesh, lattice);
-  Joined joined             = join_triangles(mesh, torus);
-  Mechanisms found          = parts_of(mesh, joined.sets);
+  const ImageClasses torus = torus_vertices(mesh, lattice);
+  Joined joined            = join_triangles(mesh, torus);
+  Mechanisms found         = parts_of(mesh, joined.sets);
   Structure structure;
   find_periods(joined.cycles, structure, found);
   find_hinges(joined.n_sides, found);

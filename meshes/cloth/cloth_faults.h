@@ -29,11 +29,6 @@ struct Surface
 /// @param name put before each message, usually the file
 std::vector<std::string> cloth_faults(const ClothMesh &cloth, const std::string &name);
 
-/// Seam edges whose two sides differ at rest by more than 1 % in length: no fault, tailors ease
-/// seams, but the longer side will gather. At most three notes and a count.
-/// @param cloth without faults
-std::vector<std::string> seam_notes(const ClothMesh &cloth, const std::string &name);
-
 /// The faults of a closed surface: the numbers, triangles without area, open edges, edges with more
 /// than two triangles, inconsistent winding, a surface that is inside out, unused vertices.
 std::vector<std::string> surface_faults(const Surface &surface, const std::string &name);

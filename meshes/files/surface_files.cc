@@ -175,29 +175,6 @@ void write_vtu(const std::string &file, const FloatPoints &positions, const Tria
   write_whole(file, head + appended + "\n</AppendedData>\n</VTKFile>\n");
 }
 
-void write_pvtu(const std::string &file, const std::vector<std::string> &pieces,
-                const std::vector<VertexData> &data, const std::vector<VertexData> &cell_data)
-{
-  const auto array = [](const std::string &name, const Eigen::Index components)
-  {
-    return "<PDataArray type=\"Float32\" Name=\"" + escaped(name) + "\" NumberOfComponents=\"" +
-           std::to_string(components) + "\"/>\n";
-  };
-  std::string text =
-    "<?xml version=\"1.0\"?>\n<VTKFile type=\"PUnstructuredGrid\" version=\"1.0\" "
-    "byte_order=\"LittleEndian\" header_type=\"UInt64\">\n<PUnstructuredGrid GhostLevel=\"0\">\n"
-    "<PPointData>\n";
-  for (const VertexData &its : data)
-    text += array(its.name, its.values.cols());
-  text += "</PPointData>\n<PCellData>\n";
-  for (const VertexData &its : cell_data)
-    text += array(its.name, its.values.cols());
-  text += "</PCellData>\n<PPoints>\n" + array("positions [m]", 3) + "</PPoints>\n";
-  for (const std::string &piece : pieces)
-    text += "<Piece Source=\"" + escaped(piece) + "\"/>\n";
-  write_whole(file, text + "</PUnstructuredGrid>\n</VTKFile>\n");
-}
-
 FrameCollection::FrameCollection(std::string file)
     : file(std::move(file))
 {

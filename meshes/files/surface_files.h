@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Triangles in space for other programs: .ply (Blender, MeshLab), .vtu (ParaView, VTK) with data on
-// the vertices, .pvtu, one made of pieces, and .pvd, the collection that makes an animation of many
-// .vtu. Every file appears whole or not at all, and no number in it is NaN or infinite.
+// the vertices, and .pvd, the collection that makes an animation of many .vtu. Every file appears
+// whole or not at all, and no number in it is NaN or infinite.
 #pragma once
 
 #include "meshes/plain/triangle_mesh.h"
@@ -54,13 +54,6 @@ void write_vtu(const std::string &file, const FloatPoints &positions, const Tria
                const std::vector<VertexData> &data      = {},
                const std::vector<VertexData> &cell_data = {},
                const std::vector<WordList> &words       = {});
-
-/// Writes the .pvtu file that makes one of .vtu pieces with the same data.
-/// @param pieces relative to the folder of the file
-/// @param data, cell_data of any of the pieces: their names and components
-void write_pvtu(const std::string &file, const std::vector<std::string> &pieces,
-                const std::vector<VertexData> &data      = {},
-                const std::vector<VertexData> &cell_data = {});
 
 /// A .pvd file: which .vtu shows which time. It is written whole after each frame, so that a run
 /// that was killed leaves a collection of all frames before.

@@ -10,6 +10,7 @@
 #include "meshes/cloth/seams.h"
 #include "meshes/garment/cut_mesh.h"
 #include "meshes/garment/fine_cloth_options.h"
+#include "meshes/plain/index.h"
 #include "meshes/plain/point_location.h"
 #include "meshes/plain/sheet.h"
 
@@ -21,12 +22,6 @@
 
 namespace homespun::meshes
 {
-/// An index for standard containers.
-inline std::size_t at(const Eigen::Index index)
-{
-  return static_cast<std::size_t>(index);
-}
-
 struct FinePanel
 {
   int index = 0;

@@ -134,11 +134,6 @@ public:
   {
     return m;
   }
-  /// Whether the steps are solved by factorisation.
-  bool is_direct() const
-  {
-    return options.integrator == Integrator::conserving || potential.is_direct();
-  }
   /// Bytes of terms, matrix and factors.
   std::size_t bytes() const;
 

@@ -42,7 +42,7 @@ ClothEquilibrium Cloth::solve_equilibrium(const double relative_tolerance, const
     bool solved          = false;
     const Vectors forces = -potential.gradient();
     Vectors step         = Vectors::Zero(x.rows(), 3);
-    if (potential.is_direct() && shift < 1e-6 * first)
+    if (shift < 1e-6 * first)
     {
       potential.assemble(x, x, 0., Hessian::exact);
       solved = potential.solve(forces, step, counts);

@@ -36,13 +36,7 @@ void IncrementalPotential::prepare()
   diagonal.clear();
   for (int i = 0; i < static_cast<int>(m.size()); ++i)
     diagonal.push_back(matrix->slot(i, i));
-  cholesky.reset();
-  preconditioner.reset();
-  if (options.solver == LinearSolver::direct ||
-      (options.solver == LinearSolver::automatic && matrix->n_free() <= options.direct_limit))
-    cholesky = std::make_unique<BlockCholesky>(*matrix);
-  else
-    preconditioner = std::make_unique<IncompleteCholesky>(*matrix);
+  cholesky = std::make_unique<BlockCholesky>(*matrix);
 }
 
 bool IncrementalPotential::has_energy() const
@@ -116,18 +110,9 @@ IncrementalPotential::Residual IncrementalPotential::assemble(const Vectors &pos
 bool IncrementalPotential::solve(const Vectors &right_side, Vectors &result, SolveCounts &counts)
 {
   ++counts.newton_iterations;
-  if (cholesky)
-  {
-    if (!cholesky->factorize(*matrix))
-      return false;
-    cholesky->solve(right_side, result);
-    return true;
-  }
-  preconditioner->factorize(*matrix);
-  counts.linear_iterations +=
-    conjugate_gradients(*matrix, *preconditioner, right_side, options.linear_tolerance,
-                        options.max_linear_iterations, result)
-      .iterations;
+  if (!cholesky->factorize(*matrix))
+    return false;
+  cholesky->solve(right_side, result);
   return true;
 }
 
@@ -172,9 +157,7 @@ void IncrementalPotential::minimize(const Vectors &inertial, const double h,
   const double inverse_square = 1. / (h * h);
   const bool descends         = has_energy();
   double potential            = value(positions, inertial, inverse_square);
-  // Conjugate gradients would not notice an indefinite matrix in time, hence no exact Hessian for
-  // them.
-  bool try_exact = is_direct();
+  bool try_exact              = true;
   Vectors step, trial;
   std::vector<double> history;
   const auto give_up = [&](const char *what)
@@ -218,7 +201,7 @@ void IncrementalPotential::minimize(const Vectors &inertial, const double h,
       potential = next;
       positions = trial;
       if (length == 1.)
-        try_exact = is_direct();
+        try_exact = true;
       break;
     }
   }
@@ -235,11 +218,7 @@ std::size_t IncrementalPotential::bytes() const
   for (const auto &term : all_terms)
     sum += term->bytes();
   if (matrix)
-    sum += matrix->bytes() + diagonal.size() * sizeof(BlockMatrix::Slot);
-  if (cholesky)
-    sum += cholesky->bytes();
-  if (preconditioner)
-    sum += preconditioner->bytes();
+    sum += matrix->bytes() + diagonal.size() * sizeof(BlockMatrix::Slot) + cholesky->bytes();
   return sum;
 }
 } // namespace homespun::shell

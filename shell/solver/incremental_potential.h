@@ -7,7 +7,6 @@
 #pragma once
 
 #include "shell/algebra/block_cholesky.h"
-#include "shell/algebra/conjugate_gradients.h"
 #include "shell/terms/term.h"
 
 #include <Eigen/Core>
@@ -18,31 +17,18 @@
 
 namespace homespun::shell
 {
-enum class LinearSolver
-{
-  automatic, ///< direct up to direct_limit free vertices, a limit of memory
-  direct,    ///< block Cholesky factorisation
-  iterative  ///< conjugate gradients with incomplete Cholesky, warm start
-};
-
+/// Systems are factored: conjugate gradients with incomplete Cholesky took 2.6, 4 and 7 times as
+/// long at 441, 2,601 and 25,281 vertices. With 145,161 a factor takes 2.6 s and 0.7 GB.
 struct SolverOptions
 {
-  LinearSolver solver = LinearSolver::automatic;
-  /// Free vertices. The direct solver was the faster one at 441, 2,601 and 25,281 vertices
-  /// (benchmark `step`, h = 10 ms: 0.7, 7, 200 ms against 1.8, 27, 1400 ms); with 145,161 it takes
-  /// 2.6 s and 0.7 GB. Memory, some 5 kB per vertex, sets the limit.
-  int direct_limit        = 200000;
   double newton_tolerance = 1e-8; ///< |gradient of Φ| over the size of the forces it is made of [-]
   int max_newton_iterations = 40;
-  double linear_tolerance   = 1e-6; ///< of conjugate gradients, |r| / |right side| [-]
-  int max_linear_iterations = 5000;
 };
 
 /// What solving took.
 struct SolveCounts
 {
-  int newton_iterations = 0; ///< factorisations or preconditioners
-  int linear_iterations = 0; ///< of conjugate gradients
+  int newton_iterations = 0; ///< factorisations
   int unconverged =
     0; ///< minimisations that ended before the tolerance, with no more energy than before
 };
@@ -103,7 +89,7 @@ public:
   }
 
   /// Solves with the matrix as it is assembled.
-  /// @param result (n,3), on entry the guess of the iterative solver [m]
+  /// @param result (n,3) [m]
   /// @return false where the matrix is not positive definite
   bool solve(const Vectors &right_side, Vectors &result, SolveCounts &counts);
 
@@ -128,12 +114,6 @@ public:
                 const std::function<bool(const Vectors &)> &is_enough, Vectors &positions,
                 SolveCounts &counts);
 
-  /// Whether the matrix is solved by factorisation.
-  bool is_direct() const
-  {
-    return cholesky != nullptr;
-  }
-
   /// Trace of the assembled diagonal block, 0 at a held vertex [N/m].
   double stiffness_at(int vertex) const;
 
@@ -147,7 +127,6 @@ private:
   std::vector<std::unique_ptr<Term>> all_terms;
   std::unique_ptr<BlockMatrix> matrix;
   std::unique_ptr<BlockCholesky> cholesky;
-  std::unique_ptr<IncompleteCholesky> preconditioner;
   std::vector<BlockMatrix::Slot> diagonal;
   Vectors assembled_gradient;
 };

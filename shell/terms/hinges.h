@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The hinges of a cloth: what its triangles say about curvature, measured once at rest. bending.h
-// and curved_rest.h make energies of it.
+// makes an energy of it.
 //
 // The jump of slope across a hinge is the vector K x of Bergou et al., "A quadratic bending model
 // for inextensible surfaces" (SGP 2006): K from the cotangents of its two triangles unfolded, |K x|

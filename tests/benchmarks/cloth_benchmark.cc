@@ -73,14 +73,10 @@ struct Hanging
     return result;
   }
 
-  std::unique_ptr<Cloth> cloth(const LinearSolver solver, const bool with_bending,
-                               const double linear_tolerance,
+  std::unique_ptr<Cloth> cloth(const bool with_bending,
                                const std::vector<meshes::CubicForm> &cubic = {}) const
   {
-    ClothOptions options;
-    options.solver           = solver;
-    options.linear_tolerance = linear_tolerance;
-    auto result              = std::make_unique<Cloth>(mesh.positions, masses, held, options);
+    auto result = std::make_unique<Cloth>(mesh.positions, masses, held, ClothOptions());
     result->add(membrane_term(mesh, {stiffness()}, 0., cubic));
     if (with_bending)
       result->add(bending_term(mesh, {PlateStiffness::isotropic(1e-6, 0.3)}));
@@ -297,30 +293,6 @@ void solve(benchmark::State &state)
   fractions.report(4. * static_cast<double>(cholesky.n_entries()), bytes);
 }
 
-/// Counters of one iteration: matrix and factor are read once and twice, six vectors once each.
-void conjugate_gradients_iterations(benchmark::State &state)
-{
-  StepMatrix step(static_cast<int>(state.range(0)));
-  IncompleteCholesky preconditioner(step.matrix);
-  preconditioner.factorize(step.matrix);
-  Vectors x;
-  benchmarks::multiply_add_peak();
-  double iterations = 0.;
-  const Fractions fractions(state);
-  for (auto _ : state)
-  {
-    x.setZero(step.sheet.mesh.n_vertices(), 3);
-    iterations =
-      conjugate_gradients(step.matrix, preconditioner, step.right_side, 1e-6, 5000, x).iterations;
-  }
-  const double blocks = static_cast<double>(step.matrix.blocks.size());
-  fractions.report(4. * 18. * blocks + 2. * 15. * step.n_vertices(),
-                   3. * 76. * blocks + 10. * 24. * step.n_vertices(), iterations);
-  state.counters["iterations"]    = iterations;
-  state.counters["per_iteration"] = benchmark::Counter(
-    iterations, benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
-}
-
 /// Steps of a cloth, with what they took.
 void take_steps(benchmark::State &state, const std::unique_ptr<Cloth> &cloth, const int n_triangles)
 {
@@ -330,7 +302,6 @@ void take_steps(benchmark::State &state, const std::unique_ptr<Cloth> &cloth, co
   {
     const StepReport report = cloth->step(time_step);
     sum.newton_iterations += report.newton_iterations;
-    sum.linear_iterations += report.linear_iterations;
     sum.guarded += report.guarded;
   }
   const auto per_step = [&](const int amount)
@@ -339,17 +310,15 @@ void take_steps(benchmark::State &state, const std::unique_ptr<Cloth> &cloth, co
   state.counters["bytes"] =
     benchmark::Counter(static_cast<double>(cloth->bytes()), benchmark::Counter::kAvgThreads);
   state.counters["factorisations"] = per_step(sum.newton_iterations);
-  state.counters["cg_iterations"]  = per_step(sum.linear_iterations);
   state.counters["guarded"]        = per_step(sum.guarded);
 }
 
 /// Whole steps, linearly implicit, of a sheet that swings.
-void step(benchmark::State &state, const LinearSolver solver, const bool with_bending,
-          const double linear_tolerance = 1e-6, const std::vector<meshes::CubicForm> &cubic = {})
+void step(benchmark::State &state, const bool with_bending,
+          const std::vector<meshes::CubicForm> &cubic = {})
 {
   const Hanging sheet(static_cast<int>(state.range(0)));
-  take_steps(state, sheet.cloth(solver, with_bending, linear_tolerance, cubic),
-             sheet.mesh.n_triangles());
+  take_steps(state, sheet.cloth(with_bending, cubic), sheet.mesh.n_triangles());
 }
 
 /// A cubic energy as large as a cell's: a tenth of the stress at 10 % strain.
@@ -364,7 +333,7 @@ meshes::CubicForm cubic_energy()
 /// The same with one.
 void step_of_second_order(benchmark::State &state)
 {
-  step(state, LinearSolver::direct, false, 1e-6, {cubic_energy()});
+  step(state, false, {cubic_energy()});
 }
 
 /// The same of triangles with six nodes; with everything, a cubic energy too.
@@ -391,32 +360,13 @@ BENCHMARK(lay_out) HOMESPUN_SIZES;
 BENCHMARK(factorise) HOMESPUN_SIZES;
 BENCHMARK(factorise_by_scalars) HOMESPUN_SIZES;
 BENCHMARK(solve) HOMESPUN_SIZES;
-BENCHMARK(conjugate_gradients_iterations) HOMESPUN_SIZES;
-#define HOMESPUN_STEP(name, solver, with_bending) \
-  BENCHMARK_CAPTURE(step, name, solver, with_bending)
-HOMESPUN_STEP(direct, LinearSolver::direct, false) HOMESPUN_SIZES;
+#define HOMESPUN_STEP(name, with_bending) BENCHMARK_CAPTURE(step, name, with_bending)
+HOMESPUN_STEP(direct, false) HOMESPUN_SIZES;
 BENCHMARK(step_of_second_order) HOMESPUN_SIZES;
 BENCHMARK_TEMPLATE(step_of_six_nodes, false) HOMESPUN_SIZES;
 BENCHMARK_TEMPLATE(step_of_six_nodes, true) HOMESPUN_SIZES;
-HOMESPUN_STEP(iterative, LinearSolver::iterative, false) HOMESPUN_SIZES;
-HOMESPUN_STEP(direct_bending, LinearSolver::direct, true) HOMESPUN_SIZES;
-HOMESPUN_STEP(direct_on_all_cores, LinearSolver::direct, false)
+HOMESPUN_STEP(direct_bending, true) HOMESPUN_SIZES;
+HOMESPUN_STEP(direct_on_all_cores, false)
 HOMESPUN_SIZES->ThreadPerCpu()->UseRealTime();
-HOMESPUN_STEP(direct, LinearSolver::direct, false)
-  ->Arg(380)
-  ->Iterations(1)
-  ->Unit(benchmark::kMillisecond);
-
-/// Conjugate gradients on the resolved sheet take minutes: only where HOMESPUN_LONG_BENCHMARKS is
-/// set.
-const bool added = []
-{
-  if (std::getenv("HOMESPUN_LONG_BENCHMARKS"))
-    benchmark::RegisterBenchmark("step/iterative_1e-4", [](benchmark::State &state)
-                                 { step(state, LinearSolver::iterative, false, 1e-4); })
-      ->Arg(380)
-      ->Iterations(1)
-      ->Unit(benchmark::kMillisecond);
-  return true;
-}();
+HOMESPUN_STEP(direct, false)->Arg(380)->Iterations(1)->Unit(benchmark::kMillisecond);
 } // namespace

@@ -10,6 +10,8 @@ import pathlib
 import re
 import sys
 
+from functions import functions
+
 MESHES = {"meshes/plain", "meshes/files", "meshes/cloth", "meshes/garment"}
 CELLS = {"homogenization/cell", "homogenization/lint", "homogenization/fem"}
 SHELL = {"shell/algebra", "shell/membrane", "shell/terms", "shell/solver"}
@@ -116,6 +118,9 @@ PLACES = [
 MOST_FILES = 40
 MOST_LINES = 400
 MOST_COLUMNS = 100
+MOST_LINES_OF_FUNCTION = 80
+MOST_PARAMETERS = 6
+INSTALLED = ("meshes/", "homogenization/", "shell/", "localization/")  # whose headers are public
 # Other files that are held to MOST_COLUMNS, with the sources: of the build, and in Python.
 OTHER_TEXTS = (r"(.*/)?CMakeLists\.txt|.*\.cmake(\.in)?|bootstrap|"
                r"tests/(mutants|walls|verification/program)/\w+\.py")
@@ -262,6 +267,21 @@ def sizes(house):
             yield f"{path}: {n} lines; at most {MOST_LINES}: give its second idea a file"
 
 
+def signatures(house):
+    """Functions that are too long, or that a caller cannot read."""
+    for path, text in house.product.items():
+        for name, line, n_lines, parameters in functions(text):
+            here = f"{path}:{line}: {name}"
+            if n_lines > MOST_LINES_OF_FUNCTION:
+                yield f"{here}: {n_lines} lines; at most {MOST_LINES_OF_FUNCTION}"
+            if len(parameters) > MOST_PARAMETERS:
+                yield (f"{here}: {len(parameters)} parameters; at most {MOST_PARAMETERS}: what "
+                       "belongs together is a struct")
+            if path.startswith(INSTALLED) and path.endswith(".h") and any(
+                    re.match(r"(const )?bool\b(?!.*&)", parameter) for parameter in parameters):
+                yield f"{here}: a boolean parameter; expected an enum, which says what it chooses"
+
+
 def texts(house):
     """Lines that are too long, mentions of documents that a reader does not have, and texts of the
     program that tell its own story.
@@ -276,7 +296,7 @@ def texts(house):
                 yield f"{path}:{number}: tells how a limit came about, not what it follows from"
 
 
-RULES = [arrows, unused_arrows, circles, places, rows, test_headers, sizes, texts]
+RULES = [arrows, unused_arrows, circles, places, rows, test_headers, sizes, signatures, texts]
 
 
 def violations(root, rules=None):

@@ -69,6 +69,16 @@ class Planted(unittest.TestCase):
             self.include(path, f'"{name}"')
             self.expect(walls.arrows, f"{path}: includes {name}")
 
+    def test_functions(self):
+        long_one = "int long_one(int n)\n{\n" + 79 * "++n;\n" + "}\n"
+        self.append("meshes/plain/sheet.cc", "namespace homespun\n{\n" + long_one + "}\n")
+        self.expect(walls.signatures, "long_one: 81 lines; at most 80")
+        many = "void many(int a, double b, std::map<int, int> c, int d, int e, int f, int g);\n"
+        unclear = "void unclear(int n, bool is_fast);\n"
+        self.append("shell/solver/cloth.h", f"namespace homespun\n{{\n{many}{unclear}}}\n")
+        self.expect(walls.signatures, "many: 7 parameters; at most 6")
+        self.expect(walls.signatures, "unclear: a boolean parameter")
+
     def test_file_in_no_wing(self):
         (self.root / "shell" / "loose.cc").write_text("", encoding="utf-8")
         self.expect(walls.arrows, "shell/loose.cc: stands in no wing")

@@ -14,6 +14,7 @@
 #include "verification/record/on_root.h"
 #include "verification/record/progress.h"
 #include "verification/record/provenance.h"
+#include "verification/record/run_folder.h"
 #include "verification/record/step_times.h"
 
 #include <algorithm>

@@ -5,7 +5,7 @@
 #pragma once
 
 #include "verification/benchmark/benchmark_tables.h"
-#include "verification/record/run_folder.h"
+#include "verification/record/earlier.h"
 
 #include <mpi.h>
 

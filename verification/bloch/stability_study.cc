@@ -5,6 +5,7 @@
 #include "verification/bloch/margin_path.h"
 #include "verification/bloch/pattern_rows.h"
 #include "verification/bloch/stability_verdicts.h"
+#include "verification/cell/study_of_cells.h"
 #include "verification/laws/default_law.h"
 #include "verification/laws/yarn_cells.h"
 #include "verification/record/number_text.h"
@@ -59,7 +60,7 @@ public:
     on_root(communicator, [&]() { open(); });
     std::vector<AssessedCell> assessed;
     for (const UnitCell &cell : study.cells())
-      assessed.push_back(assess_for_study(cell, communicator, verdicts));
+      assessed.push_back(study.homogenize(cell, {}, verdicts));
     on_root(communicator, [&]() { solve(assessed); });
     share_failure(verdicts, communicator);
     return verdicts;

@@ -3,7 +3,8 @@
 // cloth, and the strain of first loss.
 #pragma once
 
-#include "verification/cell/study_of_cells.h"
+#include "verification/cell/study_options.h"
+#include "verification/record/verdict.h"
 
 #include <mpi.h>
 

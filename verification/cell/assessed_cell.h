@@ -5,6 +5,7 @@
 #include "homogenization/fem/homogenize.h"
 #include "verification/cell/cell_bending.h"
 #include "verification/cell/cell_bracket.h"
+#include "verification/cell/cell_edges.h"
 #include "verification/record/verdict.h"
 
 #include <mpi.h>
@@ -29,6 +30,8 @@ struct AssessedCell
   /// iterations of the last mesh.
   std::optional<CellBracket> bracket;
   std::optional<CellBending> bending; ///< nothing where nobody asked for it
+  std::optional<KnownEdges> edges;    ///< nothing where nobody asked for them
+  std::string folder;                 ///< of the files that it was read from; empty: it was solved
   /// Largest resident memory of each rank since the program began [bytes]; on the first rank alone.
   std::vector<double> peak_memory_of_rank;
 };

@@ -276,7 +276,6 @@ ordered_json membrane_json(const UnitCell &cell, const AssessedCell &assessed,
     {"dofs", result.n_dofs},
     {"solver", homogenization::name_of(result.solver)},
     {"iterations", result.iterations},
-    {"loads_taken_up", result.loads_taken_up},
     {"seconds",
      {{"setup", result.seconds.setup},
       {"assembly", result.seconds.assembly},
@@ -335,6 +334,18 @@ ShellSection section_of(const UnitCell &cell, const AssessedCell &assessed)
   return {cell.name, assessed.result.stiffness, assessed.bending->bracket->stiffness,
           cell.areal_density(), volume / areas.sum()};
 }
+/// The files of write_cell_results(), and no others that a study has put there.
+void copy_cell_results(const std::string &from, const std::string &to)
+{
+  if (std::filesystem::equivalent(from, to))
+    return;
+  for (const char *name :
+       {"cell.h5", "characteristic-displacements.vtu", "cell.json", "shell-section-abaqus.inp",
+        "shell-section-code_aster.comm", "homogenize.json"}) // the last one says that all are there
+    if (const std::string file = from + "/" + name; std::filesystem::exists(file))
+      std::filesystem::copy_file(file, to + "/" + name,
+                                 std::filesystem::copy_options::overwrite_existing);
+}
 } // namespace
 
 void write_cell_results(const UnitCell &cell, const AssessedCell &assessed,
@@ -342,8 +353,14 @@ void write_cell_results(const UnitCell &cell, const AssessedCell &assessed,
                         const std::string &folder)
 {
   std::filesystem::create_directories(folder);
+  if (!assessed.folder.empty())
+  {
+    copy_cell_results(assessed.folder, folder);
+    return;
+  }
   const meshes::HomogenizedCell homogenized = homogenized_cell(cell, assessed, provenance_line());
-  const KnownEdges known                    = affordable_edges(cell, assessed.options.order);
+  const KnownEdges known =
+    assessed.edges ? *assessed.edges : affordable_edges(cell, assessed.options.order);
   if (known.edges)
     meshes::write_cell(homogenized, *known.edges, folder + "/cell.h5");
   else

@@ -7,8 +7,8 @@
 #include "verification/record/on_root.h"
 #include "verification/record/peak_memory.h"
 #include "verification/record/progress.h"
+#include "verification/record/run_folder.h"
 
-#include <filesystem>
 #include <memory>
 
 namespace homespun::verification
@@ -16,8 +16,7 @@ namespace homespun::verification
 namespace
 {
 /// DoFs up to which the finer problem of the error bar is solved where there is no bracket.
-constexpr unsigned long largest_error_bar            = 4000000;
-constexpr unsigned long largest_error_bar_of_studies = 300000;
+constexpr unsigned long largest_error_bar = 4000000;
 
 constexpr const char *name_of_pieces = "characteristic-displacements-refined";
 
@@ -45,7 +44,6 @@ AssessedCell run_cell_study(const homogenization::UnitCell &cell, const CellStud
                             const MPI_Comm communicator)
 {
   homogenization::HomogenizationOptions solve = options.solve;
-  solve.checkpoint                            = options.output + "/.homespun-loads";
   solve.second_order                          = homogenization::laws_of_second_order(cell.phases);
   if (options.pieces)
     solve.pieces = options.output + "/" + name_of_pieces;
@@ -56,7 +54,6 @@ AssessedCell run_cell_study(const homogenization::UnitCell &cell, const CellStud
             folder = open_run_folder(options.output, {"homogenize", inputs_of(cell, options)},
                                      options.earlier, options.quiet);
             homogenization::remove_pieces(options.output + "/" + name_of_pieces);
-            std::filesystem::create_directories(solve.checkpoint);
           });
   AssessedCell assessed = [&]()
   {
@@ -100,66 +97,8 @@ AssessedCell run_cell_study(const homogenization::UnitCell &cell, const CellStud
           {
             write_cell_results(cell, assessed, options.uncertain, n_ranks_of(communicator),
                                options.output);
-            std::filesystem::remove_all(solve.checkpoint);
             folder->finish();
           });
   return assessed;
-}
-
-AssessedCell assess_for_study(const homogenization::UnitCell &cell, const MPI_Comm communicator,
-                              std::vector<Verdict> &verdicts,
-                              const std::vector<homogenization::MembraneLaw> &second_order)
-{
-  homogenization::HomogenizationOptions p1;
-  p1.order              = 1;
-  p1.solver             = homogenization::CellSolver::fastest;
-  p1.second_order       = second_order;
-  AssessedCell assessed = assess(cell, p1, communicator);
-  BracketOptions bracket;
-  bracket.order = p1.order;
-  on_root(communicator,
-          [&]()
-          {
-            add_bracket(
-              cell, bracket, [](const std::string &) {}, assessed);
-          });
-  add_estimate(cell, largest_error_bar_of_studies, communicator, assessed);
-  for (Verdict check : assessed.checks)
-  {
-    check.claim = cell.name + ": " + check.claim;
-    verdicts.push_back(check);
-  }
-  return assessed;
-}
-
-void add_bending_for_study(const homogenization::UnitCell &cell, const MPI_Comm communicator,
-                           AssessedCell &assessed, std::vector<Verdict> &verdicts)
-{
-  on_root(communicator,
-          [&]()
-          {
-            const std::size_t n_before = assessed.checks.size();
-            add_bending(
-              cell, {}, [](const std::string &) {}, assessed);
-            for (std::size_t k = n_before; k < assessed.checks.size(); ++k)
-            {
-              verdicts.push_back(assessed.checks[k]);
-              verdicts.back().claim = cell.name + ": " + verdicts.back().claim;
-            }
-          });
-  int is_known = assessed.bending && assessed.bending->bracket;
-  MPI_Bcast(&is_known, 1, MPI_INT, 0, communicator);
-  if (!is_known)
-    return;
-  homogenization::BendingBracket found;
-  if (assessed.bending)
-    found = *assessed.bending->bracket;
-  found.deflection.conservativeResize(cell.mesh.n_vertices(), 3);
-  for (Eigen::Matrix3d *const matrix : {&found.stiffness, &found.lower, &found.upper})
-    MPI_Bcast(matrix->data(), 9, MPI_DOUBLE, 0, communicator);
-  MPI_Bcast(found.deflection.data(), static_cast<int>(found.deflection.size()), MPI_DOUBLE, 0,
-            communicator);
-  if (!assessed.bending)
-    assessed.bending = CellBending{found, "handed on by the first rank", false, {}};
 }
 } // namespace homespun::verification

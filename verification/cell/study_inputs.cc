@@ -45,7 +45,7 @@ std::string fingerprint(const UnitCell &cell)
   for (const Eigen::Matrix3d &stiffness : cell.stiffness_of_phase())
     hash = hashed(hash, stiffness);
   for (const homogenization::Phase &phase : cell.phases)
-    hash = hashed(hash, Eigen::Matrix<double, 1, 1>(phase.thickness * phase.density));
+    hash = hashed(hash, Eigen::Vector2d(phase.thickness, phase.density)); // D^H knows the first
   return printed(hash);
 }
 

@@ -27,6 +27,7 @@ double factor_of_bars(const UnitCell &cell)
 
 StudyOfCells::StudyOfCells(StudyOptions given_options, const MPI_Comm communicator)
     : options(std::move(given_options))
+    , homogenized(options.homogenized ? options.homogenized : std::make_shared<AssessedCells>())
     , communicator(communicator)
     , begin(std::chrono::steady_clock::now())
 {
@@ -49,6 +50,14 @@ bool StudyOfCells::open(const std::string &name, nlohmann::ordered_json inputs)
   return folder->is_taken_up();
 }
 
+const AssessedCell &StudyOfCells::homogenize(const UnitCell &cell, const CellNeeds &needs,
+                                             std::vector<Verdict> &verdicts) const
+{
+  if (answer_of_root(folder && folder->is_taken_up(), communicator))
+    homogenized->read(cell, options.output + "/" + cell.name, communicator);
+  return homogenized->of(cell, needs, communicator, verdicts);
+}
+
 std::string StudyOfCells::write_cell(const UnitCell &cell, const AssessedCell &assessed) const
 {
   const std::string folder_of_cell = options.output + "/" + cell.name;
@@ -62,7 +71,8 @@ void StudyOfCells::conclude(StudyDescription description, const std::vector<Verd
   for (const std::string &note : notes_on_cuts(all_cells))
     description.notes.push_back(note);
   nlohmann::ordered_json study = {{"command", options.command}};
-  study.update(description.told);
+  if (!description.told.is_null())
+    study.update(description.told);
   study["ranks"] = n_ranks;
   study["seconds_total"] =
     std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();

@@ -3,9 +3,10 @@
 // and verdicts.json what ran. What is left to a study is its tables, its notes and its claims.
 #pragma once
 
-#include "verification/cell/cell_study.h"
+#include "verification/cell/assessed_cells.h"
 #include "verification/cell/study_options.h"
 #include "verification/record/json_files.h"
+#include "verification/record/run_folder.h"
 #include "verification/record/verdict.h"
 
 #include <chrono>
@@ -51,6 +52,13 @@ public:
   /// @throws BadInput as RunFolder does
   bool open(const std::string &name, nlohmann::ordered_json inputs);
 
+  /// A cell by P1, with its brackets: that of another study of this run or of an earlier process of
+  /// this study where there is one, see AssessedCells. All ranks must call this.
+  /// @param verdicts its checks are added
+  /// @throws BadInput, NotConverged
+  const AssessedCell &homogenize(const homogenization::UnitCell &cell, const CellNeeds &needs,
+                                 std::vector<Verdict> &verdicts) const;
+
   /// The folder of a cell, made, with the files of write_cell_results(). First rank.
   std::string write_cell(const homogenization::UnitCell &cell, const AssessedCell &assessed) const;
 
@@ -60,6 +68,7 @@ public:
 
 private:
   const StudyOptions options;
+  const std::shared_ptr<AssessedCells> homogenized;
   const MPI_Comm communicator;
   const std::chrono::steady_clock::time_point begin;
   std::vector<homogenization::UnitCell> all_cells;

@@ -4,6 +4,7 @@
 #include "homogenization/fem/homogenize.h"
 #include "meshes/plain/errors.h"
 #include "meshes/plain/sheet.h"
+#include "verification/cell/study_of_cells.h"
 #include "verification/converge/converge_cases.h"
 #include "verification/laws/default_law.h"
 #include "verification/record/on_root.h"
@@ -67,7 +68,7 @@ nlohmann::ordered_json what_was_left_out(const ConvergenceStudyOptions &options,
       "manufactured solutions of the homogenizer with P2 and a stiffness that varies smoothly",
       "a stiffness per triangle stands for it with order 2, which is P1's");
   }
-  if (options.quick)
+  if (options.is_quick)
     left_out("finer levels", "--quick");
   // Series of meshes whose number the DoFs decide, by cell, order and kind of mesh.
   std::map<std::tuple<std::string, unsigned int, bool>, std::size_t> n_meshes;
@@ -79,7 +80,7 @@ nlohmann::ordered_json what_was_left_out(const ConvergenceStudyOptions &options,
       left_out(std::get<0>(key) + ", adaptive, P" + std::to_string(std::get<1>(key)) +
                  ": order of the width",
                std::to_string(n) + " meshes have no more than " +
-                 std::to_string(convergence_sizes(options.quick).adaptive_dofs) +
+                 std::to_string(convergence_sizes(options.is_quick).adaptive_dofs) +
                  " DoFs; a fit needs " + std::to_string(fewest_uneven_levels));
   return list;
 }
@@ -134,7 +135,7 @@ public:
       , communicator(communicator)
       , is_root(verification::is_root(communicator))
       , study(options, communicator)
-      , sizes(convergence_sizes(options.quick))
+      , sizes(convergence_sizes(options.is_quick))
   {
   }
 
@@ -152,7 +153,7 @@ private:
   void open_tables()
   {
     nlohmann::ordered_json inputs;
-    inputs["quick"]                 = options.quick;
+    inputs["quick"]                 = options.is_quick;
     inputs["studies"]               = options.studies;
     inputs["refinements_p1"]        = sizes.refinements_p1;
     inputs["refinements_p2"]        = sizes.refinements_p2;
@@ -175,12 +176,12 @@ private:
     const std::vector<UnitCell> &cells = study.cells();
     for (const UnitCell &cell : cells)
     {
-      homogenization::HomogenizationOptions p1;
-      p1.order        = 1;
-      p1.second_order = {default_law(cell) == Law::yarn ? homogenization::MembraneLaw::yarn
-                                                        : homogenization::MembraneLaw::biot};
-      homogenized.push_back(homogenization::homogenized_cell(
-        cell, homogenization::homogenize(cell, p1, communicator), provenance_line()));
+      CellNeeds needs;
+      needs.second_order = {default_law(cell) == Law::yarn ? homogenization::MembraneLaw::yarn
+                                                           : homogenization::MembraneLaw::biot};
+      std::vector<Verdict> checks; // a study of orders claims nothing of C^H itself
+      homogenized.push_back(
+        homogenized_cell(cell, study.homogenize(cell, needs, checks), provenance_line()));
     }
     const auto add = [&](const std::string &name, const auto &cases_of)
     {
@@ -260,7 +261,7 @@ private:
               for (const std::string &note : notes_on_laws(options, study.cells()))
                 all_notes.push_back(note);
               all_notes.insert(all_notes.end(), unfinished.begin(), unfinished.end());
-              study.conclude({{{"studies", options.studies}, {"quick", options.quick}},
+              study.conclude({{{"studies", options.studies}, {"quick", options.is_quick}},
                               what_was_left_out(options, record->levels()),
                               all_notes,
                               resumed},

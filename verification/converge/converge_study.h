@@ -3,7 +3,8 @@
 // four levels, with its observed order held against the order that theory says.
 #pragma once
 
-#include "verification/cell/study_of_cells.h"
+#include "verification/cell/study_options.h"
+#include "verification/record/verdict.h"
 
 #include <mpi.h>
 
@@ -15,7 +16,6 @@ namespace homespun::verification
 struct ConvergenceStudyOptions : StudyOptions
 {
   std::vector<std::string> studies; ///< of convergence_studies()
-  bool quick = false;               ///< small sizes, for seconds to minutes
 };
 
 /// Runs the studies and writes, into the output folder, converge.csv (a row per level of every

@@ -95,6 +95,36 @@ nlohmann::ordered_json times_of_steps(const std::vector<double> &seconds,
           {"seconds_per_coarse_step_95", json_number(times.percentile_95)},
           {"factorizations_per_step", json_number(per_step)}};
 }
+
+/// What the steps of a run took [s], and how often they were cut and factored.
+struct StepCosts
+{
+  std::vector<double> steps, upsampling;
+  int cuts = 0, n_factorizations = 0;
+};
+
+/// Moves a cloth on to a frame, up-sampled at every step.
+template <typename Upsample>
+void move_to(const int frame, const DrapeSchedule &schedule, SceneCloth &moving,
+             const Upsample &upsample, StepCosts &costs)
+{
+  for (int k = 0; k < schedule.steps_to(frame); ++k)
+  {
+    costs.steps.push_back(seconds_of(
+      [&]()
+      {
+        if (schedule.is_static)
+          moving.solve_equilibrium(schedule.time_of(frame));
+        else
+        {
+          const shell::StepReport report = moving.step(schedule.step);
+          costs.cuts += report.cuts;
+          costs.n_factorizations += report.newton_iterations;
+        }
+      }));
+    costs.upsampling.push_back(seconds_of(upsample));
+  }
+}
 } // namespace
 
 bool belongs(const CoarseRun &run, const std::string &method)
@@ -116,8 +146,7 @@ CoarseRun run_coarse(const DrapedCell &draped, const std::string &variant,
   const Upsampler3f upsampler = draped.upsampler<float>(method);
   std::filesystem::create_directories(folder);
   meshes::FrameCollection coarse_list(folder + "/coarse.pvd"), fine_list(folder + "/fine.pvd");
-  std::vector<double> step_seconds, upsampling_seconds;
-  int cuts = 0, n_factorizations = 0;
+  StepCosts costs;
   Upsampler3f::Fine fine;
   const HeldMotion held = draped.coarse_motion();
   SceneCloth moving(draped.scene, draped.coarse, draped.effective_of(method), held,
@@ -128,22 +157,7 @@ CoarseRun run_coarse(const DrapedCell &draped, const std::string &variant,
     progress.begin(draped.cell.name + ", " + variant + " cloth, frame " + std::to_string(frame));
     try
     {
-      for (int k = 0; k < schedule.steps_to(frame); ++k)
-      {
-        step_seconds.push_back(seconds_of(
-          [&]()
-          {
-            if (schedule.is_static)
-              moving.solve_equilibrium(schedule.time_of(frame));
-            else
-            {
-              const shell::StepReport report = moving.step(schedule.step);
-              cuts += report.cuts;
-              n_factorizations += report.newton_iterations;
-            }
-          }));
-        upsampling_seconds.push_back(seconds_of(upsample));
-      }
+      move_to(frame, schedule, moving, upsample, costs);
       check_reach(moving.cloth().positions(), draped.coarse.positions, schedule.time_of(frame));
       if (frame == 0)
         upsample();
@@ -166,29 +180,29 @@ CoarseRun run_coarse(const DrapedCell &draped, const std::string &variant,
     row.elastic      = moving.elastic_energy();
     row.gravity      = gravity_energy(draped.scene, moving.cloth().masses(), run.frames.back());
     row.stretch      = largest_stretch(draped.coarse, run.frames.back());
-    row.step_seconds = median(step_seconds);
-    row.upsampling_seconds = median(upsampling_seconds);
+    row.step_seconds = median(costs.steps);
+    row.upsampling_seconds = median(costs.upsampling);
     output.write(row);
     // Of the variants one picture is enough: the report shows their curves.
     if (run.is_main || run.is_of_method || frame == schedule.n_frames)
     {
-      output.write_frame(name, "coarse", frame, run.frames.back(), draped.coarse.triangles, {},
+      output.write_frame({name, "coarse", frame}, run.frames.back(), draped.coarse.triangles, {},
                          &coarse_list);
-      output.write_frame(name, "fine", frame, fine.cast<double>(), draped.fine_triangles(),
+      output.write_frame({name, "fine", frame}, fine.cast<double>(), draped.fine_triangles(),
                          draped.fine_data(), &fine_list);
     }
     if (frame > 0)
       progress.done();
   }
-  run.seconds_per_step       = median(step_seconds);
-  run.seconds_per_upsampling = median(upsampling_seconds);
+  run.seconds_per_step       = median(costs.steps);
+  run.seconds_per_upsampling = median(costs.upsampling);
   run.description            = {{"variant", variant},
                                 {"folder", name},
                                 {"frames", run.frames.size()},
-                                {"cut_steps", cuts},
+                                {"cut_steps", costs.cuts},
                                 {"bytes", moving.cloth().bytes()},
                                 {"threads", 1}};
-  run.description.update(times_of_steps(step_seconds, n_factorizations));
+  run.description.update(times_of_steps(costs.steps, costs.n_factorizations));
   run.description["seconds_per_upsampling"] = json_number(run.seconds_per_upsampling);
   return run;
 }

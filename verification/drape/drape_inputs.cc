@@ -3,7 +3,6 @@
 
 #include "meshes/plain/errors.h"
 #include "meshes/plain/yarn_axes.h"
-#include "verification/cell/cell_edges.h"
 #include "verification/cell/study_inputs.h"
 #include "verification/drape/draped_cell.h"
 #include "verification/laws/default_law.h"
@@ -61,22 +60,24 @@ std::vector<std::string> cloths_of(const DrapeOptions &options, const MembraneMo
   return names;
 }
 
-std::optional<meshes::CellEdges> edges_for(const DrapeOptions &options, const UnitCell &cell)
+std::optional<meshes::CellEdges> edges_for(const DrapeOptions &options, const UnitCell &cell,
+                                           const AssessedCell &assessed)
 {
-  if (!asks_for(options, [](const Method &method) { return method.has_edge_terms(); }))
+  if (!needs_of(options).edges)
     return {};
-  KnownEdges known = known_edges(cell, 1);
-  if (!known.edges)
-    throw meshes::BadInput("--methods edges: " + cell.name + ": " + known.why_not +
+  if (!assessed.edges->edges)
+    throw meshes::BadInput("--methods edges: " + cell.name + ": " + assessed.edges->why_not +
                            "; expected a cell with terms of edges: leave the method out");
-  return std::move(known.edges);
+  return assessed.edges->edges;
 }
 
-std::vector<homogenization::MembraneLaw> laws_of_methods(const DrapeOptions &options)
+CellNeeds needs_of(const DrapeOptions &options)
 {
+  CellNeeds needs;
+  needs.edges = asks_for(options, [](const Method &method) { return method.has_edge_terms(); });
   if (asks_for(options, [](const Method &method) { return method.is_of_second_order(); }))
-    return {homogenization::MembraneLaw::biot};
-  return {};
+    needs.second_order = {homogenization::MembraneLaw::biot};
+  return needs;
 }
 
 namespace

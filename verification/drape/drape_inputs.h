@@ -6,7 +6,7 @@
 
 #include "homogenization/cell/unit_cell.h"
 #include "meshes/plain/cell_edges.h"
-#include "verification/cell/cell_study.h"
+#include "verification/cell/assessed_cells.h"
 #include "verification/drape/drape_options.h"
 #include "verification/drape/drape_schedule.h"
 #include "verification/drape/scene_cloth.h"
@@ -43,10 +43,11 @@ std::vector<std::string> cloths_of(const DrapeOptions &options, MembraneModel ma
 /// What the cell does at edges, where a method asks for it.
 /// @throws BadInput where it has no terms of edges
 std::optional<meshes::CellEdges> edges_for(const DrapeOptions &options,
-                                           const homogenization::UnitCell &cell);
+                                           const homogenization::UnitCell &cell,
+                                           const AssessedCell &assessed);
 
-/// Laws whose second order the methods ask for: that of the coarse cloth, or none.
-std::vector<homogenization::MembraneLaw> laws_of_methods(const DrapeOptions &options);
+/// What the methods ask of a cell: edges, and second order by the law of the coarse cloth.
+CellNeeds needs_of(const DrapeOptions &options);
 
 /// The scene file with what the options replace.
 /// @throws BadInput with one message per fault

@@ -20,4 +20,12 @@ struct DrapeOptions : StudyOptions
   double time_step = 0., duration = 0.;      ///< [s]; 0: the scene's
   bool costs = false;                        ///< what absent terms would cost
 };
+
+/// A sheet of 4 x 4 cells unless another was asked for, without error bar: seconds.
+inline void make_quick(DrapeOptions &options)
+{
+  options.is_quick             = true;
+  options.n_cells              = options.n_cells == 0 ? 4 : options.n_cells;
+  options.n_cells_of_error_bar = 0;
+}
 } // namespace homespun::verification

@@ -83,15 +83,14 @@ TermRow DrapeOutput::term_row(const std::string &cell, const std::string &term) 
   return row;
 }
 
-void DrapeOutput::write_frame(const std::string &run, const std::string &what, const int frame,
-                              const meshes::SpacePoints &positions,
+void DrapeOutput::write_frame(const Frame &frame, const meshes::SpacePoints &positions,
                               const meshes::Triangles &triangles, const meshes::SurfaceData &data,
                               meshes::FrameCollection *collection) const
 {
   for (const std::string &format : formats)
   {
-    const std::string name = frame_name(what, frame, format);
-    const std::string path = folder + "/" + run + "/" + name;
+    const std::string name = frame_name(frame.what, frame.number, format);
+    const std::string path = folder + "/" + frame.run + "/" + name;
     if (format == "ply")
       meshes::write_ply(path, positions.cast<float>(), triangles);
     else if (format == "obj")
@@ -101,7 +100,7 @@ void DrapeOutput::write_frame(const std::string &run, const std::string &what, c
       meshes::write_vtu(path, positions.cast<float>(), triangles, data.on_vertices,
                         data.on_triangles);
       if (collection)
-        collection->append(frame * interval, name);
+        collection->append(frame.number * interval, name);
     }
   }
 }

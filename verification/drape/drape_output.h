@@ -79,13 +79,18 @@ public:
     return terms->contains(row);
   }
 
+  struct Frame
+  {
+    std::string run;  ///< folder of the run, in that of the study
+    std::string what; ///< coarse or fine
+    int number;
+  };
+
   /// A frame on the disk in every format, in single precision but for .obj; the .vtu is listed in
   /// the collection, where there is one.
-  /// @param run folder of the run, in that of the study
-  /// @param what coarse or fine
-  void write_frame(const std::string &run, const std::string &what, int frame,
-                   const meshes::SpacePoints &positions, const meshes::Triangles &triangles,
-                   const meshes::SurfaceData &data, meshes::FrameCollection *collection) const;
+  void write_frame(const Frame &frame, const meshes::SpacePoints &positions,
+                   const meshes::Triangles &triangles, const meshes::SurfaceData &data,
+                   meshes::FrameCollection *collection) const;
 
   /// Lists the frames that an earlier run wrote.
   void list_earlier_frames(const std::string &run, int n,

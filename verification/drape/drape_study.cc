@@ -3,7 +3,6 @@
 
 #include "meshes/files/obj_file.h"
 #include "meshes/plain/errors.h"
-#include "verification/cell/cell_study.h"
 #include "verification/cell/study_inputs.h"
 #include "verification/cell/study_of_cells.h"
 #include "verification/drape/drape_inputs.h"
@@ -80,16 +79,15 @@ private:
   void study_cell(const UnitCell &cell)
   {
     run.progress.milestone(cell.name + ": homogenization");
-    AssessedCell assessed =
-      assess_for_study(cell, communicator, run.verdicts, laws_of_methods(options));
-    if (scene.has("bending") && !scene.bending)
-      add_bending_for_study(cell, communicator, assessed, run.verdicts);
-    const Eigen::Matrix3d &C   = assessed.result.stiffness;
-    const MembraneModel chosen = options.variants.empty()
-                                   ? default_model(cell, C)
-                                   : membrane_model_of(options.variants.front());
+    CellNeeds needs              = needs_of(options);
+    needs.bending                = scene.has("bending") && !scene.bending;
+    const AssessedCell &assessed = study.homogenize(cell, needs, run.verdicts);
+    const Eigen::Matrix3d &C     = assessed.result.stiffness;
+    const MembraneModel chosen   = options.variants.empty()
+                                     ? default_model(cell, C)
+                                     : membrane_model_of(options.variants.front());
     const DrapedCell draped(scene, cell, homogenized_cell(cell, assessed, provenance_line()),
-                            edges_for(options, cell), chosen);
+                            edges_for(options, cell, assessed), chosen);
     main_variants[cell.name] = name_of(draped.model);
     write_notes_on_laws(draped);
     if (draped.edges)

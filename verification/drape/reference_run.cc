@@ -161,7 +161,7 @@ private:
                    coarse.comparison->compare(reference, frame, positions, bar, output))
                 data.on_vertices.push_back(std::move(error));
               output.write(motion);
-              output.write_frame(name, "fine", frame, positions, draped.fine_triangles(), data,
+              output.write_frame({name, "fine", frame}, positions, draped.fine_triangles(), data,
                                  list.get());
               meshes::write_state(
                 {fine->positions(), velocities, fine->time(), frame, run.name, seconds},

@@ -112,7 +112,7 @@ private:
     for (const homogenization::UnitCell &cell : study.cells())
     {
       progress.milestone(cell.name + ": homogenization");
-      const AssessedCell assessed = assess_for_study(cell, communicator, verdicts);
+      const AssessedCell &assessed = study.homogenize(cell, {}, verdicts);
       cells.push_back(homogenization::homogenized_cell(cell, assessed.result, provenance_line()));
       names.push_back(cell.name);
       stiffnesses.push_back({cell.name, cells.back().stiffness, cells.back().areal_density});

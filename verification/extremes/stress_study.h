@@ -19,6 +19,14 @@ struct StressStudyOptions : StudyOptions
   int most_triangles = 1000000; ///< of the largest cell
 };
 
+/// Each case twice, cells of at most 1e5 triangles.
+inline void make_quick(StressStudyOptions &options)
+{
+  options.is_quick       = true;
+  options.repeats        = 2;
+  options.most_triangles = 100000;
+}
+
 /// Runs all cases and writes, into the output folder, stress.csv and solver.csv row by row,
 /// verdicts.json and study.json. Cases and measurements that have a row there are not run again.
 /// Cells are homogenized with P1 by all ranks; the cases run on the first rank, on one thread.

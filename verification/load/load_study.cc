@@ -6,6 +6,7 @@
 #include "verification/cell/algebraic_limit.h"
 #include "verification/cell/energy_order.h"
 #include "verification/cell/study_inputs.h"
+#include "verification/cell/study_of_cells.h"
 #include "verification/laws/default_law.h"
 #include "verification/laws/yarn_cells.h"
 #include "verification/load/load_path.h"
@@ -178,7 +179,7 @@ public:
     on_root(communicator, [&]() { open(); });
     std::vector<AssessedCell> assessed;
     for (const UnitCell &cell : study.cells())
-      assessed.push_back(assess_for_study(cell, communicator, verdicts));
+      assessed.push_back(study.homogenize(cell, {}, verdicts));
     on_root(communicator, [&]() { solve(assessed); });
     share_failure(verdicts, communicator);
     return verdicts;

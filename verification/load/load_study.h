@@ -3,8 +3,9 @@
 // curve, against that of a cloth that has C^H in place of the microstructure.
 #pragma once
 
-#include "verification/cell/study_of_cells.h"
+#include "verification/cell/study_options.h"
 #include "verification/load/load_control.h"
+#include "verification/record/verdict.h"
 
 #include <mpi.h>
 

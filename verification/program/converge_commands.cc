@@ -11,54 +11,37 @@
 
 namespace homespun::verification
 {
-namespace
-{
-struct ConvergeArguments
-{
-  ConvergenceStudyOptions study;
-  StudyEnd end;
-};
-
-int run_converge(ConvergeArguments arguments, CommandLine &line)
-{
-  ConvergenceStudyOptions &study = arguments.study;
-  ArgumentFaults faults;
-  faults.check_names("--studies", study.studies, convergence_studies());
-  if (study.studies.empty())
-    faults.add("--studies: found nothing; expected at least one");
-  faults.throw_if_any();
-  if (study.output.empty())
-    study.output = default_folder("converge", stems(study.cell_files), study.quick);
-  return arguments.end.conclude(line.studies.converge(study, MPI_COMM_WORLD), study.output,
-                                study.quiet, line.afterwards);
-}
-} // namespace
-
 void add_converge_command(CommandLine &line)
 {
+  using Arguments   = StudyArguments<ConvergenceStudyOptions>;
   CLI::App *command = line.app.add_subcommand(
     "converge",
     "Observed orders in mesh, adaptivity, cells per sheet, coarse mesh, strain and time step");
-  const auto arguments           = std::make_shared<ConvergeArguments>();
+  const auto arguments           = std::make_shared<Arguments>();
   ConvergenceStudyOptions &study = arguments->study;
   study.studies                  = convergence_studies();
-  study.command                  = line.text;
   command->add_option("CELL.prm", study.cell_files, "Cell files")->required();
   add_list(*command, "--studies", study.studies, "Studies, comma-separated");
-  command->add_flag("--quick", study.quick, "Fewer and smaller levels: a minute");
-  add_folder_options(*command, study, "out/NAME/converge, with --quick out/NAME/converge-quick");
-  arguments->end.add_options(*command);
-  command->footer("Studies: mesh (uniform refinement of the cell, P1 and P2), adaptive (width of "
-                  "the bracket on C^H), scale\n"
-                  "(cells per sheet), coarse (coarse triangles per cell), strain (periodic loads "
-                  "under biot), time (steps of the coarse cloth), manufactured\n"
-                  "(every solver against motions that it must reproduce; needs no cell, but is run "
-                  "once with the first).\n"
-                  "An order that has not settled is INCONCLUSIVE, not a failure: exit status 4.\n"
-                  "Example:\n  homespun converge mycell.prm --quick\n"
-                  "  mpirun -n 2 homespun converge mycell.prm --studies mesh,scale");
-  command->callback(
-    [&line, arguments]()
-    { line.solve = [&line, arguments]() { return run_converge(*arguments, line); }; });
+  command->add_flag("--quick", study.is_quick, "Fewer and smaller levels: a minute");
+  add_study(line, *command, arguments,
+            {"out/NAME/converge, with --quick out/NAME/converge-quick",
+             "Studies: mesh (uniform refinement of the cell, P1 and P2), adaptive (width of "
+             "the bracket on C^H), scale\n"
+             "(cells per sheet), coarse (coarse triangles per cell), strain (periodic loads "
+             "under biot), time (steps of the coarse cloth), manufactured\n"
+             "(every solver against motions that it must reproduce; needs no cell, but is run "
+             "once with the first).\n"
+             "An order that has not settled is INCONCLUSIVE, not a failure: exit status 4.\n"
+             "Example:\n  homespun converge mycell.prm --quick\n"
+             "  mpirun -n 2 homespun converge mycell.prm --studies mesh,scale"},
+            &Studies::converge,
+            [](const Arguments &given)
+            {
+              ArgumentFaults faults;
+              faults.check_names("--studies", given.study.studies, convergence_studies());
+              if (given.study.studies.empty())
+                faults.add("--studies: found nothing; expected at least one");
+              faults.throw_if_any();
+            });
 }
 } // namespace homespun::verification

@@ -16,15 +16,18 @@ namespace homespun::verification
 {
 namespace
 {
-struct DrapeArguments
+struct DrapeArguments : StudyArguments<DrapeOptions>
 {
-  DrapeOptions study;
-  StudyEnd end;
-  bool quick = false, no_frames = false;
+  bool no_frames = false;
 };
 
-void check_arguments(const DrapeOptions &study)
+void check_arguments(DrapeArguments &arguments)
 {
+  DrapeOptions &study = arguments.study;
+  if (arguments.no_frames)
+    study.frames.clear();
+  if (study.is_quick)
+    make_quick(study);
   ArgumentFaults faults;
   faults.check_names("--variants", study.variants, membrane_model_of);
   faults.check_names("--methods", study.methods,
@@ -50,18 +53,6 @@ void check_arguments(const DrapeOptions &study)
     faults.add("--time-step, --duration: expected positive numbers in seconds");
   faults.throw_if_any();
 }
-
-int run_drape(DrapeArguments arguments, CommandLine &line)
-{
-  DrapeOptions &study = arguments.study;
-  if (arguments.no_frames)
-    study.frames.clear();
-  check_arguments(study);
-  if (study.output.empty())
-    study.output = default_folder("drape", stems({study.scene_file}), arguments.quick);
-  return arguments.end.conclude(line.studies.drape(study, MPI_COMM_WORLD), study.output,
-                                study.quiet, line.afterwards);
-}
 } // namespace
 
 void add_drape_command(CommandLine &line)
@@ -72,7 +63,6 @@ void add_drape_command(CommandLine &line)
   const auto arguments = std::make_shared<DrapeArguments>();
   DrapeOptions &study  = arguments->study;
   study.methods        = {"affine", "localized", "localized-affine-lift"};
-  study.command        = line.text;
 
   command
     ->add_option("SCENE.prm", study.scene_file, "Scene file; the shipped ones are in meshes/scenes")
@@ -99,32 +89,22 @@ void add_drape_command(CommandLine &line)
   command->add_flag("--no-frames", arguments->no_frames, "Write no frames");
   command->add_flag("--costs", study.costs,
                     "Measure what each term that the scene leaves out would have cost");
-  command->add_flag("--quick", arguments->quick, "A sheet of 4 x 4 cells, no error bar: seconds");
-  add_folder_options(*command, study, "out/SCENE/drape, --quick drape-quick");
-  arguments->end.add_options(*command);
-  command->footer(
-    "References: shell is this program's own cloth with a stiffness per triangle, the naive way at "
-    "its\n"
-    "best, with the model of the method; the laws are finite elements (deal.II), on all ranks, for "
-    "sheets\n"
-    "under gravity that are held by edges, corners or vertices.\n"
-    "Of each frame: errors (drape.csv), motion and energies (motion.csv), what each pin and\n"
-    "handle exerts (held-forces.csv), the cloth for ParaView.\n"
-    "Examples:\n  homespun drape meshes/scenes/hang.prm\n"
-    "  mpirun -n 2 homespun drape meshes/scenes/pull.prm --references biot\n"
-    "  homespun drape meshes/scenes/clamp-four.prm --variants corotational,nodal-warping\n\n"
-    "Keys of a scene file:\n" +
-    scene_keys());
-  command->callback(
-    [&line, arguments]()
-    {
-      if (arguments->quick)
-      {
-        if (arguments->study.n_cells == 0)
-          arguments->study.n_cells = 4;
-        arguments->study.n_cells_of_error_bar = 0;
-      }
-      line.solve = [&line, arguments]() { return run_drape(*arguments, line); };
-    });
+  command->add_flag("--quick", study.is_quick, "A sheet of 4 x 4 cells, no error bar: seconds");
+  add_study(
+    line, *command, arguments,
+    {"out/SCENE/drape, --quick drape-quick",
+     "References: shell is this program's own cloth with a stiffness per triangle, the naive way "
+     "at its\n"
+     "best, with the model of the method; the laws are finite elements (deal.II), on all ranks, "
+     "for sheets\n"
+     "under gravity that are held by edges, corners or vertices.\n"
+     "Of each frame: errors (drape.csv), motion and energies (motion.csv), what each pin and\n"
+     "handle exerts (held-forces.csv), the cloth for ParaView.\n"
+     "Examples:\n  homespun drape meshes/scenes/hang.prm\n"
+     "  mpirun -n 2 homespun drape meshes/scenes/pull.prm --references biot\n"
+     "  homespun drape meshes/scenes/clamp-four.prm --variants corotational,nodal-warping\n\n"
+     "Keys of a scene file:\n" +
+       scene_keys()},
+    &Studies::drape, check_arguments);
 }
 } // namespace homespun::verification

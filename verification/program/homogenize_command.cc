@@ -4,6 +4,7 @@
 #include "homogenization/lint/cell_reading.h"
 #include "verification/cell/cell_summary.h"
 #include "verification/record/on_root.h"
+#include "verification/record/run_folder.h"
 
 #include <iostream>
 
@@ -16,7 +17,7 @@ int homogenize_cell(const HomogenizeArguments &arguments)
   CellStudyOptions study = arguments.study;
   study.uncertain        = uncertain_inputs(cell, arguments.uncertain);
   if (study.output.empty())
-    study.output = default_folder("homogenize", {cell.name}, false);
+    study.output = default_folder("homogenize", {cell.name});
   const AssessedCell assessed = run_cell_study(cell, study, MPI_COMM_WORLD);
   if (is_root(MPI_COMM_WORLD) && !study.quiet)
     std::cout << summary(cell, assessed, study.uncertain) << "Written to " << study.output

@@ -14,15 +14,13 @@ namespace homespun::verification
 {
 namespace
 {
-struct LoadArguments
+struct LoadArguments : StudyArguments<LoadStudyOptions>
 {
-  LoadStudyOptions study;
   std::vector<std::string> stresses, strains;
   int axis = 0; ///< 0: that of the pull
-  StudyEnd end;
 };
 
-int run_load(LoadArguments arguments, CommandLine &line)
+void check_arguments(LoadArguments &arguments)
 {
   LoadStudyOptions &study = arguments.study;
   ArgumentFaults faults;
@@ -37,13 +35,9 @@ int run_load(LoadArguments arguments, CommandLine &line)
   }
   faults.check_names("--law", study.laws, law_of);
   faults.throw_if_any();
-  if (study.output.empty())
-    study.output = default_folder("load", stems(study.cell_files), false);
   if (!study.quiet && is_root(MPI_COMM_WORLD))
     std::cout << "Prescribed: " << study.control.text() << "; axis " << study.control.axis
               << " keeps its direction\n";
-  return arguments.end.conclude(line.studies.load(study, MPI_COMM_WORLD), study.output, study.quiet,
-                                line.afterwards);
 }
 } // namespace
 
@@ -53,7 +47,6 @@ void add_load_command(CommandLine &line)
     "load", "An infinite cloth under given stresses and strains: its curve (load.csv)");
   const auto arguments    = std::make_shared<LoadArguments>();
   LoadStudyOptions &study = arguments->study;
-  study.command           = line.text;
   command->add_option("CELL.prm", study.cell_files, "Cell files")->required();
   add_list(*command, "--stress", arguments->stresses,
            "Nominal stresses by component, N per metre of rest width: 11=50,12=0");
@@ -75,18 +68,17 @@ void add_load_command(CommandLine &line)
   add_list(*command, "--measured", study.measured,
            "CSV files, comma-separated, with curves to draw on the same axes: columns strain_11, "
            "stress_11_N_per_m and so on");
-  arguments->end.add_options(*command);
-  add_folder_options(*command, study, "out/NAME/load");
-  command->footer(
-    "A component is given once, its stress or its strain; one that is not given is free of "
-    "stress.\n"
-    "Examples:\n"
-    "  homespun load dots.prm --strain 11=10%                          uniaxial, sides free\n"
-    "  homespun load dots.prm --strain 11=10%,22=10%                   equibiaxial\n"
-    "  homespun load dots.prm --stress 11=50,22=100                    biaxial 1:2\n"
-    "  homespun load dots.prm --stress 11=50,12=0 --strain 22=0.02 --steps 40 --law biot,green\n"
-    "  homespun load dots.prm --strain 22=-2%                          compression");
-  command->callback([&line, arguments]()
-                    { line.solve = [&line, arguments]() { return run_load(*arguments, line); }; });
+  add_study(
+    line, *command, arguments,
+    {"out/NAME/load",
+     "A component is given once, its stress or its strain; one that is not given is free of "
+     "stress.\n"
+     "Examples:\n"
+     "  homespun load dots.prm --strain 11=10%                          uniaxial, sides free\n"
+     "  homespun load dots.prm --strain 11=10%,22=10%                   equibiaxial\n"
+     "  homespun load dots.prm --stress 11=50,22=100                    biaxial 1:2\n"
+     "  homespun load dots.prm --stress 11=50,12=0 --strain 22=0.02 --steps 40 --law biot,green\n"
+     "  homespun load dots.prm --strain 22=-2%                          compression"},
+    &Studies::load, check_arguments);
 }
 } // namespace homespun::verification

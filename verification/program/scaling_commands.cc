@@ -3,6 +3,7 @@
 #include "verification/program/studies.h"
 #include "verification/program/study_arguments.h"
 #include "verification/record/on_root.h"
+#include "verification/record/run_folder.h"
 #include "verification/scaling/scaling_summary.h"
 
 #include <CLI/Config.hpp>
@@ -38,7 +39,7 @@ int prepare(CommandLine &line, ScalingOptions options)
                "`; expected {ranks} where the number of ranks stands, like `srun -n {ranks}`");
   faults.throw_if_any();
   if (options.output.empty())
-    options.output = default_folder("scaling", stems(options.cell_files), false);
+    options.output = default_folder("scaling", stems(options.cell_files));
   line.afterwards = [options, run = line.studies.scaling]()
   {
     const ScalingResult result = run(options);

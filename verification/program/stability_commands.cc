@@ -18,12 +18,10 @@ namespace homespun::verification
 {
 namespace
 {
-struct StabilityArguments
+struct StabilityArguments : StudyArguments<StabilityStudyOptions>
 {
-  StabilityStudyOptions study;
   std::string supercell;
   std::vector<std::string> strains = {"-2%", "-5%", "-10%", "-15%", "-20%"};
-  StudyEnd end;
 };
 
 /// Reads the strains, each as a fraction or a percentage.
@@ -60,7 +58,7 @@ void read_strains(const std::vector<std::string> &texts, std::vector<double> &st
     faults.add("--strains: found nothing; expected one strain at least, like -5%");
 }
 
-int run_stability(StabilityArguments arguments, CommandLine &line)
+void check_arguments(StabilityArguments &arguments)
 {
   StabilityStudyOptions &study = arguments.study;
   ArgumentFaults faults;
@@ -81,10 +79,6 @@ int run_stability(StabilityArguments arguments, CommandLine &line)
   if (const auto n = read_supercell(arguments.supercell, faults))
     study.supercell = Eigen::Vector2i((*n)[0], (*n)[1]);
   faults.throw_if_any();
-  if (study.output.empty())
-    study.output = default_folder("stability", stems(study.cell_files), false);
-  return arguments.end.conclude(line.studies.stability(study, MPI_COMM_WORLD), study.output,
-                                study.quiet, line.afterwards);
 }
 } // namespace
 
@@ -95,7 +89,6 @@ void add_stability_command(CommandLine &line)
                  "strain (stability.csv)");
   const auto arguments         = std::make_shared<StabilityArguments>();
   StabilityStudyOptions &study = arguments->study;
-  study.command                = line.text;
   command->add_option("CELL.prm", study.cell_files, "Cell files")->required();
   add_list(*command, "--load", study.loads,
            "Loads of an infinite cloth: periodic-11, -22 or -12 (all strains given), uniaxial-1 or "
@@ -116,18 +109,16 @@ void add_stability_command(CommandLine &line)
     "--supercell", arguments->supercell,
     "N1xN2 cells that are solved as one beyond the first loss, like 2x2 (default: "
     "those over which the lowest wave repeats)");
-  arguments->end.add_options(*command);
-  add_folder_options(*command, study, "out/NAME/stability");
-  command->footer(
-    "beta is 1 at rest and zero where a wave of displacement costs nothing. Lost first by long\n"
-    "waves: the macroscopic law localizes; by a wave k of finite length: a pattern over 1/k "
-    "cells.\n"
-    "Examples:\n"
-    "  homespun stability honeycomb.prm                                  pressed, sides free\n"
-    "  homespun stability layered.prm --load periodic-11 --strains=-1%,-5%,-10%,-20%\n"
-    "  homespun stability mycell.prm --load uniaxial-2 --strains 5%,10%,20% --law biot,green");
-  command->callback(
-    [&line, arguments]()
-    { line.solve = [&line, arguments]() { return run_stability(*arguments, line); }; });
+  add_study(
+    line, *command, arguments,
+    {"out/NAME/stability",
+     "beta is 1 at rest and zero where a wave of displacement costs nothing. Lost first by long\n"
+     "waves: the macroscopic law localizes; by a wave k of finite length: a pattern over 1/k "
+     "cells.\n"
+     "Examples:\n"
+     "  homespun stability honeycomb.prm                                  pressed, sides free\n"
+     "  homespun stability layered.prm --load periodic-11 --strains=-1%,-5%,-10%,-20%\n"
+     "  homespun stability mycell.prm --load uniaxial-2 --strains 5%,10%,20% --law biot,green"},
+    &Studies::stability, check_arguments);
 }
 } // namespace homespun::verification

@@ -19,12 +19,9 @@ namespace homespun::verification
 {
 namespace
 {
-struct StrainArguments
+struct StrainArguments : StudyArguments<StrainStudyOptions>
 {
-  StrainStudyOptions study;
   std::string supercell;
-  StudyEnd end;
-  bool quick = false;
 };
 
 /// A strain as a fraction: `10%` is 0.1. A plain number from 0.5 on is asked about, because whoever
@@ -85,16 +82,6 @@ void check_arguments(StrainStudyOptions &study, const std::string &supercell)
                "uniaxial-1: sheets have --cells");
   faults.throw_if_any();
 }
-
-int run_strain(StrainArguments arguments, CommandLine &line)
-{
-  StrainStudyOptions &study = arguments.study;
-  check_arguments(study, arguments.supercell);
-  if (study.output.empty())
-    study.output = default_folder("strain", stems(study.cell_files), study.is_quick);
-  return arguments.end.conclude(line.studies.strain(study, MPI_COMM_WORLD), study.output,
-                                study.quiet, line.afterwards);
-}
 } // namespace
 
 void add_strain_command(CommandLine &line)
@@ -104,7 +91,6 @@ void add_strain_command(CommandLine &line)
   const auto arguments      = std::make_shared<StrainArguments>();
   StrainStudyOptions &study = arguments->study;
   study                     = default_strain_study();
-  study.command             = line.text;
 
   command->add_option("CELL.prm", study.cell_files, "Cell files")->required();
   CLI::Option *cells =
@@ -121,44 +107,46 @@ void add_strain_command(CommandLine &line)
   add_list(*command, "--references", study.references,
            "Laws of the fine reference (default linear, yarn or biot by the cell, green)");
   add_list(*command, "--methods", study.methods, "Ways to the fine positions");
-  add_folder_options(*command, study, "out/NAME/strain, with --quick out/NAME/strain-quick");
-  command->add_flag("--quick", arguments->quick,
+  command->add_flag("--quick", study.is_quick,
                     "4 x 4 cells at 0.1, 1 and 10 % unless given otherwise: seconds");
   command->add_flag("!--no-budget", study.budget,
                     "Leave out the error budget: budget.csv, the error split into its parts");
   command->add_flag("!--no-runtime", study.run_time,
                     "Leave out error against run time: runtime.csv, every way to the positions");
-  arguments->end.add_options(*command);
-  command->footer(
-    "Loads: periodic-11, periodic-22, periodic-12 (infinite cloth; 12 is simple shear), strip-1,\n"
-    "strip-2 (two edges clamped, one pulled outwards), shear-frame (upper edge moved sideways);\n"
-    "where asked for: uniaxial-1, uniaxial-2 (infinite cloth, pulled, its sides free), "
-    "periodic-all\n"
-    "(11, half of it 22, and 12 at once).\n"
-    "Of each level: errors (strain.csv), forces of the clamps or the stress (forces.csv); of\n"
-    "sheets, at the largest strain and near 10 %, displacements for ParaView\n"
-    "(CELL/sheet-LOAD-STRAIN.vtu).\n"
-    "References: linear; biot (that of the corotational coarse cloth); yarn (stretch and angle of\n"
-    "two yarns, for cells with orthotropic phases; the coarse cloth takes it, too);\n"
-    "yarn-tension (the same without compression, which wrinkles take); green\n"
-    "(St. Venant-Kirchhoff). Where none are asked for, a cell has yarn in place of biot if one of\n"
-    "its phases, pulled along a yarn, has no minimum under biot before 20 % (4/(E/G - 4)).\n"
-    "Example:\n  homespun strain mycell.prm --quick\n"
-    "  mpirun -n 2 homespun strain mycell.prm --loads strip-2,shear-frame --strains 0.01,0.1");
-  command->callback(
-    [&line, arguments, cells, strains]()
+  add_study(
+    line, *command, arguments,
+    {"out/NAME/strain, with --quick out/NAME/strain-quick",
+
+     "Loads: periodic-11, periodic-22, periodic-12 (infinite cloth; 12 is simple shear), strip-1,\n"
+     "strip-2 (two edges clamped, one pulled outwards), shear-frame (upper edge moved sideways);\n"
+     "where asked for: uniaxial-1, uniaxial-2 (infinite cloth, pulled, its sides free), "
+     "periodic-all\n"
+     "(11, half of it 22, and 12 at once).\n"
+     "Of each level: errors (strain.csv), forces of the clamps or the stress (forces.csv); of\n"
+     "sheets, at the largest strain and near 10 %, displacements for ParaView\n"
+     "(CELL/sheet-LOAD-STRAIN.vtu).\n"
+     "References: linear; biot (that of the corotational coarse cloth); yarn (stretch and angle "
+     "of\n"
+     "two yarns, for cells with orthotropic phases; the coarse cloth takes it, too);\n"
+     "yarn-tension (the same without compression, which wrinkles take); green\n"
+     "(St. Venant-Kirchhoff). Where none are asked for, a cell has yarn in place of biot if one "
+     "of\n"
+     "its phases, pulled along a yarn, has no minimum under biot before 20 % (4/(E/G - 4)).\n"
+     "Example:\n  homespun strain mycell.prm --quick\n"
+     "  mpirun -n 2 homespun strain mycell.prm --loads strip-2,shear-frame --strains 0.01,0.1"},
+    &Studies::strain,
+    [cells, strains](StrainArguments &given)
     {
-      if (arguments->quick)
+      if (given.study.is_quick)
       {
-        StrainStudyOptions &given      = arguments->study;
-        const StrainStudyOptions asked = given;
-        make_quick(given);
+        const StrainStudyOptions asked = given.study;
+        make_quick(given.study);
         if (cells->count() > 0)
-          given.n_cells = asked.n_cells;
+          given.study.n_cells = asked.n_cells;
         if (strains->count() > 0)
-          given.strains = asked.strains;
+          given.study.strains = asked.strains;
       }
-      line.solve = [&line, arguments]() { return run_strain(*arguments, line); };
+      check_arguments(given.study, given.supercell);
     });
 }
 } // namespace homespun::verification

@@ -84,26 +84,27 @@ void print(const std::vector<Verdict> &verdicts)
                 verdict.limit.c_str());
 }
 
-void StudyEnd::add_options(CLI::App &command)
+void add_report_option(CLI::App &command, bool &no_report)
 {
   command.add_flag("--no-report", no_report, "Leave out report.html");
 }
 
-int StudyEnd::conclude(const std::vector<Verdict> &verdicts, const std::string &output,
-                       const bool quiet, AfterMpi &afterwards) const
+int conclude(const std::vector<Verdict> &verdicts, const StudyOptions &study)
 {
-  if (is_root(MPI_COMM_WORLD))
-  {
-    if (!quiet)
-      print(verdicts);
-    if (!no_report)
-      afterwards = [output, quiet]()
-      {
-        make_report({output}, output, quiet);
-        list_report(output);
-        return 0;
-      };
-  }
+  if (is_root(MPI_COMM_WORLD) && !study.quiet)
+    print(verdicts);
   return status_of(verdicts);
+}
+
+AfterMpi report_of(const StudyOptions &study)
+{
+  if (!is_root(MPI_COMM_WORLD))
+    return {};
+  return [output = study.output, quiet = study.quiet]()
+  {
+    make_report({output}, output, quiet);
+    list_report(output);
+    return 0;
+  };
 }
 } // namespace homespun::verification

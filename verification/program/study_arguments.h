@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
 // What the commands that run a study share: lists on the command line, faults of names collected
-// over all options, and the end of a command: verdicts on the terminal, the report, the exit
-// status.
+// over all options, the options that all have, and the end: verdicts on the terminal, the report,
+// the exit status.
 #pragma once
 
 #include "meshes/plain/errors.h"
 #include "verification/program/commands.h"
+#include "verification/program/studies.h"
 #include "verification/record/run_folder.h"
 #include "verification/record/verdict.h"
 
@@ -13,6 +14,7 @@
 #include <CLI/Option.hpp>
 
 #include <array>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -103,18 +105,74 @@ std::vector<std::string> stems(const std::vector<std::string> &files);
 /// The verdicts on the terminal, a line each.
 void print(const std::vector<Verdict> &verdicts);
 
-/// What every study is told apart from its subject.
-struct StudyEnd
+/// What a command that runs a study is told: the study's options, and what is no study's matter.
+template <typename Options>
+struct StudyArguments
 {
+  Options study;
   bool no_report = false;
-
-  /// Adds --no-report.
-  void add_options(CLI::App &command);
-
-  /// Prints the verdicts and leaves the report of the output folder to be made, both on the first
-  /// rank.
-  /// @return the exit status: status_of() the verdicts
-  int conclude(const std::vector<Verdict> &verdicts, const std::string &output, bool quiet,
-               AfterMpi &afterwards) const;
 };
+
+/// What a command says of itself below its options.
+struct StudyText
+{
+  std::string place;  ///< what the folder is by default, in words: "out/NAME/strain"
+  std::string footer; ///< what follows the options in its help
+};
+
+/// Adds --no-report.
+void add_report_option(CLI::App &command, bool &no_report);
+
+/// What a folder of results is called after.
+inline std::vector<std::string> names_of(const StudyOptions &study)
+{
+  return stems(study.cell_files);
+}
+inline std::vector<std::string> names_of(const DrapeOptions &study)
+{
+  return stems({study.scene_file});
+}
+
+/// Gives a study the folder of its command, where it was told none.
+template <typename Options>
+void choose_folder(const CLI::App &command, Options &study)
+{
+  if (study.output.empty())
+    study.output =
+      default_folder(command.get_name() + (study.is_quick ? "-quick" : ""), names_of(study));
+}
+
+/// Prints the verdicts, on the first rank.
+/// @return the exit status: status_of() the verdicts
+int conclude(const std::vector<Verdict> &verdicts, const StudyOptions &study);
+
+/// Makes the report of the study's folder, on the first rank; on others there is nothing to do.
+AfterMpi report_of(const StudyOptions &study);
+
+/// The rest of a command that runs a study: the options that all have and, where it is chosen, what
+/// it checks, its folder, the study, its verdicts and its page.
+/// @param arguments of a kind derived from StudyArguments
+/// @param check is called with the arguments, may change them and throws BadInput
+template <typename Arguments, typename Options, typename Check>
+void add_study(CommandLine &line, CLI::App &command, const std::shared_ptr<Arguments> &arguments,
+               const StudyText &text, Study<Options> Studies::*const study, const Check &check)
+{
+  arguments->study.command = line.text;
+  add_folder_options(command, arguments->study, text.place);
+  add_report_option(command, arguments->no_report);
+  command.footer(text.footer);
+  command.callback(
+    [&line, &command, arguments, study, check]()
+    {
+      line.solve = [&line, &command, arguments, study, check]()
+      {
+        check(*arguments);
+        choose_folder(command, arguments->study);
+        const auto verdicts = (line.studies.*study)(arguments->study, MPI_COMM_WORLD);
+        if (!arguments->no_report)
+          line.afterwards = report_of(arguments->study);
+        return conclude(verdicts, arguments->study);
+      };
+    });
+}
 } // namespace homespun::verification

@@ -2,6 +2,7 @@
 // homespun upsample: fine positions for the frames of another program's coarse simulation.
 #include "verification/program/study_arguments.h"
 #include "verification/record/on_root.h"
+#include "verification/record/run_folder.h"
 #include "verification/upsample/upsample_study.h"
 
 #include <CLI/Config.hpp>
@@ -37,7 +38,7 @@ int run_upsample(UpsampleOptions study)
     return exit_status::good;
   check_arguments(study);
   if (study.output.empty())
-    study.output = default_folder("upsample", stems({study.rest_file}), false);
+    study.output = default_folder("upsample", stems({study.rest_file}));
   run_upsample_study(study);
   return exit_status::good;
 }

@@ -15,15 +15,9 @@ namespace homespun::verification
 {
 namespace
 {
-struct VerifyArguments
+int run_verify(StudyArguments<VerifyOptions> arguments, CommandLine &line)
 {
-  VerifyOptions verify;
-  bool no_report = false;
-};
-
-int run_verify(VerifyArguments arguments, CommandLine &line)
-{
-  VerifyOptions &options = arguments.verify;
+  VerifyOptions &options = arguments.study;
   ArgumentFaults faults;
   faults.check_names("--parts", options.parts, verify_parts());
   for (const std::string &part : options.parts)
@@ -32,8 +26,7 @@ int run_verify(VerifyArguments arguments, CommandLine &line)
                  " needs a cell, and none is given; expected CELL.prm, or the "
                  "self-tests converge and stress");
   faults.throw_if_any();
-  if (options.output.empty())
-    options.output = default_folder("verify", stems(options.cell_files), options.quick);
+  choose_folder(*line.app.get_subcommand("verify"), options);
   const bool tells = is_root(MPI_COMM_WORLD);
   Verification result;
   try
@@ -82,8 +75,8 @@ void add_verify_command(CommandLine &line)
   CLI::App *command = line.app.add_subcommand(
     "verify",
     "Everything, for a list of cells: one report with all claims; without a cell the self-tests");
-  const auto arguments   = std::make_shared<VerifyArguments>();
-  VerifyOptions &options = arguments->verify;
+  const auto arguments   = std::make_shared<StudyArguments<VerifyOptions>>();
+  VerifyOptions &options = arguments->study;
   options.command        = line.text;
   command->add_option("CELL.prm", options.cell_files, "Cell files; none: the self-tests");
   add_list(*command, "--parts", options.parts,
@@ -91,8 +84,8 @@ void add_verify_command(CommandLine &line)
            "homogenize,strain,converge,drape, without converge,stress)");
   add_folder_options(*command, options,
                      "out/NAME/verify, without a cell out/verify, with --quick verify-quick");
-  command->add_flag("--quick", options.quick, "Small sizes everywhere: minutes");
-  command->add_flag("--no-report", arguments->no_report, "Leave out report.html");
+  command->add_flag("--quick", options.is_quick, "Small sizes everywhere: minutes");
+  add_report_option(*command, arguments->no_report);
   command->footer(
     "Parts: homogenize (brackets of C^H), strain (error against strain, budget, run time, range of "
     "validity),\n"
@@ -101,7 +94,7 @@ void add_verify_command(CommandLine &line)
     "biot).\n"
     "The first line says PASS, or FAIL with the first claim that failed; each part has a folder of "
     "its own.\n"
-    "Taken up again, cells are homogenized again; all else keeps what is there.\n"
+    "Each cell is homogenized for itself and once for all studies, which hand it on.\n"
     "Without a cell the self-tests of the program are made, once for each version; pages of cells "
     "link them.\n"
     "Example:\n  homespun verify mycell.prm --quick\n  homespun verify --quick\n  mpirun -n 2 "

@@ -14,9 +14,9 @@ const std::vector<std::string> &verify_parts()
   return parts;
 }
 
-std::vector<std::string> default_parts(const bool has_cells)
+std::vector<std::string> default_parts(const std::vector<std::string> &cell_files)
 {
-  if (has_cells)
+  if (!cell_files.empty())
     return {"homogenize", "strain", "converge", "drape"};
   return {"converge", "stress"};
 }

@@ -4,6 +4,7 @@
 #include "homogenization/lint/cell_reading.h"
 #include "meshes/plain/errors.h"
 #include "meshes/plain/sheet.h"
+#include "verification/cell/assessed_cells.h"
 #include "verification/cell/cell_study.h"
 #include "verification/cell/study_inputs.h"
 #include "verification/converge/converge_cases.h"
@@ -14,6 +15,7 @@
 #include "verification/program/data_folder.h"
 #include "verification/record/json_files.h"
 #include "verification/record/on_root.h"
+#include "verification/record/run_folder.h"
 #include "verification/strain/strain_study.h"
 
 #include <algorithm>
@@ -30,7 +32,7 @@ class Verifier
 public:
   Verifier(const VerifyOptions &options, const MPI_Comm communicator)
       : options(options)
-      , parts(options.parts.empty() ? default_parts(!options.cell_files.empty()) : options.parts)
+      , parts(options.parts.empty() ? default_parts(options.cell_files) : options.parts)
       , communicator(communicator)
   {
   }
@@ -61,7 +63,7 @@ public:
 private:
   nlohmann::ordered_json inputs() const
   {
-    nlohmann::ordered_json all = {{"parts", parts}, {"quick", options.quick}};
+    nlohmann::ordered_json all = {{"parts", parts}, {"quick", options.is_quick}};
     for (const homogenization::UnitCell &cell : cells)
       all["cell " + cell.name] = fingerprint(cell);
     return all;
@@ -133,19 +135,22 @@ private:
   std::vector<Verdict> homogenize(const homogenization::UnitCell &cell, const std::string &folder)
   {
     CellStudyOptions study;
-    study.output  = folder;
-    study.earlier = Earlier::keep_work;
-    study.quiet   = options.quiet;
-    return run_cell_study(cell, study, communicator).checks;
+    study.output                = folder;
+    study.earlier               = Earlier::keep_work;
+    study.quiet                 = options.quiet;
+    const AssessedCell assessed = run_cell_study(cell, study, communicator);
+    if (assessed.bending)
+      homogenized->take_bending(cell, *assessed.bending);
+    return assessed.checks;
   }
 
   std::vector<Verdict> strain(const std::string &folder) const
   {
     StrainStudyOptions study = default_strain_study();
     study.cell_files         = options.cell_files;
-    if (options.quick)
+    if (options.is_quick)
       make_quick(study);
-    take_common(study, folder);
+    take_run(study, folder);
     return run_strain_study(study, communicator);
   }
 
@@ -157,11 +162,8 @@ private:
     for (const std::string &name : convergence_studies())
       if ((name == "manufactured") == cells.empty())
         study.studies.push_back(name);
-    study.quick   = options.quick;
-    study.output  = folder;
-    study.command = options.command;
-    study.earlier = Earlier::keep_work;
-    study.quiet   = options.quiet;
+    study.is_quick = options.is_quick;
+    take_run(study, folder);
     return run_convergence_study(study, communicator);
   }
 
@@ -169,11 +171,8 @@ private:
   {
     StressStudyOptions study;
     study.cell_files = options.cell_files;
-    if (options.quick)
-    {
-      study.repeats        = 2;
-      study.most_triangles = 100000;
-    }
+    if (options.is_quick)
+      make_quick(study);
     take_run(study, folder);
     return run_stress_study(study, communicator);
   }
@@ -187,10 +186,16 @@ private:
     study.references = {"biot"};
     // The reference takes seconds per step at the paper's size, and minutes to hours over all
     // steps.
-    study.n_cells              = options.quick ? 4 : 8;
-    study.n_cells_of_error_bar = options.quick ? 0 : 4;
-    if (options.quick)
+    if (options.is_quick)
+    {
+      make_quick(study);
       study.duration = 0.2;
+    }
+    else
+    {
+      study.n_cells              = 8;
+      study.n_cells_of_error_bar = 4;
+    }
     take_run(study, folder);
     return run_drape_study(study, communicator);
   }
@@ -198,25 +203,18 @@ private:
   template <typename Study>
   void take_run(Study &study, const std::string &folder) const
   {
-    study.output  = folder;
-    study.command = options.command;
-    study.earlier = Earlier::keep_work;
-    study.quiet   = options.quiet;
-  }
-
-  template <typename Study>
-  void take_common(Study &study, const std::string &folder) const
-  {
-    study.output  = folder;
-    study.command = options.command;
-    study.earlier = Earlier::keep_work; // the whole has been taken up, or begun anew
-    study.quiet   = options.quiet;
+    study.output      = folder;
+    study.command     = options.command;
+    study.earlier     = Earlier::keep_work; // the whole has been taken up, or begun anew
+    study.quiet       = options.quiet;
+    study.homogenized = homogenized;
   }
 
   const VerifyOptions options;
   const std::vector<std::string> parts;
   const MPI_Comm communicator;
   std::vector<homogenization::UnitCell> cells;
+  const std::shared_ptr<AssessedCells> homogenized = std::make_shared<AssessedCells>();
   std::unique_ptr<RunFolder> folder; ///< first rank
   Verification result;
 };

@@ -3,7 +3,7 @@
 // the self-tests of the program.
 #pragma once
 
-#include "verification/record/run_folder.h"
+#include "verification/cell/study_options.h"
 #include "verification/record/verdict.h"
 
 #include <mpi.h>
@@ -13,15 +13,10 @@
 
 namespace homespun::verification
 {
-struct VerifyOptions
+/// Without cells: self-tests alone.
+struct VerifyOptions : StudyOptions
 {
-  std::vector<std::string> cell_files; ///< none: self-tests alone
-  std::vector<std::string> parts;      ///< of verify_parts(), in any order; none: default_parts()
-  bool quick = false;                  ///< small sizes, minutes
-  std::string output;
-  std::string command; ///< that reproduces the whole
-  Earlier earlier = Earlier::keep_work;
-  bool quiet      = false;
+  std::vector<std::string> parts; ///< of verify_parts(), in any order; none: default_parts()
 };
 
 struct Verification
@@ -36,7 +31,7 @@ const std::vector<std::string> &verify_parts();
 
 /// What runs where nothing was asked for: of cells all that speaks of them; without a cell what
 /// speaks of the program alone, manufactured solutions and stress cases.
-std::vector<std::string> default_parts(bool has_cells);
+std::vector<std::string> default_parts(const std::vector<std::string> &cell_files);
 
 /// Runs the parts one after the other, each into a folder of its own below the output, and writes
 /// verdicts.json with all claims. A part whose solver does not converge is a claim that failed, the

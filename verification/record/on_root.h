@@ -76,6 +76,14 @@ void on_root(const MPI_Comm communicator, Work &&work)
     throw meshes::BadInput("the first rank failed");
 }
 
+/// What the first rank answers. All ranks must call this.
+inline bool answer_of_root(const bool answer, const MPI_Comm communicator)
+{
+  int shared = answer ? 1 : 0;
+  MPI_Bcast(&shared, 1, MPI_INT, 0, communicator);
+  return shared != 0;
+}
+
 /// Verdicts of work on the first rank: the worst outcome there becomes one of every rank, so that
 /// all end with the same status. All ranks must call this.
 inline void share_failure(std::vector<Verdict> &verdicts, const MPI_Comm communicator)

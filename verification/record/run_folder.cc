@@ -320,14 +320,13 @@ void list_report(const std::string &path)
   write_json(path + "/run.json", *found);
 }
 
-std::string default_folder(const std::string &command, const std::vector<std::string> &names,
-                           const bool is_quick)
+std::string default_folder(const std::string &command, const std::vector<std::string> &names)
 {
   std::string joined;
   for (std::size_t k = 0; k < std::min<std::size_t>(names.size(), 3); ++k)
     joined += (k == 0 ? "" : "+") + names[k];
   if (names.size() > 3)
     joined += "+" + std::to_string(names.size() - 3) + "-more";
-  return "out/" + (joined.empty() ? "" : joined + "/") + command + (is_quick ? "-quick" : "");
+  return "out/" + (joined.empty() ? "" : joined + "/") + command;
 }
 } // namespace homespun::verification

@@ -4,6 +4,8 @@
 // it left; another one replaces it, or is refused where work would be lost.
 #pragma once
 
+#include "verification/record/earlier.h"
+
 #include <nlohmann/json.hpp>
 
 #include <memory>
@@ -12,14 +14,6 @@
 
 namespace homespun::verification
 {
-/// What to do about an earlier run of other inputs, options or revision in the same folder.
-enum class Earlier
-{
-  keep_work, ///< refuse where more than ten seconds of work would be lost
-  resume,    ///< refuse: what is there must be of the same run
-  overwrite  ///< remove it
-};
-
 /// What a run is, in the words of its command.
 struct RunDescription
 {
@@ -81,9 +75,8 @@ void check_format(const std::string &folder);
 /// results stays. Does nothing where the folder holds no run.
 void list_report(const std::string &path);
 
-/// The name of a place of the command's own: out/NAMES/COMMAND, with -quick where the sizes are
-/// small.
+/// The name of a place of the command's own: out/NAMES/COMMAND.
+/// @param command as the folder has it: with -quick where the sizes are small
 /// @param names of the cells or of the scene, joined by + up to three
-std::string default_folder(const std::string &command, const std::vector<std::string> &names,
-                           bool is_quick);
+std::string default_folder(const std::string &command, const std::vector<std::string> &names);
 } // namespace homespun::verification

@@ -2,7 +2,7 @@
 #include "verification/reference/equilibrated_sheet.h"
 
 #include "homogenization/algebra/cholesky_solver.h"
-#include "homogenization/bracket/equilibrated_stress.h"
+#include "meshes/plain/index.h"
 #include "verification/reference/displacement_energy.h"
 
 #include <Eigen/LU>
@@ -17,33 +17,16 @@ namespace homespun::verification
 {
 using homogenization::AiryDof;
 using homogenization::AiryDofs;
+using homogenization::area_of;
 using homogenization::CloughTocher;
 using homogenization::field_points;
 using homogenization::n_field_points;
+using homogenization::stress_of_airy;
+using meshes::at;
 
 namespace
 {
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
-
-std::size_t at(const int index)
-{
-  return static_cast<std::size_t>(index);
-}
-
-double area_of(const std::array<Eigen::Vector2d, 3> &shape)
-{
-  return 0.5 * (shape[1](0) * shape[2](1) - shape[1](1) * shape[2](0));
-}
-
-/// The stresses of the shape functions, rows 11, 22, 12.
-Eigen::Matrix<double, 3, 12> stress_of_airy(const CloughTocher &element, const int piece,
-                                            const Eigen::Vector3d &barycentric)
-{
-  const auto second = element.second_derivatives(piece, barycentric);
-  Eigen::Matrix<double, 3, 12> stress;
-  stress << second.row(1), second.row(0), -second.row(2);
-  return stress;
-}
 } // namespace
 
 EquilibratedSheet::EquilibratedSheet(const meshes::Sheet &sheet,
@@ -51,20 +34,8 @@ EquilibratedSheet::EquilibratedSheet(const meshes::Sheet &sheet,
                                      const Load &load, const double strain)
     : sheet(sheet)
     , affine(affine_strain(sheet, load, strain))
+    , compliances(stiffness_of_phase)
 {
-  for (const Eigen::Matrix3d &C : stiffness_of_phase)
-  {
-    const Eigen::Matrix3d S = C.cast<long double>().inverse().cast<double>();
-    compliances.push_back(0.5 * (S + S.transpose()));
-    inversion_error =
-      std::max(inversion_error, (C.cast<long double>() * compliances.back().cast<long double>() -
-                                 Eigen::Matrix<long double, 3, 3>::Identity())
-                                  .cast<double>()
-                                  .cwiseAbs()
-                                  .rowwise()
-                                  .sum()
-                                  .maxCoeff());
-  }
   find_edges(load);
   number_unknowns();
   assemble_and_solve();
@@ -326,6 +297,6 @@ void EquilibratedSheet::evaluate()
   }
   work   = static_cast<double>(sum_of_work);
   energy = static_cast<double>(sum_of_work - complementary);
-  round_off += inversion_error * static_cast<double>(complementary);
+  round_off += compliances.error * static_cast<double>(complementary);
 }
 } // namespace homespun::verification

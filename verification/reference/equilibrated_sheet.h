@@ -9,7 +9,7 @@
 #pragma once
 
 #include "homogenization/bracket/airy_unknowns.h"
-#include "homogenization/bracket/clough_tocher.h"
+#include "homogenization/bracket/equilibrated_stress.h"
 #include "meshes/plain/sheet.h"
 #include "verification/reference/loads.h"
 
@@ -80,8 +80,7 @@ private:
 
   const meshes::Sheet &sheet;
   const Eigen::Vector3d affine; ///< eps(a): 11, 22, twice 12
-  std::vector<Eigen::Matrix3d> compliances;
-  double inversion_error = 0.; ///< of the compliances, relative
+  const homogenization::Compliances compliances;
   std::vector<Edge> edges;
   std::vector<std::array<int, 3>> edges_of_triangle; ///< edge k joins the corners k and k + 1
   std::vector<int> chain_of_vertex;                  ///< -1 on none

@@ -7,6 +7,7 @@
 #include "verification/method/fluctuation.h"
 #include "verification/method/lightweight_cloth.h"
 #include "verification/reference/fine_reference.h"
+#include "verification/strain/reference_uncertainty.h"
 #include "verification/strain/strain_output.h"
 
 #include <map>
@@ -41,5 +42,17 @@ struct MethodOnSheet
   /// where the cell has no terms of edges, and then why.
   std::map<std::string, EdgedSheet> edged = {};
   std::string why_no_edges                = {};
+};
+
+/// A sheet under a load, with what holds the method against the reference there.
+struct LoadedSheet
+{
+  const homogenization::UnitCell &cell;
+  const meshes::Sheet &sheet;
+  const Load &load;
+  const ReferenceUncertainty &uncertainty;
+  FineReference &reference;
+  MethodOnSheet &method;
+  bool has_budget; ///< that can be measured
 };
 } // namespace homespun::verification

@@ -8,6 +8,7 @@
 #include "verification/strain/ellipticity_rows.h"
 
 #include <algorithm>
+#include <optional>
 #include <utility>
 
 namespace homespun::verification
@@ -130,28 +131,28 @@ void write_ellipticity(const StrainLevel &level, const ResolvedLevel &resolved,
   }
 }
 
-std::string note_of_stop(const StrainLevel &level, const ReferenceStep &stopped,
-                         const Stability at_the_end, const meshes::Sheet &sheet,
-                         const homogenization::UnitCell &cell)
+namespace
 {
-  const std::string none =
-    "no equilibrium found; " + stopped.why.substr(0, stopped.why.find("; residual norms"));
-  if (level.law == Law::linear || stopped.positions.rows() == 0)
+std::string note_of_stop(const StrainLevel &level, const StoppedReference &stopped,
+                         const std::optional<WorstTriangle> &worst)
+{
+  const std::string none = "no equilibrium found; " +
+                           stopped.step.why.substr(0, stopped.step.why.find("; residual norms"));
+  if (!worst)
     return none;
-  const std::vector<Eigen::Matrix3d> stiffness = cell.stiffness_of_phase();
-  const WorstTriangle worst = worst_triangle(sheet.mesh, stiffness, level.law, stopped.positions);
   const std::string phase =
-    cell.phases[static_cast<std::size_t>(sheet.mesh.material(worst.triangle))].name;
-  if (worst.is_lost)
+    stopped.cell.phases[static_cast<std::size_t>(stopped.sheet.mesh.material(worst->triangle))]
+      .name;
+  const std::string its = words_of(*worst, stopped.sheet);
+  if (worst->is_lost)
     return none +
            "; the law ends there, not the solver: at the last equilibrium a triangle of phase " +
-           phase + ", " + words_of(worst, sheet) + ", is not elliptic under " + name_of(level.law) +
-           " (least wave " + short_text(worst.least) + " of that at rest)";
-  const std::string all = none +
-                          "; at the last equilibrium every triangle is elliptic (least wave " +
-                          short_text(worst.least) + " of that at rest, phase " + phase + ", " +
-                          words_of(worst, sheet) + ")";
-  switch (at_the_end)
+           phase + ", " + its + ", is not elliptic under " + name_of(level.law) + " (least wave " +
+           short_text(worst->least) + " of that at rest)";
+  const std::string all =
+    none + "; at the last equilibrium every triangle is elliptic (least wave " +
+    short_text(worst->least) + " of that at rest, phase " + phase + ", " + its + ")";
+  switch (stopped.at_the_end)
   {
   case Stability::every_triangle:
   case Stability::stable:
@@ -165,36 +166,47 @@ std::string note_of_stop(const StrainLevel &level, const ReferenceStep &stopped,
   return all + "; whether it is a minimum is not known";
 }
 
-std::string note_of_path(const StrainLevel &level, const ReferenceStep &stopped,
-                         const meshes::Sheet &sheet, const homogenization::UnitCell &cell,
-                         const std::vector<double> &strains)
+/// What ends the path of a small sheet up to the level.
+std::string note_of_path(const StrainLevel &level, const StoppedReference &stopped,
+                         const std::vector<double> &path)
 {
   constexpr int most_cells = 2; // a sheet that is resolved twice, by a direct solver
-  const Load load(level.load);
-  if (load.is_periodic() || level.law == Law::linear || stopped.positions.rows() == 0 ||
-      worst_triangle(sheet.mesh, cell.stiffness_of_phase(), level.law, stopped.positions).is_lost)
-    return {};
-  const auto end = std::upper_bound(strains.begin(), strains.end(), level.strain);
-  return "; " + text_of(end_of_path(cell, load, level.law, {strains.begin(), end},
-                                    std::min({sheet.n1, sheet.n2, most_cells})));
+  return "; " + text_of(end_of_path(
+                  stopped.cell, Load(level.load), level.law,
+                  {path.begin(), std::upper_bound(path.begin(), path.end(), level.strain)},
+                  std::min({stopped.sheet.n1, stopped.sheet.n2, most_cells})));
 }
 
-void write_ellipticity_of_stop(const StrainLevel &level, const ReferenceStep &stopped,
-                               const meshes::Sheet &sheet, const homogenization::UnitCell &cell,
-                               StrainOutput &output)
+void write_ellipticity_of(const StrainLevel &level, const StoppedReference &stopped,
+                          StrainOutput &output)
 {
-  if (level.law == Law::linear || stopped.positions.rows() == 0 || !(stopped.stopped_at > 0.))
-    return;
   StrainLevel last = level;
-  last.strain      = stopped.stopped_at;
+  last.strain      = stopped.step.stopped_at;
   std::vector<std::string> names;
-  for (const homogenization::Phase &phase : cell.phases)
+  for (const homogenization::Phase &phase : stopped.cell.phases)
     names.push_back(phase.name);
-  const auto [groups, of_group] = by_group(
-    ellipticity_of_phases(sheet.mesh, cell.stiffness_of_phase(), level.law, stopped.positions),
-    names);
+  const auto [groups, of_group] =
+    by_group(ellipticity_of_phases(stopped.sheet.mesh, stopped.cell.stiffness_of_phase(), level.law,
+                                   stopped.step.positions),
+             names);
   for (std::size_t g = 0; g < groups.size(); ++g)
     output.ellipticity.append_if_missing(row_of(last, groups[g], of_group[g]));
+}
+} // namespace
+
+void write_stop(const StrainLevel &level, const StoppedReference &stopped,
+                const std::vector<double> &path, StrainOutput &output)
+{
+  std::optional<WorstTriangle> worst; // of the last equilibrium, where there is one
+  if (level.law != Law::linear && stopped.step.positions.rows() > 0)
+    worst = worst_triangle(stopped.sheet.mesh, stopped.cell.stiffness_of_phase(), level.law,
+                           stopped.step.positions);
+  std::string note = note_of_stop(level, stopped, worst);
+  if (worst && !worst->is_lost && !path.empty() && !Load(level.load).is_periodic())
+    note += note_of_path(level, stopped, path);
+  output.write_note(level, note);
+  if (worst && stopped.step.stopped_at > 0.)
+    write_ellipticity_of(level, stopped, output);
 }
 
 void write_coarse_ellipticity(const StrainLevel &level, const MethodOnSheet &method,

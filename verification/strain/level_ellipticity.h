@@ -22,30 +22,25 @@ void write_ellipticity(const StrainLevel &level, const ResolvedLevel &resolved,
                        const std::vector<Eigen::Matrix3d> &stiffness_of_phase,
                        const std::vector<std::string> &phases, StrainOutput &output);
 
-/// That the reference got no further, and why, as far as its last equilibrium tells: which triangle
-/// is not elliptic there, and what pulls or presses it; or that all are, and whether it is a
-/// minimum.
-/// @param stopped not reached
-/// @param at_the_end of its last equilibrium
-std::string note_of_stop(const StrainLevel &level, const ReferenceStep &stopped,
-                         Stability at_the_end, const meshes::Sheet &sheet,
-                         const homogenization::UnitCell &cell);
+/// Where a reference got no further.
+struct StoppedReference
+{
+  const ReferenceStep &step; ///< not reached
+  Stability at_the_end;      ///< of its last equilibrium
+  const meshes::Sheet &sheet;
+  const homogenization::UnitCell &cell;
+};
 
-/// Why the path ends where all triangles of the last equilibrium are elliptic, found on a sheet of
-/// 2 x 2 cells by arc length, a clause that follows the note of the stop. Nothing where the law
-/// ends or the load is of an infinite cloth.
-/// @param strains that the study asks for, ascending
-std::string note_of_path(const StrainLevel &level, const ReferenceStep &stopped,
-                         const meshes::Sheet &sheet, const homogenization::UnitCell &cell,
-                         const std::vector<double> &strains);
+/// Writes that the reference got no further, and why, as far as its last equilibrium tells: which
+/// triangle is not elliptic there, and what pulls or presses it; or that all are, whether it is a
+/// minimum, and what ends the path of a sheet of 2 x 2 cells, followed by its arc length. Rows of
+/// ellipticity.csv of that equilibrium stand at its own strain, between the levels.
+/// @param path strains that the study asks for, ascending; empty where the path is not followed
+void write_stop(const StrainLevel &level, const StoppedReference &stopped,
+                const std::vector<double> &path, StrainOutput &output);
 
-/// Rows of ellipticity.csv of the last equilibrium before a stop, at its own strain, between the
-/// levels.
-void write_ellipticity_of_stop(const StrainLevel &level, const ReferenceStep &stopped,
-                               const meshes::Sheet &sheet, const homogenization::UnitCell &cell,
-                               StrainOutput &output);
-
-/// The same of the coarse cloth; its note is written at the first level of a load that needs it.
+/// write_ellipticity() of the coarse cloth; its note is written at the first level of a load that
+/// needs it.
 /// @param positions of the vertices of the coarse cloth [m]
 void write_coarse_ellipticity(const StrainLevel &level, const MethodOnSheet &method,
                               const meshes::Points &positions, StrainOutput &output);

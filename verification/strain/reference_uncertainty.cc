@@ -174,8 +174,7 @@ ReferenceBar ReferenceUncertainty::bar_of(const Distances &distances, const doub
 }
 
 ReferenceUncertainty::ReferenceUncertainty(const homogenization::UnitCell &cell, const Load &load,
-                                           const std::vector<Law> &laws, const Sizes &sizes,
-                                           Table<UncertaintyRow> *table,
+                                           const Scope &scope, Table<UncertaintyRow> *table,
                                            const MPI_Comm communicator,
                                            const std::function<void(const std::string &)> &tell)
     : cell(cell)
@@ -187,8 +186,8 @@ ReferenceUncertainty::ReferenceUncertainty(const homogenization::UnitCell &cell,
     , order(order_of_p2(cell, load.is_periodic() ? order_of_p2_smooth : order_of_p2_sheet))
     , order_of_force(order_of_p2(cell, load.is_periodic() ? order_of_p2_energy : order_of_p2_sheet))
 {
-  const int n_full     = load.is_periodic() ? 1 : sizes.n_cells;
-  const int n_measured = load.is_periodic() ? 1 : std::min(sizes.n_small, sizes.n_cells);
+  const int n_full     = load.is_periodic() ? 1 : scope.n_cells;
+  const int n_measured = load.is_periodic() ? 1 : std::min(scope.n_small, scope.n_cells);
   const Distances small =
     known_or_measured({n_measured, Law::linear, {small_strain}, Ladder::with_refined_p2})[0];
   const ReferenceBar linear_bar  = bar_of(small, small_strain);
@@ -204,9 +203,9 @@ ReferenceUncertainty::ReferenceUncertainty(const homogenization::UnitCell &cell,
     carry_over.force                        = ratio(full.force, small.force);
   }
   std::vector<double> strains = {large_strain};
-  if (sizes.largest_strain > large_strain)
-    strains.push_back(sizes.largest_strain);
-  for (const Law law : laws)
+  if (scope.largest_strain > large_strain)
+    strains.push_back(scope.largest_strain);
+  for (const Law law : scope.laws)
     if (law != Law::linear)
     {
       measured_bars[law][0.] = linear_bar;

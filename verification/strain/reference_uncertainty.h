@@ -51,9 +51,10 @@ class ReferenceUncertainty
 public:
   static constexpr double small_strain = 1e-3, large_strain = 0.05;
 
-  /// Sizes of the sheets, and the strains of the study.
-  struct Sizes
+  /// What of a study the bars are asked for.
+  struct Scope
   {
+    std::vector<Law> laws;
     int n_cells;           ///< of the full sheet per side
     int n_small;           ///< of the small sheet per side
     double largest_strain; ///< of the study
@@ -61,8 +62,7 @@ public:
 
   /// @param table receives what was measured, and gives back what it holds already; on the first
   ///   rank, elsewhere null
-  ReferenceUncertainty(const homogenization::UnitCell &cell, const Load &load,
-                       const std::vector<Law> &laws, const Sizes &sizes,
+  ReferenceUncertainty(const homogenization::UnitCell &cell, const Load &load, const Scope &scope,
                        Table<UncertaintyRow> *table, MPI_Comm communicator,
                        const std::function<void(const std::string &)> &tell);
 

@@ -45,16 +45,14 @@ struct Timed
 class RunTimeStudy
 {
 public:
-  RunTimeStudy(const homogenization::UnitCell &cell, const meshes::HomogenizedCell &homogenized,
-               const StiffnessBounds &bounds, const meshes::Sheet &sheet, const Load &load,
-               const RunTimeOptions &options, const std::vector<UncertaintyRow> &uncertainty,
-               Table<RunTimeRow> *table, const MPI_Comm communicator,
-               const std::function<void(const std::string &)> &tell)
-      : cell(cell)
-      , homogenized(homogenized)
-      , bounds(bounds)
-      , sheet(sheet)
-      , load(load)
+  RunTimeStudy(const SheetUnderLoad &of, const RunTimeOptions &options,
+               const std::vector<UncertaintyRow> &uncertainty, Table<RunTimeRow> *table,
+               const MPI_Comm communicator, const std::function<void(const std::string &)> &tell)
+      : cell(of.cell)
+      , homogenized(of.homogenized)
+      , bounds(of.bounds)
+      , sheet(of.sheet)
+      , load(of.load)
       , options(options)
       , uncertainty(uncertainty)
       , table(table)
@@ -366,16 +364,11 @@ double bar_of_p2(const std::vector<UncertaintyRow> &rows, const std::string &cel
   return of_p2 * (full / small) * strain;
 }
 
-std::string run_time_study(const homogenization::UnitCell &cell,
-                           const meshes::HomogenizedCell &homogenized,
-                           const StiffnessBounds &bounds, const meshes::Sheet &sheet,
-                           const Load &load, const RunTimeOptions &options,
+std::string run_time_study(const SheetUnderLoad &of, const RunTimeOptions &options,
                            const std::vector<UncertaintyRow> &uncertainty, Table<RunTimeRow> *table,
                            const MPI_Comm communicator,
                            const std::function<void(const std::string &)> &tell)
 {
-  return RunTimeStudy(cell, homogenized, bounds, sheet, load, options, uncertainty, table,
-                      communicator, tell)
-    .run();
+  return RunTimeStudy(of, options, uncertainty, table, communicator, tell).run();
 }
 } // namespace homespun::verification

@@ -55,14 +55,21 @@ struct StiffnessBounds
   Eigen::Matrix3d voigt, reuss;
 };
 
+/// What moves: a sheet of a cell under a load.
+struct SheetUnderLoad
+{
+  const homogenization::UnitCell &cell;
+  const meshes::HomogenizedCell &homogenized;
+  StiffnessBounds bounds;
+  const meshes::Sheet &sheet;
+  const Load &load;
+};
+
 /// Runs every way whose row is not there, and appends their rows.
 /// @param uncertainty rows of uncertainty.csv, for the error bar of the best solution
 /// @param table runtime.csv on the first rank, elsewhere null
 /// @return why there are no rows, empty where there are
-std::string run_time_study(const homogenization::UnitCell &cell,
-                           const meshes::HomogenizedCell &homogenized,
-                           const StiffnessBounds &bounds, const meshes::Sheet &sheet,
-                           const Load &load, const RunTimeOptions &options,
+std::string run_time_study(const SheetUnderLoad &of, const RunTimeOptions &options,
                            const std::vector<UncertaintyRow> &uncertainty, Table<RunTimeRow> *table,
                            MPI_Comm communicator,
                            const std::function<void(const std::string &)> &tell);

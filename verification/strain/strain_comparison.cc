@@ -246,13 +246,12 @@ void write_first_notes(const StrainStudyOptions &options, const StrainLevel &lev
     output.write_note(level, note_on_coarse_yarns(level.law, method.cell.stiffness));
 }
 
-void write_step(const StrainLevel &level, const ResolvedLevel &resolved, const CoarseStep &coarse,
-                const double seconds_upsample, const Fluctuation &fluctuation, const Law law,
-                StrainOutput &output)
+/// The row of a level but for its keys and the up-sampling.
+StepRow step_of(const ResolvedLevel &resolved, const CoarseStep &coarse,
+                const Fluctuation &fluctuation, const Law homogenized_law)
 {
   StepRow step;
   step.seconds_coarse      = coarse.seconds;
-  step.seconds_upsample    = seconds_upsample;
   step.seconds_fine        = resolved.fine.seconds;
   step.coarse_iterations   = coarse.iterations;
   step.fine_iterations     = resolved.fine.n_newton;
@@ -260,11 +259,11 @@ void write_step(const StrainLevel &level, const ResolvedLevel &resolved, const C
   step.ranks               = resolved.n_ranks;
   step.fluctuation         = fluctuation.mean;
   step.fluctuation_bar     = fluctuation.bar;
-  step.homogenized_law     = name_of(law);
+  step.homogenized_law     = name_of(homogenized_law);
   step.seconds_homogenized = fluctuation.seconds;
   step.stability           = name_of(resolved.stability);
   step.seconds_stability   = resolved.seconds_stability;
-  output.write_step(level, step);
+  return step;
 }
 } // namespace
 
@@ -335,8 +334,10 @@ UpsampledLevel compare_methods(const StrainStudyOptions &options, const StrainLe
         write_pictures(options, level, resolved.sheet, cloth.coarse,
                        {load.name, level.strain, name_of(level.law), of.name, fine.positions,
                         of.sheet->positions, affine.sheet->positions, coarse.positions});
-      write_step(level, resolved, coarse, of.sheet->seconds, fluctuation,
-                 homogenized_law(level.law, method.cell.stiffness), output);
+      StepRow step =
+        step_of(resolved, coarse, fluctuation, homogenized_law(level.law, method.cell.stiffness));
+      step.seconds_upsample = of.sheet->seconds;
+      output.write_step(level, step);
     }
     output.write_errors(level, of.name, resolved.sheet, n_coarse, errors);
   }

@@ -19,10 +19,9 @@ struct StrainStudyOptions : StudyOptions
   std::vector<std::string> loads;
   std::vector<std::string> references; ///< empty: those of each cell, default_references()
   std::vector<std::string> methods;
-  int n_cells_of_error_bar = 4;     ///< per side of the small sheet of the references' error bar
-  bool budget              = true;  ///< budget.csv, the error split into its parts
-  bool run_time            = true;  ///< runtime.csv, every way to the positions at one strain
-  bool is_quick            = false; ///< the sizes are those of make_quick()
+  int n_cells_of_error_bar = 4;    ///< per side of the small sheet of the references' error bar
+  bool budget              = true; ///< budget.csv, the error split into its parts
+  bool run_time            = true; ///< runtime.csv, every way to the positions at one strain
 };
 
 /// Whether more than one cell repeats under periodic loads.

@@ -83,8 +83,10 @@ private:
                                              output ? output->budget.get() : nullptr,
                                              output ? output->second.get() : nullptr, communicator);
     progress.milestone(cell.name + ": homogenization");
-    const AssessedCell assessed =
-      assess_for_study(cell, communicator, verdicts, laws_of_second_order(options));
+    CellNeeds needs;
+    needs.second_order           = laws_of_second_order(options);
+    needs.edges                  = has_edges(options);
+    const AssessedCell &assessed = study.homogenize(cell, needs, verdicts);
     on_root(communicator,
             [&]()
             {
@@ -98,7 +100,7 @@ private:
     const meshes::Sheet repeated =
       meshes::tile(cell.mesh, cell.lattice, options.supercell[0], options.supercell[1]);
     std::unique_ptr<meshes::Sheet> full; // made where a load asks for it
-    edges = has_edges(options) ? known_edges(cell, assessed.options.order) : KnownEdges();
+    edges = needs.edges ? *assessed.edges : KnownEdges();
 
     // One discretization serves all loads of a sheet.
     std::unique_ptr<FineReference> of_cell, of_sheet;
@@ -132,7 +134,7 @@ private:
         of_run.methods = options.methods;
         of_run.edges   = edges.edges ? &*edges.edges : nullptr;
         const std::string fault =
-          run_time_study(cell, homogenized, bounds, sheet, load, of_run,
+          run_time_study({cell, homogenized, bounds, sheet, load}, of_run,
                          output ? output->uncertainty.rows() : std::vector<UncertaintyRow>(),
                          output ? output->run_time.get() : nullptr, communicator,
                          [&](const std::string &what) {
@@ -173,8 +175,8 @@ private:
 
     progress.milestone(cell.name + ", " + load.name + ": error bar of the reference");
     const ReferenceUncertainty uncertainty(
-      cell, load, laws,
-      {options.n_cells, options.n_cells_of_error_bar,
+      cell, load,
+      {laws, options.n_cells, options.n_cells_of_error_bar,
        *std::max_element(options.strains.begin(), options.strains.end())},
       output ? &output->uncertainty : nullptr, communicator,
       [&](const std::string &what) { progress.begin(cell.name + ", " + load.name + ": " + what); });
@@ -183,8 +185,14 @@ private:
     if (!reference)
       reference = std::make_unique<FineReference>(sheet, cell.stiffness_of_phase(),
                                                   ReferenceOptions(), communicator);
-    MethodOnSheet method  = method_on_sheet(options, cell, homogenized, edges, sheet, load);
-    const bool has_budget = begin_budget(cell, homogenized, sheet, load);
+    MethodOnSheet method = method_on_sheet(options, cell, homogenized, edges, sheet, load);
+    const LoadedSheet of_load{cell,
+                              sheet,
+                              load,
+                              uncertainty,
+                              *reference,
+                              method,
+                              begin_budget(cell, homogenized, sheet, load)};
     for (std::size_t k = 0; k < laws.size(); ++k)
     {
       const std::vector<double> missing = missing_strains(cell, load, laws[k]);
@@ -200,8 +208,7 @@ private:
         progress.milestone(cell.name + ", " + load.name + ": " + name_of(laws[k]) +
                            " reference, strain " + short_text(strain));
         if (is_reached)
-          is_reached = study_strain(cell, sheet, load, laws[k], strain, *reference, method,
-                                    uncertainty.at(laws[k], strain), has_budget);
+          is_reached = study_level(of_load, laws[k], strain);
         else
           on_root(communicator,
                   [&]() {
@@ -274,29 +281,27 @@ private:
 
   /// @return whether reference and coarse cloth found an equilibrium, so that the next level may
   ///   start from it
-  bool study_strain(const UnitCell &cell, const meshes::Sheet &sheet, const Load &load,
-                    const Law law, const double strain, FineReference &reference,
-                    MethodOnSheet &method, const ReferenceBar &bar, const bool has_budget)
+  bool study_level(const LoadedSheet &of, const Law law, const double strain)
   {
-    const StrainLevel level = {cell.name, load.name, law, strain};
-    ReferenceStep fine      = reference.advance(strain);
+    const StrainLevel level = {of.cell.name, of.load.name, law, strain};
+    ReferenceStep fine      = of.reference.advance(strain);
     if (!fine.reached)
     {
-      const Stability at_the_end = reference.stability_of_last(fine);
+      const Stability at_the_end = of.reference.stability_of_last(fine);
       on_root(communicator,
               [&]()
               {
-                std::string note = note_of_stop(level, fine, at_the_end, sheet, cell);
-                if (options.n_cells_of_error_bar > 0)
-                  note += note_of_path(level, fine, sheet, cell, options.strains);
-                output->write_note(level, note);
-                write_ellipticity_of_stop(level, fine, sheet, cell, *output);
-                output->write_unreached(level, sheet);
+                write_stop(level, {fine, at_the_end, of.sheet, of.cell},
+                           options.n_cells_of_error_bar > 0 ? options.strains
+                                                            : std::vector<double>(),
+                           *output);
+                output->write_unreached(level, of.sheet);
               });
       return false;
     }
-    Stability stability            = Stability::every_triangle;
-    const double seconds_stability = seconds_of([&]() { stability = reference.stabilize(fine); });
+    Stability stability = Stability::every_triangle;
+    const double seconds_stability =
+      seconds_of([&]() { stability = of.reference.stabilize(fine); });
     if (is_root)
       for (const std::string &note : notes_of(fine, stability))
         output->write_note(level, note);
@@ -308,23 +313,24 @@ private:
             {
               try
               {
-                solved = compare_methods(
-                  options, level,
-                  {sheet, fine, reference.n_dofs(), n_ranks, bar, stability, seconds_stability},
-                  method, load, *output);
+                solved =
+                  compare_methods(options, level,
+                                  {of.sheet, fine, of.reference.n_dofs(), n_ranks,
+                                   of.uncertainty.at(law, strain), stability, seconds_stability},
+                                  of.method, of.load, *output);
                 is_solved = 1;
               }
               catch (const meshes::NotConverged &failure)
               {
                 output->write_note(level, std::string("the coarse cloth found no equilibrium; ") +
                                             failure.what());
-                output->write_unreached(level, sheet);
+                output->write_unreached(level, of.sheet);
               }
             });
     MPI_Bcast(&is_solved, 1, MPI_INT, 0, communicator);
-    if (is_solved && has_budget && budget->is_missing(cell.name, load.name, law, strain))
+    if (is_solved && of.has_budget && budget->is_missing(of.cell.name, of.load.name, law, strain))
     {
-      const std::string fault = budget->measure(law, strain, fine.positions, reference, solved);
+      const std::string fault = budget->measure(law, strain, fine.positions, of.reference, solved);
       on_root(communicator,
               [&]()
               {

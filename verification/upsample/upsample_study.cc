@@ -11,6 +11,7 @@
 #include "verification/record/number_text.h"
 #include "verification/record/progress.h"
 #include "verification/record/provenance.h"
+#include "verification/record/run_folder.h"
 #include "verification/record/table.h"
 #include "verification/record/timing.h"
 #include "verification/upsample/coarse_indicators.h"

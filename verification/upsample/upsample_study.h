@@ -3,7 +3,7 @@
 // error that need no reference (coarse_indicators.h). Nothing is judged.
 #pragma once
 
-#include "verification/record/run_folder.h"
+#include "verification/record/earlier.h"
 
 #include <string>
 #include <vector>

@@ -316,10 +316,10 @@ TEST(invariant_cloth_faults, the_verdicts_do_not_change_with_unit_and_place)
   }
 }
 
-TEST(exact_seams, a_strip_of_two_panels_has_two_seam_edges_and_notes_of_unequal_sides)
+TEST(exact_seams, a_strip_of_two_panels_has_two_seam_edges)
 {
-  ClothMesh cloth     = strip_of_two();
-  const Panels panels = panels_of(cloth);
+  const ClothMesh cloth = strip_of_two();
+  const Panels panels   = panels_of(cloth);
   EXPECT_EQ(panels.count, 2);
   EXPECT_EQ(panels.of_triangle.sum(), 8);
   const auto seams = seam_edges(cloth);
@@ -332,13 +332,6 @@ TEST(exact_seams, a_strip_of_two_panels_has_two_seam_edges_and_notes_of_unequal_
     EXPECT_NE(panels.of_triangle(seam.sides[0].triangle),
               panels.of_triangle(seam.sides[1].triangle));
   }
-  EXPECT_TRUE(seam_notes(cloth, "strip").empty());
-  cloth.rest.vertices.bottomRows(9).col(1) *= 1.005;
-  EXPECT_TRUE(seam_notes(cloth, "strip").empty());
-  cloth.rest.vertices.bottomRows(9).col(1) *= 1.01;
-  const auto notes = seam_notes(cloth, "strip");
-  ASSERT_EQ(notes.size(), 2u);
-  expect_fault(notes, "the seam edge between vertices 2 and 7 is");
 }
 
 TEST(exact_seams, a_dart_is_sewn_up_to_its_tip)
@@ -368,7 +361,6 @@ TEST(exact_scenes, the_skirt_begins_without_strain_and_the_ball_is_closed)
   EXPECT_EQ(skirt.n_triangles(), 800);
   EXPECT_EQ(panels_of(skirt).count, 4);
   EXPECT_EQ(seam_edges(skirt).size(), 40u); // four seams of ten edges, the closing one included
-  EXPECT_TRUE(seam_notes(skirt, "skirt").empty());
   for (int t = 0; t < skirt.n_triangles(); ++t)
     for (int k = 0; k < 3; ++k)
     {

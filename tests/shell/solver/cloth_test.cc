@@ -113,25 +113,6 @@ TEST(exact_cloth, a_hanging_strip_stretches_under_its_own_weight)
   EXPECT_LT(worst, 0.02 * density * 9.81 / young * 0.5 * side * side);
 }
 
-TEST(exact_cloth, the_iterative_and_the_direct_solver_take_the_same_steps)
-{
-  const meshes::ClothMesh mesh = lying_sheet(10);
-  std::vector<Vectors> ends;
-  for (const LinearSolver solver : {LinearSolver::direct, LinearSolver::iterative})
-  {
-    ClothOptions options;
-    options.solver           = solver;
-    options.linear_tolerance = 1e-12;
-    Fabric fabric(mesh, {0, 10}, options, isotropic(1000., 0.3));
-    fabric.cloth.add(gravity_term(fabric.masses, earth));
-    for (int k = 0; k < 20; ++k)
-      fabric.cloth.step(0.005);
-    EXPECT_EQ(fabric.cloth.is_direct(), solver == LinearSolver::direct);
-    ends.push_back(fabric.cloth.positions());
-  }
-  EXPECT_LT((ends[0] - ends[1]).cwiseAbs().maxCoeff(), 1e-9);
-}
-
 TEST(order_cloth, implicit_euler_is_of_first_order_in_the_time_step)
 {
   const meshes::ClothMesh mesh = lying_sheet(4);

@@ -6,7 +6,6 @@
 #include "shell/contact/obstacles.h"
 #include "shell/membrane/discrete_gradient.h"
 #include "shell/terms/bending.h"
-#include "shell/terms/curved_rest.h"
 #include "shell/terms/warping.h"
 #include "shell/terms/wind.h"
 #include "tests/refusal.h"
@@ -285,11 +284,9 @@ TEST(bound_conserving, terms_without_a_discrete_gradient_are_refused_by_name)
     EXPECT_NE(text.find("discrete gradient"), std::string::npos) << text;
   };
   const Eigen::VectorXd masses = lumped_masses(mesh, {0.2});
-  const PlateStiffness plate   = PlateStiffness::isotropic(1e-4, 0.3);
   refused(wind_term(mesh, {}));
   refused(pressure_term(mesh, [](double) { return 1.; }));
   refused(obstacle_term({"floor", plane({0., 0., -1.}, {0., 0., 1.}), 0.3, {}}, masses, {}));
-  refused(curved_rest_term(mesh, {plate}, mesh.positions));
   refused(triangle_warping_term(mesh, {isotropic(100., 0.3)}));
   refused(nodal_warping_term(mesh, {isotropic(100., 0.3)}, masses));
 }

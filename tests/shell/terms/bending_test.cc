@@ -2,7 +2,6 @@
 #include "shell/terms/bending.h"
 
 #include "meshes/plain/errors.h"
-#include "shell/terms/curved_rest.h"
 #include "tests/refusal.h"
 #include "tests/shell/terms/term_cases.h"
 
@@ -100,16 +99,11 @@ TEST(invariant_bending, forces_carry_no_resultant_and_no_torque)
 {
   const meshes::ClothMesh mesh = flat(sheet(6, 0.1, 0.25));
   const Vectors x              = crumpled(mesh, 0.03);
-  const auto quadratic         = bending_term(mesh, {woven});
-  const auto cubic = curved_rest_term(mesh, {woven}, rolled(mesh.rest.vertices, 0.04, 0.7));
-  for (const Term *term : {quadratic.get(), cubic.get()})
-  {
-    const Vectors gradient = tests::gradient_of(*term, x);
-    const double size      = gradient.rowwise().norm().sum();
-    ASSERT_GT(size, 0.);
-    EXPECT_LT(gradient.colwise().sum().norm(), 1e-13 * size) << term->name();
-    EXPECT_LT(tests::torque(x, gradient).norm(), 1e-13 * size * 0.2) << term->name();
-  }
+  const Vectors gradient       = tests::gradient_of(*bending_term(mesh, {woven}), x);
+  const double size            = gradient.rowwise().norm().sum();
+  ASSERT_GT(size, 0.);
+  EXPECT_LT(gradient.colwise().sum().norm(), 1e-13 * size);
+  EXPECT_LT(tests::torque(x, gradient).norm(), 1e-13 * size * 0.2);
 }
 
 TEST(invariant_bending, a_rigid_motion_turns_the_forces_with_the_cloth)
@@ -118,15 +112,11 @@ TEST(invariant_bending, a_rigid_motion_turns_the_forces_with_the_cloth)
   const Vectors x              = crumpled(mesh, 0.01);
   const Eigen::Matrix3d Q      = tests::rotation<3>(2.);
   const Vectors moved          = (x * Q.transpose()).rowwise() + Eigen::RowVector3d(0.1, -0.2, 0.3);
-  const auto quadratic         = bending_term(mesh, {woven});
-  const auto cubic = curved_rest_term(mesh, {woven}, rolled(mesh.rest.vertices, 0.04, 0.7));
-  for (const Term *term : {quadratic.get(), cubic.get()})
-  {
-    const Vectors gradient = tests::gradient_of(*term, x);
-    EXPECT_NEAR(term->energy(moved), term->energy(x), 1e-11 * std::abs(term->energy(x)));
-    EXPECT_LT((tests::gradient_of(*term, moved) - gradient * Q.transpose()).norm(),
-              1e-11 * gradient.norm());
-  }
+  const auto term              = bending_term(mesh, {woven});
+  const Vectors gradient       = tests::gradient_of(*term, x);
+  EXPECT_NEAR(term->energy(moved), term->energy(x), 1e-11 * std::abs(term->energy(x)));
+  EXPECT_LT((tests::gradient_of(*term, moved) - gradient * Q.transpose()).norm(),
+            1e-11 * gradient.norm());
 }
 
 TEST(invariant_bending, a_seam_between_panels_bends_like_the_cloth_itself)
@@ -164,31 +154,6 @@ TEST(derivative_bending, the_hessian_is_constant_and_is_that_of_the_energy)
   EXPECT_LT((product - gradient).norm(), 1e-11 * gradient.norm()); // E = ½ x·H x
   EXPECT_NEAR(term->energy(x), 0.5 * x.cwiseProduct(gradient).sum(), 1e-11 * term->energy(x));
   EXPECT_GT(tests::smallest_eigenvalue_ratio(matrix), -1e-14);
-}
-
-TEST(derivative_bending, taylor_remainders_of_a_curved_rest_shape_are_of_second_and_third_order)
-{
-  const meshes::ClothMesh mesh = tube(6, 0.02);
-  const auto term              = curved_rest_term(mesh, {woven}, mesh.positions);
-  std::mt19937 generator(4);
-  const auto orders =
-    tests::taylor_orders(*term, crumpled(mesh, 0.005),
-                         0.05 * tests::random_matrix<Vectors>(generator, mesh.n_vertices(), 3));
-  EXPECT_NEAR(orders.gradient, 2., 0.1);
-  EXPECT_NEAR(orders.hessian, 3., 0.1);
-}
-
-TEST(bound_bending, the_projected_hessian_of_a_curved_rest_shape_is_positive_semidefinite)
-{
-  const meshes::ClothMesh mesh = tube(6, 0.02);
-  const auto term              = curved_rest_term(mesh, {woven}, mesh.positions);
-  for (const double distance : {0., 0.01})
-  {
-    BlockMatrix matrix = tests::matrix_for(*term, mesh.n_vertices());
-    Vectors gradient   = Vectors::Zero(mesh.n_vertices(), 3);
-    term->add_derivatives(crumpled(mesh, distance), Hessian::projected, gradient, matrix);
-    EXPECT_GT(tests::smallest_eigenvalue_ratio(matrix), -1e-13);
-  }
 }
 
 TEST(order_bending, energy_of_a_closed_tube_converges_to_that_of_a_cylinder_with_order_two)
@@ -340,71 +305,6 @@ TEST(order_bending, a_cantilever_strip_bends_like_a_beam)
     }
 }
 
-TEST(exact_bending, a_hinge_rests_at_its_angle)
-{
-  meshes::TriangleMesh two;
-  two.vertices.resize(4, 2);
-  two.vertices << 0., 0., 0.01, 0., 0.004, 0.012, 0.007, -0.009;
-  two.triangles.resize(2, 3);
-  two.triangles << 0, 1, 2, 1, 0, 3;
-  two.material.setZero(2);
-  const meshes::ClothMesh mesh = flat(two);
-  for (const double angle : {-1.3, -0.2, 0.4, 1.2})
-  {
-    const auto folded = [&](const double theta)
-    {
-      Vectors x = mesh.positions;
-      x.row(3) << 0.007, -0.009 * std::cos(theta), 0.009 * std::sin(theta);
-      return x;
-    };
-    const auto flat_rest = bending_term(mesh, {woven});
-    const auto curved    = curved_rest_term(mesh, {woven}, folded(angle));
-    const auto energy    = [&](const double theta)
-    { return flat_rest->energy(folded(theta)) + curved->energy(folded(theta)); };
-    // E = −c cos(theta − theta0) + constant, c from two values.
-    const double scale = (energy(angle + 0.5) - energy(angle)) / (1. - std::cos(0.5));
-    ASSERT_GT(scale, 0.);
-    for (const double away : {-1.5, -0.7, 0.2, 2.})
-      EXPECT_NEAR(energy(angle + away) - energy(angle), scale * (1. - std::cos(away)),
-                  1e-12 * scale);
-  }
-}
-
-// Of all cylinders, which has the least energy?
-TEST(order_bending, a_curved_cloth_rests_at_its_curvature_to_second_order)
-{
-  const double radius = 0.03, side = 0.06;
-  for (const double angle : {0., 0.25 * pi})
-  {
-    std::vector<double> widths, errors;
-    for (const int n : {8, 16, 32, 64})
-    {
-      const meshes::ClothMesh mesh = flat(sheet(n, side, 0.));
-      const auto straight          = bending_term(mesh, {woven});
-      const auto curved =
-        curved_rest_term(mesh, {woven}, rolled(mesh.rest.vertices, radius, angle));
-      const auto energy = [&](const double curvature)
-      {
-        const Vectors x = rolled(mesh.rest.vertices, 1. / curvature, angle);
-        return straight->energy(x) + curved->energy(x);
-      };
-      double curvature = 0.8 / radius;
-      for (int iteration = 0; iteration < 20; ++iteration)
-      {
-        const double d = 1e-3 / radius, below = energy(curvature - d), here = energy(curvature),
-                     above = energy(curvature + d);
-        curvature -= 0.5 * d * (above - below) / (above - 2. * here + below);
-      }
-      widths.push_back(side / n);
-      errors.push_back(std::abs(curvature * radius - 1.));
-    }
-    std::cout << "rest curvature, angle " << angle * 180. / pi << ": off by " << errors[0] << ' '
-              << errors[1] << ' ' << errors[2] << ' ' << errors[3] << '\n';
-    EXPECT_NEAR(tests::slope(widths, errors), 2., 0.15);
-    EXPECT_LT(errors.back(), 1e-3);
-  }
-}
-
 TEST(tripwire_bending, faults_are_named)
 {
   const meshes::ClothMesh good = flat(sheet(3, 0.1, 0.));
@@ -426,10 +326,5 @@ TEST(tripwire_bending, faults_are_named)
   mesh = good;
   mesh.triangles.row(4).reverseInPlace();
   EXPECT_NE(refusal([&] { bending_term(mesh, {woven}); }).find("traversed the same way"),
-            std::string::npos);
-  Vectors folded = good.positions;
-  folded.row(0)  = folded.row(5);
-  folded(0, 2) += 1e-3;
-  EXPECT_NE(refusal([&] { curved_rest_term(good, {woven}, folded); }).find("is bent by"),
             std::string::npos);
 }

@@ -2,16 +2,14 @@
 """The answer does not depend on the number of ranks."""
 import csv
 import json
-import signal
-import subprocess
 import sys
-import time
 import unittest
 from xml.etree import ElementTree
 
+import meshio
 import numpy
 
-from cli import CELLS, PATIENCE, PROGRAM, InFolder, cut, rows_of, run
+from cli import CELLS, InFolder, cut, rows_of, run
 
 sys.path.append(str(CELLS.parents[1] / "verification" / "report"))
 from read.vtu import read_vtu  # noqa: E402
@@ -69,22 +67,20 @@ class Ranks(InFolder):
             self.assertEqual([row["strain"] for row in csv.DictReader(file)], ["0.01", "0.1"])
 
 
-def chi_of(surface):
-    return numpy.hstack([surface.point_data[f"chi_{ij} [m]"] for ij in (11, 22, 12)])
+def chi_of(piece):
+    return numpy.hstack([piece.point_data[f"chi_{ij}"][:, :2] for ij in (11, 22, 12)])
 
 
-def materials_of(surface):
+def materials_of(piece):
     """Centre and material of each triangle, sorted."""
-    centres = surface.points[surface.triangles].mean(axis=1).tolist()
-    return sorted((*centre, material)
-                  for centre, material in zip(centres, surface.cell_data["material"]))
+    triangles = piece.cells_dict["triangle"]
+    centres = piece.points[triangles].mean(axis=1).round(9).tolist()
+    materials = piece.point_data["material"][triangles[:, 0]]
+    return sorted((*centre, material) for centre, material in zip(centres, materials))
 
 
 class Homogenize(InFolder):
     CELL = CELLS / "three-stiffness.prm"
-
-    def stiffness(self, output):
-        return numpy.array(json.loads((output / "homogenize.json").read_text())["C"])
 
     def pieces(self, output, ranks):
         result = run("homogenize", self.CELL, "--refine", 2, "--no-bars", "--quiet", "--pieces",
@@ -96,75 +92,48 @@ class Homogenize(InFolder):
         self.assertEqual(len(names), ranks)
         self.assertEqual(len(list(output.glob("characteristic-displacements-refined-*.vtu"))),
                          ranks)
-        surfaces = [read_vtu(output / name) for name in names]
+        pieces = [meshio.read(output / name) for name in names]
         arrays = {array.get("Name") for array in collection.iter("PDataArray")}
-        for surface in surfaces:
-            self.assertEqual(arrays, {"positions [m]", *surface.point_data, *surface.cell_data})
-        return surfaces
+        for piece in pieces:
+            self.assertLessEqual({"chi_11", "chi_22", "chi_12", "material", "rank"},
+                                 arrays & set(piece.point_data))
+        return pieces
 
     def test_pieces_make_up_the_refined_mesh_and_its_displacements(self):
         output = self.folder / "out"
         two, one = self.pieces(output, 2), self.pieces(output, 1)[0]
         given = read_vtu(output / "characteristic-displacements.vtu")
-        self.assertEqual(sum(len(surface.triangles) for surface in two), 16 * len(given.triangles))
-        for number, surface in enumerate(two):
-            self.assertTrue((surface.cell_data["rank"] == number).all())
-            self.assertGreater(len(surface.triangles), 4 * len(given.triangles))
+        sizes = [len(piece.cells_dict["triangle"]) for piece in two]
+        self.assertEqual(sum(sizes), 16 * len(given.triangles))
+        for number, piece in enumerate(two):
+            self.assertTrue((piece.point_data["rank"] == number).all())
+            self.assertGreater(sizes[number], 4 * len(given.triangles))
         chi_at = dict(zip(map(tuple, one.points.round(9)), chi_of(one)))
-        for surface in two:
-            chi = chi_of(surface)
-            expected = numpy.array([chi_at[tuple(point)] for point in surface.points.round(9)])
+        for piece in two:
+            chi = chi_of(piece)
+            expected = numpy.array([chi_at[tuple(point)] for point in piece.points.round(9)])
             self.assertGreater(numpy.abs(expected).max(), 1e-4)
             numpy.testing.assert_allclose(chi, expected, rtol=0,
                                           atol=1e-6 * numpy.abs(expected).max())
         # Every triangle is in one piece, with its material.
         numpy.testing.assert_allclose(sorted(materials_of(two[0]) + materials_of(two[1])),
-                                      materials_of(one), rtol=0, atol=1e-12)
-
-    def test_a_run_that_was_killed_goes_on_from_the_loads_that_are_done(self):
-        study = [PROGRAM, "homogenize", self.CELL, "--refine", "5", "--order", "1", "--no-bars",
-                 "--quiet", "--output"]
-        whole, killed = self.folder / "whole", self.folder / "killed"
-        subprocess.run([*map(str, study), str(whole)], check=True, timeout=600 * PATIENCE)
-        self.assertFalse((whole / ".homespun-loads").exists())
-        with subprocess.Popen([*map(str, study), str(killed)]) as process:
-            first = killed / ".homespun-loads" / "load-0-rank-0-of-1"
-            deadline = time.monotonic() + 600 * PATIENCE
-            while not first.exists() and process.poll() is None and time.monotonic() < deadline:
-                time.sleep(0.01)
-            process.send_signal(signal.SIGKILL)
-        self.assertTrue(first.exists(),
-                        "it was killed before the first load was solved, or ended before")
-        self.assertFalse((killed / "homogenize.json").exists())
-        # The loads run abreast: others may have been solved in the same iteration.
-        n_done = len(list(first.parent.glob("load-?-rank-0-of-1")))
-        resumed = subprocess.run([*map(str, study), str(killed)], capture_output=True, text=True,
-                                 check=False, timeout=600 * PATIENCE)
-        self.assertEqual(resumed.returncode, 0, resumed.stderr)
-        expected = self.stiffness(whole)
-        numpy.testing.assert_allclose(self.stiffness(killed), expected, rtol=0,
-                                      atol=1e-10 * numpy.abs(expected).max())
-        self.assertEqual(json.loads((killed / "homogenize.json").read_text())["loads_taken_up"],
-                         n_done)
-        self.assertFalse((killed / ".homespun-loads").exists())
+                                      materials_of(one), rtol=0, atol=1e-8)
 
     def test_what_another_cell_left_is_refused_and_goes_when_it_begins_anew(self):
         study = ["--no-bars", "--quiet", "--output", self.folder]
         self.assertEqual(run("homogenize", CELLS / "three-stiffness.prm", *study).returncode, 0)
         cut(self.folder)
-        left = self.folder / ".homespun-loads"
-        left.mkdir()
-        # As many degrees of freedom as layered has.
-        (left / "load-0-rank-0-of-1").write_bytes(bytes(8 * 3034))
+        left = self.folder / "cell.h5"
+        self.assertTrue(left.exists())
+        of_another = left.read_bytes()
         refused = run("homogenize", CELLS / "layered.prm", *study, "--resume")
         self.assertEqual(refused.returncode, 2)
         self.assertIn("holds another run", refused.stderr)
-        self.assertTrue(left.exists())
+        self.assertEqual(left.read_bytes(), of_another)
         again = run("homogenize", CELLS / "layered.prm", *study, "--overwrite")
         self.assertEqual(again.returncode, 0)
         found = json.loads((self.folder / "homogenize.json").read_text())
-        self.assertEqual(found["loads_taken_up"], 0)
-        self.assertFalse(left.exists())
+        self.assertEqual(found["cell"], "layered")
 
 
 class Scaling(InFolder):

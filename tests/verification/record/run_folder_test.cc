@@ -196,11 +196,11 @@ TEST_F(exact_run_folder, a_run_that_says_no_format_is_an_older_one)
 
 TEST_F(exact_run_folder, default_places_are_apart)
 {
-  EXPECT_EQ(default_folder("strain", {"dots"}, false), "out/dots/strain");
-  EXPECT_EQ(default_folder("strain", {"dots"}, true), "out/dots/strain-quick");
-  EXPECT_EQ(default_folder("verify", {"a", "b"}, false), "out/a+b/verify");
-  EXPECT_EQ(default_folder("strain", {"a", "b", "c", "d", "e"}, false), "out/a+b+c+2-more/strain");
-  EXPECT_EQ(default_folder("stress", {}, true), "out/stress-quick");
+  EXPECT_EQ(default_folder("strain", {"dots"}), "out/dots/strain");
+  EXPECT_EQ(default_folder("strain-quick", {"dots"}), "out/dots/strain-quick");
+  EXPECT_EQ(default_folder("verify", {"a", "b"}), "out/a+b/verify");
+  EXPECT_EQ(default_folder("strain", {"a", "b", "c", "d", "e"}), "out/a+b+c+2-more/strain");
+  EXPECT_EQ(default_folder("stress-quick", {}), "out/stress-quick");
 }
 
 TEST(exact_exit_status, the_worst_wins)

@@ -55,8 +55,8 @@ const homogenization::UnitCell &layers()
 
 ReferenceUncertainty bars_of_layers(const Load &load, const Law law)
 {
-  return {
-    layers(), load, {law}, {1, 1, largest}, nullptr, MPI_COMM_WORLD, [](const std::string &) {}};
+  return {layers(), load,           {{law}, 1, 1, largest},
+          nullptr,  MPI_COMM_WORLD, [](const std::string &) {}};
 }
 } // namespace
 

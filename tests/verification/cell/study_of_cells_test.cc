@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: MIT
+// A study of cells from end to end, as short as one can be: what of it is its own, and what the
+// frame does for it.
+#include "verification/cell/study_of_cells.h"
+#include "verification/record/on_root.h"
+#include "verification/record/table.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+
+using namespace homespun;
+using namespace homespun::verification;
+
+namespace
+{
+/// stiffest.csv: the largest entry of C^H.
+struct StiffestRow
+{
+  static constexpr const char *file   = "stiffest.csv";
+  static constexpr std::size_t n_keys = 1;
+
+  std::string cell;
+  double stiffest = 0.;
+
+  template <typename Column>
+  static void columns(Column &&column)
+  {
+    column("cell", &StiffestRow::cell, Domain::name);
+    column("stiffest_N_per_m", &StiffestRow::stiffest, Domain::positive);
+  }
+};
+
+/// @return the folder that each cell was read from; empty: it was solved
+std::vector<std::string> run_stiffest_study(const StudyOptions &options,
+                                            std::vector<Verdict> &verdicts)
+{
+  StudyOfCells study(options, MPI_COMM_SELF);
+  StudyDescription description;
+  description.is_resumed = study.open("stiffest", nlohmann::ordered_json::object());
+  Table<StiffestRow> table(options.output);
+  std::vector<std::string> folders;
+  for (const homogenization::UnitCell &cell : study.cells())
+  {
+    const AssessedCell &assessed = study.homogenize(cell, {}, verdicts);
+    study.write_cell(cell, assessed);
+    table.append_if_missing({cell.name, assessed.result.stiffness.maxCoeff()});
+    folders.push_back(assessed.folder);
+  }
+  description.notes = {"the largest entry, not the largest energy"};
+  study.conclude(description, verdicts);
+  return folders;
+}
+
+std::string content_of(const std::string &file)
+{
+  std::ifstream input(file);
+  return {std::istreambuf_iterator<char>(input), std::istreambuf_iterator<char>()};
+}
+} // namespace
+
+TEST(exact_study_of_cells, a_new_study_is_its_table_and_its_claims_and_is_taken_up)
+{
+  StudyOptions options;
+  options.cell_files = {std::string(CELLS) + "layered.prm"};
+  options.output     = testing::TempDir() + "study_of_cells";
+  std::filesystem::remove_all(options.output);
+  std::vector<Verdict> first, second;
+  EXPECT_EQ(run_stiffest_study(options, first), std::vector<std::string>{""});
+  const std::string table = content_of(options.output + "/stiffest.csv");
+  EXPECT_NE(table.find("layered,"), std::string::npos);
+  EXPECT_NE(content_of(options.output + "/study.json").find("largest energy"), std::string::npos);
+  EXPECT_NE(content_of(options.output + "/verdicts.json").find("Hill-Mandel"), std::string::npos);
+  EXPECT_NE(content_of(options.output + "/run.json").find("\"finished\": true"), std::string::npos);
+
+  // Begun again it solves nothing, and says the same.
+  EXPECT_EQ(run_stiffest_study(options, second),
+            std::vector<std::string>{options.output + "/layered"});
+  EXPECT_EQ(content_of(options.output + "/stiffest.csv"), table);
+  ASSERT_EQ(first.size(), second.size());
+  for (std::size_t k = 0; k < first.size(); ++k)
+    EXPECT_EQ(first[k].value, second[k].value) << first[k].claim;
+}
