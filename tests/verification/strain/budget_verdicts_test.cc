@@ -3,8 +3,8 @@
 // is planted must be found, and what is right must pass.
 #include "verification/budget/budget_rows.h"
 #include "verification/budget/budget_tables.h"
-#include "verification/record/timing.h"
 #include "verification/record/main_method.h"
+#include "verification/record/timing.h"
 #include "verification/strain/budget_verdicts.h"
 #include "verification/strain/run_time.h"
 #include "verification/strain/validity.h"
