@@ -28,7 +28,7 @@ EndOnMesh end_on(const meshes::Sheet &sheet, const std::vector<Eigen::Matrix3d> 
   const ReferencePath beyond = reference.follow(goal, (goal - reached) / 16.);
   EndOnMesh found;
   found.end      = beyond.path.end;
-  found.farthest = beyond.path.farthest;
+  found.farthest = beyond.path.points.empty() ? reached : beyond.path.farthest;
   if (!beyond.path.points.empty())
     found.n_negative = beyond.path.points.back().n_negative;
   if (beyond.positions.rows() > 0)
@@ -52,15 +52,25 @@ std::string text_of(const EndOnMesh &mesh)
     text = "is lost at " + percent_text(mesh.farthest);
     break;
   }
-  return text + " (least wave there " + short_text(mesh.least) + " of that at rest)";
+  return mesh.least ? text + " (least wave there " + short_text(*mesh.least) + " of that at rest)"
+                    : text;
 }
 } // namespace
 
 Ending ending_of(const EndOnMesh &mesh)
 {
-  if (!(mesh.least > 0.))
+  if (mesh.least && !(*mesh.least > 0.))
     return Ending::law;
-  return mesh.end == PathEnd::turned ? Ending::limit_point : Ending::solver;
+  switch (mesh.end)
+  {
+  case PathEnd::turned:
+    return Ending::limit_point;
+  case PathEnd::reached:
+    return Ending::solver;
+  case PathEnd::lost:
+    break;
+  }
+  return Ending::unknown;
 }
 
 EndOfPath end_of_path(const homogenization::UnitCell &cell, const Load &load, const Law law,
@@ -80,15 +90,20 @@ std::string text_of(const EndOfPath &end)
   std::string text    = "by arc length the path of a sheet of " + n + " x " + n + " cells " +
                      text_of(end.as_given) + ", on its mesh refined once it " +
                      text_of(end.refined);
-  switch (ending_of(end.as_given))
+  const Ending ending = ending_of(end.as_given);
+  if (ending_of(end.refined) != ending)
+    return text + ": the two meshes end differently, so that the mesh decides";
+  switch (ending)
   {
   case Ending::limit_point:
     return text + ": a limit point";
   case Ending::law:
     return text + ": the law ends there, and the mesh decides where";
   case Ending::solver:
+    return text + ": there the equilibria go on";
+  case Ending::unknown:
     break;
   }
-  return text + ": there the equilibria go on";
+  return text + ": what ends it is not known";
 }
 } // namespace homespun::verification

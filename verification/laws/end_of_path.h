@@ -10,6 +10,7 @@
 #include "verification/reference/laws.h"
 #include "verification/reference/loads.h"
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -21,7 +22,9 @@ struct EndOnMesh
   PathEnd end     = PathEnd::lost;
   double farthest = 0.; ///< largest strain of an equilibrium
   int n_negative  = 0;  ///< negative eigenvalues of the tangent behind it
-  double least    = 1.; ///< least wave of its worst triangle there, as a part of that at rest
+  /// Least wave of its worst triangle there, as a part of that at rest; nothing where no
+  /// equilibrium was found at all.
+  std::optional<double> least;
 };
 
 struct EndOfPath
@@ -34,18 +37,19 @@ enum class Ending
 {
   limit_point,
   law,
-  solver
+  solver, ///< the path goes on
+  unknown
 };
 
 /// The law ends where a triangle is not elliptic at the end of the path, or on the way to its limit
-/// point; else a path that turns has a limit point; one that goes on, or is lost, ends by the
-/// solver.
+/// point; else a path that turns has a limit point, and one that goes on was left by the solver.
+/// What ends a path that is lost is not known.
 Ending ending_of(const EndOnMesh &mesh);
 
 /// @param strains that the study asks for, ascending, up to the one that was not reached
 EndOfPath end_of_path(const homogenization::UnitCell &cell, const Load &load, Law law,
                       const std::vector<double> &strains, int n_cells);
 
-/// What was found, for a note.
+/// What was found, for a note; a conclusion only where both meshes end alike.
 std::string text_of(const EndOfPath &end);
 } // namespace homespun::verification
