@@ -90,6 +90,16 @@ class SentenceTest(unittest.TestCase):
         self.assertEqual(answer.beside_the_paper(paper, paper), "")
         self.assertEqual(answer.beside_the_paper(best, None), "")
 
+    def test_the_bar_of_the_reference_stands_beside_what_is_left(self):
+        self.assertEqual(
+            answer.beside_the_bar(row(1e-3)), " The reference's own error bar is 10.0 nm."
+        )
+        within = answer.beside_the_bar(row(1e-3, bar=2e-3))
+        self.assertIn("error bar, 20.0 µm, is not smaller", within)
+        self.assertIn("at most 30.0 µm", within)
+        self.assertEqual(answer.beside_the_bar(row(1e-3, bar=0.0)), "")
+        self.assertEqual(answer.beside_the_bar(row(1e-15)), "")
+
     def test_the_method_of_a_page_is_the_first_of_the_rank_that_its_load_has(self):
         for methods, main in ((("affine", "localized", "edges", "full"), "full"),
                               (("affine", "localized", "quadratic"), "quadratic"),

@@ -69,6 +69,8 @@ def answer_of(results, name, gallery):
             parts = budget.get((load, strains[0]), {}).get("all")
             line = line_of(load, some["affine"], some[method], parts)
             line["sentence"] += beside_the_paper(some[method], some.get(PAPER))
+            if line["mark"] != "open":  # where the bar is named already
+                line["sentence"] += beside_the_bar(some[method])
             lines.append({**line, "valid": valid_up_to(results, name, load, reference, method)})
     if not lines:
         return None
@@ -173,6 +175,23 @@ def beside_the_paper(best, paper):
         if more >= 1.0
         else f" The paper's method, {PAPER}, leaves less: {three(float(more))} times as much as"
         f" {best['method']}."
+    )
+
+
+def beside_the_bar(best):
+    """How well the error that is left is known: both sides share a mesh, the truth has none.
+
+    Against the limit of fine meshes the mean error is at most the sum of both (triangle inequality).
+    """
+    left, bar = best["error_mean_m"], best["reference_uncertainty_m"]
+    if not bar > 0.0 or best["error_mean_per_cell"] < style.ROUND_OFF:
+        return ""
+    if left > bar:
+        return f" The reference's own error bar is {tables.length(bar)}."
+    return (
+        f" The reference's own error bar, {tables.length(bar)}, is not smaller than that: both sides"
+        " share its mesh, and of the limit of fine meshes is known only that the error is at most"
+        f" {tables.length(left + bar)}."
     )
 
 
