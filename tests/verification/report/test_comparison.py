@@ -5,9 +5,11 @@ import unittest
 from types import SimpleNamespace
 
 import report_path  # noqa: F401
+from matplotlib import pyplot
+from figures.comparison import comparison_figure, drawn
 from made_up_run import verdict, write_run, write_verdicts
 from made_up_study import write_results
-from page.comparison import claims_side_by_side, key_of, time_rows
+from page.comparison import claims_side_by_side, key_of, time_rows, validity_rows
 from page_case import PageTest
 from read import results, runs, versions
 from read.results import read_results
@@ -103,6 +105,63 @@ class ComparisonTest(PageTest):
         )
         rows = dict(time_rows(of_laws, [SimpleNamespace(name="stripes")]))
         self.assertEqual(rows["full resolution over the other two"], ["1500"])
+
+    def test_the_method_of_each_page_is_drawn_and_the_papers_beside_it(self):
+        def rows(reference, *methods):
+            return [
+                {
+                    "load": "strip-1",
+                    "reference": reference,
+                    "method": method,
+                    "strain": strain,
+                    "error_mean_per_cell": (1.0 + k) * strain,
+                }
+                for k, method in enumerate(methods)
+                for strain in (0.01, 0.1)
+            ]
+
+        every = rows("biot", "full", "localized", "affine", "edges")
+        self.assertEqual(
+            {kind: method for kind, (method, _) in drawn(every, "biot").items()},
+            {"spoken of": "full", "localized": "localized", "affine": "affine"},
+        )
+        self.assertEqual(drawn(every, "green"), {})
+        paper = drawn(rows("biot", "localized", "affine"), "biot")
+        self.assertEqual(list(paper), ["spoken of", "affine"])
+        self.assertEqual(paper["spoken of"][0], "localized")
+        figure = comparison_figure(
+            {"one": every, "two": rows("biot", "localized")}, {"one": "biot", "two": "biot"}
+        )
+        self.addCleanup(pyplot.close, figure)
+        self.assertEqual(
+            [line.get_label() for line in figure.axes[0].get_lines()][:4],
+            ["one, full", "one, affine", "one, localized", "two, localized"],
+        )
+
+    def test_the_range_is_that_of_the_method_whose_errors_stand_below(self):
+        def row(method, strain):
+            return {
+                "cell": "stripes",
+                "load": "strip-1",
+                "reference": "biot",
+                "method": method,
+                "limit": "0.01",
+                "measure": "cell side",
+                "relation": "=",
+                "largest_strain": strain,
+                "largest_strain_lower": strain,
+                "largest_strain_upper": strain,
+            }
+
+        def shown(*some):
+            found = SimpleNamespace(
+                validity=list(some), reached=lambda name: [{"load": "strip-1"}]
+            )
+            return validity_rows(found, [SimpleNamespace(name="stripes")])
+
+        paper, best = row("localized", 0.02), row("full", 0.05)
+        self.assertEqual(shown(paper, best), [("strip-1", ["5 % [2 %]"])])
+        self.assertEqual(shown(paper), [("strip-1", ["2 %"])])
 
     def test_one_cell_is_not_compared(self):
         self.assertEqual(self.run_report(self.write("alone")), (0, ""))

@@ -7,6 +7,7 @@ from matplotlib.lines import Line2D
 from figures import style
 from figures.plot_data import ROUND_OFF_NOTE
 from figures.strain import MARKED_STRAIN, floored, limits
+from read.schema import main_method
 
 COLOURS = (
     style.BLUE,
@@ -18,30 +19,50 @@ COLOURS = (
     style.BLACK,
 )
 MARKERS = ("o", "s", "^", "D", "v")
-LINES = {"localized": "-", "affine": "--"}
+PAPER, COARSE = "localized", "affine"
+LINES = {"spoken of": "-", PAPER: ":", COARSE: "--"}
+LABELS = {
+    "spoken of": "the method that its page speaks of",
+    PAPER: style.METHOD_LABELS[PAPER],
+    COARSE: "coarse mesh alone",
+}
 KEY = "error_mean_per_cell"
 
 
+def drawn(rows, reference):
+    """Of the rows of one cell under one load and law those that are drawn: kind of line -> (method,
+    its rows). The method of the paper stands apart only where the page speaks of another one.
+    """
+    some = [row for row in rows if row["reference"] == reference]
+    spoken_of = main_method({row["method"] for row in some}, reference)
+    methods = {"spoken of": spoken_of, COARSE: COARSE}
+    if spoken_of != PAPER:
+        methods[PAPER] = PAPER
+    found = {
+        kind: (method, [row for row in some if row["method"] == method])
+        for kind, method in methods.items()
+    }
+    return {kind: pair for kind, pair in found.items() if pair[1]}
+
+
 def comparison_figure(rows, references):
-    """One panel per load; colour and marker tell the cell, dashes the coarse mesh alone.
+    """One panel per load; colour and marker tell the cell, full lines the method that its page
+    speaks of, dots the paper's where that is another one, dashes the coarse mesh alone.
 
     @param rows name -> rows with an error
     @param references name -> the law that is shown
     @return figure, or None where fewer than two names have an error
     """
-    rows = {
-        name: [
-            row
-            for row in some
-            if row["reference"] == references.get(name) and row["method"] in LINES
-        ]
+    lines_of = {
+        (name, load): drawn([row for row in some if row["load"] == load], references.get(name))
         for name, some in rows.items()
+        for load in {row["load"] for row in some}
     }
-    names = [name for name, some in rows.items() if some]
+    names = [name for name in rows if any(lines_of[k] for k in lines_of if k[0] == name)]
     if len(names) < 2:
         return None
-    every = [row for name in names for row in rows[name]]
-    loads = style.ordered_loads(row["load"] for row in every)
+    kinds = {kind for found in lines_of.values() for kind in found}
+    loads = style.ordered_loads({load for (_, load), found in lines_of.items() if found})
     columns = min(3, len(loads))
     lines = -(-len(loads) // columns)
     figure, grid = pyplot.subplots(
@@ -53,17 +74,15 @@ def comparison_figure(rows, references):
     )
     at_floor = False
     for axes, load in zip(grid.flat, loads):
-        here = [row for row in every if row["load"] == load]
+        found = {name: lines_of.get((name, load), {}) for name in names}
+        here = [row for some in found.values() for _, rows_of in some.values() for row in rows_of]
         lower, upper = limits(here, KEY, 1.0)
         for k, name in enumerate(names):
             colour, marker = (
                 COLOURS[k % len(COLOURS)],
                 MARKERS[(k // len(COLOURS) + k) % len(MARKERS)],
             )
-            for method, line in LINES.items():
-                some = [
-                    row for row in rows[name] if row["load"] == load and row["method"] == method
-                ]
+            for kind, (method, some) in found[name].items():
                 strain, value, low = floored(some, KEY, 1.0)
                 if not len(strain):
                     continue
@@ -71,9 +90,9 @@ def comparison_figure(rows, references):
                 axes.plot(
                     100 * strain,
                     numpy.where(low, lower, value),
-                    line,
+                    ls=LINES[kind],
                     color=colour,
-                    marker=marker,
+                    marker=marker if kind == "spoken of" else None,
                     markerfacecolor="white",
                     markevery=list(numpy.flatnonzero(~low)),
                     label=label,
@@ -117,9 +136,10 @@ def comparison_figure(rows, references):
             [],
             color="#444444",
             ls=line,
-            label={"affine": "coarse mesh alone"}.get(method, method),
+            label=LABELS[kind],
         )
-        for method, line in LINES.items()
+        for kind, line in LINES.items()
+        if kind in kinds
     ]
     if at_floor:
         handles.append(
