@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "localization/upsampler.h"
 
+#include "localization/cell_modes.h"
 #include "localization/garment_chi.h"
 #include "localization/upsampler_faults.h"
 #include "meshes/cloth/seams.h"
@@ -44,13 +45,16 @@ Upsampler<dim, Scalar>::Upsampler(const meshes::HomogenizedCell &cell,
   auto faults = sheet_faults(cell, fine);
   for (const std::string &fault : edge_faults(cell, options))
     faults.push_back(fault);
-  if (!options.second_order.empty() && options.strain == Strain::linear)
-    faults.push_back("up-sampling: quadratic modes of the law " + options.second_order +
-                     " are asked for with the linear strain; expected Strain::biot, whose second "
-                     "order they are");
+  for (const std::string &fault : mode_faults(cell, options))
+    faults.push_back(fault);
   if (!faults.empty())
     throw meshes::BadInput(faults);
-  const CellModes modes = modes_of(cell);
+  if (!options.fitted.empty())
+  {
+    fitted = cell.fitted.at(options.fitted);
+    fitted.modes.resize(0, fitted.modes.cols()); // they go into the tables
+  }
+  const CellModes modes = cell_modes(cell, options);
   const EdgeModes near_edges(cell, fine, options);
   const auto modes_at = [&](const int v)
   {
@@ -66,7 +70,8 @@ Upsampler<dim, Scalar>::Upsampler(const meshes::HomogenizedCell &cell,
   if (aligned)
     share_cells(modes_at, near_edges, fine);
   place(modes_at, fine, n_cells * n_block);
-  records.resize(static_cast<std::size_t>(coarse_rest.n_vertices()) * record_size);
+  records.resize(static_cast<std::size_t>(coarse_rest.n_vertices()) *
+                 static_cast<std::size_t>(record_size(kind_of_modes(options))));
 }
 
 template <int dim, typename Scalar>
@@ -91,21 +96,8 @@ Upsampler<dim, Scalar>::Upsampler(const meshes::HomogenizedCell &cell,
       {v, fine.coarse_weights.row(v).transpose()});
   tabulate(in_triangle, GarmentChi(cell, chi, fine, fade));
   at_rest_vertices.resize(coarse.rest.n_vertices(), dim);
-  records.resize(static_cast<std::size_t>(coarse.rest.n_vertices()) * record_size);
-}
-
-template <int dim, typename Scalar>
-typename Upsampler<dim, Scalar>::CellModes
-Upsampler<dim, Scalar>::modes_of(const meshes::HomogenizedCell &cell) const
-{
-  if (!options.microscopic)
-    return CellModes::Zero(cell.mesh.n_vertices(), 6);
-  if (options.second_order.empty())
-    return anchored(cell, options.anchor);
-  CellModes modes(cell.mesh.n_vertices(), 18);
-  modes << anchored(cell, options.anchor),
-    anchored_quadratic(cell, options.second_order, options.anchor);
-  return modes;
+  records.resize(static_cast<std::size_t>(coarse.rest.n_vertices()) *
+                 static_cast<std::size_t>(record_size(linear_modes)));
 }
 
 template <int dim, typename Scalar>
@@ -245,18 +237,26 @@ template <int dim, typename Scalar>
 void Upsampler<dim, Scalar>::fill_records(const PositionsOf<dim> coarse_current) const
 {
   const Eigen::Index n = coarse_current.rows();
+  const int size       = record_size(kind_of_modes(options));
   for (Eigen::Index v = 0; v < n; ++v)
     for (int i = 0; i < dim; ++i)
-      records[static_cast<std::size_t>(v * record_size + i)] =
-        static_cast<Scalar>(coarse_current(v, i));
+      records[static_cast<std::size_t>(v * size + i)] = static_cast<Scalar>(coarse_current(v, i));
   if (!options.microscopic)
     return;
   const auto &values = frames.values(coarse_current);
   if (options.blend == Blend::continuous)
     for (Eigen::Index v = 0; v < n; ++v)
       for (int c = 0; c < frames.n_components; ++c)
-        records[static_cast<std::size_t>(v * record_size + dim + c)] =
-          static_cast<Scalar>(values(v, c));
+        records[static_cast<std::size_t>(v * size + dim + c)] = static_cast<Scalar>(values(v, c));
+  if (kind_of_modes(options) == fitted_modes)
+    for (Eigen::Index v = 0; v < n; ++v)
+    {
+      const Eigen::Vector3d strain = values.row(v).template head<3>();
+      const auto coefficients      = meshes::fitted_coefficients(fitted, strain);
+      for (int k = 0; k < meshes::FittedModes::n_modes; ++k)
+        records[static_cast<std::size_t>(v * size + dim + frames.n_components + k)] =
+          static_cast<Scalar>(coefficients(k));
+    }
 }
 
 template <int dim, typename Scalar>
@@ -264,14 +264,13 @@ template <int terms, int modes>
 void Upsampler<dim, Scalar>::evaluate(const VertexTable<Scalar> &table, const int triangle,
                                       const int begin, const int count, Scalar *const out) const
 {
-  Corners<Scalar> corners;
-  const auto record = [&](const int k)
-  {
-    return records.data() +
-           static_cast<std::size_t>(frames.rest().triangles(triangle, k)) * record_size;
+  Corners<Scalar, modes> corners;
+  constexpr int size = record_size(modes);
+  const auto record  = [&](const int k) {
+    return records.data() + static_cast<std::size_t>(frames.rest().triangles(triangle, k)) * size;
   };
   const Scalar *const r0 = record(0), *const r1 = record(1), *const r2 = record(2);
-  for (int c = 0; c < record_size; ++c)
+  for (int c = 0; c < size; ++c)
   {
     corners.at0[c] = r0[c];
     corners.to1[c] = r1[c] - r0[c];
@@ -284,7 +283,7 @@ void Upsampler<dim, Scalar>::evaluate(const VertexTable<Scalar> &table, const in
   fine_positions<dim, terms, modes, Scalar>(
     corners, table.weights.data() + block,
     terms == affine ? nullptr : table.chi_blocks.data() + block,
-    modes == quadratic_modes ? table.quadratic_blocks.data() + block : nullptr,
+    modes == linear_modes ? nullptr : table.quadratic_blocks.data() + block,
     (count + lanes - 1) / lanes, out);
 }
 
@@ -292,8 +291,15 @@ template <int dim, typename Scalar>
 template <int terms>
 void Upsampler<dim, Scalar>::run_modes(Scalar *const fine_current) const
 {
-  options.second_order.empty() ? run<terms, linear_modes>(fine_current)
-                               : run<terms, quadratic_modes>(fine_current);
+  switch (kind_of_modes(options))
+  {
+  case linear_modes:
+    return run<terms, linear_modes>(fine_current);
+  case quadratic_modes:
+    return run<terms, quadratic_modes>(fine_current);
+  case fitted_modes:
+    return run<terms, fitted_modes>(fine_current);
+  }
 }
 
 template <int dim, typename Scalar>

@@ -17,11 +17,13 @@
 // Modes of edges (edge_modes.h) are constants of the vertices near edges: on the aligned path cells
 // that edges reach have tables of their own, one for each way of being reached.
 // Terms that the options leave out have loops of their own without them; with quadratic modes there
-// are 18 multiply-adds in the place of 6 and 20 numbers per vertex in the place of 8.
+// are 18 multiply-adds in the place of 6 and 20 numbers per vertex in the place of 8. Fitted modes
+// take as many numbers; their coefficients are computed at the coarse vertices and linear between.
 #pragma once
 
 #include "localization/coarse_frames.h"
 #include "localization/edge_modes.h"
+#include "localization/kernel.h"
 #include "localization/options.h"
 #include "localization/vertex_table.h"
 #include "meshes/cloth/cloth_mesh.h"
@@ -99,11 +101,6 @@ private:
     Eigen::Vector3d weights;
   };
 
-  /// Modes of the cell's vertices, chi first (n,6), or with the quadratic ones (n,18) [m].
-  using CellModes =
-    Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor, Eigen::Dynamic, 18>;
-
-  CellModes modes_of(const meshes::HomogenizedCell &cell) const;
   template <typename ModesAt>
   void share_cells(const ModesAt &modes_at, const EdgeModes &near_edges, const meshes::Sheet &fine);
   template <typename ModesAt>
@@ -137,6 +134,7 @@ private:
   std::vector<Group> groups;               ///< of `own`
   std::vector<int> target;                 ///< fine vertex of each row of `own`, −1 for padding
   mutable Positions<dim> at_rest_vertices; ///< garment: positions by rest vertex
-  mutable std::vector<Scalar> records;     ///< of each coarse vertex: position, strain, lift
+  meshes::FittedModes fitted;              ///< box and coefficients, where the options take them
+  mutable std::vector<Scalar> records;     ///< of each coarse vertex: see record_size()
 };
 } // namespace homespun::localization
