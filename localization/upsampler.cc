@@ -15,26 +15,6 @@
 
 namespace homespun::localization
 {
-namespace
-{
-/// A coarse mesh is the sheet's lattice if its vertices agree to this part of the cell size. Far
-/// below image_tolerance: what agrees less well is up-sampled by the general path, right to all
-/// digits.
-constexpr double aligned_tolerance = 1e-10;
-
-bool is_lattice_of(const meshes::Sheet &sheet, const meshes::TriangleMesh &coarse)
-{
-  const meshes::TriangleMesh lattice =
-    meshes::coarse_sheet(sheet.origin, sheet.lattice.vectors, sheet.n1, sheet.n2);
-  return coarse.n_vertices() == lattice.n_vertices() &&
-         coarse.triangles.rows() == lattice.triangles.rows() &&
-         coarse.triangles == lattice.triangles &&
-         (coarse.vertices - lattice.vertices).cwiseAbs().maxCoeff() <=
-           aligned_tolerance * std::sqrt(sheet.lattice.area());
-}
-
-} // namespace
-
 template <int dim, typename Scalar>
 Upsampler<dim, Scalar>::Upsampler(const meshes::HomogenizedCell &cell,
                                   const meshes::TriangleMesh &coarse_rest,
@@ -64,10 +44,15 @@ Upsampler<dim, Scalar>::Upsampler(const meshes::HomogenizedCell &cell,
       row.template head<6>() -= near_edges.at(v);
     return row;
   };
-  n_total = fine.mesh.n_vertices();
-  n_space = coarse_rest.n_vertices();
-  aligned = options.path == Path::automatic && is_lattice_of(fine, coarse_rest);
-  if (aligned)
+  n_total     = fine.mesh.n_vertices();
+  n_space     = coarse_rest.n_vertices();
+  const int r = options.path == Path::automatic ? quads_per_cell(fine, coarse_rest) : 0;
+  aligned     = r == 1;
+  // Within a quad of a cell a strain that is piecewise constant belongs to a side, which the groups
+  // do not know.
+  if (r > 1 && options.blend == Blend::continuous)
+    within_cell = cell_groups(fine, r);
+  if (aligned || within_cell.r > 0)
     share_cells(modes_at, near_edges, fine);
   place(modes_at, fine, n_cells * n_block);
   records.resize(static_cast<std::size_t>(coarse_rest.n_vertices()) *
@@ -108,6 +93,7 @@ void Upsampler<dim, Scalar>::share_cells(const ModesAt &modes_at, const EdgeMode
   n_cells = fine.n1 * fine.n2;
   n_block = fine.n_per_cell;
   n_below = fine.n_below;
+  n_along = fine.n1;
   std::map<EdgeModes::Depths, int> table_of;
   for (int cell = 0; cell < n_cells; ++cell)
   {
@@ -117,7 +103,13 @@ void Upsampler<dim, Scalar>::share_cells(const ModesAt &modes_at, const EdgeMode
     if (!is_new)
       continue;
     VertexTable<Scalar> &table = shared.emplace_back();
-    for (int k = 0; k < n_block; ++k)
+    for (const CellGroups::Group &group : within_cell.groups)
+    {
+      for (std::size_t k = 0; k < group.vertices.size(); ++k)
+        table.append(group.weights[k], modes_at(cell * n_block + group.vertices[k]));
+      table.pad();
+    }
+    for (int k = 0; aligned && k < n_block; ++k)
     {
       // s along a1 and t along a2: below, corners (0,0) (1,0) (1,1); above, (0,0) (1,1) (0,1).
       const Eigen::RowVector2d f = fine.lattice.fractional(fine.mesh.vertices.row(k) - fine.origin);
@@ -324,25 +316,37 @@ void Upsampler<dim, Scalar>::run(Scalar *const fine_current) const
         std::copy_n(buffer, part * dim, fine_current + (first + done) * dim);
       }
   };
+  const auto scatter = [&](const VertexTable<Scalar> &table, const int triangle, const int begin,
+                           const int count, const int *const to, Scalar *const out)
+  {
+    for (int done = 0; done < count; done += chunk)
+    {
+      const int part = std::min(chunk, count - done);
+      evaluate<terms, modes>(table, triangle, begin + done, part, buffer);
+      for (int k = 0; k < part; ++k)
+        for (int i = 0; i < dim; ++i)
+          out[to[done + k] * dim + i] = buffer[k * dim + i];
+    }
+  };
   for (int cell = 0; cell < n_cells; ++cell)
   {
     const VertexTable<Scalar> &table =
       shared[shared_of_cell.empty()
                ? 0
                : static_cast<std::size_t>(shared_of_cell[static_cast<std::size_t>(cell)])];
-    block(table, 2 * cell, 0, cell * n_block, n_below);
-    block(table, 2 * cell + 1, begin_above, cell * n_block + n_below, n_block - n_below);
+    if (aligned)
+    {
+      block(table, 2 * cell, 0, cell * n_block, n_below);
+      block(table, 2 * cell + 1, begin_above, cell * n_block + n_below, n_block - n_below);
+    }
+    for (const CellGroups::Group &group : within_cell.groups)
+      scatter(table, within_cell.triangle(group, n_along, cell % n_along, cell / n_along),
+              group.first_slot, static_cast<int>(group.vertices.size()), group.vertices.data(),
+              fine_current + static_cast<std::ptrdiff_t>(cell) * n_block * dim);
   }
   for (const Group &group : groups)
-    for (int done = 0; done < group.count; done += chunk)
-    {
-      const int part = std::min(chunk, group.count - done);
-      evaluate<terms, modes>(own, group.triangle, group.begin + done, part, buffer);
-      const int *const to = target.data() + group.begin + done;
-      for (int k = 0; k < part; ++k)
-        for (int i = 0; i < dim; ++i)
-          fine_current[to[k] * dim + i] = buffer[k * dim + i];
-    }
+    scatter(own, group.triangle, group.begin, group.count, target.data() + group.begin,
+            fine_current);
 }
 
 template <int dim, typename Scalar>

@@ -8,6 +8,9 @@
 // Aligned path, where the coarse mesh is the lattice of the sheet: all cells share one table, two
 //   runs of consecutive vertices per cell, no index per vertex. The table (8 numbers per vertex of
 //   one cell) stays in the first-level cache, so that the output is all that moves through memory.
+// Where the coarse mesh cuts each cell into r x r quads, cells share one table too, in groups of
+// the
+//   vertices of a coarse triangle, with one index per vertex of a cell.
 // General path, on any coarse mesh that covers the sheet: vertices grouped by coarse triangle, with
 //   8 numbers and an index per vertex.
 // A garment (meshes::FineCloth) takes the general path: vertices in space are gathered to the rest
@@ -21,6 +24,7 @@
 // take as many numbers; their coefficients are computed at the coarse vertices and linear between.
 #pragma once
 
+#include "localization/cell_groups.h"
 #include "localization/coarse_frames.h"
 #include "localization/edge_modes.h"
 #include "localization/kernel.h"
@@ -122,10 +126,12 @@ private:
   std::vector<int> space_of_rest; ///< garment: vertex in space of each rest vertex; else empty
   int n_space  = 0;               ///< coarse vertices
   bool aligned = false;
-  int n_cells  = 0; ///< aligned: cells, each with one block of vertices
-  int n_block  = 0; ///< aligned: vertices per block
-  int n_below  = 0; ///< aligned: of these, below the diagonal
-  int n_total  = 0; ///< fine vertices
+  CellGroups within_cell; ///< where the coarse mesh cuts each cell into several quads; else none
+  int n_cells = 0;        ///< aligned, or cut: cells, each with one block of vertices
+  int n_along = 0;        ///< of these, along the first axis
+  int n_block = 0;        ///< vertices per block
+  int n_below = 0;        ///< aligned: of these, below the diagonal
+  int n_total = 0;        ///< fine vertices
   /// Aligned: below the diagonal, then above; one table, or with modes of edges one for each way in
   /// which edges reach a cell.
   std::vector<VertexTable<Scalar>> shared;
