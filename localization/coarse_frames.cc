@@ -347,6 +347,16 @@ meshes::QuadraticChi anchored_quadratic(const meshes::HomogenizedCell &cell, con
   return with_constant(cell, found->second.chi, anchor, "quadratic modes");
 }
 
+meshes::QuadraticChi anchored_fitted(const meshes::HomogenizedCell &cell, const std::string &law,
+                                     const Anchor anchor)
+{
+  const auto found = cell.fitted.find(law);
+  if (found == cell.fitted.end())
+    throw meshes::BadInput("cell: has no fitted modes under the law `" + law +
+                           "`; expected some: fit them, or do without");
+  return with_constant<meshes::QuadraticChi>(cell, found->second.modes, anchor, "fitted modes");
+}
+
 template class CoarseFrames<2>;
 template class CoarseFrames<3>;
 template Eigen::Vector2d fine_position<2>(const CoarseFrames<2> &, int, const Eigen::Vector3d &,

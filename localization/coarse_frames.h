@@ -108,4 +108,9 @@ meshes::Chi anchored(const meshes::HomogenizedCell &cell, Anchor anchor);
 /// @throws BadInput as anchored(), and where the cell has none under that law
 meshes::QuadraticChi anchored_quadratic(const meshes::HomogenizedCell &cell, const std::string &law,
                                         Anchor anchor);
+
+/// The same of the fitted modes under a law.
+/// @throws BadInput as anchored(), and where the cell has none under that law
+meshes::QuadraticChi anchored_fitted(const meshes::HomogenizedCell &cell, const std::string &law,
+                                     Anchor anchor);
 } // namespace homespun::localization

@@ -6,8 +6,6 @@ namespace homespun::localization
 {
 /// Fine vertices are computed in blocks of this many: one AVX-512 register of floats.
 constexpr int lanes = 16;
-/// Numbers per coarse vertex: position (dim), strain (3), lift (2 dim), padded to whole registers.
-constexpr int record_size = 16;
 
 /// What a loop computes; each is compiled on its own, so that what is left out costs nothing.
 enum Terms
@@ -35,35 +33,43 @@ struct alignas(64) ChiBlock
 };
 
 /// Minus the quadratic modes of a block of fine vertices, column 2 k + c, k of
-/// meshes::strain_pairs, those of equal strains halved [m].
+/// meshes::strain_pairs, those of equal strains halved; or minus the fitted modes [m].
 template <typename Scalar>
 struct alignas(64) QuadraticBlock
 {
   Scalar column[12][lanes];
 };
 
-/// How many modes a fluctuation has: linear in the strain, or quadratic too.
+/// What a fluctuation is in the strain: linear, quadratic too, or fitted.
 enum Modes
 {
-  linear_modes    = 3,
-  quadratic_modes = 9
+  linear_modes,
+  quadratic_modes,
+  fitted_modes
 };
 
+/// Numbers per coarse vertex: position (dim), strain (3), lift (2 dim), where modes are fitted
+/// their coefficients (6); padded to whole registers.
+constexpr int record_size(const int modes)
+{
+  return modes == fitted_modes ? 32 : 16;
+}
+
 /// Records of a coarse triangle: values at corner 0, and their differences to corners 1 and 2.
-template <typename Scalar>
+template <typename Scalar, int modes>
 struct alignas(64) Corners
 {
-  Scalar at0[record_size], to1[record_size], to2[record_size];
+  Scalar at0[record_size(modes)], to1[record_size(modes)], to2[record_size(modes)];
 };
 
 /// Positions x = P + L w in blocks of `lanes` vertices.
 ///
 /// Not inlined, so that the coefficients are broadcast from memory and not taken apart from the
 /// registers in which the caller made them: they are 36 for at most a dozen blocks.
-/// @param quadratic read with quadratic_modes only
+/// @param quadratic not read with linear_modes
 /// @param out (n_blocks * lanes, dim), components side by side
 template <int dim, int terms, int modes, typename Scalar>
-[[gnu::noinline]] void fine_positions(const Corners<Scalar> &corners,
+[[gnu::noinline]] void fine_positions(const Corners<Scalar, modes> &corners,
                                       const Weights<Scalar> *__restrict weights,
                                       const ChiBlock<Scalar> *__restrict chi,
                                       const QuadraticBlock<Scalar> *__restrict quadratic,
@@ -111,6 +117,13 @@ template <int dim, int terms, int modes, typename Scalar>
           w0 = e0 * columns[0][n] + e1 * columns[2][n] + e2 * columns[4][n];
           w1 = e0 * columns[1][n] + e1 * columns[3][n] + e2 * columns[5][n];
         }
+        if constexpr (modes == fitted_modes)
+          for (int k = 0; k < 6; ++k)
+          {
+            const Scalar c = frame(3 + 2 * dim + k);
+            w0 += c * quadratic[block].column[2 * k][n];
+            w1 += c * quadratic[block].column[2 * k + 1][n];
+          }
         if constexpr (is_in_plane)
         {
           x[0] += w0;

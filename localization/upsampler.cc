@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "localization/upsampler.h"
 
+#include "localization/cell_modes.h"
 #include "localization/garment_chi.h"
 #include "localization/upsampler_faults.h"
 #include "meshes/cloth/seams.h"
@@ -14,26 +15,6 @@
 
 namespace homespun::localization
 {
-namespace
-{
-/// A coarse mesh is the sheet's lattice if its vertices agree to this part of the cell size. Far
-/// below image_tolerance: what agrees less well is up-sampled by the general path, right to all
-/// digits.
-constexpr double aligned_tolerance = 1e-10;
-
-bool is_lattice_of(const meshes::Sheet &sheet, const meshes::TriangleMesh &coarse)
-{
-  const meshes::TriangleMesh lattice =
-    meshes::coarse_sheet(sheet.origin, sheet.lattice.vectors, sheet.n1, sheet.n2);
-  return coarse.n_vertices() == lattice.n_vertices() &&
-         coarse.triangles.rows() == lattice.triangles.rows() &&
-         coarse.triangles == lattice.triangles &&
-         (coarse.vertices - lattice.vertices).cwiseAbs().maxCoeff() <=
-           aligned_tolerance * std::sqrt(sheet.lattice.area());
-}
-
-} // namespace
-
 template <int dim, typename Scalar>
 Upsampler<dim, Scalar>::Upsampler(const meshes::HomogenizedCell &cell,
                                   const meshes::TriangleMesh &coarse_rest,
@@ -44,13 +25,16 @@ Upsampler<dim, Scalar>::Upsampler(const meshes::HomogenizedCell &cell,
   auto faults = sheet_faults(cell, fine);
   for (const std::string &fault : edge_faults(cell, options))
     faults.push_back(fault);
-  if (!options.second_order.empty() && options.strain == Strain::linear)
-    faults.push_back("up-sampling: quadratic modes of the law " + options.second_order +
-                     " are asked for with the linear strain; expected Strain::biot, whose second "
-                     "order they are");
+  for (const std::string &fault : mode_faults(cell, options))
+    faults.push_back(fault);
   if (!faults.empty())
     throw meshes::BadInput(faults);
-  const CellModes modes = modes_of(cell);
+  if (!options.fitted.empty())
+  {
+    fitted = cell.fitted.at(options.fitted);
+    fitted.modes.resize(0, fitted.modes.cols()); // they go into the tables
+  }
+  const CellModes modes = cell_modes(cell, options);
   const EdgeModes near_edges(cell, fine, options);
   const auto modes_at = [&](const int v)
   {
@@ -60,13 +44,19 @@ Upsampler<dim, Scalar>::Upsampler(const meshes::HomogenizedCell &cell,
       row.template head<6>() -= near_edges.at(v);
     return row;
   };
-  n_total = fine.mesh.n_vertices();
-  n_space = coarse_rest.n_vertices();
-  aligned = options.path == Path::automatic && is_lattice_of(fine, coarse_rest);
-  if (aligned)
+  n_total     = fine.mesh.n_vertices();
+  n_space     = coarse_rest.n_vertices();
+  const int r = options.path == Path::automatic ? quads_per_cell(fine, coarse_rest) : 0;
+  aligned     = r == 1;
+  // Within a quad of a cell a strain that is piecewise constant belongs to a side, which the groups
+  // do not know.
+  if (r > 1 && options.blend == Blend::continuous)
+    within_cell = cell_groups(fine, r);
+  if (aligned || within_cell.r > 0)
     share_cells(modes_at, near_edges, fine);
   place(modes_at, fine, n_cells * n_block);
-  records.resize(static_cast<std::size_t>(coarse_rest.n_vertices()) * record_size);
+  records.resize(static_cast<std::size_t>(coarse_rest.n_vertices()) *
+                 static_cast<std::size_t>(record_size(kind_of_modes(options))));
 }
 
 template <int dim, typename Scalar>
@@ -91,21 +81,8 @@ Upsampler<dim, Scalar>::Upsampler(const meshes::HomogenizedCell &cell,
       {v, fine.coarse_weights.row(v).transpose()});
   tabulate(in_triangle, GarmentChi(cell, chi, fine, fade));
   at_rest_vertices.resize(coarse.rest.n_vertices(), dim);
-  records.resize(static_cast<std::size_t>(coarse.rest.n_vertices()) * record_size);
-}
-
-template <int dim, typename Scalar>
-typename Upsampler<dim, Scalar>::CellModes
-Upsampler<dim, Scalar>::modes_of(const meshes::HomogenizedCell &cell) const
-{
-  if (!options.microscopic)
-    return CellModes::Zero(cell.mesh.n_vertices(), 6);
-  if (options.second_order.empty())
-    return anchored(cell, options.anchor);
-  CellModes modes(cell.mesh.n_vertices(), 18);
-  modes << anchored(cell, options.anchor),
-    anchored_quadratic(cell, options.second_order, options.anchor);
-  return modes;
+  records.resize(static_cast<std::size_t>(coarse.rest.n_vertices()) *
+                 static_cast<std::size_t>(record_size(linear_modes)));
 }
 
 template <int dim, typename Scalar>
@@ -116,6 +93,7 @@ void Upsampler<dim, Scalar>::share_cells(const ModesAt &modes_at, const EdgeMode
   n_cells = fine.n1 * fine.n2;
   n_block = fine.n_per_cell;
   n_below = fine.n_below;
+  n_along = fine.n1;
   std::map<EdgeModes::Depths, int> table_of;
   for (int cell = 0; cell < n_cells; ++cell)
   {
@@ -125,7 +103,13 @@ void Upsampler<dim, Scalar>::share_cells(const ModesAt &modes_at, const EdgeMode
     if (!is_new)
       continue;
     VertexTable<Scalar> &table = shared.emplace_back();
-    for (int k = 0; k < n_block; ++k)
+    for (const CellGroups::Group &group : within_cell.groups)
+    {
+      for (std::size_t k = 0; k < group.vertices.size(); ++k)
+        table.append(group.weights[k], modes_at(cell * n_block + group.vertices[k]));
+      table.pad();
+    }
+    for (int k = 0; aligned && k < n_block; ++k)
     {
       // s along a1 and t along a2: below, corners (0,0) (1,0) (1,1); above, (0,0) (1,1) (0,1).
       const Eigen::RowVector2d f = fine.lattice.fractional(fine.mesh.vertices.row(k) - fine.origin);
@@ -245,18 +229,26 @@ template <int dim, typename Scalar>
 void Upsampler<dim, Scalar>::fill_records(const PositionsOf<dim> coarse_current) const
 {
   const Eigen::Index n = coarse_current.rows();
+  const int size       = record_size(kind_of_modes(options));
   for (Eigen::Index v = 0; v < n; ++v)
     for (int i = 0; i < dim; ++i)
-      records[static_cast<std::size_t>(v * record_size + i)] =
-        static_cast<Scalar>(coarse_current(v, i));
+      records[static_cast<std::size_t>(v * size + i)] = static_cast<Scalar>(coarse_current(v, i));
   if (!options.microscopic)
     return;
   const auto &values = frames.values(coarse_current);
   if (options.blend == Blend::continuous)
     for (Eigen::Index v = 0; v < n; ++v)
       for (int c = 0; c < frames.n_components; ++c)
-        records[static_cast<std::size_t>(v * record_size + dim + c)] =
-          static_cast<Scalar>(values(v, c));
+        records[static_cast<std::size_t>(v * size + dim + c)] = static_cast<Scalar>(values(v, c));
+  if (kind_of_modes(options) == fitted_modes)
+    for (Eigen::Index v = 0; v < n; ++v)
+    {
+      const Eigen::Vector3d strain = values.row(v).template head<3>();
+      const auto coefficients      = meshes::fitted_coefficients(fitted, strain);
+      for (int k = 0; k < meshes::FittedModes::n_modes; ++k)
+        records[static_cast<std::size_t>(v * size + dim + frames.n_components + k)] =
+          static_cast<Scalar>(coefficients(k));
+    }
 }
 
 template <int dim, typename Scalar>
@@ -264,14 +256,13 @@ template <int terms, int modes>
 void Upsampler<dim, Scalar>::evaluate(const VertexTable<Scalar> &table, const int triangle,
                                       const int begin, const int count, Scalar *const out) const
 {
-  Corners<Scalar> corners;
-  const auto record = [&](const int k)
-  {
-    return records.data() +
-           static_cast<std::size_t>(frames.rest().triangles(triangle, k)) * record_size;
+  Corners<Scalar, modes> corners;
+  constexpr int size = record_size(modes);
+  const auto record  = [&](const int k) {
+    return records.data() + static_cast<std::size_t>(frames.rest().triangles(triangle, k)) * size;
   };
   const Scalar *const r0 = record(0), *const r1 = record(1), *const r2 = record(2);
-  for (int c = 0; c < record_size; ++c)
+  for (int c = 0; c < size; ++c)
   {
     corners.at0[c] = r0[c];
     corners.to1[c] = r1[c] - r0[c];
@@ -284,7 +275,7 @@ void Upsampler<dim, Scalar>::evaluate(const VertexTable<Scalar> &table, const in
   fine_positions<dim, terms, modes, Scalar>(
     corners, table.weights.data() + block,
     terms == affine ? nullptr : table.chi_blocks.data() + block,
-    modes == quadratic_modes ? table.quadratic_blocks.data() + block : nullptr,
+    modes == linear_modes ? nullptr : table.quadratic_blocks.data() + block,
     (count + lanes - 1) / lanes, out);
 }
 
@@ -292,8 +283,15 @@ template <int dim, typename Scalar>
 template <int terms>
 void Upsampler<dim, Scalar>::run_modes(Scalar *const fine_current) const
 {
-  options.second_order.empty() ? run<terms, linear_modes>(fine_current)
-                               : run<terms, quadratic_modes>(fine_current);
+  switch (kind_of_modes(options))
+  {
+  case linear_modes:
+    return run<terms, linear_modes>(fine_current);
+  case quadratic_modes:
+    return run<terms, quadratic_modes>(fine_current);
+  case fitted_modes:
+    return run<terms, fitted_modes>(fine_current);
+  }
 }
 
 template <int dim, typename Scalar>
@@ -318,25 +316,37 @@ void Upsampler<dim, Scalar>::run(Scalar *const fine_current) const
         std::copy_n(buffer, part * dim, fine_current + (first + done) * dim);
       }
   };
+  const auto scatter = [&](const VertexTable<Scalar> &table, const int triangle, const int begin,
+                           const int count, const int *const to, Scalar *const out)
+  {
+    for (int done = 0; done < count; done += chunk)
+    {
+      const int part = std::min(chunk, count - done);
+      evaluate<terms, modes>(table, triangle, begin + done, part, buffer);
+      for (int k = 0; k < part; ++k)
+        for (int i = 0; i < dim; ++i)
+          out[to[done + k] * dim + i] = buffer[k * dim + i];
+    }
+  };
   for (int cell = 0; cell < n_cells; ++cell)
   {
     const VertexTable<Scalar> &table =
       shared[shared_of_cell.empty()
                ? 0
                : static_cast<std::size_t>(shared_of_cell[static_cast<std::size_t>(cell)])];
-    block(table, 2 * cell, 0, cell * n_block, n_below);
-    block(table, 2 * cell + 1, begin_above, cell * n_block + n_below, n_block - n_below);
+    if (aligned)
+    {
+      block(table, 2 * cell, 0, cell * n_block, n_below);
+      block(table, 2 * cell + 1, begin_above, cell * n_block + n_below, n_block - n_below);
+    }
+    for (const CellGroups::Group &group : within_cell.groups)
+      scatter(table, within_cell.triangle(group, n_along, cell % n_along, cell / n_along),
+              group.first_slot, static_cast<int>(group.vertices.size()), group.vertices.data(),
+              fine_current + static_cast<std::ptrdiff_t>(cell) * n_block * dim);
   }
   for (const Group &group : groups)
-    for (int done = 0; done < group.count; done += chunk)
-    {
-      const int part = std::min(chunk, group.count - done);
-      evaluate<terms, modes>(own, group.triangle, group.begin + done, part, buffer);
-      const int *const to = target.data() + group.begin + done;
-      for (int k = 0; k < part; ++k)
-        for (int i = 0; i < dim; ++i)
-          fine_current[to[k] * dim + i] = buffer[k * dim + i];
-    }
+    scatter(own, group.triangle, group.begin, group.count, target.data() + group.begin,
+            fine_current);
 }
 
 template <int dim, typename Scalar>

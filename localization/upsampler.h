@@ -8,6 +8,9 @@
 // Aligned path, where the coarse mesh is the lattice of the sheet: all cells share one table, two
 //   runs of consecutive vertices per cell, no index per vertex. The table (8 numbers per vertex of
 //   one cell) stays in the first-level cache, so that the output is all that moves through memory.
+// Where the coarse mesh cuts each cell into r x r quads, cells share one table too, in groups of
+// the
+//   vertices of a coarse triangle, with one index per vertex of a cell.
 // General path, on any coarse mesh that covers the sheet: vertices grouped by coarse triangle, with
 //   8 numbers and an index per vertex.
 // A garment (meshes::FineCloth) takes the general path: vertices in space are gathered to the rest
@@ -17,11 +20,14 @@
 // Modes of edges (edge_modes.h) are constants of the vertices near edges: on the aligned path cells
 // that edges reach have tables of their own, one for each way of being reached.
 // Terms that the options leave out have loops of their own without them; with quadratic modes there
-// are 18 multiply-adds in the place of 6 and 20 numbers per vertex in the place of 8.
+// are 18 multiply-adds in the place of 6 and 20 numbers per vertex in the place of 8. Fitted modes
+// take as many numbers; their coefficients are computed at the coarse vertices and linear between.
 #pragma once
 
+#include "localization/cell_groups.h"
 #include "localization/coarse_frames.h"
 #include "localization/edge_modes.h"
+#include "localization/kernel.h"
 #include "localization/options.h"
 #include "localization/vertex_table.h"
 #include "meshes/cloth/cloth_mesh.h"
@@ -99,11 +105,6 @@ private:
     Eigen::Vector3d weights;
   };
 
-  /// Modes of the cell's vertices, chi first (n,6), or with the quadratic ones (n,18) [m].
-  using CellModes =
-    Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor, Eigen::Dynamic, 18>;
-
-  CellModes modes_of(const meshes::HomogenizedCell &cell) const;
   template <typename ModesAt>
   void share_cells(const ModesAt &modes_at, const EdgeModes &near_edges, const meshes::Sheet &fine);
   template <typename ModesAt>
@@ -125,10 +126,12 @@ private:
   std::vector<int> space_of_rest; ///< garment: vertex in space of each rest vertex; else empty
   int n_space  = 0;               ///< coarse vertices
   bool aligned = false;
-  int n_cells  = 0; ///< aligned: cells, each with one block of vertices
-  int n_block  = 0; ///< aligned: vertices per block
-  int n_below  = 0; ///< aligned: of these, below the diagonal
-  int n_total  = 0; ///< fine vertices
+  CellGroups within_cell; ///< where the coarse mesh cuts each cell into several quads; else none
+  int n_cells = 0;        ///< aligned, or cut: cells, each with one block of vertices
+  int n_along = 0;        ///< of these, along the first axis
+  int n_block = 0;        ///< vertices per block
+  int n_below = 0;        ///< aligned: of these, below the diagonal
+  int n_total = 0;        ///< fine vertices
   /// Aligned: below the diagonal, then above; one table, or with modes of edges one for each way in
   /// which edges reach a cell.
   std::vector<VertexTable<Scalar>> shared;
@@ -137,6 +140,7 @@ private:
   std::vector<Group> groups;               ///< of `own`
   std::vector<int> target;                 ///< fine vertex of each row of `own`, −1 for padding
   mutable Positions<dim> at_rest_vertices; ///< garment: positions by rest vertex
-  mutable std::vector<Scalar> records;     ///< of each coarse vertex: position, strain, lift
+  meshes::FittedModes fitted;              ///< box and coefficients, where the options take them
+  mutable std::vector<Scalar> records;     ///< of each coarse vertex: see record_size()
 };
 } // namespace homespun::localization

@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <sstream>
+#include <utility>
 
 namespace homespun::localization
 {
@@ -49,6 +50,30 @@ std::vector<std::string> sheet_faults(const meshes::HomogenizedCell &cell,
   return faults;
 }
 
+std::vector<std::string> mode_faults(const meshes::HomogenizedCell &cell,
+                                     const UpsamplerOptions &options)
+{
+  std::vector<std::string> faults;
+  for (const auto &[kind, law] :
+       {std::pair("quadratic", options.second_order), std::pair("fitted", options.fitted)})
+    if (!law.empty() && options.strain == Strain::linear)
+      faults.push_back(std::string("up-sampling: ") + kind + " modes of the law " + law +
+                       " are asked for with the linear strain; expected Strain::biot, whose second "
+                       "order they are");
+  if (options.fitted.empty())
+    return faults;
+  if (!options.second_order.empty())
+    faults.push_back("up-sampling: fitted modes of the law " + options.fitted +
+                     " are asked for beside quadratic ones; expected one of the two");
+  if (options.blend != Blend::continuous)
+    faults.push_back("up-sampling: fitted modes of the law " + options.fitted +
+                     " are asked for with Blend::piecewise; expected Blend::continuous");
+  if (cell.fitted.count(options.fitted) == 0)
+    faults.push_back("cell: has no fitted modes under the law `" + options.fitted +
+                     "`; expected some: fit them, or do without");
+  return faults;
+}
+
 std::vector<std::string> garment_faults(const meshes::HomogenizedCell &cell,
                                         const meshes::ClothMesh &coarse,
                                         const meshes::FineCloth &fine,
@@ -62,11 +87,11 @@ std::vector<std::string> garment_faults(const meshes::HomogenizedCell &cell,
          << " cell sides at seams; expected 0 to " << meshes::seam_reach;
     faults.push_back(text.str());
   }
-  if (!options.second_order.empty())
-    faults.push_back("up-sampling: quadratic modes of the law " + options.second_order +
+  if (const std::string &law = options.second_order + options.fitted; !law.empty())
+    faults.push_back("up-sampling: quadratic or fitted modes of the law " + law +
                      " are asked for; of a garment, whose modes turn with the grain and fade at "
                      "seams, those of first order are all there is so far: leave second_order "
-                     "empty");
+                     "and fitted empty");
   if (options.edges != nullptr)
     faults.emplace_back("up-sampling: modes of edges are asked for of a garment; its outlines and "
                         "seams are no lattice lines and have none: leave edges empty");

@@ -17,12 +17,12 @@ struct VertexTable
 {
   std::vector<Weights<Scalar>> weights;
   std::vector<ChiBlock<Scalar>> chi_blocks;
-  std::vector<QuadraticBlock<Scalar>> quadratic_blocks; ///< empty without quadratic modes
+  std::vector<QuadraticBlock<Scalar>> quadratic_blocks; ///< empty where all modes are linear
   int size = 0;                                         ///< rows, padding included
 
   /// @param barycentric coordinates in the coarse triangle
   /// @param modes of the cell at the vertex: the six columns of chi, and where they are taken the
-  ///   twelve of the quadratic modes [m]
+  ///   twelve of the quadratic modes, those of equal strains halved, or of the fitted ones [m]
   template <typename ModesRow>
   void append(const Eigen::Vector3d &barycentric, const ModesRow &modes)
   {
@@ -43,8 +43,7 @@ struct VertexTable
       chi_blocks.back().column[k][lane] = static_cast<Scalar>(-modes(k));
     if constexpr (ModesRow::ColsAtCompileTime == Eigen::Dynamic)
       for (int k = 0; is_quadratic && k < 12; ++k)
-        quadratic_blocks.back().column[k][lane] =
-          static_cast<Scalar>((k < 6 ? -0.5 : -1.) * modes(6 + k));
+        quadratic_blocks.back().column[k][lane] = static_cast<Scalar>(-modes(6 + k));
   }
 
   /// Ends a group.

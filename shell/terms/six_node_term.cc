@@ -179,10 +179,18 @@ std::unique_ptr<Term> six_node_term(const SixNodeMesh &mesh, const Eigen::Matrix
                                     const double viscosity,
                                     const std::vector<meshes::CubicForm> &cubic)
 {
-  SixNodeMembrane membrane = six_node_membrane(mesh, stiffness);
-  std::unique_ptr<Term> of_points =
-    membrane_term(cloth_of_points(membrane.points), {stiffness}, viscosity, cubic);
-  return std::make_unique<SixNodeTerm>(std::move(membrane), std::move(of_points));
+  return six_node_term(mesh, stiffness,
+                       [&](const meshes::ClothMesh &points)
+                       { return membrane_term(points, {stiffness}, viscosity, cubic); });
+}
+
+std::unique_ptr<Term>
+six_node_term(const SixNodeMesh &mesh, const Eigen::Matrix3d &stiffness,
+              const std::function<std::unique_ptr<Term>(const meshes::ClothMesh &)> &of_points)
+{
+  SixNodeMembrane membrane   = six_node_membrane(mesh, stiffness);
+  std::unique_ptr<Term> term = of_points(cloth_of_points(membrane.points));
+  return std::make_unique<SixNodeTerm>(std::move(membrane), std::move(term));
 }
 
 Eigen::VectorXd six_node_masses(const SixNodeMesh &mesh, const double areal_density)

@@ -9,9 +9,11 @@
 // the moment of inertia is of second order in the size of a triangle.
 #pragma once
 
+#include "meshes/cloth/cloth_mesh.h"
 #include "shell/membrane/six_node_membrane.h"
 #include "shell/terms/term.h"
 
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -23,6 +25,13 @@ namespace homespun::shell
 std::unique_ptr<Term> six_node_term(const SixNodeMesh &mesh, const Eigen::Matrix3d &stiffness,
                                     double viscosity                            = 0.,
                                     const std::vector<meshes::CubicForm> &cubic = {});
+
+/// The same with another term of triangles of three nodes at the points, such as yarn_term().
+/// @param of_points makes it for the points, whose cloth it is given: one phase, no triangle with a
+///   corner of another; it couples the corners of a triangle alone
+std::unique_ptr<Term>
+six_node_term(const SixNodeMesh &mesh, const Eigen::Matrix3d &stiffness,
+              const std::function<std::unique_ptr<Term>(const meshes::ClothMesh &)> &of_points);
 
 /// @param areal_density [kg/m^2]
 /// @return (n) [kg]

@@ -32,8 +32,34 @@ meshes::HomogenizedCell smooth_cell(const int n1, const int n2)
   meshes::SecondOrder &second = cell.second_order["biot"];
   second.chi.resize(cell.mesh.n_vertices(), 12);
   second.chi << cell.chi, -cell.chi;
+  meshes::FittedModes &fitted = cell.fitted["biot"];
+  fitted.low                  = Eigen::Vector3d::Constant(-0.2);
+  fitted.high                 = Eigen::Vector3d::Constant(0.2);
+  fitted.knees                = Eigen::Vector3d::Constant(0.3);
+  fitted.modes                = second.chi;
+  fitted.coefficients.setConstant(0.1);
   return cell;
 }
+
+/// Edges, clamped at the ends of axis 2, whose modes reach two cells.
+meshes::CellEdges edges_of(const meshes::HomogenizedCell &cell)
+{
+  meshes::CellEdges edges;
+  for (meshes::CellEdge &side : edges.sides)
+  {
+    side.n_cells = 2;
+    side.clamped.setConstant(2 * cell.mesh.n_vertices(), 6, 1e-5);
+    side.free = -side.clamped;
+  }
+  return edges;
+}
+
+/// Quads of the coarse mesh along a side of a cell, and whether edges have modes.
+struct Around
+{
+  int quads_per_cell = 1;
+  bool edges         = false;
+};
 
 template <int dim>
 Positions<dim> bent(const meshes::TriangleMesh &coarse)
@@ -75,13 +101,21 @@ double run_frames(benchmark::State &state, const Upsampler<dim, Scalar> &upsampl
 }
 
 template <int dim, typename Scalar>
-void upsample(benchmark::State &state, const UpsamplerOptions &options,
-              const double flops_per_vertex)
+void upsample(benchmark::State &state, UpsamplerOptions options, const double flops_per_vertex,
+              const Around &around = {})
 {
   const meshes::HomogenizedCell cell = smooth_cell(18, 20);
   const meshes::Sheet sheet          = meshes::tile(cell.mesh, cell.lattice, 20, 20);
+  const int r                        = around.quads_per_cell;
   const meshes::TriangleMesh coarse =
-    meshes::coarse_sheet(sheet.origin, sheet.lattice.vectors, sheet.n1, sheet.n2);
+    meshes::coarse_sheet(sheet.origin, sheet.lattice.vectors / r, r * sheet.n1, r * sheet.n2);
+  const meshes::CellEdges edges = edges_of(cell);
+  if (around.edges)
+  {
+    options.anchor     = Anchor::mean;
+    options.edges      = &edges;
+    options.edge_kinds = {EdgeKind::free, EdgeKind::free, EdgeKind::clamped, EdgeKind::clamped};
+  }
   const Upsampler<dim, Scalar> upsampler(cell, coarse, sheet, options);
   const double bytes = run_frames(state, upsampler, bent<dim>(coarse));
   const double flops = sheet.mesh.n_vertices() * flops_per_vertex;
@@ -161,6 +195,20 @@ UpsamplerOptions of_second_order()
   return options;
 }
 
+UpsamplerOptions general_of_second_order()
+{
+  UpsamplerOptions options = of_second_order();
+  options.path             = Path::general;
+  return options;
+}
+
+UpsamplerOptions fitted()
+{
+  UpsamplerOptions options;
+  options.fitted = "biot";
+  return options;
+}
+
 UpsamplerOptions in_plane()
 {
   UpsamplerOptions options;
@@ -172,12 +220,12 @@ template <int dim, typename Scalar>
 void add_upsampling(const std::string &type)
 {
   const std::string name = std::to_string(dim) + "d_" + type;
-  const auto add =
-    [&](const std::string &variant, const UpsamplerOptions &options, const double multiply_adds)
+  const auto add         = [&](const std::string &variant, const UpsamplerOptions &options,
+                       const double multiply_adds, const Around &around = {})
   {
-    benchmark::RegisterBenchmark(("upsample/" + variant + "/" + name).c_str(),
-                                 [=](benchmark::State &state)
-                                 { upsample<dim, Scalar>(state, options, 2. * multiply_adds); })
+    benchmark::RegisterBenchmark(
+      ("upsample/" + variant + "/" + name).c_str(), [=](benchmark::State &state)
+      { upsample<dim, Scalar>(state, options, 2. * multiply_adds, around); })
       ->Unit(benchmark::kMicrosecond);
   };
   benchmark::RegisterBenchmark(("copy/" + name).c_str(), copy<dim, Scalar>)
@@ -186,6 +234,11 @@ void add_upsampling(const std::string &type)
   add("aligned", {}, 12 + 8 * dim);
   add("general", general(), 12 + 8 * dim);
   add("second_order", of_second_order(), 24 + 8 * dim);
+  add("fitted", fitted(), 36 + 8 * dim);
+  add("edges", {}, 12 + 8 * dim, {1, true});
+  // All that `full` takes: six-node triangles are evaluated on quads of half a cell.
+  add("full", of_second_order(), 24 + 8 * dim, {2, true});
+  add("full_general", general_of_second_order(), 24 + 8 * dim, {2, true});
   add("piecewise", piecewise(), 6 + 4 * dim);
   add("without_modes", without_modes(), 2 * dim);
   add("general_without_modes", general_without_modes(), 2 * dim);

@@ -125,6 +125,18 @@ void expect_the_definition(const Path path)
 }
 } // namespace
 
+TEST(invariant_edge_modes, both_paths_agree_where_a_coarse_mesh_cuts_the_cells)
+{
+  Case with;
+  const meshes::Sheet &sheet = with.cloth.sheet;
+  with.cloth.coarse = meshes::coarse_sheet(sheet.origin, sheet.lattice.vectors / 2, 2 * n1, 2 * n2);
+  const Positions<3> current = tests::wavy_motion<3>(with.cloth.coarse.vertices);
+  const auto shared          = tests::upsampled<3>(with.cloth, current, with.options);
+  with.options.path          = Path::general;
+  EXPECT_LT((shared - tests::upsampled<3>(with.cloth, current, with.options)).cwiseAbs().maxCoeff(),
+            1e-15);
+}
+
 TEST(exact_edge_modes, positions_near_edges_are_those_of_the_definition)
 {
   for (const Path path : {Path::automatic, Path::general})

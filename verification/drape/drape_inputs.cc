@@ -98,17 +98,33 @@ void check_methods(const DrapeOptions &options, const Scene &scene,
   if (!edges && scene.has("selvedge"))
     faults.push_back(scene.file +
                      ": key `Terms` lists `selvedge`, and no method takes it; expected "
-                     "`edges` among --methods, or a scene without the term");
+                     "`edges` or `full` among --methods, or a scene without the term");
   for (const std::string &name : options.methods)
-    if (scene.integration == TimeIntegration::conserving && Method(name).is_of_second_order())
+  {
+    const Method method(name);
+    if (method.has_fitted_modes())
+      faults.push_back("--methods " + name +
+                       ": its modes are fitted by `homespun strain` alone; expected quadratic, or "
+                       "another method");
+    if (scene.integration == TimeIntegration::conserving &&
+        (method.is_of_second_order() || method.has_six_nodes()))
       faults.push_back("--methods " + name + ": scene `" + scene.name +
                        "` has the key `Integrator` = conserving, whose forces over a step are not "
                        "known of this method; expected another integrator");
-  if (!scene.is_sheet() &&
-      asks_for(options, [](const Method &of) { return of.is_of_second_order(); }))
-    faults.push_back("--methods quadratic: scene `" + scene.name +
-                     "` is a garment, of which up-sampling has no quadratic modes; expected a "
-                     "sheet: leave the method out");
+    if (!scene.is_sheet() && method.is_of_second_order())
+      faults.push_back("--methods " + name + ": scene `" + scene.name +
+                       "` is a garment, of which up-sampling has no quadratic modes; expected a "
+                       "sheet: leave the method out");
+    if (!scene.is_sheet() && method.has_six_nodes())
+      faults.push_back("--methods " + name + ": scene `" + scene.name +
+                       "` is a garment, whose panels six-node triangles do not fill; expected a "
+                       "sheet: leave the method out");
+    else if (method.has_six_nodes() && (scene.n1 % 2 != 0 || scene.n2 % 2 != 0))
+      faults.push_back("--methods " + name + ": scene `" + scene.name + "` has " +
+                       std::to_string(scene.n1) + " x " + std::to_string(scene.n2) +
+                       " cells; expected even numbers, which six-node triangles two cells wide "
+                       "fill: another --cells, or leave the method out");
+  }
 }
 } // namespace
 

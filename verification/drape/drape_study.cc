@@ -91,7 +91,7 @@ private:
     main_variants[cell.name] = name_of(draped.model);
     write_notes_on_laws(draped);
     if (draped.edges)
-      run.note(cell.name + ": " + draped.moving_edges().sentence());
+      run.note(cell.name + ": " + draped.moving_edges(Method("edges")).sentence());
     nlohmann::ordered_json description = description_of(draped);
 
     CoarseRuns coarse;

@@ -191,14 +191,23 @@ DrapedCell::DrapedCell(const Scene &given, const homogenization::UnitCell &cell,
   data.on_triangles = {{"material", material}};
 }
 
-MovingEdges DrapedCell::moving_edges() const
+CoarseSpace DrapedCell::coarse_space(const Method &method) const
 {
-  if (!sheet || !edges)
-    throw meshes::BadInput(
-      scene.file + ": terms of edges are asked for, and " +
-      (sheet ? "the cell " + cell.name + " has none" : std::string("the cloth is a garment")) +
-      "; expected a sheet of whole cells: leave out `edges`");
-  return {homogenized, *edges, *sheet, coarse.rest, coarse_motion().vertices(coarse)};
+  if (!sheet)
+    throw meshes::BadInput(scene.file + ": method " + method.name +
+                           " is one of sheets, and the cloth is a garment; expected a sheet of "
+                           "whole cells: leave out the method");
+  return {*sheet, method.coarse(Law::biot).element};
+}
+
+MovingEdges DrapedCell::moving_edges(const Method &method) const
+{
+  if (!edges)
+    throw meshes::BadInput(scene.file + ": terms of edges are asked for, and the cell " +
+                           cell.name + " has none; expected a sheet of whole cells: leave out `" +
+                           method.name + "`");
+  const CoarseSpace space = coarse_space(method);
+  return {homogenized, *edges, *sheet, space, coarse_motion().vertices(coarse)};
 }
 
 ClothMaterial DrapedCell::effective_of(const Method &method) const
@@ -214,7 +223,13 @@ ClothMaterial DrapedCell::effective_of(const Method &method) const
     material.cubic = {found->second.energy};
   }
   if (method.has_edge_terms())
-    material.edges = std::make_shared<const MovingEdges>(moving_edges());
+    material.edges = std::make_shared<const MovingEdges>(moving_edges(method));
+  if (method.has_six_nodes())
+  {
+    const CoarseSpace space = coarse_space(method);
+    material.six_nodes      = std::make_shared<const shell::SixNodeMesh>(
+      shell::six_node_mesh(space.nodes.mesh, space.nodes.n1, space.nodes.n2));
+  }
   return material;
 }
 

@@ -4,10 +4,10 @@
 #pragma once
 
 #include "homogenization/cell/unit_cell.h"
-#include "localization/upsampler.h"
 #include "meshes/files/surface_files.h"
 #include "meshes/garment/fine_cloth.h"
 #include "meshes/plain/sheet.h"
+#include "verification/drape/cloth_upsampler.h"
 #include "verification/drape/scene_cloth.h"
 #include "verification/method/lightweight_cloth.h"
 #include "verification/reference/laws.h"
@@ -18,11 +18,11 @@
 
 namespace homespun::verification
 {
-using Upsampler3f = localization::Upsampler<3, float>;
-using Upsampler3d = localization::Upsampler<3, double>;
+using Upsampler3f = ClothUpsampler<float>;
+using Upsampler3d = ClothUpsampler<double>;
 
-/// Whether a method moves a coarse cloth of its own: one with terms of edges or a cubic energy. The
-/// cloth has the name of the method, beside the variants of the membrane.
+/// Whether a method moves a coarse cloth of its own: one with terms of edges, a cubic energy or
+/// six-node triangles. The cloth has the name of the method, beside the variants of the membrane.
 bool has_own_cloth(const Method &method);
 
 /// The scene on a smaller or larger sheet: translations of handles go with its size, held vertices
@@ -73,13 +73,13 @@ public:
   HeldMotion fine_motion() const;
 
   template <typename Scalar>
-  localization::Upsampler<3, Scalar> upsampler(const Method &method) const
+  ClothUpsampler<Scalar> upsampler(const Method &method) const
   {
     localization::UpsamplerOptions options = method.options(Law::biot);
     if (method.has_edge_terms())
-      moving_edges().give_edges(*edges, options);
+      moving_edges(method).give_edges(*edges, options);
     if (sheet)
-      return {homogenized, coarse.rest, *sheet, options};
+      return {homogenized, coarse_space(method), *sheet, options};
     return {homogenized, coarse, *garment, options};
   }
 
@@ -111,10 +111,15 @@ public:
   int centre_vertex = 0, fine_centre_vertex = 0; ///< nearest to the middle of the cloth
   std::optional<SheetPlacement> placement;
 
+  /// @param method with terms of edges
   /// @throws BadInput where the cell has no edges, or the cloth is no sheet
-  MovingEdges moving_edges() const;
+  MovingEdges moving_edges(const Method &method) const;
 
 private:
+  /// In which the coarse cloth of a method moves.
+  /// @throws BadInput where the cloth is no sheet, or six-node triangles do not fill it
+  CoarseSpace coarse_space(const Method &method) const;
+
   meshes::SurfaceData data;
   std::vector<int> space_vertex; ///< of a garment's fine vertex
   std::vector<int>

@@ -9,6 +9,7 @@
 #include "shell/terms/inertial_terms.h"
 #include "shell/terms/lagged_load.h"
 #include "shell/terms/membrane_term.h"
+#include "shell/terms/six_node_term.h"
 #include "shell/terms/warping.h"
 #include "shell/terms/wind.h"
 #include "shell/terms/yarn_term.h"
@@ -126,7 +127,9 @@ SceneCloth::SceneCloth(const Scene &scene, const meshes::ClothMesh &mesh,
     , edges(material.edges)
     , held(motion.vertices(mesh))
 {
-  const Eigen::VectorXd masses = shell::lumped_masses(mesh, material.areal_density);
+  const Eigen::VectorXd masses =
+    material.six_nodes ? shell::six_node_masses(*material.six_nodes, material.areal_density.front())
+                       : shell::lumped_masses(mesh, material.areal_density);
   shell::ClothOptions options;
   options.integrator = integrator_of(scene.integration);
   moving             = std::make_unique<shell::Cloth>(mesh.positions, masses, held, options);
@@ -134,27 +137,7 @@ SceneCloth::SceneCloth(const Scene &scene, const meshes::ClothMesh &mesh,
 
   const bool damped      = scene.has("damping");
   const double viscosity = damped ? scene.viscosity : forces("damping") ? 1e-300 : 0.;
-  switch (model)
-  {
-  case MembraneModel::corotational:
-    moving->add(shell::membrane_term(mesh, material.stiffness, viscosity, material.cubic));
-    break;
-  case MembraneModel::woven:
-    moving->add(shell::yarn_term(mesh, material.stiffness));
-    break;
-  case MembraneModel::woven_tension:
-    moving->add(shell::yarn_term(mesh, material.stiffness, shell::Compression::relaxed));
-    break;
-  case MembraneModel::triangle_warping:
-    moving->add(shell::triangle_warping_term(mesh, material.stiffness));
-    break;
-  case MembraneModel::nodal_warping:
-    moving->add(shell::nodal_warping_term(mesh, material.stiffness, masses));
-    break;
-  }
-  // The scene is the same for every model of the elasticity.
-  if (model != MembraneModel::corotational && viscosity > 0.)
-    moving->add(shell::viscosity_term(mesh, material.stiffness, viscosity));
+  add_membrane(material, model, viscosity);
   if (edges)
     add_edges();
   if (scene.has("bending") || forces("bending"))
@@ -199,6 +182,42 @@ SceneCloth::SceneCloth(const Scene &scene, const meshes::ClothMesh &mesh,
                                                                                    : 0.),
                                        masses, parameters));
   }
+}
+
+void SceneCloth::add_membrane(const ClothMaterial &material, const MembraneModel model,
+                              const double viscosity)
+{
+  /// Of the triangles of the mesh, or at the points of those with six nodes.
+  const auto add = [&](const auto &term)
+  {
+    moving->add(material.six_nodes
+                  ? shell::six_node_term(*material.six_nodes, material.stiffness.front(), term)
+                  : term(mesh));
+  };
+  switch (model)
+  {
+  case MembraneModel::corotational:
+    add([&](const meshes::ClothMesh &of)
+        { return shell::membrane_term(of, material.stiffness, viscosity, material.cubic); });
+    break;
+  case MembraneModel::woven:
+    add([&](const meshes::ClothMesh &of) { return shell::yarn_term(of, material.stiffness); });
+    break;
+  case MembraneModel::woven_tension:
+    add([&](const meshes::ClothMesh &of)
+        { return shell::yarn_term(of, material.stiffness, shell::Compression::relaxed); });
+    break;
+  case MembraneModel::triangle_warping:
+    moving->add(shell::triangle_warping_term(mesh, material.stiffness));
+    break;
+  case MembraneModel::nodal_warping:
+    moving->add(shell::nodal_warping_term(mesh, material.stiffness, moving->masses()));
+    break;
+  }
+  // The scene is the same for every model of the elasticity.
+  if (model != MembraneModel::corotational && viscosity > 0.)
+    add([&](const meshes::ClothMesh &of)
+        { return shell::viscosity_term(of, material.stiffness, viscosity); });
 }
 
 void SceneCloth::add_edges()

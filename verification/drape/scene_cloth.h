@@ -3,6 +3,7 @@
 // that the scene lists and no others.
 #pragma once
 
+#include "shell/membrane/six_node_membrane.h"
 #include "shell/solver/cloth.h"
 #include "verification/drape/held_motion.h"
 #include "verification/method/moving_edges.h"
@@ -48,6 +49,9 @@ struct ClothMaterial
   std::vector<meshes::CubicForm> cubic = {};
   /// What edges of a sheet add; none: null.
   std::shared_ptr<const MovingEdges> edges = {};
+  /// Triangles of the membrane on the same vertices, whose mass they have then; none: null, and the
+  /// membrane has those of the mesh. All other terms keep those.
+  std::shared_ptr<const shell::SixNodeMesh> six_nodes = {};
 };
 
 class SceneCloth
@@ -80,6 +84,7 @@ public:
   }
 
 private:
+  void add_membrane(const ClothMaterial &material, MembraneModel model, double viscosity);
   void prescribe(double time);
   void add_edges();
 

@@ -90,27 +90,39 @@ CoarseSpace::CoarseSpace(const meshes::Sheet &sheet, const CoarseElement element
     from_nodes = values_on(grid, nodes, shell::six_node_mesh(nodes.mesh, nodes.n1, nodes.n2));
 }
 
-CoarseSpace::Positions CoarseSpace::on_grid(const Positions &of_nodes) const
+template <int dim>
+shell::Positions<dim> CoarseSpace::on_grid(const shell::Positions<dim> &of_nodes) const
 {
-  return element == CoarseElement::three_nodes ? of_nodes : Positions(from_nodes * of_nodes);
+  return element == CoarseElement::three_nodes ? of_nodes
+                                               : shell::Positions<dim>(from_nodes * of_nodes);
+}
+
+int CoarseSpace::grid_vertex(const int node) const
+{
+  const int r = grid.n1 / nodes.n1, i = node % (nodes.n1 + 1), j = node / (nodes.n1 + 1);
+  return r * j * (grid.n1 + 1) + r * i;
 }
 
 CoarseSpace::Positions CoarseSpace::at_nodes(const Positions &of_grid) const
 {
-  if (element == CoarseElement::three_nodes)
-    return of_grid;
   Positions of_nodes(nodes.mesh.n_vertices(), 2);
-  for (int j = 0; j <= nodes.n2; ++j)
-    for (int i = 0; i <= nodes.n1; ++i)
-      of_nodes.row(j * (nodes.n1 + 1) + i) = of_grid.row(2 * j * (grid.n1 + 1) + 2 * i);
+  for (int node = 0; node < nodes.mesh.n_vertices(); ++node)
+    of_nodes.row(node) = of_grid.row(grid_vertex(node));
   return of_nodes;
 }
 
-CoarseSpace::Positions CoarseSpace::loads_of_nodes(const Positions &of_grid) const
+template <int dim>
+shell::Positions<dim> CoarseSpace::loads_of_nodes(const shell::Positions<dim> &of_grid) const
 {
-  return element == CoarseElement::three_nodes ? of_grid
-                                               : Positions(from_nodes.transpose() * of_grid);
+  return element == CoarseElement::three_nodes
+           ? of_grid
+           : shell::Positions<dim>(from_nodes.transpose() * of_grid);
 }
+
+template shell::Positions<2> CoarseSpace::on_grid<2>(const shell::Positions<2> &) const;
+template shell::Positions<3> CoarseSpace::on_grid<3>(const shell::Positions<3> &) const;
+template shell::Positions<2> CoarseSpace::loads_of_nodes<2>(const shell::Positions<2> &) const;
+template shell::Positions<3> CoarseSpace::loads_of_nodes<3>(const shell::Positions<3> &) const;
 
 std::unique_ptr<CoarseSolver> CoarseSpace::solver(const Eigen::Matrix3d &stiffness,
                                                   const std::vector<int> &held,

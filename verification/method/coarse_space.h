@@ -61,14 +61,20 @@ public:
   /// Whether six-node triangles fill a sheet.
   static bool fits(const meshes::Sheet &sheet, CoarseElement element);
 
-  /// Positions, or displacements, of the grid's vertices from those of the nodes.
-  Positions on_grid(const Positions &of_nodes) const;
+  /// Positions, or displacements, of the grid's vertices from those of the nodes, in the plane or
+  /// in space.
+  template <int dim>
+  shell::Positions<dim> on_grid(const shell::Positions<dim> &of_nodes) const;
+
+  /// The vertex of the grid at a node.
+  int grid_vertex(int node) const;
 
   /// The values of the grid's vertices that are nodes.
   Positions at_nodes(const Positions &of_grid) const;
 
   /// The loads on the nodes that do the work of loads on the grid's vertices [N].
-  Positions loads_of_nodes(const Positions &of_grid) const;
+  template <int dim>
+  shell::Positions<dim> loads_of_nodes(const shell::Positions<dim> &of_grid) const;
 
   /// @param held nodes whose positions are prescribed; none where all are, and there are no
   ///   equilibria to find

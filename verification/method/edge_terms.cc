@@ -110,9 +110,9 @@ std::vector<int> held_by(const Load &load, const meshes::Sheet &sheet,
 shell::Equilibrium<2> with_edges(const EdgeTerms &terms, const CoarseSpace &space,
                                  const CoarseSolver &solver, const EdgeTerms::Positions &positions)
 {
-  const EdgeTerms::MacroLoads loads = terms.macro_loads(space.on_grid(positions));
+  const EdgeTerms::MacroLoads loads = terms.macro_loads(space.on_grid<2>(positions));
   const EdgeTerms::Positions slip   = space.at_nodes(loads.slip),
-                             forces = space.loads_of_nodes(loads.forces);
+                             forces = space.loads_of_nodes<2>(loads.forces);
   if (terms.law == Law::linear)
   {
     const meshes::Points &rest = space.nodes.mesh.vertices;
@@ -166,12 +166,12 @@ EdgedPositions EdgedSheet::upsample(const Law law,
   result.steps_of_terms = moved.iterations;
   localization::Upsampler<2, double>::Fine in_double;
   localization::Upsampler<2, double>(cell.cell, space.grid.mesh, sheet, options)
-    .upsample(space.on_grid(moved.positions), in_double);
+    .upsample(space.on_grid<2>(moved.positions), in_double);
   result.positions = in_double;
 
   const localization::Upsampler<2, float> in_float(cell.cell, space.grid.mesh, sheet, options);
   localization::Upsampler<2, float>::Fine fine;
-  const auto run = [&]() { in_float.upsample(space.on_grid(moved.positions), fine); };
+  const auto run = [&]() { in_float.upsample(space.on_grid<2>(moved.positions), fine); };
   run(); // memory and caches, as in every frame but the first
   result.seconds = result.seconds_of_terms + median_seconds(run);
   return result;

@@ -47,6 +47,9 @@ struct CoarseChoice
 /// - edges: as edge_terms.h says
 /// - p2: localized, from a coarse cloth of six-node triangles with the same vertices
 /// - full: p2, quadratic and edges in one
+/// - fitted: a variant of quadratic for large strains, its modes fitted over a box of them
+///   (mode_fit.h), which is to be in the cell; beyond the box those at its border. Under yarn the
+///   coarse cloth has C^H alone
 /// - localized-affine-lift, localized-mean-anchor, localized-piecewise: one choice turned each
 class Method
 {
@@ -70,6 +73,13 @@ public:
   }
   bool is_of_second_order(Law law) const;
 
+  /// Whether modes are fitted, and against which laws.
+  bool has_fitted_modes() const
+  {
+    return has_fitted;
+  }
+  bool has_fitted_modes(Law law) const;
+
   /// Whether edges of a sheet have their terms (edge_terms.h).
   bool has_edge_terms() const
   {
@@ -92,7 +102,7 @@ public:
 
 private:
   CoarseChoice of_coarse;
-  bool has_edges;
+  bool has_edges, has_fitted;
 };
 
 /// The coarse cloth at one strain.

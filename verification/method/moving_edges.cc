@@ -13,13 +13,14 @@ namespace homespun::verification
 using localization::EdgeKind;
 
 MovingEdges::MovingEdges(const meshes::HomogenizedCell &cell, const meshes::CellEdges &edges,
-                         const meshes::Sheet &sheet, const meshes::TriangleMesh &coarse,
+                         const meshes::Sheet &sheet, const CoarseSpace &of_cloth,
                          const std::vector<int> &held)
-    : frames(coarse, {})
+    : space(of_cloth)
+    , frames(space.grid.mesh, {})
     , bulk(edges.bulk)
     , size_of_bulk(cell.stiffness.norm() * std::sqrt(cell.lattice.area()))
 {
-  std::vector<bool> is_held(static_cast<std::size_t>(coarse.n_vertices()), false);
+  std::vector<bool> is_held(static_cast<std::size_t>(space.nodes.mesh.n_vertices()), false);
   for (const int v : held)
     is_held[static_cast<std::size_t>(v)] = true;
   std::map<int, Eigen::Matrix<double, 2, 3>> slip_of;
@@ -59,18 +60,18 @@ MovingEdges::MovingEdges(const meshes::HomogenizedCell &cell, const meshes::Cell
     for (int k = 0; k < n && kappa != 0.; ++k)
       segments.push_back({{vertex(k), vertex(k + 1)}, along.norm(), kappa});
   }
-  for (const auto &[vertex, per_strain] : slip_of)
-    slips.push_back({vertex, per_strain});
+  for (const auto &[node, per_strain] : slip_of)
+    slips.push_back({node, per_strain});
 }
 
 localization::Positions<3> MovingEdges::slip(const localization::Positions<3> &positions) const
 {
-  const auto &of_vertices           = frames.values(positions);
+  const auto &of_vertices           = frames.values(space.on_grid<3>(positions));
   localization::Positions<3> result = localization::Positions<3>::Zero(positions.rows(), 3);
   for (const Slip &at : slips)
   {
-    const FrameRow<3> frame = of_vertices.row(at.vertex);
-    result.row(at.vertex) =
+    const FrameRow<3> frame = of_vertices.row(space.grid_vertex(at.node));
+    result.row(at.node) =
       (lift_of<3>(frame) * at.per_strain * frame.head<3>().transpose()).transpose();
   }
   return result;
@@ -84,7 +85,8 @@ bool MovingEdges::has_bulk_forces() const
 localization::Positions<3>
 MovingEdges::bulk_forces(const localization::Positions<3> &positions) const
 {
-  return verification::bulk_forces<3>(frames.rest(), bulk, frames.values(positions));
+  return space.loads_of_nodes<3>(
+    verification::bulk_forces<3>(frames.rest(), bulk, frames.values(space.on_grid<3>(positions))));
 }
 
 void MovingEdges::give_edges(const meshes::CellEdges &edges,

@@ -10,6 +10,7 @@
 #include "meshes/plain/homogenized_cell.h"
 #include "meshes/plain/sheet.h"
 #include "shell/terms/selvedge.h"
+#include "verification/method/coarse_space.h"
 
 #include <Eigen/Core>
 
@@ -24,12 +25,11 @@ class MovingEdges
 public:
   /// An edge all of whose coarse vertices are held is clamped, one with none held between its ends
   /// is free, another has no terms.
-  /// @param coarse meshes::coarse_sheet() of the sheet
-  /// @param held coarse vertices
+  /// @param space in which the coarse cloth of the sheet moves
+  /// @param held nodes of it
   /// @throws BadInput where a free edge pushes harder than the triangles behind it bear
   MovingEdges(const meshes::HomogenizedCell &cell, const meshes::CellEdges &edges,
-              const meshes::Sheet &sheet, const meshes::TriangleMesh &coarse,
-              const std::vector<int> &held);
+              const meshes::Sheet &sheet, const CoarseSpace &space, const std::vector<int> &held);
 
   /// Cables on the free edges.
   const std::vector<shell::SelvedgeSegment> &selvedges() const
@@ -37,15 +37,15 @@ public:
     return segments;
   }
 
-  /// d_a E_a, lifted, of the vertices of clamped edges, elsewhere zero.
-  /// @param positions of the coarse vertices (n,3) [m]
+  /// d_a E_a, lifted, of the nodes on clamped edges, elsewhere zero.
+  /// @param positions of the nodes (n,3) [m]
   /// @return (n,3) [m]
   localization::Positions<3> slip(const localization::Positions<3> &positions) const;
 
   /// Whether strain gradients have forces: not where the cell has a centre of symmetry.
   bool has_bulk_forces() const;
 
-  /// Those forces on the vertices (n,3) [N].
+  /// Those forces on the nodes (n,3) [N].
   localization::Positions<3> bulk_forces(const localization::Positions<3> &positions) const;
 
   /// Gives up-sampling the edges.
@@ -58,11 +58,12 @@ public:
 private:
   struct Slip
   {
-    int vertex;
+    int node;
     Eigen::Matrix<double, 2, 3> per_strain; ///< d_a [m]
   };
 
-  localization::CoarseFrames<3> frames;
+  const CoarseSpace space;
+  localization::CoarseFrames<3> frames; ///< of its grid
   std::array<localization::EdgeKind, meshes::CellEdges::n_sides> kinds = {};
   std::vector<Slip> slips;
   std::vector<shell::SelvedgeSegment> segments;

@@ -2,6 +2,7 @@
 #include "verification/periodic_cell/nonlinear_cell.h"
 
 #include "meshes/plain/errors.h"
+#include "verification/periodic_cell/halton.h"
 
 #include <Eigen/QR>
 
@@ -31,21 +32,6 @@ CellState NonlinearCell::solve(const Eigen::Vector3d &strain) const
   return {state.fluctuation,
           {state.stress(0), state.stress(3), 0.5 * (state.stress(1) + state.stress(2))}};
 }
-
-namespace
-{
-/// Radical inverse: the points of a Halton sequence fill a box evenly, the same every time.
-double halton(int index, const int base)
-{
-  double value = 0., digit = 1.;
-  for (; index > 0; index /= base)
-  {
-    digit /= base;
-    value += digit * (index % base);
-  }
-  return value;
-}
-} // namespace
 
 NonlinearLocalization::NonlinearLocalization(
   const NonlinearCell &nonlinear, const meshes::HomogenizedCell &cell,

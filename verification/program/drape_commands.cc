@@ -31,15 +31,7 @@ void check_arguments(DrapeArguments &arguments)
   ArgumentFaults faults;
   faults.check_names("--variants", study.variants, membrane_model_of);
   faults.check_names("--methods", study.methods,
-                     [](const std::string &name)
-                     {
-                       if (const Method method(name); method.has_six_nodes())
-                         throw meshes::BadInput(
-                           "the method `" + name +
-                           "` has six-node triangles, which move in their plane and without "
-                           "mass so far: expected another; `homespun strain` has it");
-                       return Method(name);
-                     });
+                     [](const std::string &name) { return Method(name); });
   faults.check_names("--references", study.references,
                      {"shell", "biot", "green", "yarn", "yarn-tension"});
   faults.check_names("--frames", study.frames, {"vtu", "ply", "obj"});
@@ -77,8 +69,8 @@ void add_drape_command(CommandLine &line)
            "yarn), woven-tension (yarn-tension), triangle-warping, nodal-warping (default: woven\n"
            "where a phase loses ellipticity under biot before 20 %, else corotational)");
   add_list(*command, "--methods", study.methods,
-           "Ways to the fine positions; edges (of a scene with the term selvedge) and quadratic\n"
-           "move coarse cloths of their own");
+           "Ways to the fine positions; edges and full (of a scene with the term selvedge),\n"
+           "quadratic and p2 move coarse cloths of their own");
   command
     ->add_option("--cells", study.n_cells, "Cells per side of a sheet, in place of the scene's")
     ->check(CLI::Range(1, 400));

@@ -4,6 +4,7 @@
 #include "meshes/plain/errors.h"
 #include "verification/laws/yarn_cells.h"
 #include "verification/method/anchor_choice.h"
+#include "verification/method/mode_fit.h"
 #include "verification/record/main_reference.h"
 #include "verification/record/number_text.h"
 #include "verification/strain/force_rows.h"
@@ -153,6 +154,9 @@ public:
   ///   are not finite
   UpsampledMethod upsampled(const std::string &name)
   {
+    if (Method(name).has_fitted_modes(level.law) &&
+        method.cell.fitted.count(name_of(level.law)) == 0)
+      throw meshes::NotConverged("no modes could be fitted under this law", {});
     const auto edged = method.edged.find(name);
     const Method of  = used_on(Method(name), sheet);
     // Where a cell has no terms of edges the method is the one without them.
@@ -185,6 +189,22 @@ public:
                                  failure.what());
       return {name, std::nullopt};
     }
+  }
+
+  /// Where the coarse cloth of a method is in the box of its fitted modes, if it has any.
+  void note_strains_outside(const std::string &name, StrainOutput &output)
+  {
+    const auto found = method.cell.fitted.find(name_of(level.law));
+    if (!Method(name).has_fitted_modes(level.law) || found == method.cell.fitted.end())
+      return;
+    const CoarseChoice choice        = Method(name).coarse(level.law);
+    const meshes::TriangleMesh &rest = cloth_of(choice).coarse;
+    const int n                      = n_outside(found->second, rest, step_of(choice).positions);
+    if (n > 0)
+      output.write_note(level, "method " + name + ": " + std::to_string(n) + " of " +
+                                 std::to_string(rest.n_triangles()) +
+                                 " coarse triangles are strained beyond the box that its modes are "
+                                 "fitted over; there they are those at its border");
   }
 
   const CoarseStep coarse;
@@ -325,6 +345,7 @@ UpsampledLevel compare_methods(const StrainStudyOptions &options, const StrainLe
       output.write_without_errors(level, of.name, resolved.sheet, n_coarse);
       continue;
     }
+    methods.note_strains_outside(of.name, output);
     errors.distance = distance_of(of.sheet->positions);
     errors.seconds  = of.sheet->seconds + of.seconds_coarse;
     // The row comes last: where it is there, so is all that belongs to it.

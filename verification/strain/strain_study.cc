@@ -23,6 +23,7 @@
 #include "verification/strain/strain_comparison.h"
 #include "verification/strain/strain_output.h"
 #include "verification/strain/study_description.h"
+#include "verification/strain/study_modes.h"
 #include "verification/strain/study_verdicts.h"
 
 #include <algorithm>
@@ -95,8 +96,9 @@ private:
                                        self_checks(cell, laws_of(options), options.strains.back())})
                 verdicts.insert(verdicts.end(), some.begin(), some.end());
             });
-    const meshes::HomogenizedCell homogenized =
+    meshes::HomogenizedCell homogenized =
       homogenization::homogenized_cell(cell, assessed.result, provenance_line());
+    on_root(communicator, [&]() { add_fitted_modes(options, cell, homogenized, *output); });
     const meshes::Sheet repeated =
       meshes::tile(cell.mesh, cell.lattice, options.supercell[0], options.supercell[1]);
     std::unique_ptr<meshes::Sheet> full; // made where a load asks for it

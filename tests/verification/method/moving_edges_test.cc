@@ -80,32 +80,47 @@ double mean_distance(meshes::Points a, const meshes::Points &b)
 
 namespace
 {
+meshes::HomogenizedCell of_second_order(const homogenization::UnitCell &cell)
+{
+  homogenization::HomogenizationOptions options;
+  options.tolerance    = 1e-12;
+  options.second_order = {homogenization::MembraneLaw::biot};
+  return homogenization::homogenized_cell(
+    cell, homogenization::homogenize(cell, options, MPI_COMM_SELF), "test");
+}
+
 /// A pull along an axis with some of the terms, and the fixed point of those of the static method:
 /// that takes strains without the terms, the moving cloth those with them.
 struct BothWays
 {
   /// @param n cells, and coarse quads, per side
+  /// @param method with terms of edges
   BothWays(const homogenization::UnitCell &cell, const int axis, const meshes::CellEdges &edges,
-           const int n = 6)
-      : homogenized(homogenization::homogenized_cell(cell, tests::solved(cell), "test"))
+           const int n = 6, const Method &method = Method("edges"))
+      : homogenized(of_second_order(cell))
       , strain_side(strain * std::sqrt(cell.lattice.area()))
       , draped(pulled(n, strain, std::sqrt(cell.lattice.area()), axis), cell, homogenized, edges)
-      , moving(draped.scene, draped.coarse, draped.effective_of(Method("edges")),
-               draped.coarse_motion())
+      , moving(draped.scene, draped.coarse, draped.effective_of(method), draped.coarse_motion())
   {
     const Load load(axis == 0 ? "strip-1" : "strip-2");
-    without = LightweightCloth(homogenized, *draped.sheet, load).solve(Law::biot, strain).positions;
-    const EdgeTerms terms({homogenized, edges}, *draped.sheet, load,
-                          CoarseGrid{draped.coarse.rest, n, n}, Law::biot);
+    const CoarseChoice choice = method.coarse(Law::biot);
+    without =
+      LightweightCloth(homogenized, *draped.sheet, load, choice).solve(Law::biot, strain).positions;
+    const CoarseSpace space(*draped.sheet, choice.element);
+    const EdgeTerms terms({homogenized, edges}, *draped.sheet, load, space.grid, Law::biot);
+    std::vector<meshes::CubicForm> cubic;
+    if (choice.energy == CoarseEnergy::cubic)
+      cubic = {homogenized.second_order.at("biot").energy};
     const auto solver =
-      CoarseSpace(*draped.sheet, CoarseElement::three_nodes)
-        .solver(homogenized.stiffness, draped.coarse_motion().vertices(draped.coarse));
+      space.solver(homogenized.stiffness, draped.coarse_motion().vertices(draped.coarse), cubic);
     fixed_point = without;
     for (int k = 0; k < 15; ++k)
     {
-      const EdgeTerms::MacroLoads loads = terms.macro_loads(fixed_point);
-      fixed_point =
-        solver->solve_equilibrium(Law::biot, without + loads.slip, loads.forces).positions;
+      const EdgeTerms::MacroLoads loads = terms.macro_loads(space.on_grid<2>(fixed_point));
+      fixed_point                       = solver
+                      ->solve_equilibrium(Law::biot, without + space.at_nodes(loads.slip),
+                                          space.loads_of_nodes<2>(loads.forces))
+                      .positions;
     }
   }
 
@@ -152,6 +167,41 @@ TEST(exact_moving_edges, slip_and_strain_gradients_of_a_slow_pull_end_in_those_o
                 1e-3 * ways.strain_side)
         << name;
     }
+}
+
+// The same of triangles with six nodes and the cubic energy, which the fine positions show too.
+TEST(exact_moving_edges, full_comes_to_rest_where_the_static_method_does)
+{
+  const homogenization::UnitCell cell = homogenization::read_unit_cell(CELLS "three-stiffness.prm");
+  const Method full("full");
+  for (const int axis : {0, 1})
+  {
+    meshes::CellEdges edges = homogenization::edges_of(cell, {});
+    for (meshes::CellEdge &edge : edges.sides)
+      edge.tension.setZero();
+    BothWays ways(cell, axis, edges, 6, full);
+    ways.moving.solve_equilibrium(3.);
+    EXPECT_GT(mean_distance(ways.without, ways.fixed_point), 1e-3 * ways.strain_side) << axis;
+    EXPECT_LT((ways.moved() - ways.fixed_point).cwiseAbs().maxCoeff(), 1e-5 * ways.strain_side)
+      << axis;
+    // Six-node triangles are not the three-node ones of the same nodes.
+    const BothWays of_three(cell, axis, edges);
+    EXPECT_GT(mean_distance(ways.fixed_point, of_three.fixed_point), 1e-3 * ways.strain_side)
+      << axis;
+
+    localization::UpsamplerOptions options = full.options(Law::biot);
+    const CoarseSpace space(*ways.draped.sheet, CoarseElement::six_nodes);
+    EdgeTerms({ways.homogenized, edges}, *ways.draped.sheet,
+              Load(axis == 0 ? "strip-1" : "strip-2"), space.grid, Law::biot)
+      .give_edges(options);
+    localization::Upsampler<2, double>::Fine in_plane;
+    localization::Upsampler<2, double>(ways.homogenized, space.grid.mesh, *ways.draped.sheet,
+                                       options)
+      .upsample(space.on_grid<2>(ways.moved()), in_plane);
+    Upsampler3d::Fine in_space;
+    ways.draped.upsampler<double>(full).upsample(ways.moving.cloth().positions(), in_space);
+    EXPECT_LT(mean_distance(in_space.leftCols<2>(), in_plane), 1e-6 * ways.strain_side) << axis;
+  }
 }
 
 // The cable takes the strain of the edge, the static method that of the triangles around it: two
@@ -228,9 +278,9 @@ TEST(invariant_moving_edges, edges_of_a_scene_are_clamped_free_or_neither)
   const meshes::CellEdges edges       = homogenization::edges_of(cell, {});
   const auto homogenized = homogenization::homogenized_cell(cell, tests::solved(cell), "test");
   const auto sheet       = meshes::tile(cell.mesh, cell.lattice, 3, 3);
-  const auto coarse      = meshes::coarse_sheet(sheet.origin, sheet.lattice.vectors, 3, 3);
   // The lower edge and one vertex within the upper one.
-  const MovingEdges moving(homogenized, edges, sheet, coarse, {0, 1, 2, 3, 13});
+  const MovingEdges moving(homogenized, edges, sheet,
+                           CoarseSpace(sheet, CoarseElement::three_nodes), {0, 1, 2, 3, 13});
   EXPECT_EQ(moving.sentence(),
             "terms of edges: clamped, with slip and modes: axis 2, near end; free, with tension "
             "and modes: axis 1, near end and axis 1, far end; held in part, without terms: axis 2, "

@@ -93,14 +93,6 @@ class Edges(InFolder):
         self.assertTrue(any("method p2" in note and "odd number of cells" in note
                             for note in notes))
 
-    def test_a_scene_in_motion_refuses_six_node_triangles_by_name(self):
-        for method in ("p2", "full"):
-            result = run("drape", CELLS.parent / "scenes" / "pull.prm", "--methods", method,
-                         "--output", self.folder / "out")
-            self.assertEqual(result.returncode, 2)
-            self.assertIn(f"the method `{method}` has six-node triangles, which move in their "
-                          "plane", result.stderr)
-
 
 if __name__ == "__main__":
     unittest.main()

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: MIT
+#include "meshes/plain/fitted_modes.h"
+
+#include <cmath>
+
+namespace homespun::meshes
+{
+Eigen::Matrix<double, 1, FittedModes::n_functions> fitted_functions(const Eigen::Vector3d &strain,
+                                                                    const Eigen::Vector3d &knees)
+{
+  Eigen::Matrix<double, 3, 3> power; // s_1, s_2, s_3, each to 0, 1, 2
+  power.col(0).setOnes();
+  power.col(1) << strain(0) / (knees(0) + std::abs(strain(0))),
+    strain(1) / (knees(1) + std::abs(strain(1))), strain(2) / knees(2);
+  power.col(2) = power.col(1).cwiseAbs2();
+  Eigen::Matrix<double, 1, FittedModes::n_functions> values;
+  int j = 0;
+  for (int a = 0; a < 3; ++a)
+    for (int p = 0; p <= 2; ++p)
+      for (int q = 0; p + q <= 2; ++q)
+        for (int r = p + q == 0 ? 1 : 0; p + q + r <= 2; ++r)
+          values(j++) = strain(a) * power(0, p) * power(1, q) * power(2, r);
+  return values;
+}
+
+Eigen::Matrix<double, 1, FittedModes::n_modes> fitted_coefficients(const FittedModes &fitted,
+                                                                   const Eigen::Vector3d &strain)
+{
+  return fitted_functions(strain.cwiseMax(fitted.low).cwiseMin(fitted.high), fitted.knees) *
+         fitted.coefficients;
+}
+} // namespace homespun::meshes

@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: MIT
+#include "verification/method/mode_fit.h"
+
+#include "meshes/plain/errors.h"
+#include "meshes/plain/triangle_kinematics.h"
+#include "shell/membrane/corotational_energy.h"
+#include "verification/periodic_cell/halton.h"
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/SVD>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string>
+#include <vector>
+
+namespace homespun::verification
+{
+namespace
+{
+using meshes::FittedModes;
+
+/// Strains of a box and of boxes like it that shrink towards rest, at places of a Halton sequence.
+Eigen::Vector3d sampled(const StrainBox &box, const int index)
+{
+  constexpr std::array<double, 5> sizes = {1., 0.5, 0.25, 0.12, 0.06};
+  const Eigen::Vector3d place(halton(index + 1, 2), halton(index + 1, 3), halton(index + 1, 5));
+  return sizes[static_cast<std::size_t>(index) % sizes.size()] *
+         (box.low + place.cwiseProduct(box.high - box.low));
+}
+
+/// Fluctuations of the cell at strains where it has an equilibrium, a row each.
+struct Snapshots
+{
+  Eigen::MatrixXd strains; ///< (m,3)
+  Eigen::MatrixXd w;       ///< (m,2n), zero at the anchor [m]
+};
+
+Snapshots snapshots(const NonlinearCell &nonlinear, const StrainBox &box, const int first,
+                    const int number)
+{
+  std::vector<Eigen::Vector3d> strains;
+  std::vector<meshes::Points> found;
+  for (int k = first; k < first + number; ++k)
+    try
+    {
+      const Eigen::Vector3d strain = sampled(box, k);
+      found.push_back(nonlinear.solve(strain).fluctuation);
+      strains.push_back(strain);
+    }
+    catch (const meshes::NotConverged &)
+    {
+      // A strain at which the law keeps no equilibrium is no part of the fit; their number is told.
+    }
+  Snapshots result;
+  const auto m = static_cast<Eigen::Index>(found.size());
+  if (m == 0)
+    return result;
+  result.strains.resize(m, 3);
+  result.w.resize(m, found.front().size());
+  for (Eigen::Index k = 0; k < m; ++k)
+  {
+    const meshes::Points &w = found[static_cast<std::size_t>(k)];
+    result.strains.row(k)   = strains[static_cast<std::size_t>(k)].transpose();
+    for (Eigen::Index v = 0; v < w.rows(); ++v)
+      result.w.row(k).segment<2>(2 * v) = w.row(v);
+  }
+  return result;
+}
+
+/// Mean length of the vectors of each row, vertices by their share of the area.
+Eigen::VectorXd mean_lengths(const Eigen::MatrixXd &rows, const Eigen::VectorXd &shares)
+{
+  Eigen::VectorXd result = Eigen::VectorXd::Zero(rows.rows());
+  for (Eigen::Index v = 0; v < shares.size(); ++v)
+    result += shares(v) * rows.middleCols<2>(2 * v).rowwise().norm();
+  return result;
+}
+
+Eigen::VectorXd shares_of_area(const meshes::TriangleMesh &mesh)
+{
+  const Eigen::VectorXd areas = meshes::signed_areas(mesh);
+  Eigen::VectorXd shares      = Eigen::VectorXd::Zero(mesh.n_vertices());
+  for (int t = 0; t < mesh.n_triangles(); ++t)
+    for (int k = 0; k < 3; ++k)
+      shares(mesh.triangles(t, k)) += areas(t) / (3. * areas.sum());
+  return shares;
+}
+
+/// w + sum_a E_a chi_a at each strain.
+Eigen::MatrixXd beside_chi(const Snapshots &of, const meshes::HomogenizedCell &cell)
+{
+  Eigen::MatrixXd rest = of.w;
+  for (int v = 0; v < cell.mesh.n_vertices(); ++v)
+    for (int a = 0; a < 3; ++a)
+      rest.middleCols<2>(2 * v) +=
+        of.strains.col(a) * (cell.chi.row(v) - cell.chi.row(cell.anchor)).segment<2>(2 * a);
+  return rest;
+}
+
+Eigen::MatrixXd functions_at(const Eigen::MatrixXd &strains, const Eigen::Vector3d &knees)
+{
+  Eigen::MatrixXd values(strains.rows(), FittedModes::n_functions);
+  for (Eigen::Index k = 0; k < strains.rows(); ++k)
+    values.row(k) = meshes::fitted_functions(strains.row(k).transpose(), knees);
+  return values;
+}
+
+/// The directions in which weighted rows lie most, a row each.
+Eigen::MatrixXd largest_directions(const Eigen::MatrixXd &rows, const int number)
+{
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> gram(rows * rows.transpose());
+  Eigen::MatrixXd result = Eigen::MatrixXd::Zero(number, rows.cols());
+  for (int k = 0; k < number && k < rows.rows(); ++k)
+  {
+    const Eigen::Index at = rows.rows() - 1 - k;
+    const double squared  = gram.eigenvalues()(at);
+    // Below it is round-off: a laminate has fewer directions than modes.
+    if (squared > 1e-20 * gram.eigenvalues()(rows.rows() - 1))
+      result.row(k) = gram.eigenvectors().col(at).transpose() * rows / std::sqrt(squared);
+  }
+  return result;
+}
+} // namespace
+
+StrainBox box_up_to(const double strain)
+{
+  return {Eigen::Vector3d(-strain / 3., -strain / 3., -strain), Eigen::Vector3d::Constant(strain)};
+}
+
+ModeFit fit_modes(const NonlinearCell &nonlinear, const meshes::HomogenizedCell &cell,
+                  const StrainBox &box)
+{
+  const Snapshots seen   = snapshots(nonlinear, box, 0, box.n_fitted),
+                  unseen = snapshots(nonlinear, box, box.n_fitted, box.n_held_out);
+  if (2 * seen.w.rows() < box.n_fitted || 2 * unseen.w.rows() < box.n_held_out)
+    throw meshes::NotConverged("fitted modes: the cell has an equilibrium at " +
+                                 std::to_string(seen.w.rows() + unseen.w.rows()) + " of " +
+                                 std::to_string(box.n_fitted + box.n_held_out) +
+                                 " strains of the box; expected most of them: a smaller box",
+                               {});
+  ModeFit fit;
+  fit.n_fitted       = static_cast<int>(seen.w.rows());
+  fit.n_held_out     = static_cast<int>(unseen.w.rows());
+  FittedModes &modes = fit.modes;
+  modes.low          = box.low;
+  modes.high         = box.high;
+  const double shear = 2. * cell.stiffness(2, 2);
+  modes.knees        = {shear / cell.stiffness(0, 0), shear / cell.stiffness(1, 1),
+                        std::max(box.high(2), -box.low(2))};
+  const auto n       = static_cast<Eigen::Index>(cell.mesh.n_vertices());
+  const auto shares  = shares_of_area(cell.mesh);
+  Eigen::RowVectorXd by_area(2 * n);
+  for (Eigen::Index v = 0; v < n; ++v)
+    by_area.segment<2>(2 * v).setConstant(std::sqrt(shares(v)));
+  // A cell of one phase has no fluctuations, and nothing to weigh.
+  const Eigen::VectorXd sizes   = mean_lengths(seen.w, shares);
+  const Eigen::VectorXd weights = (sizes.array() > 0.).select(sizes.cwiseInverse(), 0.);
+
+  const Eigen::MatrixXd rest      = beside_chi(seen, cell) * by_area.asDiagonal(),
+                        weighted  = weights.asDiagonal() * rest,
+                        basis     = largest_directions(weighted, FittedModes::n_modes);
+  const Eigen::MatrixXd functions = weights.asDiagonal() * functions_at(seen.strains, modes.knees);
+  // The functions are nearly dependent where a cell does not saturate; the least coefficients do.
+  Eigen::BDCSVD<Eigen::MatrixXd> squares(functions, Eigen::ComputeThinU | Eigen::ComputeThinV);
+  squares.setThreshold(1e-8);
+  modes.coefficients = squares.solve(weighted * basis.transpose());
+  modes.modes.resize(n, 2 * FittedModes::n_modes);
+  for (Eigen::Index v = 0; v < n; ++v)
+    for (int k = 0; k < FittedModes::n_modes; ++k)
+      modes.modes.row(v).segment<2>(2 * k) = -basis.row(k).segment<2>(2 * v) / std::sqrt(shares(v));
+  const Eigen::RowVectorXd at_anchor = modes.modes.row(cell.anchor);
+  modes.modes.rowwise() -= at_anchor;
+
+  Eigen::MatrixXd of_modes(FittedModes::n_modes, 2 * n);
+  for (Eigen::Index v = 0; v < n; ++v)
+    for (int k = 0; k < FittedModes::n_modes; ++k)
+      of_modes.row(k).segment<2>(2 * v) = modes.modes.row(v).segment<2>(2 * k);
+  const Eigen::MatrixXd left = beside_chi(unseen, cell),
+                        miss = left + functions_at(unseen.strains, modes.knees) *
+                                        modes.coefficients * of_modes;
+  const double size = mean_lengths(unseen.w, shares).sum();
+  if (size > 0.)
+  {
+    fit.left        = mean_lengths(miss, shares).sum() / size;
+    fit.left_by_chi = mean_lengths(left, shares).sum() / size;
+  }
+  return fit;
+}
+
+int n_outside(const meshes::FittedModes &modes, const meshes::TriangleMesh &rest,
+              const meshes::Points &positions)
+{
+  int n = 0;
+  for (int t = 0; t < rest.n_triangles(); ++t)
+    n += !modes.holds(shell::biot_strain<2>(meshes::deformation_gradient<2>(rest, t, positions)));
+  return n;
+}
+} // namespace homespun::verification

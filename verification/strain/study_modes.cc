@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+#include "verification/strain/study_modes.h"
+
+#include "meshes/plain/errors.h"
+#include "verification/method/lightweight_cloth.h"
+#include "verification/method/mode_fit.h"
+#include "verification/record/number_text.h"
+
+namespace homespun::verification
+{
+void add_fitted_modes(const StrainStudyOptions &options, const homogenization::UnitCell &cell,
+                      meshes::HomogenizedCell &homogenized, StrainOutput &output)
+{
+  for (const std::string &name : options.methods)
+    for (const std::string &law : options.references)
+    {
+      if (!Method(name).has_fitted_modes(law_of(law)) || homogenized.fitted.count(law) != 0)
+        continue;
+      const double strain     = options.strains.back();
+      const StrainLevel level = {cell.name, options.loads.front(), law_of(law), strain};
+      const StrainBox box     = box_up_to(strain);
+      try
+      {
+        const ModeFit fit = fit_modes(
+          NonlinearCell(homogenized, cell.stiffness_of_phase(), law_of(law)), homogenized, box);
+        homogenized.fitted[law] = fit.modes;
+        output.write_note(
+          level, "method " + name + ": " + std::to_string(meshes::FittedModes::n_modes) +
+                   " modes beside chi, fitted at " + std::to_string(fit.n_fitted) +
+                   " strains of the box from " + short_text(box.low(0)) + " to " +
+                   short_text(box.high(0)) + " along either axis and " + short_text(box.high(2)) +
+                   " in shear; at " + std::to_string(fit.n_held_out) + " others they leave " +
+                   short_text(100. * fit.left) + " % of the fluctuation, chi alone " +
+                   short_text(100. * fit.left_by_chi) + " %");
+      }
+      catch (const meshes::NotConverged &failure)
+      {
+        output.write_note(level, "method " + name + ": " + failure.what());
+      }
+    }
+}
+} // namespace homespun::verification

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: MIT
+// Modes that a study fits to its cell, over the strains that it asks for.
+#pragma once
+
+#include "homogenization/cell/unit_cell.h"
+#include "verification/strain/strain_options.h"
+#include "verification/strain/strain_output.h"
+
+namespace homespun::verification
+{
+/// Fits modes under the laws of the references, over a box up to the largest strain of the study,
+/// where a method asks for them; and notes what they leave, or why there are none. First rank.
+void add_fitted_modes(const StrainStudyOptions &options, const homogenization::UnitCell &cell,
+                      meshes::HomogenizedCell &homogenized, StrainOutput &output);
+} // namespace homespun::verification
