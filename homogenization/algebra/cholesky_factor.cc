@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "homogenization/algebra/cholesky_factor.h"
 
+#include "homogenization/algebra/elimination_order.h"
 #include "meshes/plain/errors.h"
 
 #include <Eigen/CholmodSupport>
@@ -79,18 +80,32 @@ public:
     m_cholmod.supernodal   = CHOLMOD_SUPERNODAL;
     const Pattern pattern  = pattern_of(lower_triangle);
     std::vector<int> order = orders().order_of(pattern);
-    if (order.empty())
-    {
+    const bool is_known    = !order.empty();
+    m_cholmod.postorder    = !is_known; // which is remembered after it
+    if (is_known)
+      analyze(lower_triangle, order);
+    else if (lower_triangle.cols() < least_dissected)
       analyzePattern(lower_triangle);
-      if (m_cholmodFactor == nullptr)
-        return;
-      const auto *const found = static_cast<const int *>(m_cholmodFactor->Perm);
-      orders().remember(pattern, {found, found + m_cholmodFactor->n});
-      return;
+    else
+    {
+      order = elimination_order(lower_triangle);
+      analyze(lower_triangle, order);
     }
+    if (is_known || m_cholmodFactor == nullptr)
+      return;
+    const auto *const found = static_cast<const int *>(m_cholmodFactor->Perm);
+    orders().remember(pattern, {found, found + m_cholmodFactor->n});
+  }
+
+private:
+  /// From which size on nodes are ordered in the place of unknowns; CHOLMOD itself is as fast
+  /// below.
+  static constexpr Eigen::Index least_dissected = 20000;
+
+  void analyze(const Matrix &lower_triangle, std::vector<int> &order)
+  {
     m_cholmod.nmethods           = 1;
     m_cholmod.method[0].ordering = CHOLMOD_GIVEN;
-    m_cholmod.postorder          = false; // it has been, when it was found
     cholmod_sparse view = Eigen::viewAsCholmod(lower_triangle.selfadjointView<Eigen::Lower>());
     m_cholmodFactor     = cholmod_analyze_p(&view, order.data(), nullptr, 0, &m_cholmod);
     m_isInitialized = m_analysisIsOk = true;

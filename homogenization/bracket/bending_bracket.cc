@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "homogenization/bracket/bending_bracket.h"
 
+#include "homogenization/bracket/bracket_sides.h"
 #include "homogenization/bracket/loewner.h"
 
 #include <Eigen/LU>
@@ -99,7 +100,7 @@ BendingBracket bending_bracket(const TorusMesh &mesh,
                                const unsigned order)
 {
   return bending_bracket_from(
-    bracket(mesh, analogous_membranes(bending_stiffness_of_material), order, Holes::rigid),
+    bracket_sides(mesh, analogous_membranes(bending_stiffness_of_material), order, Holes::rigid),
     bending_stiffness_of_material);
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "homogenization/bracket/bracket.h"
 
+#include "homogenization/bracket/bracket_sides.h"
 #include "homogenization/bracket/compatible_strain.h"
 #include "homogenization/bracket/drawn_mesh.h"
 #include "homogenization/bracket/equilibrated_stress.h"
@@ -76,6 +77,49 @@ struct Sides
   const CompatibleStrain above;
 };
 
+/// The fields of both sides on a triangle.
+struct Fields
+{
+  Fields(const Sides &sides, const int t)
+  {
+    if (const int number = sides.of_stress.number[at(t)]; number >= 0)
+      stress = sides.below.stress(number);
+    if (const int number = sides.of_strain.number[at(t)]; number >= 0)
+      strain = sides.above.strain(number);
+  }
+
+  FieldOfLoads stress = FieldOfLoads::Zero(), strain = FieldOfLoads::Zero();
+};
+
+/// Adds a triangle to the products of the fields.
+void add_to_products(const Fields &fields, const double part_of_cell, const int material,
+                     Bracket &result)
+{
+  for (int q = 0; q < n_field_points; ++q)
+  {
+    const double weight = part_of_cell / n_field_points;
+    add_products(weight, fields.stress.middleRows<3>(3 * q), result.stress_products[at(material)]);
+    add_products(weight, fields.strain.middleRows<3>(3 * q), result.strain_products[at(material)]);
+  }
+}
+
+void begin_products(const Sides &sides, Bracket &result)
+{
+  result.strain_products.assign(at(sides.both.n_certain), FieldProducts::Zero());
+  result.stress_products = result.strain_products;
+}
+
+/// The products of the fields of both sides alone.
+void multiply(const TorusMesh &given, const Sides &sides, Bracket &result)
+{
+  const TorusMesh &mesh = sides.both.mesh;
+  begin_products(sides, result);
+  for (int t = 0; t < mesh.n_triangles(); ++t)
+    add_to_products(Fields(sides, t),
+                    area_of(mesh.triangles[at(t)].shape(mesh.edges)) / mesh.lattice.area(),
+                    given.triangles[at(sides.both.parent[at(t)])].material, result);
+}
+
 /// The gaps, indicators and products of the fields of both sides.
 void compare(const TorusMesh &given, const Sides &sides, Bracket &result)
 {
@@ -93,35 +137,27 @@ void compare(const TorusMesh &given, const Sides &sides, Bracket &result)
     compliances.emplace_back(both.upper[m].inverse());
     slack.emplace_back(both.lower[m].inverse() - compliances[m]);
   }
-  result.strain_products.assign(at(both.n_certain), FieldProducts::Zero());
-  result.stress_products = result.strain_products;
+  begin_products(sides, result);
   result.gaps.setZero(given.n_triangles());
   result.indicators.setZero(given.n_triangles());
   Eigen::VectorXd of_arcs = result.gaps;
   for (int t = 0; t < mesh.n_triangles(); ++t)
   {
     const TorusTriangle &triangle = mesh.triangles[at(t)];
-    const auto shape              = triangle.shape(mesh.edges);
-    const double area             = 0.5 * (shape[1](0) * shape[2](1) - shape[1](1) * shape[2](0));
     const int parent              = both.parent[at(t)];
-    const int of_given            = given.triangles[at(parent)].material;
+    const double area             = area_of(triangle.shape(mesh.edges));
     const double weight           = area / n_field_points;
-    FieldOfLoads stress = FieldOfLoads::Zero(), strain = stress;
-    if (of_stress.number[at(t)] >= 0)
-      stress = below.stress(of_stress.number[at(t)]);
-    if (of_strain.number[at(t)] >= 0)
-      strain = above.strain(of_strain.number[at(t)]);
+    const Fields fields(sides, t);
+    add_to_products(fields, area / mesh.lattice.area(), given.triangles[at(parent)].material,
+                    result);
     const auto energy = [&](const Eigen::Matrix3d &form, const Eigen::Matrix3d &field)
     { return (field.transpose() * form * field).cwiseProduct(weights).sum(); };
     double gap = 0.;
     for (int q = 0; q < n_field_points; ++q)
     {
-      const Eigen::Matrix3d of_unit = stress.middleRows<3>(3 * q), sigma = of_unit * mean_stress;
-      add_products(weight / mesh.lattice.area(), of_unit, result.stress_products[at(of_given)]);
-      add_products(weight / mesh.lattice.area(), strain.middleRows<3>(3 * q),
-                   result.strain_products[at(of_given)]);
+      const Eigen::Matrix3d sigma = fields.stress.middleRows<3>(3 * q) * mean_stress;
       const Eigen::Matrix3d differs =
-        sigma - both.upper[at(triangle.material)] * strain.middleRows<3>(3 * q);
+        sigma - both.upper[at(triangle.material)] * fields.strain.middleRows<3>(3 * q);
       gap += weight * energy(compliances[at(triangle.material)], differs);
       if (both.is_uncertain(t))
         gap += weight * energy(slack[at(triangle.material)], sigma);
@@ -139,13 +175,11 @@ void compare(const TorusMesh &given, const Sides &sides, Bracket &result)
   if (result.is_of_drawing && rest > 0.)
     result.indicators += result.indicators.sum() / rest * of_arcs;
 }
-} // namespace
 
-Bracket bracket(const TorusMesh &given, const std::vector<Eigen::Matrix3d> &stiffness_of_material,
-                const unsigned order, const Holes holes)
+/// What is known of both sides as a whole.
+Bracket summary_of(const TorusMesh &given, const Sides &sides)
 {
   Bracket result;
-  const Sides sides(given, stiffness_of_material, order, holes);
   const EquilibratedStress &below = sides.below;
   const CompatibleStrain &above   = sides.above;
   // The vectors of the edges carry the shape to a few units of round-off.
@@ -169,7 +203,26 @@ Bracket bracket(const TorusMesh &given, const std::vector<Eigen::Matrix3d> &stif
   result.n_displacement_dofs = above.n_dofs;
   result.n_stress_dofs       = below.n_dofs;
   result.iterations          = std::max(above.iterations, below.iterations);
+  return result;
+}
+} // namespace
+
+Bracket bracket(const TorusMesh &given, const std::vector<Eigen::Matrix3d> &stiffness_of_material,
+                const unsigned order, const Holes holes)
+{
+  const Sides sides(given, stiffness_of_material, order, holes);
+  Bracket result = summary_of(given, sides);
   compare(given, sides, result);
+  return result;
+}
+
+Bracket bracket_sides(const TorusMesh &given,
+                      const std::vector<Eigen::Matrix3d> &stiffness_of_material,
+                      const unsigned order, const Holes holes)
+{
+  const Sides sides(given, stiffness_of_material, order, holes);
+  Bracket result = summary_of(given, sides);
+  multiply(given, sides, result);
   return result;
 }
 

@@ -130,4 +130,35 @@ CloughTocher::second_derivatives(const int piece, const Eigen::Vector3d &barycen
     }
   return result;
 }
+
+std::array<Eigen::Matrix<double, 3, 12>, 3>
+CloughTocher::second_derivatives_at_corners(const int piece) const
+{
+  const auto k = static_cast<std::size_t>(piece), next = (k + 1) % 3;
+  const auto &G = gradients[k];
+  // d2/dx2, d2/dy2 and d2/dxdy of the products u_p u_q of barycentric coordinates, twice those of
+  // p < q.
+  Eigen::Matrix<double, 3, 6> of_products;
+  int column = 0;
+  for (int p = 0; p < 3; ++p)
+    for (int q = p; q < 3; ++q, ++column)
+      of_products.col(column) << (p == q ? 6. : 12.) * G(0, p) * G(0, q),
+        (p == q ? 6. : 12.) * G(1, p) * G(1, q),
+        (p == q ? 3. : 6.) * (G(0, p) * G(1, q) + G(0, q) * G(1, p));
+  using Ordinates = std::array<const Row *, 6>; // e_r + e_p + e_q of the products, in their order
+  const std::array<Ordinates, 3> ordinates_of_corner = {
+    Ordinates{&corners[k], &sides[k][0], &spokes[k], &sides[k][1], &middles[k], &inner[k]},
+    Ordinates{&sides[k][0], &sides[k][1], &middles[k], &corners[next], &spokes[next], &inner[next]},
+    Ordinates{&spokes[k], &middles[k], &inner[k], &spokes[next], &inner[next], &centre}};
+  std::array<Eigen::Matrix<double, 3, 12>, 3> at_corners;
+  for (std::size_t r = 0; r < 3; ++r)
+  {
+    at_corners[r].setZero();
+    for (std::size_t m = 0; m < 6; ++m)
+      for (int d = 0; d < 3; ++d)
+        at_corners[r].row(d) +=
+          of_products(d, static_cast<Eigen::Index>(m)) * *ordinates_of_corner[r][m];
+  }
+  return at_corners;
+}
 } // namespace homespun::homogenization

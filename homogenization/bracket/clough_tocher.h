@@ -38,6 +38,9 @@ public:
   Eigen::Matrix<double, 3, 12> second_derivatives(int piece,
                                                   const Eigen::Vector3d &barycentric) const;
 
+  /// second_derivatives() at the three corners of a piece, between which they are linear.
+  std::array<Eigen::Matrix<double, 3, 12>, 3> second_derivatives_at_corners(int piece) const;
+
 private:
   /// The ordinate of a piece with the given powers of its three barycentric coordinates, sum 3.
   const Row &ordinate(int piece, std::array<int, 3> powers) const;

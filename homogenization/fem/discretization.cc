@@ -138,6 +138,17 @@ std::unique_ptr<Triangulation<2>> make_triangulation(const meshes::TriangleMesh 
   return distributed;
 }
 
+/// The point of a shape of a triangle: a vertex, then the midpoints of its edges (P2).
+Eigen::RowVector2d point_in(const meshes::TriangleMesh &mesh, const unsigned int triangle,
+                            const unsigned int shape)
+{
+  const auto corners             = mesh.triangles.row(triangle);
+  const Eigen::RowVector2d point = mesh.vertices.row(corners(shape % 3));
+  if (shape < 3)
+    return point;
+  return 0.5 * (point + mesh.vertices.row(corners((shape + 1) % 3))); // of edge (k, k + 1)
+}
+
 ReferenceElement reference_element(const FiniteElement<2> &element, const Quadrature<2> &quadrature)
 {
   ReferenceElement reference;
@@ -213,11 +224,7 @@ unsigned int Discretization::triangle_of(const DoFHandler<2>::active_cell_iterat
 Eigen::RowVector2d Discretization::point_of(const DoFHandler<2>::active_cell_iterator &cell,
                                             const unsigned int shape) const
 {
-  const auto triangle            = mesh.triangles.row(triangle_of(cell));
-  const Eigen::RowVector2d point = mesh.vertices.row(triangle(shape % 3));
-  if (shape < 3)
-    return point;
-  return 0.5 * (point + mesh.vertices.row(triangle((shape + 1) % 3))); // of edge (k, k + 1)
+  return point_in(mesh, triangle_of(cell), shape);
 }
 
 std::vector<Node> Discretization::owned_nodes() const
@@ -225,21 +232,18 @@ std::vector<Node> Discretization::owned_nodes() const
   std::vector<Node> nodes;
   nodes.reserve(locally_owned.n_elements() / n_components);
   std::vector<bool> is_listed(locally_owned.n_elements(), false);
-  std::vector<types::global_dof_index> dofs(element.n_dofs_per_cell());
-  for (const auto &cell : dof_handler.active_cell_iterators())
-  {
-    if (!cell->is_locally_owned())
-      continue;
-    cell->get_dof_indices(dofs);
-    for (unsigned int shape = 0; shape < dofs.size() / n_components; ++shape)
+  for_owned_triangles(
+    [&](const unsigned int t, const std::vector<types::global_dof_index> &dofs)
     {
-      const types::global_dof_index dof = dofs[n_components * shape];
-      if (!locally_owned.is_element(dof) || is_listed[locally_owned.index_within_set(dof)])
-        continue;
-      is_listed[locally_owned.index_within_set(dof)] = true;
-      nodes.push_back({dof, dof + 1, point_of(cell, shape)});
-    }
-  }
+      for (unsigned int shape = 0; shape < dofs.size() / n_components; ++shape)
+      {
+        const types::global_dof_index dof = dofs[n_components * shape];
+        if (!locally_owned.is_element(dof) || is_listed[locally_owned.index_within_set(dof)])
+          continue;
+        is_listed[locally_owned.index_within_set(dof)] = true;
+        nodes.push_back({dof, dof + 1, point_in(mesh, t, shape)});
+      }
+    });
   return nodes;
 }
 

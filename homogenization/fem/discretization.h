@@ -75,8 +75,8 @@ public:
   }
 
   /// Frees triangulation and dof_handler, of which nothing may be asked afterwards. They take more
-  /// memory than the matrix of P1, and after it is laid out for_owned_triangles() and vertex_dofs()
-  /// need neither.
+  /// memory than the matrix of P1, and owned_nodes(), for_owned_triangles() and vertex_dofs() need
+  /// neither.
   void forget_triangulation();
 
   /// The nodes that this rank owns.

@@ -78,9 +78,9 @@ public:
   };
 
   /// solve() for several right-hand sides abreast: conjugate gradients of each by itself, whose
-  /// iterations pass over the matrix once for all of them; with multigrid for three at a time,
-  /// because vectors of more take as much memory as the matrix. One that has met its target is left
-  /// as it is.
+  /// iterations pass over the matrix, and over multigrid's (MultigridCycle), once for all of them;
+  /// with multigrid for six at a time, because vectors of more take as much memory as the matrix.
+  /// One that has met its target is left as it is.
   /// @param solutions the starts, and the answers
   /// @param right_hand_sides become the residuals: hand over what is not needed afterwards
   /// @return number of iterations of each

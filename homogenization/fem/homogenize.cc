@@ -73,9 +73,9 @@ public:
   Homogenization run()
   {
     constrain();
-    solver = std::make_unique<ElasticSolver>(discretization, constraints);
     if (options.pieces.empty()) // which are written cell by cell
       discretization.forget_triangulation();
+    solver = std::make_unique<ElasticSolver>(discretization, constraints);
     lap(result.seconds.setup);
     options.order == 1 ? assemble<3>() : assemble<6>();
     lap(result.seconds.assembly);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "verification/cell/cell_bracket.h"
 
+#include "homogenization/bracket/bracket_sides.h"
 #include "homogenization/bracket/compatible_strain.h"
 #include "meshes/plain/errors.h"
 #include "meshes/plain/refine.h"
@@ -147,7 +148,7 @@ CellBracket bracket_of(const homogenization::UnitCell &cell, const BracketOption
     }
     else
     {
-      result.bracket = homogenization::bracket(torus, stiffness, options.order);
+      result.bracket = homogenization::bracket_sides(torus, stiffness, options.order);
       observe(*result.bracket);
       result.remark = "on the mesh of the cell problems";
     }

@@ -10,16 +10,29 @@
 #include "verification/record/provenance.h"
 #include "verification/record/verdict.h"
 
+#include <algorithm>
 #include <cerrno>
+#include <cstdlib>
 #include <cstring>
+#include <string>
 
 #include <unistd.h>
 
 namespace
 {
+/// CHOLMOD copies its blocks with four threads, whatever OMP_NUM_THREADS says, and those that find
+/// nothing to do spin. One thread per rank unless said, before OpenMP is loaded.
+void limit_threads()
+{
+  const char *const said = std::getenv("OMP_NUM_THREADS");
+  const int threads      = said != nullptr ? std::max(1, std::atoi(said)) : 1;
+  setenv("OMP_THREAD_LIMIT", std::to_string(threads).c_str(), 0);
+}
+
 /// Does not return where all is well.
 void hand_over(char **argv)
 {
+  limit_threads();
   const std::string full = homespun::verification::full_program();
   execv(full.c_str(), argv);
   throw homespun::meshes::BadInput(

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: MIT
+// A bracket on a mesh that is not refined any more.
+#pragma once
+
+#include "homogenization/bracket/bracket.h"
+
+#include <vector>
+
+namespace homespun::homogenization
+{
+/// bracket() without its gaps and indicators, which stay empty: they say where to refine.
+Bracket bracket_sides(const TorusMesh &given,
+                      const std::vector<Eigen::Matrix3d> &stiffness_of_material, unsigned order,
+                      Holes holes = Holes::empty);
+} // namespace homespun::homogenization
