@@ -2,6 +2,7 @@
 #include "shell/membrane/membrane.h"
 
 #include "meshes/plain/errors.h"
+#include "meshes/plain/triangle_area.h"
 #include "shell/membrane/yarn_energy.h"
 
 #include <Eigen/Cholesky>
@@ -158,16 +159,12 @@ Membrane membrane(const meshes::TriangleMesh &mesh, const std::vector<Eigen::Mat
     Eigen::Matrix<double, 3, 2> points;
     for (int k = 0; k < 3; ++k)
       points.row(k) = mesh.vertices.row(corners(k));
-    // Compared with its longest side: nothing that a unit of length could change.
-    const double longest = std::max({(points.row(1) - points.row(0)).squaredNorm(),
-                                     (points.row(2) - points.row(1)).squaredNorm(),
-                                     (points.row(0) - points.row(2)).squaredNorm()});
-    RestTriangle &rest   = result.rest[static_cast<std::size_t>(t)];
-    rest                 = rest_triangle(points);
-    if (!(rest.area > 1e-14 * longest))
+    result.rest[static_cast<std::size_t>(t)] = rest_triangle(points);
+    const meshes::TriangleArea its           = meshes::triangle_area<2>(points);
+    if (!its.is_there() || its.area < 0.)
     {
       std::ostringstream text;
-      text << "has area " << rest.area << " m^2 at rest (longest side " << std::sqrt(longest)
+      text << "has area " << its.area << " m^2 at rest (longest side " << its.longest_edge
            << " m); expected a counter-clockwise triangle of positive area: remove or turn it";
       fault(t, text.str());
     }
