@@ -3,6 +3,7 @@
 
 #include "meshes/plain/errors.h"
 #include "meshes/plain/triangle_area.h"
+#include "shell/membrane/triangle_blocks.h"
 #include "shell/membrane/yarn_energy.h"
 
 #include <Eigen/Cholesky>
@@ -323,17 +324,9 @@ Eigen::Matrix<double, 3 * dim, 3 * dim> membrane_hessian(const Membrane &membran
 {
   const RestTriangle &rest = membrane.rest[static_cast<std::size_t>(t)];
   const auto corners       = corners_of<dim>(membrane, positions, t);
-  if (yarns_of(membrane, t) != nullptr)
-  {
-    const auto blocks = membrane_triangle_derivatives<dim>(membrane, t, corners, kind).blocks;
-    Eigen::Matrix<double, 3 * dim, 3 * dim> hessian;
-    hessian << blocks[0], blocks[1], blocks[2],    //
-      blocks[1].transpose(), blocks[3], blocks[4], //
-      blocks[2].transpose(), blocks[4].transpose(), blocks[5];
-    return hessian;
-  }
-  if (membrane.cubic.empty())
-    return triangle_hessian<dim>(rest, corners, stiffness_of(membrane, t), kind);
+  if (yarns_of(membrane, t) != nullptr || membrane.cubic.empty())
+    return hessian_of_blocks<dim>(
+      membrane_triangle_derivatives<dim>(membrane, t, corners, kind).blocks);
   const TangentLaw law = tangent_law(
     stiffness_of(membrane, t).D, membrane.cubic[phase_of(membrane, t)],
     biot_strain<dim>(deformation_gradient<dim>(rest, corners)), Eigen::Vector3d::Zero());
