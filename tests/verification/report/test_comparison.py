@@ -8,7 +8,7 @@ import report_path  # noqa: F401
 from made_up_run import verdict, write_run, write_verdicts
 from made_up_study import write_results
 from page.comparison import claims_side_by_side, key_of, time_rows
-from page_case import PageTest
+from page_case import PageTest, draw_alone
 from read import results, runs, versions
 from read.results import read_results
 
@@ -105,6 +105,7 @@ class ComparisonTest(PageTest):
         self.assertEqual(rows["full resolution over the other two"], ["1500"])
 
     def test_one_cell_is_not_compared(self):
+        draw_alone(self.addCleanup)
         self.assertEqual(self.run_report(self.write("alone")), (0, ""))
         self.assertNotIn("comparison", self.page().split("</style>")[1].split("<script>")[0])
 
@@ -185,6 +186,7 @@ class ComparisonTest(PageTest):
         )
 
     def test_a_page_of_several_runs_says_which_and_that_their_revisions_differ(self):
+        draw_alone(self.addCleanup)
         one, two = self.write("old", "strain"), self.write("new", "strain", revision="def5678")
         self.assertEqual(self.run_report(one, two), (0, ""))
         page = self.page()
