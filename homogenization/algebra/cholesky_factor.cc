@@ -108,8 +108,9 @@ private:
     m_cholmod.method[0].ordering = CHOLMOD_GIVEN;
     cholmod_sparse view = Eigen::viewAsCholmod(lower_triangle.selfadjointView<Eigen::Lower>());
     m_cholmodFactor     = cholmod_analyze_p(&view, order.data(), nullptr, 0, &m_cholmod);
-    m_isInitialized = m_analysisIsOk = true;
-    m_info                           = Eigen::Success;
+    m_isInitialized     = true;
+    m_analysisIsOk      = true;
+    m_info              = Eigen::Success;
   }
 };
 

@@ -4,9 +4,9 @@
 #include "homogenization/bracket/loewner.h"
 #include "meshes/plain/errors.h"
 #include "meshes/plain/index.h"
+#include "meshes/plain/symmetric_eigen.h"
 
 #include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 
 #include <algorithm>
 #include <array>
@@ -281,14 +281,14 @@ private:
 Eigen::Matrix3d above_both(const Eigen::Matrix3d &A, const Eigen::Matrix3d &B)
 {
   const Eigen::LLT<Eigen::Matrix3d> factors(A);
-  const Eigen::Matrix3d half = factors.matrixL().solve(B);
-  const Eigen::Matrix3d both = factors.matrixL().solve(half.transpose());
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(0.5 * (both + both.transpose()));
-  const Eigen::Matrix3d V     = factors.matrixL() * solver.eigenvectors();
-  const Eigen::Matrix3d above = V * solver.eigenvalues().cwiseMax(1.).asDiagonal() * V.transpose();
+  const Eigen::Matrix3d half  = factors.matrixL().solve(B);
+  const Eigen::Matrix3d both  = factors.matrixL().solve(half.transpose());
+  const auto eigen            = meshes::symmetric_eigen<3>(0.5 * (both + both.transpose()));
+  const Eigen::Matrix3d V     = factors.matrixL() * eigen.vectors;
+  const Eigen::Matrix3d above = V * eigen.values.cwiseMax(1.).asDiagonal() * V.transpose();
   // Roundings, in parts of A as far as that is weak: generous, for what is uncertain hardly counts.
   const double roundings =
-    32. * std::numeric_limits<double>::epsilon() * weakness(A) * (1. + solver.eigenvalues()(2));
+    32. * std::numeric_limits<double>::epsilon() * weakness(A) * (1. + eigen.values(2));
   const Eigen::Matrix3d diagonal = A.diagonal().asDiagonal();
   return 0.5 * (above + above.transpose()) + 3. * roundings * diagonal;
 }

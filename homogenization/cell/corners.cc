@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "homogenization/cell/corners.h"
 
+#include "meshes/plain/gauss_rule.h"
 #include "meshes/plain/index.h"
 
 #include <Eigen/Cholesky>
@@ -91,15 +92,10 @@ struct Polynomials
 
   Polynomials()
   {
-    // Golub and Welsch: nodes are the eigenvalues of the recurrence of Legendre's polynomials.
-    Eigen::Matrix<double, n_points, n_points> recurrence;
-    recurrence.setZero();
-    for (int k = 1; k < n_points; ++k)
-      recurrence(k, k - 1) = recurrence(k - 1, k) = k / std::sqrt(4. * k * k - 1.);
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, n_points, n_points>> rule(recurrence);
-    points          = rule.eigenvalues();
-    weights         = 2. * rule.eigenvectors().row(0).transpose().array().square();
-    const auto node = [](const int i) { return -std::cos(M_PI * i / degree); };
+    const meshes::GaussRule rule = meshes::gauss_rule(n_points);
+    points                       = rule.points;
+    weights                      = rule.weights;
+    const auto node              = [](const int i) { return -std::cos(M_PI * i / degree); };
     for (int q = 0; q < n_points; ++q)
       for (int i = 0; i <= degree; ++i)
       {

@@ -3,7 +3,8 @@
 // double precision holds.
 #include "homogenization/lint/cell_lint.h"
 
-#include <Eigen/Eigenvalues>
+#include "meshes/plain/symmetric_eigen.h"
+
 
 #include <algorithm>
 #include <cmath>
@@ -126,8 +127,7 @@ std::vector<Finding> lint_contrast(const UnitCell &cell)
   const std::vector<Eigen::Matrix3d> stiffness = cell.stiffness_of_phase();
   for (std::size_t p = 0; p < stiffness.size(); ++p)
   {
-    const Eigen::Vector3d values =
-      Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(stiffness[p]).eigenvalues();
+    const Eigen::Vector3d values = meshes::symmetric_eigen<3>(stiffness[p]).values;
     if (values(0) < least)
     {
       least         = values(0);

@@ -3,6 +3,7 @@
 
 #include "meshes/cloth/seams.h"
 #include "meshes/plain/fault_list.h"
+#include "meshes/plain/triangle_area.h"
 
 #include <Eigen/Geometry>
 
@@ -17,8 +18,6 @@ namespace homespun::meshes
 {
 namespace
 {
-/// Twice the area over the square of the longest edge: below it gradients lose half their digits.
-constexpr double no_area = 1e-9;
 /// How near to an edge, as a part of its length, a vertex counts as lying on it: files with six
 /// digits place a point on an edge of a centimetre to 5e-5.
 constexpr double on_edge = 1e-4;
@@ -66,18 +65,6 @@ void add_isolated(FaultList &faults, const Positions &positions, const Triangles
       faults.add("isolated vertices", kind + " " + std::to_string(v) + " at " +
                                         at(positions, static_cast<int>(v)) +
                                         " belongs to no triangle; expected none such: remove it");
-}
-
-/// Square of the longest edge of a triangle.
-template <typename Positions>
-double longest_squared(const Positions &positions, const Triangles &triangles, const int t)
-{
-  double longest = 0.;
-  for (int k = 0; k < 3; ++k)
-    longest = std::max(
-      longest,
-      (positions.row(triangles(t, (k + 1) % 3)) - positions.row(triangles(t, k))).squaredNorm());
-  return longest;
 }
 
 using Edge = std::array<int, 2>;
@@ -163,16 +150,15 @@ void add_rest_shapes(FaultList &faults, const ClothMesh &cloth)
   std::vector<char> was_told(static_cast<std::size_t>(panels.count), 0);
   for (int t = 0; t < cloth.n_triangles(); ++t)
   {
-    const int panel      = panels.of_triangle(t);
-    const double longest = longest_squared(cloth.rest.vertices, cloth.rest.triangles, t);
-    const double quality = longest > 0. ? 2. * std::abs(areas(t)) / longest : 0.;
+    const int panel        = panels.of_triangle(t);
+    const TriangleArea its = triangle_area<2>(cloth.rest.vertices, cloth.rest.triangles.row(t));
     std::ostringstream text;
     text << "triangle " << t << " near the rest point "
          << at(cloth.rest.vertices, cloth.rest.triangles(t, 0));
-    if (!(quality > no_area))
+    if (!its.is_there())
     {
-      text << " has no area at rest: it is " << quality << " times as high as its longest edge of "
-           << std::sqrt(longest)
+      text << " has no area at rest: it is " << std::abs(its.height())
+           << " times as high as its longest edge of " << its.longest_edge
            << " m is long; expected a proper triangle: merge its vertices or unwrap it again";
       faults.add("triangles without area at rest", text.str());
     }
@@ -348,13 +334,12 @@ std::vector<std::string> surface_faults(const Surface &surface, const std::strin
   {
     const Eigen::RowVector3d x0 = x.row(triangles(t, 0)), e1 = x.row(triangles(t, 1)) - x0,
                              e2 = x.row(triangles(t, 2)) - x0;
-    const double longest        = longest_squared(x, triangles, t);
-    const double quality        = longest > 0. ? e1.cross(e2).norm() / longest : 0.;
-    if (!(quality > no_area))
+    const TriangleArea its      = triangle_area<3>(x, triangles.row(t));
+    if (!its.is_there())
     {
       std::ostringstream text;
       text << "triangle " << t << " near " << at(x, triangles(t, 0)) << " has no area: it is "
-           << quality << " times as high as its longest edge of " << std::sqrt(longest)
+           << its.height() << " times as high as its longest edge of " << its.longest_edge
            << " m is long; expected a proper triangle: merge its vertices";
       faults.add("triangles without area", text.str());
     }

@@ -5,8 +5,8 @@
 #include "meshes/files/hdf5_reader.h"
 #include "meshes/files/hdf5_writer.h"
 #include "meshes/plain/errors.h"
+#include "meshes/plain/symmetric_eigen.h"
 
-#include <Eigen/Eigenvalues>
 
 #include <algorithm>
 #include <array>
@@ -32,7 +32,7 @@ void add_faults_of(const Eigen::Matrix3d &stiffness, const std::string &name,
   const double scale = stiffness.cwiseAbs().maxCoeff();
   if ((stiffness - stiffness.transpose()).cwiseAbs().maxCoeff() > 1e-9 * scale)
     faults.push_back(name + " is not symmetric; expected an effective stiffness");
-  else if (!(Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(stiffness).eigenvalues()(0) > 0.))
+  else if (!(symmetric_eigen<3>(stiffness).values(0) > 0.))
     faults.push_back(name + " is not positive definite; expected an effective stiffness");
 }
 

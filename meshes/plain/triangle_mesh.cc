@@ -3,6 +3,7 @@
 
 #include "meshes/plain/errors.h"
 #include "meshes/plain/fault_list.h"
+#include "meshes/plain/triangle_area.h"
 
 #include <algorithm>
 #include <cmath>
@@ -199,30 +200,24 @@ bool check_numbers(const TriangleMesh &mesh, FaultList &faults)
 /// Triangles without area, and inverted ones.
 void check_areas(const TriangleMesh &mesh, FaultList &faults)
 {
-  const Eigen::VectorXd areas = signed_areas(mesh);
   for (int t = 0; t < mesh.n_triangles(); ++t)
   {
-    double longest = 0.;
-    for (int k = 0; k < 3; ++k)
-      longest = std::max(longest, (mesh.vertices.row(mesh.triangles(t, (k + 1) % 3)) -
-                                   mesh.vertices.row(mesh.triangles(t, k)))
-                                    .squaredNorm());
-    const auto begin = [&](std::ostringstream &text) // of faults alone: it takes its time
+    const TriangleArea its = triangle_area<2>(mesh.vertices, mesh.triangles.row(t));
+    const auto begin       = [&](std::ostringstream &text) // of faults alone: it takes its time
     { text << "triangle " << t << " near " << at(mesh, mesh.triangles(t, 0)); };
-    // 1e-10 of the square of its longest edge: beyond that, gradients lose half their digits.
-    if (std::abs(areas(t)) <= 1e-10 * longest)
+    if (!its.is_there())
     {
       std::ostringstream text;
       begin(text);
-      text << " has area " << areas(t) << " m^2 with a longest edge of " << std::sqrt(longest)
+      text << " has area " << its.area << " m^2 with a longest edge of " << its.longest_edge
            << " m; expected a proper triangle: merge its vertices or remesh";
       faults.add("triangles without area", text.str(), place_of_triangle(mesh, t));
     }
-    else if (areas(t) < 0.)
+    else if (its.area < 0.)
     {
       std::ostringstream text;
       begin(text);
-      text << " is inverted (area " << areas(t)
+      text << " is inverted (area " << its.area
            << " m^2); expected vertices in counter-clockwise order: reverse it, or untangle "
               "the mesh there";
       faults.add("inverted triangles", text.str(), place_of_triangle(mesh, t));

@@ -2,6 +2,7 @@
 #include "shell/contact/closed_surface.h"
 
 #include "meshes/plain/errors.h"
+#include "meshes/plain/triangle_area.h"
 #include "shell/algebra/index.h"
 
 #include <algorithm>
@@ -91,9 +92,7 @@ ClosedSurface::ClosedSurface(const meshes::SpacePoints &vertices,
     const Eigen::Vector3d a = corner(f, 0) - centre, b = corner(f, 1) - centre,
                           c = corner(f, 2) - centre, normal = (b - a).cross(c - a);
     volume += a.dot(b.cross(c)) / 6.;
-    const double longest =
-      std::max({(b - a).squaredNorm(), (c - b).squaredNorm(), (a - c).squaredNorm()});
-    if (!(normal.norm() > 1e-12 * longest))
+    if (!meshes::triangle_area<3>(x, t.row(f)).is_there())
     {
       fault("triangle " + std::to_string(f) + " has no area; remove it");
       continue;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "shell/membrane/corotational_energy.h"
 
+#include "shell/membrane/triangle_blocks.h"
+
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 
@@ -238,16 +240,12 @@ triangle_derivatives(const RestTriangle &rest, const Eigen::Matrix<double, 3, di
   TriangleDerivatives<dim> result;
   result.gradient =
     rest.area * rest.shape_gradients * (polar.R * turned_stress(stress, turning)).transpose();
-  // The blocks of corner 0 are minus the sums of the others: a translation costs nothing, to
-  // round-off.
   const Eigen::RowVector2d g1 = rest.shape_gradients.row(1), g2 = rest.shape_gradients.row(2);
   auto &blocks = result.blocks;
   blocks[3]    = rest.area * block_of<dim>(polar, turned, g1, g1);
   blocks[4]    = rest.area * block_of<dim>(polar, turned, g1, g2);
   blocks[5]    = rest.area * block_of<dim>(polar, turned, g2, g2);
-  blocks[1]    = -(blocks[3] + blocks[4].transpose());
-  blocks[2]    = -(blocks[4] + blocks[5]);
-  blocks[0]    = -(blocks[1] + blocks[2]).transpose();
+  find_blocks_of_first_corner<dim>(blocks);
   return result;
 }
 
@@ -301,13 +299,8 @@ triangle_hessian(const RestTriangle &rest, const Eigen::Matrix<double, 3, dim> &
                  const MembraneStiffness &stiffness, const Hessian kind,
                  const Eigen::Vector3d &initial_stress)
 {
-  const auto blocks =
-    triangle_derivatives<dim>(rest, corners, stiffness, kind, initial_stress).blocks;
-  Eigen::Matrix<double, 3 * dim, 3 * dim> hessian;
-  hessian << blocks[0], blocks[1], blocks[2],    //
-    blocks[1].transpose(), blocks[3], blocks[4], //
-    blocks[2].transpose(), blocks[4].transpose(), blocks[5];
-  return hessian;
+  return hessian_of_blocks<dim>(
+    triangle_derivatives<dim>(rest, corners, stiffness, kind, initial_stress).blocks);
 }
 
 // In the plane and in space.

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "shell/membrane/discrete_gradient.h"
 
+#include "shell/algebra/vertex_matrix.h"
+
 namespace homespun::shell
 {
 namespace
@@ -102,5 +104,16 @@ TriangleStep triangle_step(const RestTriangle &rest, const Eigen::Matrix3d &old_
     }
   }
   return step;
+}
+
+void add_step(const TriangleStep &step, const Eigen::RowVector3i &vertices, Vectors &gradient,
+              VertexMatrix &jacobian)
+{
+  for (int a = 0; a < 3; ++a)
+  {
+    gradient.row(vertices(a)) += step.gradient.row(a);
+    for (int b = 0; b < 3; ++b)
+      jacobian.add(vertices(a), vertices(b), step.jacobian.block<3, 3>(3 * a, 3 * b));
+  }
 }
 } // namespace homespun::shell

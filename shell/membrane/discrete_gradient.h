@@ -14,12 +14,15 @@
 // energy-momentum method", ZAMP 43, 1992).
 #pragma once
 
+#include "shell/algebra/block_matrix.h"
 #include "shell/membrane/corotational_energy.h"
 
 #include <Eigen/Core>
 
 namespace homespun::shell
 {
+class VertexMatrix;
+
 /// How the Biot stress of a step comes from the strains at its ends, T̄ = D (old e0 + now e1): ½, ½
 /// for an elastic membrane; −β/h, β/h for a viscosity β, whose work β/h (e1 − e0)·D·(e1 − e0) is
 /// never negative.
@@ -42,4 +45,9 @@ struct TriangleStep
 TriangleStep triangle_step(const RestTriangle &rest, const Eigen::Matrix3d &old_corners,
                            const Eigen::Matrix3d &corners, const Eigen::Matrix3d &D,
                            const StrainWeights &weights);
+
+/// Adds what a triangle does to those of all.
+/// @param vertices its corners
+void add_step(const TriangleStep &step, const Eigen::RowVector3i &vertices, Vectors &gradient,
+              VertexMatrix &jacobian);
 } // namespace homespun::shell

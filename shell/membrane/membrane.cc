@@ -2,6 +2,8 @@
 #include "shell/membrane/membrane.h"
 
 #include "meshes/plain/errors.h"
+#include "meshes/plain/triangle_area.h"
+#include "shell/membrane/triangle_blocks.h"
 #include "shell/membrane/yarn_energy.h"
 
 #include <Eigen/Cholesky>
@@ -158,16 +160,12 @@ Membrane membrane(const meshes::TriangleMesh &mesh, const std::vector<Eigen::Mat
     Eigen::Matrix<double, 3, 2> points;
     for (int k = 0; k < 3; ++k)
       points.row(k) = mesh.vertices.row(corners(k));
-    // Compared with its longest side: nothing that a unit of length could change.
-    const double longest = std::max({(points.row(1) - points.row(0)).squaredNorm(),
-                                     (points.row(2) - points.row(1)).squaredNorm(),
-                                     (points.row(0) - points.row(2)).squaredNorm()});
-    RestTriangle &rest   = result.rest[static_cast<std::size_t>(t)];
-    rest                 = rest_triangle(points);
-    if (!(rest.area > 1e-14 * longest))
+    result.rest[static_cast<std::size_t>(t)] = rest_triangle(points);
+    const meshes::TriangleArea its           = meshes::triangle_area<2>(points);
+    if (!its.is_there() || its.area < 0.)
     {
       std::ostringstream text;
-      text << "has area " << rest.area << " m^2 at rest (longest side " << std::sqrt(longest)
+      text << "has area " << its.area << " m^2 at rest (longest side " << its.longest_edge
            << " m); expected a counter-clockwise triangle of positive area: remove or turn it";
       fault(t, text.str());
     }
@@ -326,17 +324,9 @@ Eigen::Matrix<double, 3 * dim, 3 * dim> membrane_hessian(const Membrane &membran
 {
   const RestTriangle &rest = membrane.rest[static_cast<std::size_t>(t)];
   const auto corners       = corners_of<dim>(membrane, positions, t);
-  if (yarns_of(membrane, t) != nullptr)
-  {
-    const auto blocks = membrane_triangle_derivatives<dim>(membrane, t, corners, kind).blocks;
-    Eigen::Matrix<double, 3 * dim, 3 * dim> hessian;
-    hessian << blocks[0], blocks[1], blocks[2],    //
-      blocks[1].transpose(), blocks[3], blocks[4], //
-      blocks[2].transpose(), blocks[4].transpose(), blocks[5];
-    return hessian;
-  }
-  if (membrane.cubic.empty())
-    return triangle_hessian<dim>(rest, corners, stiffness_of(membrane, t), kind);
+  if (yarns_of(membrane, t) != nullptr || membrane.cubic.empty())
+    return hessian_of_blocks<dim>(
+      membrane_triangle_derivatives<dim>(membrane, t, corners, kind).blocks);
   const TangentLaw law = tangent_law(
     stiffness_of(membrane, t).D, membrane.cubic[phase_of(membrane, t)],
     biot_strain<dim>(deformation_gradient<dim>(rest, corners)), Eigen::Vector3d::Zero());

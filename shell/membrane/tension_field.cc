@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "shell/membrane/tension_field.h"
 
+#include "meshes/plain/symmetric_eigen.h"
+#include "shell/membrane/triangle_blocks.h"
 #include "shell/membrane/yarn_energy.h"
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 
@@ -57,17 +58,16 @@ Wrinkle at_wrinkle(const Matrix2d &f, const Vector2d &w, const YarnAxes &straigh
 /// pressure, c taken from a tenth: w is the minimum of this double well.
 Vector2d first_wrinkle(const Matrix2d &f, const YarnAxes &straight, const Wrinkle &flat)
 {
-  const Eigen::SelfAdjointEigenSolver<Matrix2d> metric(f.transpose() * f);
-  if (!(metric.eigenvalues()(0) > 0.9) || !flat.hessian.allFinite())
-    return std::sqrt(std::max(1. - metric.eigenvalues()(0), 0.1)) * metric.eigenvectors().col(0);
-  const Eigen::SelfAdjointEigenSolver<Matrix2d> stress(flat.hessian); // at w = 0 it is S
-  const Vector2d across = stress.eigenvectors().col(0);
+  const auto metric = meshes::symmetric_eigen<2>(f.transpose() * f);
+  if (!(metric.values(0) > 0.9) || !flat.hessian.allFinite())
+    return std::sqrt(std::max(1. - metric.values(0), 0.1)) * metric.vectors.col(0);
+  const auto stress     = meshes::symmetric_eigen<2>(flat.hessian); // at w = 0 it is S
+  const Vector2d across = stress.vectors.col(0);
   constexpr double a    = 0.1;
-  const double rise     = (at_wrinkle(f, a * across, straight).energy - flat.energy) -
-                      0.5 * stress.eigenvalues()(0) * a * a;
+  const double rise =
+    (at_wrinkle(f, a * across, straight).energy - flat.energy) - 0.5 * stress.values(0) * a * a;
   const double c = rise / (a * a * a * a);
-  return c > 0. ? Vector2d(std::sqrt(-0.25 * stress.eigenvalues()(0) / c) * across)
-                : Vector2d(a * across);
+  return c > 0. ? Vector2d(std::sqrt(-0.25 * stress.values(0) / c) * across) : Vector2d(a * across);
 }
 
 /// The w of least energy.
@@ -81,11 +81,10 @@ Vector2d wrinkle_of(const Matrix2d &f, const YarnAxes &straight, const Wrinkle &
   {
     if (here.gradient.norm() <= 1e-15 * size * w.norm())
       return w;
-    const Eigen::SelfAdjointEigenSolver<Matrix2d> eigen(here.hessian);
-    const Vector2d slopes = eigen.eigenvectors().transpose() * here.gradient,
-                   curvature =
-                     eigen.eigenvalues().cwiseAbs().cwiseMax(1e-12 * size * w.squaredNorm());
-    const Vector2d step = -eigen.eigenvectors() * slopes.cwiseQuotient(curvature);
+    const auto eigen         = meshes::symmetric_eigen<2>(here.hessian);
+    const Vector2d slopes    = eigen.vectors.transpose() * here.gradient,
+                   curvature = eigen.values.cwiseAbs().cwiseMax(1e-12 * size * w.squaredNorm());
+    const Vector2d step      = -eigen.vectors * slopes.cwiseQuotient(curvature);
     if (step.norm() <= 1e-15 * w.norm())
       return w;
     const double slope = step.dot(here.gradient);
@@ -121,8 +120,8 @@ struct PlaneField
 PlaneField plane_field(const Matrix2d &f, const YarnAxes &straight)
 {
   PlaneField field;
-  const Eigen::SelfAdjointEigenSolver<Matrix2d> metric(f.transpose() * f);
-  if (metric.eigenvalues()(1) < 1. - round_off_of_metric)
+  const auto metric = meshes::symmetric_eigen<2>(f.transpose() * f);
+  if (metric.values(1) < 1. - round_off_of_metric)
     return field;
   const double size  = straight.C.cwiseAbs().maxCoeff();
   const Wrinkle flat = at_wrinkle(f, Vector2d::Zero(), straight);
@@ -130,9 +129,9 @@ PlaneField plane_field(const Matrix2d &f, const YarnAxes &straight)
   field.state        = TensionState::taut;
   // At w = 0 the second derivative by w is S. Of yarns along each other it is not known; they are
   // compressed across.
-  const bool is_flat = metric.eigenvalues()(0) > 1e-12 * metric.eigenvalues()(1);
-  if (!is_flat || !(Eigen::SelfAdjointEigenSolver<Matrix2d>(flat.hessian).eigenvalues()(0) >=
-                    -round_off_of_stress * size))
+  const bool is_flat = metric.values(0) > 1e-12 * metric.values(1);
+  if (!is_flat ||
+      !(meshes::symmetric_eigen<2>(flat.hessian).values(0) >= -round_off_of_stress * size))
   {
     field.state = TensionState::wrinkled;
     w           = wrinkle_of(f, straight, flat);
@@ -159,15 +158,6 @@ PlaneField plane_field(const Matrix2d &f, const YarnAxes &straight)
     field.hessian -= mixed * own.inverse() * mixed.transpose();
   }
   return field;
-}
-
-Eigen::Matrix4d positive_part_of(const Eigen::Matrix4d &A)
-{
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix4d> eigen(A);
-  if (eigen.eigenvalues()(0) >= 0.)
-    return A;
-  return eigen.eigenvectors() * eigen.eigenvalues().cwiseMax(0.).asDiagonal() *
-         eigen.eigenvectors().transpose();
 }
 
 /// Unit vectors in columns that span the sheet, and its normal.
@@ -217,7 +207,7 @@ TensionField<dim> tension_field(const DeformationGradient<dim> &F, const YarnAxe
     along = frame_of(f).along;
   PlaneField plane = plane_field(along.transpose() * f, straight);
   if (kind == Hessian::projected)
-    plane.hessian = positive_part_of(plane.hessian);
+    plane.hessian = meshes::positive_part<4>(plane.hessian);
   field.state    = plane.state;
   field.energy   = plane.energy;
   field.gradient = along * plane.gradient * yarns.axes.transpose();
@@ -256,15 +246,11 @@ TriangleDerivatives<dim> by_corners(const RestTriangle &rest, const TensionField
                field.hessian.template block<dim, dim>(dim * a, dim * b);
     return sum;
   };
-  // The blocks of corner 0 are minus the sums of the others: a translation costs nothing, to
-  // round-off.
   auto &blocks = result.blocks;
   blocks[3]    = block(1, 1);
   blocks[4]    = block(1, 2);
   blocks[5]    = block(2, 2);
-  blocks[1]    = -(blocks[3] + blocks[4].transpose());
-  blocks[2]    = -(blocks[4] + blocks[5]);
-  blocks[0]    = -(blocks[1] + blocks[2]).transpose();
+  find_blocks_of_first_corner<dim>(blocks);
   return result;
 }
 

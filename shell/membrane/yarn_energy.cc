@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "shell/membrane/yarn_energy.h"
 
-#include <Eigen/Eigenvalues>
+#include "meshes/plain/symmetric_eigen.h"
+#include "shell/membrane/triangle_blocks.h"
+
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 
@@ -93,19 +95,6 @@ DeformationGradient<dim> pulls_of(const Frames<dim> &frames)
   return pulls;
 }
 
-/// A symmetric matrix without its negative eigenvalues.
-template <int size>
-Eigen::Matrix<double, size, size> positive_part_of(const Eigen::Matrix<double, size, size> &A)
-{
-  if (!A.allFinite())
-    return A;
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, size, size>> eigen(A);
-  if (eigen.eigenvalues()(0) >= 0.)
-    return A;
-  return eigen.eigenvectors() * eigen.eigenvalues().cwiseMax(0.).asDiagonal() *
-         eigen.eigenvectors().transpose();
-}
-
 /// d²W over (α1, β1, α2, β2).
 template <int dim>
 Eigen::Matrix4d in_plane_part(const Frames<dim> &frames)
@@ -148,7 +137,7 @@ GradientHessian<dim> hessian_of(const Frames<dim> &frames, const Hessian kind)
     return hessian;
   Eigen::Matrix4d in_plane = in_plane_part(frames);
   if (kind == Hessian::projected)
-    in_plane = positive_part_of<4>(in_plane);
+    in_plane = meshes::positive_part<4>(in_plane);
   Eigen::Matrix<double, 2 * dim, 4> directions = Eigen::Matrix<double, 2 * dim, 4>::Zero();
   for (int i = 0; i < 2; ++i)
   {
@@ -161,7 +150,7 @@ GradientHessian<dim> hessian_of(const Frames<dim> &frames, const Hessian kind)
     {
       Eigen::Matrix2d out_of_plane = out_of_plane_part(frames);
       if (kind == Hessian::projected)
-        out_of_plane = positive_part_of<2>(out_of_plane);
+        out_of_plane = meshes::positive_part<2>(out_of_plane);
       const Eigen::Matrix3d across = frames.normal * frames.normal.transpose();
       for (int i = 0; i < 2; ++i)
         for (int j = 0; j < 2; ++j)
@@ -266,15 +255,11 @@ TriangleDerivatives<dim> yarn_triangle_derivatives(const RestTriangle &rest,
   const Eigen::Matrix<double, 3, 2> hats = rest.shape_gradients * yarns.axes; // along the yarns
   TriangleDerivatives<dim> result;
   result.gradient = rest.area * (hats * pulls_of(frames).transpose());
-  // The blocks of corner 0 are minus the sums of the others: a translation costs nothing, to
-  // round-off.
-  auto &blocks = result.blocks;
-  blocks[3]    = block_of<dim>(hessian, hats.row(1), hats.row(1));
-  blocks[4]    = block_of<dim>(hessian, hats.row(1), hats.row(2));
-  blocks[5]    = block_of<dim>(hessian, hats.row(2), hats.row(2));
-  blocks[1]    = -(blocks[3] + blocks[4].transpose());
-  blocks[2]    = -(blocks[4] + blocks[5]);
-  blocks[0]    = -(blocks[1] + blocks[2]).transpose();
+  auto &blocks    = result.blocks;
+  blocks[3]       = block_of<dim>(hessian, hats.row(1), hats.row(1));
+  blocks[4]       = block_of<dim>(hessian, hats.row(1), hats.row(2));
+  blocks[5]       = block_of<dim>(hessian, hats.row(2), hats.row(2));
+  find_blocks_of_first_corner<dim>(blocks);
   return result;
 }
 
@@ -283,12 +268,8 @@ Eigen::Matrix<double, 3 * dim, 3 * dim>
 yarn_triangle_hessian(const RestTriangle &rest, const Eigen::Matrix<double, 3, dim> &corners,
                       const YarnAxes &yarns, const Hessian kind, const GuardedCubic *const cubic)
 {
-  const auto blocks = yarn_triangle_derivatives<dim>(rest, corners, yarns, kind, cubic).blocks;
-  Eigen::Matrix<double, 3 * dim, 3 * dim> hessian;
-  hessian << blocks[0], blocks[1], blocks[2],    //
-    blocks[1].transpose(), blocks[3], blocks[4], //
-    blocks[2].transpose(), blocks[4].transpose(), blocks[5];
-  return hessian;
+  return hessian_of_blocks<dim>(
+    yarn_triangle_derivatives<dim>(rest, corners, yarns, kind, cubic).blocks);
 }
 
 // In the plane and in space.

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "shell/solver/rigid_motion.h"
 
-#include <Eigen/Eigenvalues>
+#include "meshes/plain/symmetric_eigen.h"
+
 #include <Eigen/Geometry>
 
 #include <cmath>
@@ -35,14 +36,14 @@ Eigen::RowVector3d spin_of(const Eigen::VectorXd &masses, const Vectors &positio
     inertia +=
       masses(i) * (arm.squaredNorm() * Eigen::Matrix3d::Identity() - arm.transpose() * arm);
   }
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(inertia);
-  Eigen::Vector3d spin = eigen.eigenvectors().transpose() * angular_momentum.transpose();
+  const auto eigen     = meshes::symmetric_eigen<3>(inertia);
+  Eigen::Vector3d spin = eigen.vectors.transpose() * angular_momentum.transpose();
   // Below round-off of the largest moment of inertia the body is a line, which cannot spin about
   // itself.
-  const double smallest = 16. * std::numeric_limits<double>::epsilon() * eigen.eigenvalues()(2);
+  const double smallest = 16. * std::numeric_limits<double>::epsilon() * eigen.values(2);
   for (int k = 0; k < 3; ++k)
-    spin(k) = eigen.eigenvalues()(k) > smallest ? spin(k) / eigen.eigenvalues()(k) : 0.;
-  return (eigen.eigenvectors() * spin).transpose();
+    spin(k) = eigen.values(k) > smallest ? spin(k) / eigen.values(k) : 0.;
+  return (eigen.vectors * spin).transpose();
 }
 
 Vectors moved_rigidly(const Eigen::VectorXd &masses, const Vectors &positions,

@@ -2,6 +2,7 @@
 #include "shell/terms/hinges.h"
 
 #include "meshes/plain/errors.h"
+#include "meshes/plain/triangle_area.h"
 #include "shell/algebra/index.h"
 
 #include <Eigen/Dense>
@@ -24,12 +25,6 @@ Eigen::Matrix<double, 3, 2> rest_corners(const meshes::ClothMesh &mesh, const in
   for (int k = 0; k < 3; ++k)
     corners.row(k) = mesh.rest.vertices.row(mesh.rest.triangles(t, k));
   return corners;
-}
-
-double signed_area(const Eigen::Matrix<double, 3, 2> &corners)
-{
-  const Eigen::RowVector2d a = corners.row(1) - corners.row(0), b = corners.row(2) - corners.row(0);
-  return 0.5 * (a(0) * b(1) - a(1) * b(0));
 }
 
 std::vector<std::string> faults_of(const meshes::ClothMesh &mesh,
@@ -75,14 +70,11 @@ std::vector<std::string> faults_of(const meshes::ClothMesh &mesh,
             std::to_string(mesh.rest.n_vertices() - 1) + " at rest");
       continue;
     }
-    const auto corners   = rest_corners(mesh, t);
-    const double longest = std::max({(corners.row(1) - corners.row(0)).squaredNorm(),
-                                     (corners.row(2) - corners.row(1)).squaredNorm(),
-                                     (corners.row(0) - corners.row(2)).squaredNorm()});
-    if (!(signed_area(corners) > 1e-14 * longest))
+    const meshes::TriangleArea its = meshes::triangle_area<2>(rest_corners(mesh, t));
+    if (!its.is_there() || its.area < 0.)
     {
       std::ostringstream text;
-      text << name << " has area " << signed_area(corners)
+      text << name << " has area " << its.area
            << " m^2 at rest; expected a counter-clockwise triangle of positive area: remove or "
               "turn it";
       fault(text.str());
@@ -174,7 +166,7 @@ Hinges hinges_of(const meshes::ClothMesh &mesh, const std::vector<PlateStiffness
   hinges.patches.resize(hinges.of.size());
   find_neighbours(mesh, hinges);
   for (int t = 0; t < mesh.n_triangles(); ++t)
-    hinges.area.push_back(signed_area(rest_corners(mesh, t)));
+    hinges.area.push_back(meshes::triangle_area<2>(rest_corners(mesh, t)).area);
   for (int t = 0; t < mesh.n_triangles(); ++t)
   {
     Patch &patch = hinges.patches[index(t)];

@@ -142,13 +142,7 @@ public:
       const TriangleStep step =
         triangle_step(membrane.rest[index(t)], corners_of(old, t), corners_of(positions, t),
                       membrane.stiffness[phase_of(t)].D, {elastic - factor, elastic + factor});
-      for (int a = 0; a < 3; ++a)
-      {
-        gradient.row(membrane.triangles(t, a)) += step.gradient.row(a);
-        for (int b = 0; b < 3; ++b)
-          jacobian.add(membrane.triangles(t, a), membrane.triangles(t, b),
-                       step.jacobian.block<3, 3>(3 * a, 3 * b));
-      }
+      add_step(step, membrane.triangles.row(t), gradient, jacobian);
     }
   }
 

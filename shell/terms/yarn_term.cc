@@ -84,13 +84,7 @@ public:
         membrane.yarns[phase].are_there
           ? yarn_triangle_step(rest, begin, end, membrane.yarns[phase])
           : triangle_step(rest, begin, end, membrane.stiffness[phase].D, {});
-      for (int a = 0; a < 3; ++a)
-      {
-        gradient.row(membrane.triangles(t, a)) += step.gradient.row(a);
-        for (int b = 0; b < 3; ++b)
-          jacobian.add(membrane.triangles(t, a), membrane.triangles(t, b),
-                       step.jacobian.block<3, 3>(3 * a, 3 * b));
-      }
+      add_step(step, membrane.triangles.row(t), gradient, jacobian);
     }
   }
 

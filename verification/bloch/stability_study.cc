@@ -44,46 +44,47 @@ std::vector<Row> named(std::vector<Row> rows, const Names &names)
   return rows;
 }
 
-class StabilityStudy
+class StabilityStudy final : public StudyOfCells
 {
 public:
   StabilityStudy(const StabilityStudyOptions &options, const MPI_Comm communicator)
-      : options(options)
-      , communicator(communicator)
-      , study(options, communicator)
+      : StudyOfCells("stability", options, communicator)
+      , options(options)
   {
-  }
-
-  std::vector<Verdict> run()
-  {
-    check_yarns(study.cells(), "--law", options.laws);
-    on_root(communicator, [&]() { open(); });
-    std::vector<AssessedCell> assessed;
-    for (const UnitCell &cell : study.cells())
-      assessed.push_back(study.homogenize(cell, {}, verdicts));
-    on_root(communicator, [&]() { solve(assessed); });
-    share_failure(verdicts, communicator);
-    return verdicts;
   }
 
 private:
-  void open()
+  void refuse() const override
   {
-    nlohmann::ordered_json inputs = {{"loads", options.loads},
-                                     {"strains", options.strains},
-                                     {"refinements", options.n_refinements}};
-    inputs["supercell"] = options.supercell ? std::to_string((*options.supercell)(0)) + "x" +
-                                                std::to_string((*options.supercell)(1))
-                                            : "of the lowest wave";
-    for (const UnitCell &cell : study.cells())
-      inputs["law of " + cell.name] = laws_for(cell, options.laws);
-    study.open("stability", inputs);
+    check_yarns(cells(), "--law", options.laws);
+  }
+
+  nlohmann::ordered_json inputs() override
+  {
+    nlohmann::ordered_json all = {{"loads", options.loads},
+                                  {"strains", options.strains},
+                                  {"refinements", options.n_refinements}};
+    all["supercell"]           = options.supercell ? std::to_string((*options.supercell)(0)) + "x" +
+                                             std::to_string((*options.supercell)(1))
+                                                   : "of the lowest wave";
+    for (const UnitCell &cell : cells())
+      all["law of " + cell.name] = laws_for(cell, options.laws);
+    return all;
+  }
+
+  void open_tables() override
+  {
     levels   = std::make_unique<Table<StabilityRow>>(options.output);
     losses   = std::make_unique<Table<LossRow>>(options.output);
     zones    = std::make_unique<Table<ZoneRow>>(options.output);
     modes    = std::make_unique<Table<ModeRow>>(options.output);
     patterns = std::make_unique<Table<PatternRow>>(options.output);
-    resumed  = !losses->rows().empty();
+  }
+
+  void work() override
+  {
+    const std::vector<AssessedCell> assessed = homogenize_all();
+    on_root(communicator, [&]() { solve(assessed); });
   }
 
   void solve(const std::vector<AssessedCell> &assessed)
@@ -93,12 +94,12 @@ private:
       if (const std::vector<double> strains = strains_of(options.strains, sign); !strains.empty())
         ways.push_back(strains);
     const std::size_t n_laws = std::max<std::size_t>(1, options.laws.size());
-    Progress progress(!options.quiet, static_cast<int>(study.cells().size() * n_laws *
+    Progress progress(!options.quiet, static_cast<int>(cells().size() * n_laws *
                                                        options.loads.size() * ways.size()));
-    for (std::size_t k = 0; k < study.cells().size(); ++k)
+    for (std::size_t k = 0; k < cells().size(); ++k)
     {
-      const UnitCell &cell = study.cells()[k];
-      study.write_cell(cell, assessed[k]);
+      const UnitCell &cell = cells()[k];
+      write_cell(cell, assessed[k]);
       const double factor = factor_of_bars(cell);
       for (const std::string &law : laws_for(cell, options.laws))
       {
@@ -121,7 +122,6 @@ private:
           }
       }
     }
-    conclude();
   }
 
   void add_path(const LossRow &names, const std::vector<double> &strains, const MeshOfCell &given,
@@ -181,7 +181,7 @@ private:
     }
   }
 
-  void conclude()
+  StudyDescription conclude() override
   {
     const std::vector<Verdict> of_rows = verdicts_on_rows(levels->rows(), losses->rows());
     verdicts.insert(verdicts.end(), of_rows.begin(), of_rows.end());
@@ -189,7 +189,7 @@ private:
     verdicts.insert(verdicts.end(), of_patterns.begin(), of_patterns.end());
     std::vector<std::string> notes = notes_on_losses(losses->rows());
     if (options.laws.empty())
-      for (const UnitCell &cell : study.cells())
+      for (const UnitCell &cell : cells())
         notes.push_back(note_on_default_law(cell));
     for (const std::string &note : notes_on_patterns(patterns->rows()))
       notes.push_back(note);
@@ -217,31 +217,26 @@ private:
        {"why", "an infinite cloth in its plane, in equilibrium: a cloth that is free to leave its "
                "plane wrinkles sooner wherever it is pressed"}},
       {{"what", "edges and clamps"}, {"why", "an infinite cloth has none"}}};
-    study.conclude({{{"loads", options.loads}, {"laws", used_laws()}}, left_out, notes, resumed},
-                   verdicts);
+    return {{{"loads", options.loads}, {"laws", used_laws()}}, left_out, notes};
   }
 
   /// Of all cells, each once.
   std::vector<std::string> used_laws() const
   {
     std::set<std::string> names;
-    for (const UnitCell &cell : study.cells())
+    for (const UnitCell &cell : cells())
       for (const std::string &law : laws_for(cell, options.laws))
         names.insert(law);
     return {names.begin(), names.end()};
   }
 
   const StabilityStudyOptions options;
-  const MPI_Comm communicator;
-  StudyOfCells study;
-  std::vector<Verdict> verdicts;
   // On the first rank alone:
   std::unique_ptr<Table<StabilityRow>> levels;
   std::unique_ptr<Table<LossRow>> losses;
   std::unique_ptr<Table<ZoneRow>> zones;
   std::unique_ptr<Table<ModeRow>> modes;
   std::unique_ptr<Table<PatternRow>> patterns;
-  bool resumed = false;
 };
 } // namespace
 

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "verification/cell/algebraic_limit.h"
 
-#include <Eigen/Eigenvalues>
+#include "meshes/plain/symmetric_eigen.h"
+
 
 #include <algorithm>
 #include <limits>
@@ -17,7 +18,7 @@ double contrast_of(const std::vector<Eigen::Matrix3d> &stiffnesses)
   double least = std::numeric_limits<double>::infinity(), most = 0.;
   for (const Eigen::Matrix3d &c : stiffnesses)
   {
-    const Eigen::Vector3d values = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(c).eigenvalues();
+    const Eigen::Vector3d values = meshes::symmetric_eigen<3>(c).values;
     least                        = std::min(least, values(0));
     most                         = std::max(most, values(2));
   }

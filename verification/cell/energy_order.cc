@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "verification/cell/energy_order.h"
 
+#include "meshes/plain/symmetric_eigen.h"
 #include "verification/record/verdict.h"
 
 #include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 
 #include <limits>
 
@@ -22,8 +22,7 @@ Eigen::Vector3d relative_eigenvalues(const Eigen::Matrix3d &A, const Eigen::Matr
     return Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
   const Eigen::Matrix3d half = factors.matrixL().solve(A - B);
   const Eigen::Matrix3d both = factors.matrixL().solve(half.transpose());
-  return Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(0.5 * (both + both.transpose()))
-    .eigenvalues();
+  return meshes::symmetric_eigen<3>(0.5 * (both + both.transpose())).values;
 }
 } // namespace
 

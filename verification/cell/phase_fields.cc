@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "verification/cell/phase_fields.h"
 
-#include <Eigen/Eigenvalues>
+#include "meshes/plain/symmetric_eigen.h"
+
 
 #include <array>
 #include <cmath>
@@ -48,16 +49,16 @@ Eigen::Matrix2d principal_vectors(const Eigen::Vector3d &components)
 {
   Eigen::Matrix2d tensor;
   tensor << components(0), components(2), components(2), components(1);
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> principal(tensor); // ascending
+  const auto principal = meshes::symmetric_eigen<2>(tensor);
   Eigen::Matrix2d vectors;
   for (int k = 0; k < 2; ++k)
   {
-    const Eigen::Vector2d along = principal.eigenvectors().col(1 - k);
+    const Eigen::Vector2d along = principal.vectors.col(1 - k);
     // Which way a vertical one points must not hang on the round-off of its first component.
     constexpr double vertical = 1e-6;
     const bool is_turned =
       along(0) < -vertical || (std::abs(along(0)) <= vertical && along(1) < 0.);
-    vectors.row(k) = (is_turned ? -1. : 1.) * principal.eigenvalues()(1 - k) * along.transpose();
+    vectors.row(k) = (is_turned ? -1. : 1.) * principal.values(1 - k) * along.transpose();
   }
   return vectors;
 }

@@ -25,15 +25,36 @@ double factor_of_bars(const UnitCell &cell)
   return 1.25 / (1. - std::pow(2., -order));
 }
 
-StudyOfCells::StudyOfCells(StudyOptions given_options, const MPI_Comm communicator)
-    : options(std::move(given_options))
-    , homogenized(options.homogenized ? options.homogenized : std::make_shared<AssessedCells>())
-    , communicator(communicator)
+StudyOfCells::StudyOfCells(std::string name_of_command, StudyOptions options,
+                           const MPI_Comm communicator)
+    : communicator(communicator)
+    , is_root(verification::is_root(communicator))
+    , name(std::move(name_of_command))
+    , given(std::move(options))
+    , homogenized(given.homogenized ? given.homogenized : std::make_shared<AssessedCells>())
     , begin(std::chrono::steady_clock::now())
 {
-  for (const std::string &file : options.cell_files)
+  for (const std::string &file : given.cell_files)
     all_cells.push_back(homogenization::read_unit_cell(file, communicator));
   check_names(all_cells);
+}
+
+std::vector<Verdict> StudyOfCells::run()
+{
+  refuse();
+  on_root(communicator,
+          [&]()
+          {
+            folder      = open_run_folder(given.output, {name, with_cells(inputs())}, given.earlier,
+                                          given.quiet);
+            is_taken_up = folder->is_taken_up();
+            open_tables();
+          });
+  work();
+  on_root(communicator, [&]() { write(conclude()); });
+  if (is_mpi_running())
+    share_failure(verdicts, communicator);
+  return verdicts;
 }
 
 nlohmann::ordered_json StudyOfCells::with_cells(nlohmann::ordered_json inputs) const
@@ -43,45 +64,47 @@ nlohmann::ordered_json StudyOfCells::with_cells(nlohmann::ordered_json inputs) c
   return inputs;
 }
 
-bool StudyOfCells::open(const std::string &name, nlohmann::ordered_json inputs)
+const AssessedCell &StudyOfCells::homogenize(const UnitCell &cell, const CellNeeds &needs,
+                                             std::vector<Verdict> &checks) const
 {
-  folder = open_run_folder(options.output, {name, with_cells(std::move(inputs))}, options.earlier,
-                           options.quiet);
-  return folder->is_taken_up();
+  if (answer_of_root(is_taken_up, communicator))
+    homogenized->read(cell, given.output + "/" + cell.name, communicator);
+  return homogenized->of(cell, needs, communicator, checks);
 }
 
-const AssessedCell &StudyOfCells::homogenize(const UnitCell &cell, const CellNeeds &needs,
-                                             std::vector<Verdict> &verdicts) const
+std::vector<AssessedCell> StudyOfCells::homogenize_all()
 {
-  if (answer_of_root(folder && folder->is_taken_up(), communicator))
-    homogenized->read(cell, options.output + "/" + cell.name, communicator);
-  return homogenized->of(cell, needs, communicator, verdicts);
+  std::vector<AssessedCell> all;
+  for (const UnitCell &cell : all_cells)
+    all.push_back(homogenize(cell, {}, verdicts));
+  return all;
 }
 
 std::string StudyOfCells::write_cell(const UnitCell &cell, const AssessedCell &assessed) const
 {
-  const std::string folder_of_cell = options.output + "/" + cell.name;
+  const std::string folder_of_cell = given.output + "/" + cell.name;
   write_cell_results(cell, assessed, {}, n_ranks_of(communicator), folder_of_cell);
   return folder_of_cell;
 }
 
-void StudyOfCells::conclude(StudyDescription description, const std::vector<Verdict> &verdicts)
+void StudyOfCells::write(StudyDescription description)
 {
   const unsigned int n_ranks = n_ranks_of(communicator);
   for (const std::string &note : notes_on_cuts(all_cells))
     description.notes.push_back(note);
-  nlohmann::ordered_json study = {{"command", options.command}};
+  nlohmann::ordered_json study = {{"command", given.command}};
   if (!description.told.is_null())
     study.update(description.told);
   study["ranks"] = n_ranks;
   study["seconds_total"] =
     std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-  study["resumed"]    = description.is_resumed;
+  study["resumed"]    = is_taken_up;
   study["left_out"]   = description.left_out;
   study["notes"]      = description.notes;
   study["provenance"] = provenance(n_ranks);
-  write_json(options.output + "/verdicts.json", to_json(verdicts, options.command));
-  write_json(options.output + "/" + description.file, study);
+  write_json(given.output + "/verdicts.json", to_json(verdicts, given.command));
+  write_json(given.output + "/" + description.file, study);
   folder->finish();
+  folder.reset(); // and with it the lock
 }
 } // namespace homespun::verification

@@ -4,9 +4,9 @@
 #include "homogenization/algebra/cholesky_factor.h"
 #include "localization/coarse_frames.h"
 #include "localization/edge_modes.h"
+#include "meshes/plain/gauss_rule.h"
 #include "meshes/plain/sheet.h"
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 
 #include <cmath>
@@ -69,19 +69,13 @@ private:
   Eigen::Matrix<double, degree + 1, 1> nodes;
 };
 
-/// Gauss points and weights on (0, height): the eigenvalues of the recurrence of Legendre's
-/// polynomials (Golub and Welsch 1969).
+/// Gauss points and weights on (0, height).
 std::vector<std::pair<double, double>> gauss_rule(const double height)
 {
-  Eigen::Matrix<double, n_points, n_points> recurrence;
-  recurrence.setZero();
-  for (int k = 1; k < n_points; ++k)
-    recurrence(k, k - 1) = recurrence(k - 1, k) = k / std::sqrt(4. * k * k - 1.);
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, n_points, n_points>> rule(recurrence);
+  const meshes::GaussRule rule = meshes::gauss_rule(n_points);
   std::vector<std::pair<double, double>> points;
   for (int q = 0; q < n_points; ++q)
-    points.emplace_back(0.5 * height * (1. + rule.eigenvalues()(q)),
-                        height * std::pow(rule.eigenvectors()(0, q), 2));
+    points.emplace_back(0.5 * height * (1. + rule.points(q)), 0.5 * height * rule.weights(q));
   return points;
 }
 

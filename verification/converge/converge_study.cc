@@ -127,30 +127,24 @@ std::vector<std::string> notes_on_laws(const ConvergenceStudyOptions &options,
   return all;
 }
 
-class ConvergenceStudy
+class ConvergenceStudy final : public StudyOfCells
 {
 public:
   ConvergenceStudy(const ConvergenceStudyOptions &options, const MPI_Comm communicator)
-      : options(options)
-      , communicator(communicator)
-      , is_root(verification::is_root(communicator))
-      , study(options, communicator)
+      : StudyOfCells("converge", options, communicator)
+      , options(options)
       , sizes(convergence_sizes(options.is_quick))
   {
   }
 
-  std::vector<Verdict> run()
+private:
+  void refuse() const override
   {
-    for (const UnitCell &cell : study.cells())
+    for (const UnitCell &cell : cells())
       meshes::tile(cell.mesh, cell.lattice, 1, 1); // refuses cells that make no sheet
-    on_root(communicator, [&]() { open_tables(); });
-    collect();
-    run_cases();
-    return conclude();
   }
 
-private:
-  void open_tables()
+  nlohmann::ordered_json inputs() override
   {
     nlohmann::ordered_json inputs;
     inputs["quick"]                 = options.is_quick;
@@ -164,30 +158,39 @@ private:
     inputs["coarse_per_cell"]       = sizes.coarse_per_cell;
     inputs["strains"]               = sizes.strains;
     inputs["time_steps"]            = sizes.time_steps;
-    for (const UnitCell &cell : study.cells())
+    for (const UnitCell &cell : cells())
       inputs["laws"][cell.name] = name_of(default_law(cell));
-    resumed = study.open("converge", inputs);
-    record  = std::make_unique<ConvergenceRecord>(options.output);
+    return inputs;
+  }
+
+  void open_tables() override
+  {
+    record = std::make_unique<ConvergenceRecord>(options.output);
+  }
+
+  void work() override
+  {
+    collect();
+    run_cases();
   }
 
   /// Cases stand study by study, so that the finest levels of one cell do not delay the others.
   void collect()
   {
-    const std::vector<UnitCell> &cells = study.cells();
-    for (const UnitCell &cell : cells)
+    for (const UnitCell &cell : cells())
     {
       CellNeeds needs;
       needs.second_order = {default_law(cell) == Law::yarn ? homogenization::MembraneLaw::yarn
                                                            : homogenization::MembraneLaw::biot};
       std::vector<Verdict> checks; // a study of orders claims nothing of C^H itself
       homogenized.push_back(
-        homogenized_cell(cell, study.homogenize(cell, needs, checks), provenance_line()));
+        homogenized_cell(cell, homogenize(cell, needs, checks), provenance_line()));
     }
     const auto add = [&](const std::string &name, const auto &cases_of)
     {
       if (has(options, name))
-        for (std::size_t k = 0; k < cells.size(); ++k)
-          for (ConvergenceCase &one : cases_of(cells[k], homogenized[k]))
+        for (std::size_t k = 0; k < cells().size(); ++k)
+          for (ConvergenceCase &one : cases_of(cells()[k], homogenized[k]))
             cases.push_back(std::move(one));
     };
     add("mesh",
@@ -250,36 +253,23 @@ private:
     on_root(communicator, [&]() { record->add(one, result, seconds); });
   }
 
-  std::vector<Verdict> conclude()
+  StudyDescription conclude() override
   {
-    std::vector<Verdict> verdicts;
-    on_root(communicator,
-            [&]()
-            {
-              verdicts                           = record->verdicts();
-              std::vector<std::string> all_notes = notes(options);
-              for (const std::string &note : notes_on_laws(options, study.cells()))
-                all_notes.push_back(note);
-              all_notes.insert(all_notes.end(), unfinished.begin(), unfinished.end());
-              study.conclude({{{"studies", options.studies}, {"quick", options.is_quick}},
-                              what_was_left_out(options, record->levels()),
-                              all_notes,
-                              resumed},
-                             verdicts);
-            });
-    share_failure(verdicts, communicator);
-    return verdicts;
+    verdicts                           = record->verdicts();
+    std::vector<std::string> all_notes = notes(options);
+    for (const std::string &note : notes_on_laws(options, cells()))
+      all_notes.push_back(note);
+    all_notes.insert(all_notes.end(), unfinished.begin(), unfinished.end());
+    return {{{"studies", options.studies}, {"quick", options.is_quick}},
+            what_was_left_out(options, record->levels()),
+            all_notes};
   }
 
   const ConvergenceStudyOptions options;
-  const MPI_Comm communicator;
-  const bool is_root;
-  StudyOfCells study;
   const ConvergenceSizes sizes;
   std::vector<meshes::HomogenizedCell> homogenized;
   std::vector<ConvergenceCase> cases;
   std::vector<std::string> unfinished;       ///< cases whose ladder ended early, and why
-  bool resumed = false;                      ///< on the first rank alone
   std::unique_ptr<ConvergenceRecord> record; ///< on the first rank alone
 };
 } // namespace

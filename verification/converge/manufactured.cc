@@ -77,6 +77,24 @@ Scalar yarn_energy(const Eigen::Matrix3d &stiffness, const Eigen::Vector2d &alon
                                        2. * p * q * (e[0] - e[1]) + (p * p - q * q) * e[2]});
 }
 
+using Complex = std::complex<double>;
+
+/// The slopes of a function by C11, C22, C12, each by a complex step: no difference is taken, and
+/// any small number serves.
+template <typename Function>
+std::array<double, 3> slopes_of(const Function &function, const double (&c)[3])
+{
+  constexpr double small = 1e-30;
+  std::array<double, 3> slopes;
+  for (std::size_t a = 0; a < 3; ++a)
+  {
+    Complex moved[3] = {c[0], c[1], c[2]};
+    moved[a] += Complex(0., small);
+    slopes[a] = function(moved).imag() / small;
+  }
+  return slopes;
+}
+
 /// The metric of a cloth that cannot be pressed, C + A of least energy with A = α (c, s) (c, s)^T:
 /// for each direction α by halves on its slope, the direction by a search and by halves. Slopes are
 /// those of complex steps, and have all digits.
@@ -96,6 +114,8 @@ public:
     const double missing1 = 1. - c[0], missing2 = 1. - c[1];
     if (missing1 + missing2 > 0. && missing1 * missing2 > c[2] * c[2])
       return {missing1, missing2, -c[2]};
+    if (is_in_tension())
+      return {0., 0., 0.};
     constexpr int n = 64; // directions of half a turn
     int best        = 0;
     double least    = std::numeric_limits<double>::infinity();
@@ -123,6 +143,14 @@ public:
   }
 
 private:
+  /// The slope by α at C is (c, s) dW/dC (c, s)^T: of no direction negative where dW/dC has no
+  /// negative eigenvalue.
+  bool is_in_tension() const
+  {
+    const std::array<double, 3> by = slopes_of(
+      [&](const Complex(&moved)[3]) { return yarn_energy<Complex>(stiffness, along, moved); }, c);
+    return by[0] + by[1] >= 0. && 4. * by[0] * by[1] >= by[2] * by[2];
+  }
   template <typename Scalar>
   Scalar at(const Scalar &alpha, const Scalar &angle) const
   {
@@ -139,7 +167,6 @@ private:
   double slope(const double alpha, const double angle, const std::array<double, 2> &by) const
   {
     constexpr double small = 1e-30;
-    using Complex          = std::complex<double>;
     return at<Complex>(Complex(alpha, small * by[0]), Complex(angle, small * by[1])).imag() / small;
   }
   double length(const double angle) const
@@ -189,17 +216,20 @@ EnergyAndStress linear_law(const Eigen::Matrix3d &stiffness, const Eigen::Matrix
   result.stress << stress(0), stress(2), stress(2), stress(1), 0., 0.;
   return result;
 }
-} // namespace
+/// The direction of the first yarns of a law that knows of some.
+Eigen::Vector2d first_yarns(const Law law, const Eigen::Matrix3d &stiffness)
+{
+  return is_of_yarns(law) ? stiffest_direction(stiffness) : Eigen::Vector2d::UnitX();
+}
 
 EnergyAndStress energy_and_stress(const Law law, const Eigen::Matrix3d &stiffness,
+                                  const Eigen::Vector2d &along,
                                   const Eigen::Matrix<double, 3, 2> &F)
 {
   if (law == Law::linear)
     return linear_law(stiffness, F);
   const Eigen::Matrix2d C = F.transpose() * F;
-  const Eigen::Vector2d along =
-    is_of_yarns(law) ? stiffest_direction(stiffness) : Eigen::Vector2d::UnitX();
-  double c[3] = {C(0, 0), C(1, 1), C(0, 1)};
+  double c[3]             = {C(0, 0), C(1, 1), C(0, 1)};
   if (law == Law::yarn_tension)
   { // of the least energy the slope by A is none: the stress is that of yarns at C + A
     const std::array<double, 3> added = Wrinkle(stiffness, along, c).added();
@@ -207,25 +237,20 @@ EnergyAndStress energy_and_stress(const Law law, const Eigen::Matrix3d &stiffnes
       c[a] += added[static_cast<std::size_t>(a)];
   }
   EnergyAndStress result;
-  result.energy          = energy<double>(law, stiffness, along, c);
-  constexpr double small = 1e-30; // no difference is taken: any small number serves
-  using Complex          = std::complex<double>;
-  double slope[3]; // of W by C11, C22, C12
-  for (int a = 0; a < 3; ++a)
-  {
-    Complex moved[3] = {c[0], c[1], c[2]};
-    moved[a] += Complex(0., small);
-    slope[a] = energy<Complex>(law, stiffness, along, moved).imag() / small;
-  }
+  result.energy                     = energy<double>(law, stiffness, along, c);
+  const std::array<double, 3> slope = slopes_of(
+    [&](const Complex(&moved)[3]) { return energy<Complex>(law, stiffness, along, moved); }, c);
   Eigen::Matrix2d twice; // dW = P : dF, dC = dF^T F + F^T dF
   twice << 2. * slope[0], slope[2], slope[2], 2. * slope[1];
   result.stress = F * twice;
   return result;
 }
 
-Eigen::Vector3d equilibrium_force(const Law law, const StiffnessField &stiffness,
-                                  const GradientField &gradient,
-                                  const Eigen::RowVector2d &rest_point, const double step)
+/// −Div P by central differences of fourth order.
+/// @param stress P at a rest point
+template <typename Stress>
+Eigen::Vector3d minus_divergence(const Stress &stress, const Eigen::RowVector2d &rest_point,
+                                 const double step)
 {
   constexpr double weights[2] = {8. / 12., -1. / 12.};
   Eigen::Vector3d divergence  = Eigen::Vector3d::Zero();
@@ -235,17 +260,34 @@ Eigen::Vector3d equilibrium_force(const Law law, const StiffnessField &stiffness
       {
         Eigen::RowVector2d at = rest_point;
         at(j) += sign * k * step;
-        divergence += sign * weights[k - 1] / step *
-                      energy_and_stress(law, stiffness(at), gradient(at)).stress.col(j);
+        divergence += sign * weights[k - 1] / step * stress(at).col(j);
       }
   return -divergence;
+}
+} // namespace
+
+EnergyAndStress energy_and_stress(const Law law, const Eigen::Matrix3d &stiffness,
+                                  const Eigen::Matrix<double, 3, 2> &F)
+{
+  return energy_and_stress(law, stiffness, first_yarns(law, stiffness), F);
+}
+
+Eigen::Vector3d equilibrium_force(const Law law, const StiffnessField &stiffness,
+                                  const GradientField &gradient,
+                                  const Eigen::RowVector2d &rest_point, const double step)
+{
+  return minus_divergence([&](const Eigen::RowVector2d &at)
+                          { return energy_and_stress(law, stiffness(at), gradient(at)).stress; },
+                          rest_point, step);
 }
 
 Eigen::Vector3d equilibrium_force(const Law law, const Eigen::Matrix3d &stiffness,
                                   const GradientField &gradient,
                                   const Eigen::RowVector2d &rest_point, const double step)
 {
-  return equilibrium_force(
-    law, [&](const Eigen::RowVector2d &) { return stiffness; }, gradient, rest_point, step);
+  const Eigen::Vector2d along = first_yarns(law, stiffness);
+  return minus_divergence([&](const Eigen::RowVector2d &at)
+                          { return energy_and_stress(law, stiffness, along, gradient(at)).stress; },
+                          rest_point, step);
 }
 } // namespace homespun::verification

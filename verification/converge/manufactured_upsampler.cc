@@ -13,9 +13,10 @@
 // coarse_sheet(); at the rim they do not, hence a motion whose curvature vanishes there.
 #include "localization/upsampler.h"
 #include "meshes/plain/sheet.h"
+#include "meshes/plain/symmetric_eigen.h"
 #include "verification/converge/manufactured_cases.h"
 
-#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
 
 #include <array>
 #include <cmath>
@@ -54,8 +55,9 @@ Eigen::Matrix<double, 1, dim> fine_position(const Wave &motion,
                                             const Eigen::Matrix<double, 1, 6> &chi)
 {
   const Eigen::Matrix<double, dim, 2> F = motion.gradient.topRows<dim>();
+  const auto squared                    = meshes::symmetric_eigen<2>(F.transpose() * F);
   const Eigen::Matrix2d U =
-    Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(F.transpose() * F).operatorSqrt();
+    squared.vectors * squared.values.cwiseSqrt().asDiagonal() * squared.vectors.transpose();
   const Eigen::RowVector2d w =
     -((U(0, 0) - 1.) * chi.segment<2>(0) + (U(1, 1) - 1.) * chi.segment<2>(2) +
       2. * U(0, 1) * chi.segment<2>(4));

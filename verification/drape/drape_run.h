@@ -22,10 +22,10 @@ struct DrapeRun
   const DrapeSchedule schedule;
   const MPI_Comm communicator;
   Progress progress;
-  std::string name;                    ///< hash of what it is made of
-  std::unique_ptr<DrapeOutput> output; ///< on the first rank
-  std::vector<std::string> notes;
-  std::vector<Verdict> verdicts;
+  std::vector<Verdict> &verdicts;           ///< of the study
+  std::string name                    = {}; ///< hash of what it is made of
+  std::unique_ptr<DrapeOutput> output = {}; ///< on the first rank
+  std::vector<std::string> notes      = {};
 
   /// For the terminal and for drape.json.
   void note(const std::string &text)

@@ -35,53 +35,59 @@ StudyOptions options_of_study(StudyOptions options, const Scene &scene)
   return options;
 }
 
-class DrapeStudy
+class DrapeStudy final : public StudyOfCells
 {
 public:
   DrapeStudy(const DrapeOptions &options, const Scene &scene, const MPI_Comm communicator)
-      : options(options)
-      , communicator(communicator)
+      : StudyOfCells("drape", options_of_study(options, scene), communicator)
+      , options(options)
       , scene(scene)
-      , study(options_of_study(options, scene), communicator)
-      , run{options, DrapeSchedule(scene), communicator,
-            Progress(verification::is_root(communicator) && !options.quiet,
-                     static_cast<int>(scene.cell_files.size()) * DrapeSchedule(scene).n_frames *
-                       static_cast<int>(cloths_of(options, {}).size() + options.references.size()))}
+      , drape{
+          options, DrapeSchedule(scene), communicator,
+          Progress(is_root && !options.quiet,
+                   static_cast<int>(scene.cell_files.size()) * DrapeSchedule(scene).n_frames *
+                     static_cast<int>(cloths_of(options, {}).size() + options.references.size())),
+          verdicts}
   {
-  }
-
-  std::vector<Verdict> to_the_end()
-  {
-    check_yarns(study.cells(), "--references", options.references);
-    check_cloth(options, scene, study.cells());
-    const nlohmann::ordered_json inputs =
-      study.with_cells(drape_inputs(options, scene, run.schedule));
-    run.name = fingerprint(json_text(inputs));
-    on_root(communicator,
-            [&]()
-            {
-              is_taken_up = study.open("drape", inputs);
-              run.output  = std::make_unique<DrapeOutput>(
-                options.output, scene.name, run.schedule.interval, options.frames, options.costs);
-            });
-    if (run.schedule.duration() < scene.duration * (1. - 1e-6))
-      run.note(scene.name + ": runs for " + short_text(run.schedule.duration()) + " s of the " +
-               short_text(scene.duration) + " s asked for, whole frames of " +
-               short_text(run.schedule.interval) + " s");
-    for (const std::string &warning : scene_warnings(scene))
-      run.note(warning);
-    for (const UnitCell &cell : study.cells())
-      study_cell(cell);
-    return conclude();
   }
 
 private:
+  void refuse() const override
+  {
+    check_yarns(cells(), "--references", options.references);
+    check_cloth(options, scene, cells());
+  }
+
+  nlohmann::ordered_json inputs() override
+  {
+    return drape_inputs(options, scene, drape.schedule);
+  }
+
+  void open_tables() override
+  {
+    drape.output = std::make_unique<DrapeOutput>(
+      options.output, scene.name, drape.schedule.interval, options.frames, options.costs);
+  }
+
+  void work() override
+  {
+    drape.name = fingerprint(json_text(with_cells(inputs())));
+    if (drape.schedule.duration() < scene.duration * (1. - 1e-6))
+      drape.note(scene.name + ": runs for " + short_text(drape.schedule.duration()) + " s of the " +
+                 short_text(scene.duration) + " s asked for, whole frames of " +
+                 short_text(drape.schedule.interval) + " s");
+    for (const std::string &warning : scene_warnings(scene))
+      drape.note(warning);
+    for (const UnitCell &cell : cells())
+      study_cell(cell);
+  }
+
   void study_cell(const UnitCell &cell)
   {
-    run.progress.milestone(cell.name + ": homogenization");
+    drape.progress.milestone(cell.name + ": homogenization");
     CellNeeds needs              = needs_of(options);
     needs.bending                = scene.has("bending") && !scene.bending;
-    const AssessedCell &assessed = study.homogenize(cell, needs, run.verdicts);
+    const AssessedCell &assessed = homogenize(cell, needs, verdicts);
     const Eigen::Matrix3d &C     = assessed.result.stiffness;
     const MembraneModel chosen   = options.variants.empty()
                                      ? default_model(cell, C)
@@ -91,7 +97,7 @@ private:
     main_variants[cell.name] = name_of(draped.model);
     write_notes_on_laws(draped);
     if (draped.edges)
-      run.note(cell.name + ": " + draped.moving_edges(Method("edges")).sentence());
+      drape.note(cell.name + ": " + draped.moving_edges(Method("edges")).sentence());
     nlohmann::ordered_json description = description_of(draped);
 
     CoarseRuns coarse;
@@ -100,22 +106,22 @@ private:
             {
               write_obstacles(draped);
               for (const Verdict &check : checks_of_scene(draped))
-                run.verdicts.push_back(check);
+                verdicts.push_back(check);
               for (const std::string &variant : cloths_of(options, draped.model))
               {
                 coarse.all.push_back(
-                  run_coarse(draped, variant, run.schedule, *run.output, run.progress));
+                  run_coarse(draped, variant, drape.schedule, *drape.output, drape.progress));
                 judge(draped, coarse.all.back());
                 description["runs"].push_back(coarse.all.back().description);
               }
               if (options.costs)
-                measure_term_costs(draped, *run.output, run.progress);
+                measure_term_costs(draped, *drape.output, drape.progress);
               if (!options.references.empty())
                 coarse.comparison =
                   std::make_unique<DrapeComparison>(draped, options.methods, coarse.all);
             });
     for (const std::string &reference : options.references)
-      description["references"].push_back(run_reference(run, draped, reference, coarse));
+      description["references"].push_back(run_reference(drape, draped, reference, coarse));
     cell_descriptions.push_back(description);
   }
 
@@ -123,20 +129,20 @@ private:
   {
     const std::vector<std::string> cloths = cloths_of(options, draped.model);
     if (options.variants.empty())
-      run.note(note_on_default_model(draped.cell, draped.model));
+      drape.note(note_on_default_model(draped.cell, draped.model));
     for (const std::string &note : notes_on_yarns(draped.cell, options.references))
-      run.note(note);
+      drape.note(note);
     const Eigen::Matrix3d &C = draped.homogenized.stiffness;
     const bool is_corotational =
       std::any_of(cloths.begin(), cloths.end(),
                   [](const std::string &name)
                   { return name == name_of(MembraneModel::corotational) || name == "quadratic"; });
     if (const std::string loss = note_on_corotational_cloth(C); is_corotational && !loss.empty())
-      run.note(draped.cell.name + ": " + loss);
+      drape.note(draped.cell.name + ": " + loss);
     if (is_woven(draped.model))
-      run.note(draped.cell.name + ": " +
-               note_on_coarse_yarns(
-                 draped.model == MembraneModel::woven ? Law::yarn : Law::yarn_tension, C));
+      drape.note(draped.cell.name + ": " +
+                 note_on_coarse_yarns(
+                   draped.model == MembraneModel::woven ? Law::yarn : Law::yarn_tension, C));
   }
 
   nlohmann::ordered_json description_of(const DrapedCell &draped)
@@ -184,50 +190,39 @@ private:
   void judge(const DrapedCell &draped, const CoarseRun &cloth)
   {
     const std::string title = draped.cell.name + ", " + cloth.variant;
-    run.verdicts.push_back(verdict_of_cloth(title, cloth.is_main || cloth.is_of_method,
-                                            static_cast<int>(cloth.frames.size()),
-                                            run.schedule.n_frames + 1));
+    verdicts.push_back(verdict_of_cloth(title, cloth.is_main || cloth.is_of_method,
+                                        static_cast<int>(cloth.frames.size()),
+                                        drape.schedule.n_frames + 1));
     if (!cloth.failure.empty())
-      run.notes.push_back(title + ": " + cloth.failure);
+      drape.notes.push_back(title + ": " + cloth.failure);
   }
 
-  std::vector<Verdict> conclude()
+  StudyDescription conclude() override
   {
-    on_root(communicator,
-            [&]()
-            {
-              nlohmann::ordered_json terms = nlohmann::ordered_json::array();
-              for (const auto &[term, what] : all_terms())
-                terms.push_back({{"name", term},
-                                 {"present", scene.has(term)},
-                                 {scene.has(term) ? "parameters" : "why",
-                                  scene.has(term) ? what : "the scene does not list it"}});
-              for (const std::string &line : run.output->worst_errors(main_variants))
-                run.progress.note(line);
-              nlohmann::ordered_json told = {
-                {"scene", scene.name},
-                {"story", scene.story},
-                {"time_step_s", scene.time_step},
-                {"duration_s", run.schedule.duration()},
-                {"integrator", scene.echo.count("Integrator") ? scene.echo.at("Integrator") : ""},
-                {"terms", terms},
-                {"cells", cell_descriptions},
-                {"parameters", scene.echo}};
-              told.update(sizes);
-              study.conclude(
-                {told, what_was_left_out(options, scene), run.notes, is_taken_up, "drape.json"},
-                run.verdicts);
-            });
-    share_failure(run.verdicts, communicator);
-    return run.verdicts;
+    nlohmann::ordered_json terms = nlohmann::ordered_json::array();
+    for (const auto &[term, what] : all_terms())
+      terms.push_back({{"name", term},
+                       {"present", scene.has(term)},
+                       {scene.has(term) ? "parameters" : "why",
+                        scene.has(term) ? what : "the scene does not list it"}});
+    for (const std::string &line : drape.output->worst_errors(main_variants))
+      drape.progress.note(line);
+    nlohmann::ordered_json told = {
+      {"scene", scene.name},
+      {"story", scene.story},
+      {"time_step_s", scene.time_step},
+      {"duration_s", drape.schedule.duration()},
+      {"integrator", scene.echo.count("Integrator") ? scene.echo.at("Integrator") : ""},
+      {"terms", terms},
+      {"cells", cell_descriptions},
+      {"parameters", scene.echo}};
+    told.update(sizes);
+    return {told, what_was_left_out(options, scene), drape.notes, "drape.json"};
   }
 
   const DrapeOptions options;
-  const MPI_Comm communicator;
   const Scene scene;
-  StudyOfCells study;
-  DrapeRun run;
-  bool is_taken_up = false;
+  DrapeRun drape;
   std::map<std::string, std::string> main_variants; ///< of each cell
   nlohmann::ordered_json cell_descriptions = nlohmann::ordered_json::array(), sizes;
 };
@@ -237,6 +232,6 @@ std::vector<Verdict> run_drape_study(const DrapeOptions &options, const MPI_Comm
 {
   const Scene scene = scene_of(options);
   check_references(options, scene);
-  return DrapeStudy(options, scene, communicator).to_the_end();
+  return DrapeStudy(options, scene, communicator).run();
 }
 } // namespace homespun::verification

@@ -4,11 +4,11 @@
 // the largest lift times the largest strain times the largest characteristic displacement.
 #include "localization/upsampler.h"
 #include "meshes/plain/sheet.h"
+#include "meshes/plain/symmetric_eigen.h"
 #include "meshes/plain/triangle_kinematics.h"
 #include "verification/extremes/stress_cases.h"
 #include "verification/record/number_text.h"
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 
 #include <algorithm>
@@ -64,9 +64,9 @@ Eigen::MatrixXd upsampled(const Sheets &sheets, const Positions<3> &coarse,
 /// U of F = R U by the eigenvectors of F'F, apart from the code under test.
 Eigen::Matrix2d stretch(const Eigen::Matrix<double, 3, 2> &F)
 {
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> squared(F.transpose() * F);
-  return squared.eigenvectors() * squared.eigenvalues().cwiseMax(0.).cwiseSqrt().asDiagonal() *
-         squared.eigenvectors().transpose();
+  const auto squared = meshes::symmetric_eigen<2>(F.transpose() * F);
+  return squared.vectors * squared.values.cwiseMax(0.).cwiseSqrt().asDiagonal() *
+         squared.vectors.transpose();
 }
 
 /// Biot's strain U - I: 11, 22, twice 12.

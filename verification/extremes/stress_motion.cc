@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Motions whose outcome theory knows, and scenes at their time steps.
+#include "meshes/plain/symmetric_eigen.h"
 #include "meshes/plain/triangle_mesh.h"
 #include "shell/contact/obstacles.h"
 #include "shell/terms/bending.h"
@@ -9,7 +10,6 @@
 #include "verification/record/fields.h"
 #include "verification/record/number_text.h"
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 
 #include <algorithm>
@@ -78,8 +78,7 @@ double fall_round_off(const SheetStiffness &stiffness)
         mesh.vertices.row(mesh.triangles(t, (k + 1) % 3)) - mesh.vertices.row(mesh.triangles(t, k));
       altitude = std::min(altitude, 2. * areas(t) / side.norm());
     }
-  const double largest =
-    Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(stiffness.D).eigenvalues()(2);
+  const double largest = meshes::symmetric_eigen<3>(stiffness.D).values(2);
   const double condition =
     1. + std::pow(fall_step / altitude, 2) * 18. * largest / stiffness.areal_density;
   return std::numeric_limits<double>::epsilon() * condition * gravity * std::pow(fall_step, 2) *

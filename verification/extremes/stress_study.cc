@@ -65,23 +65,37 @@ std::vector<std::string> notes(const bool has_cells)
   return all;
 }
 
-class StressStudy
+class StressStudy final : public StudyOfCells
 {
 public:
   StressStudy(const StressStudyOptions &options, const MPI_Comm communicator)
-      : options(options)
-      , communicator(communicator)
-      , is_root(verification::is_root(communicator))
-      , study(options, communicator)
+      : StudyOfCells("stress", options, communicator)
+      , options(options)
   {
   }
 
-  std::vector<Verdict> run()
+private:
+  void refuse() const override
   {
-    for (const homogenization::UnitCell &cell : study.cells())
+    for (const homogenization::UnitCell &cell : cells())
       meshes::tile(cell.mesh, cell.lattice, 1, 1); // refuses cells that make no sheet
-    on_root(communicator, [&]() { open_folder(); });
-    homogenize();
+  }
+
+  nlohmann::ordered_json inputs() override
+  {
+    return {{"repeats", options.repeats},
+            {"most_triangles", options.most_triangles},
+            {"ranks", n_ranks()}};
+  }
+
+  void open_tables() override
+  {
+    table = std::make_unique<Table<StressRow>>(options.output);
+  }
+
+  void work() override
+  {
+    homogenize_given();
     homogenize_by_all_ranks();
     on_root(communicator,
             [&]()
@@ -89,38 +103,27 @@ public:
               collect();
               run_cases();
               measure_solver();
-              conclude();
             });
-    share_failure(verdicts, communicator);
-    return verdicts;
-  }
-
-private:
-  void open_folder()
-  {
-    nlohmann::ordered_json inputs = {{"repeats", options.repeats},
-                                     {"most_triangles", options.most_triangles},
-                                     {"ranks", n_ranks()}};
-    is_taken_up                   = study.open("stress", inputs);
-    table                         = std::make_unique<Table<StressRow>>(options.output);
   }
 
   /// C^H and chi of the given cells.
-  void homogenize()
+  void homogenize_given()
   {
-    Progress progress(is_root && !options.quiet, static_cast<int>(study.cells().size()));
-    for (const homogenization::UnitCell &cell : study.cells())
+    Progress progress(is_root && !options.quiet, static_cast<int>(cells().size()));
+    for (const homogenization::UnitCell &cell : cells())
     {
       progress.milestone(cell.name + ": homogenization");
-      const AssessedCell &assessed = study.homogenize(cell, {}, verdicts);
-      cells.push_back(homogenization::homogenized_cell(cell, assessed.result, provenance_line()));
+      const AssessedCell &assessed = homogenize(cell, {}, verdicts);
+      homogenized.push_back(
+        homogenization::homogenized_cell(cell, assessed.result, provenance_line()));
       names.push_back(cell.name);
-      stiffnesses.push_back({cell.name, cells.back().stiffness, cells.back().areal_density});
+      stiffnesses.push_back(
+        {cell.name, homogenized.back().stiffness, homogenized.back().areal_density});
       progress.done();
     }
-    if (cells.empty())
+    if (homogenized.empty())
     {
-      cells       = {smooth_cell()};
+      homogenized = {smooth_cell()};
       names       = {"smooth modes"};
       stiffnesses = built_in_stiffnesses();
     }
@@ -132,7 +135,7 @@ private:
     if (n_ranks() == 1)
       return;
     std::vector<homogenization::UnitCell> moved = built_in_cells();
-    moved.insert(moved.end(), study.cells().begin(), study.cells().end());
+    moved.insert(moved.end(), cells().begin(), cells().end());
     homogenization::HomogenizationOptions p1;
     p1.order = 1;
     for (const homogenization::UnitCell &cell : moved)
@@ -148,10 +151,11 @@ private:
   {
     stiffnesses = with_twins_of_yarn(stiffnesses);
     for (const std::vector<StressCase> &some :
-         {cell_cases(study.cells(), by_all_ranks, n_ranks(), options.most_triangles),
+         {cell_cases(cells(), by_all_ranks, n_ranks(), options.most_triangles),
           time_step_cases(stiffnesses), stiffness_cases(), start_cases(stiffnesses),
           mesh_cases(stiffnesses[0]), rotation_cases(stiffnesses), spin_cases(stiffnesses),
-          motion_cases(stiffnesses), scene_cases(stiffnesses[0]), localization_cases(cells, names)})
+          motion_cases(stiffnesses), scene_cases(stiffnesses[0]),
+          localization_cases(homogenized, names)})
       cases.insert(cases.end(), some.begin(), some.end());
     std::set<std::vector<std::string>> keys;
     for (const StressCase &one : cases)
@@ -206,7 +210,7 @@ private:
     }
   }
 
-  void conclude()
+  StudyDescription conclude() override
   {
     for (const Verdict &verdict : stress_verdicts(table->rows()))
       verdicts.push_back(verdict);
@@ -220,25 +224,18 @@ private:
                         {"stiffness_N_per_m", rows},
                         {"areal_density_kg_per_m2", sheet.areal_density}});
     }
-    study.conclude({{{"cases", cases.size()}, {"repeats", options.repeats}, {"sheets", sheets}},
-                    what_was_left_out(options.most_triangles, n_ranks()),
-                    notes(!study.cells().empty()),
-                    is_taken_up},
-                   verdicts);
+    return {{{"cases", cases.size()}, {"repeats", options.repeats}, {"sheets", sheets}},
+            what_was_left_out(options.most_triangles, n_ranks()),
+            notes(!cells().empty())};
   }
 
   const StressStudyOptions options;
-  const MPI_Comm communicator;
-  const bool is_root;
-  StudyOfCells study;
   std::vector<Eigen::Matrix3d> by_all_ranks; ///< C^H of the cells that the cases move
-  std::vector<meshes::HomogenizedCell> cells;
+  std::vector<meshes::HomogenizedCell> homogenized;
   std::vector<std::string> names; ///< of the cells
   std::vector<SheetStiffness> stiffnesses;
   std::vector<StressCase> cases;
-  bool is_taken_up = false;                ///< on the first rank alone
   std::unique_ptr<Table<StressRow>> table; ///< on the first rank alone
-  std::vector<Verdict> verdicts;
 };
 } // namespace
 

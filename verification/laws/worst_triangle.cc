@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "verification/laws/worst_triangle.h"
 
+#include "meshes/plain/symmetric_eigen.h"
 #include "meshes/plain/triangle_kinematics.h"
 #include "verification/laws/ellipticity.h"
 #include "verification/record/number_text.h"
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 
 namespace homespun::verification
@@ -38,8 +38,7 @@ WorstTriangle worst_triangle(const meshes::TriangleMesh &rest,
   Eigen::Matrix2d P;
   P << here.stress(0), here.stress(1), here.stress(2), here.stress(3);
   const Eigen::Matrix2d S = F.inverse() * P;
-  worst.stress =
-    Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(0.5 * (S + S.transpose())).eigenvalues();
+  worst.stress            = meshes::symmetric_eigen<2>(0.5 * (S + S.transpose())).values;
   return worst;
 }
 

@@ -163,30 +163,22 @@ Verdict verdict_on_stability(const std::string &what, const LoadPath &path)
           Kind::method};
 }
 
-class LoadStudy
+class LoadStudy final : public StudyOfCells
 {
 public:
   LoadStudy(const LoadStudyOptions &options, const MPI_Comm communicator)
-      : options(options)
-      , communicator(communicator)
-      , study(options, communicator)
+      : StudyOfCells("load", options, communicator)
+      , options(options)
   {
-  }
-
-  std::vector<Verdict> run()
-  {
-    check_yarns(study.cells(), "--law", options.laws);
-    on_root(communicator, [&]() { open(); });
-    std::vector<AssessedCell> assessed;
-    for (const UnitCell &cell : study.cells())
-      assessed.push_back(study.homogenize(cell, {}, verdicts));
-    on_root(communicator, [&]() { solve(assessed); });
-    share_failure(verdicts, communicator);
-    return verdicts;
   }
 
 private:
-  void open()
+  void refuse() const override
+  {
+    check_yarns(cells(), "--law", options.laws);
+  }
+
+  nlohmann::ordered_json inputs() override
   {
     std::set<std::string> names;
     for (const std::string &file : options.measured)
@@ -197,19 +189,23 @@ private:
                                  "` too; expected files of different names: rename one");
         measured.push_back(row);
       }
-    nlohmann::ordered_json inputs = {{"control", options.control.text()},
-                                     {"axis", options.control.axis},
-                                     {"steps", options.n_steps}};
+    nlohmann::ordered_json all = {{"control", options.control.text()},
+                                  {"axis", options.control.axis},
+                                  {"steps", options.n_steps}};
     for (int k = 0; k < 3; ++k) // the text has six digits
-      inputs["value " + std::to_string(k + 1)] = options.control.value(k);
+      all["value " + std::to_string(k + 1)] = options.control.value(k);
     std::string points;
     for (const MeasuredRow &row : measured)
       for (const std::string &field : fields_of_row(row))
         points += field + ",";
-    inputs["measured"] = fingerprint(points);
-    for (const UnitCell &cell : study.cells())
-      inputs["law of " + cell.name] = laws_of(cell);
-    study.open("load", inputs);
+    all["measured"] = fingerprint(points);
+    for (const UnitCell &cell : cells())
+      all["law of " + cell.name] = laws_of(cell);
+    return all;
+  }
+
+  void open_tables() override
+  {
     table = std::make_unique<Table<LoadRow>>(options.output);
     // Paths are short, and solved whole.
     table->keep([](const LoadRow &) { return false; });
@@ -217,16 +213,22 @@ private:
       Table<MeasuredRow>(options.output).replace(measured);
   }
 
+  void work() override
+  {
+    const std::vector<AssessedCell> assessed = homogenize_all();
+    on_root(communicator, [&]() { solve(assessed); });
+  }
+
   void solve(const std::vector<AssessedCell> &assessed)
   {
     std::size_t n_paths = 0;
-    for (const UnitCell &cell : study.cells())
+    for (const UnitCell &cell : cells())
       n_paths += 2 * laws_of(cell).size() - 1;
     Progress progress(!options.quiet, static_cast<int>(n_paths));
-    for (std::size_t k = 0; k < study.cells().size(); ++k)
+    for (std::size_t k = 0; k < cells().size(); ++k)
     {
-      const UnitCell &cell = study.cells()[k];
-      study.write_cell(cell, assessed[k]);
+      const UnitCell &cell = cells()[k];
+      write_cell(cell, assessed[k]);
       const Cloths cloths(cell);
       verdicts.push_back(verdict_on_rest(cell, cloths, assessed[k]));
       const double factor = factor_of_bars(cell);
@@ -244,7 +246,6 @@ private:
         progress.done();
       }
     }
-    write();
   }
 
   /// Linear first.
@@ -271,10 +272,10 @@ private:
     verdicts.push_back(verdict_on_stability(what, path));
   }
 
-  void write()
+  StudyDescription conclude() override
   {
     std::set<std::string> laws;
-    for (const UnitCell &cell : study.cells())
+    for (const UnitCell &cell : cells())
       for (const std::string &law : laws_of(cell))
         laws.insert(law);
     std::vector<std::string> notes = {
@@ -293,7 +294,7 @@ private:
       "Stable means: against the fluctuation of one cell and the free strains; longer waves are "
       "not asked."};
     if (options.laws.empty())
-      for (const UnitCell &cell : study.cells())
+      for (const UnitCell &cell : cells())
         notes.push_back(note_on_default_law(cell));
     nlohmann::ordered_json left_out = {
       {{"what", "mass, damping, third dimension, contact"},
@@ -301,17 +302,12 @@ private:
       {{"what", "edges and clamps"}, {"why", "an infinite cloth has none; `homespun strain` has"}}};
     if (measured.empty())
       left_out.push_back({{"what", "measured curves"}, {"why", "--measured names no file"}});
-    study.conclude(
-      {{{"control", options.control.text()}, {"axis", options.control.axis}, {"laws", laws}},
-       left_out,
-       notes},
-      verdicts);
+    return {{{"control", options.control.text()}, {"axis", options.control.axis}, {"laws", laws}},
+            left_out,
+            notes};
   }
 
   const LoadStudyOptions options;
-  const MPI_Comm communicator;
-  StudyOfCells study;
-  std::vector<Verdict> verdicts;
   // On the first rank alone:
   std::vector<MeasuredRow> measured;
   std::unique_ptr<Table<LoadRow>> table;

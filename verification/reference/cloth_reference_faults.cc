@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "verification/reference/cloth_reference_faults.h"
 
-#include <Eigen/Eigenvalues>
+#include "meshes/plain/symmetric_eigen.h"
+
 
 #include <cmath>
 
@@ -27,7 +28,7 @@ std::vector<std::string> faults_of_cloth(const meshes::TriangleMesh &rest,
   {
     const Eigen::Matrix3d &C = stiffness[p];
     if (!C.allFinite() || (C - C.transpose()).norm() > 1e-12 * C.norm() ||
-        !(Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(C).eigenvalues()(0) > 0.))
+        !(meshes::symmetric_eigen<3>(C).values(0) > 0.))
       faults.push_back("the stiffness of phase " + std::to_string(p) +
                        " is not symmetric and positive definite");
   }

@@ -2,10 +2,10 @@
 #include "verification/reference/laws.h"
 
 #include "meshes/plain/errors.h"
+#include "meshes/plain/symmetric_eigen.h"
 #include "verification/yarns/tension_field.h"
 #include "verification/yarns/yarn_law.h"
 
-#include <Eigen/Eigenvalues>
 
 #include <algorithm>
 #include <array>
@@ -138,9 +138,8 @@ Response response(const Law law, const Eigen::Matrix3d &C, const Eigen::Matrix2d
 
 Eigen::Matrix4d positive_part(const Eigen::Matrix4d &tangent)
 {
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix4d> eigen(tangent);
-  return eigen.eigenvectors() * eigen.eigenvalues().cwiseMax(0.).asDiagonal() *
-         eigen.eigenvectors().transpose();
+  const auto eigen = meshes::symmetric_eigen<4>(tangent);
+  return eigen.vectors * eigen.values.cwiseMax(0.).asDiagonal() * eigen.vectors.transpose();
 }
 
 double steadying(const Law law, const Eigen::Matrix3d &C)

@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <memory>
 #include <sstream>
 #include <thread>
 
@@ -87,23 +88,40 @@ int number_of_cores(const ScalingOptions &options)
 {
   return options.cores > 0 ? options.cores : static_cast<int>(std::thread::hardware_concurrency());
 }
-} // namespace
 
-ScalingResult run_scaling_study(const ScalingOptions &options)
+class ScalingStudy final : public StudyOfCells
 {
-  StudyOfCells study(options, MPI_COMM_NULL);
-  const homogenization::UnitCell &cell = study.cells().front();
-  const bool is_taken_up = study.open("scaling", {{"refinements", options.refinements},
-                                                  {"ranks", options.ranks},
-                                                  {"repeats", options.repeats},
-                                                  {"order", options.order},
-                                                  {"launcher", options.launcher},
-                                                  {"cores", number_of_cores(options)}});
-  Table<ScalingRun> table(options.output);
-  const int n_runs =
-    static_cast<int>(options.refinements.size() * options.ranks.size()) * options.repeats;
+public:
+  explicit ScalingStudy(const ScalingOptions &options)
+      : StudyOfCells("scaling", options, MPI_COMM_NULL)
+      , options(options)
+      , cell(cells().front())
   {
-    Progress progress(!options.quiet, n_runs);
+  }
+
+  const std::vector<ScalingRun> &runs() const
+  {
+    return table->rows();
+  }
+
+private:
+  nlohmann::ordered_json inputs() override
+  {
+    return {{"refinements", options.refinements}, {"ranks", options.ranks},
+            {"repeats", options.repeats},         {"order", options.order},
+            {"launcher", options.launcher},       {"cores", number_of_cores(options)}};
+  }
+
+  void open_tables() override
+  {
+    table = std::make_unique<Table<ScalingRun>>(options.output);
+  }
+
+  void work() override
+  {
+    Progress progress(!options.quiet,
+                      static_cast<int>(options.refinements.size() * options.ranks.size()) *
+                        options.repeats);
     for (int repeat = 0; repeat < options.repeats; ++repeat)
       for (const int refine : options.refinements)
         for (const int ranks : options.ranks)
@@ -114,35 +132,48 @@ ScalingResult run_scaling_study(const ScalingOptions &options)
           run.refine = refine;
           run.ranks  = ranks;
           run.repeat = repeat;
-          if (!table.contains(run))
+          if (!table->contains(run))
           {
             run        = measure(options, refine, ranks);
             run.refine = refine;
             run.ranks  = ranks;
             run.repeat = repeat;
-            table.append(run);
+            table->append(run);
           }
           progress.done();
         }
   }
-  const std::vector<ScalingRun> &runs = table.rows();
-  const std::vector<Verdict> verdicts = verdicts_of(runs);
-  nlohmann::ordered_json told         = {
-            {"cell", cell.name},       {"triangles_of_given_mesh", cell.mesh.n_triangles()},
-            {"order", options.order},  {"launcher", options.launcher},
-            {"memory_model", nullptr}, {"time_model", nullptr}};
-  const int cores = number_of_cores(options);
-  if (const auto memory = memory_model_of(runs))
-    told["memory_model"] = {{"bytes_per_rank", memory->fixed},
-                            {"bytes_per_dof", memory->shared},
-                            {"misfit", memory->misfit}};
-  if (const auto time = time_model_of(runs, cores))
-    told["time_model"] = {{"cores", cores},
-                          {"serial_seconds_per_dof", time->fixed},
-                          {"seconds_per_dof", time->shared},
-                          {"misfit", time->misfit}};
-  study.conclude(
-    {told, nlohmann::ordered_json::array(), notes_of(runs), is_taken_up, "scaling.json"}, verdicts);
-  return {runs, verdicts};
+
+  StudyDescription conclude() override
+  {
+    verdicts                    = verdicts_of(runs());
+    nlohmann::ordered_json told = {
+      {"cell", cell.name},       {"triangles_of_given_mesh", cell.mesh.n_triangles()},
+      {"order", options.order},  {"launcher", options.launcher},
+      {"memory_model", nullptr}, {"time_model", nullptr}};
+    const int cores = number_of_cores(options);
+    if (const auto memory = memory_model_of(runs()))
+      told["memory_model"] = {{"bytes_per_rank", memory->fixed},
+                              {"bytes_per_dof", memory->shared},
+                              {"misfit", memory->misfit}};
+    if (const auto time = time_model_of(runs(), cores))
+      told["time_model"] = {{"cores", cores},
+                            {"serial_seconds_per_dof", time->fixed},
+                            {"seconds_per_dof", time->shared},
+                            {"misfit", time->misfit}};
+    return {told, nlohmann::ordered_json::array(), notes_of(runs()), "scaling.json"};
+  }
+
+  const ScalingOptions options;
+  const homogenization::UnitCell &cell;
+  std::unique_ptr<Table<ScalingRun>> table;
+};
+} // namespace
+
+ScalingResult run_scaling_study(const ScalingOptions &options)
+{
+  ScalingStudy study(options);
+  const std::vector<Verdict> verdicts = study.run();
+  return {study.runs(), verdicts};
 }
 } // namespace homespun::verification

@@ -37,43 +37,49 @@ using homogenization::UnitCell;
 
 namespace
 {
-class StrainStudy
+class StrainStudy final : public StudyOfCells
 {
 public:
   StrainStudy(const StrainStudyOptions &asked, const MPI_Comm communicator)
-      : asked(asked)
-      , communicator(communicator)
+      : StudyOfCells("strain", asked, communicator)
+      , asked(asked)
       , n_ranks(n_ranks_of(communicator))
-      , is_root(verification::is_root(communicator))
-      , study(asked, communicator)
       , progress(is_root && !asked.quiet,
                  static_cast<int>(asked.cell_files.size() * asked.loads.size() *
                                   (1 + references_per_cell(asked) * asked.strains.size())))
   {
   }
 
-  std::vector<Verdict> run()
+private:
+  void refuse() const override
   {
-    const std::vector<UnitCell> &cells = study.cells();
-    check_yarns(cells, "--references", asked.references);
-    options = options_of(asked, cells);
-    for (const UnitCell &cell : cells)
-      meshes::tile(cell.mesh, cell.lattice, 1, 1); // refuses what makes no sheet, before any file
-    on_root(communicator, [&]() { open_tables(); });
-    for (const UnitCell &cell : cells)
-      study_cell(cell);
-    return conclude();
+    check_yarns(cells(), "--references", asked.references);
+    for (const UnitCell &cell : cells())
+      meshes::tile(cell.mesh, cell.lattice, 1, 1); // refuses what makes no sheet
   }
 
-private:
-  /// Tables live on the first rank alone.
-  void open_tables()
+  nlohmann::ordered_json inputs() override
   {
-    is_taken_up = study.open("strain", strain_inputs(asked, study.cells()));
-    output      = std::make_unique<StrainOutput>(options, [this](const std::string &line)
+    return strain_inputs(asked, cells());
+  }
+
+  /// Tables live on the first rank alone.
+  void open_tables() override
+  {
+    options = options_of(asked, cells());
+    output  = std::make_unique<StrainOutput>(options, [this](const std::string &line)
                                             { progress.note(line); });
-    for (const std::string &note : notes_on_references(asked, study.cells()))
+    for (const std::string &note : notes_on_references(asked, cells()))
       progress.note(note);
+  }
+
+  void work() override
+  {
+    for (const UnitCell &cell : cells())
+      study_cell(cell);
+    options                          = options_of(asked, cells());
+    const std::vector<double> memory = peak_memory_of_ranks(communicator);
+    peak_memory                      = std::accumulate(memory.begin(), memory.end(), 0.);
   }
 
   void study_cell(const UnitCell &cell)
@@ -87,11 +93,11 @@ private:
     CellNeeds needs;
     needs.second_order           = laws_of_second_order(options);
     needs.edges                  = has_edges(options);
-    const AssessedCell &assessed = study.homogenize(cell, needs, verdicts);
+    const AssessedCell &assessed = homogenize(cell, needs, verdicts);
     on_root(communicator,
             [&]()
             {
-              const std::string folder = study.write_cell(cell, assessed);
+              const std::string folder = write_cell(cell, assessed);
               for (const auto &some : {cell_file_verdicts(folder + "/cell.h5", cell),
                                        self_checks(cell, laws_of(options), options.strains.back())})
                 verdicts.insert(verdicts.end(), some.begin(), some.end());
@@ -343,49 +349,32 @@ private:
     return is_solved == 1;
   }
 
-  std::vector<Verdict> conclude()
+  StudyDescription conclude() override
   {
-    options                          = options_of(asked, study.cells());
-    const std::vector<double> memory = peak_memory_of_ranks(communicator);
-    const double peak_memory         = std::accumulate(memory.begin(), memory.end(), 0.);
-    on_root(communicator,
-            [&]()
-            {
-              const std::vector<Verdict> of_tables = study_verdicts(*output, options);
-              verdicts.insert(verdicts.end(), of_tables.begin(), of_tables.end());
-              output->write_validity();
-              std::vector<std::string> notes = notes_on_references(asked, study.cells());
-              for (const UnitCell &cell : study.cells())
-                for (const std::string &note :
-                     notes_on_yarns(cell, options_of(asked, cell).references))
-                  notes.push_back(note);
-              for (const std::string &note : output->notes())
-                notes.push_back(note);
-              if (options.budget)
-                for (const std::string &note :
-                     budget_notes(output->strain_rows(), output->budget->rows()))
-                  notes.push_back(note);
-              study.conclude(describe(options, {output->strain_rows(), output->step_rows(), notes},
-                                      {peak_memory, largest_residual, is_taken_up}),
-                             verdicts);
-            });
-    share_failure(verdicts, communicator);
-    return verdicts;
+    const std::vector<Verdict> of_tables = study_verdicts(*output, options);
+    verdicts.insert(verdicts.end(), of_tables.begin(), of_tables.end());
+    output->write_validity();
+    std::vector<std::string> notes = notes_on_references(asked, cells());
+    for (const UnitCell &cell : cells())
+      for (const std::string &note : notes_on_yarns(cell, options_of(asked, cell).references))
+        notes.push_back(note);
+    for (const std::string &note : output->notes())
+      notes.push_back(note);
+    if (options.budget)
+      for (const std::string &note : budget_notes(output->strain_rows(), output->budget->rows()))
+        notes.push_back(note);
+    return describe(options, {output->strain_rows(), output->step_rows(), notes},
+                    {peak_memory, largest_residual});
   }
 
   const StrainStudyOptions asked;
   StrainStudyOptions options; ///< the same, with the references of the present cell, or of all
-  const MPI_Comm communicator;
   const unsigned int n_ranks;
-  const bool is_root;
-  StudyOfCells study;
   Progress progress;
-  bool is_taken_up = false;             ///< first rank
   std::unique_ptr<StrainOutput> output; ///< first rank
   std::unique_ptr<BudgetStudy> budget;  ///< of the present cell; none where it is left out
   KnownEdges edges;                     ///< of the present cell
-  std::vector<Verdict> verdicts;
-  double largest_residual = 0.;
+  double largest_residual = 0., peak_memory = 0.;
 };
 } // namespace
 

@@ -193,8 +193,7 @@ StudyDescription describe(const StrainStudyOptions &options, const StudyRecord &
            {"largest_relative_residual", cost.largest_residual},
            {"peak_memory_bytes", cost.peak_memory}},
           what_was_left_out(options),
-          notes,
-          cost.is_taken_up};
+          notes};
 }
 
 nlohmann::ordered_json strain_inputs(const StrainStudyOptions &asked,

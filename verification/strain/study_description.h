@@ -16,9 +16,8 @@ namespace homespun::verification
 {
 struct StudyCost
 {
-  double peak_memory      = 0.;    ///< of all ranks together [B]
-  double largest_residual = 0.;    ///< of the references, relative
-  bool is_taken_up        = false; ///< an earlier process of the same run had begun
+  double peak_memory      = 0.; ///< of all ranks together [B]
+  double largest_residual = 0.; ///< of the references, relative
 };
 
 /// What ran.

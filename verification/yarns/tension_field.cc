@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "verification/yarns/tension_field.h"
 
+#include "meshes/plain/symmetric_eigen.h"
 #include "verification/yarns/yarn_law.h"
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 
 #include <algorithm>
@@ -39,15 +39,15 @@ MetricResponse yarns_at(const YarnAxes &straight, const Matrix2d &metric)
 /// direction m of the largest pressure. A cloth that is much too short somewhere: up to its length.
 Vector2d first_guess(const Matrix2d &metric, const MetricResponse &flat)
 {
-  const Eigen::SelfAdjointEigenSolver<Matrix2d> stretches(metric);
-  const double missing = 1. - stretches.eigenvalues()(0);
+  const auto stretches = meshes::symmetric_eigen<2>(metric);
+  const double missing = 1. - stretches.values(0);
   if (missing > 0.1)
-    return std::sqrt(missing) * stretches.eigenvectors().col(0);
-  const Eigen::SelfAdjointEigenSolver<Matrix2d> stress(symmetric(flat.force));
-  const Vector2d m     = stress.eigenvectors().col(0);
+    return std::sqrt(missing) * stretches.vectors.col(0);
+  const auto stress    = meshes::symmetric_eigen<2>(symmetric(flat.force));
+  const Vector2d m     = stress.vectors.col(0);
   const Vector3d along = strain_of(m, m);
   const double rise    = along.dot(flat.stiffness * along);
-  return std::sqrt(rise > 0. ? std::min(-2. * stress.eigenvalues()(0) / rise, 0.1) : 0.1) * m;
+  return std::sqrt(rise > 0. ? std::min(-2. * stress.values(0) / rise, 0.1) : 0.1) * m;
 }
 
 /// The wrinkle w of least energy, by Newton's method on the gradient S w.
@@ -64,11 +64,10 @@ Vector2d least_wrinkle(const YarnAxes &straight, const Matrix2d &metric, const M
     const Vector2d gradient = S * w;
     Eigen::Matrix<double, 3, 2> B; // of E by w
     B << w(0), 0., 0., w(1), w(1), w(0);
-    const Eigen::SelfAdjointEigenSolver<Matrix2d> curvature(B.transpose() * here.stiffness * B + S);
-    const Vector2d positive =
-      curvature.eigenvalues().cwiseAbs().cwiseMax(1e-12 * size * w.squaredNorm());
-    const Vector2d step = -curvature.eigenvectors() *
-                          (curvature.eigenvectors().transpose() * gradient).cwiseQuotient(positive);
+    const auto curvature    = meshes::symmetric_eigen<2>(B.transpose() * here.stiffness * B + S);
+    const Vector2d positive = curvature.values.cwiseAbs().cwiseMax(1e-12 * size * w.squaredNorm());
+    const Vector2d step =
+      -curvature.vectors * (curvature.vectors.transpose() * gradient).cwiseQuotient(positive);
     if (!(step.norm() > 1e-15 * w.norm()))
       break;
     bool is_taken = false;
@@ -96,14 +95,13 @@ Vector2d least_wrinkle(const YarnAxes &straight, const Matrix2d &metric, const M
 /// In the axes of the yarns.
 TensionField in_axes(const YarnAxes &straight, const Matrix2d &metric)
 {
-  const Eigen::SelfAdjointEigenSolver<Matrix2d> stretches(metric);
-  if (stretches.eigenvalues()(1) < 1. - round_off)
+  const auto stretches = meshes::symmetric_eigen<2>(metric);
+  if (stretches.values(1) < 1. - round_off)
     return {ClothState::slack, {0., Vector3d::Zero(), Eigen::Matrix3d::Zero()}};
   const double size         = straight.C.cwiseAbs().maxCoeff();
   const MetricResponse flat = yarns_at(straight, metric);
-  const bool is_line        = stretches.eigenvalues()(0) <= 1e-12 * stretches.eigenvalues()(1);
-  if (!is_line && Eigen::SelfAdjointEigenSolver<Matrix2d>(symmetric(flat.force)).eigenvalues()(0) >=
-                    -1e-13 * size)
+  const bool is_line        = stretches.values(0) <= 1e-12 * stretches.values(1);
+  if (!is_line && meshes::symmetric_eigen<2>(symmetric(flat.force)).values(0) >= -1e-13 * size)
     return {ClothState::taut, flat};
   const Vector2d w           = least_wrinkle(straight, metric, flat);
   const MetricResponse there = yarns_at(straight, metric + w * w.transpose());

@@ -2,7 +2,6 @@
 // A study of cells from end to end, as short as one can be: what of it is its own, and what the
 // frame does for it.
 #include "verification/cell/study_of_cells.h"
-#include "verification/record/on_root.h"
 #include "verification/record/table.h"
 
 #include <gtest/gtest.h>
@@ -32,26 +31,47 @@ struct StiffestRow
   }
 };
 
-/// @return the folder that each cell was read from; empty: it was solved
-std::vector<std::string> run_stiffest_study(const StudyOptions &options,
-                                            std::vector<Verdict> &verdicts)
+class StiffestStudy final : public StudyOfCells
 {
-  StudyOfCells study(options, MPI_COMM_SELF);
-  StudyDescription description;
-  description.is_resumed = study.open("stiffest", nlohmann::ordered_json::object());
-  Table<StiffestRow> table(options.output);
-  std::vector<std::string> folders;
-  for (const homogenization::UnitCell &cell : study.cells())
+public:
+  explicit StiffestStudy(const StudyOptions &options)
+      : StudyOfCells("stiffest", options, MPI_COMM_SELF)
+      , options(options)
   {
-    const AssessedCell &assessed = study.homogenize(cell, {}, verdicts);
-    study.write_cell(cell, assessed);
-    table.append_if_missing({cell.name, assessed.result.stiffness.maxCoeff()});
-    folders.push_back(assessed.folder);
   }
-  description.notes = {"the largest entry, not the largest energy"};
-  study.conclude(description, verdicts);
-  return folders;
-}
+
+  std::vector<std::string> folders; ///< that each cell was read from; empty: it was solved
+
+private:
+  nlohmann::ordered_json inputs() override
+  {
+    return nlohmann::ordered_json::object();
+  }
+
+  void open_tables() override
+  {
+    table = std::make_unique<Table<StiffestRow>>(options.output);
+  }
+
+  void work() override
+  {
+    for (const homogenization::UnitCell &cell : cells())
+    {
+      const AssessedCell &assessed = homogenize(cell, {}, verdicts);
+      write_cell(cell, assessed);
+      table->append_if_missing({cell.name, assessed.result.stiffness.maxCoeff()});
+      folders.push_back(assessed.folder);
+    }
+  }
+
+  StudyDescription conclude() override
+  {
+    return {{}, {}, {"the largest entry, not the largest energy"}};
+  }
+
+  const StudyOptions options;
+  std::unique_ptr<Table<StiffestRow>> table;
+};
 
 std::string content_of(const std::string &file)
 {
@@ -66,8 +86,9 @@ TEST(exact_study_of_cells, a_new_study_is_its_table_and_its_claims_and_is_taken_
   options.cell_files = {std::string(CELLS) + "layered.prm"};
   options.output     = testing::TempDir() + "study_of_cells";
   std::filesystem::remove_all(options.output);
-  std::vector<Verdict> first, second;
-  EXPECT_EQ(run_stiffest_study(options, first), std::vector<std::string>{""});
+  StiffestStudy study(options);
+  const std::vector<Verdict> first = study.run();
+  EXPECT_EQ(study.folders, std::vector<std::string>{""});
   const std::string table = content_of(options.output + "/stiffest.csv");
   EXPECT_NE(table.find("layered,"), std::string::npos);
   EXPECT_NE(content_of(options.output + "/study.json").find("largest energy"), std::string::npos);
@@ -75,8 +96,9 @@ TEST(exact_study_of_cells, a_new_study_is_its_table_and_its_claims_and_is_taken_
   EXPECT_NE(content_of(options.output + "/run.json").find("\"finished\": true"), std::string::npos);
 
   // Begun again it solves nothing, and says the same.
-  EXPECT_EQ(run_stiffest_study(options, second),
-            std::vector<std::string>{options.output + "/layered"});
+  StiffestStudy again(options);
+  const std::vector<Verdict> second = again.run();
+  EXPECT_EQ(again.folders, std::vector<std::string>{options.output + "/layered"});
   EXPECT_EQ(content_of(options.output + "/stiffest.csv"), table);
   ASSERT_EQ(first.size(), second.size());
   for (std::size_t k = 0; k < first.size(); ++k)

@@ -16,7 +16,7 @@ from made_up_study import LAMINATE, write_results
 from page import answer, claims, entries, tables
 from page.glossary import GLOSSARY
 from page.run_contents import self_tests
-from page_case import PageTest
+from page_case import PageTest, draw_alone
 from read.cell_results import Cell
 from read.results import read_results
 from read.schema import main_method
@@ -239,6 +239,7 @@ class AnswerPageTest(PageTest):
         list_again(self.folder)
 
     def test_the_answer_comes_first_and_words_are_explained(self):
+        draw_alone(self.addCleanup)
         self.assertEqual(self.run_report(), (0, ""))
         page = self.page()
         first = page[page.index("<h1>") : page.index("<nav")]
@@ -257,6 +258,7 @@ class AnswerPageTest(PageTest):
             self.assertIn(f"<dt>{word}</dt>", page)
 
     def test_a_cell_without_a_study_answers_with_its_stiffness(self):
+        draw_alone(self.addCleanup)
         alone = os.path.join(self.place, "homogenize")
         os.rename(os.path.join(self.folder, "stripes"), alone)
         write_run(alone, "homogenize")
@@ -267,6 +269,7 @@ class AnswerPageTest(PageTest):
         self.assertIn("`homespun strain` makes them", first)
 
     def test_a_cell_that_is_not_cut_as_it_is_drawn_says_so_on_the_first_screen(self):
+        draw_alone(self.addCleanup)
         self.assertEqual(self.run_report(), (0, ""))
         self.assertNotIn("The cell is not the one that is drawn", self.page())
         path = os.path.join(self.folder, "stripes", "homogenize.json")

@@ -14,7 +14,7 @@ from figures import fabrics
 from figures.stiffness import directional_modulus
 from made_up_run import list_again
 from made_up_study import write_results
-from page_case import PageTest
+from page_case import PageTest, draw_alone
 
 BENDING = numpy.array([[5e-5, 6e-6, 1e-20], [6e-6, 2e-5, 0.0], [1e-20, 0.0, 2.2e-5]])
 
@@ -75,6 +75,7 @@ class BendingTest(PageTest):
         )
 
     def test_what_is_not_stored_is_said_once(self):
+        draw_alone(self.addCleanup)
         write_results(self.folder)
         self.assertEqual(self.run_report(), (0, ""))
         self.assertEqual(self.page().count("bending stiffness of stripes, because"), 1)

@@ -15,7 +15,7 @@ from figures import budget, plot_data
 from made_up_run import list_again, write_table
 from made_up_study import write_results
 from page import budget_contents
-from page_case import PageTest
+from page_case import PageTest, draw_alone
 from read import budget_results
 
 WAYS = (
@@ -291,6 +291,7 @@ class BudgetReport(PageTest):
             self.assertIn(text, page)
 
     def test_the_energy_of_the_reference_stands_between_its_sides(self):
+        draw_alone(self.addCleanup)
         self.assertEqual(self.run_report(), (0, ""))
         cells = re.findall(r"<td[^>]*>([^<]*)</td>", self.page())
         energy = "2.00 × 10⁻⁶"
@@ -305,6 +306,7 @@ class BudgetReport(PageTest):
         self.assertNotIn("Prager and Synge", self.page())
 
     def test_what_was_left_out_is_said(self):
+        draw_alone(self.addCleanup)
         self.remove("budget.csv", "runtime.csv", "validity.csv")
         self.assertEqual(self.run_report(), (0, ""))
         for text in (

@@ -10,7 +10,7 @@ from figures.comparison import comparison_figure, drawn
 from made_up_run import verdict, write_run, write_verdicts
 from made_up_study import write_results
 from page.comparison import claims_side_by_side, key_of, time_rows, validity_rows
-from page_case import PageTest
+from page_case import PageTest, draw_alone
 from read import results, runs, versions
 from read.results import read_results
 
@@ -164,6 +164,7 @@ class ComparisonTest(PageTest):
         self.assertEqual(shown(paper), [("strip-1", ["2 %"])])
 
     def test_one_cell_is_not_compared(self):
+        draw_alone(self.addCleanup)
         self.assertEqual(self.run_report(self.write("alone")), (0, ""))
         self.assertNotIn("comparison", self.page().split("</style>")[1].split("<script>")[0])
 
@@ -244,6 +245,7 @@ class ComparisonTest(PageTest):
         )
 
     def test_a_page_of_several_runs_says_which_and_that_their_revisions_differ(self):
+        draw_alone(self.addCleanup)
         one, two = self.write("old", "strain"), self.write("new", "strain", revision="def5678")
         self.assertEqual(self.run_report(one, two), (0, ""))
         page = self.page()

@@ -12,7 +12,7 @@ import report_path  # noqa: F401
 from figures import forces, plot_data
 from made_up_study import force_rows, write_results
 from page import force_contents
-from page_case import PageTest
+from page_case import PageTest, draw_alone
 
 
 class PartTest(unittest.TestCase):
@@ -79,6 +79,7 @@ class ForcePageTest(PageTest):
         self.assertTrue(any(row["y_quantity"] == "force per width [N/m]" for row in rows))
 
     def test_a_run_without_forces_says_so(self):
+        draw_alone(self.addCleanup)
         write_results(self.folder)
         self.remove("forces.csv")
         status, errors = self.run_report()

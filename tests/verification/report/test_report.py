@@ -19,7 +19,7 @@ from made_up_run import list_again, verdict, write_run, write_verdicts
 from made_up_study import LAMINATE, square_mesh, strain_rows, write_results
 from page.contents import HEADINGS
 from page.tables import phase_rows
-from page_case import PageTest
+from page_case import PageTest, draw_alone
 from read import results
 from read.cell_results import Cell, grouped, share_groups
 
@@ -93,6 +93,7 @@ class ReportTest(PageTest):
             self.assertNotIn(words, page)
 
     def test_the_claims_of_verify_stand_for_those_of_its_parts(self):
+        draw_alone(self.addCleanup)
         all_parts = os.path.join(self.place, "verify")
         os.makedirs(all_parts)
         write_verdicts(
@@ -118,6 +119,7 @@ class ReportTest(PageTest):
         self.assertIn("One run of `homespun verify` (revision abc1234", page)
 
     def test_claims_stand_by_what_they_speak_of_with_where_their_limits_come_from(self):
+        draw_alone(self.addCleanup)
         claims = [
             verdict("a holds", "PASS", 1.0, "<= 2", "method"),
             verdict("b is open", "INCONCLUSIVE", 1.0, "<= 2", "method"),

@@ -7,6 +7,7 @@ knows of another: each is saved by a process of its own, a copy of this one, as 
 there are cores, while the next is drawn.
 """
 import base64
+import functools
 import io
 import json
 import multiprocessing
@@ -104,6 +105,19 @@ def in_page(value):
     )
 
 
+@functools.cache
+def learn_to_draw():
+    """Draws a word, a formula and a logarithmic axis into every format, for nobody: fonts, the
+    grammar of formulas and the writers of files are then there in every copy of this process, which
+    would each load them again.
+    """
+    figure, axes = pyplot.subplots(figsize=(1, 1))
+    axes.set(xscale="log", xlim=(1, 10), xlabel="words", ylabel="$C^H$")
+    for kind in ("pdf", "svg", "png"):
+        figure.savefig(io.BytesIO(), format=kind)
+    pyplot.close(figure)
+
+
 class Gallery:
     """Saves figures into a folder and keeps them as data URIs for the page."""
 
@@ -115,6 +129,7 @@ class Gallery:
         self.folder = folder
         self.dpi = PAGE_DPI * min(1.0, (FULL_IMAGES / max(1, images)) ** 0.5)
         os.makedirs(folder, exist_ok=True)
+        learn_to_draw()
         self.names = set()
         self.at_once = len(os.sched_getaffinity(0))
         self.saving = {}  # connection: process and Picture
