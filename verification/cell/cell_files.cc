@@ -8,6 +8,7 @@
 #include "meshes/files/write_whole.h"
 #include "verification/cell/cell_bars.h"
 #include "verification/cell/cell_edges.h"
+#include "verification/cell/cell_second_order.h"
 #include "verification/cell/energy_order.h"
 #include "verification/cell/phase_fields.h"
 #include "verification/cell/shell_sections.h"
@@ -303,6 +304,18 @@ ordered_json homogenize_json(const UnitCell &cell, const AssessedCell &assessed,
   return json;
 }
 
+/// What /chi_quadratic of cell.h5 holds, in short.
+ordered_json second_order_json(const UnitCell &cell, const AssessedCell &assessed)
+{
+  ordered_json laws = ordered_json::array();
+  for (const auto &[law, its] : assessed.result.second_order)
+    laws.push_back(law);
+  ordered_json json = {{"laws", laws}};
+  if (laws.empty() && assessed.options.second_order.empty())
+    json["why_not"] = too_dear_second_order(cell, assessed.options);
+  return json;
+}
+
 /// What /edges of cell.h5 holds, in short.
 ordered_json edges_json(const KnownEdges &known)
 {
@@ -373,8 +386,9 @@ void write_cell_results(const UnitCell &cell, const AssessedCell &assessed,
     meshes::write_whole(folder + "/shell-section-abaqus.inp", abaqus_section(section));
     meshes::write_whole(folder + "/shell-section-code_aster.comm", aster_section(section));
   }
-  ordered_json json = homogenize_json(cell, assessed, uncertain, n_ranks);
-  json["edges"]     = edges_json(known);
+  ordered_json json    = homogenize_json(cell, assessed, uncertain, n_ranks);
+  json["edges"]        = edges_json(known);
+  json["second_order"] = second_order_json(cell, assessed);
   write_json(folder + "/homogenize.json", json);
 }
 } // namespace homespun::verification

@@ -3,6 +3,7 @@
 
 #include "homogenization/fem/solution_pieces.h"
 #include "verification/cell/cell_files.h"
+#include "verification/cell/cell_second_order.h"
 #include "verification/cell/study_inputs.h"
 #include "verification/record/on_root.h"
 #include "verification/record/peak_memory.h"
@@ -44,7 +45,8 @@ AssessedCell run_cell_study(const homogenization::UnitCell &cell, const CellStud
                             const MPI_Comm communicator)
 {
   homogenization::HomogenizationOptions solve = options.solve;
-  solve.second_order                          = homogenization::laws_of_second_order(cell.phases);
+  if (too_dear_second_order(cell, solve).empty())
+    solve.second_order = homogenization::laws_of_second_order(cell.phases);
   if (options.pieces)
     solve.pieces = options.output + "/" + name_of_pieces;
   std::unique_ptr<RunFolder> folder; // on the first rank

@@ -2,6 +2,7 @@
 #include "verification/cell/cell_summary.h"
 
 #include "verification/cell/cell_bars.h"
+#include "verification/cell/cell_second_order.h"
 #include "verification/cell/energy_order.h"
 #include "verification/cell/study_inputs.h"
 #include "verification/record/number_text.h"
@@ -131,10 +132,15 @@ std::string moduli_text(const Eigen::Matrix3d &stiffness,
 }
 
 /// Why there is no second order in strain; empty where there is one, or nobody asked.
-std::string second_order_text(const AssessedCell &assessed)
+std::string second_order_text(const UnitCell &cell, const AssessedCell &assessed)
 {
-  if (assessed.options.second_order.empty() || !assessed.result.second_order.empty())
+  if (!assessed.result.second_order.empty())
     return "";
+  if (assessed.options.second_order.empty())
+  {
+    const std::string why_not = too_dear_second_order(cell, assessed.options);
+    return why_not.empty() ? "" : "No quadratic modes and no cubic energy: " + why_not + "\n";
+  }
   return "No quadratic modes and no cubic energy: C^H and chi are those of an adapted mesh. "
          "Without --tolerance there are some\n";
 }
@@ -197,7 +203,7 @@ std::string summary(const UnitCell &cell, const AssessedCell &assessed,
   }
   if (assessed.bending)
     text << bending_text(*assessed.bending);
-  text << second_order_text(assessed) << inputs_text(cell, assessed, uncertain)
+  text << second_order_text(cell, assessed) << inputs_text(cell, assessed, uncertain)
        << geometry_text(cell, result);
   for (const Verdict &check : assessed.checks)
   {

@@ -46,10 +46,29 @@ class Edges(InFolder):
                      "--output", output)
         self.assertEqual(result.returncode, 0, result.stderr)
         summary = json.loads((output / "homogenize.json").read_text())
+        self.assertEqual(summary["second_order"], {"laws": ["biot", "green"]})
         self.assertFalse(summary["edges"]["stored"])
         self.assertRegex(summary["edges"]["why_not"],
                          r"^they would take about 1[0-9] s on this mesh, more than 10: strain")
         # The closed form of the laminate: what is left out touches nothing else.
+        for found, known in zip(summary["C"], answered_cells.laminate_stiffness()):
+            for entry, answer in zip(found, known):
+                self.assertAlmostEqual(entry, answer, delta=1e-6)
+
+    def test_modes_that_would_take_longer_than_all_else_are_left_out_with_an_estimate(self):
+        sys.path.insert(0, str(CELLS.parents[1] / "tests" / "benchmarks" / "pareto"))
+        import answered_cells  # pylint: disable=import-outside-toplevel,import-error
+        answered_cells.write_cell_file(answered_cells.make_cell("laminate", 112),
+                                       self.folder / "finer")
+        output = self.folder / "out"
+        result = run("homogenize", self.folder / "finer.prm", "--order", "1", "--refine", "2",
+                     "--no-bars", "--output", output)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        summary = json.loads((output / "homogenize.json").read_text())
+        why_not = r"they would take about 1[0-9] s on this mesh, more than 10: studies make them"
+        self.assertEqual(summary["second_order"]["laws"], [])
+        self.assertRegex(summary["second_order"]["why_not"], "^" + why_not)
+        self.assertRegex(result.stdout, "No quadratic modes and no cubic energy: " + why_not)
         for found, known in zip(summary["C"], answered_cells.laminate_stiffness()):
             for entry, answer in zip(found, known):
                 self.assertAlmostEqual(entry, answer, delta=1e-6)
