@@ -96,9 +96,9 @@ private:
                                        self_checks(cell, laws_of(options), options.strains.back())})
                 verdicts.insert(verdicts.end(), some.begin(), some.end());
             });
-    meshes::HomogenizedCell homogenized =
+    const meshes::HomogenizedCell homogenized =
       homogenization::homogenized_cell(cell, assessed.result, provenance_line());
-    on_root(communicator, [&]() { add_fitted_modes(options, cell, homogenized, *output); });
+    on_root(communicator, [&]() { fitted = modes_of_study(options, cell, homogenized, *output); });
     const meshes::Sheet repeated =
       meshes::tile(cell.mesh, cell.lattice, options.supercell[0], options.supercell[1]);
     std::unique_ptr<meshes::Sheet> full; // made where a load asks for it
@@ -188,6 +188,7 @@ private:
       reference = std::make_unique<FineReference>(sheet, cell.stiffness_of_phase(),
                                                   ReferenceOptions(), communicator);
     MethodOnSheet method = method_on_sheet(options, cell, homogenized, edges, sheet, load);
+    method.fitted        = fitted;
     const LoadedSheet of_load{cell,
                               sheet,
                               load,
@@ -380,10 +381,11 @@ private:
   const bool is_root;
   StudyOfCells study;
   Progress progress;
-  bool is_taken_up = false;             ///< first rank
-  std::unique_ptr<StrainOutput> output; ///< first rank
-  std::unique_ptr<BudgetStudy> budget;  ///< of the present cell; none where it is left out
-  KnownEdges edges;                     ///< of the present cell
+  bool is_taken_up = false;                  ///< first rank
+  std::unique_ptr<StrainOutput> output;      ///< first rank
+  std::unique_ptr<BudgetStudy> budget;       ///< of the present cell; none where it is left out
+  KnownEdges edges;                          ///< of the present cell
+  std::map<Law, meshes::FittedModes> fitted; ///< the same, by law; first rank
   std::vector<Verdict> verdicts;
   double largest_residual = 0.;
 };
