@@ -8,7 +8,7 @@ namespace homespun::localization
 Modes kind_of_modes(const UpsamplerOptions &options)
 {
   return !options.microscopic            ? linear_modes
-         : !options.fitted.empty()       ? fitted_modes
+         : options.fitted != nullptr     ? fitted_modes
          : !options.second_order.empty() ? quadratic_modes
                                          : linear_modes;
 }
@@ -21,7 +21,7 @@ CellModes cell_modes(const meshes::HomogenizedCell &cell, const UpsamplerOptions
     return anchored(cell, options.anchor);
   CellModes modes(cell.mesh.n_vertices(), 18);
   if (kind_of_modes(options) == fitted_modes)
-    modes << anchored(cell, options.anchor), anchored_fitted(cell, options.fitted, options.anchor);
+    modes << anchored(cell, options.anchor), anchored_fitted(cell, *options.fitted, options.anchor);
   else
   {
     modes << anchored(cell, options.anchor),

@@ -347,14 +347,10 @@ meshes::QuadraticChi anchored_quadratic(const meshes::HomogenizedCell &cell, con
   return with_constant(cell, found->second.chi, anchor, "quadratic modes");
 }
 
-meshes::QuadraticChi anchored_fitted(const meshes::HomogenizedCell &cell, const std::string &law,
-                                     const Anchor anchor)
+meshes::QuadraticChi anchored_fitted(const meshes::HomogenizedCell &cell,
+                                     const meshes::FittedModes &fitted, const Anchor anchor)
 {
-  const auto found = cell.fitted.find(law);
-  if (found == cell.fitted.end())
-    throw meshes::BadInput("cell: has no fitted modes under the law `" + law +
-                           "`; expected some: fit them, or do without");
-  return with_constant<meshes::QuadraticChi>(cell, found->second.modes, anchor, "fitted modes");
+  return with_constant<meshes::QuadraticChi>(cell, fitted.modes, anchor, "fitted modes");
 }
 
 template class CoarseFrames<2>;

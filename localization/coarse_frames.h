@@ -109,8 +109,8 @@ meshes::Chi anchored(const meshes::HomogenizedCell &cell, Anchor anchor);
 meshes::QuadraticChi anchored_quadratic(const meshes::HomogenizedCell &cell, const std::string &law,
                                         Anchor anchor);
 
-/// The same of the fitted modes under a law.
-/// @throws BadInput as anchored(), and where the cell has none under that law
-meshes::QuadraticChi anchored_fitted(const meshes::HomogenizedCell &cell, const std::string &law,
-                                     Anchor anchor);
+/// The same of fitted modes.
+/// @throws BadInput as anchored()
+meshes::QuadraticChi anchored_fitted(const meshes::HomogenizedCell &cell,
+                                     const meshes::FittedModes &fitted, Anchor anchor);
 } // namespace homespun::localization

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "meshes/plain/cell_edges.h"
+#include "meshes/plain/fitted_modes.h"
 
 #include <Eigen/Core>
 
@@ -75,10 +76,9 @@ struct UpsamplerOptions
   /// Law of the phases (`biot`, `green`) whose quadratic modes are added to chi, for errors of
   /// third order in strain: HomogenizedCell::second_order. Empty: none. Not for garments.
   std::string second_order;
-  /// Law of the phases whose fitted modes are added to chi, over a box of strains:
-  /// HomogenizedCell::fitted. Empty: none. Not with second_order, with Blend::continuous, not for
-  /// garments.
-  std::string fitted;
+  /// Modes of the cell that are added to chi, fitted over a box of strains. Null: none. Read by the
+  /// constructor alone; not with second_order, with Blend::continuous, not for garments.
+  const meshes::FittedModes *fitted = nullptr;
   /// What the cell does at the edges of a sheet of whole cells: modes that decay from them are
   /// added. Null: none. Read by the constructor alone; with Anchor::mean, and not for garments.
   const meshes::CellEdges *edges                              = nullptr;

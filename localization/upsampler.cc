@@ -25,13 +25,13 @@ Upsampler<dim, Scalar>::Upsampler(const meshes::HomogenizedCell &cell,
   auto faults = sheet_faults(cell, fine);
   for (const std::string &fault : edge_faults(cell, options))
     faults.push_back(fault);
-  for (const std::string &fault : mode_faults(cell, options))
+  for (const std::string &fault : mode_faults(options))
     faults.push_back(fault);
   if (!faults.empty())
     throw meshes::BadInput(faults);
-  if (!options.fitted.empty())
+  if (options.fitted != nullptr)
   {
-    fitted = cell.fitted.at(options.fitted);
+    fitted = *options.fitted;
     fitted.modes.resize(0, fitted.modes.cols()); // they go into the tables
   }
   const CellModes modes = cell_modes(cell, options);

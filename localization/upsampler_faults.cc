@@ -6,7 +6,6 @@
 
 #include <cmath>
 #include <sstream>
-#include <utility>
 
 namespace homespun::localization
 {
@@ -50,27 +49,24 @@ std::vector<std::string> sheet_faults(const meshes::HomogenizedCell &cell,
   return faults;
 }
 
-std::vector<std::string> mode_faults(const meshes::HomogenizedCell &cell,
-                                     const UpsamplerOptions &options)
+std::vector<std::string> mode_faults(const UpsamplerOptions &options)
 {
   std::vector<std::string> faults;
-  for (const auto &[kind, law] :
-       {std::pair("quadratic", options.second_order), std::pair("fitted", options.fitted)})
-    if (!law.empty() && options.strain == Strain::linear)
-      faults.push_back(std::string("up-sampling: ") + kind + " modes of the law " + law +
-                       " are asked for with the linear strain; expected Strain::biot, whose second "
-                       "order they are");
-  if (options.fitted.empty())
+  if (!options.second_order.empty() && options.strain == Strain::linear)
+    faults.push_back("up-sampling: quadratic modes of the law " + options.second_order +
+                     " are asked for with the linear strain; expected Strain::biot, whose second "
+                     "order they are");
+  if (options.fitted == nullptr)
     return faults;
+  if (options.strain == Strain::linear)
+    faults.emplace_back("up-sampling: fitted modes are asked for with the linear strain; expected "
+                        "Strain::biot, over which they are fitted");
   if (!options.second_order.empty())
-    faults.push_back("up-sampling: fitted modes of the law " + options.fitted +
-                     " are asked for beside quadratic ones; expected one of the two");
+    faults.push_back("up-sampling: fitted modes are asked for beside quadratic ones of the law " +
+                     options.second_order + "; expected one of the two");
   if (options.blend != Blend::continuous)
-    faults.push_back("up-sampling: fitted modes of the law " + options.fitted +
-                     " are asked for with Blend::piecewise; expected Blend::continuous");
-  if (cell.fitted.count(options.fitted) == 0)
-    faults.push_back("cell: has no fitted modes under the law `" + options.fitted +
-                     "`; expected some: fit them, or do without");
+    faults.emplace_back("up-sampling: fitted modes are asked for with Blend::piecewise; expected "
+                        "Blend::continuous");
   return faults;
 }
 
@@ -87,8 +83,11 @@ std::vector<std::string> garment_faults(const meshes::HomogenizedCell &cell,
          << " cell sides at seams; expected 0 to " << meshes::seam_reach;
     faults.push_back(text.str());
   }
-  if (const std::string &law = options.second_order + options.fitted; !law.empty())
-    faults.push_back("up-sampling: quadratic or fitted modes of the law " + law +
+  if (!options.second_order.empty() || options.fitted != nullptr)
+    faults.push_back("up-sampling: " +
+                     (options.second_order.empty()
+                        ? std::string("fitted modes")
+                        : "quadratic modes of the law " + options.second_order) +
                      " are asked for; of a garment, whose modes turn with the grain and fade at "
                      "seams, those of first order are all there is so far: leave second_order "
                      "and fitted empty");

@@ -18,8 +18,7 @@ std::vector<std::string> sheet_faults(const meshes::HomogenizedCell &cell,
                                       const meshes::Sheet &sheet);
 
 /// Faults of what the options ask for beside chi.
-std::vector<std::string> mode_faults(const meshes::HomogenizedCell &cell,
-                                     const UpsamplerOptions &options);
+std::vector<std::string> mode_faults(const UpsamplerOptions &options);
 
 /// Faults of a coarse cloth, and between it, a cell and the fine cloth made from both; of the
 /// vertices the first three.

@@ -26,9 +26,12 @@ struct FittedModes
   Eigen::Matrix<double, Eigen::Dynamic, 2 * n_modes, Eigen::RowMajor> modes;
   Eigen::Matrix<double, n_functions, n_modes> coefficients; ///< A [-]
 
+  /// Whether a strain is in the box, but for rounding.
   bool holds(const Eigen::Vector3d &strain) const
   {
-    return (strain.array() >= low.array()).all() && (strain.array() <= high.array()).all();
+    const Eigen::Array3d slack = 1e-9 * (high - low).array();
+    return (strain.array() >= low.array() - slack).all() &&
+           (strain.array() <= high.array() + slack).all();
   }
 };
 

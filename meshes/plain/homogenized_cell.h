@@ -4,7 +4,6 @@
 #pragma once
 
 #include "meshes/plain/cubic_form.h"
-#include "meshes/plain/fitted_modes.h"
 #include "meshes/plain/lattice.h"
 #include "meshes/plain/triangle_mesh.h"
 
@@ -82,7 +81,5 @@ struct HomogenizedCell
   std::string place_of_cut; ///< in words, where the cell is not cut from the cloth as it is drawn
   /// By the law of its phases, `biot` or `green`; those that were not computed are absent.
   std::map<std::string, SecondOrder> second_order;
-  /// By the same laws, where modes were fitted; in no file.
-  std::map<std::string, FittedModes> fitted;
 };
 } // namespace homespun::meshes

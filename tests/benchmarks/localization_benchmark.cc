@@ -32,13 +32,18 @@ meshes::HomogenizedCell smooth_cell(const int n1, const int n2)
   meshes::SecondOrder &second = cell.second_order["biot"];
   second.chi.resize(cell.mesh.n_vertices(), 12);
   second.chi << cell.chi, -cell.chi;
-  meshes::FittedModes &fitted = cell.fitted["biot"];
-  fitted.low                  = Eigen::Vector3d::Constant(-0.2);
-  fitted.high                 = Eigen::Vector3d::Constant(0.2);
-  fitted.knees                = Eigen::Vector3d::Constant(0.3);
-  fitted.modes                = second.chi;
-  fitted.coefficients.setConstant(0.1);
   return cell;
+}
+
+meshes::FittedModes fitted_to(const meshes::HomogenizedCell &cell)
+{
+  meshes::FittedModes fitted;
+  fitted.low   = Eigen::Vector3d::Constant(-0.2);
+  fitted.high  = Eigen::Vector3d::Constant(0.2);
+  fitted.knees = Eigen::Vector3d::Constant(0.3);
+  fitted.modes = cell.second_order.at("biot").chi;
+  fitted.coefficients.setConstant(0.1);
+  return fitted;
 }
 
 /// Edges, clamped at the ends of axis 2, whose modes reach two cells.
@@ -59,6 +64,7 @@ struct Around
 {
   int quads_per_cell = 1;
   bool edges         = false;
+  bool fitted        = false; ///< modes
 };
 
 template <int dim>
@@ -116,6 +122,9 @@ void upsample(benchmark::State &state, UpsamplerOptions options, const double fl
     options.edges      = &edges;
     options.edge_kinds = {EdgeKind::free, EdgeKind::free, EdgeKind::clamped, EdgeKind::clamped};
   }
+  const meshes::FittedModes fitted = fitted_to(cell);
+  if (around.fitted)
+    options.fitted = &fitted;
   const Upsampler<dim, Scalar> upsampler(cell, coarse, sheet, options);
   const double bytes = run_frames(state, upsampler, bent<dim>(coarse));
   const double flops = sheet.mesh.n_vertices() * flops_per_vertex;
@@ -202,13 +211,6 @@ UpsamplerOptions general_of_second_order()
   return options;
 }
 
-UpsamplerOptions fitted()
-{
-  UpsamplerOptions options;
-  options.fitted = "biot";
-  return options;
-}
-
 UpsamplerOptions in_plane()
 {
   UpsamplerOptions options;
@@ -234,7 +236,7 @@ void add_upsampling(const std::string &type)
   add("aligned", {}, 12 + 8 * dim);
   add("general", general(), 12 + 8 * dim);
   add("second_order", of_second_order(), 24 + 8 * dim);
-  add("fitted", fitted(), 36 + 8 * dim);
+  add("fitted", {}, 36 + 8 * dim, {1, false, true});
   add("edges", {}, 12 + 8 * dim, {1, true});
   // All that `full` takes: six-node triangles are evaluated on quads of half a cell.
   add("full", of_second_order(), 24 + 8 * dim, {2, true});

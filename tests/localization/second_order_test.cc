@@ -122,35 +122,34 @@ TEST(exact_upsampler_second_order, each_mode_is_taken_by_its_own_product_of_stra
 
 namespace
 {
-/// The same cloth with fitted modes in the place of the quadratic ones.
-tests::Cloth cloth_with_fitted_modes()
+/// cloth_of_second_order() with modes of no law.
+struct Fitted
 {
-  tests::Cloth cloth          = cloth_of_second_order();
-  meshes::FittedModes &fitted = cloth.cell.fitted["yarn"];
-  fitted.low << -0.05, -0.06, -0.2;
-  fitted.high << 0.3, 0.2, 0.1;
-  fitted.knees << 0.02, 0.5, 0.2;
-  fitted.modes = cloth.cell.second_order.at("biot").chi;
-  for (int j = 0; j < meshes::FittedModes::n_functions; ++j)
-    for (int k = 0; k < meshes::FittedModes::n_modes; ++k)
-      fitted.coefficients(j, k) = std::sin(3. * j + 5. * k * k);
-  return cloth;
-}
+  Fitted()
+      : cloth(cloth_of_second_order())
+  {
+    modes.low << -0.05, -0.06, -0.2;
+    modes.high << 0.3, 0.2, 0.1;
+    modes.knees << 0.02, 0.5, 0.2;
+    modes.modes = cloth.cell.second_order.at("biot").chi;
+    for (int j = 0; j < meshes::FittedModes::n_functions; ++j)
+      for (int k = 0; k < meshes::FittedModes::n_modes; ++k)
+        modes.coefficients(j, k) = std::sin(3. * j + 5. * k * k);
+    options.fitted = &modes;
+  }
 
-UpsamplerOptions with_fitted_modes()
-{
+  tests::Cloth cloth;
+  meshes::FittedModes modes;
   UpsamplerOptions options;
-  options.fitted = "yarn";
-  return options;
-}
+};
 } // namespace
 
 // From the formulas of meshes/plain/fitted_modes.h, written out once more.
 TEST(exact_upsampler_fitted, modes_are_taken_by_their_coefficients_in_the_plane_and_in_space)
 {
-  tests::Cloth cloth = cloth_with_fitted_modes();
+  Fitted with;
+  tests::Cloth &cloth = with.cloth;
   cloth.cell.chi.setZero();
-  const meshes::FittedModes &fitted = cloth.cell.fitted.at("yarn");
   for (const Eigen::Vector3d &E :
        {Eigen::Vector3d(0.08, -0.05, 0.03), Eigen::Vector3d(-0.03, 0.1, -0.15),
         Eigen::Vector3d(0.08, 0.5, 0.2)}) // the last one beyond the box
@@ -160,31 +159,26 @@ TEST(exact_upsampler_fitted, modes_are_taken_by_their_coefficients_in_the_plane_
     const Eigen::Vector3d inside(E(0), std::min(E(1), 0.2), std::min(E(2), 0.1));
     const Eigen::Vector3d s(inside(0) / (0.02 + std::abs(inside(0))),
                             inside(1) / (0.5 + std::abs(inside(1))), inside(2) / 0.2);
+    const std::vector<std::array<int, 3>> powers = {{0, 0, 1}, {0, 0, 2}, {0, 1, 0},
+                                                    {0, 1, 1}, {0, 2, 0}, {1, 0, 0},
+                                                    {1, 0, 1}, {1, 1, 0}, {2, 0, 0}};
     std::vector<double> functions;
     for (int a = 0; a < 3; ++a)
-      for (const auto &[p, q, r] : std::vector<std::array<int, 3>>{{0, 0, 1},
-                                                                   {0, 0, 2},
-                                                                   {0, 1, 0},
-                                                                   {0, 1, 1},
-                                                                   {0, 2, 0},
-                                                                   {1, 0, 0},
-                                                                   {1, 0, 1},
-                                                                   {1, 1, 0},
-                                                                   {2, 0, 0}})
+      for (const auto &[p, q, r] : powers)
         functions.push_back(inside(a) * std::pow(s(0), p) * std::pow(s(1), q) * std::pow(s(2), r));
-    const auto even = tests::affine_motion<2>(cloth.sheet.mesh.vertices, U);
-    const auto fine = tests::upsampled<2>(cloth, tests::affine_motion<2>(cloth.coarse.vertices, U),
-                                          with_fitted_modes());
-    Positions<3> in_space    = Positions<3>::Zero(cloth.coarse.n_vertices(), 3);
-    in_space.leftCols<2>()   = tests::affine_motion<2>(cloth.coarse.vertices, U);
-    const auto fine_in_space = tests::upsampled<3>(cloth, in_space, with_fitted_modes());
+    const Positions<2> even    = tests::affine_motion<2>(cloth.sheet.mesh.vertices, U),
+                       current = tests::affine_motion<2>(cloth.coarse.vertices, U);
+    Positions<3> in_space      = Positions<3>::Zero(cloth.coarse.n_vertices(), 3);
+    in_space.leftCols<2>()     = current;
+    const auto fine            = tests::upsampled<2>(cloth, current, with.options);
+    const auto fine_in_space   = tests::upsampled<3>(cloth, in_space, with.options);
     for (int v = 0; v < cloth.sheet.mesh.n_vertices(); ++v)
     {
       Eigen::RowVector2d w = Eigen::RowVector2d::Zero();
       for (int k = 0; k < 6; ++k)
         for (int j = 0; j < 27; ++j)
-          w -= functions[static_cast<std::size_t>(j)] * fitted.coefficients(j, k) *
-               fitted.modes.row(cloth.sheet.cell_vertex(v)).segment<2>(2 * k);
+          w -= functions[static_cast<std::size_t>(j)] * with.modes.coefficients(j, k) *
+               with.modes.modes.row(cloth.sheet.cell_vertex(v)).segment<2>(2 * k);
       ASSERT_LT((fine.row(v) - even.row(v) - w).norm(), 1e-15) << v;
       ASSERT_LT((fine_in_space.row(v).head<2>() - even.row(v) - w).norm(), 1e-15) << v;
     }
@@ -193,37 +187,42 @@ TEST(exact_upsampler_fitted, modes_are_taken_by_their_coefficients_in_the_plane_
 
 TEST(exact_upsampler_fitted, both_paths_agree_where_the_strain_varies)
 {
-  const tests::Cloth cloth   = cloth_with_fitted_modes();
-  UpsamplerOptions options   = with_fitted_modes();
-  const Positions<3> current = tests::wavy_motion<3>(cloth.coarse.vertices);
-  const auto aligned         = tests::upsampled<3>(cloth, current, options);
-  options.path               = Path::general;
-  EXPECT_LT((aligned - tests::upsampled<3>(cloth, current, options)).cwiseAbs().maxCoeff(), 1e-15);
-  EXPECT_GT((aligned - tests::upsampled<3>(cloth, current)).cwiseAbs().maxCoeff(), 1e-7);
+  Fitted with;
+  const Positions<3> current = tests::wavy_motion<3>(with.cloth.coarse.vertices);
+  const auto aligned         = tests::upsampled<3>(with.cloth, current, with.options);
+  with.options.path          = Path::general;
+  EXPECT_LT(
+    (aligned - tests::upsampled<3>(with.cloth, current, with.options)).cwiseAbs().maxCoeff(),
+    1e-15);
+  EXPECT_GT((aligned - tests::upsampled<3>(with.cloth, current)).cwiseAbs().maxCoeff(), 1e-7);
 }
 
 TEST(invariant_upsampler_fitted, what_does_not_go_together_is_refused_by_name)
 {
-  const tests::Cloth with = cloth_with_fitted_modes(), without = cloth_of_second_order();
-  const auto text = [&](const tests::Cloth &cloth, const UpsamplerOptions &options)
-  { return refusal([&]() { Upsampler<2>(cloth.cell, cloth.coarse, cloth.sheet, options); }); };
-  EXPECT_NE(text(without, with_fitted_modes()).find("has no fitted modes under the law `yarn`"),
-            std::string::npos);
-  UpsamplerOptions options = with_fitted_modes();
+  const Fitted with;
+  const auto text = [&](const UpsamplerOptions &options)
+  {
+    return refusal(
+      [&]() { Upsampler<2>(with.cloth.cell, with.cloth.coarse, with.cloth.sheet, options); });
+  };
+  UpsamplerOptions options = with.options;
   options.blend            = Blend::piecewise;
-  EXPECT_NE(text(with, options).find("expected Blend::continuous"), std::string::npos);
-  options              = with_fitted_modes();
+  EXPECT_NE(text(options).find("expected Blend::continuous"), std::string::npos);
+  options              = with.options;
   options.second_order = "biot";
-  EXPECT_NE(text(with, options).find("expected one of the two"), std::string::npos);
-  options        = with_fitted_modes();
+  EXPECT_NE(text(options).find("expected one of the two"), std::string::npos);
+  options        = with.options;
   options.strain = Strain::linear;
-  EXPECT_NE(text(with, options).find("asked for with the linear strain"), std::string::npos);
+  EXPECT_NE(text(options).find("asked for with the linear strain"), std::string::npos);
+  meshes::FittedModes of_another_cell = with.modes;
+  of_another_cell.modes.conservativeResize(3, Eigen::NoChange);
+  options        = with.options;
+  options.fitted = &of_another_cell;
+  EXPECT_NE(text(options).find("has 3 rows of fitted modes"), std::string::npos);
   const tests::Garment garment = tests::two_panels();
-  EXPECT_NE(
-    refusal([&]()
-            { Upsampler<3>(garment.cell, garment.coarse, garment.fine, with_fitted_modes()); })
-      .find("of a garment"),
-    std::string::npos);
+  const std::string of_garment =
+    refusal([&]() { Upsampler<3>(garment.cell, garment.coarse, garment.fine, with.options); });
+  EXPECT_NE(of_garment.find("of a garment"), std::string::npos);
 }
 
 TEST(invariant_upsampler_second_order, a_cell_that_has_modes_nobody_asks_for_gives_the_same_bits)

@@ -246,6 +246,9 @@ meshes::Points resolved(const homogenization::UnitCell &cell, const meshes::Shee
   n_dofs                                       = 2ul * static_cast<unsigned long>(n);
   const std::vector<Eigen::Matrix3d> stiffness = cell.stiffness_of_phase();
   std::vector<Eigen::Triplet<double>> entries;
+  // Of a cell with holes the material carries the force of all of the cell.
+  const double share =
+    meshes::signed_areas(sheet.mesh).sum() / (sheet.n1 * sheet.n2 * sheet.lattice.area());
   Eigen::VectorXd load = Eigen::VectorXd::Zero(2 * n);
   for (int t = 0; t < sheet.mesh.n_triangles(); ++t)
   {
@@ -268,7 +271,7 @@ meshes::Points resolved(const homogenization::UnitCell &cell, const meshes::Shee
         strip.k * (sheet.mesh.vertices.row(sheet.mesh.triangles(t, i)) - sheet.origin)
                     .dot(strip.t.transpose());
       load.segment<2>(2 * row) +=
-        area / 3. * (std::cos(phase) * strip.t + std::sin(phase) * strip.n);
+        area / (3. * share) * (std::cos(phase) * strip.t + std::sin(phase) * strip.n);
       for (int j = 0; j < 3; ++j)
       {
         const int column = unknown[static_cast<std::size_t>(sheet.mesh.triangles(t, j))];

@@ -9,8 +9,8 @@
 //   integral E(V)* C^H E(U1) dy = −integral E_c(V)* M_abc d_b E_a(U0) dy − (ik t.V)* T_a
 //   E_a(U0)|top U1 = d_a E_a(U0) at y = 0,      d_b = t_b ik + n_b d/dy
 // (homogenization/edges/edge_layers.h), solved in polynomials of high degree, to round-off. The
-// resolved sheet is P1 on all its triangles, with the same force at its vertices: an independent
-// writing, by one direct solve.
+// resolved sheet is P1 on all its triangles, with the same force at its vertices, in holes put on
+// the material around them: an independent writing, by one direct solve.
 #pragma once
 
 #include "homogenization/cell/unit_cell.h"

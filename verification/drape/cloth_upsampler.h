@@ -25,7 +25,7 @@ public:
       : of_grid(cell, space.grid.mesh, fine, options)
   {
     if (space.element == CoarseElement::six_nodes)
-      six_nodes = space;
+      six_nodes.emplace(space);
   }
 
   ClothUpsampler(const meshes::HomogenizedCell &cell, const meshes::ClothMesh &coarse,
@@ -37,7 +37,7 @@ public:
   /// @param nodes of the coarse cloth (n,3) [m]
   /// @param fine (n_fine,3) [m]
   /// @throws BadInput as Upsampler::upsample()
-  void upsample(const shell::Vectors &nodes, Fine &fine) const
+  void upsample(const shell::Positions<3> &nodes, Fine &fine) const
   {
     if (six_nodes)
       of_grid.upsample(six_nodes->on_grid<3>(nodes), fine);

@@ -81,9 +81,8 @@ UpsamplerOptions Method::options(const Law law) const
   }
   else if (name == "localized-affine-lift")
     options.lift = localization::Lift::affine;
-  if (has_fitted_modes(law))
-    options.fitted = name_of(law);
-  else if (is_of_second_order(law))
+  // Fitted modes, in their place, belong to a study.
+  if (is_of_second_order(law) && !has_fitted)
     options.second_order = name_of(law);
   if (name == "localized-mean-anchor" || has_edge_terms())
     options.anchor = localization::Anchor::mean;
@@ -292,10 +291,12 @@ CoarseStep LightweightCloth::solve(const Law law, const double strain)
 }
 
 UpsampledSheet LightweightCloth::upsample(const Method &method, const Law law,
-                                          const shell::Positions<2> &coarse_positions) const
+                                          const shell::Positions<2> &coarse_positions,
+                                          const meshes::FittedModes *const fitted) const
 {
-  const UpsamplerOptions options = method.options(law);
-  const auto on_grid             = [&]() { return space.on_grid<2>(coarse_positions); };
+  UpsamplerOptions options = method.options(law);
+  options.fitted           = fitted;
+  const auto on_grid       = [&]() { return space.on_grid<2>(coarse_positions); };
   UpsampledSheet result;
   localization::Upsampler<2, double>::Fine in_double;
   localization::Upsampler<2, double>(cell, space.grid.mesh, sheet, options)

@@ -48,7 +48,7 @@ struct CoarseChoice
 /// - p2: localized, from a coarse cloth of six-node triangles with the same vertices
 /// - full: p2, quadratic and edges in one
 /// - fitted: a variant of quadratic for large strains, its modes fitted over a box of them
-///   (mode_fit.h), which is to be in the cell; beyond the box those at its border. Under yarn the
+///   (mode_fit.h); beyond the box those at its border. Under yarn the
 ///   coarse cloth has C^H alone
 /// - localized-affine-lift, localized-mean-anchor, localized-piecewise: one choice turned each
 class Method
@@ -141,8 +141,10 @@ public:
   shell::Positions<2> near(const CoarseStep &step, Law law, double strain) const;
 
   /// @param method whose coarse cloth this is
+  /// @param fitted its modes under that law, where it has fitted ones
   UpsampledSheet upsample(const Method &method, Law law,
-                          const shell::Positions<2> &coarse_positions) const;
+                          const shell::Positions<2> &coarse_positions,
+                          const meshes::FittedModes *fitted = nullptr) const;
 
   /// The law of the coarse cloth against a reference: corotational, but beside linear theory.
   static Law own_law(Law law);

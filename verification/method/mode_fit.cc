@@ -124,9 +124,10 @@ Eigen::MatrixXd largest_directions(const Eigen::MatrixXd &rows, const int number
 }
 } // namespace
 
-StrainBox box_up_to(const double strain)
+StrainBox box_up_to(const double strain, const Law law)
 {
-  return {Eigen::Vector3d(-strain / 3., -strain / 3., -strain), Eigen::Vector3d::Constant(strain)};
+  const double least = is_of_yarns(law) ? 0. : -strain / 3.;
+  return {Eigen::Vector3d(least, least, -strain), Eigen::Vector3d::Constant(strain)};
 }
 
 ModeFit fit_modes(const NonlinearCell &nonlinear, const meshes::HomogenizedCell &cell,

@@ -21,8 +21,8 @@ struct StrainBox
 };
 
 /// The box of a cloth that is pulled and sheared up to a strain: pressed across by no more than a
-/// third of it.
-StrainBox box_up_to(double strain);
+/// third of it, and under a law of yarns, which kink where they are pressed, not at all.
+StrainBox box_up_to(double strain, Law law);
 
 struct ModeFit
 {

@@ -42,6 +42,8 @@ struct MethodOnSheet
   /// where the cell has no terms of edges, and then why.
   std::map<std::string, EdgedSheet> edged = {};
   std::string why_no_edges                = {};
+  /// By law, where a method asks for them.
+  std::map<Law, meshes::FittedModes> fitted = {};
 };
 
 /// A sheet under a load, with what holds the method against the reference there.

@@ -154,8 +154,8 @@ public:
   ///   are not finite
   UpsampledMethod upsampled(const std::string &name)
   {
-    if (Method(name).has_fitted_modes(level.law) &&
-        method.cell.fitted.count(name_of(level.law)) == 0)
+    const meshes::FittedModes *const fitted = fitted_by(name);
+    if (Method(name).has_fitted_modes(level.law) && fitted == nullptr)
       throw meshes::NotConverged("no modes could be fitted under this law", {});
     const auto edged = method.edged.find(name);
     const Method of  = used_on(Method(name), sheet);
@@ -165,7 +165,7 @@ public:
     UpsampledMethod result = {
       name,
       edged == method.edged.end()
-        ? cloth_of(used.coarse(level.law)).upsample(used, level.law, step.positions)
+        ? cloth_of(used.coarse(level.law)).upsample(used, level.law, step.positions, fitted)
         : edged->second.upsample(level.law, step.positions),
       step.seconds};
     if (!result.sheet->positions.allFinite())
@@ -194,12 +194,12 @@ public:
   /// Where the coarse cloth of a method is in the box of its fitted modes, if it has any.
   void note_strains_outside(const std::string &name, StrainOutput &output)
   {
-    const auto found = method.cell.fitted.find(name_of(level.law));
-    if (!Method(name).has_fitted_modes(level.law) || found == method.cell.fitted.end())
+    const meshes::FittedModes *const fitted = fitted_by(name);
+    if (fitted == nullptr)
       return;
     const CoarseChoice choice        = Method(name).coarse(level.law);
     const meshes::TriangleMesh &rest = cloth_of(choice).coarse;
-    const int n                      = n_outside(found->second, rest, step_of(choice).positions);
+    const int n                      = n_outside(*fitted, rest, step_of(choice).positions);
     if (n > 0)
       output.write_note(level, "method " + name + ": " + std::to_string(n) + " of " +
                                  std::to_string(rest.n_triangles()) +
@@ -210,6 +210,13 @@ public:
   const CoarseStep coarse;
 
 private:
+  const meshes::FittedModes *fitted_by(const std::string &name) const
+  {
+    const auto found = method.fitted.find(level.law);
+    return Method(name).has_fitted_modes(level.law) && found != method.fitted.end() ? &found->second
+                                                                                    : nullptr;
+  }
+
   LightweightCloth &cloth_of(const CoarseChoice &choice)
   {
     const auto other = method.others.find(choice);

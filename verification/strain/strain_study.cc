@@ -102,9 +102,9 @@ private:
                                        self_checks(cell, laws_of(options), options.strains.back())})
                 verdicts.insert(verdicts.end(), some.begin(), some.end());
             });
-    meshes::HomogenizedCell homogenized =
+    const meshes::HomogenizedCell homogenized =
       homogenization::homogenized_cell(cell, assessed.result, provenance_line());
-    on_root(communicator, [&]() { add_fitted_modes(options, cell, homogenized, *output); });
+    on_root(communicator, [&]() { fitted = modes_of_study(options, cell, homogenized, *output); });
     const meshes::Sheet repeated =
       meshes::tile(cell.mesh, cell.lattice, options.supercell[0], options.supercell[1]);
     std::unique_ptr<meshes::Sheet> full; // made where a load asks for it
@@ -194,6 +194,7 @@ private:
       reference = std::make_unique<FineReference>(sheet, cell.stiffness_of_phase(),
                                                   ReferenceOptions(), communicator);
     MethodOnSheet method = method_on_sheet(options, cell, homogenized, edges, sheet, load);
+    method.fitted        = fitted;
     const LoadedSheet of_load{cell,
                               sheet,
                               load,
@@ -371,9 +372,10 @@ private:
   StrainStudyOptions options; ///< the same, with the references of the present cell, or of all
   const unsigned int n_ranks;
   Progress progress;
-  std::unique_ptr<StrainOutput> output; ///< first rank
-  std::unique_ptr<BudgetStudy> budget;  ///< of the present cell; none where it is left out
-  KnownEdges edges;                     ///< of the present cell
+  std::unique_ptr<StrainOutput> output;      ///< first rank
+  std::unique_ptr<BudgetStudy> budget;       ///< of the present cell; none where it is left out
+  KnownEdges edges;                          ///< of the present cell
+  std::map<Law, meshes::FittedModes> fitted; ///< the same, by law; first rank
   double largest_residual = 0., peak_memory = 0.;
 };
 } // namespace

@@ -8,22 +8,26 @@
 
 namespace homespun::verification
 {
-void add_fitted_modes(const StrainStudyOptions &options, const homogenization::UnitCell &cell,
-                      meshes::HomogenizedCell &homogenized, StrainOutput &output)
+std::map<Law, meshes::FittedModes> modes_of_study(const StrainStudyOptions &options,
+                                                  const homogenization::UnitCell &cell,
+                                                  const meshes::HomogenizedCell &homogenized,
+                                                  StrainOutput &output)
 {
+  std::map<Law, meshes::FittedModes> all;
   for (const std::string &name : options.methods)
-    for (const std::string &law : options.references)
+    for (const std::string &reference : options.references)
     {
-      if (!Method(name).has_fitted_modes(law_of(law)) || homogenized.fitted.count(law) != 0)
+      const Law law = law_of(reference);
+      if (!Method(name).has_fitted_modes(law) || all.count(law) != 0)
         continue;
       const double strain     = options.strains.back();
-      const StrainLevel level = {cell.name, options.loads.front(), law_of(law), strain};
-      const StrainBox box     = box_up_to(strain);
+      const StrainLevel level = {cell.name, options.loads.front(), law, strain};
+      const StrainBox box     = box_up_to(strain, law);
       try
       {
-        const ModeFit fit = fit_modes(
-          NonlinearCell(homogenized, cell.stiffness_of_phase(), law_of(law)), homogenized, box);
-        homogenized.fitted[law] = fit.modes;
+        const ModeFit fit =
+          fit_modes(NonlinearCell(homogenized, cell.stiffness_of_phase(), law), homogenized, box);
+        all[law] = fit.modes;
         output.write_note(
           level, "method " + name + ": " + std::to_string(meshes::FittedModes::n_modes) +
                    " modes beside chi, fitted at " + std::to_string(fit.n_fitted) +
@@ -38,5 +42,6 @@ void add_fitted_modes(const StrainStudyOptions &options, const homogenization::U
         output.write_note(level, "method " + name + ": " + failure.what());
       }
     }
+  return all;
 }
 } // namespace homespun::verification

@@ -54,7 +54,7 @@ TEST(exact_mode_fit, a_cell_of_one_phase_has_no_modes)
   const FittedCell even(tests::cell_of(tests::square_lattice(0.01), 4, 4,
                                        {tests::soft_and_hard()[0]},
                                        [](double, double) { return 0; }),
-                        Law::biot, box_up_to(0.1));
+                        Law::biot, box_up_to(0.1, Law::biot));
   EXPECT_LT(even.fit.modes.modes.cwiseAbs().maxCoeff(), 1e-12 * 0.01);
 }
 
@@ -63,7 +63,7 @@ TEST(exact_mode_fit, a_cell_of_one_phase_has_no_modes)
 TEST(order_mode_fit, at_rest_the_modes_are_of_second_order)
 {
   const FittedCell chevron(homogenization::read_unit_cell(CELLS "chevron.prm"), Law::biot,
-                           box_up_to(0.1));
+                           box_up_to(0.1, Law::biot));
   const Eigen::Vector3d strain(0.6, -0.3, 0.5);
   double last = 0.;
   for (const double size : {1e-3, 1e-4, 1e-5})
@@ -80,8 +80,9 @@ TEST(order_mode_fit, at_rest_the_modes_are_of_second_order)
 TEST(bound_mode_fit, strains_that_were_not_fitted_are_a_tenth_as_far_as_by_chi)
 {
   const FittedCell chevron(homogenization::read_unit_cell(CELLS "chevron.prm"), Law::biot,
-                           box_up_to(0.2)),
-    weave(homogenization::read_unit_cell(CELLS "plain-weave.prm"), Law::yarn, box_up_to(0.05));
+                           box_up_to(0.2, Law::biot)),
+    weave(homogenization::read_unit_cell(CELLS "plain-weave.prm"), Law::yarn,
+          box_up_to(0.05, Law::yarn));
   for (const FittedCell *cell : {&chevron, &weave})
   {
     EXPECT_LT(cell->fit.left, 0.1 * cell->fit.left_by_chi);
