@@ -83,7 +83,7 @@ ElasticSolver::~ElasticSolver() = default;
 
 bool ElasticSolver::has_preconditioner() const
 {
-  return preconditioner != nullptr;
+  return preconditioner && !preconditioner->factor;
 }
 
 ElasticSolver::Vector ElasticSolver::owned_vector() const

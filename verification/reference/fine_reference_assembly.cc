@@ -2,6 +2,7 @@
 // Energy, forces and tangent of a resolved sheet.
 #include "meshes/plain/errors.h"
 #include "verification/reference/fine_reference_solver.h"
+#include "verification/reference/law_round_off.h"
 
 #include <deal.II/base/mpi.h>
 
@@ -47,8 +48,8 @@ FineReference::Solver::TriangleSums<n_shapes> FineReference::Solver::integrate(
   constexpr int n = 2 * n_shapes;
   const ReferenceElement &reference =
     law == Law::linear ? discretization.stiffness_quadrature : discretization.nonlinear_quadrature;
-  const double rounded = std::numeric_limits<double>::epsilon() * C.cwiseAbs().maxCoeff();
-  const double steady  = steadying(law, C);
+  const double rounded = round_off_of(law) * C.cwiseAbs().maxCoeff();
+  const double steady  = steadied * steadying(law, C);
   TriangleSums<n_shapes> sums;
   for (std::size_t q = 0; q < reference.weights.size(); ++q)
   {
@@ -77,8 +78,7 @@ FineReference::Solver::TriangleSums<n_shapes> FineReference::Solver::integrate(
     state.round_off += slopes * std::pow(weight * rounded * size_of_terms, 2);
     const Response local = response(law, C, F);
     state.energy += weight * local.energy;
-    state.energy_round_off +=
-      weight * local.stress.norm() * std::numeric_limits<double>::epsilon() * size_of_terms;
+    state.energy_round_off += weight * local.stress.norm() * round_off_of(law) * size_of_terms;
     sums.f.noalias() += weight * D.transpose() * local.stress;
     state.forces.stress +=
       weight * Eigen::Map<const Eigen::Matrix2d>(local.stress.data()).transpose();

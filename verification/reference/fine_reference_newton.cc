@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 // One level of a resolved sheet: what Newton's method asks of it.
-#include "verification/newton/newton.h"
+#include "verification/newton/kinked_newton.h"
 #include "verification/reference/field_integrals.h"
 #include "verification/reference/fine_reference_solver.h"
+
+#include <deal.II/base/mpi.h>
 
 #include <algorithm>
 #include <cmath>
@@ -10,13 +12,9 @@
 
 namespace homespun::verification
 {
-namespace
-{
-/// Sheets of weaves, a thousand times as stiff along the yarns as in shear, take some hundreds.
-constexpr unsigned int most_linear_iterations = 3000;
-} // namespace
+using namespace dealii;
 
-class FineReference::Solver::Level final : public NewtonProblem
+class FineReference::Solver::Level final : public KinkedProblem
 {
 public:
   /// @param displacement which carries the prescribed values of the strain
@@ -69,6 +67,16 @@ public:
     now          = next;
   }
 
+  void steady(const double times) override
+  {
+    of.steadied = times;
+  }
+
+  double slope_there() const override
+  {
+    return residual_there * increment;
+  }
+
   const Evaluation &evaluation() const
   {
     return now;
@@ -101,7 +109,15 @@ private:
 unsigned int FineReference::Solver::solve_linearized(Vector &increment, const Vector &forces,
                                                      const double target)
 {
-  return multigrid.solve(*solver, increment, forces, target, most_linear_iterations);
+  if (law != Law::yarn_tension || Utilities::MPI::n_mpi_processes(discretization.communicator) > 1)
+    return multigrid.solve(*solver, increment, forces, target, most_linear_iterations);
+  // Steadied by a small share, which no multigrid hierarchy bears.
+  solver->factorize();
+  std::vector<Vector> answer(1, solver->owned_vector());
+  const unsigned int used =
+    solver->solve_abreast(answer, {forces}, {{target}}, most_linear_iterations).front();
+  increment = answer.front();
+  return used;
 }
 
 void FineReference::Solver::take_body_force(const double strain)
@@ -124,7 +140,14 @@ void FineReference::Solver::solve(Vector &displacement, const double strain, con
   NewtonOptions of_newton;
   if (law == Law::linear)
     of_newton.largest_reduction = 0.; // one step
-  minimize(level, of_newton);
+  if (law == Law::yarn_tension)
+  {
+    of_newton.most_steps        = 100;
+    of_newton.largest_reduction = 1e-6;
+    minimize_with_kinks(level, of_newton);
+  }
+  else
+    minimize(level, of_newton);
   const Evaluation &found = level.evaluation();
   step.relative_residual  = found.residual / found.force_size;
   step.energy             = found.energy;

@@ -32,6 +32,8 @@ public:
 
 private:
   using Vector = homogenization::ElasticSolver::Vector;
+  /// Sheets of weaves, a thousand times as stiff along the yarns as in shear, take some hundreds.
+  static constexpr unsigned int most_linear_iterations = 3000;
   struct Evaluation
   {
     double energy             = 0.; ///< [J]
@@ -105,6 +107,7 @@ private:
   std::unique_ptr<homogenization::ElasticSolver> solver;
   homogenization::KeptMultigrid multigrid;
   double seconds_of_linear_solve = 0.;
+  double steadied                = 1.; ///< times steadying(), in every matrix
 
   std::vector<SolvedLevel> levels;        ///< the last three
   std::optional<SolvedLevel> linear_rate; ///< of the present load, where it was asked for

@@ -70,16 +70,15 @@ Vector2d least_wrinkle(const YarnAxes &straight, const Matrix2d &metric, const M
       -curvature.vectors * (curvature.vectors.transpose() * gradient).cwiseQuotient(positive);
     if (!(step.norm() > 1e-15 * w.norm()))
       break;
-    bool is_taken = false;
-    for (double length = 1.; length > 1e-12 && !is_taken; length *= 0.5)
+    // Near the minimum the energy has no digits left to tell: the gradient has.
+    const bool is_near = -gradient.dot(step) <= 1e-10 * here.energy;
+    bool is_taken      = false;
+    for (double length = 1.; length > (is_near ? 0.5 : 1e-12) && !is_taken; length *= 0.5)
     {
-      const Vector2d trial        = w + length * step;
-      const MetricResponse there  = at(trial);
-      const double trial_gradient = (symmetric(there.force) * trial).norm();
-      // Near the minimum the energy has no digits left to tell: the gradient has.
-      is_taken =
-        there.energy <= here.energy + 1e-4 * length * gradient.dot(step) ||
-        (there.energy <= here.energy * (1. + 1e-14) && trial_gradient < 0.5 * gradient.norm());
+      const Vector2d trial       = w + length * step;
+      const MetricResponse there = at(trial);
+      is_taken = is_near ? (symmetric(there.force) * trial).norm() < 0.5 * gradient.norm()
+                         : there.energy <= here.energy + 1e-4 * length * gradient.dot(step);
       if (is_taken)
       {
         w    = trial;
