@@ -103,10 +103,12 @@ FieldDistance distance(const Discretization &discretization, const Vector &field
           gradient.row(c) += value * slope;
         }
       }
-      sums[0] += sample.weight * difference.head(n).squaredNorm();
-      sums[1] += sample.weight * gradient.topRows(n).squaredNorm();
       for (unsigned int c = 0; c < n; ++c)
+      {
+        sums[0] += sample.weight * difference(c) * difference(c);
+        sums[1] += sample.weight * gradient.row(c).squaredNorm();
         sums[2 + c] += sample.weight * difference(c);
+      }
       sums[5] += sample.weight;
     });
   const std::vector<double> of_this_rank = sums;
