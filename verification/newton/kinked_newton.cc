@@ -11,7 +11,7 @@ namespace homespun::verification
 {
 namespace
 {
-constexpr double least_times = 1e-5, most_times = 10.;
+constexpr double least_times = 1e-5, most_times = 1e3;
 
 /// Where the slope along a step is half of what it was at most, by false position.
 class SlopeSearch
@@ -87,8 +87,10 @@ void minimize_with_kinks(KinkedProblem &problem, const NewtonOptions &options)
       continue;
     }
     problem.keep(length, next.residual / now.residual);
-    times = length == 1. ? std::max(0.2 * times, least_times) : std::min(3. * times, most_times);
-    now   = next;
+    const double growth = length < 0.1 ? 10. : 3.;
+    times =
+      length == 1. ? std::max(0.2 * times, least_times) : std::min(growth * times, most_times);
+    now = next;
   }
 }
 } // namespace homespun::verification

@@ -9,7 +9,7 @@
 //
 // K is the projected tangent at x, K_1 what makes it regular. It is taken a fifth as often after
 // each whole step, so that the steps end quadratically, and more where a kink has cut one short
-// (Li, Fukushima, Qi, Yamashita, SIAM J. Optim. 14, 2004, regularize so). The residual knows
+// (Li, Fukushima, Qi, Yamashita, Comput. Optim. Appl. 28, 2004, regularize so). The residual knows
 // nothing of it: what is found is an equilibrium of the energy itself. Where that leaves positions
 // open, the way decides which of them is found.
 #pragma once

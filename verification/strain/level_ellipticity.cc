@@ -117,8 +117,10 @@ void write_ellipticity(const StrainLevel &level, const ResolvedLevel &resolved,
     output.ellipticity.append_if_missing(row);
     if (const std::string relaxed = relaxed_of_all(row); !relaxed.empty())
       output.write_note(level, relaxed + " of phase " + groups[g] + " under " + row.reference +
-                                 ": what was pressed there is relaxed, and where the cloth lies "
-                                 "within is not determined by the law");
+                                 ": what was pressed there is relaxed" +
+                                 (row.slack > 0 ? ", and where the cloth lies within slack ones is "
+                                                  "not determined by the law"
+                                                : ""));
     if (row.lost > 0)
       output.write_note(
         level,
