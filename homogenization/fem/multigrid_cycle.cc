@@ -167,12 +167,12 @@ private:
 class MultigridCycle::Levels
 {
 public:
-  Levels(const Epetra_CrsMatrix &finest, const ML_Epetra::MultiLevelPreconditioner &hierarchy,
+  Levels(const Epetra_CrsMatrix &finest, const Epetra_Operator &hierarchy,
          const unsigned int degree, const MPI_Comm communicator)
       : degree(degree)
       , communicator(communicator)
   {
-    const ML &made = *hierarchy.GetML();
+    const ML &made = *dynamic_cast<const ML_Epetra::MultiLevelPreconditioner &>(hierarchy).GetML();
     levels.push_back(std::make_unique<Level>(finest));
     for (const ML_1Level *its = &made.SingleLevel[made.ML_finest_level];
          its->Rmat != nullptr && its->Rmat->to != nullptr; its = its->Rmat->to)
@@ -366,8 +366,7 @@ private:
   std::unique_ptr<CoarsestProblem> coarsest;
 };
 
-MultigridCycle::MultigridCycle(const Epetra_CrsMatrix &finest,
-                               const ML_Epetra::MultiLevelPreconditioner &hierarchy,
+MultigridCycle::MultigridCycle(const Epetra_CrsMatrix &finest, const Epetra_Operator &hierarchy,
                                const unsigned int degree, const MPI_Comm communicator)
     : levels(std::make_unique<Levels>(finest, hierarchy, degree, communicator))
 {

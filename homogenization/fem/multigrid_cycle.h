@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A multigrid cycle for several right-hand sides abreast. Trilinos' ML makes the hierarchy (smoothed
-// aggregation with the rigid modes), but its cycle passes over every matrix once for each
+// A multigrid cycle for several right-hand sides abreast. Trilinos' ML makes the hierarchy
+// (smoothed aggregation with the rigid modes), but its cycle passes over every matrix once for each
 // right-hand side; this one passes once for up to eight. In double precision: a stiff part that
 // moves as a whole loses its contrast times the rounding of its matrix.
 #pragma once
@@ -11,10 +11,7 @@
 
 class Epetra_CrsMatrix;
 class Epetra_MultiVector;
-namespace ML_Epetra
-{
-class MultiLevelPreconditioner;
-}
+class Epetra_Operator;
 
 namespace homespun::homogenization
 {
@@ -27,12 +24,11 @@ class MultigridCycle
 {
 public:
   /// @param finest symmetric, positive definite; must stay as it is
-  /// @param hierarchy that was made of it; not needed afterwards
+  /// @param hierarchy ML_Epetra::MultiLevelPreconditioner of it; not needed afterwards
   /// @param degree of the polynomials
   /// @throws NotConverged where the coarsest matrix is not positive definite
-  MultigridCycle(const Epetra_CrsMatrix &finest,
-                 const ML_Epetra::MultiLevelPreconditioner &hierarchy, unsigned int degree,
-                 MPI_Comm communicator);
+  MultigridCycle(const Epetra_CrsMatrix &finest, const Epetra_Operator &hierarchy,
+                 unsigned int degree, MPI_Comm communicator);
   ~MultigridCycle();
 
   /// M r for each column. All ranks must call this.

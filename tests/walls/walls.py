@@ -111,7 +111,9 @@ PLACES = [
     (r"<deal\.II/", {"homogenization/fem", "verification/reference",
                      "verification/program/full_main.cc"},
      "the rest of the house compiles without deal.II, in seconds"),
-    (r"<Epetra", {"homogenization/fem/elastic_solver.cc"}, "Epetra is used in one file"),
+    (r"<Epetra",
+     {f"homogenization/fem/{its}" for its in ("elastic_solver.cc", "halo.h", "multigrid_cycle.cc")},
+     "Epetra is used in three files"),
     (r"<CLI/", {"verification/program"}, "the command line is read in program/"),
     (r"<nlohmann/", {"verification/record"}, "JSON is written and read in record/"),
 ]

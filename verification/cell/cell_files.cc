@@ -8,7 +8,7 @@
 #include "meshes/files/write_whole.h"
 #include "verification/cell/cell_bars.h"
 #include "verification/cell/cell_edges.h"
-#include "verification/cell/cell_second_order.h"
+#include "verification/cell/cell_summary.h"
 #include "verification/cell/energy_order.h"
 #include "verification/cell/phase_fields.h"
 #include "verification/cell/shell_sections.h"

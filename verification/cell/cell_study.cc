@@ -3,7 +3,7 @@
 
 #include "homogenization/fem/solution_pieces.h"
 #include "verification/cell/cell_files.h"
-#include "verification/cell/cell_second_order.h"
+#include "verification/cell/cell_summary.h"
 #include "verification/cell/study_inputs.h"
 #include "verification/record/on_root.h"
 #include "verification/record/peak_memory.h"

@@ -15,4 +15,10 @@ namespace homespun::verification
 /// @param uncertain inputs, whose bars stand beside those of the bracket
 std::string summary(const homogenization::UnitCell &cell, const AssessedCell &assessed,
                     const std::vector<UncertainInput> &uncertain = {});
+
+/// Why second order in strain is left out of a cell, as a sentence; empty where it is not: where
+/// all laws of the cell together take no more than 10 s by an estimate. Studies that need it make
+/// it whatever it takes.
+std::string too_dear_second_order(const homogenization::UnitCell &cell,
+                                  const homogenization::HomogenizationOptions &options);
 } // namespace homespun::verification
