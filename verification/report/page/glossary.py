@@ -38,7 +38,7 @@ GLOSSARY = (
      " ½ (U−I):C:(U−I), which is also the law of the coarse cloth; St. Venant-Kirchhoff; stretches"
      " and angle of two yarns, which the coarse cloth then has too; the same without compression"),
     ("wrinkled, slack", "under yarn-tension: pressed across a pull, or both ways; such a triangle"
-     " gives way, and where the cloth lies there is not determined"),
+     " gives way, and where the cloth is slack its place is not determined"),
     ("woven, woven-tension", "a moving cloth under the law yarn, or yarn-tension"),
     ("fluctuation", "what the cloth does beside an even sheet of stiffness C^H: the part that"
      " up-sampling is to restore"),
