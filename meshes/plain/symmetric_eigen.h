@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Eigenvalues of small symmetric matrices. Eigen's solver, compiled here once: where a source asks
-// for it itself it compiles for some ten seconds longer.
+// Eigenvalues of small symmetric matrices. Eigen's solver, compiled here once and not in each source
+// that asks for them.
 #pragma once
 
 #include <Eigen/Core>
