@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Eigenvalues of small symmetric matrices. Eigen's solver, compiled here once and not in each source
-// that asks for them.
+// Eigenvalues of small symmetric matrices. Eigen's solver, compiled here once and not in each
+// source that asks for them.
 #pragma once
 
 #include <Eigen/Core>
