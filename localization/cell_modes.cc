@@ -20,12 +20,12 @@ CellModes cell_modes(const meshes::HomogenizedCell &cell, const UpsamplerOptions
   if (kind_of_modes(options) == linear_modes)
     return anchored(cell, options.anchor);
   CellModes modes(cell.mesh.n_vertices(), 18);
+  modes.leftCols(6) = anchored(cell, options.anchor);
   if (kind_of_modes(options) == fitted_modes)
-    modes << anchored(cell, options.anchor), anchored_fitted(cell, *options.fitted, options.anchor);
+    modes.rightCols(12) = anchored_fitted(cell, *options.fitted, options.anchor);
   else
   {
-    modes << anchored(cell, options.anchor),
-      anchored_quadratic(cell, options.second_order, options.anchor);
+    modes.rightCols(12) = anchored_quadratic(cell, options.second_order, options.anchor);
     modes.middleCols(6, 6) *= 0.5; // of equal strains
   }
   return modes;
