@@ -3,6 +3,7 @@
 
 #include "meshes/plain/errors.h"
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 #include <type_traits>
@@ -126,9 +127,8 @@ CoarseFrames<dim>::CoarseFrames(const meshes::TriangleMesh &coarse_rest,
       "Strain::biot");
   const auto m = static_cast<std::size_t>(mesh.n_triangles());
   corners.resize(3 * m);
-  inverse_rest.resize(4 * m);
-  edges.resize(2 * dim * m);
-  per_triangle.resize(n_components * m);
+  inverse_rest.resize(4 * ((m + abreast - 1) / abreast * abreast));
+  of_triangles.resize(mesh.n_triangles(), n_components);
   const Eigen::VectorXd areas = meshes::signed_areas(mesh);
   first.assign(static_cast<std::size_t>(mesh.n_vertices()) + 1, 0);
   for (std::size_t t = 0; t < m; ++t)
@@ -136,17 +136,18 @@ CoarseFrames<dim>::CoarseFrames(const meshes::TriangleMesh &coarse_rest,
     const auto row = static_cast<Eigen::Index>(t);
     for (std::size_t k = 0; k < 3; ++k)
     {
-      corners[k * m + t] = mesh.triangles(row, static_cast<Eigen::Index>(k));
-      ++first[static_cast<std::size_t>(corners[k * m + t]) + 1];
+      corners[3 * t + k] = mesh.triangles(row, static_cast<Eigen::Index>(k));
+      ++first[static_cast<std::size_t>(corners[3 * t + k]) + 1];
     }
-    const Eigen::RowVector2d x0 = mesh.vertices.row(corners[t]),
-                             e1 = mesh.vertices.row(corners[m + t]) - x0,
-                             e2 = mesh.vertices.row(corners[2 * m + t]) - x0;
+    const Eigen::RowVector2d x0 = mesh.vertices.row(corners[3 * t]),
+                             e1 = mesh.vertices.row(corners[3 * t + 1]) - x0,
+                             e2 = mesh.vertices.row(corners[3 * t + 2]) - x0;
     const double inverse        = 0.5 / areas(row);
-    inverse_rest[t]             = inverse * e2(1);
-    inverse_rest[m + t]         = -inverse * e2(0);
-    inverse_rest[2 * m + t]     = -inverse * e1(1);
-    inverse_rest[3 * m + t]     = inverse * e1(0);
+    double *const entries       = inverse_rest.data() + 4 * (t - t % abreast) + t % abreast;
+    entries[0]                  = inverse * e2(1);
+    entries[abreast]            = -inverse * e2(0);
+    entries[2 * abreast]        = -inverse * e1(1);
+    entries[3 * abreast]        = inverse * e1(0);
   }
   for (std::size_t v = 1; v < first.size(); ++v)
     first[v] += first[v - 1];
@@ -157,7 +158,7 @@ CoarseFrames<dim>::CoarseFrames(const meshes::TriangleMesh &coarse_rest,
     for (std::size_t k = 0; k < 3; ++k)
     {
       const auto slot =
-        static_cast<std::size_t>(next[static_cast<std::size_t>(corners[k * m + t])]++);
+        static_cast<std::size_t>(next[static_cast<std::size_t>(corners[3 * t + k])]++);
       owner[slot] = static_cast<int>(t);
       share[slot] = areas(static_cast<Eigen::Index>(t));
     }
@@ -169,90 +170,91 @@ CoarseFrames<dim>::CoarseFrames(const meshes::TriangleMesh &coarse_rest,
     for (int slot = first[v]; slot < first[v + 1]; ++slot)
       share[static_cast<std::size_t>(slot)] /= sum;
   }
-  frames.resize(options.blend == Blend::continuous ? mesh.n_vertices() : mesh.n_triangles(),
-                n_components);
+  if (options.blend == Blend::continuous)
+    of_vertices.resize(mesh.n_vertices(), n_components);
 }
 
 template <int dim>
-void CoarseFrames<dim>::evaluate_triangles(const PositionsOf<dim> current) const
+template <Strain strain, Lift lift>
+void CoarseFrames<dim>::evaluate(const double *const __restrict x, const std::size_t begin) const
 {
-  // First the edges, which must be collected one by one; then arithmetic on consecutive numbers.
-  const auto m                        = static_cast<std::size_t>(mesh.n_triangles());
-  const double *const __restrict x    = current.data();
-  const int *const __restrict corner  = corners.data();
-  double *const __restrict edge       = edges.data();
-  const double *const __restrict rest = inverse_rest.data();
-  double *const __restrict frame      = per_triangle.data();
-  for (std::size_t t = 0; t < m; ++t)
+  double edge[2 * dim][abreast], frame[n_components][abreast];
+  const auto last = static_cast<std::size_t>(mesh.n_triangles()) - 1;
+  for (std::size_t k = 0; k < abreast; ++k)
   {
-    const double *const x0 = x + dim * corner[t], *const x1 = x + dim * corner[m + t],
-                        *const x2 = x + dim * corner[2 * m + t];
+    const int *const corner = corners.data() + 3 * std::min(begin + k, last);
+    const double *const x0 = x + dim * corner[0], *const x1 = x + dim * corner[1],
+                        *const x2 = x + dim * corner[2];
     for (std::size_t i = 0; i < dim; ++i)
     {
-      edge[i * m + t]         = x1[i] - x0[i];
-      edge[(dim + i) * m + t] = x2[i] - x0[i];
+      edge[i][k]       = x1[i] - x0[i];
+      edge[dim + i][k] = x2[i] - x0[i];
     }
   }
-  with_choices(options,
-               [=](const auto strain, const auto lift)
-               {
+  const double *const inverse = inverse_rest.data() + 4 * begin;
 #pragma GCC ivdep
-                 for (std::size_t t = 0; t < m; ++t)
-                 {
-                   double f1[dim], f2[dim];
-                   for (std::size_t i = 0; i < dim; ++i)
-                   {
-                     const double e1 = edge[i * m + t], e2 = edge[(dim + i) * m + t];
-                     f1[i] = e1 * rest[t] + e2 * rest[2 * m + t];
-                     f2[i] = e1 * rest[m + t] + e2 * rest[3 * m + t];
-                   }
-                   frame_of<dim, strain(), lift()>(f1, f2, frame + t, m);
-                 }
-               });
+  for (std::size_t k = 0; k < abreast; ++k)
+  {
+    double f1[dim], f2[dim];
+    for (std::size_t i = 0; i < dim; ++i)
+    {
+      const double e1 = edge[i][k], e2 = edge[dim + i][k];
+      f1[i] = e1 * inverse[k] + e2 * inverse[2 * abreast + k];
+      f2[i] = e1 * inverse[abreast + k] + e2 * inverse[3 * abreast + k];
+    }
+    frame_of<dim, strain, lift>(f1, f2, &frame[0][k], abreast);
+  }
+  double *const rows  = of_triangles.data() + n_components * begin;
+  const std::size_t n = std::min(abreast, last + 1 - begin);
+  for (std::size_t k = 0; k < n; ++k)
+    for (std::size_t c = 0; c < n_components; ++c)
+      rows[n_components * k + c] = frame[c][k];
 }
 
 template <int dim>
-const Eigen::Matrix<double, Eigen::Dynamic, CoarseFrames<dim>::n_components, Eigen::RowMajor> &
+const typename CoarseFrames<dim>::Values &
 CoarseFrames<dim>::values(const PositionsOf<dim> current) const
 {
-  evaluate_triangles(current);
-  const auto m              = static_cast<std::size_t>(mesh.n_triangles());
-  const double *const frame = per_triangle.data();
+  with_choices(options,
+               [&](const auto strain, const auto lift)
+               {
+                 const auto m = static_cast<std::size_t>(mesh.n_triangles());
+                 for (std::size_t begin = 0; begin < m; begin += abreast)
+                   evaluate<strain(), lift()>(current.data(), begin);
+               });
   if (options.blend == Blend::piecewise)
-  {
-    for (std::size_t t = 0; t < m; ++t)
-      for (std::size_t c = 0; c < n_components; ++c)
-        frames(static_cast<Eigen::Index>(t), static_cast<Eigen::Index>(c)) = frame[c * m + t];
-    return frames;
-  }
+    return of_triangles;
+  const double *const __restrict rows = of_triangles.data();
+  double *const __restrict averages   = of_vertices.data();
   for (std::size_t v = 0; v + 1 < first.size(); ++v)
   {
     double sum[n_components] = {};
     for (int slot = first[v]; slot < first[v + 1]; ++slot)
     {
-      const double weight        = share[static_cast<std::size_t>(slot)];
-      const double *const source = frame + owner[static_cast<std::size_t>(slot)];
-      for (std::size_t c = 0; c < n_components; ++c)
-        sum[c] += weight * source[c * m];
+      const double weight     = share[static_cast<std::size_t>(slot)];
+      const double *const row = rows + owner[static_cast<std::size_t>(slot)] * n_components;
+#pragma GCC unroll 16
+      for (int c = 0; c < n_components; ++c)
+        sum[c] += weight * row[c];
     }
-    for (int c = 0; c < n_components; ++c)
-      frames(static_cast<Eigen::Index>(v), c) = sum[c];
+    for (std::size_t c = 0; c < n_components; ++c)
+      averages[v * n_components + c] = sum[c];
   }
-  return frames;
+  return of_vertices;
 }
 
 template <int dim>
 Frame<dim> CoarseFrames<dim>::of_triangle(const int triangle, const Positions<dim> &current) const
 {
-  const auto m = static_cast<std::size_t>(mesh.n_triangles()),
-             t = static_cast<std::size_t>(triangle);
+  const auto t                = static_cast<std::size_t>(triangle);
+  const double *const inverse = inverse_rest.data() + 4 * (t - t % abreast) + t % abreast;
   double f1[dim], f2[dim];
   for (int i = 0; i < dim; ++i)
   {
-    const double x0 = current(corners[t], i), e1 = current(corners[m + t], i) - x0,
-                 e2 = current(corners[2 * m + t], i) - x0;
-    f1[i]           = e1 * inverse_rest[t] + e2 * inverse_rest[2 * m + t];
-    f2[i]           = e1 * inverse_rest[m + t] + e2 * inverse_rest[3 * m + t];
+    const double x0 = current(corners[3 * t], i), e1 = current(corners[3 * t + 1], i) - x0,
+                 e2 = current(corners[3 * t + 2], i) - x0;
+    f1[i]           = e1 * inverse[0] + e2 * inverse[2 * abreast];
+    f2[i]           = e1 * inverse[abreast] + e2 * inverse[3 * abreast];
   }
   Eigen::Matrix<double, n_components, 1> row;
   with_choices(options, [&](const auto strain, const auto lift)
@@ -269,7 +271,7 @@ Frame<dim> CoarseFrames<dim>::at(const int triangle, const Eigen::Vector3d &weig
   values(current);
   Eigen::Matrix<double, n_components, 1> row = Eigen::Matrix<double, n_components, 1>::Zero();
   for (int k = 0; k < 3; ++k)
-    row += weights(k) * frames.row(mesh.triangles(triangle, k)).transpose();
+    row += weights(k) * of_vertices.row(mesh.triangles(triangle, k)).transpose();
   return to_frame<dim>(row);
 }
 

@@ -38,6 +38,7 @@ class CoarseFrames
 public:
   /// Components of a frame in a row of values(): strain (3), then lift, row by row (2 dim).
   static constexpr int n_components = 3 + 2 * dim;
+  using Values = Eigen::Matrix<double, Eigen::Dynamic, n_components, Eigen::RowMajor>;
 
   /// Prepares the rest state and the weights of the average.
   /// @throws BadInput where the mesh is not sound, or Strain::linear is asked for in space
@@ -47,18 +48,16 @@ public:
   /// triangle (Blend::piecewise). Writes into work space of the object: one thread at a time.
   /// @param current (n,dim) [m], finite
   /// @return (rows, n_components), valid until the next call
-  const Eigen::Matrix<double, Eigen::Dynamic, n_components, Eigen::RowMajor> &
-  values(PositionsOf<dim> current) const;
-  const Eigen::Matrix<double, Eigen::Dynamic, n_components, Eigen::RowMajor> &
-  values(const Positions<dim> &current) const
+  const Values &values(PositionsOf<dim> current) const;
+  const Values &values(const Positions<dim> &current) const
   {
     return values(PositionsOf<dim>(current.data(), current.rows(), dim));
   }
 
   /// What values() returned last.
-  const Eigen::Matrix<double, Eigen::Dynamic, n_components, Eigen::RowMajor> &last_values() const
+  const Values &last_values() const
   {
-    return frames;
+    return options.blend == Blend::piecewise ? of_triangles : of_vertices;
   }
 
   /// Frame of one coarse triangle without any blending, the definition.
@@ -74,17 +73,18 @@ public:
   }
 
 private:
-  void evaluate_triangles(PositionsOf<dim> current) const;
+  /// Triangles whose frames are computed at once.
+  static constexpr std::size_t abreast = 32;
+  template <Strain strain, Lift lift>
+  void evaluate(const double *positions, std::size_t begin) const;
 
   meshes::TriangleMesh mesh;
   UpsamplerOptions options;
-  std::vector<int> corners;                 ///< (3, m): triangles, corner by corner
-  std::vector<double> inverse_rest;         ///< (4, m): entries of Dm^-1
+  std::vector<int> corners;                 ///< (m, 3)
+  std::vector<double> inverse_rest;         ///< entries of Dm^-1, (4, abreast) of so many triangles
   std::vector<int> first, owner;            ///< triangles around a vertex
   std::vector<double> share;                ///< weight of each of them in the average
-  mutable std::vector<double> edges;        ///< (2 dim, m): current edges of each triangle
-  mutable std::vector<double> per_triangle; ///< (n_components, m)
-  mutable Eigen::Matrix<double, Eigen::Dynamic, n_components, Eigen::RowMajor> frames;
+  mutable Values of_triangles, of_vertices; ///< the second where blended
 };
 
 /// Position of one fine point: the formula on top of this file.

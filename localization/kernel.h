@@ -25,6 +25,15 @@ struct alignas(64) Weights
   Scalar corner1[lanes], corner2[lanes];
 };
 
+/// Where a triangle is cut into four by the middles of its sides: the functions of a block of fine
+/// vertices that are 1 at one middle, 0 at all other nodes and linear in each of the four; sides
+/// 01, 12, 02.
+template <typename Scalar>
+struct alignas(64) Hats
+{
+  Scalar side[3][lanes];
+};
+
 /// −chi of a block of fine vertices, column 2 a + c [m].
 template <typename Scalar>
 struct alignas(64) ChiBlock
@@ -55,42 +64,66 @@ constexpr int record_size(const int modes)
   return modes == fitted_modes ? 32 : 16;
 }
 
-/// Records of a coarse triangle: values at corner 0, and their differences to corners 1 and 2.
-template <typename Scalar, int modes>
-struct alignas(64) Corners
+/// Records of a coarse triangle: values at corner 0, and their differences to corners 1 and 2; of
+/// six nodes also what the middles of the sides 01, 12, 02 are off the straight lines.
+/// @tparam n_nodes 3 or 6
+template <typename Scalar, int modes, int n_nodes>
+struct alignas(64) Nodes
 {
-  Scalar at0[record_size(modes)], to1[record_size(modes)], to2[record_size(modes)];
+  static constexpr int size = record_size(modes);
+  Scalar at0[size], to1[size], to2[size], off[n_nodes == 6 ? 3 : 1][n_nodes == 6 ? size : 1];
+};
+
+/// Constants of a run of fine vertices, block by block.
+template <typename Scalar>
+struct Blocks
+{
+  const Weights<Scalar> *weights;
+  const Hats<Scalar> *hats;                ///< not read where a triangle has three nodes
+  const ChiBlock<Scalar> *chi;             ///< not read without microscopic displacement
+  const QuadraticBlock<Scalar> *quadratic; ///< not read with linear_modes
 };
 
 /// Positions x = P + L w in blocks of `lanes` vertices.
 ///
 /// Not inlined, so that the coefficients are broadcast from memory and not taken apart from the
 /// registers in which the caller made them: they are 36 for at most a dozen blocks.
-/// @param quadratic not read with linear_modes
 /// @param out (n_blocks * lanes, dim), components side by side
-template <int dim, int terms, int modes, typename Scalar>
-[[gnu::noinline]] void fine_positions(const Corners<Scalar, modes> &corners,
-                                      const Weights<Scalar> *__restrict weights,
-                                      const ChiBlock<Scalar> *__restrict chi,
-                                      const QuadraticBlock<Scalar> *__restrict quadratic,
-                                      const int n_blocks, Scalar *__restrict out)
+template <int dim, int terms, int modes, int n_nodes, typename Scalar>
+[[gnu::noinline]] void fine_positions(const Nodes<Scalar, modes, n_nodes> &nodes,
+                                      const Blocks<Scalar> &blocks, const int n_blocks,
+                                      Scalar *__restrict out)
 {
   constexpr bool is_blended =
     terms == blended || terms == blended_plane || terms == blended_rotation;
   constexpr bool is_in_plane         = terms == constant_plane || terms == blended_plane;
-  const Scalar *const __restrict at0 = corners.at0;
-  const Scalar *const __restrict to1 = corners.to1;
-  const Scalar *const __restrict to2 = corners.to2;
+  const Scalar *const __restrict at0 = nodes.at0;
+  const Scalar *const __restrict to1 = nodes.to1;
+  const Scalar *const __restrict to2 = nodes.to2;
+  [[maybe_unused]] const auto *const __restrict hats      = blocks.hats;
+  [[maybe_unused]] const auto *const __restrict chi       = blocks.chi;
+  [[maybe_unused]] const auto *const __restrict quadratic = blocks.quadratic;
   for (int block = 0; block < n_blocks; ++block)
   {
-    const Weights<Scalar> &b      = weights[block];
+    const Weights<Scalar> &b      = blocks.weights[block];
     Scalar *const __restrict rows = out + block * lanes * dim;
 #pragma GCC ivdep
     for (int n = 0; n < lanes; ++n)
     {
       const Scalar u = b.corner1[n], v = b.corner2[n];
-      const auto linear = [&](const int k) { return at0[k] + u * to1[k] + v * to2[k]; };
-      const auto frame  = [&](const int k) { return is_blended ? linear(dim + k) : at0[dim + k]; };
+      const auto linear = [&](const int k)
+      {
+        const Scalar straight = at0[k] + u * to1[k] + v * to2[k];
+        if constexpr (n_nodes == 6)
+        {
+          const auto &hat = hats[block].side;
+          return straight + hat[0][n] * nodes.off[0][k] + hat[1][n] * nodes.off[1][k] +
+                 hat[2][n] * nodes.off[2][k];
+        }
+        else
+          return straight;
+      };
+      const auto frame = [&](const int k) { return is_blended ? linear(dim + k) : at0[dim + k]; };
       Scalar x[dim];
       for (int i = 0; i < dim; ++i)
         x[i] = linear(i);

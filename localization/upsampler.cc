@@ -2,6 +2,7 @@
 #include "localization/upsampler.h"
 
 #include "localization/cell_modes.h"
+#include "localization/cell_nodes.h"
 #include "localization/garment_chi.h"
 #include "localization/upsampler_faults.h"
 #include "meshes/cloth/seams.h"
@@ -15,6 +16,17 @@
 
 namespace homespun::localization
 {
+namespace
+{
+/// Vertices that go through a buffer at once.
+constexpr int chunk = 8 * lanes;
+
+constexpr int n_blocks_of(const int n_vertices)
+{
+  return (n_vertices + lanes - 1) / lanes;
+}
+} // namespace
+
 template <int dim, typename Scalar>
 Upsampler<dim, Scalar>::Upsampler(const meshes::HomogenizedCell &cell,
                                   const meshes::TriangleMesh &coarse_rest,
@@ -44,15 +56,13 @@ Upsampler<dim, Scalar>::Upsampler(const meshes::HomogenizedCell &cell,
       row.template head<6>() -= near_edges.at(v);
     return row;
   };
-  n_total     = fine.mesh.n_vertices();
-  n_space     = coarse_rest.n_vertices();
-  const int r = options.path == Path::automatic ? quads_per_cell(fine, coarse_rest) : 0;
-  aligned     = r == 1;
-  // Within a quad of a cell a strain that is piecewise constant belongs to a side, which the groups
-  // do not know.
-  if (r > 1 && options.blend == Blend::continuous)
-    within_cell = cell_groups(fine, r);
-  if (aligned || within_cell.r > 0)
+  n_total = fine.mesh.n_vertices();
+  n_space = coarse_rest.n_vertices();
+  quads   = options.path == Path::automatic ? quads_per_cell(fine, coarse_rest) : 0;
+  // A strain that is constant in each of the four parts of a triangle is no matter of its nodes.
+  if (quads == 2 && options.microscopic && options.blend == Blend::piecewise)
+    quads = 0;
+  if (is_aligned())
     share_cells(modes_at, near_edges, fine);
   place(modes_at, fine, n_cells * n_block);
   records.resize(static_cast<std::size_t>(coarse_rest.n_vertices()) *
@@ -94,36 +104,27 @@ void Upsampler<dim, Scalar>::share_cells(const ModesAt &modes_at, const EdgeMode
   n_block = fine.n_per_cell;
   n_below = fine.n_below;
   n_along = fine.n1;
-  std::map<EdgeModes::Depths, int> table_of;
+  std::map<EdgeModes::Depths, int> kind_at;
   for (int cell = 0; cell < n_cells; ++cell)
   {
-    const auto [found, is_new] = table_of.emplace(near_edges.depths(cell % fine.n1, cell / fine.n1),
-                                                  static_cast<int>(shared.size()));
-    shared_of_cell.push_back(found->second);
+    const auto [found, is_new] = kind_at.emplace(near_edges.depths(cell % fine.n1, cell / fine.n1),
+                                                 static_cast<int>(chi_of_kind.size()));
+    kind_of_cell.push_back(found->second);
     if (!is_new)
       continue;
-    VertexTable<Scalar> &table = shared.emplace_back();
-    for (const CellGroups::Group &group : within_cell.groups)
+    VertexTable<Scalar> table;
+    for (int k = 0; k < n_block; ++k)
     {
-      for (std::size_t k = 0; k < group.vertices.size(); ++k)
-        table.append(group.weights[k], modes_at(cell * n_block + group.vertices[k]));
-      table.pad();
-    }
-    for (int k = 0; aligned && k < n_block; ++k)
-    {
-      // s along a1 and t along a2: below, corners (0,0) (1,0) (1,1); above, (0,0) (1,1) (0,1).
-      const Eigen::RowVector2d f = fine.lattice.fractional(fine.mesh.vertices.row(k) - fine.origin);
-      const double s = f(0), t = f(1);
       if (k == n_below)
         table.pad();
-      table.append(k < n_below ? Eigen::Vector3d(1. - s, s - t, t)
-                               : Eigen::Vector3d(1. - t, s, t - s),
-                   modes_at(cell * n_block + k));
+      const Eigen::Vector3d weights = weights_in_cell(fine, k);
+      table.append(weights, modes_at(cell * n_block + k));
+      if (quads == 2)
+        table.append_hats(hats(weights));
     }
-    table.pad();
+    chi_of_kind.push_back(std::move(table.chi_blocks));
+    shared = std::move(table);
   }
-  if (shared.size() == 1)
-    shared_of_cell.clear();
 }
 
 template <int dim, typename Scalar>
@@ -179,14 +180,14 @@ void Upsampler<dim, Scalar>::tabulate(const std::vector<std::vector<Member>> &in
   if (options.microscopic)
     return;
   own.chi_blocks = std::vector<ChiBlock<Scalar>>();
-  for (VertexTable<Scalar> &table : shared)
-    table.chi_blocks = std::vector<ChiBlock<Scalar>>();
+  for (std::vector<ChiBlock<Scalar>> &chi : chi_of_kind)
+    chi = std::vector<ChiBlock<Scalar>>();
 }
 
 template <int dim, typename Scalar>
 bool Upsampler<dim, Scalar>::is_aligned() const
 {
-  return aligned;
+  return quads > 0;
 }
 
 template <int dim, typename Scalar>
@@ -204,16 +205,18 @@ int Upsampler<dim, Scalar>::n_coarse() const
 template <int dim, typename Scalar>
 std::size_t Upsampler<dim, Scalar>::table_bytes() const
 {
-  std::size_t bytes = sizeof(int) * (target.size() + shared_of_cell.size());
+  std::size_t bytes = sizeof(int) * (target.size() + kind_of_cell.size());
   const auto add    = [&](const VertexTable<Scalar> &table)
   {
     bytes += sizeof(Weights<Scalar>) * table.weights.size() +
+             sizeof(Hats<Scalar>) * table.hats.size() +
              sizeof(ChiBlock<Scalar>) * table.chi_blocks.size() +
              sizeof(QuadraticBlock<Scalar>) * table.quadratic_blocks.size();
   };
   add(own);
-  for (const VertexTable<Scalar> &table : shared)
-    add(table);
+  add(shared);
+  for (const std::vector<ChiBlock<Scalar>> &chi : chi_of_kind)
+    bytes += sizeof(ChiBlock<Scalar>) * chi.size();
   return bytes;
 }
 
@@ -252,31 +255,34 @@ void Upsampler<dim, Scalar>::fill_records(const PositionsOf<dim> coarse_current)
 }
 
 template <int dim, typename Scalar>
-template <int terms, int modes>
-void Upsampler<dim, Scalar>::evaluate(const VertexTable<Scalar> &table, const int triangle,
-                                      const int begin, const int count, Scalar *const out) const
+template <int modes, int n_nodes>
+Nodes<Scalar, modes, n_nodes>
+Upsampler<dim, Scalar>::nodes_at(const std::array<int, n_nodes> &vertices) const
 {
-  Corners<Scalar, modes> corners;
+  Nodes<Scalar, modes, n_nodes> nodes;
   constexpr int size = record_size(modes);
   const auto record  = [&](const int k) {
-    return records.data() + static_cast<std::size_t>(frames.rest().triangles(triangle, k)) * size;
+    return records.data() + static_cast<std::size_t>(vertices[static_cast<std::size_t>(k)]) * size;
   };
   const Scalar *const r0 = record(0), *const r1 = record(1), *const r2 = record(2);
   for (int c = 0; c < size; ++c)
   {
-    corners.at0[c] = r0[c];
-    corners.to1[c] = r1[c] - r0[c];
-    corners.to2[c] = r2[c] - r0[c];
+    nodes.at0[c] = r0[c];
+    nodes.to1[c] = r1[c] - r0[c];
+    nodes.to2[c] = r2[c] - r0[c];
   }
-  if constexpr (terms == constant || terms == constant_plane)
-    for (int c = 0; c < CoarseFrames<dim>::n_components; ++c)
-      corners.at0[dim + c] = static_cast<Scalar>(frames.last_values()(triangle, c));
-  const int block = begin / lanes;
-  fine_positions<dim, terms, modes, Scalar>(
-    corners, table.weights.data() + block,
-    terms == affine ? nullptr : table.chi_blocks.data() + block,
-    modes == linear_modes ? nullptr : table.quadratic_blocks.data() + block,
-    (count + lanes - 1) / lanes, out);
+  if constexpr (n_nodes == 6)
+  {
+    const Scalar *const r01 = record(3), *const r12 = record(4), *const r02 = record(5);
+    const Scalar half = 0.5;
+    for (int c = 0; c < size; ++c)
+    {
+      nodes.off[0][c] = r01[c] - half * (r0[c] + r1[c]);
+      nodes.off[1][c] = r12[c] - half * (r1[c] + r2[c]);
+      nodes.off[2][c] = r02[c] - half * (r0[c] + r2[c]);
+    }
+  }
+  return nodes;
 }
 
 template <int dim, typename Scalar>
@@ -296,57 +302,81 @@ void Upsampler<dim, Scalar>::run_modes(Scalar *const fine_current) const
 
 template <int dim, typename Scalar>
 template <int terms, int modes>
-void Upsampler<dim, Scalar>::run(Scalar *const fine_current) const
+Nodes<Scalar, modes, 3> Upsampler<dim, Scalar>::nodes_of(const int triangle) const
+{
+  std::array<int, 3> corners;
+  for (int k = 0; k < 3; ++k)
+    corners[static_cast<std::size_t>(k)] = frames.rest().triangles(triangle, k);
+  auto nodes = nodes_at<modes, 3>(corners);
+  if constexpr (terms == constant || terms == constant_plane)
+    for (int c = 0; c < CoarseFrames<dim>::n_components; ++c)
+      nodes.at0[dim + c] = static_cast<Scalar>(frames.last_values()(triangle, c));
+  return nodes;
+}
+
+template <int dim, typename Scalar>
+template <int terms, int modes, int n_nodes>
+void Upsampler<dim, Scalar>::run_cells(Scalar *const fine_current) const
 {
   // A run is computed in whole blocks of lanes. What it writes too much lies in the run after it,
   // which is written later; at the end of the output it goes through a buffer.
-  constexpr int chunk = 8 * lanes;
   Scalar buffer[chunk * dim];
-  const int begin_above = (n_below + lanes - 1) / lanes * lanes;
-  const auto block      = [&](const VertexTable<Scalar> &table, const int triangle, const int begin,
-                         const int first, const int count)
+  const int begin_above = n_blocks_of(n_below) * lanes;
+  for (int cell = 0; cell < n_cells; ++cell)
   {
-    if (first + count + lanes <= n_total)
-      evaluate<terms, modes>(table, triangle, begin, count, fine_current + first * dim);
-    else
+    const auto &chi =
+      chi_of_kind[static_cast<std::size_t>(kind_of_cell[static_cast<std::size_t>(cell)])];
+    for (const bool is_above : {false, true})
+    {
+      Nodes<Scalar, modes, n_nodes> nodes;
+      if constexpr (n_nodes == 6)
+        nodes = nodes_at<modes, 6>(
+          nodes_of_triangle(quads, n_along, cell % n_along, cell / n_along, is_above));
+      else
+        nodes = nodes_of<terms, modes>(2 * cell + is_above);
+      const int begin = is_above ? begin_above : 0, count = is_above ? n_block - n_below : n_below,
+                first = cell * n_block + (is_above ? n_below : 0);
+      if (first + count + lanes <= n_total)
+      {
+        fine_positions<dim, terms>(nodes, shared.from(begin, chi), n_blocks_of(count),
+                                   fine_current + first * dim);
+        continue;
+      }
       for (int done = 0; done < count; done += chunk)
       {
         const int part = std::min(chunk, count - done);
-        evaluate<terms, modes>(table, triangle, begin + done, part, buffer);
+        fine_positions<dim, terms>(nodes, shared.from(begin + done, chi), n_blocks_of(part),
+                                   buffer);
         std::copy_n(buffer, part * dim, fine_current + (first + done) * dim);
       }
-  };
-  const auto scatter = [&](const VertexTable<Scalar> &table, const int triangle, const int begin,
-                           const int count, const int *const to, Scalar *const out)
+    }
+  }
+}
+
+template <int dim, typename Scalar>
+template <int terms, int modes>
+void Upsampler<dim, Scalar>::run(Scalar *const fine_current) const
+{
+  if constexpr (terms != constant && terms != constant_plane)
+    if (quads == 2)
+      run_cells<terms, modes, 6>(fine_current);
+  if (quads == 1)
+    run_cells<terms, modes, 3>(fine_current);
+  Scalar buffer[chunk * dim];
+  for (const Group &group : groups)
   {
-    for (int done = 0; done < count; done += chunk)
+    const auto nodes    = nodes_of<terms, modes>(group.triangle);
+    const int *const to = target.data() + group.begin;
+    for (int done = 0; done < group.count; done += chunk)
     {
-      const int part = std::min(chunk, count - done);
-      evaluate<terms, modes>(table, triangle, begin + done, part, buffer);
+      const int part = std::min(chunk, group.count - done);
+      fine_positions<dim, terms>(nodes, own.from(group.begin + done, own.chi_blocks),
+                                 n_blocks_of(part), buffer);
       for (int k = 0; k < part; ++k)
         for (int i = 0; i < dim; ++i)
-          out[to[done + k] * dim + i] = buffer[k * dim + i];
+          fine_current[to[done + k] * dim + i] = buffer[k * dim + i];
     }
-  };
-  for (int cell = 0; cell < n_cells; ++cell)
-  {
-    const VertexTable<Scalar> &table =
-      shared[shared_of_cell.empty()
-               ? 0
-               : static_cast<std::size_t>(shared_of_cell[static_cast<std::size_t>(cell)])];
-    if (aligned)
-    {
-      block(table, 2 * cell, 0, cell * n_block, n_below);
-      block(table, 2 * cell + 1, begin_above, cell * n_block + n_below, n_block - n_below);
-    }
-    for (const CellGroups::Group &group : within_cell.groups)
-      scatter(table, within_cell.triangle(group, n_along, cell % n_along, cell / n_along),
-              group.first_slot, static_cast<int>(group.vertices.size()), group.vertices.data(),
-              fine_current + static_cast<std::ptrdiff_t>(cell) * n_block * dim);
   }
-  for (const Group &group : groups)
-    scatter(own, group.triangle, group.begin, group.count, target.data() + group.begin,
-            fine_current);
 }
 
 template <int dim, typename Scalar>

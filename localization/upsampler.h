@@ -8,9 +8,10 @@
 // Aligned path, where the coarse mesh is the lattice of the sheet: all cells share one table, two
 //   runs of consecutive vertices per cell, no index per vertex. The table (8 numbers per vertex of
 //   one cell) stays in the first-level cache, so that the output is all that moves through memory.
-// Where the coarse mesh cuts each cell into r x r quads, cells share one table too, in groups of
-// the
-//   vertices of a coarse triangle, with one index per vertex of a cell.
+// Where the coarse mesh halves the sides of the cells, as six-node triangles are read: the same,
+//   with six nodes for each triangle of a cell. What is linear in each of its four parts is linear
+//   in the whole and a hat at the middle of each side: three multiply-adds more for a number, in
+//   the order of the output, no index.
 // General path, on any coarse mesh that covers the sheet: vertices grouped by coarse triangle, with
 //   8 numbers and an index per vertex.
 // A garment (meshes::FineCloth) takes the general path: vertices in space are gathered to the rest
@@ -18,13 +19,12 @@
 //   its own triangles only. chi turns with the grain of the panel, and fades to zero at its seams
 //   (not at free edges): there both sides lie on the same coarse edge, and the seam stays closed.
 // Modes of edges (edge_modes.h) are constants of the vertices near edges: on the aligned path cells
-// that edges reach have tables of their own, one for each way of being reached.
+// that edges reach have a chi of their own, one for each way of being reached.
 // Terms that the options leave out have loops of their own without them; with quadratic modes there
 // are 18 multiply-adds in the place of 6 and 20 numbers per vertex in the place of 8. Fitted modes
 // take as many numbers; their coefficients are computed at the coarse vertices and linear between.
 #pragma once
 
-#include "localization/cell_groups.h"
 #include "localization/coarse_frames.h"
 #include "localization/edge_modes.h"
 #include "localization/kernel.h"
@@ -37,6 +37,7 @@
 
 #include <Eigen/Core>
 
+#include <array>
 #include <vector>
 
 namespace homespun::localization
@@ -68,7 +69,7 @@ public:
             const meshes::FineCloth &fine, const UpsamplerOptions &options = {});
 
   /// Whether the fast path is taken: the coarse mesh is meshes::coarse_sheet() of the sheet's own
-  /// lattice, two triangles per cell.
+  /// lattice, two triangles per cell, or of that lattice with the sides of cells halved.
   bool is_aligned() const;
 
   /// Number of fine vertices.
@@ -117,25 +118,28 @@ private:
   void run(Scalar *fine_current) const;
   template <int terms>
   void run_modes(Scalar *fine_current) const;
+  template <int terms, int modes, int n_nodes>
+  void run_cells(Scalar *fine_current) const;
+  template <int modes, int n_nodes>
+  Nodes<Scalar, modes, n_nodes> nodes_at(const std::array<int, n_nodes> &vertices) const;
   template <int terms, int modes>
-  void evaluate(const VertexTable<Scalar> &table, int triangle, int begin, int count,
-                Scalar *out) const;
+  Nodes<Scalar, modes, 3> nodes_of(int triangle) const;
 
   CoarseFrames<dim> frames;
   UpsamplerOptions options;
   std::vector<int> space_of_rest; ///< garment: vertex in space of each rest vertex; else empty
-  int n_space  = 0;               ///< coarse vertices
-  bool aligned = false;
-  CellGroups within_cell; ///< where the coarse mesh cuts each cell into several quads; else none
-  int n_cells = 0;        ///< aligned, or cut: cells, each with one block of vertices
-  int n_along = 0;        ///< of these, along the first axis
-  int n_block = 0;        ///< vertices per block
-  int n_below = 0;        ///< aligned: of these, below the diagonal
-  int n_total = 0;        ///< fine vertices
-  /// Aligned: below the diagonal, then above; one table, or with modes of edges one for each way in
-  /// which edges reach a cell.
-  std::vector<VertexTable<Scalar>> shared;
-  std::vector<int> shared_of_cell;         ///< empty: the first
+  int n_space = 0;                ///< coarse vertices
+  int quads   = 0; ///< aligned: of the coarse mesh along a side of a cell, 1 or 2; else 0
+  int n_cells = 0; ///< aligned: cells, each with one block of vertices
+  int n_along = 0; ///< of these, along the first axis
+  int n_block = 0; ///< vertices per block
+  int n_below = 0; ///< of these, below the diagonal
+  int n_total = 0; ///< fine vertices
+  /// Aligned: below the diagonal, then above. Cells that edges with modes reach differ by chi
+  /// alone.
+  VertexTable<Scalar> shared;
+  std::vector<std::vector<ChiBlock<Scalar>>> chi_of_kind; ///< one for each way of being reached
+  std::vector<int> kind_of_cell;
   VertexTable<Scalar> own;                 ///< of all vertices that stand in no block
   std::vector<Group> groups;               ///< of `own`
   std::vector<int> target;                 ///< fine vertex of each row of `own`, −1 for padding

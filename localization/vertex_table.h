@@ -16,6 +16,7 @@ template <typename Scalar>
 struct VertexTable
 {
   std::vector<Weights<Scalar>> weights;
+  std::vector<Hats<Scalar>> hats; ///< empty where triangles have three nodes
   std::vector<ChiBlock<Scalar>> chi_blocks;
   std::vector<QuadraticBlock<Scalar>> quadratic_blocks; ///< empty where all modes are linear
   int size = 0;                                         ///< rows, padding included
@@ -44,6 +45,24 @@ struct VertexTable
     if constexpr (ModesRow::ColsAtCompileTime == Eigen::Dynamic)
       for (int k = 0; is_quadratic && k < 12; ++k)
         quadratic_blocks.back().column[k][lane] = static_cast<Scalar>(-modes(6 + k));
+  }
+
+  /// The hats of the row that was appended last.
+  void append_hats(const Eigen::Vector3d &of_sides)
+  {
+    hats.resize(weights.size());
+    for (int k = 0; k < 3; ++k)
+      hats.back().side[k][(size - 1) % lanes] = static_cast<Scalar>(of_sides(k));
+  }
+
+  /// The constants from a row on with which a block begins.
+  /// @param chi that are taken: those of the table, or others of the same vertices
+  Blocks<Scalar> from(const int row, const std::vector<ChiBlock<Scalar>> &chi) const
+  {
+    const auto block     = static_cast<std::size_t>(row / lanes);
+    const auto beginning = [block](const auto &blocks)
+    { return blocks.empty() ? nullptr : blocks.data() + block; };
+    return {beginning(weights), beginning(hats), beginning(chi), beginning(quadratic_blocks)};
   }
 
   /// Ends a group.

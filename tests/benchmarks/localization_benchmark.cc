@@ -238,8 +238,9 @@ void add_upsampling(const std::string &type)
   add("second_order", of_second_order(), 24 + 8 * dim);
   add("fitted", {}, 36 + 8 * dim, {1, false, true});
   add("edges", {}, 12 + 8 * dim, {1, true});
-  // All that `full` takes: six-node triangles are evaluated on quads of half a cell.
-  add("full", of_second_order(), 24 + 8 * dim, {2, true});
+  // All that `full` takes: six-node triangles are evaluated on quads of half a cell, where each of
+  // 3 + 3 dim numbers takes three hats.
+  add("full", of_second_order(), 33 + 17 * dim, {2, true});
   add("full_general", general_of_second_order(), 24 + 8 * dim, {2, true});
   add("piecewise", piecewise(), 6 + 4 * dim);
   add("without_modes", without_modes(), 2 * dim);

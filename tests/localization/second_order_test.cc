@@ -92,6 +92,21 @@ TEST(exact_upsampler_second_order, positions_are_those_of_the_definition_on_both
       }
 }
 
+TEST(exact_upsampler_second_order, both_paths_agree_where_a_coarse_mesh_halves_the_cells)
+{
+  tests::Cloth cloth = cloth_of_second_order();
+  cloth.coarse       = meshes::coarse_sheet(cloth.sheet.origin, cloth.sheet.lattice.vectors / 2,
+                                            2 * cloth.sheet.n1, 2 * cloth.sheet.n2);
+  const Positions<3> current = tests::wavy_motion<3>(cloth.coarse.vertices);
+  UpsamplerOptions general   = of_second_order();
+  general.path               = Path::general;
+  EXPECT_LT((tests::upsampled<3>(cloth, current, of_second_order()) -
+             tests::upsampled<3>(cloth, current, general))
+              .cwiseAbs()
+              .maxCoeff(),
+            1e-15);
+}
+
 // From the formula of meshes::SecondOrder, mode by mode: what the definition itself has to say.
 TEST(exact_upsampler_second_order, each_mode_is_taken_by_its_own_product_of_strains)
 {

@@ -155,34 +155,50 @@ TEST(invariant_upsampler, the_aligned_and_the_general_path_agree)
       }
 }
 
-// Coarse meshes that cut each cell into r x r quads, in the plane and in space, with vertices on
-// the sides of quads and off them.
-TEST(invariant_upsampler,
-     cells_that_a_coarse_mesh_cuts_share_tables_and_move_as_on_the_general_path)
+// In the plane and in space, with vertices on the sides of the halved triangles and off them; with
+// three quads per side of a cell nothing is shared.
+TEST(invariant_upsampler, cells_that_a_coarse_mesh_cuts_move_as_on_the_general_path)
 {
-  for (const int r : {2, 3, 4})
-  {
-    tests::Cloth cloth = tests::skewed_cloth();
-    cloth.coarse       = meshes::coarse_sheet(cloth.sheet.origin, cloth.sheet.lattice.vectors / r,
+  for (const int r : {2, 3})
+    for (const Blend blend : {Blend::continuous, Blend::piecewise})
+      for (const bool microscopic : {true, false})
+        for (const Lift lift : {Lift::rotation, Lift::affine, Lift::identity})
+        {
+          tests::Cloth cloth = tests::skewed_cloth();
+          cloth.coarse = meshes::coarse_sheet(cloth.sheet.origin, cloth.sheet.lattice.vectors / r,
                                               r * cloth.sheet.n1, r * cloth.sheet.n2);
-    UpsamplerOptions general;
-    general.path = Path::general;
-    EXPECT_LT((Upsampler<3>(cloth.cell, cloth.coarse, cloth.sheet).table_bytes()),
-              (Upsampler<3>(cloth.cell, cloth.coarse, cloth.sheet, general).table_bytes()) / 2)
-      << r;
-    const auto plane = tests::wavy_motion<2>(cloth.coarse.vertices);
-    const auto space = tests::wavy_motion<3>(cloth.coarse.vertices);
-    EXPECT_LT((tests::upsampled<2>(cloth, plane) - tests::upsampled<2>(cloth, plane, general))
-                .cwiseAbs()
-                .maxCoeff(),
-              1e-15)
-      << r;
-    EXPECT_LT((tests::upsampled<3>(cloth, space) - tests::upsampled<3>(cloth, space, general))
-                .cwiseAbs()
-                .maxCoeff(),
-              1e-15)
-      << r;
-  }
+          UpsamplerOptions options;
+          options.blend            = blend;
+          options.microscopic      = microscopic;
+          options.lift             = lift;
+          UpsamplerOptions general = options;
+          general.path             = Path::general;
+          const auto plane         = tests::wavy_motion<2>(cloth.coarse.vertices);
+          const auto space         = tests::wavy_motion<3>(cloth.coarse.vertices);
+          EXPECT_LT((tests::upsampled<2>(cloth, plane, options) -
+                     tests::upsampled<2>(cloth, plane, general))
+                      .cwiseAbs()
+                      .maxCoeff(),
+                    1e-15)
+            << r;
+          EXPECT_LT((tests::upsampled<3>(cloth, space, options) -
+                     tests::upsampled<3>(cloth, space, general))
+                      .cwiseAbs()
+                      .maxCoeff(),
+                    1e-15)
+            << r;
+        }
+}
+
+TEST(invariant_upsampler, cells_whose_sides_are_halved_share_their_tables)
+{
+  tests::Cloth cloth = tests::skewed_cloth();
+  cloth.coarse       = meshes::coarse_sheet(cloth.sheet.origin, cloth.sheet.lattice.vectors / 2,
+                                            2 * cloth.sheet.n1, 2 * cloth.sheet.n2);
+  UpsamplerOptions general;
+  general.path = Path::general;
+  EXPECT_LT((Upsampler<3>(cloth.cell, cloth.coarse, cloth.sheet).table_bytes()),
+            (Upsampler<3>(cloth.cell, cloth.coarse, cloth.sheet, general).table_bytes()) / 2);
 }
 
 TEST(exact_upsampler, both_paths_compute_the_definition_point_by_point)
