@@ -30,16 +30,14 @@ int quads_per_cell(const meshes::Sheet &sheet, const meshes::TriangleMesh &coars
 }
 
 std::array<int, 6> nodes_of_triangle(const int quads, const int n1, const int i, const int j,
-                                     const bool is_above)
+                                     const Half half)
 {
   const int up = quads * n1 + 1, origin = quads * (j * up + i),
-            opposite = origin + quads * (up + 1);
-  const int turn     = is_above ? up : 1; // the way to the corner off the diagonal
-  const int off      = origin + quads * turn;
-  const auto middle  = [](const int a, const int b) { return (a + b) / 2; };
+            opposite  = origin + quads * (up + 1);
+  const bool is_above = half == Half::above;
+  const int off       = origin + quads * (is_above ? up : 1); // the corner off the diagonal
   const int first = is_above ? opposite : off, second = is_above ? off : opposite;
-  return {
-    origin, first, second, middle(origin, first), middle(first, second), middle(origin, second)};
+  return {origin, first, second, (origin + first) / 2, (first + second) / 2, (origin + second) / 2};
 }
 
 Eigen::Vector3d weights_in_cell(const meshes::Sheet &sheet, const int vertex)

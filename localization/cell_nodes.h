@@ -18,11 +18,18 @@ namespace homespun::localization
 /// with 1 or 2 quads per side of a cell; 0 where it is neither.
 int quads_per_cell(const meshes::Sheet &sheet, const meshes::TriangleMesh &coarse);
 
+/// The two triangles of a cell: below and above the diagonal from its origin.
+enum class Half
+{
+  below,
+  above
+};
+
 /// Coarse vertices at the corners of a triangle of cell (i, j), and of two quads per side those at
 /// the middles of its sides 01, 12, 02.
 /// @param quads per side of a cell, 1 or 2
 /// @param n1 cells of the sheet along axis 1
-std::array<int, 6> nodes_of_triangle(int quads, int n1, int i, int j, bool is_above);
+std::array<int, 6> nodes_of_triangle(int quads, int n1, int i, int j, Half half);
 
 /// Barycentric coordinates of a vertex of cell (0,0) in the triangle of that cell that holds it.
 Eigen::Vector3d weights_in_cell(const meshes::Sheet &sheet, int vertex);

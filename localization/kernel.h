@@ -2,6 +2,9 @@
 // The inner loop of up-sampling: fine positions in one coarse triangle. Private to upsampler.
 #pragma once
 
+#include <array>
+#include <cstddef>
+
 namespace homespun::localization
 {
 /// Fine vertices are computed in blocks of this many: one AVX-512 register of floats.
@@ -74,6 +77,37 @@ struct alignas(64) Nodes
   Scalar at0[size], to1[size], to2[size], off[n_nodes == 6 ? 3 : 1][n_nodes == 6 ? size : 1];
 };
 
+/// @param records of all coarse vertices, one after the other
+/// @param vertices corners 0, 1, 2, then the middles of the sides 01, 12, 02
+template <int modes, typename Scalar, std::size_t n_nodes>
+Nodes<Scalar, modes, static_cast<int>(n_nodes)> nodes_of(const Scalar *const records,
+                                                         const std::array<int, n_nodes> &vertices)
+{
+  Nodes<Scalar, modes, static_cast<int>(n_nodes)> nodes;
+  constexpr int size = record_size(modes);
+  const auto record  = [&](const std::size_t k)
+  { return records + static_cast<std::ptrdiff_t>(vertices[k]) * size; };
+  const Scalar *const r0 = record(0), *const r1 = record(1), *const r2 = record(2);
+  for (int c = 0; c < size; ++c)
+  {
+    nodes.at0[c] = r0[c];
+    nodes.to1[c] = r1[c] - r0[c];
+    nodes.to2[c] = r2[c] - r0[c];
+  }
+  if constexpr (n_nodes == 6)
+  {
+    const Scalar *const r01 = record(3), *const r12 = record(4), *const r02 = record(5);
+    const Scalar half = 0.5;
+    for (int c = 0; c < size; ++c)
+    {
+      nodes.off[0][c] = r01[c] - half * (r0[c] + r1[c]);
+      nodes.off[1][c] = r12[c] - half * (r1[c] + r2[c]);
+      nodes.off[2][c] = r02[c] - half * (r0[c] + r2[c]);
+    }
+  }
+  return nodes;
+}
+
 /// Constants of a run of fine vertices, block by block.
 template <typename Scalar>
 struct Blocks
@@ -97,12 +131,8 @@ template <int dim, int terms, int modes, int n_nodes, typename Scalar>
   constexpr bool is_blended =
     terms == blended || terms == blended_plane || terms == blended_rotation;
   constexpr bool is_in_plane         = terms == constant_plane || terms == blended_plane;
-  const Scalar *const __restrict at0 = nodes.at0;
-  const Scalar *const __restrict to1 = nodes.to1;
-  const Scalar *const __restrict to2 = nodes.to2;
-  [[maybe_unused]] const auto *const __restrict hats      = blocks.hats;
-  [[maybe_unused]] const auto *const __restrict chi       = blocks.chi;
-  [[maybe_unused]] const auto *const __restrict quadratic = blocks.quadratic;
+  const Scalar *const __restrict at0 = nodes.at0, *const __restrict to1 = nodes.to1,
+                                 *const __restrict to2 = nodes.to2;
   for (int block = 0; block < n_blocks; ++block)
   {
     const Weights<Scalar> &b      = blocks.weights[block];
@@ -116,7 +146,7 @@ template <int dim, int terms, int modes, int n_nodes, typename Scalar>
         const Scalar straight = at0[k] + u * to1[k] + v * to2[k];
         if constexpr (n_nodes == 6)
         {
-          const auto &hat = hats[block].side;
+          const auto &hat = blocks.hats[block].side;
           return straight + hat[0][n] * nodes.off[0][k] + hat[1][n] * nodes.off[1][k] +
                  hat[2][n] * nodes.off[2][k];
         }
@@ -129,13 +159,13 @@ template <int dim, int terms, int modes, int n_nodes, typename Scalar>
         x[i] = linear(i);
       if constexpr (terms != affine)
       {
-        const auto &columns = chi[block].column;
+        const auto &columns = blocks.chi[block].column;
         const Scalar e0 = frame(0), e1 = frame(1), e2 = frame(2);
         Scalar w0, w1;
         if constexpr (modes == quadratic_modes)
         {
           // By Horner's rule: three multiply-adds for each mode of chi in place of one.
-          const auto &q        = quadratic[block].column;
+          const auto &q        = blocks.quadratic[block].column;
           const auto component = [&](const int c)
           {
             return e0 * (columns[c][n] + e0 * q[c][n] + e1 * q[6 + c][n] + e2 * q[8 + c][n]) +
@@ -154,8 +184,8 @@ template <int dim, int terms, int modes, int n_nodes, typename Scalar>
           for (int k = 0; k < 6; ++k)
           {
             const Scalar c = frame(3 + 2 * dim + k);
-            w0 += c * quadratic[block].column[2 * k][n];
-            w1 += c * quadratic[block].column[2 * k + 1][n];
+            w0 += c * blocks.quadratic[block].column[2 * k][n];
+            w1 += c * blocks.quadratic[block].column[2 * k + 1][n];
           }
         if constexpr (is_in_plane)
         {

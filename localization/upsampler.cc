@@ -2,7 +2,6 @@
 #include "localization/upsampler.h"
 
 #include "localization/cell_modes.h"
-#include "localization/cell_nodes.h"
 #include "localization/garment_chi.h"
 #include "localization/upsampler_faults.h"
 #include "meshes/cloth/seams.h"
@@ -10,8 +9,8 @@
 #include "meshes/plain/point_location.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <map>
 #include <sstream>
 
 namespace homespun::localization
@@ -58,13 +57,11 @@ Upsampler<dim, Scalar>::Upsampler(const meshes::HomogenizedCell &cell,
   };
   n_total = fine.mesh.n_vertices();
   n_space = coarse_rest.n_vertices();
-  quads   = options.path == Path::automatic ? quads_per_cell(fine, coarse_rest) : 0;
   // A strain that is constant in each of the four parts of a triangle is no matter of its nodes.
-  if (quads == 2 && options.microscopic && options.blend == Blend::piecewise)
-    quads = 0;
-  if (is_aligned())
-    share_cells(modes_at, near_edges, fine);
-  place(modes_at, fine, n_cells * n_block);
+  const int quads = options.path == Path::automatic ? quads_per_cell(fine, coarse_rest) : 0;
+  if (quads == 1 || (quads == 2 && !(options.microscopic && options.blend == Blend::piecewise)))
+    cells.fill(fine, quads, near_edges, modes_at);
+  place(modes_at, fine, cells.n_cells * cells.n_block);
   records.resize(static_cast<std::size_t>(coarse_rest.n_vertices()) *
                  static_cast<std::size_t>(record_size(kind_of_modes(options))));
 }
@@ -93,38 +90,6 @@ Upsampler<dim, Scalar>::Upsampler(const meshes::HomogenizedCell &cell,
   at_rest_vertices.resize(coarse.rest.n_vertices(), dim);
   records.resize(static_cast<std::size_t>(coarse.rest.n_vertices()) *
                  static_cast<std::size_t>(record_size(linear_modes)));
-}
-
-template <int dim, typename Scalar>
-template <typename ModesAt>
-void Upsampler<dim, Scalar>::share_cells(const ModesAt &modes_at, const EdgeModes &near_edges,
-                                         const meshes::Sheet &fine)
-{
-  n_cells = fine.n1 * fine.n2;
-  n_block = fine.n_per_cell;
-  n_below = fine.n_below;
-  n_along = fine.n1;
-  std::map<EdgeModes::Depths, int> kind_at;
-  for (int cell = 0; cell < n_cells; ++cell)
-  {
-    const auto [found, is_new] = kind_at.emplace(near_edges.depths(cell % fine.n1, cell / fine.n1),
-                                                 static_cast<int>(chi_of_kind.size()));
-    kind_of_cell.push_back(found->second);
-    if (!is_new)
-      continue;
-    VertexTable<Scalar> table;
-    for (int k = 0; k < n_block; ++k)
-    {
-      if (k == n_below)
-        table.pad();
-      const Eigen::Vector3d weights = weights_in_cell(fine, k);
-      table.append(weights, modes_at(cell * n_block + k));
-      if (quads == 2)
-        table.append_hats(hats(weights));
-    }
-    chi_of_kind.push_back(std::move(table.chi_blocks));
-    shared = std::move(table);
-  }
 }
 
 template <int dim, typename Scalar>
@@ -180,14 +145,14 @@ void Upsampler<dim, Scalar>::tabulate(const std::vector<std::vector<Member>> &in
   if (options.microscopic)
     return;
   own.chi_blocks = std::vector<ChiBlock<Scalar>>();
-  for (std::vector<ChiBlock<Scalar>> &chi : chi_of_kind)
+  for (std::vector<ChiBlock<Scalar>> &chi : cells.chi_of_kind)
     chi = std::vector<ChiBlock<Scalar>>();
 }
 
 template <int dim, typename Scalar>
 bool Upsampler<dim, Scalar>::is_aligned() const
 {
-  return quads > 0;
+  return cells.quads > 0;
 }
 
 template <int dim, typename Scalar>
@@ -205,7 +170,7 @@ int Upsampler<dim, Scalar>::n_coarse() const
 template <int dim, typename Scalar>
 std::size_t Upsampler<dim, Scalar>::table_bytes() const
 {
-  std::size_t bytes = sizeof(int) * (target.size() + kind_of_cell.size());
+  std::size_t bytes = sizeof(int) * (target.size() + cells.kind_of_cell.size());
   const auto add    = [&](const VertexTable<Scalar> &table)
   {
     bytes += sizeof(Weights<Scalar>) * table.weights.size() +
@@ -214,8 +179,8 @@ std::size_t Upsampler<dim, Scalar>::table_bytes() const
              sizeof(QuadraticBlock<Scalar>) * table.quadratic_blocks.size();
   };
   add(own);
-  add(shared);
-  for (const std::vector<ChiBlock<Scalar>> &chi : chi_of_kind)
+  add(cells.shared);
+  for (const std::vector<ChiBlock<Scalar>> &chi : cells.chi_of_kind)
     bytes += sizeof(ChiBlock<Scalar>) * chi.size();
   return bytes;
 }
@@ -255,37 +220,6 @@ void Upsampler<dim, Scalar>::fill_records(const PositionsOf<dim> coarse_current)
 }
 
 template <int dim, typename Scalar>
-template <int modes, int n_nodes>
-Nodes<Scalar, modes, n_nodes>
-Upsampler<dim, Scalar>::nodes_at(const std::array<int, n_nodes> &vertices) const
-{
-  Nodes<Scalar, modes, n_nodes> nodes;
-  constexpr int size = record_size(modes);
-  const auto record  = [&](const int k) {
-    return records.data() + static_cast<std::size_t>(vertices[static_cast<std::size_t>(k)]) * size;
-  };
-  const Scalar *const r0 = record(0), *const r1 = record(1), *const r2 = record(2);
-  for (int c = 0; c < size; ++c)
-  {
-    nodes.at0[c] = r0[c];
-    nodes.to1[c] = r1[c] - r0[c];
-    nodes.to2[c] = r2[c] - r0[c];
-  }
-  if constexpr (n_nodes == 6)
-  {
-    const Scalar *const r01 = record(3), *const r12 = record(4), *const r02 = record(5);
-    const Scalar half = 0.5;
-    for (int c = 0; c < size; ++c)
-    {
-      nodes.off[0][c] = r01[c] - half * (r0[c] + r1[c]);
-      nodes.off[1][c] = r12[c] - half * (r1[c] + r2[c]);
-      nodes.off[2][c] = r02[c] - half * (r0[c] + r2[c]);
-    }
-  }
-  return nodes;
-}
-
-template <int dim, typename Scalar>
 template <int terms>
 void Upsampler<dim, Scalar>::run_modes(Scalar *const fine_current) const
 {
@@ -302,12 +236,10 @@ void Upsampler<dim, Scalar>::run_modes(Scalar *const fine_current) const
 
 template <int dim, typename Scalar>
 template <int terms, int modes>
-Nodes<Scalar, modes, 3> Upsampler<dim, Scalar>::nodes_of(const int triangle) const
+Nodes<Scalar, modes, 3> Upsampler<dim, Scalar>::corners_of(const int triangle) const
 {
-  std::array<int, 3> corners;
-  for (int k = 0; k < 3; ++k)
-    corners[static_cast<std::size_t>(k)] = frames.rest().triangles(triangle, k);
-  auto nodes = nodes_at<modes, 3>(corners);
+  const auto corner = frames.rest().triangles.row(triangle);
+  auto nodes = nodes_of<modes>(records.data(), std::array<int, 3>{corner(0), corner(1), corner(2)});
   if constexpr (terms == constant || terms == constant_plane)
     for (int c = 0; c < CoarseFrames<dim>::n_components; ++c)
       nodes.at0[dim + c] = static_cast<Scalar>(frames.last_values()(triangle, c));
@@ -321,36 +253,36 @@ void Upsampler<dim, Scalar>::run_cells(Scalar *const fine_current) const
   // A run is computed in whole blocks of lanes. What it writes too much lies in the run after it,
   // which is written later; at the end of the output it goes through a buffer.
   Scalar buffer[chunk * dim];
-  const int begin_above = n_blocks_of(n_below) * lanes;
-  for (int cell = 0; cell < n_cells; ++cell)
-  {
-    const auto &chi =
-      chi_of_kind[static_cast<std::size_t>(kind_of_cell[static_cast<std::size_t>(cell)])];
-    for (const bool is_above : {false, true})
+  const int n_below = cells.n_below, begin_above = n_blocks_of(n_below) * lanes;
+  for (int cell = 0; cell < cells.n_cells; ++cell)
+    for (const Half half : {Half::below, Half::above})
     {
+      const bool is_above = half == Half::above;
       Nodes<Scalar, modes, n_nodes> nodes;
       if constexpr (n_nodes == 6)
-        nodes = nodes_at<modes, 6>(
-          nodes_of_triangle(quads, n_along, cell % n_along, cell / n_along, is_above));
+        nodes = nodes_of<modes>(records.data(),
+                                nodes_of_triangle(cells.quads, cells.n_along, cell % cells.n_along,
+                                                  cell / cells.n_along, half));
       else
-        nodes = nodes_of<terms, modes>(2 * cell + is_above);
-      const int begin = is_above ? begin_above : 0, count = is_above ? n_block - n_below : n_below,
-                first = cell * n_block + (is_above ? n_below : 0);
+        nodes = corners_of<terms, modes>(2 * cell + is_above);
+      const auto &chi = cells.chi_of(cell);
+      const int begin = is_above ? begin_above : 0,
+                count = is_above ? cells.n_block - n_below : n_below,
+                first = cell * cells.n_block + (is_above ? n_below : 0);
       if (first + count + lanes <= n_total)
       {
-        fine_positions<dim, terms>(nodes, shared.from(begin, chi), n_blocks_of(count),
+        fine_positions<dim, terms>(nodes, cells.shared.from(begin, chi), n_blocks_of(count),
                                    fine_current + first * dim);
         continue;
       }
       for (int done = 0; done < count; done += chunk)
       {
         const int part = std::min(chunk, count - done);
-        fine_positions<dim, terms>(nodes, shared.from(begin + done, chi), n_blocks_of(part),
+        fine_positions<dim, terms>(nodes, cells.shared.from(begin + done, chi), n_blocks_of(part),
                                    buffer);
         std::copy_n(buffer, part * dim, fine_current + (first + done) * dim);
       }
     }
-  }
 }
 
 template <int dim, typename Scalar>
@@ -358,14 +290,14 @@ template <int terms, int modes>
 void Upsampler<dim, Scalar>::run(Scalar *const fine_current) const
 {
   if constexpr (terms != constant && terms != constant_plane)
-    if (quads == 2)
+    if (cells.quads == 2)
       run_cells<terms, modes, 6>(fine_current);
-  if (quads == 1)
+  if (cells.quads == 1)
     run_cells<terms, modes, 3>(fine_current);
   Scalar buffer[chunk * dim];
   for (const Group &group : groups)
   {
-    const auto nodes    = nodes_of<terms, modes>(group.triangle);
+    const auto nodes    = corners_of<terms, modes>(group.triangle);
     const int *const to = target.data() + group.begin;
     for (int done = 0; done < group.count; done += chunk)
     {

@@ -25,8 +25,8 @@
 // take as many numbers; their coefficients are computed at the coarse vertices and linear between.
 #pragma once
 
+#include "localization/cell_tables.h"
 #include "localization/coarse_frames.h"
-#include "localization/edge_modes.h"
 #include "localization/kernel.h"
 #include "localization/options.h"
 #include "localization/vertex_table.h"
@@ -37,7 +37,6 @@
 
 #include <Eigen/Core>
 
-#include <array>
 #include <vector>
 
 namespace homespun::localization
@@ -107,8 +106,6 @@ private:
   };
 
   template <typename ModesAt>
-  void share_cells(const ModesAt &modes_at, const EdgeModes &near_edges, const meshes::Sheet &fine);
-  template <typename ModesAt>
   void place(const ModesAt &modes_at, const meshes::Sheet &fine, int from);
   template <typename ChiAt>
   void tabulate(const std::vector<std::vector<Member>> &in_triangle, const ChiAt &chi_at);
@@ -120,29 +117,18 @@ private:
   void run_modes(Scalar *fine_current) const;
   template <int terms, int modes, int n_nodes>
   void run_cells(Scalar *fine_current) const;
-  template <int modes, int n_nodes>
-  Nodes<Scalar, modes, n_nodes> nodes_at(const std::array<int, n_nodes> &vertices) const;
   template <int terms, int modes>
-  Nodes<Scalar, modes, 3> nodes_of(int triangle) const;
+  Nodes<Scalar, modes, 3> corners_of(int triangle) const;
 
   CoarseFrames<dim> frames;
   UpsamplerOptions options;
   std::vector<int> space_of_rest; ///< garment: vertex in space of each rest vertex; else empty
   int n_space = 0;                ///< coarse vertices
-  int quads   = 0; ///< aligned: of the coarse mesh along a side of a cell, 1 or 2; else 0
-  int n_cells = 0; ///< aligned: cells, each with one block of vertices
-  int n_along = 0; ///< of these, along the first axis
-  int n_block = 0; ///< vertices per block
-  int n_below = 0; ///< of these, below the diagonal
-  int n_total = 0; ///< fine vertices
-  /// Aligned: below the diagonal, then above. Cells that edges with modes reach differ by chi
-  /// alone.
-  VertexTable<Scalar> shared;
-  std::vector<std::vector<ChiBlock<Scalar>>> chi_of_kind; ///< one for each way of being reached
-  std::vector<int> kind_of_cell;
-  VertexTable<Scalar> own;                 ///< of all vertices that stand in no block
-  std::vector<Group> groups;               ///< of `own`
-  std::vector<int> target;                 ///< fine vertex of each row of `own`, −1 for padding
+  int n_total = 0;                ///< fine vertices
+  CellTables<Scalar> cells;       ///< aligned: of all vertices but the last
+  VertexTable<Scalar> own;        ///< of all vertices that stand in no block
+  std::vector<Group> groups;      ///< of `own`
+  std::vector<int> target;        ///< fine vertex of each row of `own`, −1 for padding
   mutable Positions<dim> at_rest_vertices; ///< garment: positions by rest vertex
   meshes::FittedModes fitted;              ///< box and coefficients, where the options take them
   mutable std::vector<Scalar> records;     ///< of each coarse vertex: see record_size()

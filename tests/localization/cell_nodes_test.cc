@@ -21,14 +21,14 @@ TEST(exact_cell_nodes, nodes_are_the_corners_of_a_triangle_and_the_middles_of_it
     ASSERT_EQ(quads_per_cell(sheet, coarse), quads);
     for (int j = 0; j < sheet.n2; ++j)
       for (int i = 0; i < sheet.n1; ++i)
-        for (const bool is_above : {false, true})
+        for (const Half half : {Half::below, Half::above})
         {
-          const std::array<int, 6> nodes = nodes_of_triangle(quads, sheet.n1, i, j, is_above);
+          const std::array<int, 6> nodes = nodes_of_triangle(quads, sheet.n1, i, j, half);
           std::array<Eigen::RowVector2d, 3> corners;
           for (std::size_t k = 0; k < 3; ++k)
           {
-            corners[k] = cloth.coarse.vertices.row(
-              cloth.coarse.triangles(2 * (j * sheet.n1 + i) + is_above, static_cast<int>(k)));
+            corners[k] = cloth.coarse.vertices.row(cloth.coarse.triangles(
+              2 * (j * sheet.n1 + i) + (half == Half::above), static_cast<int>(k)));
             EXPECT_LT((coarse.vertices.row(nodes[k]) - corners[k]).norm(), 1e-15);
           }
           for (std::size_t side = 0; side < 3 && quads == 2; ++side)

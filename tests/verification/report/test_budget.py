@@ -305,6 +305,13 @@ class BudgetReport(PageTest):
         self.assertIn("Left out: energy of the reference between two sides", self.page())
         self.assertNotIn("Prager and Synge", self.page())
 
+    def test_of_which_method_the_budget_is_stands_outside_of_folds_and_under_its_figure(self):
+        draw_alone(self.addCleanup)
+        self.assertEqual(self.run_report(), (0, ""))
+        open_page = re.sub(r"<details>.*?</details>", "", self.page(), flags=re.DOTALL)
+        self.assertIn("<p>The error of <i>localized</i>, the paper's method, whichever", open_page)
+        self.assertIn("stripes: where the error of localized, the paper", open_page)
+
     def test_what_was_left_out_is_said(self):
         draw_alone(self.addCleanup)
         self.remove("budget.csv", "runtime.csv", "validity.csv")

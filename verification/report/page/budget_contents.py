@@ -42,11 +42,12 @@ def budget_contents(results, name, side, strains, gallery):
             figure,
             f"{name}-budget",
             (
-                f"{name}: where the error comes from. Each part is a difference of two solutions;"
-                " its share is its projection on the measured error, vertex by vertex, so that"
-                " shares add up and a part that compensates others counts downwards. Diamond: sum"
-                " of the parts; the number is what they leave unexplained, mean length of the"
-                " difference over that of the measured error. Shares below 0.5 % are not drawn."
+                f"{name}: where the error of localized, the paper's method, comes from. Each part"
+                " is a difference of two solutions; its share is its projection on the measured"
+                " error, vertex by vertex, so that shares add up and a part that compensates others"
+                " counts downwards. Diamond: sum of the parts; the number is what they leave"
+                " unexplained, mean length of the difference over that of the measured error. Shares"
+                " below 0.5 % are not drawn."
             ),
         )
     if ways:

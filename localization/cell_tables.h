@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: MIT
+// What all cells of a sheet share where the coarse mesh is its lattice, or halves the sides of
+// that: one table, and chi for each way in which edges with modes reach a cell. Private to
+// upsampler.
+#pragma once
+
+#include "localization/cell_nodes.h"
+#include "localization/edge_modes.h"
+#include "localization/vertex_table.h"
+#include "meshes/plain/sheet.h"
+
+#include <cstddef>
+#include <map>
+#include <utility>
+#include <vector>
+
+namespace homespun::localization
+{
+template <typename Scalar>
+struct CellTables
+{
+  int quads   = 0; ///< of the coarse mesh along a side of a cell, 1 or 2; 0: it is none of these
+  int n_cells = 0; ///< each with one block of vertices
+  int n_along = 0; ///< of these, along the first axis
+  int n_block = 0; ///< vertices per block
+  int n_below = 0; ///< of these, below the diagonal
+
+  VertexTable<Scalar> shared;                             ///< below the diagonal, then above
+  std::vector<std::vector<ChiBlock<Scalar>>> chi_of_kind; ///< one for each way of being reached
+  std::vector<int> kind_of_cell;
+
+  const std::vector<ChiBlock<Scalar>> &chi_of(const int cell) const
+  {
+    return chi_of_kind[static_cast<std::size_t>(kind_of_cell[static_cast<std::size_t>(cell)])];
+  }
+
+  /// @param n_quads per side of a cell, 1 or 2
+  /// @param modes_at of a fine vertex, as VertexTable::append() takes them
+  template <typename ModesAt>
+  void fill(const meshes::Sheet &sheet, const int n_quads, const EdgeModes &near_edges,
+            const ModesAt &modes_at)
+  {
+    quads   = n_quads;
+    n_cells = sheet.n1 * sheet.n2;
+    n_along = sheet.n1;
+    n_block = sheet.n_per_cell;
+    n_below = sheet.n_below;
+    std::map<EdgeModes::Depths, int> kind_at;
+    for (int cell = 0; cell < n_cells; ++cell)
+    {
+      const auto [found, is_new] = kind_at.emplace(
+        near_edges.depths(cell % n_along, cell / n_along), static_cast<int>(chi_of_kind.size()));
+      kind_of_cell.push_back(found->second);
+      if (!is_new)
+        continue;
+      VertexTable<Scalar> table;
+      for (int k = 0; k < n_block; ++k)
+      {
+        if (k == n_below)
+          table.pad();
+        const Eigen::Vector3d weights = weights_in_cell(sheet, k);
+        table.append(weights, modes_at(cell * n_block + k));
+        if (quads == 2)
+          table.append_hats(hats(weights));
+      }
+      chi_of_kind.push_back(std::move(table.chi_blocks));
+      shared = std::move(table);
+    }
+  }
+};
+} // namespace homespun::localization
