@@ -203,6 +203,12 @@ Eigen::Vector3d yarn_strain(const DeformationGradient<dim> &F, const YarnAxes &y
 }
 
 template <int dim>
+bool has_length(const DeformationGradient<dim> &F, const YarnAxes &yarns)
+{
+  return (F * yarns.axes).colwise().norm().minCoeff() > 0.;
+}
+
+template <int dim>
 double yarn_energy_density(const DeformationGradient<dim> &F, const YarnAxes &yarns,
                            const GuardedCubic *const cubic)
 {
@@ -275,6 +281,7 @@ yarn_triangle_hessian(const RestTriangle &rest, const Eigen::Matrix<double, 3, d
 // In the plane and in space.
 #define HOMESPUN_INSTANTIATE(dim)                                                                \
   template Eigen::Vector3d yarn_strain<dim>(const DeformationGradient<dim> &, const YarnAxes &); \
+  template bool has_length<dim>(const DeformationGradient<dim> &, const YarnAxes &);             \
   template double yarn_energy_density<dim>(const DeformationGradient<dim> &, const YarnAxes &,   \
                                            const GuardedCubic *);                                \
   template DeformationGradient<dim> yarn_energy_gradient<dim>(                                   \

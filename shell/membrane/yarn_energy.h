@@ -37,6 +37,10 @@ namespace homespun::shell
 template <int dim>
 Eigen::Vector3d yarn_strain(const DeformationGradient<dim> &F, const meshes::YarnAxes &yarns);
 
+/// Whether both yarns have a length, so that the energy is finite.
+template <int dim>
+bool has_length(const DeformationGradient<dim> &F, const meshes::YarnAxes &yarns);
+
 /// A cubic energy of the Biot strain E = U − I beside ½ E·C·E, as one of the strain e of yarns
 /// beside ½ e·C·e, so that both energies agree up to the fourth order: of I + E, symmetric, e = E +
 /// q(E) + O(E³) in the axes of the yarns, with q = (E12²/2, E12²/2, −(E11 + E22) E12), and the form

@@ -124,6 +124,33 @@ void Cloth::check_finite(const Vectors &positions, const double h) const
   throw meshes::NotConverged(text.str(), {});
 }
 
+/// What makes the energy of some positions infinite, where derivatives say nothing; else empty.
+std::string Cloth::why_infinite(const Vectors &positions) const
+{
+  for (const auto &term : terms())
+    if (const std::string why = term->why_infinite(positions); !why.empty())
+      return why + ", whose energy is infinite";
+  return {};
+}
+
+/// Refuses a start of infinite energy that no force leads out of, and one of a conserving step,
+/// whose forces are quotients of energies.
+void Cloth::check_start() const
+{
+  Vectors start = x;
+  set_held(start);
+  const std::string why = why_infinite(start);
+  if (why.empty())
+    return;
+  Vectors forces = Vectors::Zero(x.rows(), 3);
+  for (const auto &term : terms())
+    if (!term->why_infinite(start).empty())
+      term->add_gradient(start, forces);
+  if (options.integrator == Integrator::conserving || forces.isZero(0.))
+    throw meshes::BadInput("cloth: a step begins with " + why +
+                           "; expected a finite one, or a yarn that is pulled");
+}
+
 void Cloth::set_held(Vectors &positions) const
 {
   for (const int vertex : held)
@@ -283,6 +310,7 @@ StepReport Cloth::step(const double h)
   if (!(h > 0.) || !std::isfinite(h))
     throw meshes::BadInput("time step: found " + std::to_string(h) +
                            " s; expected a positive number");
+  check_start();
   if (options.integrator != Integrator::conserving)
     potential.prepare();
   StepReport report;
@@ -309,13 +337,15 @@ StepReport Cloth::step(const double h)
       part *= 0.5;
       if (++report.cuts > options.max_cuts)
       {
-        x      = old_x;
-        v      = old_v;
-        target = final_target;
-        now    = begin;
+        x                     = old_x;
+        v                     = old_v;
+        target                = final_target;
+        now                   = begin;
+        const std::string why = why_infinite(x);
         throw meshes::NotConverged(
-          std::string(failure.what()) + " (step " + std::to_string(n_step + 1) + ", time " +
-            std::to_string(begin) + " s, cut " + std::to_string(options.max_cuts) +
+          (why.empty() ? why : "the step begins with " + why + ": ") + failure.what() + " (step " +
+            std::to_string(n_step + 1) + ", time " + std::to_string(begin) + " s, cut " +
+            std::to_string(options.max_cuts) +
             " times); try a smaller time step, damping, or look for a coarse triangle that is "
             "crushed",
           failure.residual_history());

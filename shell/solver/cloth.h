@@ -89,8 +89,9 @@ public:
 
   /// One time step.
   /// @param h > 0 [s]
-  /// @throws BadInput for another h; NotConverged where cutting does not help, with the step, the
-  ///   vertex and what to try. The state is then that before the step.
+  /// @throws BadInput for another h, and where the energy is infinite and no force leads out of it
+  ///   (of a conserving step: where it is infinite); NotConverged where cutting does not help, with
+  ///   the step, the vertex and what to try. The state is then that before the step.
   StepReport step(double h);
 
   /// Static equilibrium of the stored energy under the prescribed positions: pseudo-transient
@@ -150,6 +151,8 @@ private:
   Vectors minimum(const Vectors &inertial, double h, StepReport &report);
   Vectors conserved(double h, StepReport &report);
   void check_finite(const Vectors &positions, double h) const;
+  std::string why_infinite(const Vectors &positions) const;
+  void check_start() const;
 
   Vectors x, v, target;
   const Eigen::VectorXd m;

@@ -65,6 +65,13 @@ public:
   virtual void add_derivatives(const Vectors &positions, Hessian kind, Vectors &gradient,
                                BlockMatrix &matrix) const = 0;
 
+  /// Which element makes E(x) infinite, and by what; empty where E is finite. Default: it always
+  /// is.
+  virtual std::string why_infinite(const Vectors & /*positions*/) const
+  {
+    return {};
+  }
+
   /// The part of E that the cloth or a field (gravity) stores and gives back [J]: what an energy
   /// balance counts. Zero of a dissipation and of a load that does work. Default: E itself.
   virtual double stored_energy(const Vectors &positions) const

@@ -6,6 +6,7 @@
 #include "shell/algebra/triangle_slots.h"
 #include "shell/algebra/vertex_matrix.h"
 #include "shell/membrane/yarn_discrete_gradient.h"
+#include "shell/membrane/yarn_energy.h"
 
 #include <utility>
 
@@ -39,6 +40,17 @@ public:
   double energy(const Vectors &positions) const override
   {
     return membrane_energy<3>(membrane, positions);
+  }
+
+  std::string why_infinite(const Vectors &positions) const override
+  {
+    for (int t = 0; t < n_triangles() && carries_compression(); ++t)
+      if (const meshes::YarnAxes &yarns = membrane.yarns[index(membrane.phase[index(t)])];
+          yarns.are_there &&
+          !has_length<3>(deformation_gradient<3>(membrane.rest[index(t)], corners_of(positions, t)),
+                         yarns))
+        return "triangle " + std::to_string(t) + ": a yarn without length";
+    return {};
   }
 
   void add_gradient(const Vectors &positions, Vectors &gradient) const override

@@ -103,3 +103,54 @@ TEST(tripwire_yarn_term, a_stiffness_without_axes_is_named)
               .find("law yarn: the stiffness of every phase is alike in all directions"),
             std::string::npos);
 }
+
+// A yarn without length has an infinite energy: of a free sheet that is a point nothing pulls any
+// vertex away from another, and no step leads out of it.
+TEST(tripwire_yarn_term, a_free_sheet_that_is_a_point_is_refused_by_the_yarn_without_length)
+{
+  const meshes::ClothMesh mesh = lying_sheet(4);
+  for (const Integrator integrator :
+       {Integrator::linearly_implicit, Integrator::implicit, Integrator::conserving})
+    for (const double h : {1e-3, 0.02})
+    {
+      ClothOptions options;
+      options.integrator = integrator;
+      WovenFabric fabric(mesh, {}, options);
+      fabric.cloth.add(gravity_term(fabric.masses, earth));
+      const Vectors point = Vectors::Zero(mesh.n_vertices(), 3);
+      fabric.cloth.set_state(point, point, 0.);
+      const std::string text = refusal([&] { fabric.cloth.step(h); });
+      EXPECT_NE(text.find("triangle 0: a yarn without length"), std::string::npos) << text;
+      EXPECT_NE(text.find("whose energy is infinite"), std::string::npos) << text;
+      EXPECT_EQ(fabric.cloth.positions(), point); // the state is that before the step
+    }
+}
+
+// Held apart by two corners it is pulled out of the point, or refused.
+TEST(tripwire_yarn_term, a_sheet_that_is_a_point_but_for_its_handles_moves_or_names_the_yarn)
+{
+  const int n                  = 4;
+  const meshes::ClothMesh mesh = lying_sheet(n);
+  for (const Integrator integrator : {Integrator::linearly_implicit, Integrator::implicit})
+    for (const double h : {1e-3, 0.02})
+    {
+      ClothOptions options;
+      options.integrator = integrator;
+      WovenFabric fabric(mesh, {0, n}, options);
+      fabric.cloth.add(gravity_term(fabric.masses, earth));
+      Vectors x = Vectors::Zero(mesh.n_vertices(), 3);
+      x.row(n)  = mesh.positions.row(n) - mesh.positions.row(0);
+      fabric.cloth.set_state(x, Vectors::Zero(mesh.n_vertices(), 3), 0.);
+      EXPECT_TRUE(std::isinf(fabric.cloth.stored_energy()));
+      std::string text;
+      for (int step = 0; step < 5 && text.empty(); ++step)
+        text = refusal([&] { fabric.cloth.step(h); });
+      if (text.empty())
+        EXPECT_TRUE(std::isfinite(fabric.cloth.stored_energy()));
+      else
+        EXPECT_NE(text.find(": a yarn without length, whose energy is infinite: "),
+                  std::string::npos)
+          << text;
+      EXPECT_TRUE(fabric.cloth.positions().allFinite());
+    }
+}

@@ -32,11 +32,6 @@ KNOWN_FAILURES |= {
         "thrown apart by the same spin: the line search of its step finds no lower residual"
     for what in ("keeps", "turns") for turns in ("0.5", "1", "5")
 }
-KNOWN_FAILURES |= {
-    ("start", f"flattened to a point; free; {step} ms; anisotropic 1e4, yarn"):
-        "a yarn without length has an infinite energy: no step begins there"
-    for step in (1, 20)
-}
 
 # Cases whose outcome rounding decides, so that it differs from compiler to compiler: the reason,
 # and what their figure stays below everywhere.
