@@ -33,6 +33,18 @@ meshes::TriangleMesh second_mesh(const meshes::HomogenizedCell &cell, const mesh
   return mesh;
 }
 
+/// A sheet under a law of the moving cloth.
+shell::MembraneSolver<2> second_solver(const Law law, const meshes::HomogenizedCell &cell,
+                                       const std::vector<Eigen::Matrix3d> &stiffness_of_phase,
+                                       const meshes::Sheet &sheet, const Load &load)
+{
+  shell::Membrane membrane = shell::membrane(second_mesh(cell, sheet), stiffness_of_phase);
+  if (is_of_yarns(law))
+    shell::take_yarn_law(membrane, law == Law::yarn_tension ? shell::Compression::relaxed
+                                                            : shell::Compression::carried);
+  return {std::move(membrane), held_vertices(load, sheet, sheet.mesh.vertices)};
+}
+
 /// An infinite cloth: the affine motion, and a fluctuation of each vertex of the cell.
 /// @param lift from the cell's frame into the current cloth
 meshes::Points infinite_cloth(const meshes::Sheet &sheet, const Eigen::Matrix2d &gradient,
@@ -137,16 +149,21 @@ meshes::Points second_nonlinear_sheet(const Law law, const meshes::HomogenizedCe
                               .solve({U(0, 0) - 1., U(1, 1) - 1., U(0, 1) + U(1, 0)});
     return infinite_cloth(sheet, F, R, state.fluctuation, cell.anchor);
   }
-  shell::Membrane membrane = shell::membrane(second_mesh(cell, sheet), stiffness_of_phase);
-  if (is_of_yarns(law))
-    shell::take_yarn_law(membrane, law == Law::yarn_tension ? shell::Compression::relaxed
-                                                            : shell::Compression::carried);
-  const shell::MembraneSolver<2> solver(std::move(membrane),
-                                        held_vertices(load, sheet, sheet.mesh.vertices));
+  const shell::MembraneSolver<2> solver = second_solver(law, cell, stiffness_of_phase, sheet, load);
   shell::EquilibriumOptions tight;
   tight.relative_tolerance   = 1e-13; // round-off counts as zero before
   const meshes::Points moved = moved_affinely(load, sheet, sheet.mesh.vertices, strain);
   return solver.solve_equilibrium(solver.solve_linear(moved), tight).positions;
+}
+
+meshes::Points second_sheet_of_tension(const meshes::HomogenizedCell &cell,
+                                       const std::vector<Eigen::Matrix3d> &stiffness_of_phase,
+                                       const meshes::Sheet &sheet, const Load &load,
+                                       const meshes::Points &start)
+{
+  return second_solver(Law::yarn_tension, cell, stiffness_of_phase, sheet, load)
+    .solve_equilibrium(start)
+    .positions;
 }
 
 Eigen::Matrix3d second_p2_stiffness(const meshes::HomogenizedCell &cell,

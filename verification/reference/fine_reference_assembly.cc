@@ -42,10 +42,11 @@ struct FineReference::Solver::TriangleSums
 
 template <int n_shapes>
 FineReference::Solver::TriangleSums<n_shapes> FineReference::Solver::integrate(
-  const AffineTriangle &triangle, const Eigen::Matrix3d &C, const std::vector<double> &values,
+  const AffineTriangle &triangle, const LawOfPhase &phase, const std::vector<double> &values,
   const Eigen::Matrix2d &mean_gradient, const Tangent tangent, Evaluation &state) const
 {
-  constexpr int n = 2 * n_shapes;
+  constexpr int n          = 2 * n_shapes;
+  const Eigen::Matrix3d &C = phase.stiffness();
   const ReferenceElement &reference =
     law == Law::linear ? discretization.stiffness_quadrature : discretization.nonlinear_quadrature;
   const double rounded = round_off_of(law) * C.cwiseAbs().maxCoeff();
@@ -76,7 +77,7 @@ FineReference::Solver::TriangleSums<n_shapes> FineReference::Solver::integrate(
         state.energy = std::numeric_limits<double>::infinity();
     }
     state.round_off += slopes * std::pow(weight * rounded * size_of_terms, 2);
-    const Response local = response(law, C, F);
+    const Response local = phase.response(F);
     state.energy += weight * local.energy;
     state.energy_round_off += weight * local.stress.norm() * round_off_of(law) * size_of_terms;
     sums.f.noalias() += weight * D.transpose() * local.stress;
@@ -118,13 +119,12 @@ FineReference::Solver::assemble(const Vector &displacement, const Eigen::Matrix2
   {
     if (!cell->is_locally_owned())
       continue;
-    const unsigned int t = Discretization::triangle_of(cell);
-    const Eigen::Matrix3d &C =
-      stiffness_of_phase[static_cast<std::size_t>(discretization.mesh.material(t))];
+    const unsigned int t    = Discretization::triangle_of(cell);
+    const LawOfPhase &phase = phases[static_cast<std::size_t>(discretization.mesh.material(t))];
     cell->get_dof_indices(dofs);
     ghosted.extract_subvector_to(dofs, values);
     const TriangleSums<n_shapes> sums = integrate<n_shapes>(
-      AffineTriangle(discretization.mesh, t), C, values, mean_gradient, tangent, state);
+      AffineTriangle(discretization.mesh, t), phase, values, mean_gradient, tangent, state);
     state.n_inverted += sums.is_inverted;
     state.n_indefinite += sums.is_indefinite;
     state.force_size += sums.f.squaredNorm();

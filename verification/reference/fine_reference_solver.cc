@@ -81,6 +81,9 @@ void FineReference::Solver::start(const Load &new_load, const Law new_law, BodyF
   }
   law        = new_law;
   body_force = std::move(new_body_force);
+  phases.clear();
+  for (const Eigen::Matrix3d &C : stiffness_of_phase)
+    phases.emplace_back(law, C);
   if (body_force)
     linear_rate.reset();
   body_load.clear();
@@ -107,8 +110,8 @@ FineReference::Solver::Vector FineReference::Solver::affine(const double strain)
   return displacement;
 }
 
-/// All loads are proportional to strain, u = s v(s), and v(0) is that of linear theory under any
-/// law: v is the polynomial through some levels.
+/// All loads are proportional to strain, u = s v(s), and v(0) is that of linear theory, but under
+/// yarn-tension, where v(0) has relaxed: v is the polynomial through some levels.
 FineReference::Solver::SolvedLevel
 FineReference::Solver::extrapolated(const std::vector<const SolvedLevel *> &from,
                                     const double strain) const
@@ -131,7 +134,7 @@ FineReference::Solver::extrapolated(const std::vector<const SolvedLevel *> &from
 FineReference::Solver::SolvedLevel FineReference::Solver::guess(const double strain)
 {
   std::vector<const SolvedLevel *> from;
-  if (linear_rate && law != Law::linear)
+  if (linear_rate && law != Law::linear && (law != Law::yarn_tension || levels.empty()))
     from.push_back(&*linear_rate);
   for (const SolvedLevel &level : levels)
     from.push_back(&level);

@@ -6,6 +6,7 @@
 #include "homogenization/fem/kept_multigrid.h"
 #include "verification/newton/tangent.h"
 #include "verification/reference/fine_reference.h"
+#include "verification/reference/law_of_phase.h"
 
 #include <algorithm>
 #include <map>
@@ -79,7 +80,7 @@ private:
   struct TriangleSums;
   template <int n_shapes>
   TriangleSums<n_shapes> integrate(const homogenization::AffineTriangle &triangle,
-                                   const Eigen::Matrix3d &C, const std::vector<double> &values,
+                                   const LawOfPhase &phase, const std::vector<double> &values,
                                    const Eigen::Matrix2d &mean_gradient, Tangent tangent,
                                    Evaluation &state) const;
   void add_over_ranks(Evaluation &state) const;
@@ -100,6 +101,7 @@ private:
 
   std::unique_ptr<Load> load;
   Law law = Law::linear;
+  std::vector<LawOfPhase> phases; ///< under that law
   BodyForce body_force;
   Vector body_load; ///< at the strain that is being solved; empty without a body force
   dealii::AffineConstraints<double> constraints; ///< homogeneous: held nodes, periodic images

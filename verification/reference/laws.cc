@@ -3,9 +3,9 @@
 
 #include "meshes/plain/errors.h"
 #include "meshes/plain/symmetric_eigen.h"
+#include "verification/reference/law_of_phase.h"
 #include "verification/yarns/tension_field.h"
 #include "verification/yarns/yarn_law.h"
-
 
 #include <algorithm>
 #include <array>
@@ -118,7 +118,15 @@ Law law_of(const std::string &name)
                          "yarn-tension");
 }
 
-Response response(const Law law, const Eigen::Matrix3d &C, const Eigen::Matrix2d &F)
+LawOfPhase::LawOfPhase(const Law law, const Eigen::Matrix3d &stiffness)
+    : law(law)
+    , C(stiffness)
+{
+  if (is_of_yarns(law))
+    yarns = meshes::yarn_axes(C);
+}
+
+Response LawOfPhase::response(const Eigen::Matrix2d &F) const
 {
   switch (law)
   {
@@ -128,12 +136,17 @@ Response response(const Law law, const Eigen::Matrix3d &C, const Eigen::Matrix2d
     return green_response(C, F);
   case Law::yarn:
   case Law::yarn_tension:
-    if (const meshes::YarnAxes yarns = meshes::yarn_axes(C); yarns.are_there)
+    if (yarns.are_there)
       return law == Law::yarn ? yarn_response(yarns, F) : tension_response(yarns, F);
     return biot_response(C, F);
   default:
     return biot_response(C, F);
   }
+}
+
+Response response(const Law law, const Eigen::Matrix3d &C, const Eigen::Matrix2d &F)
+{
+  return LawOfPhase(law, C).response(F);
 }
 
 Eigen::Matrix4d positive_part(const Eigen::Matrix4d &tangent)

@@ -28,11 +28,11 @@ Vector3d strain_of(const Vector2d &a, const Vector2d &b)
 }
 
 /// The law of yarns at a metric in their own axes.
-MetricResponse yarns_at(const YarnAxes &straight, const Matrix2d &metric)
+MetricResponse yarns_at(const Eigen::Matrix3d &C, const Matrix2d &metric)
 {
   const double l1 = std::sqrt(metric(0, 0)), along = metric(0, 1) / l1;
   const double across = std::sqrt(std::max(metric(1, 1) - along * along, 0.));
-  return yarn_metric_response(straight, {l1, 0., 0.}, {along, across, 0.});
+  return response_in_axes(C, {l1, 0., 0.}, {along, across, 0.});
 }
 
 /// Where Newton's method begins. Small wrinkles: W ≈ ½ a² m·S m + ⅛ a⁴ (m m):H:(m m) along the
@@ -50,13 +50,20 @@ Vector2d first_guess(const Matrix2d &metric, const MetricResponse &flat)
   return std::sqrt(rise > 0. ? std::min(-2. * stress.values(0) / rise, 0.1) : 0.1) * m;
 }
 
-/// The wrinkle w of least energy, by Newton's method on the gradient S w.
-Vector2d least_wrinkle(const YarnAxes &straight, const Matrix2d &metric, const MetricResponse &flat)
+/// A wrinkle, and the law of yarns at the metric that it makes whole.
+struct Wrinkle
+{
+  Vector2d w;
+  MetricResponse response;
+};
+
+/// The wrinkle of least energy, by Newton's method on the gradient S w.
+Wrinkle least_wrinkle(const Eigen::Matrix3d &C, const Matrix2d &metric, const MetricResponse &flat)
 {
   constexpr int most_steps = 100;
-  const double size        = straight.C.cwiseAbs().maxCoeff();
-  const auto at = [&](const Vector2d &w) { return yarns_at(straight, metric + w * w.transpose()); };
-  Vector2d w    = first_guess(metric, flat);
+  const double size        = C.cwiseAbs().maxCoeff();
+  const auto at       = [&](const Vector2d &w) { return yarns_at(C, metric + w * w.transpose()); };
+  Vector2d w          = first_guess(metric, flat);
   MetricResponse here = at(w);
   for (int newton = 0; newton < most_steps; ++newton)
   {
@@ -88,24 +95,24 @@ Vector2d least_wrinkle(const YarnAxes &straight, const Matrix2d &metric, const M
     if (!is_taken)
       break;
   }
-  return w;
+  return {w, here};
 }
 
 /// In the axes of the yarns.
-TensionField in_axes(const YarnAxes &straight, const Matrix2d &metric)
+/// @param C stiffness in them (3,3) [N/m]
+TensionField in_axes(const Eigen::Matrix3d &C, const Matrix2d &metric)
 {
   const auto stretches = meshes::symmetric_eigen<2>(metric);
   if (stretches.values(1) < 1. - round_off)
     return {ClothState::slack, {0., Vector3d::Zero(), Eigen::Matrix3d::Zero()}};
-  const double size         = straight.C.cwiseAbs().maxCoeff();
-  const MetricResponse flat = yarns_at(straight, metric);
+  const double size         = C.cwiseAbs().maxCoeff();
+  const MetricResponse flat = yarns_at(C, metric);
   const bool is_line        = stretches.values(0) <= 1e-12 * stretches.values(1);
   if (!is_line && meshes::symmetric_eigen<2>(symmetric(flat.force)).values(0) >= -1e-13 * size)
     return {ClothState::taut, flat};
-  const Vector2d w           = least_wrinkle(straight, metric, flat);
-  const MetricResponse there = yarns_at(straight, metric + w * w.transpose());
-  const Vector2d m           = w.normalized(), t(-m(1), m(0));
-  const double pull          = std::max(t.dot(symmetric(there.force) * t), 0.);
+  const auto [w, there] = least_wrinkle(C, metric, flat);
+  const Vector2d m      = w.normalized(), t(-m(1), m(0));
+  const double pull     = std::max(t.dot(symmetric(there.force) * t), 0.);
   Eigen::Matrix<double, 3, 2> V;
   V << strain_of(m, m), 2. * w.norm() * strain_of(m, t);
   const Eigen::Matrix<double, 3, 2> HV = there.stiffness * V;
@@ -119,10 +126,7 @@ TensionField in_axes(const YarnAxes &straight, const Matrix2d &metric)
 
 TensionField tension_field(const YarnAxes &yarns, const Matrix2d &C)
 {
-  YarnAxes straight = yarns;
-  straight.axes.setIdentity();
-  straight.turns.setIdentity();
-  TensionField field = in_axes(straight, yarns.axes.transpose() * C * yarns.axes);
+  TensionField field = in_axes(yarns.C, yarns.axes.transpose() * C * yarns.axes);
   const auto &turns  = yarns.turns;
   field.response     = {field.response.energy, turns.transpose() * field.response.force,
                         turns.transpose() * field.response.stiffness * turns};

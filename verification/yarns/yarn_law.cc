@@ -46,8 +46,8 @@ Response yarn_response(const YarnAxes &yarns, const Eigen::Matrix2d &F)
   return {0.5 * strain.dot(T), G.transpose() * (B.transpose() * T), G.transpose() * tangent * G};
 }
 
-MetricResponse yarn_metric_response(const YarnAxes &yarns, const Eigen::Vector3d &f1,
-                                    const Eigen::Vector3d &f2)
+MetricResponse response_in_axes(const Eigen::Matrix3d &C, const Eigen::Vector3d &f1,
+                                const Eigen::Vector3d &f2)
 {
   constexpr double least = 1e-9;
   const double length1 = f1.norm(), length2 = f2.norm();
@@ -55,12 +55,12 @@ MetricResponse yarn_metric_response(const YarnAxes &yarns, const Eigen::Vector3d
   const double g11 = l1 * l1, g22 = l2 * l2, g12 = f1.dot(f2), area = f1.cross(f2).norm();
   const double J = std::max(area, least * l1 * l2), J3 = J * J * J;
   const Eigen::Vector3d strain(length1 - 1., length2 - 1., std::atan2(g12, area));
-  const Eigen::Vector3d T = yarns.C * strain;
+  const Eigen::Vector3d T = C * strain;
   Eigen::Matrix3d B;    // of the strain by E11, E22, 2 E12 in the axes
   B << 1. / l1, 0., 0., //
     0., 1. / l2, 0.,    //
     -g12 / (J * g11), -g12 / (J * g22), 1. / J;
-  Eigen::Matrix3d H = B.transpose() * yarns.C * B;
+  Eigen::Matrix3d H = B.transpose() * C * B;
   H(0, 0) -= T(0) / (g11 * l1);
   H(1, 1) -= T(1) / (g22 * l2);
   Eigen::Matrix3d angle; // second derivative of gamma
@@ -68,7 +68,14 @@ MetricResponse yarn_metric_response(const YarnAxes &yarns, const Eigen::Vector3d
     g12 / J3, g12 * (g11 / (J3 * g22) + 2. / (J * g22 * g22)), -g11 / J3,        //
     -g22 / J3, -g11 / J3, g12 / J3;
   H += T(2) * angle;
-  return {0.5 * strain.dot(T), yarns.turns.transpose() * (B.transpose() * T),
-          yarns.turns.transpose() * H * yarns.turns};
+  return {0.5 * strain.dot(T), B.transpose() * T, H};
+}
+
+MetricResponse yarn_metric_response(const YarnAxes &yarns, const Eigen::Vector3d &f1,
+                                    const Eigen::Vector3d &f2)
+{
+  const MetricResponse in_axes = response_in_axes(yarns.C, f1, f2);
+  return {in_axes.energy, yarns.turns.transpose() * in_axes.force,
+          yarns.turns.transpose() * in_axes.stiffness * yarns.turns};
 }
 } // namespace homespun::verification

@@ -32,4 +32,9 @@ Response yarn_response(const meshes::YarnAxes &yarns, const Eigen::Matrix2d &F);
 /// @param f1,f2 F a1, F a2
 MetricResponse yarn_metric_response(const meshes::YarnAxes &yarns, const Eigen::Vector3d &f1,
                                     const Eigen::Vector3d &f2);
+
+/// The same by E in the axes of the yarns.
+/// @param C stiffness in them (3,3) [N/m]
+MetricResponse response_in_axes(const Eigen::Matrix3d &C, const Eigen::Vector3d &f1,
+                                const Eigen::Vector3d &f2);
 } // namespace homespun::verification

@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <cmath>
 #include <functional>
 
 using namespace homespun;
@@ -117,4 +118,23 @@ TEST(bound_tension_equilibrium, strips_of_a_weave_have_the_energy_of_one_minimum
                                                              Law::yarn_tension, at_once.positions))
     n_relaxed += phase.n_wrinkled + phase.n_slack;
   EXPECT_GT(n_relaxed, 0); // else the law is yarn
+}
+
+// Next to nothing of a frame that is sheared little is taut, and wrinkle by wrinkle its equilibrium
+// takes more than a hundred steps. What is small is so in proportion: the law has no other scale,
+// and the energy goes with the square of the shear.
+TEST(exact_tension_equilibrium, a_frame_that_is_sheared_little_has_the_energy_of_small_strains)
+{
+  const UnitCell cell = homogenization::read_unit_cell(std::string(CELLS) + "plain-weave.prm");
+  const meshes::Sheet sheet = meshes::tile(cell.mesh, cell.lattice, 3, 3);
+  const auto energy         = [&](const double strain)
+  {
+    FineReference reference(sheet, cell.stiffness_of_phase(), {}, MPI_COMM_SELF);
+    reference.start(Load("shear-frame"), Law::yarn_tension);
+    const ReferenceStep step = reference.advance(strain);
+    EXPECT_TRUE(step.reached) << step.why;
+    EXPECT_LT(step.relative_residual, 1e-7);
+    return step.energy;
+  };
+  EXPECT_NEAR(std::log2(energy(0.002) / energy(0.001)), 2., 0.05);
 }

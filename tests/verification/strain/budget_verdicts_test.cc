@@ -117,6 +117,90 @@ TEST(exact_budget, parts_that_make_up_the_total_leave_nothing)
     EXPECT_NEAR(verdict_with(verdicts, words).value, 2., 1e-4);
 }
 
+namespace
+{
+/// The same tables under another law, the sum of whose parts leaves so much of the error, and may.
+struct OfLaw
+{
+  OfLaw(const std::string &law, const double left, const double bar)
+      : asked(strain_rows(strains))
+      , rows(ladder(strains))
+  {
+    for (StrainRow &row : asked)
+      row.reference = law;
+    for (BudgetRow &row : rows)
+    {
+      row.reference = law;
+      if (row.part == "total")
+        for (BudgetRow &other : rows)
+          if (other.strain == row.strain && other.region == row.region)
+          {
+            if (other.part == "unexplained")
+              other.per_cell = left * row.per_cell;
+            if (other.part == "unexplained-bar")
+              other.per_cell = bar * row.per_cell;
+          }
+    }
+  }
+  int n_of(const std::string &word) const
+  {
+    int n = 0;
+    for (const Verdict &verdict : budget_verdicts(asked, rows, strains))
+      n += verdict.claim.find(word) != std::string::npos;
+    return n;
+  }
+  Outcome outcome() const
+  {
+    return verdict_with(budget_verdicts(asked, rows, strains), "the parts leave").outcome;
+  }
+  std::string notes() const
+  {
+    std::string text;
+    for (const std::string &note : budget_notes(asked, rows))
+      text += note + "\n";
+    return text;
+  }
+  std::vector<StrainRow> asked;
+  std::vector<BudgetRow> rows;
+};
+} // namespace
+
+// What a bar of linear theory cannot decide because the law has left it is said, and not left open.
+TEST(tripwire_budget, a_sheet_of_yarns_that_has_left_linear_theory_gets_a_note_and_no_claim)
+{
+  for (const char *law : {"yarn", "yarn-tension"})
+  {
+    const OfLaw wide(law, 0.2, 1.5);
+    EXPECT_EQ(wide.n_of("the parts leave"), 0) << law;
+    EXPECT_EQ(wide.n_of("what the solvers leave"), 2) << law;
+    EXPECT_NE(wide.notes().find("at 1 %: what the parts leave, 20 % of the error, is not judged: "
+                                "under " +
+                                std::string(law)),
+              std::string::npos)
+      << wide.notes();
+    EXPECT_EQ(OfLaw(law, 0.05, 0.1).outcome(), Outcome::pass) << law;
+    // More than the bar is a fault, however wide that is.
+    EXPECT_EQ(OfLaw(law, 1.6, 1.5).outcome(), Outcome::fail) << law;
+  }
+  EXPECT_NE(OfLaw("yarn", 0.2, 1.5).notes().find("by up to 150 % of the error"), std::string::npos);
+  // Another law does not explain it.
+  EXPECT_EQ(OfLaw("biot", 0.2, 1.5).outcome(), Outcome::inconclusive);
+}
+
+TEST(tripwire_budget, under_yarn_tension_no_order_in_strain_is_claimed_and_what_is_missing_is_said)
+{
+  EXPECT_EQ(OfLaw("yarn", 0.05, 0.1).n_of("grows as strain squared"), 2);
+  OfLaw tension("yarn-tension", 0.05, 0.1);
+  EXPECT_EQ(tension.n_of("grows as strain squared"), 0);
+  tension.rows.clear(); // a part of it was not found
+  EXPECT_TRUE(budget_verdicts(tension.asked, tension.rows, strains).empty());
+  EXPECT_NE(tension.notes().find("at 1 %: under yarn-tension the error is not split"),
+            std::string::npos);
+  OfLaw yarn("yarn", 0.05, 0.1);
+  yarn.rows.clear();
+  EXPECT_EQ(yarn.outcome(), Outcome::inconclusive);
+}
+
 TEST(exact_budget, the_shares_of_the_parts_are_the_share_of_their_sum)
 {
   const ErrorBudget budget = known_budget(0.01);
