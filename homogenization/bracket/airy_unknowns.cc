@@ -31,8 +31,10 @@ Eigen::Vector2d edge_normal(const TorusEdge &edge)
   return {edge.vector(1) / length, -edge.vector(0) / length};
 }
 
-AiryUnknowns::AiryUnknowns(const TorusMesh &mesh, const Holes holes)
+AiryUnknowns::AiryUnknowns(const TorusMesh &mesh, const Holes holes,
+                           const NormalDerivatives normal_derivatives)
     : mesh(mesh)
+    , normal_derivatives(normal_derivatives)
 {
   if (holes == Holes::empty)
     rims = rims_of(mesh);
@@ -65,7 +67,7 @@ void AiryUnknowns::number_unknowns()
   }
   unknown_of_edge.assign(mesh.edges.size(), -1);
   for (int e = 0; e < mesh.n_edges(); ++e)
-    if (rims.of_edge[at(e)].hole < 0)
+    if (rims.of_edge[at(e)].hole < 0 && normal_derivatives == NormalDerivatives::quadratic)
       unknown_of_edge[at(e)] = n++;
   first_unknown_of_hole.resize(at(rims.n_holes));
   for (int &first : first_unknown_of_hole)
@@ -130,6 +132,8 @@ AiryDofs AiryUnknowns::of_triangle(const int t) const
         dofs[at(3 * k)].factors[1]  = 1.;
       }
     }
+    if (normal_derivatives == NormalDerivatives::linear)
+      continue;
     if (rims.of_edge[at(e)].hole >= 0)
     {
       const Eigen::Vector2d normal = edge_normal(mesh.edges[at(e)]);

@@ -54,6 +54,13 @@ Part sure_part(const DrawnMesh &drawing)
   return part;
 }
 
+/// Stresses beside which the displacements of an order leave about as wide a gap: reduced triangles
+/// beside linear ones, where the mesh has no triangles that are flat.
+NormalDerivatives normal_derivatives_of(const TorusMesh &given, const unsigned order)
+{
+  return order == 1 && !given.is_drawn() ? NormalDerivatives::linear : NormalDerivatives::quadratic;
+}
+
 /// Both problems, each on its part of a drawing. What may be a part of a hole belongs to the side
 /// that gains by it: there are no stresses where a hole is empty, no strains where it is rigid.
 struct Sides
@@ -64,7 +71,8 @@ struct Sides
       , of_stress(holes == Holes::empty ? sure_part(both) : whole(both))
       , of_strain(holes == Holes::rigid ? sure_part(both) : whole(both))
       , below(of_stress.mesh, both.lower,
-              given.is_drawn() ? of_stress.is_flat : std::vector<char>{}, holes)
+              given.is_drawn() ? of_stress.is_flat : std::vector<char>{}, holes,
+              normal_derivatives_of(given, order))
       , above(of_strain.mesh, both.upper, order, holes)
   {
   }
@@ -271,8 +279,10 @@ AdaptiveBracket adaptive_bracket(const TorusMesh &mesh,
     // Each arc has a vertex and three edges of its own.
     const int n_vertices = finer.n_vertices + finer.n_arcs(),
               n_edges    = finer.n_edges() + 3 * finer.n_arcs();
-    const int n_dofs =
-      std::max(3 * n_vertices + n_edges, 2 * (n_vertices + (options.order == 2 ? n_edges : 0)));
+    const bool has_unknowns_of_edges =
+      normal_derivatives_of(finer, options.order) == NormalDerivatives::quadratic;
+    const int n_dofs = std::max(3 * n_vertices + (has_unknowns_of_edges ? n_edges : 0),
+                                2 * (n_vertices + (options.order == 2 ? n_edges : 0)));
     if (n_dofs > static_cast<int>(options.max_dofs))
       return result;
     result.mesh = std::move(finer);

@@ -70,10 +70,12 @@ Compliances::Compliances(const std::vector<Eigen::Matrix3d> &stiffnesses)
 
 EquilibratedStress::EquilibratedStress(const TorusMesh &mesh,
                                        const std::vector<Eigen::Matrix3d> &stiffness_of_material,
-                                       std::vector<char> flat, const Holes holes)
+                                       std::vector<char> flat, const Holes holes,
+                                       const NormalDerivatives normal_derivatives)
     : mesh(mesh)
     , holes(holes)
-    , numbering(mesh, holes)
+    , normal_derivatives(normal_derivatives)
+    , numbering(mesh, holes, normal_derivatives)
     , compliances(stiffness_of_material)
     , flat(std::move(flat))
 {
@@ -115,6 +117,28 @@ EquilibratedStress::StressRows EquilibratedStress::stress_rows(const int t) cons
   return rows;
 }
 
+/// Half the normal of a side, which makes the derivative in its middle from the gradients at its
+/// ends where it is linear between them.
+Eigen::RowVector2d EquilibratedStress::half_normal(const int t, const int side) const
+{
+  return 0.5 * edge_normal(mesh.edges[at(mesh.triangles[at(t)].edges[at(side)])]).transpose();
+}
+
+/// stress_rows() of what has unknowns: linear normal derivatives are put in terms of the gradients.
+EquilibratedStress::StressRows EquilibratedStress::rows_of_unknowns(const int t) const
+{
+  StressRows rows = stress_rows(t);
+  if (normal_derivatives == NormalDerivatives::linear)
+    for (int k = 0; k < 3; ++k)
+    {
+      const Eigen::Matrix<double, 3 * n_field_points, 1> of_middle = rows.col(9 + k);
+      for (const int corner : {k, (k + 1) % 3})
+        rows.middleCols<2>(3 * corner + 1) += of_middle * half_normal(t, k);
+      rows.col(9 + k).setZero();
+    }
+  return rows;
+}
+
 void EquilibratedStress::assemble_and_solve()
 {
   const int n = static_cast<int>(n_dofs);
@@ -128,7 +152,7 @@ void EquilibratedStress::assemble_and_solve()
   {
     const TorusTriangle &triangle = mesh.triangles[at(t)];
     const Eigen::Matrix3d &s      = compliances[at(triangle.material)];
-    StressRows B                  = stress_rows(t);
+    StressRows B                  = rows_of_unknowns(t);
     AiryDofs dofs                 = numbering.of_triangle(t);
     if (is_flat(t))
       change_basis(t, B, dofs);
@@ -210,6 +234,10 @@ EquilibratedStress::LocalValues EquilibratedStress::local_values(const int t) co
     values.middleRows<2>(3 * k + 1) -= gradient;
     values.row(9 + k) -= edge_normal(mesh.edges[at(triangle.edges[at(k)])]).transpose() * gradient;
   }
+  if (normal_derivatives == NormalDerivatives::linear)
+    for (int k = 0; k < 3; ++k)
+      values.row(9 + k) = half_normal(t, k) * (values.middleRows<2>(3 * k + 1) +
+                                               values.middleRows<2>(3 * ((k + 1) % 3) + 1));
   return values;
 }
 

@@ -62,13 +62,15 @@ class EquilibratedStress
 {
 public:
   /// @param stiffness_of_material [N/m]
+  /// @param normal_derivatives of phi: linear ones make half as many unknowns
   /// @param flat whether vertex 2 of a triangle lies close to its edge 0 (and to that of no other);
-  ///   empty: none does
+  ///   empty: none does, as it must be where normal derivatives are linear
   /// @throws BadInput where empty holes meet across the outline; NotConverged where the matrix is
   ///   singular
   EquilibratedStress(const TorusMesh &mesh,
                      const std::vector<Eigen::Matrix3d> &stiffness_of_material,
-                     std::vector<char> flat = {}, Holes holes = Holes::empty);
+                     std::vector<char> flat = {}, Holes holes = Holes::empty,
+                     NormalDerivatives normal_derivatives = NormalDerivatives::quadratic);
 
   /// Stress at the field points of a triangle under the three unit mean stresses.
   FieldOfLoads stress(int triangle) const;
@@ -96,6 +98,8 @@ private:
 
   CloughTocher element(int triangle) const;
   StressRows stress_rows(int triangle) const;
+  Eigen::RowVector2d half_normal(int triangle, int side) const;
+  StressRows rows_of_unknowns(int triangle) const;
   LocalValues local_values(int triangle) const;
   void assemble_and_solve();
   bool is_flat(const int triangle) const
@@ -109,6 +113,7 @@ private:
 
   const TorusMesh &mesh;
   const Holes holes;
+  const NormalDerivatives normal_derivatives;
   const AiryUnknowns numbering;
   const Compliances compliances; ///< of each material
   const std::vector<char> flat;

@@ -60,12 +60,15 @@ homogenization::TorusMesh torus_of(const homogenization::UnitCell &cell, const u
 
 std::string too_large_text(const homogenization::UnitCell &cell, const BracketOptions &options)
 {
-  // A periodic mesh has three edges to two triangles, and half as many vertices as triangles.
-  const double n_triangles = cell.mesh.n_triangles() * std::pow(4., options.refine);
-  const double n_dofs      = (options.order == 2 ? 4. : 3.) * n_triangles;
-  const Cost cost          = cost_of_bracket(n_dofs);
-  const double free        = available_memory();
-  constexpr double giga    = 1e9;
+  // A periodic mesh has three edges to two triangles, and half as many vertices as triangles: 3
+  // DoFs of a vertex, and one of an edge where normal derivatives are quadratic; P2 has 4 per
+  // triangle.
+  const double per_triangle = options.order == 2 ? 4. : cell.curved_sides.empty() ? 1.5 : 3.;
+  const double n_triangles  = cell.mesh.n_triangles() * std::pow(4., options.refine);
+  const double n_dofs       = per_triangle * n_triangles;
+  const Cost cost           = cost_of_bracket(n_dofs);
+  const double free         = available_memory();
+  constexpr double giga     = 1e9;
   char text[200];
   if (n_dofs > static_cast<double>(options.max_dofs))
     std::snprintf(text, sizeof(text),
