@@ -59,6 +59,11 @@ struct Harmonic
   {
   }
 
+  double size() const
+  {
+    return std::abs(mean) + std::abs(cosine) + std::abs(sine);
+  }
+
   double change(const double c, const double s) const
   {
     return sine * c - cosine * s;
@@ -133,6 +138,39 @@ double refined(const Eigen::Matrix4d &A, const double from, const double middle,
 }
 } // namespace
 
+bool every_wave_is_above(const Eigen::Matrix4d &A, const double bound)
+{
+  using Samples = Eigen::Array<double, directions, 1>;
+  static const Samples twice =
+    Samples::LinSpaced(directions, 0., 2. * pi * (directions - 1) / directions);
+  static const Samples c1 = twice.cos(), s1 = twice.sin(), c2 = (2. * twice).cos(),
+                       s2 = (2. * twice).sin();
+  const Harmonic Q11(A(0, 0) - bound, 2. * A(0, 1), A(1, 1) - bound);
+  const Harmonic Q22(A(2, 2) - bound, 2. * A(2, 3), A(3, 3) - bound);
+  const Harmonic Q12(A(0, 2), A(0, 3) + A(1, 2), A(1, 3));
+  // Coefficients of det Q: products of harmonics.
+  double mean = 0., cos1 = 0., sin1 = 0., cos2 = 0., sin2 = 0., size = 0.;
+  const auto add = [&](const double times, const Harmonic &one, const Harmonic &other)
+  {
+    mean +=
+      times * (one.mean * other.mean + 0.5 * (one.cosine * other.cosine + one.sine * other.sine));
+    cos1 += times * (one.mean * other.cosine + one.cosine * other.mean);
+    sin1 += times * (one.mean * other.sine + one.sine * other.mean);
+    cos2 += times * 0.5 * (one.cosine * other.cosine - one.sine * other.sine);
+    sin2 += times * 0.5 * (one.cosine * other.sine + one.sine * other.cosine);
+    size += one.size() * other.size();
+  };
+  add(1., Q11, Q22);
+  add(-1., Q12, Q12);
+  // Between values no further apart than a step the least one is missed by half the bend times the
+  // square of half a step.
+  const double bend      = std::hypot(cos1, sin1) + 4. * std::hypot(cos2, sin2);
+  const double missed    = 0.5 * bend * std::pow(pi / directions, 2);
+  constexpr double exact = 1e-14;
+  const double least     = (mean + cos1 * c1 + sin1 * s1 + cos2 * c2 + sin2 * s2).minCoeff();
+  return least > missed + exact * size && Q11.mean + Q22.mean > 0.;
+}
+
 LeastWave least_wave(const Eigen::Matrix4d &tangent)
 {
   static const auto units = []()
@@ -179,6 +217,12 @@ double EllipticityOfLaw::at(const Eigen::Matrix2d &F) const
   return std::isfinite(here.energy) ? least_wave(here.tangent).stiffness / at_rest : here.energy;
 }
 
+bool EllipticityOfLaw::is_above(const Eigen::Matrix2d &F, const double bound) const
+{
+  const Response here = response(law, C, F);
+  return std::isfinite(here.energy) && every_wave_is_above(here.tangent, bound * at_rest);
+}
+
 bool EllipticityOfLaw::is_lost(const double least) const
 {
   constexpr double round_off = 1e-9;
@@ -199,10 +243,13 @@ ellipticity_of_phases(const meshes::TriangleMesh &rest,
     const auto phase        = static_cast<std::size_t>(rest.material(t));
     PhaseEllipticity &p     = found[phase];
     const Eigen::Matrix2d F = meshes::deformation_gradient<2>(rest, t, positions);
-    const double ratio      = laws[phase].at(F);
     ++p.n_triangles;
-    p.n_lost += laws[phase].is_lost(ratio) ? 1 : 0;
-    p.least = std::min(p.least, ratio);
+    if (!laws[phase].is_above(F, std::max(0., p.least))) // which would change nothing
+    {
+      const double ratio = laws[phase].at(F);
+      p.n_lost += laws[phase].is_lost(ratio) ? 1 : 0;
+      p.least = std::min(p.least, ratio);
+    }
     if (law != Law::yarn_tension)
       continue;
     const ClothState state = cloth_state(stiffness_of_phase[phase], F);

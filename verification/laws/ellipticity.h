@@ -39,6 +39,15 @@ struct LeastWave
 /// @param tangent dP/dF (4,4) [N/m], F11, F12, F21, F22
 LeastWave least_wave(const Eigen::Matrix4d &tangent);
 
+/// Whether (a n):A:(a n) is certainly above a bound for all unit n and a, told without a search:
+/// det(Q(n) − bound) = d0 + d1 cos(t − t1) + d2 cos(2 t − t2), t twice the angle of n, bends by no
+/// more than d1 + 4 d2, so that 36 values show it to be positive; next to rest of an isotropic
+/// phase d1 and d2 are of the order of the strain. False where it is not so, and where this does
+/// not tell.
+/// @param tangent as above
+/// @param bound [N/m]
+bool every_wave_is_above(const Eigen::Matrix4d &tangent, double bound);
+
 /// The least wave of a stiffness under a law, as a part of the one at rest: 1 at rest, whatever the
 /// unit; is_lost() where ellipticity is. Not finite where the law is not.
 class EllipticityOfLaw
@@ -49,6 +58,9 @@ public:
 
   /// @param F deformation gradient (2,2)
   double at(const Eigen::Matrix2d &F) const;
+
+  /// Whether at() is certainly above a bound that is not negative. Costs a tenth of at().
+  bool is_above(const Eigen::Matrix2d &F, double bound) const;
 
   /// Whether a value of at() is of a state that is lost: not positive; under yarn-tension, whose
   /// wrinkles have waves that cost nothing, negative by more than round-off.

@@ -20,8 +20,11 @@ WorstTriangle worst_triangle(const meshes::TriangleMesh &rest,
   WorstTriangle worst;
   for (int t = 0; t < rest.n_triangles(); ++t)
   {
-    const double least = laws[static_cast<std::size_t>(rest.material(t))].at(
-      meshes::deformation_gradient<2>(rest, t, positions));
+    const EllipticityOfLaw &its = laws[static_cast<std::size_t>(rest.material(t))];
+    const Eigen::Matrix2d F     = meshes::deformation_gradient<2>(rest, t, positions);
+    if (worst.triangle >= 0 && worst.least > 0. && its.is_above(F, worst.least))
+      continue;
+    const double least = its.at(F);
     if (worst.triangle < 0 || least < worst.least)
     {
       worst.triangle = t;

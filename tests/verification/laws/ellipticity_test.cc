@@ -3,6 +3,7 @@
 #include "verification/laws/ellipticity.h"
 
 #include "meshes/plain/sheet.h"
+#include "meshes/plain/triangle_kinematics.h"
 #include "verification/laws/first_loss.h"
 
 #include <Eigen/LU>
@@ -75,6 +76,71 @@ TEST(exact_ellipticity, the_least_wave_is_that_of_a_search_of_all_directions)
     // A search that is off by half a step in both angles errs by at most 2 |A| (pi/720)² ~ 4e-5.
     EXPECT_GE(found.stiffness, by_search - 4e-5 * 4. * size);
   }
+}
+
+TEST(bound_ellipticity, what_is_certainly_above_is_above_and_most_of_it_is_told)
+{
+  std::mt19937 random(11);
+  std::normal_distribution<double> normal;
+  int n_told = 0;
+  for (int k = 0; k < 2000; ++k)
+  {
+    // Definite ones, some of them nearly those of an isotropic phase, and any.
+    Eigen::Matrix4d A =
+      Eigen::Matrix4d::NullaryExpr([&](Eigen::Index, Eigen::Index) { return normal(random); });
+    A = (k % 2 == 0 ? Eigen::Matrix4d(A * A.transpose()) : Eigen::Matrix4d(A + A.transpose()));
+    if (k % 4 == 0)
+      A = 1e-3 * A +
+          response(Law::biot, orthotropic(2.6, 2.6, 0.3, 1.), Eigen::Matrix2d::Identity()).tangent;
+    const double least = least_wave(A).stiffness;
+    for (const double part : {0., 0.5, 0.9, 0.99, 0.9999, 1., 1.0001, 2.})
+    {
+      const double bound = part * std::abs(least);
+      if (!every_wave_is_above(A, bound))
+        continue;
+      EXPECT_GT(least, bound);
+      ++n_told;
+    }
+    if (k % 4 == 0) // and not told too seldom
+    {
+      EXPECT_TRUE(every_wave_is_above(A, (1. - 1e-4) * least)) << k;
+    }
+  }
+  EXPECT_GT(n_told, 1000);
+}
+
+TEST(exact_ellipticity, a_mesh_has_the_least_of_its_triangles)
+{
+  // Told for most of them without a search, and the same to the last bit.
+  meshes::TriangleMesh mesh = meshes::coarse_sheet({0., 0.}, Eigen::Matrix2d::Identity(), 12, 12);
+  const std::vector<Eigen::Matrix3d> stiffness = {orthotropic(2.6, 2.6, 0.3, 1.),
+                                                  orthotropic(1e4, 1e2, 0., 1.)};
+  std::mt19937 random(5);
+  std::normal_distribution<double> normal;
+  for (int t = 0; t < mesh.n_triangles(); ++t)
+    mesh.material(t) = t % 2;
+  for (const Law law : {Law::biot, Law::green, Law::yarn})
+    for (const double size : {1e-5, 1e-4, 1e-3, 1e-2})
+    {
+      meshes::Points moved = mesh.vertices;
+      for (Eigen::Index v = 0; v < moved.rows(); ++v)
+        moved.row(v) += size * Eigen::RowVector2d(normal(random), normal(random));
+      const auto found = ellipticity_of_phases(mesh, stiffness, law, moved);
+      for (const int phase : {0, 1})
+      {
+        const EllipticityOfLaw its(law, stiffness[static_cast<std::size_t>(phase)]);
+        double least = 1.;
+        int n_lost   = 0;
+        for (int t = phase; t < mesh.n_triangles(); t += 2)
+        {
+          const double value = its.at(meshes::deformation_gradient<2>(mesh, t, moved));
+          least              = std::min(least, value);
+          n_lost += its.is_lost(value) ? 1 : 0;
+        }
+        EXPECT_EQ(found[static_cast<std::size_t>(phase)].least, least) << name_of(law) << size;
+        EXPECT_EQ(found[static_cast<std::size_t>(phase)].n_lost, n_lost) << name_of(law) << size;
+      }
+    }
 }
 
 TEST(exact_ellipticity, the_tangent_of_biot_across_the_axes_has_its_closed_form)
