@@ -138,6 +138,7 @@ void FineReference::Solver::solve(Vector &displacement, const double strain, con
 {
   Level level(*this, strain, tolerance, displacement, step);
   NewtonOptions of_newton;
+  of_newton.most_steps = most_newton_steps;
   if (law == Law::linear)
     of_newton.largest_reduction = 0.; // one step
   if (law == Law::yarn_tension)

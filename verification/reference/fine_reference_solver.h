@@ -4,7 +4,7 @@
 
 #include "homogenization/fem/elastic_solver.h"
 #include "homogenization/fem/kept_multigrid.h"
-#include "verification/newton/tangent.h"
+#include "verification/newton/newton.h"
 #include "verification/reference/fine_reference.h"
 #include "verification/reference/law_of_phase.h"
 
@@ -110,6 +110,7 @@ private:
   homogenization::KeptMultigrid multigrid;
   double seconds_of_linear_solve = 0.;
   double steadied                = 1.; ///< times steadying(), in every matrix
+  unsigned int most_newton_steps = NewtonOptions().most_steps;
 
   std::vector<SolvedLevel> levels;        ///< the last three
   std::optional<SolvedLevel> linear_rate; ///< of the present load, where it was asked for
