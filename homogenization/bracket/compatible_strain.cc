@@ -2,12 +2,12 @@
 #include "homogenization/bracket/compatible_strain.h"
 
 #include "homogenization/algebra/cholesky_solver.h"
+#include "meshes/plain/epsilon.h"
 #include "meshes/plain/index.h"
 
 #include <Eigen/LU>
 
 #include <cmath>
-#include <limits>
 
 namespace homespun::homogenization
 {
@@ -15,8 +15,6 @@ using meshes::at;
 
 namespace
 {
-constexpr double epsilon = std::numeric_limits<double>::epsilon();
-
 /// The 3 x 2n strain-displacement matrix B at a point. P2 shapes 3, 4, 5 stand on the edges 0, 1,
 /// 2.
 template <int n_shapes>
@@ -189,7 +187,8 @@ void CompatibleStrain::solve_with_rigid_holes(const Eigen::SparseMatrix<double> 
   excess     = solution.excess;
   iterations = solution.iterations;
   // A rigid motion that is rounded is none any more: other displacements may have any values.
-  roundings = 4. * epsilon * (known.cwiseAbs() + basis.cwiseAbs() * solution.values.cwiseAbs());
+  roundings =
+    4. * meshes::epsilon * (known.cwiseAbs() + basis.cwiseAbs() * solution.values.cwiseAbs());
   for (int k = 0; k < n_all; ++k)
     if (!is_on_rim[at(k)])
       roundings.row(k).setZero();
@@ -229,7 +228,7 @@ FieldOfLoads CompatibleStrain::strain_of(const int t, FieldOfLoads *const bar) c
     field.middleRows<3>(3 * q) = Eigen::Matrix3d::Identity() - B * chi;
     if (bar)
       bar->middleRows<3>(3 * q) =
-        B.cwiseAbs() * (12. * epsilon * chi.cwiseAbs() + roundings_of<n_shapes>(t));
+        B.cwiseAbs() * (12. * meshes::epsilon * chi.cwiseAbs() + roundings_of<n_shapes>(t));
   }
   return field;
 }
@@ -331,7 +330,7 @@ void CompatibleStrain::evaluate()
       const Eigen::Matrix3d stress = weight * c * strain;
       energy += (strain.transpose() * stress).cast<long double>();
       flux += stress.cast<long double>();
-      const Eigen::Matrix3d wrong = bar.middleRows<3>(3 * q) + epsilon * strain.cwiseAbs();
+      const Eigen::Matrix3d wrong = bar.middleRows<3>(3 * q) + meshes::epsilon * strain.cwiseAbs();
       bars +=
         2. * weight *
         (strain.cwiseAbs().cwiseProduct(c.cwiseAbs() * wrong)).colwise().sum().transpose().array();

@@ -2,6 +2,7 @@
 #include "homogenization/bracket/drawn_mesh.h"
 
 #include "homogenization/bracket/loewner.h"
+#include "meshes/plain/cross.h"
 #include "meshes/plain/errors.h"
 #include "meshes/plain/index.h"
 #include "meshes/plain/symmetric_eigen.h"
@@ -18,6 +19,7 @@
 namespace homespun::homogenization
 {
 using meshes::at;
+using meshes::cross;
 
 namespace
 {
@@ -27,11 +29,6 @@ constexpr double least_height = 1e-4;
 
 /// In the place of a material: a hole.
 constexpr int no_material = -1;
-
-double cross(const Eigen::Vector2d &u, const Eigen::Vector2d &v)
-{
-  return u(0) * v(1) - u(1) * v(0);
-}
 
 class Carving
 {

@@ -2,21 +2,16 @@
 #include "homogenization/bracket/equilibrated_stress.h"
 
 #include "homogenization/algebra/cholesky_solver.h"
+#include "meshes/plain/epsilon.h"
 #include "meshes/plain/index.h"
 
 #include <Eigen/LU>
 
 #include <cmath>
-#include <limits>
 
 namespace homespun::homogenization
 {
 using meshes::at;
-
-namespace
-{
-constexpr double epsilon = std::numeric_limits<double>::epsilon();
-} // namespace
 
 const std::array<FieldPoint, n_field_points> &field_points()
 {
@@ -339,7 +334,7 @@ void EquilibratedStress::evaluate()
     const LocalValues values      = local_values(t);
     FieldOfLoads field            = B * values;
     // How wrong each may be: products of the rounded values, and the values from their differences.
-    LocalValues bar                     = 12. * epsilon * values.cwiseAbs();
+    LocalValues bar                     = 12. * meshes::epsilon * values.cwiseAbs();
     const AiryDofs dofs                 = numbering.of_triangle(t);
     Eigen::RowVector3d size_of_gradient = Eigen::RowVector3d::Zero();
     for (int d = 1; d < 3; ++d)
@@ -348,15 +343,16 @@ void EquilibratedStress::evaluate()
           size_of_gradient += unknowns.row(dofs[at(d)].unknowns[at(a)]).cwiseAbs();
     for (int k = 0; k < 3; ++k)
     {
-      bar.row(3 * k) += 2. * epsilon * shape[at(k)].norm() * size_of_gradient;
-      bar.row(9 + k) += 2. * epsilon * size_of_gradient;
+      bar.row(3 * k) += 2. * meshes::epsilon * shape[at(k)].norm() * size_of_gradient;
+      bar.row(9 + k) += 2. * meshes::epsilon * size_of_gradient;
     }
     const FieldOfLoads field_bar = B.cwiseAbs() * bar;
     for (int q = 0; q < n_field_points; ++q)
     {
       const Eigen::Matrix3d sigma = field.middleRows<3>(3 * q) + Eigen::Matrix3d::Identity();
       energy += (weight * (sigma.transpose() * s * sigma)).cast<long double>();
-      const Eigen::Matrix3d wrong = field_bar.middleRows<3>(3 * q) + epsilon * sigma.cwiseAbs();
+      const Eigen::Matrix3d wrong =
+        field_bar.middleRows<3>(3 * q) + meshes::epsilon * sigma.cwiseAbs();
       bars +=
         2. * weight *
         (sigma.cwiseAbs().cwiseProduct(s.cwiseAbs() * wrong)).colwise().sum().transpose().array();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "homogenization/cell/curved_sides.h"
 
+#include "meshes/plain/cross.h"
 #include "meshes/plain/errors.h"
 
 #include <algorithm>
@@ -10,15 +11,11 @@
 
 namespace homespun::homogenization
 {
+using meshes::cross;
 namespace
 {
 /// Of one kind no more than this many are told one by one.
 constexpr int most_of_a_kind = 3;
-
-double cross(const Eigen::Vector2d &u, const Eigen::Vector2d &v)
-{
-  return u(0) * v(1) - u(1) * v(0);
-}
 
 /// Whether a quadratic polynomial is positive all over a triangle, by its Bezier ordinates (corners
 /// 0, 1, 2, then the sides 01, 12, 20): their least is a lower bound, which quartering the triangle

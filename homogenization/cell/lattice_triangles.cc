@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "homogenization/cell/lattice_triangles.h"
 
+#include "meshes/plain/cross.h"
 #include "meshes/plain/index.h"
 
 #include <algorithm>
@@ -11,14 +12,10 @@
 namespace homespun::homogenization
 {
 using meshes::at;
+using meshes::cross;
 
 namespace
 {
-double cross(const Eigen::RowVector2d &u, const Eigen::RowVector2d &v)
-{
-  return u(0) * v(1) - u(1) * v(0);
-}
-
 /// The edge between two corners, and whether it runs from the first of them.
 std::pair<LatticeEdge, bool> directed_edge(const LatticeCorner &from, const LatticeCorner &to)
 {

@@ -20,7 +20,8 @@
 
 namespace homespun::homogenization
 {
-namespace
+// Not without a name, as Levels holds some of it.
+namespace multigrid
 {
 /// The rows of a matrix that this rank owns.
 struct OwnedRows
@@ -162,7 +163,8 @@ private:
   std::vector<int> counts, starts; ///< of the rows of each rank
   std::unique_ptr<CholeskyFactor> factor;
 };
-} // namespace
+} // namespace multigrid
+using namespace multigrid;
 
 class MultigridCycle::Levels
 {

@@ -47,7 +47,7 @@ void write_pieces(const std::string &name, const Discretization &discretization,
                            DataOut<2>::type_dof_data, {is_part_of_vector, is_part_of_vector});
   }
   const unsigned int rank = Utilities::MPI::this_mpi_process(discretization.communicator);
-  Vector<double> material(discretization.triangulation->n_active_cells()), ranks(material);
+  dealii::Vector<double> material(discretization.triangulation->n_active_cells()), ranks(material);
   for (const auto &cell : discretization.dof_handler.active_cell_iterators())
     if (cell->is_locally_owned())
       material(cell->active_cell_index()) =

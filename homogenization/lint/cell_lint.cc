@@ -39,7 +39,7 @@ constexpr int most_of_a_kind = 3;
 constexpr double nearly = 1e-3;
 
 /// Where something is, in the unit of the mesh file.
-std::string at(const Eigen::RowVector2d &point, const double metres_per_unit)
+std::string place_text(const Eigen::RowVector2d &point, const double metres_per_unit)
 {
   std::ostringstream text;
   text.precision(6);
@@ -85,7 +85,7 @@ std::vector<Finding> lint_slivers(const TriangleMesh &mesh, const double metres_
     return {};
   std::ostringstream what, remedy;
   what << n << (n == 1 ? " sliver" : " slivers") << ": triangle " << worst
-       << at(place_of(mesh, worst).point, metres_per_unit) << " has an angle of " << least
+       << place_text(place_of(mesh, worst).point, metres_per_unit) << " has an angle of " << least
        << " degrees";
   remedy << "expected at least " << smallest_angle
          << ", below which solvers slow down and fields are wrong there: remesh, or merge points "
@@ -141,7 +141,7 @@ std::vector<Finding> lint_coincidence(const TriangleMesh &mesh, const double met
     {Severity::error, "coinciding vertices",
      std::to_string(n) + (n == 1 ? " pair" : " pairs") +
        " of vertices coincide without being one, the first " + std::to_string(first) + " and " +
-       std::to_string(other) + at(place.point, metres_per_unit) +
+       std::to_string(other) + place_text(place.point, metres_per_unit) +
        ": parts that lie side by side there are not joined",
      "expected one vertex at a place: join the parts before meshing (Gmsh: BooleanFragments, or "
      "Coherence)",
@@ -171,8 +171,8 @@ std::vector<Finding> lint_sides(const TriangleMesh &mesh, const Lattice &lattice
     return {};
   std::ostringstream what, remedy;
   what << "opposite sides match only just: vertex " << vertex
-       << at(mesh.vertices.row(vertex), metres_per_unit) << " and its image, vertex " << image
-       << at(mesh.vertices.row(image), metres_per_unit) << ", are off by "
+       << place_text(mesh.vertices.row(vertex), metres_per_unit) << " and its image, vertex "
+       << image << place_text(mesh.vertices.row(image), metres_per_unit) << ", are off by "
        << widest / metres_per_unit << ", " << 100. * widest / tolerance << " % of the tolerance";
   remedy << "expected less than " << nearly * tolerance / metres_per_unit
          << ": write coordinates in double precision with 16 digits, and mesh opposite sides alike "
@@ -198,7 +198,7 @@ std::vector<Finding> lint_mechanisms(const TriangleMesh &mesh, const Lattice &la
     what << "a part of " << part.n_triangles
          << (part.n_triangles == 1 ? " triangle, " : " triangles, ")
          << 100. * part.area / lattice.area() << " % of the cell,"
-         << at(part.place.point, metres_per_unit);
+         << place_text(part.place.point, metres_per_unit);
     if (part.n_joints == 0)
       what << " floats: nothing holds it";
     else if (part.n_joints == 1)
@@ -250,7 +250,7 @@ std::vector<Finding> lint_mechanisms(const TriangleMesh &mesh, const Lattice &la
         {Severity::warning,
          "hinge",
          "parts meet in nothing but vertex " + std::to_string(vertex) +
-           at(mesh.vertices.row(vertex), metres_per_unit) +
+           place_text(mesh.vertices.row(vertex), metres_per_unit) +
            ", a hinge: a point has no stiffness, so that results follow the mesh width there",
          "expected parts to meet along edges: widen the bridge, or leave a gap",
          {mesh.vertices.row(vertex), -1, vertex}});
@@ -372,7 +372,7 @@ std::vector<Finding> lint_thin_parts(const UnitCell &cell, const double metres_p
       what << "phase `" << cell.phases[static_cast<std::size_t>(phase_of_group[p])].name
            << "` has a single element across in " << thin[p].n
            << (thin[p].n == 1 ? " place" : " places") << ", the first"
-           << at(place.point, metres_per_unit);
+           << place_text(place.point, metres_per_unit);
       findings.push_back({Severity::warning, "one element across", what.str(),
                           "expected two or more, because one cannot bend: mesh finer there, or "
                           "compute with --order 2 or --refine 1",

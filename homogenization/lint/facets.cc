@@ -3,6 +3,7 @@
 
 #include "homogenization/cell/torus_mesh.h"
 #include "homogenization/lint/cell_lint.h"
+#include "meshes/plain/cross.h"
 #include "meshes/plain/index.h"
 
 #include <Eigen/LU>
@@ -14,17 +15,13 @@
 namespace homespun::homogenization
 {
 using meshes::at;
+using meshes::cross;
 
 namespace
 {
 constexpr double smallest_turn = 0.05 * M_PI / 180., largest_turn = 31. * M_PI / 180.;
 constexpr double largest_ratio = 1.5;
 constexpr std::size_t fewest   = 3;
-
-double cross(const Eigen::Vector2d &u, const Eigen::Vector2d &v)
-{
-  return u(0) * v(1) - u(1) * v(0);
-}
 
 /// The triangles on both sides of an edge, seen from tail to head; −1 for none.
 struct Sides

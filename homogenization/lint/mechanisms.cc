@@ -2,10 +2,10 @@
 #include "homogenization/lint/mechanisms.h"
 
 #include "meshes/plain/index.h"
+#include "meshes/plain/singular_values.h"
 #include "meshes/plain/vertex_images.h"
 
 #include <Eigen/LU>
-#include <Eigen/SVD>
 
 #include <algorithm>
 #include <array>
@@ -164,11 +164,11 @@ Eigen::MatrixXd kernel_of(const Eigen::MatrixXd &equations)
   if (equations.rows() == 0)
     return Eigen::MatrixXd::Identity(equations.cols(), equations.cols());
   // Entries are of size one, or as small as a part is against the cell.
-  const Eigen::BDCSVD<Eigen::MatrixXd> svd(equations, Eigen::ComputeFullV);
-  Eigen::Index rank = 0;
-  while (rank < svd.singularValues().size() && svd.singularValues()(rank) > 1e-9)
+  const meshes::SingularValues svd = meshes::singular_values(equations, Eigen::ComputeFullV);
+  Eigen::Index rank                = 0;
+  while (rank < svd.values.size() && svd.values(rank) > 1e-9)
     ++rank;
-  return svd.matrixV().rightCols(equations.cols() - rank);
+  return svd.V.rightCols(equations.cols() - rank);
 }
 
 void find_motions(const TriangleMesh &mesh, const Lattice &lattice, const Structure &structure,
@@ -199,8 +199,7 @@ void find_motions(const TriangleMesh &mesh, const Lattice &lattice, const Struct
   if (n_free > 0)
   {
     const Eigen::MatrixXd strains = all.bottomRows(3);
-    found.free_strains =
-      Eigen::JacobiSVD<Eigen::MatrixXd>(strains, Eigen::ComputeFullU).matrixU().leftCols(n_free);
+    found.free_strains = meshes::singular_values(strains, Eigen::ComputeFullU).U.leftCols(n_free);
   }
 }
 // An edge of the torus: both representatives and the shift from one to the other.

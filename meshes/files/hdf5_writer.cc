@@ -17,7 +17,7 @@ void silence_hdf5()
 
 namespace
 {
-void require(const bool condition, const std::string &message)
+void require_made(const bool condition, const std::string &message)
 {
   if (!condition)
     throw BadInput(message);
@@ -38,7 +38,7 @@ void make_groups(const hid_t file, const std::string &name)
     if (H5Lexists(file, group.c_str(), H5P_DEFAULT) > 0)
       continue;
     const hid_t made = H5Gcreate2(file, group.c_str(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
-    require(made >= 0, "group " + group + " finds no memory");
+    require_made(made >= 0, "group " + group + " finds no memory");
     H5Gclose(made);
   }
 }
@@ -53,7 +53,7 @@ Hdf5Writer::Hdf5Writer(const std::string &path)
   const bool is_set            = H5Pset_fapl_core(in_memory, growth, false) >= 0;
   file = is_set ? H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, in_memory) : H5I_INVALID_HID;
   H5Pclose(in_memory);
-  require(file >= 0, path + ": cannot be made in memory");
+  require_made(file >= 0, path + ": cannot be made in memory");
 }
 
 Hdf5Writer::~Hdf5Writer()
@@ -65,36 +65,36 @@ void Hdf5Writer::write(const std::string &name, const Shape &shape, const double
                        const std::string &unit)
 {
   make_groups(file, name);
-  require(H5LTmake_dataset_double(file, name.c_str(), static_cast<int>(shape.size()),
-                                  sizes_of(shape).data(), values) >= 0,
-          path + ": dataset " + name + " finds no memory");
+  require_made(H5LTmake_dataset_double(file, name.c_str(), static_cast<int>(shape.size()),
+                                       sizes_of(shape).data(), values) >= 0,
+               path + ": dataset " + name + " finds no memory");
   attribute(name, "unit", unit);
 }
 
 void Hdf5Writer::write(const std::string &name, const Shape &shape, const int *values)
 {
-  require(H5LTmake_dataset_int(file, name.c_str(), static_cast<int>(shape.size()),
-                               sizes_of(shape).data(), values) >= 0,
-          path + ": dataset " + name + " finds no memory");
+  require_made(H5LTmake_dataset_int(file, name.c_str(), static_cast<int>(shape.size()),
+                                    sizes_of(shape).data(), values) >= 0,
+               path + ": dataset " + name + " finds no memory");
 }
 
 void Hdf5Writer::attribute(const std::string &object, const std::string &name,
                            const std::string &value)
 {
-  require(H5LTset_attribute_string(file, object.c_str(), name.c_str(), value.c_str()) >= 0,
-          path + ": attribute " + name + " of " + object + " finds no memory");
+  require_made(H5LTset_attribute_string(file, object.c_str(), name.c_str(), value.c_str()) >= 0,
+               path + ": attribute " + name + " of " + object + " finds no memory");
 }
 
 void Hdf5Writer::attribute(const std::string &object, const std::string &name, const int value)
 {
-  require(H5LTset_attribute_int(file, object.c_str(), name.c_str(), &value, 1) >= 0,
-          path + ": attribute " + name + " of " + object + " finds no memory");
+  require_made(H5LTset_attribute_int(file, object.c_str(), name.c_str(), &value, 1) >= 0,
+               path + ": attribute " + name + " of " + object + " finds no memory");
 }
 
 void Hdf5Writer::attribute(const std::string &object, const std::string &name, const double value)
 {
-  require(H5LTset_attribute_double(file, object.c_str(), name.c_str(), &value, 1) >= 0,
-          path + ": attribute " + name + " of " + object + " finds no memory");
+  require_made(H5LTset_attribute_double(file, object.c_str(), name.c_str(), &value, 1) >= 0,
+               path + ": attribute " + name + " of " + object + " finds no memory");
 }
 
 void Hdf5Writer::finish()
@@ -103,8 +103,8 @@ void Hdf5Writer::finish()
   const ssize_t size =
     H5Fflush(file, H5F_SCOPE_GLOBAL) >= 0 ? H5Fget_file_image(file, nullptr, 0) : -1;
   std::string bytes(size > 0 ? static_cast<std::size_t>(size) : 0, '\0');
-  require(size > 0 && H5Fget_file_image(file, bytes.data(), bytes.size()) == size,
-          path + ": its image finds no memory");
+  require_made(size > 0 && H5Fget_file_image(file, bytes.data(), bytes.size()) == size,
+               path + ": its image finds no memory");
   write_whole(path, bytes);
 }
 } // namespace homespun::meshes

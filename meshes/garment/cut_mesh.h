@@ -4,6 +4,7 @@
 // moment, whatever the shape of the outline. Private to fine_cloth.
 #pragma once
 
+#include "meshes/plain/cross.h"
 #include "meshes/plain/triangle_mesh.h"
 
 #include <Eigen/Core>
@@ -16,12 +17,6 @@
 
 namespace homespun::meshes
 {
-/// a1 b2 − a2 b1: twice the area of the triangle between a and b.
-inline double cross(const Eigen::RowVector2d &a, const Eigen::RowVector2d &b)
-{
-  return a(0) * b(1) - a(1) * b(0);
-}
-
 class CutMesh
 {
 public:

@@ -10,8 +10,6 @@ namespace homespun::meshes
 {
 namespace
 {
-constexpr double pi = 3.14159265358979323846;
-
 /// S11 of a compliance along the direction at an angle, and its first two derivatives by it.
 struct Compliance
 {
@@ -55,7 +53,7 @@ double stiffest_angle(const ComplianceOfDirection &compliance)
   // A later direction has to be better by more than round-off, so that of equals the first counts.
   for (int k = 1; k < n; ++k)
   {
-    const double angle = (k % 2 == 1 ? 1. : -1.) * ((k + 1) / 2) * pi / n;
+    const double angle = (k % 2 == 1 ? 1. : -1.) * ((k + 1) / 2) * M_PI / n;
     if (const double here = compliance.at(angle).value; here < value - 1e-12 * compliance.c0)
     {
       best  = angle;

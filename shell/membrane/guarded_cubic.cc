@@ -17,8 +17,8 @@ namespace
 double largest_value(const meshes::CubicForm &energy, const Eigen::Matrix3d &C)
 {
   constexpr int n_rings = 40; // of a half circle
-  constexpr double pi = 3.14159265358979323846, ring = pi / n_rings;
-  const double covered = ring / std::sqrt(2.); // angle from anywhere to the net, at most
+  constexpr double ring = M_PI / n_rings;
+  const double covered  = ring / std::sqrt(2.); // angle from anywhere to the net, at most
   const Eigen::LLT<Eigen::Matrix3d> cholesky(C);
   double largest = 0.;
   for (int i = 0; i <= n_rings; ++i)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "shell/membrane/membrane.h"
 
+#include "meshes/plain/epsilon.h"
 #include "meshes/plain/errors.h"
 #include "meshes/plain/triangle_area.h"
 #include "shell/membrane/triangle_blocks.h"
@@ -9,7 +10,6 @@
 #include <Eigen/Cholesky>
 
 #include <algorithm>
-#include <limits>
 #include <sstream>
 
 namespace homespun::shell
@@ -256,7 +256,6 @@ double membrane_energy(const Membrane &membrane, const Positions<dim> &positions
 template <int dim>
 MembraneGradient<dim> membrane_gradient(const Membrane &membrane, const Positions<dim> &positions)
 {
-  constexpr double epsilon = std::numeric_limits<double>::epsilon();
   MembraneGradient<dim> result;
   result.gradient.setZero(positions.rows(), dim);
   result.magnitude.setZero(positions.rows());
@@ -270,14 +269,16 @@ MembraneGradient<dim> membrane_gradient(const Membrane &membrane, const Position
     const Eigen::Vector3d hats                   = rest.shape_gradients.rowwise().norm();
     const Eigen::Vector3d sizes                  = corners.rowwise().norm();
     // One rounding of the positions changes F by this, and the forces by the stiffness times it.
-    const double rounding = epsilon * (1. + hats.dot(sizes)) * rest.area * D.diagonal().maxCoeff();
+    const double rounding =
+      meshes::epsilon * (1. + hats.dot(sizes)) * rest.area * D.diagonal().maxCoeff();
     for (int k = 0; k < 3; ++k)
     {
       const int v = membrane.triangles(t, k);
       result.gradient.row(v) += gradient.row(k);
       result.magnitude(v) += gradient.row(k).norm();
       result.round_off(v) += rounding * hats(k);
-      result.energy_round_off += epsilon * gradient.row(k).norm() * (sizes(k) + 1. / hats(k));
+      result.energy_round_off +=
+        meshes::epsilon * gradient.row(k).norm() * (sizes(k) + 1. / hats(k));
     }
   }
   return result;

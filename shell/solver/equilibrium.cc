@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "shell/solver/equilibrium.h"
 
+#include "meshes/plain/epsilon.h"
 #include "meshes/plain/errors.h"
 #include "shell/membrane/six_node_membrane.h"
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numeric>
 #include <sstream>
 
@@ -14,8 +14,6 @@ namespace homespun::shell
 {
 namespace
 {
-constexpr double epsilon = std::numeric_limits<double>::epsilon();
-
 /// Marks the held vertices, and makes sure that every other one hangs on one of them.
 std::vector<bool> marked(const Eigen::Index n_nodes, const meshes::Triangles &triangles,
                          const std::vector<int> &held_vertices)
@@ -258,7 +256,7 @@ Equilibrium<dim> MembraneSolver<dim, Sheet>::solve_equilibrium(const Positions<d
       const double energy        = membrane_energy<dim>(membrane, trial);
       const double work          = length * step.cwiseProduct(all).sum(); // of the loads
       const double slack =
-        16. * epsilon * (result.energy + std::abs(work)) + residual.energy_round_off;
+        16. * meshes::epsilon * (result.energy + std::abs(work)) + residual.energy_round_off;
       if (energy - work <= result.energy + 1e-4 * length * slope + slack)
       {
         accepted         = true;

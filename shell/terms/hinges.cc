@@ -2,6 +2,7 @@
 #include "shell/terms/hinges.h"
 
 #include "meshes/plain/errors.h"
+#include "meshes/plain/singular_values.h"
 #include "meshes/plain/triangle_area.h"
 #include "shell/algebra/index.h"
 
@@ -181,10 +182,10 @@ Hinges hinges_of(const meshes::ClothMesh &mesh, const std::vector<PlateStiffness
     if (patch.corner.empty())
       continue;
     G.conservativeResize(static_cast<Eigen::Index>(patch.corner.size()), 3);
-    const Eigen::JacobiSVD<Eigen::MatrixXd> svd(G, Eigen::ComputeThinU | Eigen::ComputeThinV);
+    const meshes::SingularValues svd =
+      meshes::singular_values(G, Eigen::ComputeThinU | Eigen::ComputeThinV);
     const Eigen::MatrixXd tame =
-      svd.matrixU() * svd.singularValues().cwiseMax(smallest_singular_value).asDiagonal() *
-      svd.matrixV().transpose();
+      svd.U * svd.values.cwiseMax(smallest_singular_value).asDiagonal() * svd.V.transpose();
     const Eigen::Matrix3d D          = stiffness[index(mesh.rest.material(t))].matrix();
     const Eigen::MatrixXd compliance = tame * D.ldlt().solve(Eigen::MatrixXd(tame.transpose()));
     patch.stiffness                  = hinges.area[index(t)] * compliance.inverse();

@@ -10,8 +10,6 @@ namespace homespun::verification
 {
 namespace
 {
-constexpr double pi = 3.14159265358979323846;
-
 /// Rows and columns of vertices out of a matrix of two components a vertex.
 CellAssembly::Sparse block(const CellAssembly::Sparse &matrix, const std::vector<int> &rows,
                            const std::vector<int> &columns)
@@ -84,7 +82,7 @@ BlochPencil::Ties BlochPencil::ties(const Wave &wave) const
   for (std::size_t k = 0; k < outer.size(); ++k)
   {
     const auto vertex  = static_cast<long>(k);
-    const double phase = is_long ? 0. : 2. * pi * offset.row(vertex).cast<double>().dot(wave.k);
+    const double phase = is_long ? 0. : 2. * M_PI * offset.row(vertex).cast<double>().dot(wave.k);
     for (int c = 0; c < 2; ++c)
     {
       const int row = 2 * static_cast<int>(k) + c;

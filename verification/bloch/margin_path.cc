@@ -14,7 +14,6 @@ namespace homespun::verification
 {
 namespace
 {
-constexpr double pi            = 3.14159265358979323846;
 constexpr double closest_sides = 1e-4; ///< of the strain of first loss
 constexpr int most_cells       = 4;    ///< of a supercell along a lattice vector
 
@@ -69,7 +68,7 @@ public:
     row.waves  = is_long ? "long" : "finite";
     row.scale  = is_long ? "macro" : "micro";
     if (is_long)
-      row.angle = 180. / pi * margin.wave.angle;
+      row.angle = 180. / M_PI * margin.wave.angle;
     else
     {
       row.k1                      = margin.wave.k(0);
@@ -188,7 +187,7 @@ std::vector<ZoneRow> zone_of(const CellAssembly &assembly, const BlochMargin &bl
     row.waves  = wave.kind == Wave::Kind::long_limit ? "long" : "finite";
     row.k1     = wave.k(0);
     row.k2     = wave.k(1);
-    row.angle  = 180. / pi * wave.angle;
+    row.angle  = 180. / M_PI * wave.angle;
     row.strain = level.strain;
     row.beta   = search.lowered(search.start({wave}), {wave}).beta;
     rows.push_back(row);

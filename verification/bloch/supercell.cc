@@ -9,11 +9,6 @@
 
 namespace homespun::verification
 {
-namespace
-{
-constexpr double pi = 3.14159265358979323846;
-} // namespace
-
 Supercell::Supercell(const meshes::HomogenizedCell &one, const Eigen::Vector2i &n)
     : n(n)
 {
@@ -61,7 +56,8 @@ meshes::Points Supercell::real_part(const Mode &mode, const Wave &wave) const
   meshes::Points u(cell.mesh.n_vertices(), 2);
   for (int v = 0; v < cell.mesh.n_vertices(); ++v)
   {
-    const double phase = 2. * pi * of_lattice.row(v).cast<double>().dot(wave.k.transpose()) + turn;
+    const double phase =
+      2. * M_PI * of_lattice.row(v).cast<double>().dot(wave.k.transpose()) + turn;
     u.row(v) = (std::polar(1., phase) * mode.segment<2>(2 * cell_vertex(v))).real().transpose();
   }
   const Eigen::RowVector2d held = u.row(cell.anchor);

@@ -9,8 +9,6 @@ namespace homespun::verification
 {
 namespace
 {
-constexpr double pi = 3.14159265358979323846;
-
 /// A number as a fraction with a small denominator, where it is one.
 std::string fraction_text(const double value)
 {
@@ -27,7 +25,7 @@ std::string fraction_text(const double value)
 std::string Wave::text() const
 {
   return kind == Kind::bloch ? "k = (" + fraction_text(k(0)) + ", " + fraction_text(k(1)) + ")"
-                             : "long, at " + short_text(std::round(1800. * angle / pi) / 10.) +
+                             : "long, at " + short_text(std::round(1800. * angle / M_PI) / 10.) +
                                  " degrees from axis 1";
 }
 
@@ -49,7 +47,7 @@ Wave long_wave(const double angle)
 Wave wave_along(const meshes::Lattice &lattice, const double angle, const double kappa)
 {
   const Eigen::Vector2d n(std::cos(angle), std::sin(angle));
-  const Eigen::Vector2d k = kappa / (2. * pi) * lattice.vectors * n;
+  const Eigen::Vector2d k = kappa / (2. * M_PI) * lattice.vectors * n;
   return bloch_wave(k(0), k(1));
 }
 
@@ -58,7 +56,7 @@ std::vector<Wave> waves_of_the_zone()
   constexpr int n_directions = 12;
   std::vector<Wave> waves;
   for (int j = 0; j < n_directions; ++j)
-    waves.push_back(long_wave(pi * j / n_directions));
+    waves.push_back(long_wave(M_PI * j / n_directions));
   for (const int parts : {8, 3})
     for (int i = 0; i <= parts / 2; ++i)
       for (int j = 0; j < parts; ++j)

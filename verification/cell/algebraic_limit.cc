@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "verification/cell/algebraic_limit.h"
 
+#include "meshes/plain/epsilon.h"
 #include "meshes/plain/symmetric_eigen.h"
 
 
@@ -28,12 +29,11 @@ double contrast_of(const std::vector<Eigen::Matrix3d> &stiffnesses)
 
 double algebraic_limit(const UnitCell &cell, const double rows)
 {
-  constexpr double epsilon                       = std::numeric_limits<double>::epsilon();
   const std::vector<Eigen::Matrix3d> stiffnesses = cell.stiffness_of_phase();
-  const double rigid_motion                      = rows * epsilon * contrast_of(stiffnesses);
-  double anisotropy                              = 1.;
+  const double rigid_motion = rows * meshes::epsilon * contrast_of(stiffnesses);
+  double anisotropy         = 1.;
   for (const Eigen::Matrix3d &c : stiffnesses)
     anisotropy = std::max(anisotropy, contrast_of({c}));
-  return 1e-11 + rigid_motion * rigid_motion + 16. * epsilon * anisotropy;
+  return 1e-11 + rigid_motion * rigid_motion + 16. * meshes::epsilon * anisotropy;
 }
 } // namespace homespun::verification

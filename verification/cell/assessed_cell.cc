@@ -8,7 +8,6 @@
 
 #include <array>
 #include <limits>
-#include <sstream>
 
 namespace homespun::verification
 {
@@ -17,15 +16,6 @@ using homogenization::UnitCell;
 
 namespace
 {
-Verdict at_most(const std::string &claim, const double value, const double limit,
-                const std::string &derivation, const Kind kind = Kind::program)
-{
-  std::ostringstream text;
-  text << "<= " << limit;
-  return {claim, value <= limit ? Outcome::pass : Outcome::fail, value, text.str(), derivation,
-          kind};
-}
-
 /// What a bound on an energy of C^H may miss by, relative: round-off at this size and contrast, the
 /// sums over all triangles, and lattice images that lie apart.
 double limit_of_bounds(const UnitCell &cell, const Homogenization &result)

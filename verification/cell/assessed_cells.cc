@@ -21,8 +21,8 @@ using homogenization::UnitCell;
 
 namespace
 {
-/// DoFs up to which the finer problem of the error bar is solved where there is no bracket.
-constexpr unsigned long largest_error_bar = 300000;
+/// DoFs up to which the finer problem of the error bar is solved where a study finds no bracket.
+constexpr unsigned long largest_error_bar_of_study = 300000;
 
 /// Names are unique in a run; the same name may come with another mesh in another one.
 std::string key_of(const UnitCell &cell)
@@ -46,7 +46,7 @@ AssessedCell by_p1(const UnitCell &cell, const std::vector<MembraneLaw> &second_
             add_bracket(
               cell, bracket, [](const std::string &) {}, assessed);
           });
-  add_estimate(cell, largest_error_bar, communicator, assessed);
+  add_estimate(cell, largest_error_bar_of_study, communicator, assessed);
   return assessed;
 }
 

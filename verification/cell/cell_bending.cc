@@ -10,23 +10,10 @@
 #include <chrono>
 #include <cstdio>
 #include <limits>
-#include <sstream>
 
 namespace homespun::verification
 {
 using homogenization::BendingBracket;
-
-namespace
-{
-Verdict at_most(const std::string &claim, const double value, const double limit,
-                const std::string &derivation, const Kind kind)
-{
-  std::ostringstream text;
-  text << "<= " << limit;
-  return {claim, value <= limit ? Outcome::pass : Outcome::fail, value, text.str(), derivation,
-          kind};
-}
-} // namespace
 
 CellBending bending_of(const homogenization::UnitCell &cell, const BracketOptions &options,
                        const std::function<void(const std::string &)> &report)

@@ -173,14 +173,6 @@ std::vector<Verdict> checks_of(const CellBracket &bracket, const BracketOptions 
                                const Eigen::Matrix3d &stiffness, const double round_off)
 {
   std::vector<Verdict> checks;
-  const auto at_most = [&](const std::string &claim, const double value, const double limit,
-                           const std::string &derivation, const Kind kind)
-  {
-    std::ostringstream text;
-    text << "<= " << limit;
-    checks.push_back(
-      {claim, value <= limit ? Outcome::pass : Outcome::fail, value, text.str(), derivation, kind});
-  };
   const std::string asked_for = "--tolerance asks for it";
   if (!bracket.bracket)
   {
@@ -194,30 +186,32 @@ std::vector<Verdict> checks_of(const CellBracket &bracket, const BracketOptions 
     return checks;
   }
   const Bracket &found = *bracket.bracket;
-  at_most("C_lower <= C_upper (relative violation of the worst energy)",
-          order_violation(found.lower, found.upper), 0.,
-          "theory; both sides carry their round-off on the outside", Kind::program);
+  checks.push_back(at_most("C_lower <= C_upper (relative violation of the worst energy)",
+                           order_violation(found.lower, found.upper), 0.,
+                           "theory; both sides carry their round-off on the outside",
+                           Kind::program));
   // Each of these energies is one that the width speaks of.
   double gap = 0.;
   for (const Eigen::Vector3d &strain :
        {Eigen::Vector3d(1., 0., 0.), Eigen::Vector3d(0., 1., 0.), Eigen::Vector3d(0., 0., 1.),
         Eigen::Vector3d(1., 1., 0.), Eigen::Vector3d(1., -1., 0.)})
     gap = larger(gap, 1. - strain.dot(found.lower * strain) / strain.dot(found.upper * strain));
-  at_most("No load has a wider gap than the bracket (largest of 11, 22, 12, 11 with 22, 11 against "
-          "22)",
-          gap, found.width + 64. * std::numeric_limits<double>::epsilon(),
-          "the width is the largest relative gap of all loads; 1e-14 is the round-off of two "
-          "energies and of three eigenvalues",
-          Kind::program);
+  checks.push_back(at_most(
+    "No load has a wider gap than the bracket (largest of 11, 22, 12, 11 with 22, 11 against "
+    "22)",
+    gap, found.width + 64. * std::numeric_limits<double>::epsilon(),
+    "the width is the largest relative gap of all loads; 1e-14 is the round-off of two "
+    "energies and of three eigenvalues",
+    Kind::program));
   // Images may lie 1e-7 of the cell apart, which the bracket's mesh mends and the other one does
   // not. That C lies above C_lower follows from both.
-  at_most(
+  checks.push_back(at_most(
     "Both codes agree on C^H of the given mesh, by gluing and by constraints (largest relative "
     "difference of an energy)",
     energy_difference(*bracket.on_given_mesh, stiffness), 1e-6,
     "one discrete problem; images that lie 1e-7 of the cell apart are taken, and on four "
     "sides move its area by 4e-7, the energies by up to twice that",
-    Kind::program);
+    Kind::program));
   if (checks.back().outcome == Outcome::fail && checks.back().value <= round_off)
   {
     std::ostringstream text;
@@ -226,8 +220,8 @@ std::vector<Verdict> checks_of(const CellBracket &bracket, const BracketOptions 
     checks.back().limit   = text.str();
   }
   if (options.tolerance)
-    at_most("Bracket of C^H as narrow as --tolerance (relative width)", found.width,
-            *options.tolerance, asked_for, Kind::input);
+    checks.push_back(at_most("Bracket of C^H as narrow as --tolerance (relative width)",
+                             found.width, *options.tolerance, asked_for, Kind::input));
   return checks;
 }
 

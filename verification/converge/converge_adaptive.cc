@@ -63,7 +63,7 @@ Verdict closes_at_once(const UnitCell &cell, const unsigned int order)
 }
 
 /// How far an order in DoFs^-1/2 may be from 2p: as asked for, +- 0.2 in DoFs.
-constexpr double order_tolerance = 0.4;
+constexpr double adaptive_order_tolerance = 0.4;
 
 /// Adaptive width over the uniform one with at least as many DoFs, at the finest of two uniform
 /// meshes or more that allows it.
@@ -86,7 +86,7 @@ Verdict is_narrower(const Series &adaptive, const Series &uniform)
     2. * std::log(*before.error / *finest.error) /
     std::log(static_cast<double>(finest.n_dofs) / static_cast<double>(before.n_dofs));
   verdict.outcome = verdict.value < 1. ? Outcome::pass
-                    : order_of_uniform > 2. * adaptive.order - order_tolerance
+                    : order_of_uniform > 2. * adaptive.order - adaptive_order_tolerance
                       ? Outcome::inconclusive
                       : Outcome::fail;
   if (std::isnan(verdict.value))
@@ -127,8 +127,8 @@ void narrow(const UnitCell &cell, const unsigned int order, const ConvergenceSiz
   // What so few DoFs cannot decide is no claim.
   if (adaptive.levels.size() >= fewest_uneven_levels ||
       ending != homogenization::AdaptiveEnd::max_dofs)
-    adaptive.judgement =
-      judge_uneven_errors(adaptive.sizes(), adaptive.errors(), about(2. * order, order_tolerance));
+    adaptive.judgement = judge_uneven_errors(adaptive.sizes(), adaptive.errors(),
+                                             about(2. * order, adaptive_order_tolerance));
   result.add(
     adaptive,
     {"P" + std::to_string(order) + ": the width of the adaptive bracket falls as DoFs^-" +

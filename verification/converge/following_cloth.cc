@@ -14,8 +14,6 @@ namespace homespun::verification
 {
 namespace
 {
-constexpr double side = manufactured_side;
-
 /// Forces on the vertices that are given functions of time.
 class GivenForces : public shell::ExternalTerm
 {
@@ -100,7 +98,8 @@ GradedSheet sheet_of(const int n, const NamedStiffness &stiffness)
   }
   for (int v = 0; v < sheet.rest.n_vertices(); ++v)
     if (const Eigen::RowVector2d point = sheet.rest.vertices.row(v);
-        point.minCoeff() < 1e-9 * side || point.maxCoeff() > (1. - 1e-9) * side)
+        point.minCoeff() < 1e-9 * manufactured_side ||
+        point.maxCoeff() > (1. - 1e-9) * manufactured_side)
       sheet.rim.push_back(v);
   return sheet;
 }
@@ -111,12 +110,6 @@ Eigen::VectorXd GradedSheet::masses() const
   const auto flat =
     meshes::placed_sheet(rest, Eigen::Matrix<double, 3, 2>::Identity(), Eigen::RowVector3d::Zero());
   return shell::lumped_masses(flat, densities);
-}
-
-KnownField at_time(const SheetMotion &motion, const double time)
-{
-  return {[=](const Eigen::RowVector2d &point) { return motion(point, time).value; },
-          [=](const Eigen::RowVector2d &point) { return motion(point, time).gradient; }};
 }
 
 meshes::SpacePoints positions_of(const meshes::TriangleMesh &rest, const KnownField &motion)
@@ -167,7 +160,7 @@ ManufacturedSolution FollowingCloth::compared_at_vertices(const SheetMotion &exa
   const meshes::SpacePoints found = cloth.positions();
   const meshes::SpacePoints known = positions_of(sheet.rest, at_time(exact, cloth.time()));
   const double mean = std::sqrt((found - known).squaredNorm() / static_cast<double>(found.rows()));
-  return {{side * mean, 0.}, static_cast<unsigned long>(found.size()), found};
+  return {{manufactured_side * mean, 0.}, static_cast<unsigned long>(found.size()), found};
 }
 
 void FollowingCloth::hold_at(const double time)

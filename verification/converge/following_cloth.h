@@ -40,11 +40,6 @@ GradedSheet sheet_of(int n, const NamedStiffness &stiffness);
 
 constexpr double manufactured_density = 0.2; ///< [kg/m^2]
 
-/// A motion through time.
-using SheetMotion = std::function<Wave(const Eigen::RowVector2d &point, double time)>;
-
-KnownField at_time(const SheetMotion &motion, double time);
-
 /// Where a motion has the vertices (n,3) [m].
 meshes::SpacePoints positions_of(const meshes::TriangleMesh &rest, const KnownField &motion);
 

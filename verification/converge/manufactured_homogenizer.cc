@@ -26,8 +26,6 @@ namespace
 using homogenization::Phase;
 using homogenization::UnitCell;
 
-constexpr double side = manufactured_side;
-
 /// Orthotropic: chi feels every entry of c.
 Phase phase_of(const double E1, const double E2, const double angle)
 {
@@ -59,7 +57,7 @@ struct Material
 
   bool has_kinks_at(const Eigen::RowVector2d &point) const
   {
-    return variation == Variation::layers && point(1) > 0.5 * side;
+    return variation == Variation::layers && point(1) > 0.5 * manufactured_side;
   }
 };
 
@@ -70,12 +68,12 @@ Phase everywhere(const Eigen::RowVector2d &)
 
 Phase layers(const Eigen::RowVector2d &point)
 {
-  return point(1) > 0.5 * side ? phase_of(4e6, 2e6, -20.) : phase_of(3e6, 1e6, 25.);
+  return point(1) > 0.5 * manufactured_side ? phase_of(4e6, 2e6, -20.) : phase_of(3e6, 1e6, 25.);
 }
 
 Phase smooth(const Eigen::RowVector2d &point)
 {
-  const double k = 2. * M_PI / side, x = k * point(0), y = k * point(1);
+  const double k = 2. * M_PI / manufactured_side, x = k * point(0), y = k * point(1);
   return phase_of(3e6 * (1. + 0.4 * std::sin(x + 0.3) * std::cos(y)),
                   1e6 * (1. + 0.5 * std::cos(x) * std::sin(y + 1.)), 25. + 15. * std::sin(x - y));
 }
@@ -94,7 +92,7 @@ Eigen::Matrix2d unit_strain(const int a)
 /// chi without kinks: the same wave of each load at another place of the cell.
 Wave wave_of(const int a, const Eigen::RowVector2d &point)
 {
-  const Eigen::RowVector2d shift(0.13 * a * side, 0.31 * a * side);
+  const Eigen::RowVector2d shift(0.13 * a * manufactured_side, 0.31 * a * manufactured_side);
   return periodic_wave(point + shift, 1.);
 }
 
@@ -105,8 +103,8 @@ Eigen::Vector2d jump_of_slope(const int a, const double x, const double y)
 {
   const Eigen::Matrix2d gradient = wave_of(a, {x, y}).gradient.topRows<2>() - unit_strain(a);
   const Eigen::Vector3d strain(gradient(0, 0), gradient(1, 1), gradient(0, 1) + gradient(1, 0));
-  const Eigen::Matrix3d below   = plane_stress_stiffness(layers({x, 0.25 * side})),
-                        above   = plane_stress_stiffness(layers({x, 0.75 * side}));
+  const Eigen::Matrix3d below   = plane_stress_stiffness(layers({x, 0.25 * manufactured_side})),
+                        above   = plane_stress_stiffness(layers({x, 0.75 * manufactured_side}));
   const Eigen::Vector3d missing = (below - above) * strain;
   Eigen::Matrix2d A;
   A << above(2, 2), above(1, 2), above(1, 2), above(1, 1);
@@ -121,11 +119,12 @@ struct Kink
 
 Kink kink_of(const int a, const double y)
 {
-  const Eigen::Vector2d at_0 = jump_of_slope(a, 0., y), at_half = jump_of_slope(a, 0.5 * side, y);
+  const Eigen::Vector2d at_0    = jump_of_slope(a, 0., y),
+                        at_half = jump_of_slope(a, 0.5 * manufactured_side, y);
   Kink kink;
   kink.mean   = 0.5 * (at_0 + at_half);
   kink.cosine = 0.5 * (at_0 - at_half);
-  kink.sine   = jump_of_slope(a, 0.25 * side, y) - kink.mean;
+  kink.sine   = jump_of_slope(a, 0.25 * manufactured_side, y) - kink.mean;
   return kink;
 }
 
@@ -138,7 +137,7 @@ const std::array<Kink, 2> &kinks_of(const int a)
     for (int load = 0; load < 3; ++load)
       for (int i = 0; i < 2; ++i)
         kinks[static_cast<std::size_t>(load)][static_cast<std::size_t>(i)] =
-          kink_of(load, 0.5 * side * (1 + i));
+          kink_of(load, 0.5 * manufactured_side * (1 + i));
     return kinks;
   }();
   return all[static_cast<std::size_t>(a)];
@@ -148,7 +147,7 @@ const std::array<Kink, 2> &kinks_of(const int a)
 void add_kinks(const int a, const Eigen::RowVector2d &point, Wave &chi)
 {
   // Cubics of Hermite: one with the slope 1 at the middle of the cell, one at its top.
-  constexpr double height = 0.5 * side, k = 2. * M_PI / side;
+  constexpr double height = 0.5 * manufactured_side, k = 2. * M_PI / manufactured_side;
   const double s = point(1) / height - 1., c = std::cos(k * point(0)), sn = std::sin(k * point(0));
   const double profiles[2] = {height * s * (1. - s) * (1. - s), height * s * s * (s - 1.)},
                slopes[2]   = {(1. - s) * (1. - 3. * s), s * (3. * s - 2.)};
@@ -175,18 +174,19 @@ Wave chi_of(const int a, const Material &material, const Eigen::RowVector2d &poi
 /// @param n_coarsest divisions of a side before the mesh is refined to n
 UnitCell cell_of(const int n, const int n_coarsest, const Material &material)
 {
-  meshes::TriangleMesh coarse = meshes::irregular_sheet(n_coarsest, side);
+  meshes::TriangleMesh coarse = meshes::irregular_sheet(n_coarsest, manufactured_side);
   // The middle row lies on the interface.
   for (int v = 0; v < coarse.n_vertices(); ++v)
-    if (const double y = coarse.vertices(v, 1) / side; std::abs(y - 0.5) < 0.3 / n_coarsest)
-      coarse.vertices(v, 1) = 0.5 * side;
+    if (const double y = coarse.vertices(v, 1) / manufactured_side;
+        std::abs(y - 0.5) < 0.3 / n_coarsest)
+      coarse.vertices(v, 1) = 0.5 * manufactured_side;
   int refinements = 0;
   while (n_coarsest << refinements < n)
     ++refinements;
   UnitCell cell;
   cell.name            = "manufactured";
   cell.mesh            = meshes::refined(coarse, refinements);
-  cell.lattice.vectors = side * Eigen::Matrix2d::Identity();
+  cell.lattice.vectors = manufactured_side * Eigen::Matrix2d::Identity();
   for (int t = 0; t < cell.mesh.n_triangles(); ++t)
   {
     Eigen::RowVector2d centre = Eigen::RowVector2d::Zero();

@@ -10,7 +10,6 @@ namespace homespun::verification
 {
 namespace
 {
-constexpr double side = manufactured_side;
 }
 
 Eigen::Matrix3d anisotropic()
@@ -27,7 +26,7 @@ Eigen::Matrix3d without_contraction()
 
 Eigen::Matrix3d varied(const Eigen::Matrix3d &stiffness, const Eigen::RowVector2d &point)
 {
-  const double k = 2. * M_PI / side, x = k * point(0), y = k * point(1);
+  const double k = 2. * M_PI / manufactured_side, x = k * point(0), y = k * point(1);
   const Eigen::Matrix3d other = Eigen::Vector3d(300., 700., 150.).asDiagonal();
   return (1. + 0.4 * std::sin(x + 0.3) * std::cos(y)) * stiffness +
          (0.8 + 0.7 * std::cos(x) * std::sin(y + 1.)) * other;
@@ -39,13 +38,13 @@ meshes::TriangleMesh irregular_mesh(const int n)
   int refinements          = 0;
   while (n_coarsest << refinements < n)
     ++refinements;
-  return meshes::refined(meshes::irregular_sheet(n_coarsest, side), refinements);
+  return meshes::refined(meshes::irregular_sheet(n_coarsest, manufactured_side), refinements);
 }
 
 Wave periodic_wave(const Eigen::RowVector2d &point, const double strain)
 {
-  const double k = 2. * M_PI / side, x = k * point(0), y = k * point(1);
-  const double size = 0.08 * strain * side;
+  const double k = 2. * M_PI / manufactured_side, x = k * point(0), y = k * point(1);
+  const double size = 0.08 * strain * manufactured_side;
   Wave wave;
   wave.value << std::sin(x + 0.4) * std::cos(y) + 0.3 * std::sin(y - 1.),
     std::cos(x - 0.9) * std::sin(y + 0.3) - 0.4 * std::cos(x), 0.;
@@ -58,22 +57,22 @@ Wave periodic_wave(const Eigen::RowVector2d &point, const double strain)
 
 Wave clamped_wave(const Eigen::RowVector2d &point, const double strain)
 {
-  const double x = point(0) / side, y = point(1) / side;
+  const double x = point(0) / manufactured_side, y = point(1) / manufactured_side;
   const double bump  = 16. * x * x * (1. - x) * (1. - x);
   const double slope = 32. * x * (1. - x) * (1. - 2. * x);
   const double s1 = std::sin(M_PI * y), c1 = M_PI * std::cos(M_PI * y);
   const double s2 = std::sin(2. * M_PI * y), c2 = 2. * M_PI * std::cos(2. * M_PI * y);
-  const double size = 0.15 * strain * side;
+  const double size = 0.15 * strain * manufactured_side;
   Wave wave;
   wave.value << bump * s2, bump * (1. + x) * s1, 0.;
   wave.gradient << slope * s2, bump * c2, (slope * (1. + x) + bump) * s1, bump * (1. + x) * c1, 0.,
     0.;
-  return {size * wave.value, size / side * wave.gradient};
+  return {size * wave.value, size / manufactured_side * wave.gradient};
 }
 
 Wave bulging(const Eigen::RowVector2d &point, const double height)
 {
-  const double x = point(0) / side, y = point(1) / side;
+  const double x = point(0) / manufactured_side, y = point(1) / manufactured_side;
   const double sx = std::sin(M_PI * x), cx = M_PI * std::cos(M_PI * x);
   const double sy = std::sin(M_PI * y), cy = M_PI * std::cos(M_PI * y);
   const double bump = height * sx * sy, bump_x = height * cx * sy, bump_y = height * sx * cy;
@@ -83,12 +82,12 @@ Wave bulging(const Eigen::RowVector2d &point, const double height)
   wave.gradient << 1.10 + 0.3 * bump_x * c,
     0.04 + 0.3 * (bump_y * c - 2. * bump * std::sin(2. * y)), 0.4 * (bump_x * (1. - x) - bump),
     1.08 + 0.4 * bump_y * (1. - x), bump_x * lift + 0.5 * bump, bump_y * lift - 0.3 * bump;
-  return {side * wave.value, wave.gradient};
+  return {manufactured_side * wave.value, wave.gradient};
 }
 
 Wave spreading(const Eigen::RowVector2d &point)
 {
-  const double x = point(0) / side, y = point(1) / side;
+  const double x = point(0) / manufactured_side, y = point(1) / manufactured_side;
   // sin³ has no slope and no curvature at both ends.
   const auto cubed = [](const double s) { return std::pow(std::sin(M_PI * s), 3); };
   const auto slope = [](const double s)
@@ -99,6 +98,12 @@ Wave spreading(const Eigen::RowVector2d &point)
   wave.value << 1.10 * x + 0.15 * y + bump, 1.05 * y - 0.05 * x - 0.6 * bump, 0.8 * bump;
   wave.gradient << 1.10 + bump_x, 0.15 + bump_y, -0.05 - 0.6 * bump_x, 1.05 - 0.6 * bump_y,
     0.8 * bump_x, 0.8 * bump_y;
-  return {side * wave.value, wave.gradient};
+  return {manufactured_side * wave.value, wave.gradient};
+}
+
+KnownField at_time(const SheetMotion &motion, const double time)
+{
+  return {[=](const Eigen::RowVector2d &point) { return motion(point, time).value; },
+          [=](const Eigen::RowVector2d &point) { return motion(point, time).gradient; }};
 }
 } // namespace homespun::verification

@@ -8,6 +8,8 @@
 
 #include <Eigen/Core>
 
+#include <functional>
+
 namespace homespun::verification
 {
 /// Side of every sheet and cell [m].
@@ -58,4 +60,10 @@ constexpr double full_height = 0.25;
 /// Positions of a sheet in space: turned and stretched, and a bump whose slope and curvature vanish
 /// at the rim.
 Wave spreading(const Eigen::RowVector2d &point);
+
+/// A motion through time.
+using SheetMotion = std::function<Wave(const Eigen::RowVector2d &point, double time)>;
+
+/// What it is at a time.
+KnownField at_time(const SheetMotion &motion, double time);
 } // namespace homespun::verification

@@ -17,7 +17,6 @@ namespace homespun::verification
 {
 namespace
 {
-constexpr double side    = manufactured_side;
 constexpr double density = 0.2; ///< [kg/m^2]
 
 std::vector<int> sizes_of(const unsigned int order)
@@ -36,7 +35,7 @@ ManufacturedCase plane_case(const std::string &load_name, const Law law, const u
     constexpr double strain = 0.1;
     const Load load(load_name);
     meshes::Lattice lattice;
-    lattice.vectors           = side * Eigen::Matrix2d::Identity();
+    lattice.vectors           = manufactured_side * Eigen::Matrix2d::Identity();
     const meshes::Sheet sheet = meshes::tile(irregular_mesh(n), lattice, 1, 1);
     const auto affine         = [&](const double s) -> Eigen::Matrix2d
     {
@@ -94,34 +93,26 @@ Wave small_wave(const Eigen::RowVector2d &point, const double strain)
   return {0.1 * wave.value, 0.1 * wave.gradient};
 }
 
-/// A motion through time, held at its rim.
-using SpaceMotion = std::function<Wave(const Eigen::RowVector2d &point, double time)>;
-
-ClothReference::Held rim_of(const SpaceMotion &motion)
+ClothReference::Held rim_of(const SheetMotion &motion)
 {
   return [motion](const Eigen::RowVector2d &point,
                   const double time) -> std::optional<Eigen::RowVector3d>
   {
-    if (point.minCoeff() < 1e-9 * side || point.maxCoeff() > (1. - 1e-9) * side)
+    if (point.minCoeff() < 1e-9 * manufactured_side ||
+        point.maxCoeff() > (1. - 1e-9) * manufactured_side)
       return Eigen::RowVector3d(motion(point, time).value.transpose());
     return std::nullopt;
   };
 }
 
-ClothReference::Placement start_of(const SpaceMotion &motion)
+ClothReference::Placement start_of(const SheetMotion &motion)
 {
   return [motion](const Eigen::RowVector2d &point)
   { return Eigen::RowVector3d(motion(point, 0.).value.transpose()); };
 }
 
-KnownField at_time(const SpaceMotion &motion, const double time)
-{
-  return {[=](const Eigen::RowVector2d &point) { return motion(point, time).value; },
-          [=](const Eigen::RowVector2d &point) { return motion(point, time).gradient; }};
-}
-
 /// −Div P of a sheet in space.
-Eigen::RowVector3d elastic_force(const Law law, const SpaceMotion &motion, const double time,
+Eigen::RowVector3d elastic_force(const Law law, const SheetMotion &motion, const double time,
                                  const Eigen::RowVector2d &point)
 {
   return equilibrium_force(
@@ -163,9 +154,9 @@ ManufacturedCase static_case(const Law law, const unsigned int order)
   result.solve = [=](const int n, const double solver_tolerance, const MPI_Comm communicator)
   {
     // The start is half as high as what is to be found.
-    const SpaceMotion start = [](const Eigen::RowVector2d &point, double)
+    const SheetMotion start = [](const Eigen::RowVector2d &point, double)
     { return bulging(point, 0.5 * full_height); };
-    const SpaceMotion exact = [](const Eigen::RowVector2d &point, double)
+    const SheetMotion exact = [](const Eigen::RowVector2d &point, double)
     { return bulging(point, full_height); };
     ClothLoads loads;
     loads.body_force = [&](const Eigen::RowVector2d &point, double)
@@ -193,7 +184,7 @@ ManufacturedCase stepping_case(const Law law, const unsigned int order, const bo
   {
     constexpr double dt      = 2e-3;
     constexpr int n_steps    = 4;
-    const SpaceMotion motion = [](const Eigen::RowVector2d &point, const double time)
+    const SheetMotion motion = [](const Eigen::RowVector2d &point, const double time)
     {
       const double part = std::max(0., time) / (n_steps * dt);
       return bulging(point, full_height * part * part);
@@ -231,7 +222,7 @@ ManufacturedCase time_case(const Law law)
     FieldGradient change; // of F, at its largest
     change << 0.2, 0.05, 0., 0.1, 0.6, -0.3;
     const double rate = M_PI / turn; // of a = (1 − cos(rate t)) / 2, at rest at the beginning
-    const SpaceMotion motion = [=](const Eigen::RowVector2d &point, const double time)
+    const SheetMotion motion = [=](const Eigen::RowVector2d &point, const double time)
     {
       const FieldGradient F =
         FieldGradient::Identity() + 0.5 * (1. - std::cos(rate * time)) * change;

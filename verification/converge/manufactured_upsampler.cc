@@ -25,14 +25,12 @@ namespace homespun::verification
 {
 namespace
 {
-constexpr double side = manufactured_side;
-
 /// A cell with a chi that is periodic and zero at its corners.
 meshes::HomogenizedCell cell_of(const double cell_side, const int n_divisions)
 {
   meshes::HomogenizedCell cell;
   cell.mesh = irregular_mesh(n_divisions);
-  cell.mesh.vertices *= cell_side / side;
+  cell.mesh.vertices *= cell_side / manufactured_side;
   cell.lattice.vectors = cell_side * Eigen::Matrix2d::Identity();
   cell.chi.resize(cell.mesh.n_vertices(), 6);
   for (int v = 0; v < cell.mesh.n_vertices(); ++v)
@@ -71,10 +69,10 @@ template <int dim>
 ManufacturedSolution upsampled(const int n_cells, const int n_coarse, const int n_fine,
                                const localization::UpsamplerOptions &options)
 {
-  const meshes::HomogenizedCell cell = cell_of(side / n_cells, n_fine);
+  const meshes::HomogenizedCell cell = cell_of(manufactured_side / n_cells, n_fine);
   const meshes::Sheet sheet          = meshes::tile(cell.mesh, cell.lattice, n_cells, n_cells);
   const meshes::TriangleMesh coarse  = meshes::coarse_sheet(
-     sheet.origin, side / n_coarse * Eigen::Matrix2d::Identity(), n_coarse, n_coarse);
+     sheet.origin, manufactured_side / n_coarse * Eigen::Matrix2d::Identity(), n_coarse, n_coarse);
   localization::Positions<dim> given(coarse.n_vertices(), dim);
   for (int v = 0; v < coarse.n_vertices(); ++v)
     given.row(v) = spreading(coarse.vertices.row(v)).value.head<dim>().transpose();
@@ -86,7 +84,7 @@ ManufacturedSolution upsampled(const int n_cells, const int n_coarse, const int 
     solution.error.L2 += (found.row(v) - fine_position<dim>(spreading(sheet.mesh.vertices.row(v)),
                                                             cell.chi.row(sheet.cell_vertex(v))))
                            .squaredNorm();
-  solution.error.L2  = side * std::sqrt(solution.error.L2 / sheet.mesh.n_vertices());
+  solution.error.L2  = manufactured_side * std::sqrt(solution.error.L2 / sheet.mesh.n_vertices());
   solution.n_dofs    = static_cast<unsigned long>(given.size());
   solution.positions = found;
   return solution;

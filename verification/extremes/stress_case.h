@@ -92,6 +92,10 @@ inline const char *const of_energy =
   "theory: nothing brings energy into the sheet, and damping takes some; round-off: 1e-12 of the "
   "energy before and of what is stored, in up to five parts of a step that was cut";
 
+/// The figure of most sheets that are let go, and what is expected of it.
+inline const char *const growth_of_energy = "largest growth in a step over the largest energy [-]";
+inline const char *const never_grows      = "finite; the energy of the damped sheet never grows";
+
 struct StressResult
 {
   std::string outcome;  ///< finite; finite but ...; not finite; refused: message; error: message

@@ -16,17 +16,13 @@ using shell::Vectors;
 
 namespace
 {
-constexpr int n = 8; ///< cells per side of the sheet
-
-const char *const never_grows       = "finite; the energy of the damped sheet never grows";
-const char *const of_largest_energy = "largest growth in a step over the largest energy [-]";
-const char *const way_at_rest       = "largest way of a vertex [m]";
+const char *const way_at_rest = "largest way of a vertex [m]";
 
 constexpr int n_steps_at_rest = 20000;
 constexpr double side         = 0.2; ///< of the sheet [m]
 
-const Derivations derivations = {
-  {of_largest_energy, of_energy},
+const Derivations derivations_of_sheets = {
+  {growth_of_energy, of_energy},
   {way_at_rest,
    "theory: a sheet at rest stays; round-off: 2.2e-16 of its side of 0.2 m in each of 20000 "
    "steps"}};
@@ -35,10 +31,10 @@ const Derivations derivations = {
 StressAnswer hang(const SheetStiffness &stiffness, const double h, const int n_steps,
                   const double disturbance, const unsigned int seed)
 {
-  const meshes::ClothMesh mesh = hanging_mesh(n);
-  Cloth cloth                  = sheet_cloth(mesh, stiffness, upper_corners(n));
+  const meshes::ClothMesh mesh = hanging_mesh(cells_per_side);
+  Cloth cloth                  = sheet_cloth(mesh, stiffness, upper_corners(cells_per_side));
   Vectors velocities           = disturbance * meshes::random_vectors(mesh.n_vertices(), seed);
-  for (const int v : upper_corners(n))
+  for (const int v : upper_corners(cells_per_side))
     velocities.row(v).setZero();
   cloth.set_state(mesh.positions, velocities, 0.);
   const double growth = largest_energy_growth(cloth, h, n_steps);
@@ -123,17 +119,17 @@ const std::vector<Start> starts = {
      const Eigen::Matrix3d corners =
        (Eigen::Matrix3d() << 0., 0., 0., 1., 0., 0., 0., 0., 1.).finished();
      Vectors x(mesh.n_vertices(), 3);
-     for (int j = 0; j <= n; ++j)
-       for (int i = 0; i <= n; ++i)
-         x.row(j * (n + 1) + i) = 0.2 / n * corners.row((i + j) % 3);
+     for (int j = 0; j <= cells_per_side; ++j)
+       for (int i = 0; i <= cells_per_side; ++i)
+         x.row(j * (cells_per_side + 1) + i) = 0.2 / cells_per_side * corners.row((i + j) % 3);
      return x;
    }},
   {"two vertices coincident", true,
    [](const meshes::ClothMesh &mesh, const unsigned int seed)
    {
-     Vectors x = mesh.positions;
-     const int between =
-       static_cast<int>(seed) % (n - 1) + (n + 1) * (1 + static_cast<int>(seed) % (n - 2));
+     Vectors x         = mesh.positions;
+     const int between = static_cast<int>(seed) % (cells_per_side - 1) +
+                         (cells_per_side + 1) * (1 + static_cast<int>(seed) % (cells_per_side - 2));
      x.row(between) = x.row(between + 1);
      return x;
    }},
@@ -142,8 +138,8 @@ const std::vector<Start> starts = {
 StressAnswer start_from(const Start &start, const SheetStiffness &stiffness, const double h,
                         const bool is_free, const unsigned int seed)
 {
-  const meshes::ClothMesh mesh = hanging_mesh(n);
-  const std::vector<int> held  = is_free ? std::vector<int>() : upper_corners(n);
+  const meshes::ClothMesh mesh = hanging_mesh(cells_per_side);
+  const std::vector<int> held  = is_free ? std::vector<int>() : upper_corners(cells_per_side);
   Cloth cloth                  = sheet_cloth(mesh, stiffness, held);
   Vectors x                    = start.of(mesh, seed);
   for (const int v : held)
@@ -166,7 +162,7 @@ std::vector<StressCase> time_step_cases(const std::vector<SheetStiffness> &stiff
           .finite(short_text(h) + " s; " +
                     (disturbance > 0. ? "random velocities of 2 m/s; " : "from rest; ") +
                     stiffness.name,
-                  never_grows, {energy_round_off, of_largest_energy},
+                  never_grows, {energy_round_off, growth_of_energy},
                   [=](const unsigned int seed)
                   { return hang(stiffness, h, h < 0.05 ? 60 : 30, disturbance, seed); })
           .is_random = disturbance > 0.;
@@ -189,7 +185,7 @@ std::vector<StressCase> time_step_cases(const std::vector<SheetStiffness> &stiff
     Eigen::AngleAxisd(0.7, Eigen::Vector3d(1., 2., 2.) / 3.).toRotationMatrix().transpose();
   rests("free; turned by 0.7; no gravity", turned, {}, weightless, false);
   rests("hung by two corners; in equilibrium", hanging_mesh(2), upper_corners(2), {}, true);
-  derive(cases, derivations);
+  derive(cases, derivations_of_sheets);
   return cases;
 }
 
@@ -204,11 +200,11 @@ std::vector<StressCase> stiffness_cases()
       stiffness.areal_density  = density;
       group
         .finite(short_text(young) + " N/m; " + short_text(density) + " kg/m^2", never_grows,
-                {energy_round_off, of_largest_energy},
+                {energy_round_off, growth_of_energy},
                 [=](const unsigned int seed) { return hang(stiffness, 0.005, 50, 2., seed); })
         .is_random = true;
     }
-  derive(cases, derivations);
+  derive(cases, derivations_of_sheets);
   return cases;
 }
 
@@ -230,10 +226,10 @@ std::vector<StressCase> start_cases(const std::vector<SheetStiffness> &stiffness
           if (start.is_point && is_free && stiffness.law == SheetLaw::yarn)
             group.refused(name, "a yarn without length", run);
           else
-            group.finite(name, never_grows, {energy_round_off, of_largest_energy}, run).is_random =
+            group.finite(name, never_grows, {energy_round_off, growth_of_energy}, run).is_random =
               start.is_random;
         }
-  derive(cases, derivations);
+  derive(cases, derivations_of_sheets);
   return cases;
 }
 } // namespace homespun::verification

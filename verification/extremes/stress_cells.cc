@@ -17,7 +17,7 @@ namespace homespun::verification
 {
 namespace
 {
-constexpr double side = 0.01; ///< of the built-in cells [m]
+constexpr double cell_side = 0.01; ///< of the built-in cells [m]
 
 std::size_t index(const Eigen::Index i)
 {
@@ -65,11 +65,11 @@ UnitCell grid_cell(const GridLines &x, const GridLines &y, const std::vector<Pha
   UnitCell cell;
   cell.name            = "built-in";
   cell.phases          = phases;
-  cell.lattice.vectors = side * Eigen::Matrix2d::Identity();
+  cell.lattice.vectors = cell_side * Eigen::Matrix2d::Identity();
   cell.mesh            = meshes::coarse_sheet({0., 0.}, Eigen::Matrix2d::Identity(), n1, n2);
   for (int j = 0; j <= n2; ++j)
     for (int i = 0; i <= n1; ++i)
-      cell.mesh.vertices.row(j * (n1 + 1) + i) << side * x[index(i)], side * y[index(j)];
+      cell.mesh.vertices.row(j * (n1 + 1) + i) << cell_side * x[index(i)], cell_side * y[index(j)];
   cell.mesh.material.resize(cell.mesh.n_triangles());
   for (int t = 0; t < cell.mesh.n_triangles(); ++t)
   {
@@ -133,7 +133,7 @@ UnitCell capped_stripes(const int n, const Phase &lower, const Phase &upper, con
   const int m = mesh.n_triangles(), v = mesh.n_vertices();
   mesh.vertices.conservativeResize(v + 1, 2);
   mesh.vertices.row(v) = 0.5 * (mesh.vertices.row(corners(0)) + mesh.vertices.row(corners(1)));
-  mesh.vertices(v, 1) += height * side / n;
+  mesh.vertices(v, 1) += height * cell_side / n;
   mesh.triangles.conservativeResize(m + 2, 3);
   mesh.material.conservativeResize(m + 2);
   mesh.triangles.row(t) << corners(0), corners(1), v;

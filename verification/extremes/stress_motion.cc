@@ -23,7 +23,6 @@ using shell::Vectors;
 
 namespace
 {
-constexpr int n          = 8;
 constexpr double gravity = 9.81;
 
 SheetPhysics undamped(const bool has_gravity)
@@ -36,7 +35,7 @@ SheetPhysics undamped(const bool has_gravity)
 }
 
 /// Where the limits come from, by what the figure is.
-const Derivations derivations = {
+const Derivations derivations_of_motions = {
   {"largest distance from the exact positions [m]",
    "theory: implicit Euler falls by g h^2 k (k + 1) / 2; round-off: 2.2e-16 x (1 + h^2 18 "
    "lambda_max(D) / (rho a^2)), the condition of a step, x g h^2 N^3 / 6, its velocity errors "
@@ -49,7 +48,7 @@ const Derivations derivations = {
    "spin right gives no more than that back"},
   {"largest sag [m]",
    "requirement: it holds; half of the side of the sheet, where free fall would be 4.9 m"},
-  {"largest growth in a step over the largest energy [-]", of_energy},
+  {growth_of_energy, of_energy},
   {"of the energy at the start [-]",
    "theory: in the frame of handle or air nothing brings energy in; round-off: that of a step, "
    "1e-11, in 100 steps"},
@@ -68,7 +67,7 @@ constexpr int n_steps_of_fall = 100;
 /// later steps carry it on: the sum of h v_k (N - k) is g h² N³/6.
 double fall_round_off(const SheetStiffness &stiffness)
 {
-  const meshes::TriangleMesh mesh = meshes::irregular_sheet(n, 0.2);
+  const meshes::TriangleMesh mesh = meshes::irregular_sheet(cells_per_side, 0.2);
   const Eigen::VectorXd areas     = meshes::signed_areas(mesh);
   double altitude                 = std::numeric_limits<double>::infinity();
   for (int t = 0; t < mesh.n_triangles(); ++t)
@@ -92,7 +91,7 @@ StressAnswer free_fall(const SheetStiffness &stiffness, const shell::Integrator 
 {
   constexpr double h         = fall_step;
   constexpr int n_steps      = n_steps_of_fall;
-  meshes::ClothMesh mesh     = hanging_mesh(n);
+  meshes::ClothMesh mesh     = hanging_mesh(cells_per_side);
   const Eigen::Vector3d axis = meshes::random_vectors(1, seed).row(0).normalized();
   mesh.positions =
     mesh.positions * Eigen::AngleAxisd(0.3 + seed, axis).toRotationMatrix().transpose();
@@ -111,8 +110,8 @@ StressAnswer free_fall(const SheetStiffness &stiffness, const shell::Integrator 
 /// Deepest point over one second, of a sheet clamped on four sides.
 StressAnswer clamped(const SheetStiffness &stiffness)
 {
-  const meshes::ClothMesh mesh = lying_mesh(n);
-  Cloth cloth                  = sheet_cloth(mesh, stiffness, outline_of(n));
+  const meshes::ClothMesh mesh = lying_mesh(cells_per_side);
+  Cloth cloth                  = sheet_cloth(mesh, stiffness, outline_of(cells_per_side));
   double deepest               = 0.;
   for (int k = 0; k < 200; ++k)
   {
@@ -125,7 +124,7 @@ StressAnswer clamped(const SheetStiffness &stiffness)
 StressAnswer hung_by_one_corner(const SheetStiffness &stiffness, const double h,
                                 const shell::Integrator integrator)
 {
-  const meshes::ClothMesh mesh = lying_mesh(n);
+  const meshes::ClothMesh mesh = lying_mesh(cells_per_side);
   SheetPhysics physics;
   physics.options.integrator = integrator;
   Cloth cloth                = sheet_cloth(mesh, stiffness, {0}, physics);
@@ -139,10 +138,10 @@ StressAnswer pulled(const SheetStiffness &stiffness, const double h,
                     const shell::Integrator integrator)
 {
   constexpr double speed       = 5.;
-  const meshes::ClothMesh mesh = hanging_mesh(n);
+  const meshes::ClothMesh mesh = hanging_mesh(cells_per_side);
   std::vector<int> held;
-  for (int i = 0; i <= n; ++i)
-    held.push_back(n * (n + 1) + i);
+  for (int i = 0; i <= cells_per_side; ++i)
+    held.push_back(cells_per_side * (cells_per_side + 1) + i);
   SheetPhysics physics       = undamped(false);
   physics.options.integrator = integrator;
   Cloth cloth                = sheet_cloth(mesh, stiffness, held, physics);
@@ -184,7 +183,7 @@ StressAnswer draped(const SheetStiffness &stiffness, const double h, const bool 
                     const bool with_obstacle)
 {
   const Eigen::Vector3d centre(0.1, 0.1, -0.1);
-  const meshes::ClothMesh mesh = lying_mesh(n);
+  const meshes::ClothMesh mesh = lying_mesh(cells_per_side);
   Cloth cloth                  = sheet_cloth(mesh, stiffness, {});
   cloth.add(shell::bending_term(mesh, {plate()}));
   shell::ContactParameters contact;
@@ -216,11 +215,11 @@ StressAnswer draped(const SheetStiffness &stiffness, const double h, const bool 
 
 StressAnswer with_bending(const SheetStiffness &stiffness, const double h, const unsigned int seed)
 {
-  const meshes::ClothMesh mesh = hanging_mesh(n);
-  Cloth cloth                  = sheet_cloth(mesh, stiffness, upper_corners(n));
+  const meshes::ClothMesh mesh = hanging_mesh(cells_per_side);
+  Cloth cloth                  = sheet_cloth(mesh, stiffness, upper_corners(cells_per_side));
   cloth.add(shell::bending_term(mesh, {plate()}));
   Vectors velocities = meshes::random_vectors(mesh.n_vertices(), seed);
-  for (const int v : upper_corners(n))
+  for (const int v : upper_corners(cells_per_side))
     velocities.row(v).setZero();
   cloth.set_state(mesh.positions, velocities, 0.);
   const double growth = largest_energy_growth(cloth, h, 100);
@@ -231,7 +230,7 @@ StressAnswer with_bending(const SheetStiffness &stiffness, const double h, const
 StressAnswer blown(const SheetStiffness &stiffness, const double h)
 {
   const Eigen::RowVector3d wind(10., 4., 0.);
-  const meshes::ClothMesh mesh = hanging_mesh(n);
+  const meshes::ClothMesh mesh = hanging_mesh(cells_per_side);
   Cloth cloth                  = sheet_cloth(mesh, stiffness, {}, undamped(false));
   shell::Air air;
   air.tangential_drag = 0.05;
@@ -257,8 +256,7 @@ std::string called(const shell::Integrator integrator)
                                                        : "";
 }
 
-const Figure growth = {energy_round_off, "largest growth in a step over the largest energy [-]"};
-constexpr const char *never_grows = "finite; the energy of the damped sheet never grows";
+const Figure growing = {energy_round_off, growth_of_energy};
 
 } // namespace
 
@@ -283,14 +281,14 @@ std::vector<StressCase> motion_cases(const std::vector<SheetStiffness> &stiffnes
     for (const double h : {1e-3, 1e-2, 5e-2})
     {
       const std::string hung = "hung by one corner; " + short_text(1e3 * h) + " ms; ";
-      group.finite(hung + stiffness.name, never_grows, growth,
+      group.finite(hung + stiffness.name, never_grows, growing,
                    [=](unsigned int) {
                      return hung_by_one_corner(stiffness, h, shell::Integrator::linearly_implicit);
                    });
       // Beyond 10 ms it takes minutes, and at 10 ms half of one: once.
       if (h < 0.02)
         group
-          .finite(hung + "conserving; " + stiffness.name, never_grows, growth,
+          .finite(hung + "conserving; " + stiffness.name, never_grows, growing,
                   [=](unsigned int)
                   { return hung_by_one_corner(stiffness, h, shell::Integrator::conserving); })
           .most_repeats = 1;
@@ -303,7 +301,7 @@ std::vector<StressCase> motion_cases(const std::vector<SheetStiffness> &stiffnes
                      [=](unsigned int) { return pulled(stiffness, h, integrator); });
     }
   }
-  derive(cases, derivations);
+  derive(cases, derivations_of_motions);
   return cases;
 }
 
@@ -327,7 +325,7 @@ std::vector<StressCase> scene_cases(const SheetStiffness &stiffness, const Spher
          "velocity in the step [m]"},
         [=](unsigned int) { return draped(stiffness, h, has_wind, sphere == Sphere::there); });
     group
-      .finite("hung by two corners; bending" + step, never_grows, growth,
+      .finite("hung by two corners; bending" + step, never_grows, growing,
               [=](const unsigned int seed) { return with_bending(stiffness, h, seed); })
       .is_random = true;
     group.finite("free sheet in wind of 11 m/s" + step,
@@ -335,7 +333,7 @@ std::vector<StressCase> scene_cases(const SheetStiffness &stiffness, const Spher
                  {1. + 1e-9, "of the energy at the start [-]"},
                  [=](unsigned int) { return blown(stiffness, h); });
   }
-  derive(cases, derivations);
+  derive(cases, derivations_of_motions);
   return cases;
 }
 } // namespace homespun::verification

@@ -30,7 +30,7 @@ constexpr double nan      = std::numeric_limits<double>::quiet_NaN();
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// Where the limits come from, by what the figure is.
-const Derivations derivations = {
+const Derivations derivations_of_rotations = {
   {"force over stiffness x edge [-]",
    "theory: a turned or mirrored triangle is not strained; round-off: ten roundings of a strain, "
    "four for area and gradients: 40 x 2.2e-16"},
@@ -51,7 +51,7 @@ const Derivations derivations = {
   {"force beside gravity over stiffness x side [-]",
    "theory: a sheet that has not moved is not strained; round-off: ten roundings of a strain, "
    "four for area and gradients: 40 x 2.2e-16"},
-  {"largest growth in a step over the largest energy [-]", of_energy}};
+  {growth_of_energy, of_energy}};
 
 Eigen::Matrix<double, 3, 2> rest_corners()
 {
@@ -349,7 +349,7 @@ void add_uncommon(const SheetStiffness &one, CaseGroup &group)
                {1e-14, "force beside gravity over stiffness x side [-]"},
                [=](unsigned int) { return forces_before_the_first_step(one); });
   group.finite("velocity of 1e100 m/s", "finite; the energy of the damped sheet never grows",
-               {energy_round_off, "largest growth in a step over the largest energy [-]"},
+               {energy_round_off, growth_of_energy},
                [=](unsigned int) -> StressAnswer
                {
                  const meshes::ClothMesh mesh = hanging_mesh(4);
@@ -374,7 +374,7 @@ std::vector<StressCase> rotation_cases(const std::vector<SheetStiffness> &stiffn
   }
   add_uncommon(stiffnesses.front(), group);
   add_misuse(stiffnesses.front(), group);
-  derive(cases, derivations);
+  derive(cases, derivations_of_rotations);
   return cases;
 }
 } // namespace homespun::verification

@@ -15,6 +15,9 @@
 
 namespace homespun::verification
 {
+/// Of the sheet along a side, but where cases say another number.
+constexpr int cells_per_side = 8;
+
 /// The energy of a sheet's membrane.
 enum class SheetLaw
 {

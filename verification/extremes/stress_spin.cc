@@ -21,8 +21,6 @@ using shell::Vectors;
 
 namespace
 {
-constexpr int n = 8; ///< cells per side of the sheet
-
 const char *const of_what_is_kept = "theory: both Euler methods keep the linear momentum and let "
                                     "the energy fall, the conserving one keeps the energy and "
                                     "both momenta to its solve, which ends at 1e-8 of the forces "
@@ -60,7 +58,7 @@ std::vector<Spin> spins()
 Cloth spinning_cloth(const SheetStiffness &stiffness, const Spin &spin, const Integrator integrator,
                      const unsigned int seed)
 {
-  const meshes::ClothMesh mesh = lying_mesh(n);
+  const meshes::ClothMesh mesh = lying_mesh(cells_per_side);
   SheetPhysics physics;
   physics.damping = 0.;
   physics.gravity.setZero();

@@ -18,8 +18,7 @@ namespace
 /// Of a line from the x axis: 0 to 180, and a whole number where it is one to round-off.
 double degrees_of(const Eigen::Vector2d &line)
 {
-  constexpr double pi = 3.14159265358979323846;
-  const double angle  = std::atan2(line(1), line(0)) * 180. / pi;
+  const double angle = std::atan2(line(1), line(0)) * 180. / M_PI;
   return std::fmod(std::round((angle - 180. * std::floor(angle / 180.)) * 1e6) / 1e6, 180.);
 }
 } // namespace

@@ -12,7 +12,6 @@ namespace homespun::verification
 {
 namespace
 {
-constexpr double pi      = 3.14159265358979323846;
 constexpr int directions = 36; // of half a turn
 
 /// Q(n) of n = (c, s), as Q11, Q22, Q12.
@@ -142,7 +141,7 @@ bool every_wave_is_above(const Eigen::Matrix4d &A, const double bound)
 {
   using Samples = Eigen::Array<double, directions, 1>;
   static const Samples twice =
-    Samples::LinSpaced(directions, 0., 2. * pi * (directions - 1) / directions);
+    Samples::LinSpaced(directions, 0., 2. * M_PI * (directions - 1) / directions);
   static const Samples c1 = twice.cos(), s1 = twice.sin(), c2 = (2. * twice).cos(),
                        s2 = (2. * twice).sin();
   const Harmonic Q11(A(0, 0) - bound, 2. * A(0, 1), A(1, 1) - bound);
@@ -165,7 +164,7 @@ bool every_wave_is_above(const Eigen::Matrix4d &A, const double bound)
   // Between values no further apart than a step the least one is missed by half the bend times the
   // square of half a step.
   const double bend      = std::hypot(cos1, sin1) + 4. * std::hypot(cos2, sin2);
-  const double missed    = 0.5 * bend * std::pow(pi / directions, 2);
+  const double missed    = 0.5 * bend * std::pow(M_PI / directions, 2);
   constexpr double exact = 1e-14;
   const double least     = (mean + cos1 * c1 + sin1 * s1 + cos2 * c2 + sin2 * s2).minCoeff();
   return least > missed + exact * size && Q11.mean + Q22.mean > 0.;
@@ -177,8 +176,8 @@ LeastWave least_wave(const Eigen::Matrix4d &tangent)
   {
     std::array<Eigen::Vector2d, directions> all;
     for (int k = 0; k < directions; ++k)
-      all[static_cast<std::size_t>(k)] << std::cos(pi * k / directions),
-        std::sin(pi * k / directions);
+      all[static_cast<std::size_t>(k)] << std::cos(M_PI * k / directions),
+        std::sin(M_PI * k / directions);
     return all;
   }();
   std::array<double, directions> values;
@@ -191,7 +190,7 @@ LeastWave least_wave(const Eigen::Matrix4d &tangent)
     if (values[k] <= values[(k + 1) % directions] &&
         values[k] <= values[(k + directions - 1) % directions])
     {
-      const double middle = pi * static_cast<double>(k) / directions, step = pi / directions;
+      const double middle = M_PI * static_cast<double>(k) / directions, step = M_PI / directions;
       const double angle = refined(tangent, middle - step, middle, middle + step);
       // An axis of the cloth is often the minimum itself: then the sample has all digits.
       Eigen::Vector2d normal(std::cos(angle), std::sin(angle));

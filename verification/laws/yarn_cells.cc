@@ -15,8 +15,6 @@ using homogenization::UnitCell;
 
 namespace
 {
-constexpr double pi = 3.14159265358979323846;
-
 /// The first law of yarns among some names; empty where there is none.
 std::string law_of_yarns(const std::vector<std::string> &names)
 {
@@ -35,7 +33,7 @@ meshes::YarnAxes axes_of(const Phase &phase)
 /// How far the axes are from those of the phase, as the same cross of two lines [deg].
 double degrees_off(const Phase &phase, const meshes::YarnAxes &yarns)
 {
-  const double angle = std::atan2(yarns.axes(1, 0), yarns.axes(0, 0)) * 180. / pi - phase.angle;
+  const double angle = std::atan2(yarns.axes(1, 0), yarns.axes(0, 0)) * 180. / M_PI - phase.angle;
   return std::abs(std::remainder(angle, 90.));
 }
 
@@ -95,7 +93,7 @@ std::string note_on_coarse_yarns(const Law law, const Eigen::Matrix3d &stiffness
   if (!yarns.are_there)
     return "the coarse cloth keeps biot: its C^H is alike in all directions and has no yarns";
   const double angle = // to a hundredth, and without a sign of zero
-    std::round(std::atan2(yarns.axes(1, 0), yarns.axes(0, 0)) * 18000. / pi) / 100. + 0.;
+    std::round(std::atan2(yarns.axes(1, 0), yarns.axes(0, 0)) * 18000. / M_PI) / 100. + 0.;
   return "the coarse cloth has the law " + name_of(law) +
          ", too: its yarns lie along the largest Young's modulus of C^H, " + short_text(angle) +
          " degrees from the x axis, and across";

@@ -2,12 +2,12 @@
 #include "verification/method/mode_fit.h"
 
 #include "meshes/plain/errors.h"
+#include "meshes/plain/singular_values.h"
 #include "meshes/plain/triangle_kinematics.h"
 #include "shell/membrane/corotational_energy.h"
 #include "verification/periodic_cell/halton.h"
 
 #include <Eigen/Eigenvalues>
-#include <Eigen/SVD>
 
 #include <algorithm>
 #include <array>
@@ -164,9 +164,7 @@ ModeFit fit_modes(const NonlinearCell &nonlinear, const meshes::HomogenizedCell 
                         basis     = largest_directions(weighted, FittedModes::n_modes);
   const Eigen::MatrixXd functions = weights.asDiagonal() * functions_at(seen.strains, modes.knees);
   // The functions are nearly dependent where a cell does not saturate; the least coefficients do.
-  Eigen::BDCSVD<Eigen::MatrixXd> squares(functions, Eigen::ComputeThinU | Eigen::ComputeThinV);
-  squares.setThreshold(1e-8);
-  modes.coefficients = squares.solve(weighted * basis.transpose());
+  modes.coefficients = meshes::least_squares(functions, weighted * basis.transpose(), 1e-8);
   modes.modes.resize(n, 2 * FittedModes::n_modes);
   for (Eigen::Index v = 0; v < n; ++v)
     for (int k = 0; k < FittedModes::n_modes; ++k)

@@ -21,7 +21,7 @@ struct DrapeArguments : StudyArguments<DrapeOptions>
   bool no_frames = false;
 };
 
-void check_arguments(DrapeArguments &arguments)
+void check_drape_arguments(DrapeArguments &arguments)
 {
   DrapeOptions &study = arguments.study;
   if (arguments.no_frames)
@@ -97,6 +97,6 @@ void add_drape_command(CommandLine &line)
      "  homespun drape meshes/scenes/clamp-four.prm --variants corotational,nodal-warping\n\n"
      "Keys of a scene file:\n" +
        scene_keys()},
-    &Studies::drape, check_arguments);
+    &Studies::drape, check_drape_arguments);
 }
 } // namespace homespun::verification

@@ -20,7 +20,7 @@ struct LoadArguments : StudyArguments<LoadStudyOptions>
   int axis = 0; ///< 0: that of the pull
 };
 
-void check_arguments(LoadArguments &arguments)
+void check_load_arguments(LoadArguments &arguments)
 {
   LoadStudyOptions &study = arguments.study;
   ArgumentFaults faults;
@@ -79,6 +79,6 @@ void add_load_command(CommandLine &line)
      "  homespun load dots.prm --stress 11=50,22=100                    biaxial 1:2\n"
      "  homespun load dots.prm --stress 11=50,12=0 --strain 22=0.02 --steps 40 --law biot,green\n"
      "  homespun load dots.prm --strain 22=-2%                          compression"},
-    &Studies::load, check_arguments);
+    &Studies::load, check_load_arguments);
 }
 } // namespace homespun::verification

@@ -58,7 +58,7 @@ void read_strains(const std::vector<std::string> &texts, std::vector<double> &st
     faults.add("--strains: found nothing; expected one strain at least, like -5%");
 }
 
-void check_arguments(StabilityArguments &arguments)
+void check_stability_arguments(StabilityArguments &arguments)
 {
   StabilityStudyOptions &study = arguments.study;
   ArgumentFaults faults;
@@ -119,6 +119,6 @@ void add_stability_command(CommandLine &line)
      "  homespun stability honeycomb.prm                                  pressed, sides free\n"
      "  homespun stability layered.prm --load periodic-11 --strains=-1%,-5%,-10%,-20%\n"
      "  homespun stability mycell.prm --load uniaxial-2 --strains 5%,10%,20% --law biot,green"},
-    &Studies::stability, check_arguments);
+    &Studies::stability, check_stability_arguments);
 }
 } // namespace homespun::verification

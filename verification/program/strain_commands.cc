@@ -56,7 +56,7 @@ bool is_periodic_name(const std::string &load)
 }
 
 /// Ascending strains; the references walk up the ladder.
-void check_arguments(StrainStudyOptions &study, const std::string &supercell)
+void check_strain_arguments(StrainStudyOptions &study, const std::string &supercell)
 {
   ArgumentFaults faults;
   for (const double strain : study.strains)
@@ -148,7 +148,7 @@ void add_strain_command(CommandLine &line)
         if (strains->count() > 0)
           given.study.strains = asked.strains;
       }
-      check_arguments(given.study, given.supercell);
+      check_strain_arguments(given.study, given.supercell);
     });
 }
 } // namespace homespun::verification

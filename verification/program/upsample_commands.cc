@@ -15,7 +15,7 @@ namespace homespun::verification
 {
 namespace
 {
-void check_arguments(const UpsampleOptions &study)
+void check_upsample_arguments(const UpsampleOptions &study)
 {
   ArgumentFaults faults;
   faults.check_names("--format", study.formats, {"vtu", "ply", "obj", "usda"});
@@ -36,7 +36,7 @@ int run_upsample(UpsampleOptions study)
 {
   if (!is_root(MPI_COMM_WORLD))
     return exit_status::good;
-  check_arguments(study);
+  check_upsample_arguments(study);
   if (study.output.empty())
     study.output = default_folder("upsample", stems({study.rest_file}));
   run_upsample_study(study);

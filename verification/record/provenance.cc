@@ -32,7 +32,7 @@ std::string processor()
   return "unknown";
 }
 
-std::string now()
+std::string present_date()
 {
   const std::time_t seconds = std::time(nullptr);
   char text[32];
@@ -82,13 +82,13 @@ nlohmann::ordered_json provenance(const unsigned int n_ranks)
           {"blas", blas.library},
           {"blas_threads",
            blas.threads > 0 ? nlohmann::ordered_json(blas.threads) : nlohmann::ordered_json()},
-          {"date", now()}};
+          {"date", present_date()}};
 }
 
 std::string provenance_line()
 {
   return std::string("homespun ") + HOMESPUN_VERSION + " (" + HOMESPUN_GIT_REVISION +
-         "), deal.II " + HOMESPUN_DEALII_VERSION + ", " + now() + ", " + host();
+         "), deal.II " + HOMESPUN_DEALII_VERSION + ", " + present_date() + ", " + host();
 }
 
 std::string version_text(const std::string &program)

@@ -51,6 +51,10 @@ inline double larger(const double so_far, const double next)
   return std::isnan(so_far) || next <= so_far ? so_far : next;
 }
 
+/// The claim that a figure is not larger than a limit.
+Verdict at_most(const std::string &claim, double value, double limit, const std::string &derivation,
+                Kind kind = Kind::program);
+
 /// Whether any claim has this outcome.
 bool any(const std::vector<Verdict> &verdicts, Outcome outcome);
 

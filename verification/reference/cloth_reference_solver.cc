@@ -22,7 +22,7 @@ using homogenization::ElasticSolver;
 
 namespace
 {
-constexpr unsigned int most_halvings = 6; // of a time step
+constexpr unsigned int most_halvings_of_step = 6; // of a time step
 
 meshes::TriangleMesh checked(const meshes::TriangleMesh &rest,
                              const std::vector<Eigen::Matrix3d> &stiffness,
@@ -255,10 +255,10 @@ ClothStep ClothReference::Solver::step(const double dt)
   ClothStep step;
   const Vector old_position = position, old_velocity = velocity;
   const double old_time = present_time;
-  const GoneWay way     = go_in_halves(most_halvings, [&](const double from, const double to)
-                                       { advance((to - from) * dt, step); });
-  step.n_parts          = way.n_parts;
-  step.reached          = way.reached == 1.;
+  const GoneWay way = go_in_halves(most_halvings_of_step, [&](const double from, const double to)
+                                   { advance((to - from) * dt, step); });
+  step.n_parts      = way.n_parts;
+  step.reached      = way.reached == 1.;
   if (step.reached)
   {
     present_time          = old_time + dt;

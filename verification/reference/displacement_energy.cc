@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "verification/reference/displacement_energy.h"
 
+#include "meshes/plain/epsilon.h"
+
 #include <Eigen/LU>
 
 #include <cmath>
-#include <limits>
 
 namespace homespun::verification
 {
@@ -24,7 +25,6 @@ DisplacementEnergy displacement_energy(const meshes::Sheet &sheet,
                                        const Load &load, const double strain,
                                        const meshes::Points &positions)
 {
-  constexpr double epsilon     = std::numeric_limits<double>::epsilon();
   const meshes::Points &rest   = sheet.mesh.vertices;
   const Eigen::Vector3d affine = affine_strain(sheet, load, strain);
   DisplacementEnergy result;
@@ -50,17 +50,19 @@ DisplacementEnergy displacement_energy(const meshes::Sheet &sheet,
       B.col(2 * k + 1) << 0., slopes(1, k), slopes(0, k);
       moved.segment<2>(2 * k) = (positions.row(v) - rest.row(v)).transpose();
       rounded.segment<2>(2 * k) =
-        2. * epsilon * (positions.row(v).cwiseAbs() + rest.row(v).cwiseAbs()).transpose();
+        2. * meshes::epsilon * (positions.row(v).cwiseAbs() + rest.row(v).cwiseAbs()).transpose();
     }
     const Eigen::Matrix3d &C = stiffness_of_phase[static_cast<std::size_t>(sheet.mesh.material(t))];
     const Eigen::Vector3d eps   = B * moved;
     const Eigen::Vector3d sigma = C * eps;
-    const Eigen::Vector3d wrong = B.cwiseAbs() * (rounded + 4. * epsilon * moved.cwiseAbs());
+    const Eigen::Vector3d wrong =
+      B.cwiseAbs() * (rounded + 4. * meshes::epsilon * moved.cwiseAbs());
     energy += 0.5 * area * sigma.dot(eps);
     work += 0.5 * area * sigma.dot(affine);
     result.round_off += area * sigma.cwiseAbs().dot(wrong);
-    result.round_off_of_work += area * (sigma - 0.5 * C * affine).cwiseAbs().dot(wrong) +
-                                4. * epsilon * area * sigma.cwiseAbs().dot(affine.cwiseAbs());
+    result.round_off_of_work +=
+      area * (sigma - 0.5 * C * affine).cwiseAbs().dot(wrong) +
+      4. * meshes::epsilon * area * sigma.cwiseAbs().dot(affine.cwiseAbs());
     forces += (area * B.transpose() * sigma).squaredNorm();
   }
   result.energy      = static_cast<double>(energy);

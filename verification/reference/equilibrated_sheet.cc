@@ -2,6 +2,7 @@
 #include "verification/reference/equilibrated_sheet.h"
 
 #include "homogenization/algebra/cholesky_solver.h"
+#include "meshes/plain/epsilon.h"
 #include "meshes/plain/index.h"
 #include "verification/reference/displacement_energy.h"
 
@@ -9,7 +10,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <numeric>
 
@@ -23,11 +23,6 @@ using homogenization::field_points;
 using homogenization::n_field_points;
 using homogenization::stress_of_airy;
 using meshes::at;
-
-namespace
-{
-constexpr double epsilon = std::numeric_limits<double>::epsilon();
-} // namespace
 
 EquilibratedSheet::EquilibratedSheet(const meshes::Sheet &sheet,
                                      const std::vector<Eigen::Matrix3d> &stiffness_of_phase,
@@ -263,7 +258,7 @@ EquilibratedSheet::LocalValues EquilibratedSheet::local_values(const int t,
     sizes(3 * k + 2) += size_of_gradient;
     sizes(9 + k) += size_of_gradient;
   }
-  rounded = 4. * epsilon * sizes + 12. * epsilon * values.cwiseAbs();
+  rounded = 4. * meshes::epsilon * sizes + 12. * meshes::epsilon * values.cwiseAbs();
   return values;
 }
 
@@ -288,11 +283,11 @@ void EquilibratedSheet::evaluate()
     {
       const auto B                = stress_of_airy(its, point.piece, point.in_piece);
       const Eigen::Vector3d sigma = B * values, eps = S * sigma;
-      const Eigen::Vector3d wrong = B.cwiseAbs() * rounded + epsilon * sigma.cwiseAbs();
+      const Eigen::Vector3d wrong = B.cwiseAbs() * rounded + meshes::epsilon * sigma.cwiseAbs();
       sum_of_work += weight * sigma.dot(affine);
       complementary += 0.5 * weight * sigma.dot(eps);
       round_off += weight * ((affine - eps).cwiseAbs().dot(wrong) +
-                             4. * epsilon * sigma.cwiseAbs().dot(affine.cwiseAbs()));
+                             4. * meshes::epsilon * sigma.cwiseAbs().dot(affine.cwiseAbs()));
     }
   }
   work   = static_cast<double>(sum_of_work);

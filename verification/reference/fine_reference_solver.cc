@@ -23,9 +23,10 @@ using namespace dealii;
 
 namespace
 {
-constexpr unsigned int most_halvings = 3; // of the way from one level to the next
-/// Steps after which a part of that way is given up that can be halved. Sheets of 20 x 20 cells that
-/// are found in one part take one to five; layered at 20 % shear stalls for fifty and is halved then.
+constexpr unsigned int most_halvings_of_level = 3; // of the way from one level to the next
+/// Steps after which a part of that way is given up that can be halved. Sheets of 20 x 20 cells
+/// that are found in one part take one to five; layered at 20 % shear stalls for fifty and is
+/// halved then.
 constexpr unsigned int most_steps_of_long_parts = 12;
 } // namespace
 
@@ -191,10 +192,10 @@ ReferenceStep FineReference::Solver::advance(const double strain)
 
   const double before = levels.empty() ? 0. : levels.back().strain;
   const GoneWay way =
-    go_in_halves(law == Law::linear ? 0 : most_halvings,
+    go_in_halves(law == Law::linear ? 0 : most_halvings_of_level,
                  [&](const double from, const double part)
                  {
-                   const bool can_be_halved = std::ldexp(part - from, most_halvings) > 1.;
+                   const bool can_be_halved = std::ldexp(part - from, most_halvings_of_level) > 1.;
                    most_newton_steps =
                      can_be_halved ? most_steps_of_long_parts : NewtonOptions().most_steps;
                    go_to(part == 1. ? strain : before + part * (strain - before), step);

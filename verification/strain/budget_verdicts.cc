@@ -218,7 +218,7 @@ void judge_slope(const SecondOrderPart &of, const std::vector<BudgetRow> &rows,
 
 /// The case of each cell and load, against the main reference of the cell; its strains, ascending.
 std::vector<std::pair<BudgetRow, std::vector<double>>>
-cases_of(const std::vector<StrainRow> &strain_rows)
+budgeted_cases(const std::vector<StrainRow> &strain_rows)
 {
   std::map<std::string, std::string> reference_of; // of each cell
   for (const StrainRow &row : strain_rows)
@@ -247,7 +247,7 @@ cases_of(const std::vector<StrainRow> &strain_rows)
 template <typename Judge>
 void at_judged_levels(const std::vector<StrainRow> &strain_rows, const Judge &judge)
 {
-  for (const auto &[of_case, strains] : cases_of(strain_rows))
+  for (const auto &[of_case, strains] : budgeted_cases(strain_rows))
     for (const double strain : Load(of_case.load).has_free_sides() // no budget speaks of those
                                  ? std::vector<double>()
                                  : judged_strains(strains))
@@ -266,7 +266,7 @@ std::vector<Verdict> budget_verdicts(const std::vector<StrainRow> &strain_rows,
   std::vector<Verdict> verdicts;
   at_judged_levels(strain_rows, [&](const BudgetRow &level)
                    { judge_level(budget_rows, level, bar_of(strain_rows, level), verdicts); });
-  for (const auto &[of_case, its_strains] : cases_of(strain_rows))
+  for (const auto &[of_case, its_strains] : budgeted_cases(strain_rows))
   {
     if (law_of(of_case.reference) == Law::yarn_tension)
       continue; // whose relaxed triangles answer differently from the first per cent on

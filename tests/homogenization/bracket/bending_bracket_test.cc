@@ -14,6 +14,7 @@
 
 using namespace homespun;
 using namespace homespun::homogenization;
+using tests::is_ordered;
 using tests::odd_pattern;
 using tests::relative_difference;
 
@@ -23,12 +24,6 @@ namespace
 BendingBracket bent(const tests::BracketCell &cell, const unsigned order = 2)
 {
   return bending_bracket(glued(cell.mesh, cell.lattice), cell.stiffness, order);
-}
-
-bool is_ordered(const Eigen::Matrix3d &lower, const Eigen::Matrix3d &upper, const double slack = 0.)
-{
-  return Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(upper - lower).eigenvalues()(0) >=
-         -slack * upper.cwiseAbs().maxCoeff();
 }
 
 Eigen::Matrix3d plate(const double E, const double nu, const double thickness)

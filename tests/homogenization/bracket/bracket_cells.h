@@ -6,6 +6,8 @@
 #include "homogenization/cell/material.h"
 #include "tests/meshes/plain/shapes.h"
 
+#include <Eigen/Eigenvalues>
+
 #include <functional>
 
 namespace homespun::tests
@@ -79,5 +81,13 @@ inline homogenization::Bracket bracketed(const BracketCell &cell, const unsigned
 {
   return homogenization::bracket(homogenization::glued(cell.mesh, cell.lattice), cell.stiffness,
                                  order);
+}
+
+/// Whether lower <= upper in the sense of Loewner, but for a part of the largest entry.
+inline bool is_ordered(const Eigen::Matrix3d &lower, const Eigen::Matrix3d &upper,
+                       const double slack = 0.)
+{
+  return Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(upper - lower).eigenvalues()(0) >=
+         -slack * upper.cwiseAbs().maxCoeff();
 }
 } // namespace homespun::tests

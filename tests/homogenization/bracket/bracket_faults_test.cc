@@ -21,7 +21,7 @@ using Fault = std::function<void(TorusMesh &)>;
 
 constexpr double bulk[2] = {0.8, 30.}, shear[2] = {0.5, 2.};
 
-tests::BracketCell odd_cell(const std::vector<Eigen::Matrix3d> &stiffness)
+tests::BracketCell fine_odd_cell(const std::vector<Eigen::Matrix3d> &stiffness)
 {
   return tests::bracket_cell(tests::skewed_lattice(), 16, 16, stiffness, tests::odd_pattern);
 }
@@ -45,7 +45,7 @@ double shift_fault(const Fault &fault)
     std::vector<Eigen::Matrix3d> stiffness;
     for (int p = 0; p < 2; ++p)
       stiffness.push_back(of_bulk_and_shear(1. / (1. / bulk[p] + by), 1. / (1. / shear[p] - by)));
-    const tests::BracketCell cell = odd_cell(stiffness);
+    const tests::BracketCell cell = fine_odd_cell(stiffness);
     return bracket(spoilt(cell, fault), cell.stiffness, 2).compliance;
   };
   const Eigen::Matrix3d before = compliance(0.);
@@ -68,7 +68,7 @@ HillFault hill_fault(const Fault &fault)
 {
   const double G = 1., K[2] = {1.5, 40.};
   const tests::BracketCell cell =
-    odd_cell({of_bulk_and_shear(K[0], G), of_bulk_and_shear(K[1], G)});
+    fine_odd_cell({of_bulk_and_shear(K[0], G), of_bulk_and_shear(K[1], G)});
   double part = 0.;
   for (int t = 0; t < cell.mesh.n_triangles(); ++t)
     part += static_cast<double>(cell.mesh.material(t)) / cell.mesh.n_triangles();
@@ -165,7 +165,7 @@ TEST(tripwire_bracket,
   // sigma_12 = Sigma_12 + phi,12 has, with P = diag(1, 1, −1), the energy of P c P under P Sigma:
   // compliance P S(P c P) P. Symmetric cells and the shift of the compliance pass it.
   const Eigen::Matrix3d P       = Eigen::Vector3d(1., 1., -1.).asDiagonal();
-  const tests::BracketCell cell = odd_cell(tests::contrasting(100.));
+  const tests::BracketCell cell = fine_odd_cell(tests::contrasting(100.));
   std::vector<Eigen::Matrix3d> seen;
   for (const Eigen::Matrix3d &c : cell.stiffness)
     seen.emplace_back(P * c * P);

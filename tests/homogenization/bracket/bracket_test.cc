@@ -12,6 +12,7 @@
 using namespace homespun;
 using namespace homespun::homogenization;
 using tests::bracketed;
+using tests::is_ordered;
 using tests::odd_pattern;
 using tests::of_bulk_and_shear;
 using tests::relative_difference;
@@ -19,12 +20,6 @@ using tests::relative_difference;
 namespace
 {
 /// lower <= upper as quadratic forms, relative to upper.
-bool is_ordered(const Eigen::Matrix3d &lower, const Eigen::Matrix3d &upper, const double slack = 0.)
-{
-  return Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(upper - lower).eigenvalues()(0) >=
-         -slack * upper.cwiseAbs().maxCoeff();
-}
-
 meshes::Lattice hexagonal_lattice()
 {
   meshes::Lattice lattice;
@@ -284,7 +279,7 @@ namespace
 {
 /// Part of the squares of an 8 x 8 cell left out, or filled with something soft.
 template <typename IsHole>
-std::array<tests::BracketCell, 2> with_holes(const IsHole &is_hole, const double softness)
+std::array<tests::BracketCell, 2> filled_and_empty(const IsHole &is_hole, const double softness)
 {
   tests::BracketCell filled =
     tests::bracket_cell(tests::skewed_lattice(), 8, 8, tests::contrasting(softness),
@@ -304,10 +299,10 @@ std::array<tests::BracketCell, 2> with_holes(const IsHole &is_hole, const double
 TEST(exact_bracket, holes_are_the_limit_of_ever_softer_phases)
 {
   // Two holes that touch in a vertex, and one by itself.
-  const auto [holes, filled] =
-    with_holes([](const int i, const int j)
-               { return (i == 2 && j == 2) || (i == 3 && j == 3) || (i > 4 && i < 7 && j == 5); },
-               1e-9);
+  const auto [holes, filled] = filled_and_empty(
+    [](const int i, const int j)
+    { return (i == 2 && j == 2) || (i == 3 && j == 3) || (i > 4 && i < 7 && j == 5); },
+    1e-9);
   ASSERT_TRUE(meshes::faults_of(holes.mesh, "holes").empty());
   const Bracket empty = bracketed(holes, 2), soft = bracketed(filled, 2);
   EXPECT_LT(relative_difference(empty.stiffness, soft.stiffness), 1e-6);
@@ -317,7 +312,7 @@ TEST(exact_bracket, holes_are_the_limit_of_ever_softer_phases)
 
 TEST(bound_bracket, brackets_of_cells_with_holes_close_by_adaptivity)
 {
-  const tests::BracketCell cell = with_holes(
+  const tests::BracketCell cell = filled_and_empty(
     [](const int i, const int j) { return (i > 0 && i < 4 && j == 2) || (i == 6 && j == 6); },
     1.)[0];
   const Bracket coarse = bracketed(cell, 2);

@@ -3,6 +3,7 @@
 // group, and the same vertices, triangles, groups and angles where the format keeps their order.
 #include "homogenization/cell/cell_mesh_file.h"
 #include "meshes/plain/lattice.h"
+#include "tests/content_of.h"
 #include "tests/refusal.h"
 
 #include <gtest/gtest.h>
@@ -14,6 +15,7 @@
 
 using namespace homespun;
 using namespace homespun::homogenization;
+using tests::content_of;
 
 namespace
 {
@@ -62,14 +64,6 @@ public:
 
   const std::filesystem::path path;
 };
-
-std::string content_of(const std::string &file)
-{
-  std::ifstream input(file, std::ios::binary);
-  std::ostringstream text;
-  text << input.rdbuf();
-  return text.str();
-}
 
 /// Two triangles and a quadrilateral around it, as AVS UCD.
 const std::string ucd = "# a comment\n5 4 0 0 0\n1 0 0 0\n2 1 0 0\n3 1 1 0\n4 0 1 0\n5 2 0 0\n"

@@ -26,6 +26,12 @@ inline homogenization::UnitCell cell_of(const meshes::Lattice &lattice, const in
   return cell;
 }
 
+/// One phase.
+inline int everywhere_the_same(double, double)
+{
+  return 0;
+}
+
 /// Soft and hard halves, stacked along axis 2.
 inline int halves(double, const double f2)
 {
@@ -54,6 +60,12 @@ inline homogenization::Homogenization solved(const homogenization::UnitCell &cel
 }
 
 /// Largest difference of entries, relative to the largest entry.
+/// The cell for up-sampling, solved as above.
+inline meshes::HomogenizedCell homogenized(const homogenization::UnitCell &cell)
+{
+  return homogenization::homogenized_cell(cell, solved(cell), "test");
+}
+
 inline double relative_difference(const Eigen::Matrix3d &a, const Eigen::Matrix3d &b)
 {
   return (a - b).cwiseAbs().maxCoeff() / b.cwiseAbs().maxCoeff();

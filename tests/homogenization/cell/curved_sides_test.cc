@@ -7,6 +7,7 @@
 #include "homogenization/lint/cell_reading.h"
 #include "homogenization/lint/facets.h"
 #include "tests/homogenization/bracket/bracket_cells.h"
+#include "tests/homogenization/cell/shipped.h"
 #include "tests/refusal.h"
 
 #include <gtest/gtest.h>
@@ -18,6 +19,7 @@
 
 using namespace homespun;
 using namespace homespun::homogenization;
+using tests::shipped;
 
 namespace
 {
@@ -133,10 +135,6 @@ UnitCell polygon(const int n, const double radius, const double contrast)
   return cell;
 }
 
-UnitCell shipped(const std::string &name)
-{
-  return read_unit_cell(std::string(CELLS) + name + ".prm");
-}
 } // namespace
 
 TEST(exact_curved_sides, six_node_triangles_are_three_node_ones_and_the_curves_beside_them)

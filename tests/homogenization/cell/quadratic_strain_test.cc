@@ -12,7 +12,6 @@ using namespace homespun::homogenization;
 
 namespace
 {
-constexpr double pi = 3.14159265358979323846;
 
 const Phase phase   = {"any", 10., 3., 0.3, 0.4, 25., 1., 1.};
 const auto all_laws = {MembraneLaw::biot, MembraneLaw::green, MembraneLaw::yarn};
@@ -30,7 +29,7 @@ Eigen::Vector3d strain_of(const MembraneLaw law, const GradientEntries &H)
   const Eigen::Matrix2d F = Eigen::Matrix2d::Identity() + matrix_of(H);
   if (law == MembraneLaw::yarn)
   {
-    const double angle = pi / 180. * phase.angle, c = std::cos(angle), s = std::sin(angle);
+    const double angle = M_PI / 180. * phase.angle, c = std::cos(angle), s = std::sin(angle);
     const Eigen::Vector2d f1 = F * Eigen::Vector2d(c, s), f2 = F * Eigen::Vector2d(-s, c);
     const Eigen::Vector3d e(f1.norm() - 1., f2.norm() - 1.,
                             std::asin(f1.dot(f2) / (f1.norm() * f2.norm())));

@@ -162,20 +162,6 @@ std::vector<CurvedSide> arcs_of(const meshes::TriangleMesh &mesh, const meshes::
   return arcs;
 }
 
-double smallest_angle(const meshes::TriangleMesh &mesh)
-{
-  double smallest = 180.;
-  for (int t = 0; t < mesh.n_triangles(); ++t)
-    for (int k = 0; k < 3; ++k)
-    {
-      const Eigen::RowVector2d x = mesh.vertices.row(mesh.triangles(t, k)),
-                               u = mesh.vertices.row(mesh.triangles(t, (k + 1) % 3)) - x,
-                               v = mesh.vertices.row(mesh.triangles(t, (k + 2) % 3)) - x;
-      smallest = std::min(smallest, std::atan2(u(0) * v(1) - u(1) * v(0), u.dot(v)) * 180. / M_PI);
-    }
-  return smallest;
-}
-
 Bracket bracket_of(const meshes::TriangleMesh &mesh, const meshes::Lattice &lattice,
                    const std::vector<CurvedSide> &curved_sides = {})
 {
@@ -222,14 +208,14 @@ TEST(bound_shifted_cell, across_triangles_it_is_the_same_cloth)
 {
   const Cloth cloth                = perforated(0.25);
   const meshes::TriangleMesh drawn = cloth.cell(0, 0);
-  ASSERT_GT(smallest_angle(drawn), 10.);
+  ASSERT_GT(tests::smallest_angle(drawn), 10.);
   // Its lattice is found by what is left of its sides.
   const auto cut = anew(drawn);
   ASSERT_TRUE(cut && cut->shift);
   EXPECT_LT((cut->lattice.vectors - cloth.lattice.vectors).norm(), 1e-12);
   EXPECT_GT(cut->mesh.n_triangles(), drawn.n_triangles()) << "some were split";
   expect_sound(cut->mesh, cloth.lattice);
-  EXPECT_GT(smallest_angle(cut->mesh), 5.) << "what the linter calls a sliver";
+  EXPECT_GT(tests::smallest_angle(cut->mesh), 5.) << "what the linter calls a sliver";
   EXPECT_EQ(meshes::boundary_loops(cut->mesh).size(), 2u);
   EXPECT_TRUE(areas_of_materials(cut->mesh).isApprox(areas_of_materials(drawn), 1e-13));
   // The cloth's own mesh, cut out along its wavy lines.

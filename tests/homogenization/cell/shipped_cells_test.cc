@@ -5,6 +5,7 @@
 #include "homogenization/bracket/bracket.h"
 #include "homogenization/lint/cell_reading.h"
 #include "tests/homogenization/cell/cells.h"
+#include "tests/homogenization/cell/shipped.h"
 
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
@@ -16,6 +17,7 @@
 
 using namespace homespun;
 using namespace homespun::homogenization;
+using tests::shipped;
 
 namespace
 {
@@ -36,25 +38,6 @@ const std::vector<Symmetry> symmetries = {
   {"chevron", false, 0., false, 2e-4},      {"checkerboard", true, 0., false, 1e-9},
   {"printed-patch", false, 0., false, 2e-4}};
 
-UnitCell shipped(const std::string &name)
-{
-  return read_unit_cell(std::string(CELLS) + name + ".prm");
-}
-
-/// The smallest angle of a mesh [deg].
-double smallest_angle(const meshes::TriangleMesh &mesh)
-{
-  double smallest = 180.;
-  for (int t = 0; t < mesh.n_triangles(); ++t)
-    for (int k = 0; k < 3; ++k)
-    {
-      const auto corner = [&](const int i) -> Eigen::Vector2d
-      { return mesh.vertices.row(mesh.triangles(t, (k + i) % 3)).transpose(); };
-      const Eigen::Vector2d a = corner(1) - corner(0), b = corner(2) - corner(0);
-      smallest = std::min(smallest, std::acos(a.dot(b) / (a.norm() * b.norm())) * 180. / M_PI);
-    }
-  return smallest;
-}
 } // namespace
 
 TEST(exact_shipped_cells, stiffness_has_the_symmetry_of_the_drawing)
@@ -100,8 +83,8 @@ TEST(exact_shipped_cells, floats_stiffen_a_weave_and_friction_alone_shears_it)
 TEST(exact_shipped_cells, triangles_have_no_sharp_angles)
 {
   for (const Symmetry &symmetry : symmetries)
-    EXPECT_GT(smallest_angle(shipped(symmetry.name).mesh), 25.) << symmetry.name;
-  EXPECT_GT(smallest_angle(shipped("random-dots").mesh), 25.);
+    EXPECT_GT(tests::smallest_angle(shipped(symmetry.name).mesh), 25.) << symmetry.name;
+  EXPECT_GT(tests::smallest_angle(shipped("random-dots").mesh), 25.);
 }
 
 TEST(exact_shipped_cells, a_checkerboard_of_one_bulk_modulus_obeys_duality)

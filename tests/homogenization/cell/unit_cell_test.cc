@@ -3,6 +3,7 @@
 #include "homogenization/cell/unit_cell.h"
 #include "homogenization/lint/cell_reading.h"
 #include "meshes/plain/errors.h"
+#include "tests/content_of.h"
 #include "tests/meshes/plain/shapes.h"
 
 #include <gtest/gtest.h>
@@ -15,17 +16,10 @@
 
 using namespace homespun;
 using namespace homespun::homogenization;
+using tests::content_of;
 
 namespace
 {
-
-std::string content_of(const std::string &file)
-{
-  std::ifstream input(file);
-  std::stringstream text;
-  text << input.rdbuf();
-  return text.str();
-}
 
 /// The mesh as a .msh 2.2 file; material numbers are written as physical tags, named soft and hard.
 std::string msh(const meshes::TriangleMesh &mesh)
@@ -66,10 +60,10 @@ std::string replaced(std::string text, const std::string &from, const std::strin
   return text.replace(place, from.size(), to);
 }
 
-class Folder
+class CellFolder
 {
 public:
-  Folder()
+  CellFolder()
       : path(
           std::filesystem::temp_directory_path() /
           ("homespun-cells-" + std::to_string(std::hash<std::string>()(
@@ -77,7 +71,7 @@ public:
   {
     std::filesystem::create_directories(path);
   }
-  ~Folder()
+  ~CellFolder()
   {
     std::filesystem::remove_all(path);
   }
@@ -125,7 +119,7 @@ TEST(exact_unit_cell, the_shipped_cells_are_sound)
 
 TEST(exact_unit_cell, names_numbers_orthotropy_and_lattices_are_understood)
 {
-  const Folder folder;
+  const CellFolder folder;
   const UnitCell by_name = folder.read(keys, msh(stripes()));
   EXPECT_EQ(by_name.phases[1].name, "hard");
   EXPECT_EQ(by_name.phases[1].E1, 1e7);
@@ -144,12 +138,12 @@ TEST(exact_unit_cell, names_numbers_orthotropy_and_lattices_are_understood)
 
 TEST(exact_unit_cell, poissons_ratio_of_one_half_is_fine)
 {
-  EXPECT_EQ(Folder().refusal(replaced(keys, "soft: 0.3", "soft: 0.5"), msh(stripes())), "");
+  EXPECT_EQ(CellFolder().refusal(replaced(keys, "soft: 0.3", "soft: 0.5"), msh(stripes())), "");
 }
 
 TEST(tripwire_unit_cell, a_mesh_outside_of_the_folder_of_its_cell_is_refused)
 {
-  const Folder folder;
+  const CellFolder folder;
   std::ofstream(folder.path / "other.msh") << msh(stripes());
   std::filesystem::create_directories(folder.path / "inside");
   std::ofstream(folder.path / "inside" / "cell.prm") << replaced(keys, "cell.msh", "../other.msh");
@@ -175,7 +169,7 @@ TEST(tripwire_unit_cell, a_mesh_outside_of_the_folder_of_its_cell_is_refused)
 
 TEST(tripwire_unit_cell, missing_files_are_named)
 {
-  const Folder folder;
+  const CellFolder folder;
   try
   {
     read_unit_cell("nowhere/cell.prm");
@@ -191,7 +185,7 @@ TEST(tripwire_unit_cell, missing_files_are_named)
 
 TEST(tripwire_unit_cell, all_faults_of_keys_and_groups_are_told_at_once)
 {
-  const Folder folder;
+  const CellFolder folder;
   const std::string unknown_keys =
     folder.refusal(keys + "set Yong's modulus = soft: 1\nthickness 3\n", msh(stripes()));
   EXPECT_SAYS(unknown_keys, "cell.prm:7: unknown key `Yong's modulus`");
@@ -210,7 +204,7 @@ TEST(tripwire_unit_cell, all_faults_of_keys_and_groups_are_told_at_once)
 
 TEST(tripwire_unit_cell, poissons_ratio_out_of_range_is_refused)
 {
-  const Folder folder;
+  const CellFolder folder;
   for (const char *ratio : {"1", "-1", "1.5"})
     EXPECT_SAYS(
       folder.refusal(replaced(keys, "soft: 0.3", std::string("soft: ") + ratio), msh(stripes())),
@@ -221,7 +215,7 @@ TEST(tripwire_unit_cell, opposite_sides_that_do_not_match_are_named_with_the_rem
 {
   meshes::TriangleMesh mesh = stripes();
   mesh.vertices(9, 1) += 0.01;
-  const std::string faults = Folder().refusal(keys, msh(mesh));
+  const std::string faults = CellFolder().refusal(keys, msh(mesh));
   EXPECT_SAYS(faults, "has no periodic image; the nearest candidate is vertex");
   EXPECT_SAYS(faults, "off by 0.0001 m");
   EXPECT_SAYS(faults, "Periodic Curve");
@@ -229,7 +223,7 @@ TEST(tripwire_unit_cell, opposite_sides_that_do_not_match_are_named_with_the_rem
 
 TEST(tripwire_unit_cell, a_lattice_that_does_not_fit_is_refused)
 {
-  const Folder folder;
+  const CellFolder folder;
   EXPECT_SAYS(folder.refusal(keys + "set Lattice vectors = 1 0; 0 2\n", msh(stripes())),
               "expected equal areas: mend `Lattice vectors`");
   EXPECT_SAYS(folder.refusal(keys + "set Lattice vectors = 1 0; 2 0\n", msh(stripes())),
@@ -240,7 +234,7 @@ TEST(tripwire_unit_cell, a_lattice_that_does_not_fit_is_refused)
 
 TEST(exact_unit_cell, an_angle_per_triangle_turns_the_orthotropic_groups)
 {
-  const Folder folder;
+  const CellFolder folder;
   const std::string data = DATA;
   std::ofstream(folder.path / "cell.vtu")
     << content_of(data + "text.vtu"); // triangle t at 10 t degrees
@@ -283,7 +277,7 @@ TEST(exact_unit_cell, an_angle_per_triangle_turns_the_orthotropic_groups)
 
 TEST(tripwire_unit_cell, inverted_and_overlapping_triangles_are_refused)
 {
-  const Folder folder;
+  const CellFolder folder;
   meshes::TriangleMesh folded = stripes();
   folded.vertices.row(12) += Eigen::RowVector2d(0.6, 0.); // an inner vertex beyond its neighbours
   EXPECT_NE(folder.refusal(keys, msh(folded)), "");
@@ -299,7 +293,7 @@ TEST(tripwire_unit_cell, inverted_and_overlapping_triangles_are_refused)
 
 TEST(tripwire_unit_cell, a_mesh_cut_off_anywhere_is_refused_by_name)
 {
-  const Folder folder;
+  const CellFolder folder;
   const std::string whole = msh(stripes());
   for (const double part : {0., 0.1, 0.3, 0.5, 0.7, 0.9})
     EXPECT_SAYS(folder.refusal(keys, whole.substr(0, static_cast<std::size_t>(

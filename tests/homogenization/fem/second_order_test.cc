@@ -13,7 +13,7 @@ namespace
 {
 const std::vector<MembraneLaw> laws = {MembraneLaw::biot, MembraneLaw::green};
 
-Homogenization solved(const UnitCell &cell, const unsigned int order = 1)
+Homogenization with_second_order(const UnitCell &cell, const unsigned int order = 1)
 {
   HomogenizationOptions options;
   options.order        = order;
@@ -50,7 +50,7 @@ TEST(exact_second_order, a_homogeneous_cell_has_no_modes_and_the_cubic_energy_of
   const Eigen::Matrix3d c = plane_stress_stiffness(yarn);
   for (const unsigned int order : {1u, 2u})
   {
-    const Homogenization result = solved(cell, order);
+    const Homogenization result = with_second_order(cell, order);
     for (const char *law : {"biot", "green"})
       EXPECT_EQ(result.second_order.at(law).chi.cwiseAbs().maxCoeff(), 0.) << law;
     EXPECT_LT(result.second_order.at("biot").energy.derivatives.cwiseAbs().maxCoeff(),
@@ -91,7 +91,7 @@ TEST(exact_second_order, stripes_have_the_same_second_order_with_p1_and_p2)
 {
   const UnitCell cell =
     tests::cell_of(tests::square_lattice(1.), 6, 4, tests::soft_and_hard(), tests::halves);
-  const Homogenization linear = solved(cell, 1), quadratic = solved(cell, 2);
+  const Homogenization linear = with_second_order(cell, 1), quadratic = with_second_order(cell, 2);
   for (const char *law : {"biot", "green"})
   {
     const meshes::SecondOrder &P1 = linear.second_order.at(law),
@@ -111,7 +111,8 @@ TEST(invariant_second_order, the_cubic_energy_is_unchanged_when_the_cell_is_doub
     four.mesh.material(t) = one.mesh.material(2 * (t / 2 / 16 % 8 * 8 + t / 2 % 8) + t % 2);
   for (const unsigned int order : {1u, 2u})
   {
-    const Homogenization of_one = solved(one, order), of_four = solved(four, order);
+    const Homogenization of_one  = with_second_order(one, order),
+                         of_four = with_second_order(four, order);
     for (const char *law : {"biot", "green"})
       EXPECT_LT(relative(of_four.second_order.at(law).energy.derivatives,
                          of_one.second_order.at(law).energy.derivatives),
@@ -140,7 +141,7 @@ TEST(invariant_second_order, modes_and_cubic_energy_turn_and_are_mirrored_with_t
       mapped.mesh.triangles.col(1).swap(mapped.mesh.triangles.col(2));
       mapped.lattice.vectors.row(0) *= -1.;
     }
-    const Homogenization before = solved(cell), after = solved(mapped);
+    const Homogenization before = with_second_order(cell), after = with_second_order(mapped);
     const auto place = [&](const int a) { return is_turned && a < 2 ? 1 - a : a; };
     for (const char *law : {"biot", "green"})
     {

@@ -5,6 +5,7 @@
 #include "meshes/files/obj_file.h"
 #include "meshes/files/surface_files.h"
 #include "meshes/files/usd_file.h"
+#include "tests/content_of.h"
 #include "tests/refusal.h"
 
 #include <gtest/gtest.h>
@@ -42,12 +43,6 @@ std::string file_with(const std::string &content, const std::string &name = "mes
   const std::string path = (folder.path / name).string();
   std::ofstream(path, std::ios::binary) << content;
   return path;
-}
-
-std::string content_of(const std::string &path)
-{
-  std::ifstream input(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(input), std::istreambuf_iterator<char>()};
 }
 
 std::string refused(const std::string &content, const std::string &name = "mesh.ply")
@@ -194,14 +189,15 @@ TEST(exact_usd, a_mesh_is_written_as_one_prim_in_metres)
   triangles << 0, 1, 2;
   const std::string file = file_with("", "mesh.usda");
   write_usda(file, points, triangles, UpAxis::y);
-  EXPECT_EQ(content_of(file), "#usda 1.0\n(\n    defaultPrim = \"cloth\"\n"
-                              "    doc = \"up-sampled by homespun\"\n    metersPerUnit = 1\n"
-                              "    upAxis = \"Y\"\n)\n\ndef Mesh \"cloth\"\n{\n"
-                              "    float3[] extent = [(0, 0, -0.25), (1, 2, 0.1)]\n"
-                              "    int[] faceVertexCounts = [3]\n"
-                              "    int[] faceVertexIndices = [0, 1, 2]\n"
-                              "    point3f[] points = [(0, 0, 0.1), (1, 0, -0.25), (0, 2, 1e-09)]\n"
-                              "    uniform token subdivisionScheme = \"none\"\n}\n");
+  EXPECT_EQ(tests::content_of(file),
+            "#usda 1.0\n(\n    defaultPrim = \"cloth\"\n"
+            "    doc = \"up-sampled by homespun\"\n    metersPerUnit = 1\n"
+            "    upAxis = \"Y\"\n)\n\ndef Mesh \"cloth\"\n{\n"
+            "    float3[] extent = [(0, 0, -0.25), (1, 2, 0.1)]\n"
+            "    int[] faceVertexCounts = [3]\n"
+            "    int[] faceVertexIndices = [0, 1, 2]\n"
+            "    point3f[] points = [(0, 0, 0.1), (1, 0, -0.25), (0, 2, 1e-09)]\n"
+            "    uniform token subdivisionScheme = \"none\"\n}\n");
   points(1, 1) = std::numeric_limits<float>::quiet_NaN();
   EXPECT_NE(tests::refusal([&]() { write_usda(file, points, triangles, UpAxis::z); })
               .find("vertex 1 has a position that is not finite"),

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "meshes/files/surface_files.h"
 #include "meshes/plain/errors.h"
+#include "tests/content_of.h"
 #include "tests/refusal.h"
 
 #include <gtest/gtest.h>
@@ -17,6 +18,7 @@
 
 using namespace homespun;
 using namespace homespun::meshes;
+using homespun::tests::content_of;
 using homespun::tests::refusal;
 
 namespace
@@ -40,14 +42,6 @@ struct TemporaryFolder
   }
   std::filesystem::path path;
 };
-
-std::string content_of(const std::string &file)
-{
-  std::ifstream input(file, std::ios::binary);
-  std::ostringstream text;
-  text << input.rdbuf();
-  return text.str();
-}
 
 template <typename Number>
 Number number_at(const std::string &bytes, const std::size_t place)

@@ -2,8 +2,11 @@
 // Small meshes that several tests need.
 #pragma once
 
+#include "meshes/plain/cross.h"
 #include "meshes/plain/sheet.h"
 
+#include <algorithm>
+#include <cmath>
 #include <random>
 
 namespace homespun::tests
@@ -41,5 +44,20 @@ inline meshes::Lattice skewed_lattice()
   meshes::Lattice lattice;
   lattice.vectors << 0.01, 0.001, 0.004, 0.012;
   return lattice;
+}
+
+/// Of all triangles [deg]; negative where one is turned over.
+inline double smallest_angle(const meshes::TriangleMesh &mesh)
+{
+  double smallest = 180.;
+  for (int t = 0; t < mesh.n_triangles(); ++t)
+    for (int k = 0; k < 3; ++k)
+    {
+      const Eigen::RowVector2d x = mesh.vertices.row(mesh.triangles(t, k)),
+                               u = mesh.vertices.row(mesh.triangles(t, (k + 1) % 3)) - x,
+                               v = mesh.vertices.row(mesh.triangles(t, (k + 2) % 3)) - x;
+      smallest = std::min(smallest, std::atan2(meshes::cross(u, v), u.dot(v)) * 180. / M_PI);
+    }
+  return smallest;
 }
 } // namespace homespun::tests

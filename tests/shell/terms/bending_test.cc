@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <iostream>
 
 using namespace homespun;
@@ -15,7 +16,6 @@ using homespun::tests::refusal;
 
 namespace
 {
-constexpr double pi = 3.14159265358979323846;
 
 const PlateStiffness woven{3e-6, 4e-7, 1e-7, 2e-7};
 // Off its axes: bending along them twists it.
@@ -60,7 +60,7 @@ double cylinder_energy(const PlateStiffness &D, const double radius, const doubl
 meshes::ClothMesh tube(const int n, const double radius)
 {
   Eigen::Matrix2d steps;
-  steps << 2. * pi * radius / n, 0., 0., 2. * pi * radius / n;
+  steps << 2. * M_PI * radius / n, 0., 0., 2. * M_PI * radius / n;
   meshes::ClothMesh mesh;
   mesh.rest         = meshes::coarse_sheet({0., 0.}, steps, n, n / 2);
   const Vectors all = rolled(mesh.rest.vertices, radius, 0.);
@@ -160,7 +160,7 @@ TEST(order_bending, energy_of_a_closed_tube_converges_to_that_of_a_cylinder_with
 {
   const double radius = 0.03;
   const PlateStiffness D{3e-6, 4e-7, 0., 2e-7}; // no moment across, so that the rims are free of it
-  const double exact = cylinder_energy(D, radius, 0.) * 2. * pi * radius * pi * radius;
+  const double exact = cylinder_energy(D, radius, 0.) * 2. * M_PI * radius * M_PI * radius;
   std::vector<double> widths, errors;
   for (const int n : {16, 32, 64, 128})
   {
@@ -179,7 +179,7 @@ TEST(order_bending, energy_of_a_rolled_sheet_converges_in_every_direction_on_any
   const double side = 0.1, radius = 0.2;
   for (const double irregularity : {0., 0.25})
     for (const PlateStiffness &D : {PlateStiffness::isotropic(1e-6, 0.3), woven, skewed})
-      for (const double angle : {0., 0.25 * pi, 0.5 * pi, -0.25 * pi})
+      for (const double angle : {0., 0.25 * M_PI, 0.5 * M_PI, -0.25 * M_PI})
       {
         const double exact = cylinder_energy(D, radius, angle) * side * side;
         std::vector<double> widths, errors;
@@ -194,7 +194,7 @@ TEST(order_bending, energy_of_a_rolled_sheet_converges_in_every_direction_on_any
         const double order        = tests::slope(widths, errors),
                      extrapolated = std::abs(2. * errors[3] - errors[2]);
         std::cout << "irregularity " << irregularity << ", D11/D22 " << D.D11 / D.D22 << ", angle "
-                  << angle * 180. / pi << ": error " << errors.back() << ", order " << order
+                  << angle * 180. / M_PI << ": error " << errors.back() << ", order " << order
                   << ", extrapolated " << extrapolated << '\n';
         EXPECT_NEAR(order, 1., 0.15);
         EXPECT_LT(extrapolated, irregularity > 0. ? 6e-3 : 1e-3);
@@ -226,7 +226,7 @@ TEST(bound_bending, in_equilibrium_an_irregular_sheet_is_a_little_too_soft)
       term->add_derivatives(mesh.positions, Hessian::projected, unused, matrix);
       const Eigen::MatrixXd all = tests::dense(matrix);
       const Eigen::LDLT<Eigen::MatrixXd> solver(Eigen::MatrixXd(all(free, free)));
-      for (const double angle : {0., 0.25 * pi, 0.5 * pi, -0.25 * pi})
+      for (const double angle : {0., 0.25 * M_PI, 0.5 * M_PI, -0.25 * M_PI})
       {
         Vectors x = mesh.positions; // a parabola: its curvature is constant
         x.col(2) =

@@ -17,8 +17,6 @@ using homespun::tests::BlochCell;
 
 namespace
 {
-constexpr double pi = 3.14159265358979323846;
-
 Eigen::Matrix3d isotropic(const double E, const double nu)
 {
   Eigen::Matrix3d C;
@@ -249,7 +247,7 @@ TEST(invariant_bloch, the_margin_is_that_of_the_cloth_however_it_is_cut)
   EXPECT_NEAR(moved.beta(long_wave(0.4)), of_long, 1e-8);
   const Loaded round(turned(cell), "uniaxial-1", -0.1);
   EXPECT_NEAR(round.beta(wave), beta, 1e-8);
-  EXPECT_NEAR(round.beta(long_wave(0.4 + 0.5 * pi)), of_long, 1e-8);
+  EXPECT_NEAR(round.beta(long_wave(0.4 + 0.5 * M_PI)), of_long, 1e-8);
 }
 
 // The quotient is even in k: its distance from the limit is a multiple of |k|^2.
@@ -263,8 +261,9 @@ TEST(order_bloch, waves_that_grow_come_to_the_limit_of_long_ones)
     for (const double angle : {0.2, 1.1, 2.5})
     {
       const double limit = loaded.beta(long_wave(angle));
-      const auto miss    = [&](const double part)
-      { return loaded.beta(wave_along(cell.cell.lattice, angle, 2. * pi * part / size)) - limit; };
+      const auto miss    = [&](const double part) {
+        return loaded.beta(wave_along(cell.cell.lattice, angle, 2. * M_PI * part / size)) - limit;
+      };
       EXPECT_NEAR(std::log2(miss(0.04) / miss(0.02)), 2., 0.1) << name << ", " << angle;
     }
   }
@@ -283,7 +282,7 @@ TEST(exact_bloch, the_limit_of_long_waves_has_the_sign_of_the_acoustic_tensor)
     ASSERT_TRUE(tangent.allFinite()) << name << ", " << strain;
     for (int j = 0; j < 12; ++j)
     {
-      const double angle = pi * j / 12.;
+      const double angle = M_PI * j / 12.;
       const Eigen::Vector2d n(std::cos(angle), std::sin(angle));
       Eigen::Matrix<double, 4, 2> along; // a n^T in the order 11, 12, 21, 22
       along << n(0), 0., n(1), 0., 0., n(0), 0., n(1);

@@ -55,15 +55,15 @@ struct Resolved
   const shell::Positions<2> u;
 };
 
-double mean(const meshes::Points &field)
+double mean_length(const meshes::Points &field)
 {
   return field.rowwise().norm().mean();
 }
 
 double distance(const EdgeParts &a, const EdgeParts &b)
 {
-  return mean(a.slip - b.slip) + mean(a.selvedge - b.selvedge) + mean(a.bulk - b.bulk) +
-         mean(a.layer - b.layer);
+  return mean_length(a.slip - b.slip) + mean_length(a.selvedge - b.selvedge) +
+         mean_length(a.bulk - b.bulk) + mean_length(a.layer - b.layer);
 }
 } // namespace
 
@@ -77,9 +77,9 @@ TEST(exact_edge_parts, together_they_lead_from_localized_to_the_method_edges)
       const EdgedSheet edged({of.homogenized, of.edges}, of.sheet, of.load, Method("edges"),
                              Resolved::refinement);
       const meshes::Points with = edged.upsample(law, of.u).positions;
-      EXPECT_LT(
-        mean(of.localized_sheet() - parts.slip - parts.selvedge - parts.bulk - parts.layer - with),
-        1e-12)
+      EXPECT_LT(mean_length(of.localized_sheet() - parts.slip - parts.selvedge - parts.bulk -
+                            parts.layer - with),
+                1e-12)
         << load;
     }
 }
@@ -90,11 +90,11 @@ TEST(exact_edge_parts, a_cell_with_a_centre_of_symmetry_has_no_part_of_strain_gr
   const EdgeParts two   = Resolved("layered", "shear-frame", Law::linear).parts(),
                   three = Resolved("three-stiffness", "shear-frame", Law::linear).parts();
   const double unit     = 0.01 * 0.01; // strain x cell side
-  EXPECT_LT(mean(two.bulk), 1e-9 * unit);
-  EXPECT_GT(mean(three.bulk), 1e5 * 1e-9 * unit);
-  EXPECT_GT(mean(two.slip), 1e-3 * unit);
-  EXPECT_GT(mean(two.selvedge), 1e-3 * unit);
-  EXPECT_GT(mean(two.layer), 1e-4 * unit);
+  EXPECT_LT(mean_length(two.bulk), 1e-9 * unit);
+  EXPECT_GT(mean_length(three.bulk), 1e5 * 1e-9 * unit);
+  EXPECT_GT(mean_length(two.slip), 1e-3 * unit);
+  EXPECT_GT(mean_length(two.selvedge), 1e-3 * unit);
+  EXPECT_GT(mean_length(two.layer), 1e-4 * unit);
 }
 
 TEST(invariant_edge_parts, the_constant_of_chi_in_the_file_changes_none)

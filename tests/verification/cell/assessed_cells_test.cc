@@ -13,7 +13,7 @@ using namespace homespun::verification;
 
 namespace
 {
-UnitCell inclusion()
+UnitCell small_inclusion()
 {
   return inclusion_cell(6, homogenization::isotropic("soft", 1e6, 0.3, 1e-3, 100.),
                         homogenization::isotropic("hard", 1e7, 0.3, 1e-3, 100.));
@@ -31,7 +31,7 @@ constexpr auto biot = homogenization::MembraneLaw::biot;
 
 TEST(exact_assessed_cells, a_cell_is_homogenized_once_for_all_who_ask)
 {
-  const UnitCell cell = inclusion();
+  const UnitCell cell = small_inclusion();
   AssessedCells cells;
   std::vector<Verdict> first, second;
   const AssessedCell &one   = cells.of(cell, needs_of({biot}), MPI_COMM_SELF, first);
@@ -57,7 +57,7 @@ TEST(exact_assessed_cells, a_cell_is_homogenized_once_for_all_who_ask)
 
 TEST(exact_assessed_cells, bending_that_is_there_is_taken_over)
 {
-  const UnitCell cell = inclusion();
+  const UnitCell cell = small_inclusion();
   CellBending bending = bending_of(cell, {}, [](const std::string &) {});
   ASSERT_TRUE(bending.bracket);
   bending.bracket->stiffness *= 1. + 1e-9; // its mark
@@ -74,7 +74,7 @@ TEST(exact_assessed_cells, bending_that_is_there_is_taken_over)
 
 TEST(exact_assessed_cells, what_is_read_from_its_files_is_what_was_solved)
 {
-  const UnitCell cell      = inclusion();
+  const UnitCell cell      = small_inclusion();
   const std::string folder = testing::TempDir() + "assessed_cells";
   std::filesystem::remove_all(folder);
   AssessedCells solved, read;

@@ -14,8 +14,6 @@ using namespace homespun::verification;
 
 namespace
 {
-constexpr double pi = 3.14159265358979323846;
-
 Scene sheet_with(const std::vector<HeldPlace> &held)
 {
   Scene scene;
@@ -39,7 +37,7 @@ HeldPlace turned(const std::string &place, const std::vector<int> &vertices = {}
   Motion motion;
   motion.kind    = Motion::Kind::rotate;
   motion.along   = {0., 0., 1.};
-  motion.angle   = 0.5 * pi;
+  motion.angle   = 0.5 * M_PI;
   motion.seconds = 1.;
   return {place, vertices, motion};
 }

@@ -4,6 +4,7 @@
 
 #include "meshes/plain/sheet.h"
 #include "meshes/plain/triangle_kinematics.h"
+#include "tests/verification/reference/law_cases.h"
 #include "verification/laws/first_loss.h"
 
 #include <Eigen/LU>
@@ -15,17 +16,10 @@
 
 using namespace homespun;
 using namespace homespun::verification;
+using tests::orthotropic;
 
 namespace
 {
-/// Orthotropic along the axes, from E1, E2, nu12, G12 [N/m].
-Eigen::Matrix3d orthotropic(const double E1, const double E2, const double nu12, const double G12)
-{
-  Eigen::Matrix3d compliance;
-  compliance << 1. / E1, -nu12 / E1, 0., -nu12 / E1, 1. / E2, 0., 0., 0., 1. / G12;
-  return compliance.inverse();
-}
-
 /// A yarn of plain-weave, a stiff woven shirt, E/G = 1e4, a soft weft, a negative Poisson's ratio.
 std::vector<Eigen::Matrix3d> five_materials()
 {
@@ -37,12 +31,11 @@ std::vector<Eigen::Matrix3d> five_materials()
 /// The stress (a n):A:(a n) over many directions of both.
 double searched(const Eigen::Matrix4d &A, const int n_directions)
 {
-  constexpr double pi = 3.14159265358979323846;
-  double least        = std::numeric_limits<double>::infinity();
+  double least = std::numeric_limits<double>::infinity();
   for (int i = 0; i < n_directions; ++i)
     for (int j = 0; j < n_directions; ++j)
     {
-      const double n = pi * i / n_directions, a = pi * j / n_directions;
+      const double n = M_PI * i / n_directions, a = M_PI * j / n_directions;
       Eigen::Vector4d wave;
       wave << std::cos(a) * std::cos(n), std::cos(a) * std::sin(n), std::sin(a) * std::cos(n),
         std::sin(a) * std::sin(n);

@@ -29,11 +29,6 @@ std::vector<homogenization::Phase> without_poisson()
           homogenization::isotropic("hard", 40., 0., 1., 1.)};
 }
 
-int everywhere_the_same(double, double)
-{
-  return 0;
-}
-
 ReferenceStep solved(const meshes::Sheet &sheet, const std::vector<Eigen::Matrix3d> &stiffness,
                      const Load &load, const unsigned int order = 1)
 {
@@ -131,8 +126,8 @@ Eigen::RowVector2d traction(const EquilibratedSheet &stress, const meshes::Sheet
 
 TEST(exact_energies, a_sheet_without_transverse_contraction_has_a_known_energy_on_both_sides)
 {
-  const UnitCell cell =
-    tests::cell_of(tests::square_lattice(0.01), 3, 4, without_poisson(), everywhere_the_same);
+  const UnitCell cell       = tests::cell_of(tests::square_lattice(0.01), 3, 4, without_poisson(),
+                                             tests::everywhere_the_same);
   const meshes::Sheet sheet = meshes::tile(cell.mesh, cell.lattice, 3, 2);
   const auto stiffness      = cell.stiffness_of_phase();
   for (const char *name : {"strip-1", "strip-2"})
@@ -301,9 +296,9 @@ TEST(order_energies, the_gap_closes_as_the_corners_of_clamped_and_free_edges_all
 {
   // Both energies converge with the order 2 lambda of the corner, the displacement's with at most
   // 2 of P1: the order of the gap lies between.
-  const UnitCell cell =
-    tests::cell_of(tests::square_lattice(0.01), 4, 4,
-                   {homogenization::isotropic("cloth", 1., 0.3, 1., 1.)}, everywhere_the_same);
+  const UnitCell cell       = tests::cell_of(tests::square_lattice(0.01), 4, 4,
+                                             {homogenization::isotropic("cloth", 1., 0.3, 1., 1.)},
+                                             tests::everywhere_the_same);
   const meshes::Sheet sheet = meshes::tile(cell.mesh, cell.lattice, 2, 2);
   const double slowest      = 2. * exponent_of_clamped_corner(0.3);
   EXPECT_NEAR(slowest, 1.517, 2e-3);

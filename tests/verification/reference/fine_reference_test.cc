@@ -20,25 +20,15 @@ std::vector<homogenization::Phase> one_phase()
 {
   return {{"yarn", 1e3, 3e2, 0.3, 2e2, 25., 1., 1.}};
 }
-
-int everywhere_the_same(double, double)
-{
-  return 0;
-}
-
-meshes::HomogenizedCell homogenized(const UnitCell &cell)
-{
-  return homogenization::homogenized_cell(cell, tests::solved(cell), "test");
-}
 } // namespace
 
 TEST(exact_fine_reference, a_homogeneous_sheet_moves_like_the_coarse_cloth_on_the_same_mesh)
 {
   // Two codes that share nothing: deal.II with the law of verification, and the shell's element.
   const UnitCell cell =
-    tests::cell_of(tests::square_lattice(0.01), 1, 1, one_phase(), everywhere_the_same);
+    tests::cell_of(tests::square_lattice(0.01), 1, 1, one_phase(), tests::everywhere_the_same);
   const meshes::Sheet sheet               = meshes::tile(cell.mesh, cell.lattice, 8, 8);
-  const meshes::HomogenizedCell as_itself = homogenized(cell);
+  const meshes::HomogenizedCell as_itself = tests::homogenized(cell);
   for (const char *name : {"strip-1", "strip-2", "shear-frame"})
     for (const Law law : {Law::linear, Law::biot})
     {
@@ -69,7 +59,7 @@ TEST(exact_fine_reference, stripes_stretched_along_their_axes_are_localized_with
       FineReference reference(sheet, cell.stiffness_of_phase(), options, MPI_COMM_SELF);
       reference.start(load, Law::biot);
       const ReferenceStep fine        = reference.advance(0.2);
-      const meshes::HomogenizedCell h = homogenized(cell);
+      const meshes::HomogenizedCell h = tests::homogenized(cell);
       LightweightCloth cloth(h, sheet, load);
       const meshes::Points upsampled =
         cloth.upsample(Method("localized"), Law::biot, cloth.solve(Law::biot, 0.2).positions)
@@ -92,7 +82,7 @@ TEST(order_fine_reference, the_localized_error_of_periodic_loads_falls_as_strain
   const UnitCell cell = tests::cell_of(tests::square_lattice(0.01), 8, 8, tests::soft_and_hard(),
                                        tests::square_inclusion);
   const meshes::Sheet sheet       = meshes::tile(cell.mesh, cell.lattice, 1, 1);
-  const meshes::HomogenizedCell h = homogenized(cell);
+  const meshes::HomogenizedCell h = tests::homogenized(cell);
   for (const char *name : {"periodic-11", "periodic-22", "periodic-12"})
   {
     const Load load(name);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "meshes/plain/errors.h"
 #include "shell/membrane/corotational_energy.h"
+#include "tests/verification/reference/law_cases.h"
 #include "verification/reference/laws.h"
 
 #include <Eigen/Eigenvalues>
@@ -11,16 +12,10 @@
 
 using namespace homespun;
 using namespace homespun::verification;
+using homespun::tests::some_stiffness;
 
 namespace
 {
-Eigen::Matrix3d anisotropic()
-{
-  Eigen::Matrix3d C;
-  C << 5., 1.1, 0.4, 1.1, 2., -0.3, 0.4, -0.3, 0.9;
-  return C;
-}
-
 Eigen::Matrix2d some_gradient()
 {
   Eigen::Matrix2d F;
@@ -53,7 +48,7 @@ double observed_order(Remainder &&remainder)
 
 TEST(derivative_laws, stress_and_tangent_leave_remainders_of_order_two_and_three)
 {
-  const Eigen::Matrix3d C         = anisotropic();
+  const Eigen::Matrix3d C         = some_stiffness();
   const Eigen::Vector4d direction = Eigen::Vector4d(0.7, -0.5, 0.9, 0.4);
   for (const Law law : {Law::biot, Law::green, Law::yarn})
   {
@@ -80,8 +75,8 @@ TEST(exact_laws, biot_is_the_energy_of_the_right_stretch)
   const Eigen::Matrix2d U = eigen.eigenvectors() * eigen.eigenvalues().cwiseSqrt().asDiagonal() *
                             eigen.eigenvectors().transpose();
   const Eigen::Vector3d strain(U(0, 0) - 1., U(1, 1) - 1., 2. * U(0, 1));
-  EXPECT_NEAR(response(Law::biot, anisotropic(), F).energy,
-              0.5 * strain.dot(anisotropic() * strain), 1e-15);
+  EXPECT_NEAR(response(Law::biot, some_stiffness(), F).energy,
+              0.5 * strain.dot(some_stiffness() * strain), 1e-15);
 }
 
 TEST(exact_laws, biot_equals_the_element_of_the_coarse_cloth_which_is_written_apart)
@@ -90,9 +85,9 @@ TEST(exact_laws, biot_equals_the_element_of_the_coarse_cloth_which_is_written_ap
     for (const double stretch : {0.6, 1., 1.4})
     {
       const Eigen::Matrix2d F = rotation(angle) * (stretch * some_gradient());
-      const Response here     = response(Law::biot, anisotropic(), F);
-      EXPECT_NEAR(shell::energy_density<2>(F, anisotropic()), here.energy, 1e-13);
-      const Eigen::Matrix2d gradient = shell::energy_gradient<2>(F, anisotropic());
+      const Response here     = response(Law::biot, some_stiffness(), F);
+      EXPECT_NEAR(shell::energy_density<2>(F, some_stiffness()), here.energy, 1e-13);
+      const Eigen::Matrix2d gradient = shell::energy_gradient<2>(F, some_stiffness());
       EXPECT_LT((gradient - matrix_of(here.stress)).cwiseAbs().maxCoeff(), 1e-12);
     }
 }
@@ -102,22 +97,23 @@ TEST(invariant_laws, finite_rotations_change_no_energy_but_that_of_linear)
   const Eigen::Matrix2d F = some_gradient();
   for (const Law law : {Law::biot, Law::green, Law::yarn})
   {
-    const double energy = response(law, anisotropic(), F).energy;
+    const double energy = response(law, some_stiffness(), F).energy;
     for (const double angle : {0.1, 1.5, 3.1})
-      EXPECT_NEAR(response(law, anisotropic(), rotation(angle) * F).energy, energy, 1e-13 * energy)
+      EXPECT_NEAR(response(law, some_stiffness(), rotation(angle) * F).energy, energy,
+                  1e-13 * energy)
         << name_of(law);
-    const Response at_rest = response(law, anisotropic(), rotation(2.));
+    const Response at_rest = response(law, some_stiffness(), rotation(2.));
     EXPECT_LT(at_rest.stress.cwiseAbs().maxCoeff(), 1e-15) << name_of(law);
   }
-  EXPECT_GT(response(Law::linear, anisotropic(), rotation(0.5)).energy, 0.01);
+  EXPECT_GT(response(Law::linear, some_stiffness(), rotation(0.5)).energy, 0.01);
 }
 
 TEST(exact_laws, all_laws_share_the_tangent_at_rest)
 {
   const Eigen::Matrix4d linear =
-    response(Law::linear, anisotropic(), Eigen::Matrix2d::Identity()).tangent;
+    response(Law::linear, some_stiffness(), Eigen::Matrix2d::Identity()).tangent;
   for (const Law law : all_laws())
-    EXPECT_LT((response(law, anisotropic(), Eigen::Matrix2d::Identity()).tangent - linear)
+    EXPECT_LT((response(law, some_stiffness(), Eigen::Matrix2d::Identity()).tangent - linear)
                 .cwiseAbs()
                 .maxCoeff(),
               1e-14)
@@ -128,13 +124,13 @@ TEST(bound_laws, the_positive_part_of_a_tangent_is_positive_and_keeps_a_positive
 {
   Eigen::Matrix2d squeezed = Eigen::Matrix2d::Identity();
   squeezed(0, 0)           = 0.4;
-  const Eigen::Matrix4d A  = response(Law::green, anisotropic(), squeezed).tangent;
+  const Eigen::Matrix4d A  = response(Law::green, some_stiffness(), squeezed).tangent;
   const auto smallest      = [](const Eigen::Matrix4d &m)
   { return Eigen::SelfAdjointEigenSolver<Eigen::Matrix4d>(m).eigenvalues()(0); };
   EXPECT_LT(smallest(A), -0.1);
   EXPECT_GT(smallest(positive_part(A)), -1e-14);
   const Eigen::Matrix4d B =
-    response(Law::green, anisotropic(), 1.1 * Eigen::Matrix2d::Identity()).tangent;
+    response(Law::green, some_stiffness(), 1.1 * Eigen::Matrix2d::Identity()).tangent;
   EXPECT_LT((positive_part(B) - B).cwiseAbs().maxCoeff(), 1e-13);
 }
 

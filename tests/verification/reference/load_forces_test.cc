@@ -31,11 +31,6 @@ UnitCell homogeneous(const double nu)
                         [](double, double) { return 0; });
 }
 
-meshes::HomogenizedCell homogenized(const UnitCell &cell)
-{
-  return homogenization::homogenized_cell(cell, tests::solved(cell), "test");
-}
-
 ReferenceOptions of_order(const unsigned int order, const unsigned int refine = 0)
 {
   ReferenceOptions options;
@@ -107,7 +102,7 @@ TEST(derivative_load_forces, of_the_coarse_cloth_are_those_of_its_energy)
   {
     const UnitCell cell =
       inclusion(is_skewed ? tests::skewed_lattice() : tests::square_lattice(side));
-    const meshes::HomogenizedCell as_one = homogenized(cell);
+    const meshes::HomogenizedCell as_one = tests::homogenized(cell);
     for (const std::string &name : Load::names())
     {
       const Load load(name);
@@ -139,7 +134,7 @@ TEST(exact_load_forces, of_a_uniform_strip_are_those_of_the_closed_form_coarse_a
 {
   const UnitCell cell                  = homogeneous(0.);
   const meshes::Sheet sheet            = meshes::tile(cell.mesh, cell.lattice, 4, 3);
-  const meshes::HomogenizedCell as_one = homogenized(cell);
+  const meshes::HomogenizedCell as_one = tests::homogenized(cell);
   for (const char *name : {"strip-1", "strip-2"})
     for (const Law law : {Law::linear, Law::biot})
     {
@@ -164,7 +159,7 @@ TEST(exact_load_forces, of_a_homogeneous_infinite_cloth_are_those_of_hookes_law)
 {
   const UnitCell cell                  = homogeneous(0.3);
   const meshes::Sheet sheet            = meshes::tile(cell.mesh, cell.lattice, 1, 1);
-  const meshes::HomogenizedCell as_one = homogenized(cell);
+  const meshes::HomogenizedCell as_one = tests::homogenized(cell);
   const Eigen::Matrix3d C              = cell.stiffness_of_phase().front();
   for (int a = 0; a < 3; ++a)
   {
@@ -192,7 +187,7 @@ TEST(exact_load_forces, of_an_infinite_cloth_are_equal_coarse_and_resolved_in_li
 {
   const UnitCell cell       = inclusion(tests::skewed_lattice());
   const meshes::Sheet sheet = meshes::tile(cell.mesh, cell.lattice, 1, 1);
-  const auto as_one         = homogenized(cell);
+  const auto as_one         = tests::homogenized(cell);
   for (const char *name : {"periodic-11", "periodic-22", "periodic-12"})
   {
     const Load load(name);
@@ -210,7 +205,7 @@ TEST(invariant_load_forces, both_clamps_balance_and_carry_the_mean_stress)
 {
   const UnitCell cell       = inclusion(tests::square_lattice(side));
   const meshes::Sheet sheet = meshes::tile(cell.mesh, cell.lattice, 3, 2);
-  const auto as_one         = homogenized(cell);
+  const auto as_one         = tests::homogenized(cell);
   for (const char *name : {"strip-1", "strip-2", "shear-frame"})
     for (const Law law : {Law::linear, Law::biot})
       for (const unsigned int order : {0u, 1u, 2u}) // 0: the coarse cloth
@@ -263,7 +258,7 @@ TEST(bound_load_forces, in_linear_theory_fall_from_affine_motion_to_refined_elem
 {
   const UnitCell cell       = inclusion(tests::square_lattice(side));
   const meshes::Sheet sheet = meshes::tile(cell.mesh, cell.lattice, 2, 2);
-  const auto as_one         = homogenized(cell);
+  const auto as_one         = tests::homogenized(cell);
   for (const char *name : {"strip-1", "strip-2", "shear-frame"})
   {
     const Load load(name);

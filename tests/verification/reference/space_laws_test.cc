@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "shell/membrane/corotational_energy.h"
+#include "tests/verification/reference/law_cases.h"
 #include "verification/reference/space_laws.h"
 
 #include <Eigen/Eigenvalues>
@@ -11,17 +12,11 @@
 
 using namespace homespun;
 using namespace homespun::verification;
+using homespun::tests::some_stiffness;
 
 namespace
 {
-Eigen::Matrix3d anisotropic()
-{
-  Eigen::Matrix3d C;
-  C << 5., 1.1, 0.4, 1.1, 2., -0.3, 0.4, -0.3, 0.9;
-  return C;
-}
-
-SpaceGradient some_gradient()
+SpaceGradient gradient_in_space()
 {
   SpaceGradient F;
   F << 1.12, 0.31, -0.18, 0.93, 0.4, -0.2;
@@ -44,7 +39,7 @@ Eigen::Matrix3d some_rotation(const double angle)
   return Eigen::AngleAxisd(angle, Eigen::Vector3d(1., -2., 0.5).normalized()).toRotationMatrix();
 }
 
-SpaceGradient matrix_of(const Eigen::Matrix<double, 6, 1> &entries)
+SpaceGradient gradient_of(const Eigen::Matrix<double, 6, 1> &entries)
 {
   SpaceGradient F;
   for (int a = 0; a < 3; ++a)
@@ -54,7 +49,7 @@ SpaceGradient matrix_of(const Eigen::Matrix<double, 6, 1> &entries)
 
 /// The order at which a remainder falls when the step is halved, over six halvings.
 template <typename Remainder>
-double observed_order(Remainder &&remainder)
+double order_in_space(Remainder &&remainder)
 {
   return std::log2(remainder(0.004) / remainder(0.004 / 64.)) / 6.;
 }
@@ -67,25 +62,25 @@ double smallest_eigenvalue(const SpaceTangent &A)
 
 TEST(derivative_space_laws, stress_and_tangent_leave_remainders_of_order_two_and_three)
 {
-  const Eigen::Matrix3d C = anisotropic();
+  const Eigen::Matrix3d C = some_stiffness();
   Eigen::Matrix<double, 6, 1> direction;
   direction << 0.7, -0.5, 0.9, 0.4, -0.3, 0.8;
   for (const Law law : {Law::biot, Law::green, Law::yarn})
-    for (const SpaceGradient &F : {some_gradient(), squeezed()})
+    for (const SpaceGradient &F : {gradient_in_space(), squeezed()})
     {
       const SpaceResponse at = space_response(law, C, F, Tangent::exact);
       const auto energy      = [&](const double step)
       {
-        return space_response(law, C, F + matrix_of(step * direction), Tangent::none).energy -
+        return space_response(law, C, F + gradient_of(step * direction), Tangent::none).energy -
                at.energy;
       };
-      const double slope = (at.stress.array() * matrix_of(direction).array()).sum();
+      const double slope = (at.stress.array() * gradient_of(direction).array()).sum();
       const double curve = direction.dot(at.tangent * direction);
       const auto first   = [&](const double s) { return std::abs(energy(s) - s * slope); };
       const auto second  = [&](const double s)
       { return std::abs(energy(s) - s * slope - 0.5 * s * s * curve); };
-      EXPECT_NEAR(observed_order(first), 2., 0.1) << name_of(law);
-      EXPECT_NEAR(observed_order(second), 3., 0.1) << name_of(law);
+      EXPECT_NEAR(order_in_space(first), 2., 0.1) << name_of(law);
+      EXPECT_NEAR(order_in_space(second), 3., 0.1) << name_of(law);
       EXPECT_LT((at.tangent - at.tangent.transpose()).cwiseAbs().maxCoeff(), 1e-13);
     }
 }
@@ -95,10 +90,10 @@ TEST(exact_space_laws, a_sheet_in_the_plane_responds_as_the_laws_in_the_plane)
   // Two derivations: there by the angle of the rotation, here by the square root of the metric.
   for (const Law law : {Law::biot, Law::green, Law::yarn})
   {
-    SpaceGradient F     = some_gradient();
+    SpaceGradient F     = gradient_in_space();
     F.row(2)            = Eigen::RowVector2d::Zero();
-    const auto in_space = space_response(law, anisotropic(), F, Tangent::exact);
-    const auto in_plane = response(law, anisotropic(), F.topRows<2>());
+    const auto in_space = space_response(law, some_stiffness(), F, Tangent::exact);
+    const auto in_plane = response(law, some_stiffness(), F.topRows<2>());
     EXPECT_NEAR(in_space.energy, in_plane.energy, 1e-15);
     for (int a = 0; a < 2; ++a)
       for (int i = 0; i < 2; ++i)
@@ -115,13 +110,13 @@ TEST(exact_space_laws, a_sheet_in_the_plane_responds_as_the_laws_in_the_plane)
 
 TEST(exact_space_laws, biot_in_space_equals_the_element_of_the_coarse_cloth_which_is_written_apart)
 {
-  for (const SpaceGradient &F : {some_gradient(), squeezed()})
+  for (const SpaceGradient &F : {gradient_in_space(), squeezed()})
   {
-    const auto here = space_response(Law::biot, anisotropic(), F, Tangent::exact);
-    EXPECT_NEAR(shell::energy_density<3>(F, anisotropic()), here.energy, 1e-14);
-    EXPECT_LT((shell::energy_gradient<3>(F, anisotropic()) - here.stress).cwiseAbs().maxCoeff(),
+    const auto here = space_response(Law::biot, some_stiffness(), F, Tangent::exact);
+    EXPECT_NEAR(shell::energy_density<3>(F, some_stiffness()), here.energy, 1e-14);
+    EXPECT_LT((shell::energy_gradient<3>(F, some_stiffness()) - here.stress).cwiseAbs().maxCoeff(),
               1e-13);
-    const shell::GradientHessian<3> there = shell::energy_hessian<3>(F, anisotropic());
+    const shell::GradientHessian<3> there = shell::energy_hessian<3>(F, some_stiffness());
     for (int a = 0; a < 6; ++a)
       for (int b = 0; b < 6; ++b) // there the entries of F stand column by column
         EXPECT_NEAR(there(3 * (a % 2) + a / 2, 3 * (b % 2) + b / 2), here.tangent(a, b), 1e-12);
@@ -132,14 +127,15 @@ TEST(invariant_space_laws, rotations_in_space_change_no_energy_and_rigid_motion_
 {
   for (const Law law : {Law::biot, Law::green, Law::yarn})
   {
-    const auto at = space_response(law, anisotropic(), some_gradient(), Tangent::exact);
+    const auto at = space_response(law, some_stiffness(), gradient_in_space(), Tangent::exact);
     for (const double angle : {0.3, 1.7, 3.1})
     {
       const Eigen::Matrix3d R = some_rotation(angle);
-      const auto turned = space_response(law, anisotropic(), R * some_gradient(), Tangent::exact);
+      const auto turned =
+        space_response(law, some_stiffness(), R * gradient_in_space(), Tangent::exact);
       EXPECT_NEAR(turned.energy, at.energy, 1e-14);
       EXPECT_LT((turned.stress - R * at.stress).cwiseAbs().maxCoeff(), 1e-14);
-      const auto at_rest = space_response(law, anisotropic(), R.leftCols<2>(), Tangent::none);
+      const auto at_rest = space_response(law, some_stiffness(), R.leftCols<2>(), Tangent::none);
       EXPECT_LT(at_rest.stress.cwiseAbs().maxCoeff(), 2e-15) << name_of(law);
     }
   }
@@ -149,8 +145,8 @@ TEST(bound_space_laws, the_positive_tangent_is_positive_and_is_the_exact_one_whe
 {
   for (const Law law : {Law::biot, Law::green, Law::yarn})
   {
-    const auto exact    = space_response(law, anisotropic(), squeezed(), Tangent::exact);
-    const auto positive = space_response(law, anisotropic(), squeezed(), Tangent::projected);
+    const auto exact    = space_response(law, some_stiffness(), squeezed(), Tangent::exact);
+    const auto positive = space_response(law, some_stiffness(), squeezed(), Tangent::projected);
     EXPECT_LT(smallest_eigenvalue(exact.tangent), -0.1) << name_of(law);
     EXPECT_GT(smallest_eigenvalue(positive.tangent), -1e-14) << name_of(law);
     // It is the positive part in the sense of eigenvalues.
@@ -161,10 +157,10 @@ TEST(bound_space_laws, the_positive_tangent_is_positive_and_is_the_exact_one_whe
     EXPECT_LT((positive.tangent - clamped).cwiseAbs().maxCoeff(), 1e-13) << name_of(law);
 
     const SpaceGradient pulled = 1.2 * some_rotation(0.5).leftCols<2>();
-    const auto stable          = space_response(law, anisotropic(), pulled, Tangent::exact);
+    const auto stable          = space_response(law, some_stiffness(), pulled, Tangent::exact);
     EXPECT_GT(smallest_eigenvalue(stable.tangent), 0.);
     EXPECT_LT(
-      (space_response(law, anisotropic(), pulled, Tangent::projected).tangent - stable.tangent)
+      (space_response(law, some_stiffness(), pulled, Tangent::projected).tangent - stable.tangent)
         .cwiseAbs()
         .maxCoeff(),
       1e-13);
@@ -182,7 +178,7 @@ TEST(bound_space_laws, collapsed_triangles_give_finite_answers)
         F(1, 1)         = across;
         for (const Tangent tangent : {Tangent::exact, Tangent::projected})
         {
-          const auto at = space_response(law, anisotropic(), F, tangent);
+          const auto at = space_response(law, some_stiffness(), F, tangent);
           EXPECT_TRUE(std::isfinite(at.energy));
           EXPECT_TRUE(at.stress.allFinite());
           EXPECT_TRUE(at.tangent.allFinite());

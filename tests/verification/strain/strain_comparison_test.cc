@@ -16,12 +16,12 @@ using namespace homespun::verification;
 
 namespace
 {
-constexpr double side = 0.01, strain = 0.01;
+constexpr double cell_side = 0.01, small_strain = 0.01;
 
 /// Stripes of contrast 10 along the first axis.
 homogenization::UnitCell stripes()
 {
-  return tests::cell_of(tests::square_lattice(side), 4, 4,
+  return tests::cell_of(tests::square_lattice(cell_side), 4, 4,
                         {homogenization::isotropic("soft", 1e6, 0.3, 5e-4, 1.),
                          homogenization::isotropic("hard", 1e7, 0.3, 5e-4, 1.)},
                         [](double, const double y) { return y > 0.5; });
@@ -44,7 +44,7 @@ struct Level
     options.methods    = std::move(methods);
     options.references = {"biot"};
     options.loads      = {load.name};
-    options.strains    = {strain};
+    options.strains    = {small_strain};
     options.output     = folder.path;
     options.budget = options.run_time = false;
     std::filesystem::create_directory(folder.path + "/" + cell.name);
@@ -55,11 +55,11 @@ struct Level
   {
     StrainOutput output(options, [&](const std::string &note) { notes.push_back(note); });
     MethodOnSheet method = method_on_sheet(options, cell, homogenized, edges, sheet, load);
-    const shell::Positions<2> coarse = method.cloth.solve(Law::biot, strain).positions;
+    const shell::Positions<2> coarse = method.cloth.solve(Law::biot, small_strain).positions;
     ReferenceStep fine;
     fine.positions = method.cloth.upsample(Method("affine"), Law::biot, coarse).positions;
     fine.positions.rowwise() += away;
-    compare_methods(options, {cell.name, load.name, Law::biot, strain},
+    compare_methods(options, {cell.name, load.name, Law::biot, small_strain},
                     {sheet, fine, 0, 1, {}, Stability::every_triangle, 0.}, method, load, output);
     rows = output.strain_rows();
   }

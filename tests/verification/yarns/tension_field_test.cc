@@ -3,6 +3,7 @@
 // written apart; its derivatives; what a solver adds; which triangles it relaxes.
 #include "meshes/plain/yarn_axes.h"
 #include "shell/membrane/tension_field.h"
+#include "tests/verification/reference/law_cases.h"
 #include "verification/laws/ellipticity.h"
 #include "verification/laws/worst_triangle.h"
 #include "verification/reference/space_laws.h"
@@ -18,17 +19,11 @@
 
 using namespace homespun;
 using meshes::yarn_axes;
+using tests::orthotropic;
 using namespace homespun::verification;
 
 namespace
 {
-Eigen::Matrix3d orthotropic(const double E1, const double E2, const double nu12, const double G12)
-{
-  Eigen::Matrix3d compliance;
-  compliance << 1. / E1, -nu12 / E1, 0., -nu12 / E1, 1. / E2, 0., 0., 0., 1. / G12;
-  return compliance.inverse();
-}
-
 /// Yarns of a weave, two fabrics, and a stiffness with couplings [N/m].
 std::vector<Eigen::Matrix3d> some_stiffnesses()
 {

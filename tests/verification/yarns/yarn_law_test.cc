@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The law of yarns: its axes, its formula, where it is elliptic.
 #include "shell/membrane/yarn_energy.h"
+#include "tests/verification/reference/law_cases.h"
 #include "verification/laws/ellipticity.h"
 #include "verification/laws/first_loss.h"
 #include "verification/reference/space_laws.h"
@@ -16,17 +17,11 @@
 using namespace homespun;
 using meshes::yarn_axes;
 using meshes::YarnAxes;
+using tests::orthotropic;
 using namespace homespun::verification;
 
 namespace
 {
-Eigen::Matrix3d orthotropic(const double E1, const double E2, const double nu12, const double G12)
-{
-  Eigen::Matrix3d compliance;
-  compliance << 1. / E1, -nu12 / E1, 0., -nu12 / E1, 1. / E2, 0., 0., 0., 1. / G12;
-  return compliance.inverse();
-}
-
 /// A stiffness in axes turned by an angle, as tensor components from a sum over all indices.
 Eigen::Matrix3d turned(const Eigen::Matrix3d &C, const double angle)
 {

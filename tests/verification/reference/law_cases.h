@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MIT
+// What the tests of laws in the plane and in space share.
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/LU>
+
+namespace homespun::tests
+{
+/// Without a symmetry (3,3) [N/m].
+inline Eigen::Matrix3d some_stiffness()
+{
+  Eigen::Matrix3d C;
+  C << 5., 1.1, 0.4, 1.1, 2., -0.3, 0.4, -0.3, 0.9;
+  return C;
+}
+
+/// @param E1,E2,G12 [N/m]
+/// @param nu12 contraction across over stretch along, of a pull along axis 1
+inline Eigen::Matrix3d orthotropic(const double E1, const double E2, const double nu12,
+                                   const double G12)
+{
+  Eigen::Matrix3d compliance;
+  compliance << 1. / E1, -nu12 / E1, 0., -nu12 / E1, 1. / E2, 0., 0., 0., 1. / G12;
+  return compliance.inverse();
+}
+} // namespace homespun::tests
