@@ -23,15 +23,17 @@ struct KnownMethod
 };
 
 constexpr auto quadratic = CoarseEnergy::quadratic, cubic = CoarseEnergy::cubic;
+constexpr const char *first_order = "first-order";
 constexpr auto three = CoarseElement::three_nodes, six = CoarseElement::six_nodes;
 
-constexpr std::array<KnownMethod, 10> known_methods = {
+constexpr std::array<KnownMethod, 11> known_methods = {
   {{"affine", {quadratic, three}, false},
    {"localized", {quadratic, three}, false},
    {"quadratic", {cubic, three}, false},
    {"edges", {quadratic, three}, true},
    {"p2", {quadratic, six}, false},
    {"full", {cubic, six}, true},
+   {first_order, {quadratic, six}, true},
    {"fitted", {cubic, three}, false, true},
    {"localized-affine-lift", {quadratic, three}, false},
    {"localized-mean-anchor", {quadratic, three}, false},
@@ -113,6 +115,8 @@ bool Method::has_meaning(const Law law) const
 {
   if (has_fitted)
     return has_fitted_modes(law);
+  if (name == first_order)
+    return is_of_yarns(law);
   if (is_of_second_order())
     return is_of_second_order(law) || (name == "full" && law == Law::linear);
   return law != Law::linear || name != "localized-affine-lift";

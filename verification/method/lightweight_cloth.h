@@ -47,6 +47,8 @@ struct CoarseChoice
 /// - edges: as edge_terms.h says
 /// - p2: localized, from a coarse cloth of six-node triangles with the same vertices
 /// - full: p2, quadratic and edges in one
+/// - first-order: p2 and edges in one, against laws of yarns, whose second order reaches tenths of
+///   a per cent
 /// - fitted: a variant of quadratic for large strains, its modes fitted over a box of them
 ///   (mode_fit.h); beyond the box those at its border. Under yarn the
 ///   coarse cloth has C^H alone
@@ -62,8 +64,8 @@ public:
   /// The options against a law: the linear one takes the linear strain and no lift.
   localization::UpsamplerOptions options(Law law) const;
 
-  /// Whether the method differs from `localized` under a law: a lift and a second order have no
-  /// meaning in linear theory.
+  /// Whether the method says something of its own under a law: a lift and a second order have no
+  /// meaning in linear theory, and `first-order` is for laws of yarns.
   bool has_meaning(Law law) const;
 
   /// Whether the coarse cloth has a cubic energy, against a law that has one.

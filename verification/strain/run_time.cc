@@ -216,7 +216,8 @@ private:
     const CoarseChoice choice = method.coarse(Law::biot);
     const bool is_plain       = !(CoarseChoice() < choice) && !method.has_edge_terms();
     if (is_plain || (method.has_edge_terms() && options.edges == nullptr) ||
-        method.has_fitted_modes() || !CoarseSpace::fits(sheet, choice.element))
+        method.has_fitted_modes() || !method.has_meaning(Law::biot) ||
+        !CoarseSpace::fits(sheet, choice.element))
       return;
     const std::string way = method.name + "-" + std::to_string(sheet.n1);
     tell(way);

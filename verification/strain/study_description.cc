@@ -51,9 +51,15 @@ nlohmann::ordered_json what_was_left_out(const StrainStudyOptions &options)
   if (has(options.references, "linear"))
     for (const std::string &method : options.methods)
       if (!Method(method).has_meaning(Law::linear))
-        left_out(method + " against the linear reference", Method(method).is_of_second_order()
-                                                             ? "linear theory has no second order"
-                                                             : "linear theory knows no lift");
+        left_out(method + " against the linear reference",
+                 Method(method).is_of_second_order() ? "linear theory has no second order"
+                 : Method(method).has_edge_terms()   ? "there `full` is the same"
+                                                     : "linear theory knows no lift");
+  for (const char *law : {"biot", "green"})
+    if (has(options.references, law))
+      for (const std::string &method : options.methods)
+        if (!Method(method).has_meaning(law_of(law)))
+          left_out(method + " against the reference " + law, "there `full` is more");
   if (has(options.references, "yarn-tension"))
     for (const std::string &method : options.methods)
       if (!Method(method).has_meaning(Law::yarn_tension))

@@ -99,6 +99,25 @@ class Edges(InFolder):
         self.assertTrue(any(row["what"].startswith("edges under periodic")
                             for row in json.loads((output / "study.json").read_text())["left_out"]))
 
+    def test_a_weave_has_p2_and_edges_in_one_and_pages_speak_of_it(self):
+        output = self.folder / "out"
+        result = run("strain", CELLS / "twill.prm", "--quick", "--loads", "strip-1,shear-frame",
+                     "--references", "yarn,biot", "--strains", "0.001", "--methods",
+                     "localized,edges,p2,first-order", "--no-budget", "--no-runtime", "--no-report",
+                     "--output", output)
+        self.assertIn(result.returncode, (0, 4), result.stderr)
+        error = {(row["load"], row["reference"], row["method"]): float(row["error_mean_m"])
+                 for row in rows_of(output / "strain.csv")}
+        for load in ("strip-1", "shear-frame"):
+            self.assertNotIn((load, "biot", "first-order"), error)
+            for less in ("edges", "p2"):
+                self.assertLess(error[load, "yarn", "first-order"], error[load, "yarn", less], load)
+        self.assertEqual({row["method"] for row in rows_of(output / "validity.csv")
+                          if row["reference"] == "yarn"}, {"localized", "first-order"})
+        self.assertIn({"what": "first-order against the reference biot",
+                       "why": "there `full` is more"},
+                      json.loads((output / "study.json").read_text())["left_out"])
+
     def test_an_odd_number_of_cells_has_no_six_node_triangles_and_says_so(self):
         output = self.folder / "out"
         result = run("strain", CELLS / "layered.prm", "--quick", "--cells", "3", "--loads",

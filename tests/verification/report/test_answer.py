@@ -107,7 +107,8 @@ class SentenceTest(unittest.TestCase):
             self.assertEqual(main_method(methods, "biot"), main, methods)
 
     def test_against_yarn_no_page_speaks_of_second_order(self):
-        for methods, main in ((("localized", "edges", "quadratic", "full"), "edges"),
+        for methods, main in ((("localized", "edges", "quadratic", "full", "first-order"), "first-order"),
+                              (("localized", "edges", "quadratic", "full"), "edges"),
                               (("localized", "quadratic"), "localized")):
             self.assertEqual(main_method(methods, "yarn"), main, methods)
 

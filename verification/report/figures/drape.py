@@ -20,7 +20,7 @@ WOVEN = ("woven", "woven-tension")
 VARIANTS = (VARIANTS[0], *WOVEN, *VARIANTS[1:])
 VARIANT_COLOURS |= dict(zip(WOVEN, ("#332288", "#AA4499")))
 # Methods with coarse cloths of their own.
-METHODS = ("edges", "quadratic", "p2", "full")
+METHODS = ("edges", "quadratic", "p2", "full", "first-order")
 VARIANT_COLOURS |= {name: style.METHOD_COLOURS[name] for name in METHODS}
 REFERENCES = ("shell", "biot", "green", "yarn", "yarn-tension")
 REFERENCE_LINES = dict(zip(REFERENCES, ("--", ":", "-.", (0, (5, 1)), (0, (1, 3)))))

@@ -30,13 +30,14 @@ METHOD_COLOURS = {
     "edges": "#882255",
     "p2": "#999933",
     "full": BLACK,
+    "first-order": "#332288",
     "fitted": "#44AA99",
     "localized-affine-lift": GREEN,
     "localized-mean-anchor": ORANGE,
     "localized-piecewise": PURPLE,
 }
 COLOUR_NAMES = {"edges": "wine", "quadratic": "light blue", "p2": "olive", "full": "black",
-                "fitted": "teal"}
+                "first-order": "indigo", "fitted": "teal"}
 METHOD_LABELS = {"localized": "localized (the paper's method)"}
 SPARE_COLOURS = ("#7F7F7F", YELLOW)
 

@@ -26,6 +26,7 @@ GLOSSARY = (
     ("p2", "localized, the coarse cloth being made of triangles two cells wide whose displacements are"
      " quadratic; it has the same vertices"),
     ("full", "p2, quadratic and edges in one"),
+    ("first-order", "p2 and edges in one, for cloths of yarns, whose second order does not reach far"),
     ("fitted", "quadratic with six modes that are fitted to the fluctuations of the cell over a box"
      " of strains, for large ones; asked for by name, and the box is among the notes"),
     ("lift", "how a fine vertex is carried with the coarse cloth before χ is added; the affine lift"
