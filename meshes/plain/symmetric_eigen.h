@@ -14,14 +14,10 @@ struct SymmetricEigen
   Eigen::Matrix<double, n, n> vectors; ///< in columns, of length 1
 };
 
-/// Eigenvalues and eigenvectors of a symmetric matrix of 2, 3 or 4 rows, by QR iterations; of two
-/// rows in closed form.
+/// Eigenvalues and eigenvectors of a symmetric matrix of 2, 3 or 4 rows, by QR iterations.
 /// @param A whose lower triangle is read
 template <int n>
 SymmetricEigen<n> symmetric_eigen(const Eigen::Matrix<double, n, n> &A);
-
-template <>
-SymmetricEigen<2> symmetric_eigen<2>(const Eigen::Matrix2d &A);
 
 /// A symmetric matrix without its negative eigenvalues: itself where it has none, or is not finite.
 template <int n>

@@ -6,7 +6,7 @@
 #include "homogenization/fem/kept_multigrid.h"
 #include "verification/newton/newton.h"
 #include "verification/reference/fine_reference.h"
-#include "verification/reference/law_of_phase.h"
+#include "verification/reference/laws.h"
 
 #include <algorithm>
 #include <map>

@@ -3,7 +3,6 @@
 
 #include "meshes/plain/errors.h"
 #include "meshes/plain/symmetric_eigen.h"
-#include "verification/reference/law_of_phase.h"
 #include "verification/yarns/tension_field.h"
 #include "verification/yarns/yarn_law.h"
 

@@ -3,6 +3,7 @@
 // gradient F. Written apart from the coarse cloth's element, which one of them must equal.
 #pragma once
 
+#include "meshes/plain/yarn_axes.h"
 #include "verification/yarns/response.h"
 
 #include <Eigen/Core>
@@ -51,6 +52,29 @@ Law law_of(const std::string &name);
 /// @param C membrane stiffness (3,3) [N/m], Voigt 11, 22, 12 with engineering shear
 /// @param F deformation gradient (2,2)
 Response response(Law law, const Eigen::Matrix3d &C, const Eigen::Matrix2d &F);
+
+/// A law of one phase: response() with what does not depend on the deformation found once. The axes
+/// of yarns take longer to find than their law takes to answer.
+class LawOfPhase
+{
+public:
+  /// @param stiffness (3,3) [N/m]
+  LawOfPhase(Law law, const Eigen::Matrix3d &stiffness);
+
+  /// As response(), whose remarks hold.
+  /// @param F deformation gradient (2,2)
+  Response response(const Eigen::Matrix2d &F) const;
+
+  const Eigen::Matrix3d &stiffness() const
+  {
+    return C;
+  }
+
+private:
+  Law law;
+  Eigen::Matrix3d C;
+  meshes::YarnAxes yarns; ///< found under a law of yarns alone
+};
 
 /// The tangent with its negative eigenvalues set to zero, for Newton steps away from stability.
 Eigen::Matrix4d positive_part(const Eigen::Matrix4d &tangent);
