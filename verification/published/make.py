@@ -2,15 +2,14 @@
 """Makes the runs that README's figures come from, and the tables of them: HOMESPUN SOURCES OUTPUT
 [CELL...]
 
-The two cells of the paper and chevron at the paper's size, the others with 8 x 8 cells, because
-their meshes are finer. What is there of the same revision is taken up. Hours on two cores; CELL...
-makes those alone.
+All cells at the paper's size. What is there of the same revision is taken up. Hours on two cores;
+CELL... makes those alone.
 """
 import pathlib
 import subprocess
 import sys
 
-AT_PAPER_SIZE = ("layered", "three-stiffness", "chevron")
+CELLS_PER_SIDE = 20
 WEAVES = ("plain-weave", "satin", "twill")  # whose default law is yarn
 COMPARED = [
     "--strains",
@@ -40,9 +39,8 @@ def main(homespun, sources, output, *names):
         if names and cell.stem not in names:
             continue
         law = "yarn" if cell.stem in WEAVES else "biot"
-        size = 20 if cell.stem in AT_PAPER_SIZE else 8
         for command, options in (
-            ("strain", ["--cells", size, "--references", law, *COMPARED]),
+            ("strain", ["--cells", CELLS_PER_SIDE, "--references", law, *COMPARED]),
             ("homogenize", ["--quiet"]),
         ):
             folders.append(output / cell.stem / command)
