@@ -50,10 +50,10 @@ bending_bracket_from(const Bracket &membrane,
 
 /// Brackets D^H on one mesh; where it has curved edges, the D^H of the drawing.
 ///
-/// Upper side: the plate by Clough-Tocher triangles, min 1/|Y| integral (K + kappa(w)).D.(K +
-/// kappa(w)), free rims. Lower side: moments P eps(psi) by displacements of the given order, whose
-/// total is a rigid motion on each rim. Holes that touch in a vertex turn as one there: guaranteed,
-/// but such a bracket does not close.
+/// Upper side: the plate by Clough-Tocher triangles, beside order 1 by reduced ones, min 1/|Y|
+/// integral (K + kappa(w)).D.(K + kappa(w)), free rims. Lower side: moments P eps(psi) by
+/// displacements of the given order, whose total is a rigid motion on each rim. Holes that touch in
+/// a vertex turn as one there: guaranteed, but such a bracket does not close.
 /// @throws BadInput, NotConverged, std::logic_error as bracket()
 BendingBracket bending_bracket(const TorusMesh &mesh,
                                const std::vector<Eigen::Matrix3d> &bending_stiffness_of_material,

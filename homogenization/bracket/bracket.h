@@ -53,7 +53,9 @@ struct Bracket
 };
 
 /// Brackets C^H on one mesh; where it has curved edges, the C^H of the drawing (drawn_mesh.h).
-/// @param order of the displacement elements, 1 or 2
+/// @param order of the displacement elements, 1 or 2; beside 1 stresses are of reduced
+/// Clough-Tocher
+///   triangles, but for drawings
 /// @param holes empty, or rigid: then a drawing's holes are inscribed for the lower side and
 ///   circumscribed for the upper one
 /// @throws BadInput, NotConverged as EquilibratedStress and CompatibleStrain; std::logic_error

@@ -8,6 +8,7 @@
 #include <Eigen/LU>
 
 #include <cmath>
+#include <stdexcept>
 
 namespace homespun::homogenization
 {
@@ -74,6 +75,8 @@ EquilibratedStress::EquilibratedStress(const TorusMesh &mesh,
     , compliances(stiffness_of_material)
     , flat(std::move(flat))
 {
+  if (normal_derivatives == NormalDerivatives::linear && !this->flat.empty())
+    throw std::logic_error("flat triangles need quadratic normal derivatives");
   n_dofs = static_cast<unsigned>(numbering.number - 1);
   unknowns.setZero(numbering.number, 3);
   assemble_and_solve();
@@ -345,6 +348,10 @@ void EquilibratedStress::evaluate()
     {
       bar.row(3 * k) += 2. * meshes::epsilon * shape[at(k)].norm() * size_of_gradient;
       bar.row(9 + k) += 2. * meshes::epsilon * size_of_gradient;
+      if (normal_derivatives == NormalDerivatives::linear) // whose sum of two may cancel
+        bar.row(9 + k) += 4. * meshes::epsilon * half_normal(t, k).cwiseAbs() *
+                          (values.middleRows<2>(3 * k + 1).cwiseAbs() +
+                           values.middleRows<2>(3 * ((k + 1) % 3) + 1).cwiseAbs());
     }
     const FieldOfLoads field_bar = B.cwiseAbs() * bar;
     for (int q = 0; q < n_field_points; ++q)

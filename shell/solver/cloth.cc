@@ -138,7 +138,8 @@ std::string Cloth::why_infinite(const Vectors &positions) const
 void Cloth::check_start() const
 {
   Vectors start = x;
-  set_held(start);
+  if (options.integrator == Integrator::implicit)
+    set_held(start);
   const std::string why = why_infinite(start);
   if (why.empty())
     return;

@@ -8,10 +8,6 @@
 
 namespace homespun::verification
 {
-namespace
-{
-}
-
 Eigen::Matrix3d anisotropic()
 {
   Eigen::Matrix3d C;

@@ -96,9 +96,9 @@ void check_methods(const DrapeOptions &options, const Scene &scene,
                                   "which is not listed; expected it there: slip of clamped edges "
                                   "without tension of free ones can do harm");
   if (!edges && scene.has("selvedge"))
-    faults.push_back(scene.file +
-                     ": key `Terms` lists `selvedge`, and no method takes it; expected "
-                     "`edges` or `full` among --methods, or a scene without the term");
+    faults.push_back(
+      scene.file + ": key `Terms` lists `selvedge`, and no method takes it; expected "
+                   "`edges`, `full` or `first-order` among --methods, or a scene without the term");
   for (const std::string &name : options.methods)
   {
     const Method method(name);

@@ -205,21 +205,26 @@ LeastWave least_wave(const Eigen::Matrix4d &tangent)
 
 EllipticityOfLaw::EllipticityOfLaw(const Law law, const Eigen::Matrix3d &C)
     : law(law)
-    , C(C)
-    , at_rest(least_wave(response(law, C, Eigen::Matrix2d::Identity()).tangent).stiffness)
+    , phase(law, C)
+    , at_rest(least_wave(phase.response(Eigen::Matrix2d::Identity()).tangent).stiffness)
 {
 }
 
 double EllipticityOfLaw::at(const Eigen::Matrix2d &F) const
 {
-  const Response here = response(law, C, F);
+  const Response here = phase.response(F);
   return std::isfinite(here.energy) ? least_wave(here.tangent).stiffness / at_rest : here.energy;
 }
 
-bool EllipticityOfLaw::is_above(const Eigen::Matrix2d &F, const double bound) const
+std::optional<double> EllipticityOfLaw::at_unless_above(const Eigen::Matrix2d &F,
+                                                        const double bound) const
 {
-  const Response here = response(law, C, F);
-  return std::isfinite(here.energy) && every_wave_is_above(here.tangent, bound * at_rest);
+  const Response here = phase.response(F);
+  if (!std::isfinite(here.energy))
+    return here.energy;
+  if (every_wave_is_above(here.tangent, bound * at_rest))
+    return {};
+  return least_wave(here.tangent).stiffness / at_rest;
 }
 
 bool EllipticityOfLaw::is_lost(const double least) const
@@ -243,11 +248,11 @@ ellipticity_of_phases(const meshes::TriangleMesh &rest,
     PhaseEllipticity &p     = found[phase];
     const Eigen::Matrix2d F = meshes::deformation_gradient<2>(rest, t, positions);
     ++p.n_triangles;
-    if (!laws[phase].is_above(F, std::max(0., p.least))) // which would change nothing
+    // What lies above changes nothing.
+    if (const auto ratio = laws[phase].at_unless_above(F, std::max(0., p.least)))
     {
-      const double ratio = laws[phase].at(F);
-      p.n_lost += laws[phase].is_lost(ratio) ? 1 : 0;
-      p.least = std::min(p.least, ratio);
+      p.n_lost += laws[phase].is_lost(*ratio) ? 1 : 0;
+      p.least = std::min(p.least, *ratio);
     }
     if (law != Law::yarn_tension)
       continue;

@@ -21,6 +21,7 @@
 
 #include <Eigen/Core>
 
+#include <optional>
 #include <vector>
 
 namespace homespun::verification
@@ -59,8 +60,9 @@ public:
   /// @param F deformation gradient (2,2)
   double at(const Eigen::Matrix2d &F) const;
 
-  /// Whether at() is certainly above a bound that is not negative. Costs a tenth of at().
-  bool is_above(const Eigen::Matrix2d &F, double bound) const;
+  /// at(F), or nothing where that is certainly above a bound that is not negative: no search is
+  /// made then.
+  std::optional<double> at_unless_above(const Eigen::Matrix2d &F, double bound) const;
 
   /// Whether a value of at() is of a state that is lost: not positive; under yarn-tension, whose
   /// wrinkles have waves that cost nothing, negative by more than round-off.
@@ -68,7 +70,7 @@ public:
 
 private:
   Law law;
-  Eigen::Matrix3d C;
+  LawOfPhase phase;
   double at_rest;
 };
 

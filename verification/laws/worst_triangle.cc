@@ -22,13 +22,12 @@ WorstTriangle worst_triangle(const meshes::TriangleMesh &rest,
   {
     const EllipticityOfLaw &its = laws[static_cast<std::size_t>(rest.material(t))];
     const Eigen::Matrix2d F     = meshes::deformation_gradient<2>(rest, t, positions);
-    if (worst.triangle >= 0 && worst.least > 0. && its.is_above(F, worst.least))
-      continue;
-    const double least = its.at(F);
-    if (worst.triangle < 0 || least < worst.least)
+    const std::optional<double> least =
+      worst.triangle >= 0 && worst.least > 0. ? its.at_unless_above(F, worst.least) : its.at(F);
+    if (least && (worst.triangle < 0 || *least < worst.least))
     {
       worst.triangle = t;
-      worst.least    = least;
+      worst.least    = *least;
     }
   }
   if (worst.triangle < 0)

@@ -25,8 +25,8 @@ namespace
 {
 constexpr unsigned int most_halvings_of_level = 3; // of the way from one level to the next
 /// Steps after which a part of that way is given up that can be halved. Sheets of 20 x 20 cells
-/// that are found in one part take one to five; layered at 20 % shear stalls for fifty and is
-/// halved then.
+/// that are found in one part take one to five; layered at 20 % shear, which stalls, is halved. Of
+/// no meaning under yarn-tension, whose minimiser has a limit of its own.
 constexpr unsigned int most_steps_of_long_parts = 12;
 } // namespace
 
@@ -195,7 +195,8 @@ ReferenceStep FineReference::Solver::advance(const double strain)
     go_in_halves(law == Law::linear ? 0 : most_halvings_of_level,
                  [&](const double from, const double part)
                  {
-                   const bool can_be_halved = std::ldexp(part - from, most_halvings_of_level) > 1.;
+                   const bool can_be_halved =
+                     law != Law::linear && std::ldexp(part - from, most_halvings_of_level) > 1.;
                    most_newton_steps =
                      can_be_halved ? most_steps_of_long_parts : NewtonOptions().most_steps;
                    go_to(part == 1. ? strain : before + part * (strain - before), step);

@@ -150,8 +150,7 @@ Response response(const Law law, const Eigen::Matrix3d &C, const Eigen::Matrix2d
 
 Eigen::Matrix4d positive_part(const Eigen::Matrix4d &tangent)
 {
-  const auto eigen = meshes::symmetric_eigen<4>(tangent);
-  return eigen.vectors * eigen.values.cwiseMax(0.).asDiagonal() * eigen.vectors.transpose();
+  return meshes::positive_part<4>(tangent);
 }
 
 double steadying(const Law law, const Eigen::Matrix3d &C)

@@ -19,7 +19,6 @@ using tests::relative_difference;
 
 namespace
 {
-/// lower <= upper as quadratic forms, relative to upper.
 meshes::Lattice hexagonal_lattice()
 {
   meshes::Lattice lattice;

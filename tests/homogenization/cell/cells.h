@@ -59,13 +59,13 @@ inline homogenization::Homogenization solved(const homogenization::UnitCell &cel
   return homogenization::homogenize(cell, options, MPI_COMM_SELF);
 }
 
-/// Largest difference of entries, relative to the largest entry.
 /// The cell for up-sampling, solved as above.
 inline meshes::HomogenizedCell homogenized(const homogenization::UnitCell &cell)
 {
   return homogenization::homogenized_cell(cell, solved(cell), "test");
 }
 
+/// Largest difference of entries, relative to the largest entry.
 inline double relative_difference(const Eigen::Matrix3d &a, const Eigen::Matrix3d &b)
 {
   return (a - b).cwiseAbs().maxCoeff() / b.cwiseAbs().maxCoeff();

@@ -135,12 +135,11 @@ FAMILIES = {
     "quadratic": ("quadratic", "o", style.METHOD_COLOURS["quadratic"]),
     "p2": ("p2", "o", style.METHOD_COLOURS["p2"]),
     "full": ("full", "o", style.METHOD_COLOURS["full"]),
-    "first-order": ("first-order", "o", style.METHOD_COLOURS["first-order"]),
     "voigt": ("Voigt stiffness, localized", "^", style.PURPLE),
     "reuss": ("Reuss stiffness, localized", "v", style.PURPLE),
     "nodal": ("the paper's nodal warping, localized", "D", style.GREEN),
 }
-LADDER = ("affine", "localized", "edges", "quadratic", "p2", "full", "first-order")
+LADDER = ("affine", "localized", "edges", "quadratic", "p2", "full")
 BAR_LABEL = "error bar of the best reference"
 
 
@@ -152,7 +151,7 @@ def label_of(way):
     """What stands beside a point: the quads per side of coarse cloths, the name of the resolved
     ways.
     """
-    kind, _, detail = way.rpartition("-")
+    kind, _, detail = way.partition("-")
     return detail if kind in ("fine", *LADDER) else ""
 
 

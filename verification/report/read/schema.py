@@ -2,7 +2,7 @@
 """The tables that the program writes, as its build says them in schema.json: columns in their
 order, what each may hold, and how many of the first ones name a row.
 
-    {"format_version": 1, "methods_by_rank": {"yarn": ["edges", ...], "others": ["full", ...]},
+    {"format_version": 1, "methods_by_rank": {"yarn": ["first-order", ...], "others": ["full", ...]},
      FILE: {"keys": 5, "columns": [{"name": "strain", "domain": "positive"}, ...]}, ...}
 
 `format_version` is that of all files that this version of the program writes; the first of
