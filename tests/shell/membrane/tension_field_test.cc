@@ -7,6 +7,7 @@
 #include <Eigen/Eigenvalues>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
@@ -201,19 +202,27 @@ TYPED_TEST(derivative_tension_field, taylor_remainders_are_of_second_and_third_o
     const Eigen::Map<const Eigen::Matrix<double, 2 * dim, 1>> d(direction.data());
     const double slope     = field.gradient.cwiseProduct(direction).sum(),
                  curvature = d.dot(field.hessian * d);
+    // Energies are sums of terms of the size of C, however little the relaxed cloth resists.
+    const double rounded = 16. * std::numeric_limits<double>::epsilon() * yarns.C.norm();
     std::vector<double> steps, without_second, with_second;
     for (double h = 1. / 512.; h > 1e-4; h *= 0.5)
     {
       const double remainder =
         tension_field<dim>(DeformationGradient<dim>(F + h * direction), yarns).energy -
         field.energy - h * slope;
-      steps.push_back(h);
-      without_second.push_back(std::abs(remainder));
-      with_second.push_back(std::abs(remainder - 0.5 * h * h * curvature));
+      if (const double third = std::abs(remainder - 0.5 * h * h * curvature); third > rounded)
+      {
+        steps.push_back(h);
+        without_second.push_back(std::abs(remainder));
+        with_second.push_back(third);
+      }
     }
+    if (steps.size() < 3)
+      continue;
     ++n[field.state == TensionState::taut ? 0 : 1];
     EXPECT_NEAR(tests::slope(steps, without_second), 2., 0.15) << "case " << k;
-    EXPECT_NEAR(tests::slope(steps, with_second), 3., 0.25) << "case " << k;
+    // More where the third derivative happens to be small.
+    EXPECT_GT(tests::slope(steps, with_second), 2.75) << "case " << k;
   }
   EXPECT_GT(n[0], 5);
   EXPECT_GT(n[1], 20);
@@ -285,7 +294,8 @@ TYPED_TEST(bound_tension_field, carries_no_compression_and_its_positive_part_is_
       const auto F                     = some_gradient<dim>(generator);
       const TensionField<dim> field    = tension_field<dim>(F, yarns),
                               positive = tension_field<dim>(F, yarns, Hessian::projected);
-      const double size                = field.hessian.norm();
+      // A sum of terms of the size of C, however little is left of them.
+      const double size = std::max(field.hessian.norm(), yarns.C.norm());
       EXPECT_GE(field.energy, 0.);
       const Eigen::Vector2d stress =
         Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(second_piola<dim>(F, field.gradient))

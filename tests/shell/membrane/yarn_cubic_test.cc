@@ -80,7 +80,8 @@ TYPED_TEST(derivative_yarn_cubic, taylor_remainders_are_of_second_and_third_orde
       with_second.push_back(std::abs(remainder - 0.5 * h * h * second));
     }
     EXPECT_NEAR(tests::slope(steps, without_second), 2., 0.1) << "case " << k;
-    EXPECT_NEAR(tests::slope(steps, with_second), 3., 0.15) << "case " << k;
+    // More where the third derivative happens to be small.
+    EXPECT_GT(tests::slope(steps, with_second), 2.85) << "case " << k;
   }
   EXPECT_GT(n_trusted, 5);
   EXPECT_LT(n_trusted, 20);
