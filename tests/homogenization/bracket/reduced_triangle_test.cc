@@ -92,7 +92,7 @@ TEST(order_reduced_triangle, the_compliance_converges_as_the_stiffness_of_linear
   };
   const tests::BracketCell corners = cell_of(8);
   AdaptiveOptions narrow;
-  narrow.tolerance = 1e-5;
+  narrow.tolerance    = 1e-5;
   const Bracket found = adaptive_bracket(corners.mesh, corners.lattice, corners.stiffness, narrow,
                                          [](const Bracket &) {})
                           .bracket;
