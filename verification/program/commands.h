@@ -50,7 +50,15 @@ void add_upsample_command(CommandLine &line);
 void add_scaling_command(CommandLine &line);
 void add_benchmark_command(CommandLine &line);
 
+/// What a page saves of its figures beside their numbers.
+enum class FigureFiles
+{
+  svg,
+  with_pdf
+};
+
 /// Makes report.html from folders of results, with Debian's Python.
 /// @throws BadInput where the results cannot be read or drawn
-void make_report(const std::vector<std::string> &folders, const std::string &output, bool quiet);
+void make_report(const std::vector<std::string> &folders, const std::string &output, bool quiet,
+                 FigureFiles files = FigureFiles::svg);
 } // namespace homespun::verification

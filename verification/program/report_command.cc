@@ -42,10 +42,12 @@ int run_report_script(const std::string &name, const std::vector<std::string> &a
 }
 
 void make_report(const std::vector<std::string> &folders, const std::string &output,
-                 const bool quiet)
+                 const bool quiet, const FigureFiles files)
 {
   std::vector<std::string> arguments = folders;
   arguments.insert(arguments.end(), {"--output", output});
+  if (files == FigureFiles::with_pdf)
+    arguments.push_back("--pdf");
   if (quiet)
     arguments.push_back("--quiet");
   else
@@ -66,7 +68,7 @@ void add_report_command(CommandLine &line)
   {
     std::vector<std::string> folders;
     std::string output;
-    bool quiet = false;
+    bool pdf = false, quiet = false;
   };
   const auto arguments = std::make_shared<Arguments>();
   command
@@ -75,6 +77,8 @@ void add_report_command(CommandLine &line)
     ->required();
   command->add_option("--output", arguments->output,
                       "Folder of the report (default DIR; of several out/report)");
+  command->add_flag("--pdf", arguments->pdf,
+                    "Save each figure as PDF as well, which takes half as long again");
   command->add_flag("--quiet", arguments->quiet, "Print nothing but faults");
   command->callback(
     [&line, arguments]()
@@ -88,7 +92,8 @@ void add_report_command(CommandLine &line)
             const std::string output = !arguments->output.empty()       ? arguments->output
                                        : arguments->folders.size() == 1 ? arguments->folders[0]
                                                                         : "out/report";
-            make_report(arguments->folders, output, arguments->quiet);
+            make_report(arguments->folders, output, arguments->quiet,
+                        arguments->pdf ? FigureFiles::with_pdf : FigureFiles::svg);
             list_report(output);
             return 0;
           };

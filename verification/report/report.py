@@ -1,9 +1,9 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: MIT
-"""Makes report.html, one self-contained page, and the figures as PDF, SVG and CSV from stored
-results.
+"""Makes report.html, one self-contained page, and the figures as SVG and CSV, with --pdf as PDF
+too, from stored results.
 
-    report.py DIR [DIR...] --output FOLDER
+    report.py DIR [DIR...] --output FOLDER [--pdf]
 
 Of several cells, or of several versions of one cell, the page compares what they share.
 
@@ -11,6 +11,7 @@ Exit status: 0 the report is written; 2 the results cannot be used, one message 
 FOLDER/report.html and FOLDER/figures/ appear when all of them are complete, or not at all.
 """
 import argparse
+import contextlib
 import errno
 import os
 import shutil
@@ -29,10 +30,11 @@ from page.page_size import fitted  # noqa: E402
 from read.results import BadResults, read_results  # noqa: E402
 
 
-def write_report(folders, output, tells=False):
+def write_report(folders, output, tells=False, with_pdf=False):
     """Reads result folders and writes the report.
 
     @param tells whether a terminal shows what is drawn
+    @param with_pdf whether figures are saved as PDF as well
 
     @return the path of report.html
     @throws BadResults naming every file, line or key that is wrong
@@ -50,7 +52,7 @@ def write_report(folders, output, tells=False):
         ) from error
     try:
         sheets = sum(len(cell.field_files) for cell in results.cells.values())
-        gallery = Gallery(os.path.join(workplace, "figures"), sheets, tells)
+        gallery = Gallery(os.path.join(workplace, "figures"), sheets, tells, with_pdf)
         contents = page_contents(results, gallery, output)
         gallery.finish()
         html = render(contents)
@@ -60,8 +62,13 @@ def write_report(folders, output, tells=False):
         with open(os.path.join(workplace, "report.html"), "w", encoding="utf-8") as file:
             file.write(html)
         os.makedirs(os.path.join(output, "figures"), exist_ok=True)
-        for name in sorted(os.listdir(gallery.folder)):
+        names = sorted(os.listdir(gallery.folder))
+        for name in names:
             os.replace(os.path.join(gallery.folder, name), os.path.join(output, "figures", name))
+            pdf = name.removesuffix(".svg") + ".pdf"
+            if name.endswith(".svg") and pdf not in names:  # one of an earlier page shows other numbers
+                with contextlib.suppress(FileNotFoundError):
+                    os.remove(os.path.join(output, "figures", pdf))
         os.replace(os.path.join(workplace, "report.html"), os.path.join(output, "report.html"))
         created = False
     finally:
@@ -101,13 +108,14 @@ def main(arguments=None):
     parser.add_argument(
         "--output", required=True, metavar="FOLDER", help="where report.html and figures/ go"
     )
+    parser.add_argument("--pdf", action="store_true", help="save each figure as PDF, too")
     parser.add_argument(
         "--quiet", action="store_true", help="say nothing unless something is wrong"
     )
     options = parser.parse_args(arguments)
     try:
         tells = not options.quiet and sys.stderr.isatty()
-        path = write_report(options.folders, options.output, tells)
+        path = write_report(options.folders, options.output, tells, options.pdf)
         if tells:
             print("\r\033[K", end="", file=sys.stderr)
     except BadResults as error:

@@ -29,7 +29,7 @@ def draw_small_cloth(add_cleanup):
 def draw_alone(add_cleanup):
     """Figures are drawn and not saved until the cleanup, and are empty pictures on the page: for
     pages whose figures another test saves, made of the same results. Laying a figure out and
-    writing it in three formats takes nine tenths of the time of a page.
+    writing it takes nine tenths of the time of a page.
     """
 
     def save(_, figure, name, as_image, table, plotted):

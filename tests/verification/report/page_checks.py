@@ -48,7 +48,7 @@ def fetched(page):
 
 
 def figures_without_downloads(page, folder):
-    """Names of figures that lack a link to PDF and SVG (an animation: WebP), or whose linked file
+    """Names of figures that lack a link to SVG (an animation: WebP), or whose linked file
     is not there.
     """
     bad = []
@@ -57,7 +57,7 @@ def figures_without_downloads(page, folder):
             (os.path.splitext(href)[1], href)
             for href in re.findall(r'href="(figures/[^"]*)"', body)
         )
-        wanted = {".webp"} if ".webp" in links else {".pdf", ".svg"}
+        wanted = {".webp"} if ".webp" in links else {".svg"}
         if body.find('class="plot-data"') > 0:
             wanted.add(".csv")
         if not wanted <= set(links) or not all(

@@ -178,7 +178,7 @@ class ConvergencePage(PageTest):
         for study in converge_results.STUDIES:
             self.assertIn(f'id="converge-{study}"', page)
             self.assertTrue(
-                os.path.isfile(os.path.join(self.output, "figures", f"converge-{study}.pdf"))
+                os.path.isfile(os.path.join(self.output, "figures", f"converge-{study}.svg"))
             )
         self.assertIn("6 of 8 observed orders lie within their limits, 1 outside, 1 is open.", page)
         self.assertIn("3.00 ± 0.10", page)  # a two-sided limit

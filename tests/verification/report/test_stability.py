@@ -113,7 +113,7 @@ class StabilityPage(PageTest):
         self.assertIn("followed to an equilibrium with 2.40 % less energy", page)
         self.assertIn("stable, up to the mesh", page)
         name = "stability-stripes-biot-uniaxial-1"
-        self.assertTrue(os.path.isfile(os.path.join(self.output, "figures", f"{name}.pdf")))
+        self.assertTrue(os.path.isfile(os.path.join(self.output, "figures", f"{name}.svg")))
 
     def test_a_path_without_loss_holds_up_to_the_mesh(self):
         def held(rows):

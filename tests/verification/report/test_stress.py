@@ -36,7 +36,7 @@ class StressPageTest(PageTest):
         page = self.page()
         for name in ("stress-margins", "stress-solver-iterations", "stress-solver-seconds"):
             self.assertIn(f'id="{name}"', page)
-            self.assertTrue(os.path.isfile(os.path.join(self.output, "figures", name + ".pdf")))
+            self.assertTrue(os.path.isfile(os.path.join(self.output, "figures", name + ".svg")))
             self.assertEqual(
                 page_checks.nameless_numbers(os.path.join(self.output, "figures", name + ".csv")),
                 [],

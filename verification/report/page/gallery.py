@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: MIT
-"""Saves figures as PDF and SVG with their numbers as CSV, animations as WebP, and inlines them into
-the page.
+"""Saves figures as SVG, and as PDF where asked for, with their numbers as CSV, animations as WebP, and
+inlines them into the page.
 
-Laying a figure out and writing it in three formats takes most of the time of a page, and no figure
+Laying a figure out and writing it takes most of the time of a page, and no figure
 knows of another: each is saved by a process of its own, a copy of this one, as many at once as
 there are cores, while the next is drawn.
 """
@@ -27,6 +27,10 @@ from figures import plot_data
 PAD = 0.04  # inches around a figure
 PAGE_DPI = 130  # of images on the page; the saved files are finer
 SHADED_DPI = 170  # of pictures of shaded cloth, which are small files
+METADATA = {  # the same input gives the same file
+    "pdf": {"CreationDate": None, "Producer": None, "Creator": "homespun"},
+    "svg": {"Date": None, "Creator": "homespun"},
+}
 FULL_IMAGES = 6  # that the page takes at this resolution; more of them become coarser
 
 
@@ -39,7 +43,7 @@ class Picture:
     source: str  # data URI
     caption: str
     width: int  # CSS pixels
-    endings: tuple = ("pdf", "svg")  # of its files, as far as there are any
+    endings: tuple = ("svg",)  # of its files, as far as there are any
     plot: str = ""  # JSON of panels and curves, for the interactive plot
     view: str = ""  # JSON of a cloth to turn and zoom
 
@@ -106,14 +110,14 @@ def in_page(value):
 
 
 @functools.cache
-def learn_to_draw():
-    """Draws a word, a formula and a logarithmic axis into every format, for nobody: fonts, the
+def learn_to_draw(kinds):
+    """Draws a word, a formula and a logarithmic axis into these formats, for nobody: fonts, the
     grammar of formulas and the writers of files are then there in every copy of this process, which
     would each load them again.
     """
     figure, axes = pyplot.subplots(figsize=(1, 1))
     axes.set(xscale="log", xlim=(1, 10), xlabel="words", ylabel="$C^H$")
-    for kind in ("pdf", "svg", "png"):
+    for kind in kinds:
         figure.savefig(io.BytesIO(), format=kind)
     pyplot.close(figure)
 
@@ -121,15 +125,17 @@ def learn_to_draw():
 class Gallery:
     """Saves figures into a folder and keeps them as data URIs for the page."""
 
-    def __init__(self, folder, images=0, tells=False):
+    def __init__(self, folder, images=0, tells=False, with_pdf=False):
         """@param images how many images of dots will come: with many of them each is kept smaller
         @param tells whether a terminal shows what is drawn
+        @param with_pdf whether each figure is also saved as PDF, which takes a third of the time
         """
         self.tells = tells
+        self.kinds = ("pdf", "svg") if with_pdf else ("svg",)
         self.folder = folder
         self.dpi = PAGE_DPI * min(1.0, (FULL_IMAGES / max(1, images)) ** 0.5)
         os.makedirs(folder, exist_ok=True)
-        learn_to_draw()
+        learn_to_draw(self.kinds + ("png",))
         self.names = set()
         self.at_once = len(os.sched_getaffinity(0))
         self.saving = {}  # connection: process and Picture
@@ -148,8 +154,8 @@ class Gallery:
         return name
 
     def add(self, figure, name, caption, as_image=False, table=None, view=None, plotted=True):
-        """Saves `name`.pdf, `name`.svg and, of figures with numbers, `name`.csv, and closes the
-        figure.
+        """Saves `name`.svg and, of figures with numbers, `name`.csv, where asked for `name`.pdf, and
+        closes the figure.
 
         @param as_image whether the page shows an image of dots, "shaded" for a fine one of shaded
             pictures; else the SVG
@@ -198,15 +204,15 @@ class Gallery:
 
     def save(self, figure, name, as_image, table, plotted):
         """The files of a figure, and source, width, endings and plot of its Picture."""
-        figure.draw_without_rendering()  # lays the figure out, once for all formats
-        figure.set_layout_engine("none")
+        if engine := figure.get_layout_engine():
+            engine.execute(figure)  # once for all formats
+            figure.set_layout_engine(None)  # one that does nothing would draw once more per format
         box = figure.get_tightbbox().padded(PAD)
-        for kind, metadata in (
-            ("pdf", {"CreationDate": None, "Producer": None, "Creator": "homespun"}),
-            ("svg", {"Date": None, "Creator": "homespun"}),
-        ):
+        for kind in self.kinds:
             figure.savefig(
-                os.path.join(self.folder, f"{name}.{kind}"), metadata=metadata, bbox_inches=box
+                os.path.join(self.folder, f"{name}.{kind}"),
+                metadata=METADATA[kind],
+                bbox_inches=box,
             )
         if as_image:
             data = small_webp(figure, box, SHADED_DPI if as_image == "shaded" else self.dpi)
@@ -217,7 +223,7 @@ class Gallery:
                 source = Markup(svg_address(short_svg(file.read())))
         panels = None if as_image or not plotted else plot_data.panels_of(figure)
         header, rows = table or (plot_data.HEADER, [] if as_image else plot_data.rows_of(figure))
-        endings = ("pdf", "svg") + (("csv",) if rows else ())
+        endings = self.kinds + (("csv",) if rows else ())
         if rows:
             with open(os.path.join(self.folder, name + ".csv"), "w", encoding="utf-8") as file:
                 file.write(plot_data.csv_text(rows, header))
