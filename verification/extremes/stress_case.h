@@ -94,6 +94,7 @@ inline const char *const of_energy =
 
 /// The figure of most sheets that are let go, and what is expected of it.
 inline const char *const growth_of_energy = "largest growth in a step over the largest energy [-]";
+inline const char *const largest_way      = "largest way of a vertex [m]";
 inline const char *const never_grows      = "finite; the energy of the damped sheet never grows";
 
 struct StressResult

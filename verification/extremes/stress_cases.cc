@@ -16,14 +16,12 @@ using shell::Vectors;
 
 namespace
 {
-const char *const way_at_rest = "largest way of a vertex [m]";
-
 constexpr int n_steps_at_rest = 20000;
 constexpr double side         = 0.2; ///< of the sheet [m]
 
 const Derivations derivations_of_sheets = {
   {growth_of_energy, of_energy},
-  {way_at_rest,
+  {largest_way,
    "theory: a sheet at rest stays; round-off: 2.2e-16 of its side of 0.2 m in each of 20000 "
    "steps"}};
 
@@ -175,7 +173,7 @@ std::vector<StressCase> time_step_cases(const std::vector<SheetStiffness> &stiff
                          const bool settle)
   {
     group.finite("20000 steps at rest; " + name, "finite; does not drift",
-                 {n_steps_at_rest * std::numeric_limits<double>::epsilon() * side, way_at_rest},
+                 {n_steps_at_rest * std::numeric_limits<double>::epsilon() * side, largest_way},
                  [=](unsigned int) { return rest(mesh, first, held, physics, settle); });
   };
   rests("free; flat; no gravity", lying_mesh(2), {}, weightless, false);

@@ -103,8 +103,6 @@ TriangleMesh with_sliver(TriangleMesh mesh, const double height)
   return mesh;
 }
 
-constexpr const char *way = "largest way of a vertex [m]";
-
 void add_unsound(const SheetStiffness &stiffness, CaseGroup &group)
 {
   const TriangleMesh sheet = meshes::irregular_sheet(n_coarse, 0.2);
@@ -182,7 +180,7 @@ void add_sound(const SheetStiffness &stiffness, CaseGroup &group)
   finite("origin at 1e4 m", far_away);
   constexpr int n_steps = 1000;
   group.finite("origin at 1e4 m; 1000 steps at rest", "finite; does not drift beyond its digits",
-               {n_steps * 0.5 * std::numeric_limits<double>::epsilon() * distance, way},
+               {n_steps * 0.5 * std::numeric_limits<double>::epsilon() * distance, largest_way},
                [=](unsigned int) -> StressAnswer
                {
                  SheetPhysics weightless;
@@ -205,7 +203,7 @@ std::vector<StressCase> mesh_cases(const SheetStiffness &stiffness)
   derive(
     cases,
     {{growth_of_energy, of_energy},
-     {way,
+     {largest_way,
       "theory: a sheet at rest stays; round-off: half a unit in the last place of 1e4 m, 1e-12 m, "
       "in each of 1000 steps"}});
   return cases;

@@ -14,28 +14,38 @@ using localization::UpsamplerOptions;
 
 namespace
 {
+/// The laws of the reference against which a method says something of its own.
+enum class OfLaws
+{
+  all,
+  nonlinear,
+  second_order,           ///< that have one
+  second_order_or_linear, ///< where it falls back to its other parts
+  fitted,
+  yarns
+};
+
 struct KnownMethod
 {
   const char *name;
   CoarseChoice coarse;
   bool has_edges;
-  bool has_fitted_modes = false;
+  OfLaws laws = OfLaws::all;
 };
 
 constexpr auto quadratic = CoarseEnergy::quadratic, cubic = CoarseEnergy::cubic;
-constexpr const char *first_order = "first-order";
 constexpr auto three = CoarseElement::three_nodes, six = CoarseElement::six_nodes;
 
 constexpr std::array<KnownMethod, 11> known_methods = {
   {{"affine", {quadratic, three}, false},
    {"localized", {quadratic, three}, false},
-   {"quadratic", {cubic, three}, false},
+   {"quadratic", {cubic, three}, false, OfLaws::second_order},
    {"edges", {quadratic, three}, true},
    {"p2", {quadratic, six}, false},
-   {"full", {cubic, six}, true},
-   {first_order, {quadratic, six}, true},
-   {"fitted", {cubic, three}, false, true},
-   {"localized-affine-lift", {quadratic, three}, false},
+   {"full", {cubic, six}, true, OfLaws::second_order_or_linear},
+   {"first-order", {quadratic, six}, true, OfLaws::yarns},
+   {"fitted", {cubic, three}, false, OfLaws::fitted},
+   {"localized-affine-lift", {quadratic, three}, false, OfLaws::nonlinear},
    {"localized-mean-anchor", {quadratic, three}, false},
    {"localized-piecewise", {quadratic, three}, false}}};
 
@@ -68,7 +78,7 @@ Method::Method(const std::string &name)
     : name(name)
     , of_coarse(known(name).coarse)
     , has_edges(known(name).has_edges)
-    , has_fitted(known(name).has_fitted_modes)
+    , has_fitted(known(name).laws == OfLaws::fitted)
 {
 }
 
@@ -113,13 +123,22 @@ CoarseChoice Method::coarse(const Law law) const
 
 bool Method::has_meaning(const Law law) const
 {
-  if (has_fitted)
+  switch (known(name).laws)
+  {
+  case OfLaws::nonlinear:
+    return law != Law::linear;
+  case OfLaws::second_order:
+    return is_of_second_order(law);
+  case OfLaws::second_order_or_linear:
+    return is_of_second_order(law) || law == Law::linear;
+  case OfLaws::fitted:
     return has_fitted_modes(law);
-  if (name == first_order)
+  case OfLaws::yarns:
     return is_of_yarns(law);
-  if (is_of_second_order())
-    return is_of_second_order(law) || (name == "full" && law == Law::linear);
-  return law != Law::linear || name != "localized-affine-lift";
+  case OfLaws::all:
+    break;
+  }
+  return true;
 }
 
 Method Method::without_edge_terms() const

@@ -5,6 +5,8 @@
 #include <Eigen/Core>
 #include <Eigen/LU>
 
+#include <cmath>
+
 namespace homespun::tests
 {
 /// Without a symmetry (3,3) [N/m].
@@ -23,5 +25,12 @@ inline Eigen::Matrix3d orthotropic(const double E1, const double E2, const doubl
   Eigen::Matrix3d compliance;
   compliance << 1. / E1, -nu12 / E1, 0., -nu12 / E1, 1. / E2, 0., 0., 0., 1. / G12;
   return compliance.inverse();
+}
+
+/// The order at which a remainder falls over six halvings of a step.
+template <typename Remainder>
+double order_over_six_halvings(const double step, Remainder &&remainder)
+{
+  return std::log2(remainder(step) / remainder(step / 64.)) / 6.;
 }
 } // namespace homespun::tests

@@ -12,6 +12,7 @@
 
 using namespace homespun;
 using namespace homespun::verification;
+using homespun::tests::order_over_six_halvings;
 using homespun::tests::some_stiffness;
 
 namespace
@@ -36,14 +37,6 @@ Eigen::Matrix2d rotation(const double angle)
   R << std::cos(angle), -std::sin(angle), std::sin(angle), std::cos(angle);
   return R;
 }
-
-/// The order at which a remainder falls when the step is halved, over six halvings.
-template <typename Remainder>
-double observed_order(Remainder &&remainder)
-{
-  const double first = remainder(0.02), last = remainder(0.02 / 64.);
-  return std::log2(first / last) / 6.;
-}
 } // namespace
 
 TEST(derivative_laws, stress_and_tangent_leave_remainders_of_order_two_and_three)
@@ -57,11 +50,13 @@ TEST(derivative_laws, stress_and_tangent_leave_remainders_of_order_two_and_three
     { return response(law, C, some_gradient() + matrix_of(step * direction)).energy - at.energy; };
     const double slope     = at.stress.dot(direction),
                  curvature = direction.dot(at.tangent * direction);
-    EXPECT_NEAR(observed_order([&](double s) { return std::abs(energy(s) - s * slope); }), 2., 0.1)
+    EXPECT_NEAR(
+      order_over_six_halvings(0.02, [&](double s) { return std::abs(energy(s) - s * slope); }), 2.,
+      0.1)
       << name_of(law);
     EXPECT_NEAR(
-      observed_order([&](double s)
-                     { return std::abs(energy(s) - s * slope - 0.5 * s * s * curvature); }),
+      order_over_six_halvings(
+        0.02, [&](double s) { return std::abs(energy(s) - s * slope - 0.5 * s * s * curvature); }),
       3., 0.1)
       << name_of(law);
     EXPECT_LT((at.tangent - at.tangent.transpose()).cwiseAbs().maxCoeff(), 1e-14 * 10.);

@@ -12,6 +12,7 @@
 
 using namespace homespun;
 using namespace homespun::verification;
+using homespun::tests::order_over_six_halvings;
 using homespun::tests::some_stiffness;
 
 namespace
@@ -47,13 +48,6 @@ SpaceGradient gradient_of(const Eigen::Matrix<double, 6, 1> &entries)
   return F;
 }
 
-/// The order at which a remainder falls when the step is halved, over six halvings.
-template <typename Remainder>
-double order_in_space(Remainder &&remainder)
-{
-  return std::log2(remainder(0.004) / remainder(0.004 / 64.)) / 6.;
-}
-
 double smallest_eigenvalue(const SpaceTangent &A)
 {
   return Eigen::SelfAdjointEigenSolver<SpaceTangent>(A).eigenvalues()(0);
@@ -79,8 +73,8 @@ TEST(derivative_space_laws, stress_and_tangent_leave_remainders_of_order_two_and
       const auto first   = [&](const double s) { return std::abs(energy(s) - s * slope); };
       const auto second  = [&](const double s)
       { return std::abs(energy(s) - s * slope - 0.5 * s * s * curve); };
-      EXPECT_NEAR(order_in_space(first), 2., 0.1) << name_of(law);
-      EXPECT_NEAR(order_in_space(second), 3., 0.1) << name_of(law);
+      EXPECT_NEAR(order_over_six_halvings(0.004, first), 2., 0.1) << name_of(law);
+      EXPECT_NEAR(order_over_six_halvings(0.004, second), 3., 0.1) << name_of(law);
       EXPECT_LT((at.tangent - at.tangent.transpose()).cwiseAbs().maxCoeff(), 1e-13);
     }
 }
