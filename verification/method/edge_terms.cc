@@ -149,11 +149,12 @@ EdgedSheet::EdgedSheet(const CellWithEdges &cell, const meshes::Sheet &sheet, co
       solvers[law] = space.solver(cell.cell.stiffness, held, {second.energy});
 }
 
-EdgedPositions EdgedSheet::upsample(const Law law,
-                                    const EdgeTerms::Positions &coarse_positions) const
+EdgedPositions EdgedSheet::upsample(const Law law, const EdgeTerms::Positions &coarse_positions,
+                                    const meshes::FittedModes *const fitted) const
 {
   const EdgeTerms terms(cell, sheet, load, space.grid, law);
   localization::UpsamplerOptions options = method.options(law);
+  options.fitted                         = fitted;
   terms.give_edges(options);
   const auto found = solvers.find(method.is_of_second_order(law) ? name_of(law) : "");
   if (found == solvers.end())

@@ -106,7 +106,9 @@ public:
 
   /// @param coarse_positions of the nodes in equilibrium without the terms (n,2) [m]
   /// @throws NotConverged; BadInput where the cell has no cubic energy under the law
-  EdgedPositions upsample(Law law, const EdgeTerms::Positions &coarse_positions) const;
+  /// @param fitted the cell's modes under that law, where the method has fitted ones
+  EdgedPositions upsample(Law law, const EdgeTerms::Positions &coarse_positions,
+                          const meshes::FittedModes *fitted = nullptr) const;
 
   /// Which of the four edges have which terms.
   std::string sentence() const;

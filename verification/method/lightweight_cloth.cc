@@ -36,7 +36,7 @@ struct KnownMethod
 constexpr auto quadratic = CoarseEnergy::quadratic, cubic = CoarseEnergy::cubic;
 constexpr auto three = CoarseElement::three_nodes, six = CoarseElement::six_nodes;
 
-constexpr std::array<KnownMethod, 11> known_methods = {
+constexpr std::array<KnownMethod, 12> known_methods = {
   {{"affine", {quadratic, three}, false},
    {"localized", {quadratic, three}, false},
    {"quadratic", {cubic, three}, false, OfLaws::second_order},
@@ -45,6 +45,7 @@ constexpr std::array<KnownMethod, 11> known_methods = {
    {"full", {cubic, six}, true, OfLaws::second_order_or_linear},
    {"first-order", {quadratic, six}, true, OfLaws::yarns},
    {"fitted", {cubic, three}, false, OfLaws::fitted},
+   {"full-fitted", {cubic, six}, true, OfLaws::fitted},
    {"localized-affine-lift", {quadratic, three}, false, OfLaws::nonlinear},
    {"localized-mean-anchor", {quadratic, three}, false},
    {"localized-piecewise", {quadratic, three}, false}}};

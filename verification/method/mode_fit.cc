@@ -21,13 +21,20 @@ namespace
 {
 using meshes::FittedModes;
 
-/// Strains of a box and of boxes like it that shrink towards rest, at places of a Halton sequence.
+/// Strains of a box and of boxes in it that shrink towards rest along each axis apart, for a cloth
+/// that is sheared far is hardly stretched. Places and sizes are those of a Halton sequence.
 Eigen::Vector3d sampled(const StrainBox &box, const int index)
 {
   constexpr std::array<double, 5> sizes = {1., 0.5, 0.25, 0.12, 0.06};
-  const Eigen::Vector3d place(halton(index + 1, 2), halton(index + 1, 3), halton(index + 1, 5));
-  return sizes[static_cast<std::size_t>(index) % sizes.size()] *
-         (box.low + place.cwiseProduct(box.high - box.low));
+  constexpr std::array<int, 3> of_place = {2, 3, 5}, of_size = {7, 11, 13};
+  Eigen::Vector3d strain;
+  for (int a = 0; a < 3; ++a)
+  {
+    const auto k      = static_cast<std::size_t>(a);
+    const double size = sizes[static_cast<std::size_t>(sizes.size() * halton(index + 1, of_size[k]))];
+    strain(a) = size * (box.low(a) + halton(index + 1, of_place[k]) * (box.high(a) - box.low(a)));
+  }
+  return strain;
 }
 
 /// Fluctuations of the cell at strains where it has an equilibrium, a row each.

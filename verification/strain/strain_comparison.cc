@@ -166,7 +166,7 @@ public:
       name,
       edged == method.edged.end()
         ? cloth_of(used.coarse(level.law)).upsample(used, level.law, step.positions, fitted)
-        : edged->second.upsample(level.law, step.positions),
+        : edged->second.upsample(level.law, step.positions, fitted),
       step.seconds};
     if (!result.sheet->positions.allFinite())
       throw meshes::NotConverged(
