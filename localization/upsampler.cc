@@ -213,6 +213,9 @@ void Upsampler<dim, Scalar>::fill_records(const PositionsOf<dim> coarse_current)
     {
       const Eigen::Vector3d strain = values.row(v).template head<3>();
       const auto coefficients      = meshes::fitted_coefficients(fitted, strain);
+      const Eigen::Vector3d of_chi = meshes::effective_strain(fitted, strain);
+      for (int a = 0; a < 3; ++a)
+        records[static_cast<std::size_t>(v * size + dim + a)] = static_cast<Scalar>(of_chi(a));
       for (int k = 0; k < meshes::FittedModes::n_modes; ++k)
         records[static_cast<std::size_t>(v * size + dim + frames.n_components + k)] =
           static_cast<Scalar>(coefficients(k));

@@ -23,10 +23,22 @@ Eigen::Matrix<double, 1, FittedModes::n_functions> fitted_functions(const Eigen:
   return values;
 }
 
+namespace
+{
+auto functions_in_box(const FittedModes &fitted, const Eigen::Vector3d &strain)
+{
+  return fitted_functions(strain.cwiseMax(fitted.low).cwiseMin(fitted.high), fitted.knees);
+}
+} // namespace
+
+Eigen::Vector3d effective_strain(const FittedModes &fitted, const Eigen::Vector3d &strain)
+{
+  return strain + (functions_in_box(fitted, strain) * fitted.of_strain).transpose();
+}
+
 Eigen::Matrix<double, 1, FittedModes::n_modes> fitted_coefficients(const FittedModes &fitted,
                                                                    const Eigen::Vector3d &strain)
 {
-  return fitted_functions(strain.cwiseMax(fitted.low).cwiseMin(fitted.high), fitted.knees) *
-         fitted.coefficients;
+  return functions_in_box(fitted, strain) * fitted.coefficients;
 }
 } // namespace homespun::meshes

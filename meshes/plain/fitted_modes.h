@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: MIT
 // Modes of a cell that are fitted to its fluctuations over a box of macro strains, beside the
-// characteristic displacements, which stay those at rest:
+// characteristic displacements at rest, which follow an effective strain:
 //
-//   w(E) = −sum_a E_a chi_a − sum_k c_k(E) m_k,   c_k(E) = sum_j A_jk f_j(E)
+//   w(E) = −sum_a e_a(E) chi_a − sum_k c_k(E) m_k
+//   e_a = E_a + sum_j B_ja f_j(E),   c_k = sum_j A_jk f_j(E)
 //   f_j = E_a s_1^p s_2^q s_3^r,   1 <= p + q + r <= 2,
 //   s_1 = E11/(e_1 + |E11|),  s_2 = E22/(e_2 + |E22|),  s_3 = gamma12/e_3
 //
-// All f_j are zero at rest with their first derivatives. s_1 and s_2 saturate beyond the strains at
+// The m_k are orthogonal to the chi_a in the mean over the cell, so that e is how much of each chi
+// there is; what follows chi, as layers at edges do, follows e. All f_j are zero at rest with their
+// first derivatives. s_1 and s_2 saturate beyond the strains at
 // which the tension of yarns outweighs their shear stiffness: a weave follows its first modes at
 // rest up to there and others beyond, which no polynomial does. Where shear is as stiff as
 // extension they are nearly E11/e_1 and E22/e_2, and the f_j of second and third order.
@@ -25,6 +28,8 @@ struct FittedModes
   /// m_k, column 2 k + c component c, shape (n,12), zero at the anchor [m]
   Eigen::Matrix<double, Eigen::Dynamic, 2 * n_modes, Eigen::RowMajor> modes;
   Eigen::Matrix<double, n_functions, n_modes> coefficients; ///< A [-]
+  Eigen::Matrix<double, n_functions, 3> of_strain =
+    Eigen::Matrix<double, n_functions, 3>::Zero(); ///< B [-]
 
   /// Whether a strain is in the box, but for rounding.
   bool holds(const Eigen::Vector3d &strain) const
@@ -38,6 +43,9 @@ struct FittedModes
 /// f_j, j by a, then p, q, r.
 Eigen::Matrix<double, 1, FittedModes::n_functions> fitted_functions(const Eigen::Vector3d &strain,
                                                                     const Eigen::Vector3d &knees);
+
+/// e; beyond the box what the nearest strain of it adds to E.
+Eigen::Vector3d effective_strain(const FittedModes &fitted, const Eigen::Vector3d &strain);
 
 /// c_k; beyond the box those at the nearest strain of it.
 Eigen::Matrix<double, 1, FittedModes::n_modes> fitted_coefficients(const FittedModes &fitted,

@@ -35,6 +35,7 @@ EdgeTerms::EdgeTerms(const CellWithEdges &of, const meshes::Sheet &sheet, const 
     : grid(std::move(of_grid))
     , law(law)
     , edges(of.edges)
+    , fitted(of.fitted)
     , sheet(sheet)
     , frames(grid.mesh, options_of(law))
 {
@@ -49,10 +50,17 @@ EdgeTerms::EdgeTerms(const CellWithEdges &of, const meshes::Sheet &sheet, const 
 EdgeTerms::MacroLoads EdgeTerms::macro_loads(const Positions &positions) const
 {
   const auto &of_vertices = frames.values(positions);
-  MacroLoads loads        = {Positions::Zero(grid.mesh.n_vertices(), 2),
-                             bulk_forces<2>(grid.mesh, edges.bulk, of_vertices)};
+  auto of_chi             = of_vertices;
+  if (fitted != nullptr)
+    for (Eigen::Index v = 0; v < of_chi.rows(); ++v)
+    {
+      const Eigen::Vector3d strain = of_chi.row(v).head<3>();
+      of_chi.row(v).head<3>()      = meshes::effective_strain(*fitted, strain);
+    }
+  MacroLoads loads = {Positions::Zero(grid.mesh.n_vertices(), 2),
+                      bulk_forces<2>(grid.mesh, edges.bulk, of_vertices)};
   for (int side = 0; side < meshes::CellEdges::n_sides; ++side)
-    add_side(side, of_vertices, loads);
+    add_side(side, is_clamped[static_cast<std::size_t>(side)] ? of_chi : of_vertices, loads);
   return loads;
 }
 
@@ -152,7 +160,7 @@ EdgedSheet::EdgedSheet(const CellWithEdges &cell, const meshes::Sheet &sheet, co
 EdgedPositions EdgedSheet::upsample(const Law law, const EdgeTerms::Positions &coarse_positions,
                                     const meshes::FittedModes *const fitted) const
 {
-  const EdgeTerms terms(cell, sheet, load, space.grid, law);
+  const EdgeTerms terms({cell.cell, cell.edges, fitted}, sheet, load, space.grid, law);
   localization::UpsamplerOptions options = method.options(law);
   options.fitted                         = fitted;
   terms.give_edges(options);

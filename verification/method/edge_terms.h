@@ -28,6 +28,8 @@ struct CellWithEdges
 {
   const meshes::HomogenizedCell &cell;
   const meshes::CellEdges &edges;
+  /// Modes under a law; what edges do follows their effective strain. Null: the strain itself.
+  const meshes::FittedModes *fitted = nullptr;
 };
 
 class EdgeTerms
@@ -63,6 +65,7 @@ private:
                 MacroLoads &loads) const;
 
   const meshes::CellEdges &edges;
+  const meshes::FittedModes *const fitted;
   const meshes::Sheet &sheet;
   const localization::CoarseFrames<2> frames;
   std::array<bool, meshes::CellEdges::n_sides> is_clamped;

@@ -30,8 +30,9 @@ Eigen::Vector3d sampled(const StrainBox &box, const int index)
   Eigen::Vector3d strain;
   for (int a = 0; a < 3; ++a)
   {
-    const auto k      = static_cast<std::size_t>(a);
-    const double size = sizes[static_cast<std::size_t>(sizes.size() * halton(index + 1, of_size[k]))];
+    const auto k = static_cast<std::size_t>(a);
+    const double size =
+      sizes[static_cast<std::size_t>(sizes.size() * halton(index + 1, of_size[k]))];
     strain(a) = size * (box.low(a) + halton(index + 1, of_place[k]) * (box.high(a) - box.low(a)));
   }
   return strain;
@@ -95,15 +96,27 @@ Eigen::VectorXd shares_of_area(const meshes::TriangleMesh &mesh)
   return shares;
 }
 
-/// w + sum_a E_a chi_a at each strain.
-Eigen::MatrixXd beside_chi(const Snapshots &of, const meshes::HomogenizedCell &cell)
+/// The characteristic displacements, a row each, zero at the anchor (3,2n) [m].
+Eigen::MatrixXd chi_rows(const meshes::HomogenizedCell &cell)
 {
-  Eigen::MatrixXd rest = of.w;
-  for (int v = 0; v < cell.mesh.n_vertices(); ++v)
+  const auto n = static_cast<Eigen::Index>(cell.mesh.n_vertices());
+  Eigen::MatrixXd rows(3, 2 * n);
+  for (Eigen::Index v = 0; v < n; ++v)
     for (int a = 0; a < 3; ++a)
-      rest.middleCols<2>(2 * v) +=
-        of.strains.col(a) * (cell.chi.row(v) - cell.chi.row(cell.anchor)).segment<2>(2 * a);
-  return rest;
+      rows.row(a).segment<2>(2 * v) =
+        (cell.chi.row(v) - cell.chi.row(cell.anchor)).segment<2>(2 * a);
+  return rows;
+}
+
+/// Rows without their mean over the area.
+Eigen::MatrixXd without_mean(Eigen::MatrixXd rows, const Eigen::VectorXd &shares)
+{
+  Eigen::MatrixX2d mean = Eigen::MatrixX2d::Zero(rows.rows(), 2);
+  for (Eigen::Index v = 0; v < shares.size(); ++v)
+    mean += shares(v) * rows.middleCols<2>(2 * v);
+  for (Eigen::Index v = 0; v < shares.size(); ++v)
+    rows.middleCols<2>(2 * v) -= mean;
+  return rows;
 }
 
 Eigen::MatrixXd functions_at(const Eigen::MatrixXd &strains, const Eigen::Vector3d &knees)
@@ -166,11 +179,19 @@ ModeFit fit_modes(const NonlinearCell &nonlinear, const meshes::HomogenizedCell 
   const Eigen::VectorXd sizes   = mean_lengths(seen.w, shares);
   const Eigen::VectorXd weights = (sizes.array() > 0.).select(sizes.cwiseInverse(), 0.);
 
-  const Eigen::MatrixXd rest      = beside_chi(seen, cell) * by_area.asDiagonal(),
-                        weighted  = weights.asDiagonal() * rest,
-                        basis     = largest_directions(weighted, FittedModes::n_modes);
+  // What chi at rest leaves, then what more or less of chi leaves of that; the constant of a
+  // fluctuation is no matter of either.
+  const Eigen::MatrixXd chi = chi_rows(cell), left = seen.w + seen.strains * chi,
+                        flat      = without_mean(chi, shares) * by_area.asDiagonal(),
+                        rest      = without_mean(left, shares) * by_area.asDiagonal();
   const Eigen::MatrixXd functions = weights.asDiagonal() * functions_at(seen.strains, modes.knees);
+  // Shares of a chi that is zero are none.
+  const Eigen::MatrixXd more =
+    meshes::least_squares(flat.transpose(), rest.transpose(), 1e-8).transpose(); // (m,3)
+  const Eigen::MatrixXd weighted = weights.asDiagonal() * (rest - more * flat),
+                        basis    = largest_directions(weighted, FittedModes::n_modes);
   // The functions are nearly dependent where a cell does not saturate; the least coefficients do.
+  modes.of_strain    = meshes::least_squares(functions, -(weights.asDiagonal() * more), 1e-8);
   modes.coefficients = meshes::least_squares(functions, weighted * basis.transpose(), 1e-8);
   modes.modes.resize(n, 2 * FittedModes::n_modes);
   for (Eigen::Index v = 0; v < n; ++v)
@@ -183,14 +204,15 @@ ModeFit fit_modes(const NonlinearCell &nonlinear, const meshes::HomogenizedCell 
   for (Eigen::Index v = 0; v < n; ++v)
     for (int k = 0; k < FittedModes::n_modes; ++k)
       of_modes.row(k).segment<2>(2 * v) = modes.modes.row(v).segment<2>(2 * k);
-  const Eigen::MatrixXd left = beside_chi(unseen, cell),
-                        miss = left + functions_at(unseen.strains, modes.knees) *
-                                        modes.coefficients * of_modes;
+  const Eigen::MatrixXd f      = functions_at(unseen.strains, modes.knees),
+                        by_chi = unseen.w + unseen.strains * chi,
+                        by_both =
+                          by_chi + f * modes.of_strain * chi + f * modes.coefficients * of_modes;
   const double size = mean_lengths(unseen.w, shares).sum();
   if (size > 0.)
   {
-    fit.left        = mean_lengths(miss, shares).sum() / size;
-    fit.left_by_chi = mean_lengths(left, shares).sum() / size;
+    fit.left        = mean_lengths(by_both, shares).sum() / size;
+    fit.left_by_chi = mean_lengths(by_chi, shares).sum() / size;
   }
   return fit;
 }

@@ -29,12 +29,14 @@ struct FittedCell
   {
     const meshes::Points w  = nonlinear.solve(strain).fluctuation;
     const auto coefficients = meshes::fitted_coefficients(fit.modes, strain);
-    double miss             = 0.;
+    const Eigen::Vector3d of_chi =
+      with_modes ? meshes::effective_strain(fit.modes, strain) : strain;
+    double miss = 0.;
     for (int v = 0; v < w.rows(); ++v)
     {
       Eigen::RowVector2d of = w.row(v);
       for (int a = 0; a < 3; ++a)
-        of += strain(a) *
+        of += of_chi(a) *
               (homogenized.chi.row(v) - homogenized.chi.row(homogenized.anchor)).segment<2>(2 * a);
       for (int k = 0; with_modes && k < meshes::FittedModes::n_modes; ++k)
         of += coefficients(k) * fit.modes.modes.row(v).segment<2>(2 * k);
@@ -96,6 +98,55 @@ TEST(bound_mode_fit, strains_that_were_not_fitted_are_a_tenth_as_far_as_by_chi)
     EXPECT_LT(cell->left_at(strain, true), 0.1 * cell->left_at(strain, false));
     EXPECT_GT(cell->left_at(strain, false), 0.02);
   }
+}
+
+// Sheared far and hardly stretched, which a box that shrinks as a whole never sees.
+TEST(bound_mode_fit, a_weave_that_is_sheared_is_half_as_far_as_by_chi)
+{
+  const FittedCell weave(homogenization::read_unit_cell(CELLS "plain-weave.prm"), Law::yarn,
+                         box_up_to(0.05, Law::yarn));
+  for (const double shear : {0.02, 0.05})
+  {
+    const Eigen::Vector3d strain(0., 0.25 * shear * shear, shear);
+    EXPECT_LT(weave.left_at(strain, true), 0.5 * weave.left_at(strain, false)) << shear;
+    EXPECT_GT(weave.left_at(strain, false), 0.05) << shear;
+  }
+}
+
+// The effective strain says how much of each chi there is: modes hold nothing of it.
+TEST(exact_mode_fit, modes_are_orthogonal_to_chi_in_the_mean_over_the_cell)
+{
+  const FittedCell chevron(homogenization::read_unit_cell(CELLS "chevron.prm"), Law::biot,
+                           box_up_to(0.1, Law::biot));
+  const meshes::TriangleMesh &mesh = chevron.homogenized.mesh;
+  const Eigen::VectorXd areas      = meshes::signed_areas(mesh);
+  Eigen::VectorXd shares           = Eigen::VectorXd::Zero(mesh.n_vertices());
+  for (int t = 0; t < mesh.n_triangles(); ++t)
+    for (int k = 0; k < 3; ++k)
+      shares(mesh.triangles(t, k)) += areas(t) / (3. * areas.sum());
+  const auto mean_product = [&](const auto &left, const auto &right)
+  {
+    double product            = 0.;
+    Eigen::RowVector2d mean_l = Eigen::RowVector2d::Zero(), mean_r = mean_l;
+    for (int v = 0; v < mesh.n_vertices(); ++v)
+    {
+      product += shares(v) * left(v).dot(right(v));
+      mean_l += shares(v) * left(v);
+      mean_r += shares(v) * right(v);
+    }
+    return product - mean_l.dot(mean_r);
+  };
+  for (int k = 0; k < meshes::FittedModes::n_modes; ++k)
+    for (int a = 0; a < 3; ++a)
+    {
+      const auto mode = [&](const int v)
+      { return Eigen::RowVector2d(chevron.fit.modes.modes.row(v).segment<2>(2 * k)); };
+      const auto chi = [&](const int v)
+      { return Eigen::RowVector2d(chevron.homogenized.chi.row(v).segment<2>(2 * a)); };
+      EXPECT_NEAR(mean_product(mode, chi), 0.,
+                  1e-9 * std::sqrt(mean_product(mode, mode) * mean_product(chi, chi)))
+        << k << a;
+    }
 }
 
 TEST(invariant_mode_fit, triangles_outside_of_the_box_are_counted)

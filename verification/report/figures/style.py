@@ -32,12 +32,14 @@ METHOD_COLOURS = {
     "full": BLACK,
     "first-order": "#332288",
     "fitted": "#44AA99",
+    "full-fitted": "#117733",
     "localized-affine-lift": GREEN,
     "localized-mean-anchor": ORANGE,
     "localized-piecewise": PURPLE,
 }
 COLOUR_NAMES = {"edges": "wine", "quadratic": "light blue", "p2": "olive", "full": "black",
-                "first-order": "indigo", "fitted": "teal"}
+                "first-order": "indigo", "fitted": "teal",
+                "full-fitted": "dark green"}
 METHOD_LABELS = {"localized": "localized (the paper's method)"}
 SPARE_COLOURS = ("#7F7F7F", YELLOW)
 
