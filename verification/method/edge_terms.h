@@ -28,7 +28,8 @@ struct CellWithEdges
 {
   const meshes::HomogenizedCell &cell;
   const meshes::CellEdges &edges;
-  /// Modes under a law; what edges do follows their effective strain. Null: the strain itself.
+  /// Modes under a law; slip and layers follow their effective strain, tension of free edges and
+  /// forces within the strain itself. Null: all do.
   const meshes::FittedModes *fitted = nullptr;
 };
 
@@ -108,8 +109,8 @@ public:
              const Method &method = Method("edges"), int quads_per_cell = 1);
 
   /// @param coarse_positions of the nodes in equilibrium without the terms (n,2) [m]
-  /// @throws NotConverged; BadInput where the cell has no cubic energy under the law
   /// @param fitted the cell's modes under that law, where the method has fitted ones
+  /// @throws NotConverged; BadInput where the cell has no cubic energy under the law
   EdgedPositions upsample(Law law, const EdgeTerms::Positions &coarse_positions,
                           const meshes::FittedModes *fitted = nullptr) const;
 
