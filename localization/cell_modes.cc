@@ -3,14 +3,23 @@
 
 #include "localization/coarse_frames.h"
 
+#include <algorithm>
+
 namespace homespun::localization
 {
 Modes kind_of_modes(const UpsamplerOptions &options)
 {
-  return !options.microscopic            ? linear_modes
-         : options.fitted != nullptr     ? fitted_modes
-         : !options.second_order.empty() ? quadratic_modes
-                                         : linear_modes;
+  if (!options.microscopic)
+    return linear_modes;
+  if (options.fitted != nullptr)
+  {
+    const auto &kinds = options.edge_kinds;
+    return options.edges != nullptr &&
+               std::find(kinds.begin(), kinds.end(), EdgeKind::free) != kinds.end()
+             ? fitted_modes_and_free_edges
+             : fitted_modes;
+  }
+  return options.second_order.empty() ? linear_modes : quadratic_modes;
 }
 
 CellModes cell_modes(const meshes::HomogenizedCell &cell, const UpsamplerOptions &options)
@@ -21,7 +30,7 @@ CellModes cell_modes(const meshes::HomogenizedCell &cell, const UpsamplerOptions
     return anchored(cell, options.anchor);
   CellModes modes(cell.mesh.n_vertices(), 18);
   modes.leftCols(6) = anchored(cell, options.anchor);
-  if (kind_of_modes(options) == fitted_modes)
+  if (are_fitted(kind_of_modes(options)))
     modes.rightCols(12) = anchored_fitted(cell, *options.fitted, options.anchor);
   else
   {

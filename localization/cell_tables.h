@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What all cells of a sheet share where the coarse mesh is its lattice, or halves the sides of
-// that: one table, and chi for each way in which edges with modes reach a cell. Private to
-// upsampler.
+// that: one table, and what edges with modes change for each way in which they reach a cell.
+// Private to upsampler.
 #pragma once
 
 #include "localization/cell_nodes.h"
@@ -25,13 +25,16 @@ struct CellTables
   int n_block = 0; ///< vertices per block
   int n_below = 0; ///< of these, below the diagonal
 
-  VertexTable<Scalar> shared;                             ///< below the diagonal, then above
-  std::vector<std::vector<ChiBlock<Scalar>>> chi_of_kind; ///< one for each way of being reached
+  VertexTable<Scalar> shared; ///< below the diagonal, then above
+  /// One for each way of being reached.
+  std::vector<std::vector<ChiBlock<Scalar>>> chi_of_kind, free_of_kind;
   std::vector<int> kind_of_cell;
 
-  const std::vector<ChiBlock<Scalar>> &chi_of(const int cell) const
+  /// The constants of a cell, from a row on with which a block begins.
+  Blocks<Scalar> from(const int row, const int cell) const
   {
-    return chi_of_kind[static_cast<std::size_t>(kind_of_cell[static_cast<std::size_t>(cell)])];
+    const auto kind = static_cast<std::size_t>(kind_of_cell[static_cast<std::size_t>(cell)]);
+    return shared.from(row, chi_of_kind[kind], free_of_kind[kind]);
   }
 
   /// @param n_quads per side of a cell, 1 or 2
@@ -64,6 +67,7 @@ struct CellTables
           table.append_hats(hats(weights));
       }
       chi_of_kind.push_back(std::move(table.chi_blocks));
+      free_of_kind.push_back(std::move(table.free_blocks));
       shared = std::move(table);
     }
   }

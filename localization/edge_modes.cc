@@ -58,7 +58,7 @@ EdgeModes::Depths EdgeModes::depths(const int i, const int j) const
   return result;
 }
 
-EdgeModes::Row EdgeModes::at(const int vertex) const
+EdgeModes::Row EdgeModes::at(const int vertex, const EdgeKind kind) const
 {
   const Eigen::RowVector2d fraction = sheet.fraction(sheet.mesh.vertices.row(vertex)),
                            origin   = cell.mesh.vertices.row(cell.anchor);
@@ -80,7 +80,7 @@ EdgeModes::Row EdgeModes::at(const int vertex) const
   const Depths depth = depths(place[0], place[1]);
   Row sum            = Row::Zero();
   for (std::size_t side = 0; side < depth.size(); ++side)
-    if (depth[side] >= 0)
+    if (depth[side] >= 0 && kinds[side] == kind)
     {
       const meshes::CellEdge &edge   = edges->sides[side];
       const meshes::EdgeModes &modes = kinds[side] == EdgeKind::clamped ? edge.clamped : edge.free;

@@ -31,8 +31,15 @@ public:
     return edges != nullptr;
   }
 
-  /// What the modes add to w at a fine vertex, per unit strain, column 2 a + c [m].
-  Row at(int vertex) const;
+  /// What the modes of edges of a kind add to w at a fine vertex, per unit strain, column 2 a + c
+  /// [m].
+  Row at(int vertex, EdgeKind kind) const;
+
+  /// The same of all edges.
+  Row at(const int vertex) const
+  {
+    return at(vertex, EdgeKind::clamped) + at(vertex, EdgeKind::free);
+  }
 
   /// How far a cell of the sheet is from each edge that reaches it, in cells; −1: it does not. The
   /// vertices of cells for which this is alike have the same modes.

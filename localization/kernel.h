@@ -52,19 +52,28 @@ struct alignas(64) QuadraticBlock
   Scalar column[12][lanes];
 };
 
-/// What a fluctuation is in the strain: linear, quadratic too, or fitted.
+/// What a fluctuation is in the strain: linear, quadratic too, or fitted. Fitted modes scale chi
+/// and what clamped edges do to it by an effective strain; what free edges do follows another one
+/// (meshes::strain_of_free_edges), and has columns of its own where there are such edges.
 enum Modes
 {
   linear_modes,
   quadratic_modes,
-  fitted_modes
+  fitted_modes,
+  fitted_modes_and_free_edges
 };
 
+constexpr bool are_fitted(const int modes)
+{
+  return modes == fitted_modes || modes == fitted_modes_and_free_edges;
+}
+
 /// Numbers per coarse vertex: position (dim), strain (3), lift (2 dim), where modes are fitted
-/// their coefficients (6); padded to whole registers.
+/// their coefficients (6) and the strain of free edges (3), the first being the effective one;
+/// padded to whole registers.
 constexpr int record_size(const int modes)
 {
-  return modes == fitted_modes ? 32 : 16;
+  return are_fitted(modes) ? 32 : 16;
 }
 
 /// Records of a coarse triangle: values at corner 0, and their differences to corners 1 and 2; of
@@ -116,6 +125,7 @@ struct Blocks
   const Hats<Scalar> *hats;                ///< not read where a triangle has three nodes
   const ChiBlock<Scalar> *chi;             ///< not read without microscopic displacement
   const QuadraticBlock<Scalar> *quadratic; ///< not read with linear_modes
+  const ChiBlock<Scalar> *free;            ///< of free edges, read beside fitted modes alone
 };
 
 /// Positions x = P + L w in blocks of `lanes` vertices.
@@ -180,12 +190,19 @@ template <int dim, int terms, int modes, int n_nodes, typename Scalar>
           w0 = e0 * columns[0][n] + e1 * columns[2][n] + e2 * columns[4][n];
           w1 = e0 * columns[1][n] + e1 * columns[3][n] + e2 * columns[5][n];
         }
-        if constexpr (modes == fitted_modes)
+        if constexpr (are_fitted(modes))
           for (int k = 0; k < 6; ++k)
           {
             const Scalar c = frame(3 + 2 * dim + k);
             w0 += c * blocks.quadratic[block].column[2 * k][n];
             w1 += c * blocks.quadratic[block].column[2 * k + 1][n];
+          }
+        if constexpr (modes == fitted_modes_and_free_edges)
+          for (int a = 0; a < 3; ++a)
+          {
+            const Scalar e = frame(9 + 2 * dim + a);
+            w0 += e * blocks.free[block].column[2 * a][n];
+            w1 += e * blocks.free[block].column[2 * a + 1][n];
           }
         if constexpr (is_in_plane)
         {

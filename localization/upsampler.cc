@@ -47,12 +47,22 @@ Upsampler<dim, Scalar>::Upsampler(const meshes::HomogenizedCell &cell,
   }
   const CellModes modes = cell_modes(cell, options);
   const EdgeModes near_edges(cell, fine, options);
-  const auto modes_at = [&](const int v)
+  const bool free_are_apart = kind_of_modes(options) == fitted_modes_and_free_edges;
+  const auto modes_at       = [&](const int v)
   {
-    Eigen::Matrix<double, 1, Eigen::Dynamic, Eigen::RowMajor, 1, 18> row =
-      modes.row(fine.cell_vertex(v));
+    const auto of_cell = modes.row(fine.cell_vertex(v));
+    Eigen::Matrix<double, 1, Eigen::Dynamic, Eigen::RowMajor, 1, 24> row(of_cell.size() +
+                                                                         (free_are_apart ? 6 : 0));
+    row.head(of_cell.size()) = of_cell;
     if (near_edges.are_there() && options.microscopic)
-      row.template head<6>() -= near_edges.at(v);
+    {
+      const EdgeModes::Row of_free = near_edges.at(v, EdgeKind::free);
+      row.template head<6>() -= near_edges.at(v, EdgeKind::clamped);
+      if (free_are_apart)
+        row.template tail<6>() = -of_free;
+      else
+        row.template head<6>() -= of_free;
+    }
     return row;
   };
   n_total = fine.mesh.n_vertices();
@@ -175,13 +185,14 @@ std::size_t Upsampler<dim, Scalar>::table_bytes() const
   {
     bytes += sizeof(Weights<Scalar>) * table.weights.size() +
              sizeof(Hats<Scalar>) * table.hats.size() +
-             sizeof(ChiBlock<Scalar>) * table.chi_blocks.size() +
+             sizeof(ChiBlock<Scalar>) * (table.chi_blocks.size() + table.free_blocks.size()) +
              sizeof(QuadraticBlock<Scalar>) * table.quadratic_blocks.size();
   };
   add(own);
   add(cells.shared);
-  for (const std::vector<ChiBlock<Scalar>> &chi : cells.chi_of_kind)
-    bytes += sizeof(ChiBlock<Scalar>) * chi.size();
+  for (const auto *const of_kind : {&cells.chi_of_kind, &cells.free_of_kind})
+    for (const std::vector<ChiBlock<Scalar>> &blocks : *of_kind)
+      bytes += sizeof(ChiBlock<Scalar>) * blocks.size();
   return bytes;
 }
 
@@ -208,17 +219,21 @@ void Upsampler<dim, Scalar>::fill_records(const PositionsOf<dim> coarse_current)
     for (Eigen::Index v = 0; v < n; ++v)
       for (int c = 0; c < frames.n_components; ++c)
         records[static_cast<std::size_t>(v * size + dim + c)] = static_cast<Scalar>(values(v, c));
-  if (kind_of_modes(options) == fitted_modes)
+  if (are_fitted(kind_of_modes(options)))
     for (Eigen::Index v = 0; v < n; ++v)
     {
-      const Eigen::Vector3d strain = values.row(v).template head<3>();
-      const auto coefficients      = meshes::fitted_coefficients(fitted, strain);
-      const Eigen::Vector3d of_chi = meshes::effective_strain(fitted, strain);
+      const Eigen::Vector3d strain  = values.row(v).template head<3>();
+      const auto coefficients       = meshes::fitted_coefficients(fitted, strain);
+      const Eigen::Vector3d of_chi  = meshes::effective_strain(fitted, strain),
+                            of_free = meshes::strain_of_free_edges(of_chi, strain);
       for (int a = 0; a < 3; ++a)
         records[static_cast<std::size_t>(v * size + dim + a)] = static_cast<Scalar>(of_chi(a));
+      const std::size_t behind = static_cast<std::size_t>(v * size + dim + frames.n_components);
       for (int k = 0; k < meshes::FittedModes::n_modes; ++k)
-        records[static_cast<std::size_t>(v * size + dim + frames.n_components + k)] =
-          static_cast<Scalar>(coefficients(k));
+        records[behind + static_cast<std::size_t>(k)] = static_cast<Scalar>(coefficients(k));
+      for (int a = 0; a < 3; ++a)
+        records[behind + meshes::FittedModes::n_modes + static_cast<std::size_t>(a)] =
+          static_cast<Scalar>(of_free(a));
     }
 }
 
@@ -234,6 +249,8 @@ void Upsampler<dim, Scalar>::run_modes(Scalar *const fine_current) const
     return run<terms, quadratic_modes>(fine_current);
   case fitted_modes:
     return run<terms, fitted_modes>(fine_current);
+  case fitted_modes_and_free_edges:
+    return run<terms, fitted_modes_and_free_edges>(fine_current);
   }
 }
 
@@ -268,20 +285,19 @@ void Upsampler<dim, Scalar>::run_cells(Scalar *const fine_current) const
                                                   cell / cells.n_along, half));
       else
         nodes = corners_of<terms, modes>(2 * cell + is_above);
-      const auto &chi = cells.chi_of(cell);
       const int begin = is_above ? begin_above : 0,
                 count = is_above ? cells.n_block - n_below : n_below,
                 first = cell * cells.n_block + (is_above ? n_below : 0);
       if (first + count + lanes <= n_total)
       {
-        fine_positions<dim, terms>(nodes, cells.shared.from(begin, chi), n_blocks_of(count),
+        fine_positions<dim, terms>(nodes, cells.from(begin, cell), n_blocks_of(count),
                                    fine_current + first * dim);
         continue;
       }
       for (int done = 0; done < count; done += chunk)
       {
         const int part = std::min(chunk, count - done);
-        fine_positions<dim, terms>(nodes, cells.shared.from(begin + done, chi), n_blocks_of(part),
+        fine_positions<dim, terms>(nodes, cells.from(begin + done, cell), n_blocks_of(part),
                                    buffer);
         std::copy_n(buffer, part * dim, fine_current + (first + done) * dim);
       }
@@ -305,7 +321,8 @@ void Upsampler<dim, Scalar>::run(Scalar *const fine_current) const
     for (int done = 0; done < group.count; done += chunk)
     {
       const int part = std::min(chunk, group.count - done);
-      fine_positions<dim, terms>(nodes, own.from(group.begin + done, own.chi_blocks),
+      fine_positions<dim, terms>(nodes,
+                                 own.from(group.begin + done, own.chi_blocks, own.free_blocks),
                                  n_blocks_of(part), buffer);
       for (int k = 0; k < part; ++k)
         for (int i = 0; i < dim; ++i)

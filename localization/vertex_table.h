@@ -19,23 +19,30 @@ struct VertexTable
   std::vector<Hats<Scalar>> hats; ///< empty where triangles have three nodes
   std::vector<ChiBlock<Scalar>> chi_blocks;
   std::vector<QuadraticBlock<Scalar>> quadratic_blocks; ///< empty where all modes are linear
-  int size = 0;                                         ///< rows, padding included
+  std::vector<ChiBlock<Scalar>> free_blocks; ///< empty but with fitted_modes_and_free_edges
+  int size = 0;                              ///< rows, padding included
 
   /// @param barycentric coordinates in the coarse triangle
   /// @param modes of the cell at the vertex: the six columns of chi, and where they are taken the
-  ///   twelve of the quadratic modes, those of equal strains halved, or of the fitted ones [m]
+  ///   twelve of the quadratic modes, those of equal strains halved, or of the fitted ones, and
+  ///   with these what free edges take off chi, six [m]
   template <typename ModesRow>
   void append(const Eigen::Vector3d &barycentric, const ModesRow &modes)
   {
-    bool is_quadratic = false;
+    bool is_quadratic = false, is_free = false;
     if constexpr (ModesRow::ColsAtCompileTime == Eigen::Dynamic)
+    {
       is_quadratic = modes.size() > 6;
+      is_free      = modes.size() > 18;
+    }
     if (size % lanes == 0)
     {
       weights.push_back({});
       chi_blocks.push_back({});
       if (is_quadratic)
         quadratic_blocks.push_back({});
+      if (is_free)
+        free_blocks.push_back({});
     }
     const int lane               = size++ % lanes;
     weights.back().corner1[lane] = static_cast<Scalar>(barycentric(1));
@@ -43,8 +50,12 @@ struct VertexTable
     for (int k = 0; k < 6; ++k)
       chi_blocks.back().column[k][lane] = static_cast<Scalar>(-modes(k));
     if constexpr (ModesRow::ColsAtCompileTime == Eigen::Dynamic)
+    {
       for (int k = 0; is_quadratic && k < 12; ++k)
         quadratic_blocks.back().column[k][lane] = static_cast<Scalar>(-modes(6 + k));
+      for (int k = 0; is_free && k < 6; ++k)
+        free_blocks.back().column[k][lane] = static_cast<Scalar>(-modes(18 + k));
+    }
   }
 
   /// The hats of the row that was appended last.
@@ -56,13 +67,15 @@ struct VertexTable
   }
 
   /// The constants from a row on with which a block begins.
-  /// @param chi that are taken: those of the table, or others of the same vertices
-  Blocks<Scalar> from(const int row, const std::vector<ChiBlock<Scalar>> &chi) const
+  /// @param chi, free that are taken: those of the table, or others of the same vertices
+  Blocks<Scalar> from(const int row, const std::vector<ChiBlock<Scalar>> &chi,
+                      const std::vector<ChiBlock<Scalar>> &free) const
   {
     const auto block     = static_cast<std::size_t>(row / lanes);
     const auto beginning = [block](const auto &blocks)
     { return blocks.empty() ? nullptr : blocks.data() + block; };
-    return {beginning(weights), beginning(hats), beginning(chi), beginning(quadratic_blocks)};
+    return {beginning(weights), beginning(hats), beginning(chi), beginning(quadratic_blocks),
+            beginning(free)};
   }
 
   /// Ends a group.

@@ -36,6 +36,12 @@ Eigen::Vector3d effective_strain(const FittedModes &fitted, const Eigen::Vector3
   return strain + (functions_in_box(fitted, strain) * fitted.of_strain).transpose();
 }
 
+Eigen::Vector3d strain_of_free_edges(const Eigen::Vector3d &effective,
+                                     const Eigen::Vector3d &strain)
+{
+  return effective.cwiseMax(strain.cwiseMin(0.)).cwiseMin(strain.cwiseMax(0.));
+}
+
 Eigen::Matrix<double, 1, FittedModes::n_modes> fitted_coefficients(const FittedModes &fitted,
                                                                    const Eigen::Vector3d &strain)
 {

@@ -8,11 +8,11 @@
 //   s_1 = E11/(e_1 + |E11|),  s_2 = E22/(e_2 + |E22|),  s_3 = gamma12/e_3
 //
 // The m_k are orthogonal to the chi_a in the mean over the cell, so that e is how much of each chi
-// there is; what follows chi, as layers at edges do, follows e. All f_j are zero at rest with their
-// first derivatives. s_1 and s_2 saturate beyond the strains at
-// which the tension of yarns outweighs their shear stiffness: a weave follows its first modes at
-// rest up to there and others beyond, which no polynomial does. Where shear is as stiff as
-// extension they are nearly E11/e_1 and E22/e_2, and the f_j of second and third order.
+// there is; what follows chi, as slip and layers of clamped edges do, follows e. All f_j are zero
+// at rest with their first derivatives. s_1 and s_2 saturate beyond the strains at which the
+// tension of yarns outweighs their shear stiffness: a weave follows its first modes at rest up to
+// there and others beyond, which no polynomial does. Where shear is as stiff as extension they are
+// nearly E11/e_1 and E22/e_2, and the f_j of second and third order.
 #pragma once
 
 #include <Eigen/Core>
@@ -46,6 +46,12 @@ Eigen::Matrix<double, 1, FittedModes::n_functions> fitted_functions(const Eigen:
 
 /// e; beyond the box what the nearest strain of it adds to E.
 Eigen::Vector3d effective_strain(const FittedModes &fitted, const Eigen::Vector3d &strain);
+
+/// What layers at free edges follow: e between zero and E, component by component. They are those
+/// of the stress at small strain, which e does not enlarge: in a weave that is pulled, the share of
+/// chi across is many times the strain across.
+Eigen::Vector3d strain_of_free_edges(const Eigen::Vector3d &effective,
+                                     const Eigen::Vector3d &strain);
 
 /// c_k; beyond the box those at the nearest strain of it.
 Eigen::Matrix<double, 1, FittedModes::n_modes> fitted_coefficients(const FittedModes &fitted,

@@ -28,8 +28,9 @@ struct CellWithEdges
 {
   const meshes::HomogenizedCell &cell;
   const meshes::CellEdges &edges;
-  /// Modes under a law; slip and layers follow their effective strain, tension of free edges and
-  /// forces within the strain itself. Null: all do.
+  /// Modes under a law; slip and layers of clamped edges follow their effective strain, layers of
+  /// free ones meshes::strain_of_free_edges(), tension and forces within the strain itself. Null:
+  /// all do.
   const meshes::FittedModes *fitted = nullptr;
 };
 

@@ -22,6 +22,7 @@ enum class OfLaws
   second_order,           ///< that have one
   second_order_or_linear, ///< where it falls back to its other parts
   fitted,
+  fitted_yarns, ///< `yarn` alone, whose modes reach where no second order does
   yarns
 };
 
@@ -45,7 +46,7 @@ constexpr std::array<KnownMethod, 12> known_methods = {
    {"full", {cubic, six}, true, OfLaws::second_order_or_linear},
    {"first-order", {quadratic, six}, true, OfLaws::yarns},
    {"fitted", {cubic, three}, false, OfLaws::fitted},
-   {"full-fitted", {cubic, six}, true, OfLaws::fitted},
+   {"full-fitted", {quadratic, six}, true, OfLaws::fitted_yarns},
    {"localized-affine-lift", {quadratic, three}, false, OfLaws::nonlinear},
    {"localized-mean-anchor", {quadratic, three}, false},
    {"localized-piecewise", {quadratic, three}, false}}};
@@ -79,7 +80,7 @@ Method::Method(const std::string &name)
     : name(name)
     , of_coarse(known(name).coarse)
     , has_edges(known(name).has_edges)
-    , has_fitted(known(name).laws == OfLaws::fitted)
+    , has_fitted(known(name).laws == OfLaws::fitted || known(name).laws == OfLaws::fitted_yarns)
 {
 }
 
@@ -113,7 +114,8 @@ bool Method::is_of_second_order(const Law law) const
 
 bool Method::has_fitted_modes(const Law law) const
 {
-  return has_fitted && law != Law::linear && law != Law::yarn_tension;
+  return has_fitted && law != Law::linear && law != Law::yarn_tension &&
+         (law == Law::yarn || known(name).laws == OfLaws::fitted);
 }
 
 CoarseChoice Method::coarse(const Law law) const
@@ -133,6 +135,7 @@ bool Method::has_meaning(const Law law) const
   case OfLaws::second_order_or_linear:
     return is_of_second_order(law) || law == Law::linear;
   case OfLaws::fitted:
+  case OfLaws::fitted_yarns:
     return has_fitted_modes(law);
   case OfLaws::yarns:
     return is_of_yarns(law);

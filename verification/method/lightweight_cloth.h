@@ -52,8 +52,8 @@ struct CoarseChoice
 /// - fitted: a variant of quadratic for large strains, its modes fitted over a box of them
 ///   (mode_fit.h); beyond the box those at its border. Under yarn the
 ///   coarse cloth has C^H alone
-/// - full-fitted: fitted, p2 and edges in one; slip and layers follow the effective strain of the
-///   fitted modes
+/// - full-fitted: first-order with fitted modes, against `yarn`; slip and layers follow the
+///   effective strain of the modes
 /// - localized-affine-lift, localized-mean-anchor, localized-piecewise: one choice turned each
 class Method
 {

@@ -17,7 +17,7 @@ COMPARED = [
     "--loads",
     "strip-1,strip-2,shear-frame",
     "--methods",
-    "affine,localized,edges,quadratic,p2,full,first-order,localized-mean-anchor",
+    "affine,localized,edges,quadratic,p2,full,first-order,full-fitted,localized-mean-anchor",
     "--no-budget",
     "--no-runtime",
     "--no-report",

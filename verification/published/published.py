@@ -27,7 +27,8 @@ from read.stored import BadResults  # noqa: E402
 from run_files import Results  # noqa: E402
 
 STRAIN, LARGE_STRAIN, REFERENCE = 0.01, 0.1, "biot"
-LADDER = ("affine", "localized", "edges", "quadratic", "p2", "full", "first-order")
+LADDER = ("affine", "localized", "edges", "quadratic", "p2", "full", "first-order",
+          "full-fitted")
 SCENE = "pull"
 SHEETS = ("strip-1", "strip-2", "shear-frame")
 KEYS = {  # columns that name a row of each file, for README's marks

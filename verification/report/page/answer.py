@@ -41,7 +41,7 @@ CAUSES = {
 # What a method takes away of the budget, which is that of `localized`.
 EDGES, NONLINEARITY = ("slip", "selvedge", "bulk", "layer"), ("macro-law", "modes")
 TAKEN_AWAY = {"edges": EDGES, "quadratic": NONLINEARITY, "full": EDGES + NONLINEARITY,
-              "first-order": EDGES}
+              "first-order": EDGES, "full-fitted": EDGES + ("modes",)}
 PAPER = "localized"
 SECOND_CAUSE = 0.25  # share of the error from which a second cause is named
 VALIDITY_LIMIT = 0.01  # of a cell side
