@@ -61,12 +61,13 @@ struct Case
   UpsamplerOptions options;
 };
 
-/// The closed form of edges_of() at a fine vertex, what it adds to w per unit strain.
-Eigen::Matrix<double, 1, 6> known_modes(const Case &of, const int vertex)
+/// The closed form of edges_of() at a fine vertex, what it adds to w per unit strain; of the
+/// clamped edges, then of the free one.
+Eigen::Matrix<double, 2, 6> known_modes(const Case &of, const int vertex)
 {
   const Eigen::RowVector2d at = of.cloth.sheet.fraction(of.cloth.sheet.mesh.vertices.row(vertex))
                                   .cwiseProduct(Eigen::RowVector2d(n1, n2));
-  Eigen::Matrix<double, 1, 6> sum = Eigen::Matrix<double, 1, 6>::Zero();
+  Eigen::Matrix<double, 2, 6> sum = Eigen::Matrix<double, 2, 6>::Zero();
   for (const int side : {0, 2, 3})
   {
     const int axis     = meshes::axis_of_side(side);
@@ -78,17 +79,36 @@ Eigen::Matrix<double, 1, 6> known_modes(const Case &of, const int vertex)
     for (int c = 0; c < 6; ++c)
     {
       const double wave = std::sin(2. * M_PI * at(1 - axis) + c + side);
-      sum(c) += side == 0 ? 1e-3 * (wave - 0.2 * c) * std::exp(-2. * depth)
-                          : 1e-3 * (wave + 0.3 * c) * std::exp(-depth);
+      if (side == 0)
+        sum(1, c) += 1e-3 * (wave - 0.2 * c) * std::exp(-2. * depth);
+      else
+        sum(0, c) += 1e-3 * (wave + 0.3 * c) * std::exp(-depth);
     }
   }
   return sum;
 }
 
+/// Modes whose effective strain is larger than the strain, smaller, or of the other sign.
+meshes::FittedModes fitted_to(const meshes::HomogenizedCell &cell)
+{
+  meshes::FittedModes modes;
+  modes.low << -0.3, -0.3, -0.3;
+  modes.high << 0.3, 0.3, 0.3;
+  modes.knees << 0.02, 0.5, 0.2;
+  modes.modes.setRandom(cell.mesh.n_vertices(), modes.modes.cols());
+  modes.coefficients.setRandom();
+  for (int j = 0; j < meshes::FittedModes::n_functions; ++j)
+    modes.of_strain.row(j) << std::sin(3. * j), 3. * std::sin(5. * j), 2. * std::cos(7. * j);
+  return modes;
+}
+
 template <int dim>
-void expect_the_definition(const Path path)
+void expect_the_definition(const Path path, const bool is_fitted)
 {
   Case with;
+  const meshes::FittedModes fitted = fitted_to(with.cloth.cell);
+  if (is_fitted)
+    with.options.fitted = &fitted;
   with.options.path            = path;
   const Positions<dim> current = tests::wavy_motion<dim>(with.cloth.coarse.vertices);
   const auto fine              = tests::upsampled<dim>(with.cloth, current, with.options);
@@ -96,8 +116,20 @@ void expect_the_definition(const Path path)
   plain.edges                  = nullptr;
   const auto without           = tests::upsampled<dim>(with.cloth, current, plain);
   const CoarseFrames<dim> frames(with.cloth.coarse, with.options);
-  const auto &values = frames.values(current);
-  double largest     = 0.;
+  const auto &values          = frames.values(current);
+  Eigen::MatrixX3d of_clamped = values.leftCols(3), of_free = of_clamped;
+  for (Eigen::Index v = 0; is_fitted && v < values.rows(); ++v)
+  {
+    const Eigen::Vector3d strain = of_free.row(v);
+    of_clamped.row(v)            = meshes::effective_strain(fitted, strain);
+    for (int a = 0; a < 3; ++a)
+    {
+      // No more than the strain, and nothing of the other sign.
+      const double e = of_clamped(v, a);
+      of_free(v, a)  = e * strain(a) <= 0. ? 0. : std::abs(e) < std::abs(strain(a)) ? e : strain(a);
+    }
+  }
+  double largest = 0.;
   for (int v = 0; v < with.cloth.sheet.mesh.n_vertices(); ++v)
   {
     const Eigen::RowVector2d at = with.cloth.sheet.fraction(with.cloth.sheet.mesh.vertices.row(v))
@@ -109,12 +141,16 @@ void expect_the_definition(const Path path)
     const Eigen::Vector3d weights =
       y > x ? Eigen::Vector3d(1. - y, x, y - x) : Eigen::Vector3d(1. - x, x - y, y);
     Eigen::Matrix<double, 1, 3 + 2 *dim> frame = Eigen::Matrix<double, 1, 3 + 2 * dim>::Zero();
+    const Eigen::Matrix<double, 2, 6> modes    = known_modes(with, v);
+    Eigen::Vector2d w                          = Eigen::Vector2d::Zero();
     for (int k = 0; k < 3; ++k)
-      frame += weights(k) * values.row(with.cloth.coarse.triangles(t, k));
-    const Eigen::Matrix<double, 1, 6> modes = known_modes(with, v);
-    Eigen::Vector2d w                       = Eigen::Vector2d::Zero();
-    for (int a = 0; a < 3; ++a)
-      w += frame(a) * modes.segment<2>(2 * a).transpose();
+    {
+      const int corner = with.cloth.coarse.triangles(t, k);
+      frame += weights(k) * values.row(corner);
+      for (int a = 0; a < 3; ++a)
+        w += weights(k) * (of_clamped(corner, a) * modes.row(0).segment<2>(2 * a) +
+                           of_free(corner, a) * modes.row(1).segment<2>(2 * a));
+    }
     const Eigen::Matrix<double, dim, 2> lift =
       Eigen::Map<const Eigen::Matrix<double, dim, 2, Eigen::RowMajor>>(frame.data() + 3);
     largest = std::max(
@@ -141,8 +177,17 @@ TEST(exact_edge_modes, positions_near_edges_are_those_of_the_definition)
 {
   for (const Path path : {Path::automatic, Path::general})
   {
-    expect_the_definition<2>(path);
-    expect_the_definition<3>(path);
+    expect_the_definition<2>(path, false);
+    expect_the_definition<3>(path, false);
+  }
+}
+
+TEST(exact_edge_modes, beside_fitted_modes_edges_follow_their_own_strains)
+{
+  for (const Path path : {Path::automatic, Path::general})
+  {
+    expect_the_definition<2>(path, true);
+    expect_the_definition<3>(path, true);
   }
 }
 

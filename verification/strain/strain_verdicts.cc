@@ -235,6 +235,21 @@ std::vector<Verdict> sheet_verdict(const std::vector<StrainRow> &rows, const Str
 }
 } // namespace
 
+namespace
+{
+/// How much the slopes between three levels differ where errors are a e + b e², a, b >= 0, and have
+/// a slope on the whole; zero of other slopes.
+double rise_of_slope(const double slope, const double last_over_first)
+{
+  if (slope <= 1. || slope >= 2.)
+    return 0.;
+  const double x = (slope - 1.) / (2. - slope), // b e / a in the middle
+    q            = std::pow(last_over_first, 0.25);
+  const auto at  = [](const double ratio) { return ratio / (1. + ratio); };
+  return at(x * q) - at(x / q);
+}
+} // namespace
+
 Verdict verdict_of_smallest(const std::string &claim, const std::vector<double> &strains,
                             const std::vector<double> &errors)
 {
@@ -246,6 +261,16 @@ Verdict verdict_of_smallest(const std::string &claim, const std::vector<double> 
   {
     const double slope =
       log_slope({strains.begin(), strains.begin() + 3}, {errors.begin(), errors.begin() + 3});
+    const double rise = rise_of_slope(slope, strains[2] / strains[0]);
+    if (rise > 0.1 && second - first < 0.5 * rise)
+      return {
+        claim,
+        Outcome::inconclusive,
+        slope,
+        limit + "; errors of first and second order together would have slopes that rise by " +
+          short_text(rise) + ": the strains are not small for this cell, give smaller --strains",
+        derivation_of_slope_two,
+        Kind::program};
     return {claim,
             slope >= 1.9 ? Outcome::pass : Outcome::fail,
             slope,

@@ -21,8 +21,9 @@ extern const char *const derivation_of_slope_two;
 double log_slope(const std::vector<double> &x, const std::vector<double> &y);
 
 /// The claim by the three smallest levels of at least three. Where the slopes between them differ
-/// by more than the limit of the claim it is open; but not where they fall towards one as those of
-/// a first order beside a second do.
+/// by more than the limit of the claim it is open, and so it is where they agree on an order
+/// between one and two; but not where they fall towards one as those of a first order beside a
+/// second do.
 /// @param strains ascending
 Verdict verdict_of_smallest(const std::string &claim, const std::vector<double> &strains,
                             const std::vector<double> &errors);

@@ -460,6 +460,9 @@ TEST(tripwire_validity, against_yarn_no_study_speaks_of_second_order)
   const std::vector<std::string> of_yarns = {"localized", "edges", "first-order"};
   EXPECT_EQ(main_method(of_yarns, "yarn"), "first-order");
   EXPECT_EQ(main_method(of_yarns, "yarn-tension"), "first-order");
+  const std::vector<std::string> with_modes = {"localized", "edges", "first-order", "full-fitted"};
+  EXPECT_EQ(main_method(with_modes, "yarn"), "full-fitted");
+  EXPECT_EQ(main_method(with_modes, "biot"), "first-order");
   const std::vector<std::string> without_edges = {"localized", "quadratic"};
   EXPECT_EQ(main_method(without_edges, "yarn"), "localized");
 }
