@@ -204,6 +204,34 @@ TEST(order_edge_terms, small_strains_under_biot_are_those_of_linear_theory)
   EXPECT_NEAR(std::log2(distance(2e-3) / distance(1e-3)), 2., 0.05);
 }
 
+// The other terms are those of the stress at small strain, and stay.
+TEST(exact_edge_terms, beside_fitted_modes_clamped_edges_slip_by_the_effective_strain)
+{
+  const Edged edged(layers(4), 3);
+  meshes::FittedModes modes;
+  modes.low.setConstant(-0.1);
+  modes.high.setConstant(0.1);
+  modes.knees << 0.02, 0.1, 0.2;
+  modes.of_strain.setRandom();
+  const CoarseSpace space(edged.sheet, CoarseElement::three_nodes);
+  const auto loads = [&](const meshes::FittedModes *const fitted)
+  {
+    const EdgeTerms terms({edged.homogenized, edged.edges, fitted}, edged.sheet, Load("strip-1"),
+                          space.grid, Law::yarn);
+    Eigen::Matrix2d F; // without rotation
+    F << 1.02, 0.015, 0.015, 0.99;
+    return terms.macro_loads(space.grid.mesh.vertices * F);
+  };
+  const EdgeTerms::MacroLoads with = loads(&modes), without = loads(nullptr);
+  EXPECT_EQ(with.forces, without.forces);
+  const Eigen::Vector3d effective =
+    meshes::effective_strain(modes, Eigen::Vector3d(0.02, -0.01, 0.03));
+  const Eigen::RowVector2d expected =
+    (edged.edges.sides[0].slip * effective).transpose(); // the near end of axis 1
+  EXPECT_LT((with.slip.row(0) - expected).norm(), 1e-12 * edged.side);
+  EXPECT_GT((with.slip.row(0) - without.slip.row(0)).norm(), 1e-6 * edged.side);
+}
+
 TEST(tripwire_edge_terms, an_infinite_cloth_has_no_edges)
 {
   const Edged edged(layers(4), 1);
