@@ -41,10 +41,7 @@ Upsampler<dim, Scalar>::Upsampler(const meshes::HomogenizedCell &cell,
   if (!faults.empty())
     throw meshes::BadInput(faults);
   if (options.fitted != nullptr)
-  {
-    fitted = *options.fitted;
-    fitted.modes.resize(0, fitted.modes.cols()); // they go into the tables
-  }
+    fitted = meshes::FittedResponse(*options.fitted);
   const CellModes modes = cell_modes(cell, options);
   const EdgeModes near_edges(cell, fine, options);
   const bool free_are_apart = kind_of_modes(options) == fitted_modes_and_free_edges;
@@ -223,17 +220,18 @@ void Upsampler<dim, Scalar>::fill_records(const PositionsOf<dim> coarse_current)
     for (Eigen::Index v = 0; v < n; ++v)
     {
       const Eigen::Vector3d strain  = values.row(v).template head<3>();
-      const auto coefficients       = meshes::fitted_coefficients(fitted, strain);
-      const Eigen::Vector3d of_chi  = meshes::effective_strain(fitted, strain),
+      const auto response           = fitted.at(strain);
+      const Eigen::Vector3d of_chi  = response.template head<3>().transpose(),
                             of_free = meshes::strain_of_free_edges(of_chi, strain);
+      Scalar *const record          = records.data() + static_cast<std::size_t>(v * size + dim),
+                    *const behind   = record + frames.n_components;
       for (int a = 0; a < 3; ++a)
-        records[static_cast<std::size_t>(v * size + dim + a)] = static_cast<Scalar>(of_chi(a));
-      const std::size_t behind = static_cast<std::size_t>(v * size + dim + frames.n_components);
+      {
+        record[a]                                = static_cast<Scalar>(of_chi(a));
+        behind[meshes::FittedModes::n_modes + a] = static_cast<Scalar>(of_free(a));
+      }
       for (int k = 0; k < meshes::FittedModes::n_modes; ++k)
-        records[behind + static_cast<std::size_t>(k)] = static_cast<Scalar>(coefficients(k));
-      for (int a = 0; a < 3; ++a)
-        records[behind + meshes::FittedModes::n_modes + static_cast<std::size_t>(a)] =
-          static_cast<Scalar>(of_free(a));
+        behind[k] = static_cast<Scalar>(response(3 + k));
     }
 }
 

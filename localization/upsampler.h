@@ -130,7 +130,7 @@ private:
   std::vector<Group> groups;      ///< of `own`
   std::vector<int> target;        ///< fine vertex of each row of `own`, −1 for padding
   mutable Positions<dim> at_rest_vertices; ///< garment: positions by rest vertex
-  meshes::FittedModes fitted;              ///< box and coefficients, where the options take them
+  meshes::FittedResponse fitted;           ///< where the options take fitted modes
   mutable std::vector<Scalar> records;     ///< of each coarse vertex: see record_size()
 };
 } // namespace homespun::localization

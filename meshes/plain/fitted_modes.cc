@@ -36,6 +36,25 @@ Eigen::Vector3d effective_strain(const FittedModes &fitted, const Eigen::Vector3
   return strain + (functions_in_box(fitted, strain) * fitted.of_strain).transpose();
 }
 
+FittedResponse::FittedResponse(const FittedModes &fitted)
+    : low(fitted.low)
+    , high(fitted.high)
+    , knees(fitted.knees)
+{
+  of_functions << fitted.of_strain, fitted.coefficients;
+}
+
+Eigen::Matrix<double, 1, 3 + FittedModes::n_modes>
+FittedResponse::at(const Eigen::Vector3d &strain) const
+{
+  const auto functions = fitted_functions(strain.cwiseMax(low).cwiseMin(high), knees);
+  Eigen::Matrix<double, 1, 3 + FittedModes::n_modes> sum;
+  sum << strain.transpose(), Eigen::Matrix<double, 1, FittedModes::n_modes>::Zero();
+  for (int j = 0; j < FittedModes::n_functions; ++j)
+    sum += functions(j) * of_functions.row(j);
+  return sum;
+}
+
 Eigen::Vector3d strain_of_free_edges(const Eigen::Vector3d &effective,
                                      const Eigen::Vector3d &strain)
 {

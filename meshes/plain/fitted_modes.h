@@ -47,6 +47,21 @@ Eigen::Matrix<double, 1, FittedModes::n_functions> fitted_functions(const Eigen:
 /// e; beyond the box what the nearest strain of it adds to E.
 Eigen::Vector3d effective_strain(const FittedModes &fitted, const Eigen::Vector3d &strain);
 
+/// Both at once, e and then c_k, for loops over many strains.
+class FittedResponse
+{
+public:
+  FittedResponse() = default;
+  explicit FittedResponse(const FittedModes &fitted);
+
+  Eigen::Matrix<double, 1, 3 + FittedModes::n_modes> at(const Eigen::Vector3d &strain) const;
+
+private:
+  Eigen::Vector3d low, high, knees;
+  Eigen::Matrix<double, FittedModes::n_functions, 3 + FittedModes::n_modes, Eigen::RowMajor>
+    of_functions;
+};
+
 /// What layers at free edges follow: e between zero and E, component by component. They are those
 /// of the stress at small strain, which e does not enlarge: in a weave that is pulled, the share of
 /// chi across is many times the strain across.

@@ -46,14 +46,15 @@ meshes::FittedModes fitted_to(const meshes::HomogenizedCell &cell)
   return fitted;
 }
 
-/// Edges, clamped at the ends of axis 2, whose modes reach two cells.
-meshes::CellEdges edges_of(const meshes::HomogenizedCell &cell)
+/// Edges, clamped at the ends of axis 2.
+/// @param reach of their modes, in cells
+meshes::CellEdges edges_of(const meshes::HomogenizedCell &cell, const int reach)
 {
   meshes::CellEdges edges;
   for (meshes::CellEdge &side : edges.sides)
   {
-    side.n_cells = 2;
-    side.clamped.setConstant(2 * cell.mesh.n_vertices(), 6, 1e-5);
+    side.n_cells = reach;
+    side.clamped.setConstant(reach * cell.mesh.n_vertices(), 6, 1e-5);
     side.free = -side.clamped;
   }
   return edges;
@@ -65,6 +66,7 @@ struct Around
   int quads_per_cell = 1;
   bool edges         = false;
   bool fitted        = false; ///< modes
+  int reach          = 2;     ///< of the modes of edges, in cells
 };
 
 template <int dim>
@@ -115,7 +117,7 @@ void upsample(benchmark::State &state, UpsamplerOptions options, const double fl
   const int r                        = around.quads_per_cell;
   const meshes::TriangleMesh coarse =
     meshes::coarse_sheet(sheet.origin, sheet.lattice.vectors / r, r * sheet.n1, r * sheet.n2);
-  const meshes::CellEdges edges = edges_of(cell);
+  const meshes::CellEdges edges = edges_of(cell, around.reach);
   if (around.edges)
   {
     options.anchor     = Anchor::mean;
@@ -242,6 +244,10 @@ void add_upsampling(const std::string &type)
   // 3 + 3 dim numbers takes three hats.
   add("full", of_second_order(), 33 + 17 * dim, {2, true});
   add("full_general", general_of_second_order(), 24 + 8 * dim, {2, true});
+  // In the place of the quadratic modes 6 coefficients, 3 strains of free edges and their 18 modes;
+  // edges of a weave reach as far as its sheet, and no two cells have the same modes.
+  add("full_fitted", {}, 84 + 17 * dim, {2, true, true});
+  add("full_fitted_far", {}, 84 + 17 * dim, {2, true, true, 20});
   add("piecewise", piecewise(), 6 + 4 * dim);
   add("without_modes", without_modes(), 2 * dim);
   add("general_without_modes", general_without_modes(), 2 * dim);
