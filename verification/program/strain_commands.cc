@@ -107,9 +107,9 @@ void add_strain_command(CommandLine &line)
   add_list(*command, "--references", study.references,
            "Laws of the fine reference (default linear, yarn or biot by the cell, green)");
   add_list(*command, "--methods", study.methods,
-           "Ways to the fine positions (default: all but fitted and full-fitted, whose modes are "
-           "fitted over the\n"
-           "fitted over the strains of the study)");
+           "Ways to the fine positions (default: all but fitted; its modes, and under yarn those "
+           "of\n"
+           "full-fitted, are fitted over the strains of the study)");
   command->add_flag("--quick", study.is_quick,
                     "4 x 4 cells at 0.1, 1 and 10 % unless given otherwise: seconds");
   command->add_flag("!--no-budget", study.budget,

@@ -29,7 +29,7 @@ GLOSSARY = (
     ("first-order", "p2 and edges in one, for cloths of yarns, whose second order does not reach far"),
     ("fitted", "quadratic with six modes that are fitted to the fluctuations of the cell over a box"
      " of strains, for large ones; asked for by name, and the box is among the notes"),
-    ("full-fitted", "fitted, p2 and edges in one; asked for by name"),
+    ("full-fitted", "first-order with modes that are fitted over the strains of the study, for cloths of yarns"),
     ("lift", "how a fine vertex is carried with the coarse cloth before χ is added; the affine lift"
      " is the plain one"),
     ("blending", "averaging the strain of neighbouring coarse triangles so that χ has no jumps;"
