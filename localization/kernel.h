@@ -128,6 +128,20 @@ struct Blocks
   const ChiBlock<Scalar> *free;            ///< of free edges, read beside fitted modes alone
 };
 
+/// Adds modes, each times a number of the frame, to the fluctuation of vertex n of a block.
+/// @param first of the numbers
+template <int number, typename Frame, typename Scalar>
+inline void add_modes(const Frame &frame, const int first, const Scalar (*const columns)[lanes],
+                      const int n, Scalar &w0, Scalar &w1)
+{
+  for (int k = 0; k < number; ++k)
+  {
+    const Scalar c = frame(first + k);
+    w0 += c * columns[2 * k][n];
+    w1 += c * columns[2 * k + 1][n];
+  }
+}
+
 /// Positions x = P + L w in blocks of `lanes` vertices.
 ///
 /// Not inlined, so that the coefficients are broadcast from memory and not taken apart from the
@@ -191,19 +205,9 @@ template <int dim, int terms, int modes, int n_nodes, typename Scalar>
           w1 = e0 * columns[1][n] + e1 * columns[3][n] + e2 * columns[5][n];
         }
         if constexpr (are_fitted(modes))
-          for (int k = 0; k < 6; ++k)
-          {
-            const Scalar c = frame(3 + 2 * dim + k);
-            w0 += c * blocks.quadratic[block].column[2 * k][n];
-            w1 += c * blocks.quadratic[block].column[2 * k + 1][n];
-          }
+          add_modes<6>(frame, 3 + 2 * dim, blocks.quadratic[block].column, n, w0, w1);
         if constexpr (modes == fitted_modes_and_free_edges)
-          for (int a = 0; a < 3; ++a)
-          {
-            const Scalar e = frame(9 + 2 * dim + a);
-            w0 += e * blocks.free[block].column[2 * a][n];
-            w1 += e * blocks.free[block].column[2 * a + 1][n];
-          }
+          add_modes<3>(frame, 9 + 2 * dim, blocks.free[block].column, n, w0, w1);
         if constexpr (is_in_plane)
         {
           x[0] += w0;
