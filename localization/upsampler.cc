@@ -217,22 +217,42 @@ void Upsampler<dim, Scalar>::fill_records(const PositionsOf<dim> coarse_current)
       for (int c = 0; c < frames.n_components; ++c)
         records[static_cast<std::size_t>(v * size + dim + c)] = static_cast<Scalar>(values(v, c));
   if (are_fitted(kind_of_modes(options)))
-    for (Eigen::Index v = 0; v < n; ++v)
+    fill_fitted_records(values);
+}
+
+template <int dim, typename Scalar>
+void Upsampler<dim, Scalar>::fill_fitted_records(
+  const typename CoarseFrames<dim>::Values &values) const
+{
+  using meshes::FittedResponse;
+  constexpr std::size_t behind = dim + CoarseFrames<dim>::n_components, // what fitted modes add
+    of_free                    = behind + meshes::FittedModes::n_modes;
+  const auto size              = static_cast<std::size_t>(record_size(kind_of_modes(options)));
+  for (Eigen::Index first = 0; first < values.rows(); first += FittedResponse::width)
+  {
+    const Eigen::Index n = std::min<Eigen::Index>(FittedResponse::width, values.rows() - first);
+    std::array<FittedResponse::Pack, 3> strains, free;
+    for (Eigen::Index a = 0; a < 3; ++a)
     {
-      const Eigen::Vector3d strain  = values.row(v).template head<3>();
-      const auto response           = fitted.at(strain);
-      const Eigen::Vector3d of_chi  = response.template head<3>().transpose(),
-                            of_free = meshes::strain_of_free_edges(of_chi, strain);
-      Scalar *const record          = records.data() + static_cast<std::size_t>(v * size + dim),
-                    *const behind   = record + frames.n_components;
-      for (int a = 0; a < 3; ++a)
-      {
-        record[a]                                = static_cast<Scalar>(of_chi(a));
-        behind[meshes::FittedModes::n_modes + a] = static_cast<Scalar>(of_free(a));
-      }
-      for (int k = 0; k < meshes::FittedModes::n_modes; ++k)
-        behind[k] = static_cast<Scalar>(response(3 + k));
+      FittedResponse::Pack &pack = strains[static_cast<std::size_t>(a)];
+      pack.setZero();
+      pack.head(n) = values.col(a).segment(first, n);
     }
+    const auto response = fitted.at(strains);
+    for (std::size_t a = 0; a < 3; ++a)
+      free[a] = meshes::strain_of_free_edges(response[a], strains[a]);
+    for (Eigen::Index i = 0; i < n; ++i)
+    {
+      Scalar *const record = records.data() + static_cast<std::size_t>(first + i) * size;
+      for (std::size_t k = 0; k < 3; ++k)
+      {
+        record[dim + k]     = static_cast<Scalar>(response[k](i));
+        record[of_free + k] = static_cast<Scalar>(free[k](i));
+      }
+      for (std::size_t k = 3; k < response.size(); ++k)
+        record[behind + k - 3] = static_cast<Scalar>(response[k](i));
+    }
+  }
 }
 
 template <int dim, typename Scalar>

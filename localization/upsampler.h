@@ -111,6 +111,7 @@ private:
   void tabulate(const std::vector<std::vector<Member>> &in_triangle, const ChiAt &chi_at);
   PositionsOf<dim> gathered(PositionsOf<dim> coarse_current) const;
   void fill_records(PositionsOf<dim> coarse_current) const;
+  void fill_fitted_records(const typename CoarseFrames<dim>::Values &values) const;
   template <int terms, int modes>
   void run(Scalar *fine_current) const;
   template <int terms>

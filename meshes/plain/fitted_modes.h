@@ -17,6 +17,8 @@
 
 #include <Eigen/Core>
 
+#include <array>
+
 namespace homespun::meshes
 {
 struct FittedModes
@@ -44,31 +46,35 @@ struct FittedModes
 Eigen::Matrix<double, 1, FittedModes::n_functions> fitted_functions(const Eigen::Vector3d &strain,
                                                                     const Eigen::Vector3d &knees);
 
-/// e; beyond the box what the nearest strain of it adds to E.
-Eigen::Vector3d effective_strain(const FittedModes &fitted, const Eigen::Vector3d &strain);
-
-/// Both at once, e and then c_k, for loops over many strains.
+/// The nine numbers of a strain, e and then c_k; beyond the box what e adds to E, and c_k, are
+/// those of the nearest strain of it.
 class FittedResponse
 {
 public:
+  static constexpr int width = 8, size = 3 + FittedModes::n_modes;
+  using Pack = Eigen::Array<double, width, 1>;
+
   FittedResponse() = default;
   explicit FittedResponse(const FittedModes &fitted);
 
-  Eigen::Matrix<double, 1, 3 + FittedModes::n_modes> at(const Eigen::Vector3d &strain) const;
+  /// Of `width` strains abreast: a number takes as many multiply-adds as there are functions, 243
+  /// for a strain, in whole registers.
+  std::array<Pack, size> at(const std::array<Pack, 3> &strains) const;
+
+  /// Of one.
+  Eigen::Matrix<double, 1, size> at(const Eigen::Vector3d &strain) const;
 
 private:
   Eigen::Vector3d low, high, knees;
-  Eigen::Matrix<double, FittedModes::n_functions, 3 + FittedModes::n_modes, Eigen::RowMajor>
-    of_functions;
+  Eigen::Matrix<double, FittedModes::n_functions, size, Eigen::RowMajor> of_functions;
 };
 
-/// What layers at free edges follow: e between zero and E, component by component. They are those
-/// of the stress at small strain, which e does not enlarge: in a weave that is pulled, the share of
+/// What layers at free edges follow: a component of e between zero and that of E. They are those of
+/// the stress at small strain, which e does not enlarge: in a weave that is pulled, the share of
 /// chi across is many times the strain across.
-Eigen::Vector3d strain_of_free_edges(const Eigen::Vector3d &effective,
-                                     const Eigen::Vector3d &strain);
-
-/// c_k; beyond the box those at the nearest strain of it.
-Eigen::Matrix<double, 1, FittedModes::n_modes> fitted_coefficients(const FittedModes &fitted,
-                                                                   const Eigen::Vector3d &strain);
+inline FittedResponse::Pack strain_of_free_edges(const FittedResponse::Pack &effective,
+                                                 const FittedResponse::Pack &strain)
+{
+  return effective.max(strain.min(0.)).min(strain.max(0.));
+}
 } // namespace homespun::meshes

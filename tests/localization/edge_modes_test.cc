@@ -121,7 +121,7 @@ void expect_the_definition(const Path path, const bool is_fitted)
   for (Eigen::Index v = 0; is_fitted && v < values.rows(); ++v)
   {
     const Eigen::Vector3d strain = of_free.row(v);
-    of_clamped.row(v)            = meshes::effective_strain(fitted, strain);
+    of_clamped.row(v)            = meshes::FittedResponse(fitted).at(strain).head<3>();
     for (int a = 0; a < 3; ++a)
     {
       // No more than the strain, and nothing of the other sign.

@@ -52,11 +52,14 @@ EdgeTerms::MacroLoads EdgeTerms::macro_loads(const Positions &positions) const
   const auto &of_vertices = frames.values(positions);
   auto of_chi             = of_vertices;
   if (fitted != nullptr)
+  {
+    const meshes::FittedResponse response(*fitted);
     for (Eigen::Index v = 0; v < of_chi.rows(); ++v)
     {
       const Eigen::Vector3d strain = of_chi.row(v).head<3>();
-      of_chi.row(v).head<3>()      = meshes::effective_strain(*fitted, strain);
+      of_chi.row(v).head<3>()      = response.at(strain).head<3>();
     }
+  }
   MacroLoads loads = {Positions::Zero(grid.mesh.n_vertices(), 2),
                       bulk_forces<2>(grid.mesh, edges.bulk, of_vertices)};
   for (int side = 0; side < meshes::CellEdges::n_sides; ++side)

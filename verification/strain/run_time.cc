@@ -73,18 +73,19 @@ public:
     best                     = p2.positions;
     const Timed p1           = fine(1);
     const unsigned int ranks = n_ranks();
-    on_root(communicator,
-            [&]()
-            {
-              bar         = bar_of_p2(uncertainty, cell.name, load.name, sheet.n1, options.strain);
-              Timed of_p2 = p2;
-              of_p2.note += std::string(of_p2.note.empty() ? "" : "; ") +
-                            "what the others are held against: its error is its own error bar";
-              write("fine-p2", of_p2, ranks, bar);
-              write("fine-p1", p1, ranks);
-              full_resolution();
-              coarse_cloths();
-            });
+    on_root(
+      communicator,
+      [&]()
+      {
+        bar = bar_of_p2(uncertainty, {cell.name, load.name, options.law, options.strain}, sheet.n1);
+        Timed of_p2 = p2;
+        of_p2.note += std::string(of_p2.note.empty() ? "" : "; ") +
+                      "what the others are held against: its error is its own error bar";
+        write("fine-p2", of_p2, ranks, bar);
+        write("fine-p1", p1, ranks);
+        full_resolution();
+        coarse_cloths();
+      });
     return {};
   }
 
@@ -98,7 +99,7 @@ private:
 
   RunTimeRow row_of(const std::string &way) const
   {
-    return {cell.name, load.name, options.strain, name_of(Law::biot), way};
+    return {cell.name, load.name, options.strain, name_of(options.law), way};
   }
 
   bool has(const std::string &way) const
@@ -142,7 +143,7 @@ private:
     for (int k = 0; k < options.n_runs && spent <= options.seconds_of_a_way; ++k)
     {
       tell("fine " + name + ", run " + std::to_string(k + 1));
-      reference.start(load, Law::biot);
+      reference.start(load, options.law);
       const ReferenceStep step = reference.advance(options.strain);
       if (!step.reached)
         return {{}, {}, 0, step.why};
@@ -154,8 +155,21 @@ private:
     return outcome;
   }
 
+  /// A way that the law of the study leaves no meaning has a row that says so.
+  bool is_corotational(const char *const way)
+  {
+    if (options.law == Law::biot)
+      return true;
+    Timed left_out;
+    left_out.note = "left out: its law is biot, and that of the others " + name_of(options.law);
+    write(way, left_out, 1);
+    return false;
+  }
+
   void full_resolution()
   {
+    if (!is_corotational("fine-corotational"))
+      return;
     tell("fine corotational");
     const shell::Positions<2> start =
       moved_affinely(load, sheet, sheet.mesh.vertices, options.strain);
@@ -187,7 +201,12 @@ private:
 
     for (const std::string &name : options.methods)
       own_cloth(Method(name));
+    if (is_corotational("nodal-warping"))
+      nodal_warping();
+  }
 
+  void nodal_warping()
+  {
     const HomogenizedSheet coarse(homogenized.stiffness, sheet, load, sheet.n1, sheet.n2);
     const shell::Positions<2> start = coarse.prescribed(options.strain);
     const std::vector<int> held     = held_vertices(load, sheet, coarse.mesh.vertices);
@@ -206,20 +225,22 @@ private:
               [&]()
               {
                 Moved moved;
-                moved.positions = coarse.solve(Law::biot, start, {}, &moved.steps);
+                moved.positions = coarse.solve(options.law, start, {}, &moved.steps);
                 return moved;
               });
   }
 
   void own_cloth(const Method &method)
   {
-    const CoarseChoice choice = method.coarse(Law::biot);
-    const bool is_plain       = !(CoarseChoice() < choice) && !method.has_edge_terms();
+    const CoarseChoice choice = method.coarse(options.law);
+    const bool is_fitted      = method.has_fitted_modes(options.law);
+    const bool is_plain = !(CoarseChoice() < choice) && !method.has_edge_terms() && !is_fitted;
     if (is_plain || (method.has_edge_terms() && options.edges == nullptr) ||
-        method.has_fitted_modes() || !method.has_meaning(Law::biot) ||
+        (is_fitted && options.fitted == nullptr) || !method.has_meaning(options.law) ||
         !CoarseSpace::fits(sheet, choice.element))
       return;
-    const std::string way = method.name + "-" + std::to_string(sheet.n1);
+    const meshes::FittedModes *const fitted = is_fitted ? options.fitted : nullptr;
+    const std::string way                   = method.name + "-" + std::to_string(sheet.n1);
     tell(way);
     Timed outcome;
     outcome.n_triangles = 2L * sheet.n1 * sheet.n2 / (method.has_six_nodes() ? 4 : 1);
@@ -227,14 +248,14 @@ private:
             [&]()
             {
               LightweightCloth cloth(homogenized, sheet, load, choice);
-              const CoarseStep step = cloth.solve(Law::biot, options.strain);
+              const CoarseStep step = cloth.solve(options.law, options.strain);
               EdgedPositions fine;
               if (method.has_edge_terms())
-                fine = EdgedSheet({homogenized, *options.edges}, sheet, load, method)
-                         .upsample(Law::biot, step.positions);
+                fine = EdgedSheet({homogenized, *options.edges, fitted}, sheet, load, method)
+                         .upsample(options.law, step.positions, fitted);
               else
                 static_cast<UpsampledSheet &>(fine) =
-                  cloth.upsample(method, Law::biot, step.positions);
+                  cloth.upsample(method, options.law, step.positions, fitted);
               outcome.positions = fine.positions;
               outcome.seconds.assign(runs_of_a_median, step.seconds + fine.seconds);
               outcome.seconds_step =
@@ -257,7 +278,7 @@ private:
                  const Solve &solve)
   {
     tell(way);
-    const localization::UpsamplerOptions choices = Method(method).options(Law::biot);
+    const localization::UpsamplerOptions choices = Method(method).options(options.law);
     const localization::Upsampler<2, float> in_float(homogenized, coarse.mesh, sheet, choices);
     localization::Upsampler<2, float>::Fine fine;
     Timed outcome;
@@ -341,28 +362,28 @@ private:
 };
 } // namespace
 
-double bar_of_p2(const std::vector<UncertaintyRow> &rows, const std::string &cell,
-                 const std::string &load, const int n_cells, const double strain)
+double bar_of_p2(const std::vector<UncertaintyRow> &rows, const StrainLevel &level,
+                 const int n_cells)
 {
   const double unknown = std::numeric_limits<double>::quiet_NaN();
   double small = unknown, full = unknown, of_p2 = unknown;
   int n_small = 0;
   for (const UncertaintyRow &row : rows)
-    if (row.cell == cell && row.load == load && std::isfinite(row.p2_to_refined))
+    if (row.cell == level.cell && row.load == level.load && std::isfinite(row.p2_to_refined))
     {
       n_small = row.cells;
-      if (row.reference == name_of(Law::biot) || !std::isfinite(of_p2))
+      if (row.reference == name_of(level.law) || !std::isfinite(of_p2))
         of_p2 = row.p2_to_refined / row.strain;
     }
   for (const UncertaintyRow &row : rows)
-    if (row.cell == cell && row.load == load && row.reference == name_of(Law::linear))
+    if (row.cell == level.cell && row.load == level.load && row.reference == name_of(Law::linear))
     {
       if (row.cells == n_small)
         small = row.p1_to_p2 / row.strain;
       if (row.cells == n_cells)
         full = row.p1_to_p2 / row.strain;
     }
-  return of_p2 * (full / small) * strain;
+  return of_p2 * (full / small) * level.strain;
 }
 
 std::string run_time_study(const SheetUnderLoad &of, const RunTimeOptions &options,

@@ -3,20 +3,21 @@
 // the resolved solution to the coarsest cloth, with the time that each takes and its distance from
 // the best solution there is.
 //
-//   fine-p1, fine-p2       deal.II, every triangle of the sheet, law biot; all ranks
+//   fine-p1, fine-p2       deal.II, every triangle of the sheet; all ranks
 //   fine-corotational      the cloth's own element at full resolution, direct solver; one rank, as
-//                          all that follow
+//                          all that follow; beside biot alone
 //   affine-Q, localized-Q  coarse cloth of Q x Q quads, Q = 5, 10, 20, 40, coarse motion alone or
 //                          localized
-//   edges-N, quadratic-N, p2-N, full-N
-//                          those of --methods that have coarse cloths of their own, on the vertices
-//                          of one quad per cell; their times are medians of the equilibrium and of
-//                          what follows it, terms of edges included
+//   edges-N, quadratic-N, p2-N, full-N, first-order-N, fitted-N, full-fitted-N
+//                          those of --methods that have a coarse cloth or modes of their own, on
+//                          the vertices of one quad per cell; their times are medians of the
+//                          equilibrium and of what follows it, terms of edges included
 //   voigt, reuss           one quad per cell, localized, with the Voigt or Reuss stiffness in place
 //                          of C^H; Reuss not with holes
 //   nodal-warping          one quad per cell, localized, with the paper's warped stiffness
-//                          (shell/terms/warping.h)
+//                          (shell/terms/warping.h); beside biot alone
 //
+// All have one law, that of the study's main reference.
 // Every run begins with the affine motion that agrees with what is prescribed; there is no warm
 // start from a smaller strain. A time holds the equilibrium and, of coarse cloths, up-sampling in
 // single precision; not what is done once per sheet: numbering, location of vertices, symbolic
@@ -27,9 +28,11 @@
 
 #include "homogenization/cell/unit_cell.h"
 #include "meshes/plain/cell_edges.h"
+#include "meshes/plain/fitted_modes.h"
 #include "meshes/plain/homogenized_cell.h"
 #include "meshes/plain/sheet.h"
 #include "verification/reference/loads.h"
+#include "verification/strain/strain_output.h"
 #include "verification/strain/strain_tables.h"
 
 #include <mpi.h>
@@ -42,11 +45,13 @@ namespace homespun::verification
 {
 struct RunTimeOptions
 {
-  double strain                    = 0.1;
-  int n_runs                       = 5;       ///< per way, of which the median is taken
-  double seconds_of_a_way          = 300.;    ///< no further run of a way begins after this long
-  std::vector<std::string> methods = {};      ///< of which those with own cloths have rows
-  const meshes::CellEdges *edges   = nullptr; ///< of the cell; null: methods that ask have no rows
+  double strain                     = 0.1;
+  int n_runs                        = 5;         ///< per way, of which the median is taken
+  double seconds_of_a_way           = 300.;      ///< no further run of a way begins after this long
+  std::vector<std::string> methods  = {};        ///< of which those with own cloths have rows
+  Law law                           = Law::biot; ///< of the reference, which coarse cloths follow
+  const meshes::CellEdges *edges    = nullptr; ///< of the cell; null: methods that ask have no rows
+  const meshes::FittedModes *fitted = nullptr; ///< under the law; null: methods that ask have none
 };
 
 /// Stiffness of the cell in other ways than C^H [N/m].
@@ -74,10 +79,10 @@ std::string run_time_study(const SheetUnderLoad &of, const RunTimeOptions &optio
                            MPI_Comm communicator,
                            const std::function<void(const std::string &)> &tell);
 
-/// The error bar of P2 on the given mesh, law biot [m]: |P2 − refined P2| measured on the small
+/// The error bar of P2 on the given mesh [m]: |P2 − refined P2| measured on the small
 /// sheet, carried over by the ratio of |P1 − P2| at full size and there (linear law), per strain.
+/// Where the small sheet was not measured under the law of the level, it counts under another.
 /// NaN where a row is missing.
 /// @param rows of uncertainty.csv
-double bar_of_p2(const std::vector<UncertaintyRow> &rows, const std::string &cell,
-                 const std::string &load, int n_cells, double strain);
+double bar_of_p2(const std::vector<UncertaintyRow> &rows, const StrainLevel &level, int n_cells);
 } // namespace homespun::verification

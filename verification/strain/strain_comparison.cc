@@ -18,12 +18,6 @@
 
 namespace homespun::verification
 {
-bool has_biot(const StrainStudyOptions &options)
-{
-  return std::find(options.references.begin(), options.references.end(), "biot") !=
-         options.references.end();
-}
-
 std::vector<homogenization::MembraneLaw> laws_of_second_order(const StrainStudyOptions &options)
 {
   std::vector<homogenization::MembraneLaw> laws;

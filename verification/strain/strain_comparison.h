@@ -17,9 +17,6 @@ namespace homespun::verification
 /// The level nearest to 1 %, at which methods are compared.
 double compared_strain(const StrainStudyOptions &options);
 
-/// Whether biot is among the references, against which run times are measured.
-bool has_biot(const StrainStudyOptions &options);
-
 /// The laws of the references that a method of second order in strain is held against; none where
 /// no method is of second order.
 std::vector<homogenization::MembraneLaw> laws_of_second_order(const StrainStudyOptions &options);

@@ -2,6 +2,8 @@
 #include "verification/strain/strain_options.h"
 
 #include "verification/method/lightweight_cloth.h"
+#include "verification/record/main_reference.h"
+#include "verification/reference/laws.h"
 
 #include <algorithm>
 #include <iterator>
@@ -23,6 +25,18 @@ bool has_budget(const StrainStudyOptions &options, const Load &load)
 {
   return options.budget && !load.has_free_sides() &&
          !(load.is_periodic() && has_supercell(options));
+}
+
+bool has_sheet(const StrainStudyOptions &options)
+{
+  return std::any_of(options.loads.begin(), options.loads.end(),
+                     [](const std::string &load) { return !Load(load).is_periodic(); });
+}
+
+bool has_run_times(const StrainStudyOptions &options)
+{
+  const Law law = law_of(main_reference(options.references));
+  return options.run_time && has_sheet(options) && (law == Law::biot || is_of_yarns(law));
 }
 
 void make_quick(StrainStudyOptions &options)

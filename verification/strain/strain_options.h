@@ -33,6 +33,13 @@ inline bool has_supercell(const StrainStudyOptions &options)
 /// Whether a load has an error budget: its parts are those of given macro strains and of one cell.
 bool has_budget(const StrainStudyOptions &options, const Load &load);
 
+/// Whether a load is one of a sheet.
+bool has_sheet(const StrainStudyOptions &options);
+
+/// Whether run times are measured: of sheets, under the law that reference and coarse cloth share.
+/// @param options with references
+bool has_run_times(const StrainStudyOptions &options);
+
 /// The whole study: nine strains from 0.1 to 20 %, every load and method, the laws of each cell,
 /// the paper's size.
 StrainStudyOptions default_strain_study();

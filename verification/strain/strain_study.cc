@@ -7,6 +7,7 @@
 #include "verification/budget/energy_sides.h"
 #include "verification/cell/cell_file_verdicts.h"
 #include "verification/laws/yarn_cells.h"
+#include "verification/record/main_reference.h"
 #include "verification/record/number_text.h"
 #include "verification/record/on_root.h"
 #include "verification/record/peak_memory.h"
@@ -124,7 +125,7 @@ private:
     }
     of_cell.reset();
     of_sheet.reset(); // the run times have references of their own
-    if (full && options.run_time && has_biot(options))
+    if (full && has_run_times(options))
       study_run_time(cell, homogenized, {assessed.result.voigt, assessed.result.reuss}, *full);
   }
 
@@ -140,7 +141,9 @@ private:
         RunTimeOptions of_run;
         of_run.strain  = pictured_strain(options);
         of_run.methods = options.methods;
+        of_run.law     = law_of(main_reference(options.references));
         of_run.edges   = edges.edges ? &*edges.edges : nullptr;
+        of_run.fitted  = fitted_under(of_run.law);
         const std::string fault =
           run_time_study({cell, homogenized, bounds, sheet, load}, of_run,
                          output ? output->uncertainty.rows() : std::vector<UncertaintyRow>(),
@@ -152,11 +155,18 @@ private:
                 [&]()
                 {
                   if (!fault.empty())
-                    output->write_note({cell.name, load.name, Law::biot, of_run.strain},
+                    output->write_note({cell.name, load.name, of_run.law, of_run.strain},
                                        "run times: " + fault);
                 });
         return;
       }
+  }
+
+  /// The modes of the cell under a law, if any were fitted; first rank.
+  const meshes::FittedModes *fitted_under(const Law law) const
+  {
+    const auto found = fitted.find(law);
+    return found == fitted.end() ? nullptr : &found->second;
   }
 
   void study_load(const UnitCell &cell, const meshes::HomogenizedCell &homogenized,

@@ -16,12 +16,6 @@ namespace homespun::verification
 {
 namespace
 {
-bool has_sheet(const StrainStudyOptions &options)
-{
-  return std::any_of(options.loads.begin(), options.loads.end(),
-                     [](const std::string &load) { return !Load(load).is_periodic(); });
-}
-
 bool has_periodic(const StrainStudyOptions &options)
 {
   return std::any_of(options.loads.begin(), options.loads.end(),
@@ -83,8 +77,9 @@ nlohmann::ordered_json what_was_left_out(const StrainStudyOptions &options)
     left_out("error budget", "--no-budget");
   if (!options.run_time)
     left_out("error against run time", "--no-runtime");
-  else if (!has_sheet(options) || !has(options.references, "biot"))
-    left_out("error against run time", "it is measured on a sheet, against biot");
+  else if (!has_run_times(options))
+    left_out("error against run time",
+             "it is measured on a sheet, against biot or the law of its yarns");
   return all;
 }
 
@@ -176,7 +171,7 @@ std::vector<std::string> notes_on_the_method(const StrainStudyOptions &options,
       "cell. "
       "Part 2 takes its stiffness and chi at finite strain from cell problems over the strains of "
       "the sheet, all but 0.5 % at either end of each component.");
-  if (options.run_time && has_sheet(options) && has(options.references, "biot"))
+  if (has_run_times(options))
     notes.emplace_back(
       "Run times: every run begins with the affine motion that agrees with what is prescribed; "
       "set-up that is done once per sheet is not counted. Parts of the machine that others use are "

@@ -27,10 +27,11 @@ struct FittedCell
   /// Mean error of w over mean w, over the vertices, with or without the modes.
   double left_at(const Eigen::Vector3d &strain, const bool with_modes) const
   {
-    const meshes::Points w  = nonlinear.solve(strain).fluctuation;
-    const auto coefficients = meshes::fitted_coefficients(fit.modes, strain);
-    const Eigen::Vector3d of_chi =
-      with_modes ? meshes::effective_strain(fit.modes, strain) : strain;
+    const meshes::Points w = nonlinear.solve(strain).fluctuation;
+    const auto response    = meshes::FittedResponse(fit.modes).at(strain);
+    Eigen::Vector3d of_chi = strain;
+    if (with_modes)
+      of_chi = response.head<3>();
     double miss = 0.;
     for (int v = 0; v < w.rows(); ++v)
     {
@@ -39,7 +40,7 @@ struct FittedCell
         of += of_chi(a) *
               (homogenized.chi.row(v) - homogenized.chi.row(homogenized.anchor)).segment<2>(2 * a);
       for (int k = 0; with_modes && k < meshes::FittedModes::n_modes; ++k)
-        of += coefficients(k) * fit.modes.modes.row(v).segment<2>(2 * k);
+        of += response(3 + k) * fit.modes.modes.row(v).segment<2>(2 * k);
       miss += of.norm();
     }
     return miss / w.rowwise().norm().sum();
@@ -70,7 +71,7 @@ TEST(order_mode_fit, at_rest_the_modes_are_of_second_order)
   double last = 0.;
   for (const double size : {1e-3, 1e-4, 1e-5})
   {
-    const double now = meshes::fitted_coefficients(chevron.fit.modes, size * strain).norm();
+    const double now = meshes::FittedResponse(chevron.fit.modes).at(size * strain).tail<6>().norm();
     if (last > 0.)
     {
       EXPECT_NEAR(std::log10(last / now), 2., 0.02) << size;

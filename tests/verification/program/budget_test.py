@@ -85,6 +85,24 @@ class Budget(InFolder):
                                          float(row["error_mean_m"])),
                                      float(ways["fine-p1"]["error_mean_m"]), row["method"])
 
+    def test_of_a_weave_run_times_are_those_under_its_law(self):
+        result = run("strain", CELLS / "plain-weave.prm", "--cells", "4", "--strains", "0.01",
+                     "--loads", "shear-frame", "--methods", "localized,first-order,full-fitted",
+                     "--no-budget", "--no-report", "--quiet", "--output", self.folder)
+        self.assertIn(result.returncode, (0, 1, 4), result.stderr)
+        ways = {row["way"]: row for row in rows_of(self.folder / "runtime.csv")}
+        self.assertEqual({row["reference"] for row in ways.values()}, {"yarn"})
+        for way in ("fine-corotational", "nodal-warping"):
+            self.assertEqual(ways[way]["error_mean_m"], "")
+            self.assertIn("its law is biot", ways[way]["note"])
+        p1 = float(ways["fine-p1"]["error_mean_m"])
+        for row in rows_of(self.folder / "strain.csv"):
+            way = ways[row["method"] + "-4"]
+            self.assertGreater(float(way["seconds_step"]), 0., row)
+            self.assertGreater(float(way["seconds_upsample"]), 0., row)
+            self.assertLessEqual(abs(float(way["error_mean_m"]) - float(row["error_mean_m"])), p1,
+                                 row)
+
     def test_of_a_cell_with_holes_the_way_of_reuss_is_left_out(self):
         result = run("strain", CELLS / "honeycomb.prm", "--cells", "2", "--strains", "0.01",
                      "--loads", "shear-frame", "--references", "biot", "--methods", "localized",
