@@ -73,8 +73,6 @@ public:
   Homogenization run()
   {
     constrain();
-    if (options.pieces.empty()) // which are written cell by cell
-      discretization.forget_triangulation();
     solver = std::make_unique<ElasticSolver>(discretization, constraints);
     lap(result.seconds.setup);
     options.order == 1 ? assemble<3>() : assemble<6>();
@@ -130,11 +128,11 @@ private:
   {
     result.anchor                   = meshes::anchor_vertex(cell.mesh, cell.lattice);
     const Eigen::RowVector2d anchor = cell.mesh.vertices.row(result.anchor);
-    const std::vector<Node> nodes   = discretization.boundary_nodes();
+    const std::vector<Node> &nodes  = discretization.boundary_nodes();
     make_periodic_constraints(discretization, cell.lattice, anchor, nodes, constraints);
     result.audit =
       audit_periodic_constraints(discretization, cell.lattice, anchor, nodes, constraints);
-    result.n_dofs = discretization.dof_handler.n_dofs();
+    result.n_dofs = discretization.n_dofs();
   }
 
   template <int n_shapes>

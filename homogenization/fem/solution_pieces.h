@@ -16,7 +16,7 @@ namespace homespun::homogenization
 class Discretization;
 
 /// Writes NAME-RANK.vtu of the triangles that a rank owns, with chi_11, chi_22, chi_12 [m] at their
-/// vertices, material and rank, and NAME.pvtu, which names the pieces, by deal.II's DataOut.
+/// vertices, material and rank, and NAME.pvtu, which names the pieces, by deal.II's DataOutBase.
 /// Midpoints of P2 are left out. All ranks must call this.
 /// @param name path without ending, in a folder that exists
 /// @param solutions with the ghosts of the rank's triangles

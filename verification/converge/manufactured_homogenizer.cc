@@ -246,7 +246,7 @@ ManufacturedCase cell_case(const Material &material, const unsigned int order,
                  true);
       solution.error.L2 = std::hypot(solution.error.L2, one.L2);
       solution.error.H1 = std::hypot(solution.error.H1, one.H1);
-      solution.n_dofs   = discretization.dof_handler.n_dofs();
+      solution.n_dofs   = discretization.n_dofs();
     };
     solution.positions =
       chi_under_forces(cell_of(n, sizes.front(), material), options, forces, communicator);

@@ -101,37 +101,33 @@ void ClothReference::Solver::lay_out()
   node_points.resize(n);
   node_dofs.resize(n);
   owned_row.assign(n, -1);
-  std::vector<types::global_dof_index> dofs(discretization.element.n_dofs_per_cell());
-  for (const auto &cell : discretization.dof_handler.active_cell_iterators())
-  {
-    if (cell->is_artificial())
-      continue;
-    cell->get_dof_indices(dofs);
-    const unsigned int t = homogenization::Discretization::triangle_of(cell);
-    const AffineTriangle triangle(discretization.mesh, t);
-    Element element;
-    // An owned triangle counts in the energy even where neighbours own all of its nodes.
-    bool is_needed = cell->is_locally_owned();
-    for (unsigned int shape = 0; shape < dofs.size() / 3; ++shape)
+  discretization.for_near_triangles(
+    [&](const unsigned int t, const std::vector<types::global_dof_index> &dofs, const bool is_own)
     {
-      const types::global_dof_index dof = dofs[3 * shape];
-      const std::size_t node            = relevant.index_within_set(dof) / 3;
-      element.nodes.push_back(static_cast<int>(node));
-      node_points[node] = discretization.point_of(cell, shape);
-      node_dofs[node]   = dof;
-      if (owned.is_element(dof))
+      const AffineTriangle triangle(discretization.mesh, t);
+      Element element;
+      // An owned triangle counts in the energy even where neighbours own all of its nodes.
+      bool is_needed = is_own;
+      for (unsigned int shape = 0; shape < dofs.size() / 3; ++shape)
       {
-        owned_row[node] = static_cast<int>(owned.index_within_set(dof));
-        is_needed       = true;
+        const types::global_dof_index dof = dofs[3 * shape];
+        const std::size_t node            = relevant.index_within_set(dof) / 3;
+        element.nodes.push_back(static_cast<int>(node));
+        node_points[node] = discretization.point_of(t, shape);
+        node_dofs[node]   = dof;
+        if (owned.is_element(dof))
+        {
+          owned_row[node] = static_cast<int>(owned.index_within_set(dof));
+          is_needed       = true;
+        }
       }
-    }
-    element.inverse_transpose = triangle.inverse_transpose;
-    element.determinant       = triangle.determinant;
-    element.phase             = discretization.mesh.material(t);
-    element.is_owned          = cell->is_locally_owned();
-    if (is_needed)
-      elements.push_back(element);
-  }
+      element.inverse_transpose = triangle.inverse_transpose;
+      element.determinant       = triangle.determinant;
+      element.phase             = discretization.mesh.material(t);
+      element.is_owned          = is_own;
+      if (is_needed)
+        elements.push_back(element);
+    });
   position.reinit(owned, discretization.communicator);
   velocity    = position;
   load_origin = position;
@@ -139,7 +135,7 @@ void ClothReference::Solver::lay_out()
 
 unsigned long ClothReference::Solver::n_dofs() const
 {
-  return discretization.dof_handler.n_dofs();
+  return discretization.n_dofs();
 }
 
 void ClothReference::Solver::start(const Placement &initial_position, const Held &new_held,

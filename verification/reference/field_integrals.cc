@@ -13,7 +13,7 @@ using Vector = homogenization::ElasticSolver::Vector;
 
 namespace
 {
-/// A cell that this rank owns, at one quadrature point.
+/// A triangle that this rank owns, at one quadrature point.
 struct Sample
 {
   std::size_t q;
@@ -27,24 +27,20 @@ template <typename Function>
 void for_each_sample(const Discretization &discretization, const Quadrature<2> &quadrature,
                      const Function &function)
 {
-  std::vector<types::global_dof_index> dofs(discretization.element.n_dofs_per_cell());
-  for (const auto &cell : discretization.dof_handler.active_cell_iterators())
-  {
-    if (!cell->is_locally_owned())
-      continue;
-    const unsigned int t = Discretization::triangle_of(cell);
-    const AffineTriangle triangle(discretization.mesh, t);
-    const auto corner = [&](const int k) -> Eigen::RowVector2d
-    { return discretization.mesh.vertices.row(discretization.mesh.triangles(t, k)); };
-    cell->get_dof_indices(dofs);
-    for (std::size_t q = 0; q < quadrature.size(); ++q)
+  discretization.for_owned_triangles(
+    [&](const unsigned int t, const std::vector<types::global_dof_index> &dofs)
     {
-      const Point<2> &at = quadrature.point(static_cast<unsigned int>(q));
-      function(Sample{q, quadrature.weight(static_cast<unsigned int>(q)) * triangle.determinant,
-                      (1. - at[0] - at[1]) * corner(0) + at[0] * corner(1) + at[1] * corner(2),
-                      triangle, dofs});
-    }
-  }
+      const AffineTriangle triangle(discretization.mesh, t);
+      const auto corner = [&](const int k) -> Eigen::RowVector2d
+      { return discretization.mesh.vertices.row(discretization.mesh.triangles(t, k)); };
+      for (std::size_t q = 0; q < quadrature.size(); ++q)
+      {
+        const Point<2> &at = quadrature.point(static_cast<unsigned int>(q));
+        function(Sample{q, quadrature.weight(static_cast<unsigned int>(q)) * triangle.determinant,
+                        (1. - at[0] - at[1]) * corner(0) + at[0] * corner(1) + at[1] * corner(2),
+                        triangle, dofs});
+      }
+    });
 }
 } // namespace
 
@@ -53,10 +49,10 @@ Vector load_vector(const Discretization &discretization,
                    const std::function<FieldValue(const Eigen::RowVector2d &)> &force)
 {
   const QWitherdenVincentSimplex<2> quadrature(3);
-  const FiniteElement<2> &shapes = discretization.element.base_element(0);
+  const FiniteElement<2> &shapes = discretization.shapes;
   const unsigned int n           = discretization.n_components;
   Vector load(discretization.locally_owned, discretization.communicator);
-  dealii::Vector<double> of_element(discretization.element.n_dofs_per_cell());
+  dealii::Vector<double> of_element(discretization.n_dofs_per_triangle);
   for_each_sample(discretization, quadrature,
                   [&](const Sample &sample)
                   {
@@ -75,7 +71,7 @@ FieldDistance distance(const Discretization &discretization, const Vector &field
                        const KnownField &known, const bool modulo_translation)
 {
   const QWitherdenVincentSimplex<2> quadrature(4);
-  const FiniteElement<2> &shapes = discretization.element.base_element(0);
+  const FiniteElement<2> &shapes = discretization.shapes;
   const unsigned int n           = discretization.n_components;
   const unsigned int n_shapes    = shapes.n_dofs_per_cell();
   Vector ghosted(discretization.locally_owned, discretization.locally_relevant,

@@ -116,38 +116,35 @@ FineReference::Solver::assemble(const Vector &displacement, const Eigen::Matrix2
     solver->matrix = 0.;
 
   Evaluation state;
-  std::vector<types::global_dof_index> dofs(n);
   std::vector<double> values(n);
   FullMatrix<double> element_matrix(n, n);
   dealii::Vector<double> element_residual(n);
-  for (const auto &cell : discretization.dof_handler.active_cell_iterators())
-  {
-    if (!cell->is_locally_owned())
-      continue;
-    const unsigned int t    = Discretization::triangle_of(cell);
-    const LawOfPhase &phase = phases[static_cast<std::size_t>(discretization.mesh.material(t))];
-    cell->get_dof_indices(dofs);
-    ghosted.extract_subvector_to(dofs, values);
-    const TriangleSums<n_shapes> sums = integrate<n_shapes>(
-      AffineTriangle(discretization.mesh, t), phase, values, mean_gradient, tangent, state);
-    state.n_inverted += sums.is_inverted;
-    state.n_indefinite += sums.is_indefinite;
-    state.force_size += sums.f.squaredNorm();
-    for (unsigned int i = 0; i < n; ++i)
-      element_residual(i) = sums.f(static_cast<Eigen::Index>(i));
-    constraints.distribute_local_to_global(element_residual, dofs, residual);
-    for (unsigned int i = 0; i < n; i += 2)
-      if (const auto held = clamp_of_node.find(dofs[i]); held != clamp_of_node.end())
-        state.forces.on_clamps.row(held->second) +=
-          sums.f.template segment<2>(static_cast<Eigen::Index>(i)).transpose();
-    if (tangent != Tangent::none)
+  discretization.for_owned_triangles(
+    [&](const unsigned int t, const std::vector<types::global_dof_index> &dofs)
     {
+      const LawOfPhase &phase = phases[static_cast<std::size_t>(discretization.mesh.material(t))];
+      ghosted.extract_subvector_to(dofs, values);
+      const TriangleSums<n_shapes> sums = integrate<n_shapes>(
+        AffineTriangle(discretization.mesh, t), phase, values, mean_gradient, tangent, state);
+      state.n_inverted += sums.is_inverted;
+      state.n_indefinite += sums.is_indefinite;
+      state.force_size += sums.f.squaredNorm();
       for (unsigned int i = 0; i < n; ++i)
-        for (unsigned int j = 0; j < n; ++j)
-          element_matrix(i, j) = sums.K(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
-      constraints.distribute_local_to_global(element_matrix, dofs, solver->matrix);
-    }
-  }
+        element_residual(i) = sums.f(static_cast<Eigen::Index>(i));
+      constraints.distribute_local_to_global(element_residual, dofs, residual);
+      for (unsigned int i = 0; i < n; i += 2)
+        if (const auto held = clamp_of_node.find(dofs[i]); held != clamp_of_node.end())
+          state.forces.on_clamps.row(held->second) +=
+            sums.f.template segment<2>(static_cast<Eigen::Index>(i)).transpose();
+      if (tangent != Tangent::none)
+      {
+        for (unsigned int i = 0; i < n; ++i)
+          for (unsigned int j = 0; j < n; ++j)
+            element_matrix(i, j) =
+              sums.K(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
+        constraints.distribute_local_to_global(element_matrix, dofs, solver->matrix);
+      }
+    });
   residual.compress(VectorOperation::add);
   if (tangent != Tangent::none)
     solver->matrix.compress(VectorOperation::add);

@@ -45,7 +45,7 @@ FineReference::Solver::Solver(const meshes::Sheet &sheet,
 
 unsigned long FineReference::Solver::n_dofs() const
 {
-  return discretization.dof_handler.n_dofs();
+  return discretization.n_dofs();
 }
 
 void FineReference::Solver::constrain(const Load &load)

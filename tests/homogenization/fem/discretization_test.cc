@@ -2,6 +2,11 @@
 #include "homogenization/fem/discretization.h"
 #include "tests/meshes/plain/shapes.h"
 
+#include <deal.II/dofs/dof_handler.h>
+#include <deal.II/dofs/dof_tools.h>
+#include <deal.II/fe/fe_system.h>
+#include <deal.II/grid/tria.h>
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -55,29 +60,86 @@ TEST(bound_discretization, parts_meet_along_short_lines)
   EXPECT_LE(n_cut_edges(mesh, parts_of(mesh, 16)), 12 * n);
 }
 
-TEST(invariant_discretization, numbers_of_vertices_and_triangles_outlive_the_triangulation)
+// Each node belongs to the first part that has a triangle with it, and those of a part follow one
+// another.
+TEST(exact_discretization, nodes_are_numbered_part_after_part)
 {
+  const meshes::TriangleMesh mesh = tests::parallelogram(tests::skewed_lattice(), 7, 5);
+  const meshes::TriangleSides sides(mesh);
   for (const unsigned int order : {1u, 2u})
-  {
-    Discretization discretization(tests::parallelogram(tests::skewed_lattice(), 4, 3), order,
-                                  MPI_COMM_SELF);
-    const DofTable before = discretization.vertex_dofs();
-    std::vector<dealii::types::global_dof_index> of_cells, of_triangles;
-    std::vector<dealii::types::global_dof_index> dofs(discretization.element.n_dofs_per_cell());
-    for (const auto &cell : discretization.dof_handler.active_cell_iterators())
+    for (const unsigned int n_parts : {1u, 2u, 3u, 70u})
     {
-      cell->get_dof_indices(dofs);
-      of_cells.push_back(Discretization::triangle_of(cell));
-      of_cells.insert(of_cells.end(), dofs.begin(), dofs.end());
-    }
-    discretization.forget_triangulation();
-    discretization.for_owned_triangles(
-      [&](const unsigned int t, const std::vector<dealii::types::global_dof_index> &its)
+      const std::vector<unsigned int> parts = parts_of(mesh, n_parts);
+      const NodeNumbers numbers(mesh, sides, order, parts, n_parts);
+      ASSERT_EQ(numbers.begin_of_part.size(), n_parts + 1);
+      std::vector<unsigned int> first_part(numbers.n(), n_parts);
+      std::vector<int> is_taken(numbers.n(), 0);
+      for (const auto *const of_nodes : {&numbers.of_vertex, &numbers.of_side})
+        for (const unsigned int number : *of_nodes)
+          ++is_taken.at(number);
+      EXPECT_EQ(is_taken, std::vector<int>(numbers.n(), 1));
+      for (int t = 0; t < mesh.n_triangles(); ++t)
+        for (int k = 0; k < 3; ++k)
+        {
+          const auto vertex       = static_cast<std::size_t>(mesh.triangles(t, k)),
+                     side         = static_cast<std::size_t>(sides.of_triangle(t, k));
+          unsigned int &of_vertex = first_part.at(numbers.of_vertex.at(vertex));
+          of_vertex               = std::min(of_vertex, parts[static_cast<std::size_t>(t)]);
+          if (order == 1)
+            continue;
+          unsigned int &of_side = first_part.at(numbers.of_side.at(side));
+          of_side               = std::min(of_side, parts[static_cast<std::size_t>(t)]);
+        }
+      for (unsigned int node = 0; node < numbers.n(); ++node)
       {
-        of_triangles.push_back(t);
-        of_triangles.insert(of_triangles.end(), its.begin(), its.end());
-      });
-    EXPECT_EQ(discretization.vertex_dofs(), before);
-    EXPECT_EQ(of_triangles, of_cells);
-  }
+        EXPECT_GE(node, numbers.begin_of_part[first_part[node]]);
+        EXPECT_LT(node, numbers.begin_of_part[first_part[node] + 1]);
+      }
+    }
+}
+
+// A second code: on one rank DoFs are those that deal.II gives a triangulation.
+TEST(exact_discretization, on_one_rank_numbers_are_those_of_a_dof_handler)
+{
+  const meshes::TriangleMesh mesh = tests::parallelogram(tests::skewed_lattice(), 4, 3);
+  std::vector<dealii::Point<2>> points;
+  for (const auto &vertex : mesh.vertices.rowwise())
+    points.emplace_back(vertex(0), vertex(1));
+  std::vector<dealii::CellData<2>> cells(static_cast<std::size_t>(mesh.n_triangles()),
+                                         dealii::CellData<2>(3));
+  for (std::size_t t = 0; t < cells.size(); ++t)
+    for (int k = 0; k < 3; ++k)
+      cells[t].vertices[static_cast<std::size_t>(k)] =
+        static_cast<unsigned int>(mesh.triangles(static_cast<Eigen::Index>(t), k));
+  dealii::Triangulation<2> triangulation;
+  triangulation.create_triangulation(points, cells, dealii::SubCellData());
+  for (const unsigned int order : {1u, 2u})
+    for (const unsigned int n_components : {2u, 3u})
+    {
+      const dealii::FESystem<2> element(dealii::FE_SimplexP<2>(order), n_components);
+      dealii::DoFHandler<2> handler(triangulation);
+      handler.distribute_dofs(element);
+      const Discretization discretization(mesh, order, MPI_COMM_SELF, n_components);
+      EXPECT_EQ(discretization.n_dofs(), handler.n_dofs());
+      EXPECT_EQ(discretization.locally_relevant, discretization.locally_owned);
+      auto cell             = handler.begin_active();
+      unsigned int n_walked = 0;
+      discretization.for_near_triangles(
+        [&](const unsigned int t, const std::vector<dealii::types::global_dof_index> &its,
+            const bool is_owned)
+        {
+          EXPECT_TRUE(is_owned);
+          EXPECT_EQ(t, n_walked++);
+          std::vector<dealii::types::global_dof_index> dofs(element.n_dofs_per_cell());
+          cell->get_dof_indices(dofs);
+          EXPECT_EQ(its, dofs);
+          ++cell;
+        });
+      EXPECT_EQ(n_walked, mesh.n_triangles());
+      const auto boundary =
+        dealii::DoFTools::extract_boundary_dofs(handler, dealii::ComponentMask(n_components, true));
+      EXPECT_EQ(discretization.boundary_nodes().size() * n_components, boundary.n_elements());
+      for (const Node &node : discretization.boundary_nodes())
+        EXPECT_TRUE(boundary.is_element(node.first_dof));
+    }
 }
