@@ -4,7 +4,7 @@
 // Private to upsampler.
 #pragma once
 
-#include "localization/cell_nodes.h"
+#include "localization/cell_triangles.h"
 #include "localization/edge_modes.h"
 #include "localization/vertex_table.h"
 #include "meshes/plain/sheet.h"
@@ -23,9 +23,10 @@ struct CellTables
   int n_cells = 0; ///< each with one block of vertices
   int n_along = 0; ///< of these, along the first axis
   int n_block = 0; ///< vertices per block
-  int n_below = 0; ///< of these, below the diagonal
 
-  VertexTable<Scalar> shared; ///< below the diagonal, then above
+  std::vector<CellTriangle> triangles; ///< of a cell
+  std::vector<int> first_row;          ///< in the tables, of each of these
+  VertexTable<Scalar> shared;          ///< triangle by triangle
   /// One for each way of being reached.
   std::vector<std::vector<ChiBlock<Scalar>>> chi_of_kind, free_of_kind;
   std::vector<int> kind_of_cell;
@@ -43,11 +44,12 @@ struct CellTables
   void fill(const meshes::Sheet &sheet, const int n_quads, const EdgeModes &near_edges,
             const ModesAt &modes_at)
   {
-    quads   = n_quads;
-    n_cells = sheet.n1 * sheet.n2;
-    n_along = sheet.n1;
-    n_block = sheet.n_per_cell;
-    n_below = sheet.n_below;
+    quads     = n_quads;
+    n_cells   = sheet.n1 * sheet.n2;
+    n_along   = sheet.n1;
+    n_block   = sheet.n_per_cell;
+    triangles = triangles_of_cell(sheet, quads);
+    first_row.resize(triangles.size());
     std::map<EdgeModes::Depths, int> kind_at;
     for (int cell = 0; cell < n_cells; ++cell)
     {
@@ -57,14 +59,13 @@ struct CellTables
       if (!is_new)
         continue;
       VertexTable<Scalar> table;
-      for (int k = 0; k < n_block; ++k)
+      for (std::size_t t = 0; t < triangles.size(); ++t)
       {
-        if (k == n_below)
-          table.pad();
-        const Eigen::Vector3d weights = weights_in_cell(sheet, k);
-        table.append(weights, modes_at(cell * n_block + k));
-        if (quads == 2)
-          table.append_hats(hats(weights));
+        table.pad();
+        first_row[t] = table.size;
+        for (int k = triangles[t].begin; k < triangles[t].end; ++k)
+          table.append(weights_in(triangles[t].in_cell, quads, sheet, k),
+                       modes_at(cell * n_block + k));
       }
       chi_of_kind.push_back(std::move(table.chi_blocks));
       free_of_kind.push_back(std::move(table.free_blocks));

@@ -28,15 +28,6 @@ struct alignas(64) Weights
   Scalar corner1[lanes], corner2[lanes];
 };
 
-/// Where a triangle is cut into four by the middles of its sides: the functions of a block of fine
-/// vertices that are 1 at one middle, 0 at all other nodes and linear in each of the four; sides
-/// 01, 12, 02.
-template <typename Scalar>
-struct alignas(64) Hats
-{
-  Scalar side[3][lanes];
-};
-
 /// −chi of a block of fine vertices, column 2 a + c [m].
 template <typename Scalar>
 struct alignas(64) ChiBlock
@@ -76,45 +67,30 @@ constexpr int record_size(const int modes)
   return are_fitted(modes) ? 32 : 16;
 }
 
-/// Records of a coarse triangle: values at corner 0, and their differences to corners 1 and 2; of
-/// six nodes also what the middles of the sides 01, 12, 02 are off the straight lines.
-/// @tparam n_nodes 3 or 6
-template <typename Scalar, int modes, int n_nodes>
-struct alignas(64) Nodes
+/// Records of a coarse triangle: values at corner 0, and their differences to corners 1 and 2.
+template <typename Scalar, int modes>
+struct alignas(64) Corners
 {
   static constexpr int size = record_size(modes);
-  Scalar at0[size], to1[size], to2[size], off[n_nodes == 6 ? 3 : 1][n_nodes == 6 ? size : 1];
+  Scalar at0[size], to1[size], to2[size];
 };
 
 /// @param records of all coarse vertices, one after the other
-/// @param vertices corners 0, 1, 2, then the middles of the sides 01, 12, 02
-template <int modes, typename Scalar, std::size_t n_nodes>
-Nodes<Scalar, modes, static_cast<int>(n_nodes)> nodes_of(const Scalar *const records,
-                                                         const std::array<int, n_nodes> &vertices)
+template <int modes, typename Scalar>
+Corners<Scalar, modes> corners_of(const Scalar *const records, const std::array<int, 3> &vertices)
 {
-  Nodes<Scalar, modes, static_cast<int>(n_nodes)> nodes;
+  Corners<Scalar, modes> corners;
   constexpr int size = record_size(modes);
   const auto record  = [&](const std::size_t k)
   { return records + static_cast<std::ptrdiff_t>(vertices[k]) * size; };
   const Scalar *const r0 = record(0), *const r1 = record(1), *const r2 = record(2);
   for (int c = 0; c < size; ++c)
   {
-    nodes.at0[c] = r0[c];
-    nodes.to1[c] = r1[c] - r0[c];
-    nodes.to2[c] = r2[c] - r0[c];
+    corners.at0[c] = r0[c];
+    corners.to1[c] = r1[c] - r0[c];
+    corners.to2[c] = r2[c] - r0[c];
   }
-  if constexpr (n_nodes == 6)
-  {
-    const Scalar *const r01 = record(3), *const r12 = record(4), *const r02 = record(5);
-    const Scalar half = 0.5;
-    for (int c = 0; c < size; ++c)
-    {
-      nodes.off[0][c] = r01[c] - half * (r0[c] + r1[c]);
-      nodes.off[1][c] = r12[c] - half * (r1[c] + r2[c]);
-      nodes.off[2][c] = r02[c] - half * (r0[c] + r2[c]);
-    }
-  }
-  return nodes;
+  return corners;
 }
 
 /// Constants of a run of fine vertices, block by block.
@@ -122,7 +98,6 @@ template <typename Scalar>
 struct Blocks
 {
   const Weights<Scalar> *weights;
-  const Hats<Scalar> *hats;                ///< not read where a triangle has three nodes
   const ChiBlock<Scalar> *chi;             ///< not read without microscopic displacement
   const QuadraticBlock<Scalar> *quadratic; ///< not read with linear_modes
   const ChiBlock<Scalar> *free;            ///< of free edges, read beside fitted modes alone
@@ -147,16 +122,16 @@ inline void add_modes(const Frame &frame, const int first, const Scalar (*const 
 /// Not inlined, so that the coefficients are broadcast from memory and not taken apart from the
 /// registers in which the caller made them: they are 36 for at most a dozen blocks.
 /// @param out (n_blocks * lanes, dim), components side by side
-template <int dim, int terms, int modes, int n_nodes, typename Scalar>
-[[gnu::noinline]] void fine_positions(const Nodes<Scalar, modes, n_nodes> &nodes,
+template <int dim, int terms, int modes, typename Scalar>
+[[gnu::noinline]] void fine_positions(const Corners<Scalar, modes> &corners,
                                       const Blocks<Scalar> &blocks, const int n_blocks,
                                       Scalar *__restrict out)
 {
   constexpr bool is_blended =
     terms == blended || terms == blended_plane || terms == blended_rotation;
   constexpr bool is_in_plane         = terms == constant_plane || terms == blended_plane;
-  const Scalar *const __restrict at0 = nodes.at0, *const __restrict to1 = nodes.to1,
-                                 *const __restrict to2 = nodes.to2;
+  const Scalar *const __restrict at0 = corners.at0, *const __restrict to1 = corners.to1,
+                                 *const __restrict to2 = corners.to2;
   for (int block = 0; block < n_blocks; ++block)
   {
     const Weights<Scalar> &b      = blocks.weights[block];
@@ -165,19 +140,8 @@ template <int dim, int terms, int modes, int n_nodes, typename Scalar>
     for (int n = 0; n < lanes; ++n)
     {
       const Scalar u = b.corner1[n], v = b.corner2[n];
-      const auto linear = [&](const int k)
-      {
-        const Scalar straight = at0[k] + u * to1[k] + v * to2[k];
-        if constexpr (n_nodes == 6)
-        {
-          const auto &hat = blocks.hats[block].side;
-          return straight + hat[0][n] * nodes.off[0][k] + hat[1][n] * nodes.off[1][k] +
-                 hat[2][n] * nodes.off[2][k];
-        }
-        else
-          return straight;
-      };
-      const auto frame = [&](const int k) { return is_blended ? linear(dim + k) : at0[dim + k]; };
+      const auto linear = [&](const int k) { return at0[k] + u * to1[k] + v * to2[k]; };
+      const auto frame  = [&](const int k) { return is_blended ? linear(dim + k) : at0[dim + k]; };
       Scalar x[dim];
       for (int i = 0; i < dim; ++i)
         x[i] = linear(i);

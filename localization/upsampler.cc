@@ -64,9 +64,8 @@ Upsampler<dim, Scalar>::Upsampler(const meshes::HomogenizedCell &cell,
   };
   n_total = fine.mesh.n_vertices();
   n_space = coarse_rest.n_vertices();
-  // A strain that is constant in each of the four parts of a triangle is no matter of its nodes.
-  const int quads = options.path == Path::automatic ? quads_per_cell(fine, coarse_rest) : 0;
-  if (quads == 1 || (quads == 2 && !(options.microscopic && options.blend == Blend::piecewise)))
+  if (const int quads = quads_per_cell(fine, coarse_rest);
+      quads > 0 && options.path == Path::automatic)
     cells.fill(fine, quads, near_edges, modes_at);
   place(modes_at, fine, cells.n_cells * cells.n_block);
   records.resize(static_cast<std::size_t>(coarse_rest.n_vertices()) *
@@ -181,7 +180,6 @@ std::size_t Upsampler<dim, Scalar>::table_bytes() const
   const auto add    = [&](const VertexTable<Scalar> &table)
   {
     bytes += sizeof(Weights<Scalar>) * table.weights.size() +
-             sizeof(Hats<Scalar>) * table.hats.size() +
              sizeof(ChiBlock<Scalar>) * (table.chi_blocks.size() + table.free_blocks.size()) +
              sizeof(QuadraticBlock<Scalar>) * table.quadratic_blocks.size();
   };
@@ -274,48 +272,44 @@ void Upsampler<dim, Scalar>::run_modes(Scalar *const fine_current) const
 
 template <int dim, typename Scalar>
 template <int terms, int modes>
-Nodes<Scalar, modes, 3> Upsampler<dim, Scalar>::corners_of(const int triangle) const
+Corners<Scalar, modes> Upsampler<dim, Scalar>::corners_at(const int triangle) const
 {
   const auto corner = frames.rest().triangles.row(triangle);
-  auto nodes = nodes_of<modes>(records.data(), std::array<int, 3>{corner(0), corner(1), corner(2)});
+  auto corners =
+    corners_of<modes>(records.data(), std::array<int, 3>{corner(0), corner(1), corner(2)});
   if constexpr (terms == constant || terms == constant_plane)
     for (int c = 0; c < CoarseFrames<dim>::n_components; ++c)
-      nodes.at0[dim + c] = static_cast<Scalar>(frames.last_values()(triangle, c));
-  return nodes;
+      corners.at0[dim + c] = static_cast<Scalar>(frames.last_values()(triangle, c));
+  return corners;
 }
 
 template <int dim, typename Scalar>
-template <int terms, int modes, int n_nodes>
+template <int terms, int modes>
 void Upsampler<dim, Scalar>::run_cells(Scalar *const fine_current) const
 {
-  // A run is computed in whole blocks of lanes. What it writes too much lies in the run after it,
-  // which is written later; at the end of the output it goes through a buffer.
+  // A run is computed in whole blocks of lanes. What it writes too much lies in runs after it,
+  // which are written later; at the end of the output it goes through a buffer.
   Scalar buffer[chunk * dim];
-  const int n_below = cells.n_below, begin_above = n_blocks_of(n_below) * lanes;
   for (int cell = 0; cell < cells.n_cells; ++cell)
-    for (const Half half : {Half::below, Half::above})
+    for (std::size_t t = 0; t < cells.triangles.size(); ++t)
     {
-      const bool is_above = half == Half::above;
-      Nodes<Scalar, modes, n_nodes> nodes;
-      if constexpr (n_nodes == 6)
-        nodes = nodes_of<modes>(records.data(),
-                                nodes_of_triangle(cells.quads, cells.n_along, cell % cells.n_along,
-                                                  cell / cells.n_along, half));
-      else
-        nodes = corners_of<terms, modes>(2 * cell + is_above);
-      const int begin = is_above ? begin_above : 0,
-                count = is_above ? cells.n_block - n_below : n_below,
-                first = cell * cells.n_block + (is_above ? n_below : 0);
+      const CellTriangle &run = cells.triangles[t];
+      const int count = run.end - run.begin, first = cell * cells.n_block + run.begin,
+                row = cells.first_row[t];
+      if (count == 0)
+        continue;
+      const auto corners = corners_at<terms, modes>(coarse_triangle(
+        run.in_cell, cells.quads, cells.n_along, cell % cells.n_along, cell / cells.n_along));
       if (first + count + lanes <= n_total)
       {
-        fine_positions<dim, terms>(nodes, cells.from(begin, cell), n_blocks_of(count),
+        fine_positions<dim, terms>(corners, cells.from(row, cell), n_blocks_of(count),
                                    fine_current + first * dim);
         continue;
       }
       for (int done = 0; done < count; done += chunk)
       {
         const int part = std::min(chunk, count - done);
-        fine_positions<dim, terms>(nodes, cells.from(begin + done, cell), n_blocks_of(part),
+        fine_positions<dim, terms>(corners, cells.from(row + done, cell), n_blocks_of(part),
                                    buffer);
         std::copy_n(buffer, part * dim, fine_current + (first + done) * dim);
       }
@@ -326,20 +320,16 @@ template <int dim, typename Scalar>
 template <int terms, int modes>
 void Upsampler<dim, Scalar>::run(Scalar *const fine_current) const
 {
-  if constexpr (terms != constant && terms != constant_plane)
-    if (cells.quads == 2)
-      run_cells<terms, modes, 6>(fine_current);
-  if (cells.quads == 1)
-    run_cells<terms, modes, 3>(fine_current);
+  run_cells<terms, modes>(fine_current);
   Scalar buffer[chunk * dim];
   for (const Group &group : groups)
   {
-    const auto nodes    = corners_of<terms, modes>(group.triangle);
+    const auto corners  = corners_at<terms, modes>(group.triangle);
     const int *const to = target.data() + group.begin;
     for (int done = 0; done < group.count; done += chunk)
     {
       const int part = std::min(chunk, group.count - done);
-      fine_positions<dim, terms>(nodes,
+      fine_positions<dim, terms>(corners,
                                  own.from(group.begin + done, own.chi_blocks, own.free_blocks),
                                  n_blocks_of(part), buffer);
       for (int k = 0; k < part; ++k)

@@ -9,9 +9,7 @@
 //   runs of consecutive vertices per cell, no index per vertex. The table (8 numbers per vertex of
 //   one cell) stays in the first-level cache, so that the output is all that moves through memory.
 // Where the coarse mesh halves the sides of the cells, as six-node triangles are read: the same,
-//   with six nodes for each triangle of a cell. What is linear in each of its four parts is linear
-//   in the whole and a hat at the middle of each side: three multiply-adds more for a number, in
-//   the order of the output, no index.
+//   with eight runs per cell, for a sheet has the vertices of each of its eight triangles together.
 // General path, on any coarse mesh that covers the sheet: vertices grouped by coarse triangle, with
 //   8 numbers and an index per vertex.
 // A garment (meshes::FineCloth) takes the general path: vertices in space are gathered to the rest
@@ -116,10 +114,10 @@ private:
   void run(Scalar *fine_current) const;
   template <int terms>
   void run_modes(Scalar *fine_current) const;
-  template <int terms, int modes, int n_nodes>
+  template <int terms, int modes>
   void run_cells(Scalar *fine_current) const;
   template <int terms, int modes>
-  Nodes<Scalar, modes, 3> corners_of(int triangle) const;
+  Corners<Scalar, modes> corners_at(int triangle) const;
 
   CoarseFrames<dim> frames;
   UpsamplerOptions options;

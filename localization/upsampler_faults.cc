@@ -30,8 +30,10 @@ std::vector<std::string> sheet_faults(const meshes::HomogenizedCell &cell,
 {
   std::vector<std::string> faults;
   const int n = sheet.mesh.n_vertices();
-  if (sheet.n1 < 1 || sheet.n2 < 1 || sheet.n_per_cell < 1 || sheet.n_below < 0 ||
-      sheet.n_below > sheet.n_per_cell || n < sheet.n1 * sheet.n2 * sheet.n_per_cell)
+  if (sheet.n1 < 1 || sheet.n2 < 1 || sheet.n_per_cell < 1 || sheet.begin_of_eighth.front() != 0 ||
+      sheet.begin_of_eighth.back() != sheet.n_per_cell ||
+      !std::is_sorted(sheet.begin_of_eighth.begin(), sheet.begin_of_eighth.end()) ||
+      n < sheet.n1 * sheet.n2 * sheet.n_per_cell)
     faults.push_back("fine sheet: its numbers of cells and of vertices per cell do not fit its " +
                      std::to_string(n) + " vertices; make it by meshes::tile()");
   if (sheet.cell_vertex.size() != n)

@@ -16,7 +16,6 @@ template <typename Scalar>
 struct VertexTable
 {
   std::vector<Weights<Scalar>> weights;
-  std::vector<Hats<Scalar>> hats; ///< empty where triangles have three nodes
   std::vector<ChiBlock<Scalar>> chi_blocks;
   std::vector<QuadraticBlock<Scalar>> quadratic_blocks; ///< empty where all modes are linear
   std::vector<ChiBlock<Scalar>> free_blocks; ///< empty but with fitted_modes_and_free_edges
@@ -58,14 +57,6 @@ struct VertexTable
     }
   }
 
-  /// The hats of the row that was appended last.
-  void append_hats(const Eigen::Vector3d &of_sides)
-  {
-    hats.resize(weights.size());
-    for (int k = 0; k < 3; ++k)
-      hats.back().side[k][(size - 1) % lanes] = static_cast<Scalar>(of_sides(k));
-  }
-
   /// The constants from a row on with which a block begins.
   /// @param chi, free that are taken: those of the table, or others of the same vertices
   Blocks<Scalar> from(const int row, const std::vector<ChiBlock<Scalar>> &chi,
@@ -74,8 +65,7 @@ struct VertexTable
     const auto block     = static_cast<std::size_t>(row / lanes);
     const auto beginning = [block](const auto &blocks)
     { return blocks.empty() ? nullptr : blocks.data() + block; };
-    return {beginning(weights), beginning(hats), beginning(chi), beginning(quadratic_blocks),
-            beginning(free)};
+    return {beginning(weights), beginning(chi), beginning(quadratic_blocks), beginning(free)};
   }
 
   /// Ends a group.

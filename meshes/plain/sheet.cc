@@ -27,12 +27,28 @@ namespace
 /// cells.
 struct CellNodes
 {
-  std::vector<int> representatives; ///< of images, those below the diagonal first
+  std::vector<int> representatives; ///< of images, in the order of a sheet's block
   std::vector<int> place;           ///< (n) of the vertex's representative among them
   std::vector<int> whole1, whole2;  ///< (n) cells between the vertex and its node
   Points fraction;                  ///< (n,2) of the nodes
-  int n_below = 0;                  ///< representatives below the diagonal, or on it
+  std::array<int, 9> begin_of_eighth = {};
 };
+
+/// The eighth of a cell that holds a point, that below where it lies on a diagonal and that at its
+/// upper right where it lies between two quads.
+/// @param snap part of a cell's side by which a point may miss a line and be on it
+std::size_t eighth_of(const Eigen::RowVector2d &fraction, const double snap)
+{
+  const int quad1 = fraction(0) + snap >= 0.5, quad2 = fraction(1) + snap >= 0.5;
+  const bool is_above = fraction(1) - 0.5 * quad2 > fraction(0) - 0.5 * quad1 + snap;
+  return static_cast<std::size_t>(std::find_if(eighths_of_cell.begin(), eighths_of_cell.end(),
+                                               [&](const QuadHalf &half) {
+                                                 return half.quad1 == quad1 &&
+                                                        half.quad2 == quad2 &&
+                                                        half.is_above == is_above;
+                                               }) -
+                                  eighths_of_cell.begin());
+}
 
 /// @throws BadInput where a vertex lies outside of the parallelogram at `origin`
 CellNodes nodes_of(const TriangleMesh &cell_mesh, const Lattice &lattice,
@@ -65,13 +81,19 @@ CellNodes nodes_of(const TriangleMesh &cell_mesh, const Lattice &lattice,
     if (classes.representative[index] == v)
       nodes.representatives.push_back(v);
   }
-  const auto is_below = [&](const int v)
-  { return nodes.fraction(v, 1) <= nodes.fraction(v, 0) + snap; };
+  std::vector<std::size_t> eighth(n);
+  for (const int v : nodes.representatives)
+  {
+    eighth[static_cast<std::size_t>(v)] = eighth_of(nodes.fraction.row(v), snap);
+    ++nodes.begin_of_eighth[eighth[static_cast<std::size_t>(v)] + 1];
+  }
+  std::partial_sum(nodes.begin_of_eighth.begin(), nodes.begin_of_eighth.end(),
+                   nodes.begin_of_eighth.begin());
   std::vector<int> &representatives = nodes.representatives;
-  std::stable_sort(representatives.begin(), representatives.end(),
-                   [&](const int a, const int b) { return is_below(a) && !is_below(b); });
-  nodes.n_below =
-    static_cast<int>(std::count_if(representatives.begin(), representatives.end(), is_below));
+  std::stable_sort(
+    representatives.begin(), representatives.end(),
+    [&](const int a, const int b)
+    { return eighth[static_cast<std::size_t>(a)] < eighth[static_cast<std::size_t>(b)]; });
   for (std::size_t k = 0; k < representatives.size(); ++k)
     nodes.place[static_cast<std::size_t>(representatives[k])] = static_cast<int>(k);
   for (std::size_t v = 0; v < n; ++v)
@@ -101,7 +123,7 @@ Sheet tile(const TriangleMesh &cell_mesh, const Lattice &lattice, const int n1, 
   sheet.n2              = n2;
   const CellNodes nodes = nodes_of(cell_mesh, lattice, sheet.origin);
   sheet.n_per_cell      = static_cast<int>(nodes.representatives.size());
-  sheet.n_below         = nodes.n_below;
+  sheet.begin_of_eighth = nodes.begin_of_eighth;
   check_size(cell_mesh, n1, n2);
 
   // Nodes of cells (0..n1-1, 0..n2-1) are numbered by blocks; those that close the sheet on demand.

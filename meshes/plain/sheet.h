@@ -8,25 +8,46 @@
 
 #include <Eigen/Core>
 
+#include <array>
+
 namespace homespun::meshes
 {
+/// A half of one of four quads that the halves of a cell's sides make: below or above the diagonal
+/// from the quad's origin.
+struct QuadHalf
+{
+  int quad1, quad2; ///< 0 or 1 along a1 and a2
+  bool is_above;
+};
+
+/// Those of a cell: first four below its own diagonal, then four above.
+constexpr std::array<QuadHalf, 8> eighths_of_cell = {{{0, 0, false},
+                                                      {1, 0, false},
+                                                      {1, 0, true},
+                                                      {1, 1, false},
+                                                      {0, 0, true},
+                                                      {0, 1, false},
+                                                      {0, 1, true},
+                                                      {1, 1, true}}};
+
 /// A resolved sheet of n1 x n2 cells and where each of its vertices comes from.
 ///
 /// Vertices stand cell by cell: first those of cell (0,0), then (1,0), ...; within a cell the ones
 /// in the coarse triangle below the diagonal from the cell's origin to its opposite corner come
-/// first. Each shared vertex belongs to the cell at its upper right; the vertices that close the
-/// sheet at its top and right stand at the end. This order makes the up-sampling of an aligned
-/// coarse mesh a copy of one block per cell.
+/// first, and within each half in the order of eighths_of_cell. Each shared vertex belongs to the
+/// cell at its upper right; the vertices that close the sheet at its top and right stand at the
+/// end. This order makes the up-sampling of a coarse mesh that is the lattice, or halves its sides,
+/// a copy of one block per cell.
 struct Sheet
 {
   TriangleMesh mesh;
   Lattice lattice;
-  Eigen::RowVector2d origin;   ///< lower-left corner of cell (0,0) [m]
-  int n1         = 0;          ///< cells along a1
-  int n2         = 0;          ///< cells along a2
-  int n_per_cell = 0;          ///< vertices in the block of one cell
-  int n_below    = 0;          ///< of these, in the coarse triangle below
-  Eigen::VectorXi cell_vertex; ///< (n) vertex of the cell mesh it is an image of
+  Eigen::RowVector2d origin;               ///< lower-left corner of cell (0,0) [m]
+  int n1                             = 0;  ///< cells along a1
+  int n2                             = 0;  ///< cells along a2
+  int n_per_cell                     = 0;  ///< vertices in the block of one cell
+  std::array<int, 9> begin_of_eighth = {}; ///< of each eighth in that block, and the block's end
+  Eigen::VectorXi cell_vertex;             ///< (n) vertex of the cell mesh it is an image of
   Eigen::Matrix<int, Eigen::Dynamic, 2>
     cell; ///< (n,2) cell whose lower-left half-open area holds it
 

@@ -240,14 +240,13 @@ void add_upsampling(const std::string &type)
   add("second_order", of_second_order(), 24 + 8 * dim);
   add("fitted", {}, 36 + 8 * dim, {1, false, true});
   add("edges", {}, 12 + 8 * dim, {1, true});
-  // All that `full` takes: six-node triangles are evaluated on quads of half a cell, where each of
-  // 3 + 3 dim numbers takes three hats.
-  add("full", of_second_order(), 33 + 17 * dim, {2, true});
+  // All that `full` takes: six-node triangles are evaluated on quads of half a cell.
+  add("full", of_second_order(), 24 + 8 * dim, {2, true});
   add("full_general", general_of_second_order(), 24 + 8 * dim, {2, true});
   // In the place of the quadratic modes 6 coefficients, 3 strains of free edges and their 18 modes;
   // edges of a weave reach as far as its sheet, and no two cells have the same modes.
-  add("full_fitted", {}, 84 + 17 * dim, {2, true, true});
-  add("full_fitted_far", {}, 84 + 17 * dim, {2, true, true, 20});
+  add("full_fitted", {}, 48 + 8 * dim, {2, true, true});
+  add("full_fitted_far", {}, 48 + 8 * dim, {2, true, true, 20});
   add("piecewise", piecewise(), 6 + 4 * dim);
   add("without_modes", without_modes(), 2 * dim);
   add("general_without_modes", general_without_modes(), 2 * dim);

@@ -211,7 +211,7 @@ TEST(exact_upsampler, both_paths_compute_the_definition_point_by_point)
   for (int v = 0; v < n_blocks; ++v)
   {
     const int cell   = v / cloth.sheet.n_per_cell;
-    const bool below = v % cloth.sheet.n_per_cell < cloth.sheet.n_below;
+    const bool below = v % cloth.sheet.n_per_cell < cloth.sheet.begin_of_eighth[4];
     const Eigen::RowVector2d f =
       cloth.sheet.lattice.fractional(cloth.sheet.mesh.vertices.row(v) - cloth.sheet.origin) -
       cloth.sheet.cell.row(v).cast<double>();

@@ -36,7 +36,7 @@ TEST(exact_sheet, tiling_covers_the_sheet_once_and_every_vertex_is_an_image_of_i
   }
 }
 
-TEST(exact_sheet, vertices_stand_in_equal_blocks_below_the_diagonal_first)
+TEST(exact_sheet, vertices_stand_in_equal_blocks_eighth_by_eighth)
 {
   const Lattice lattice = tests::skewed_lattice();
   TriangleMesh cell     = tests::parallelogram(lattice, 5, 4);
@@ -51,7 +51,15 @@ TEST(exact_sheet, vertices_stand_in_equal_blocks_below_the_diagonal_first)
                                    Eigen::RowVector2d(block % 3, block / 3);
       EXPECT_GE(f.minCoeff(), -1e-12);
       EXPECT_LT(f.maxCoeff(), 1. - 1e-3);
-      EXPECT_EQ(k < sheet.n_below, f(1) <= f(0) + 1e-9);
+      EXPECT_EQ(k < sheet.begin_of_eighth[4], f(1) <= f(0) + 1e-9);
+      const auto &begin = sheet.begin_of_eighth;
+      const auto eighth = static_cast<std::size_t>(std::upper_bound(begin.begin(), begin.end(), k) -
+                                                   begin.begin() - 1);
+      const QuadHalf half            = eighths_of_cell.at(eighth);
+      const Eigen::RowVector2d local = 2. * f - Eigen::RowVector2d(half.quad1, half.quad2);
+      EXPECT_GE(local.minCoeff(), -1e-9);
+      EXPECT_LT(local.maxCoeff(), 1. - 1e-3);
+      EXPECT_EQ(half.is_above, local(1) > local(0) + 1e-9);
       EXPECT_EQ(sheet.cell_vertex(v), sheet.cell_vertex(k));
     }
 }
