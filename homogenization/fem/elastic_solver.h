@@ -4,8 +4,8 @@
 // rank, a Cholesky factorization, and conjugate gradients.
 #pragma once
 
+#include "homogenization/fem/conjugate_gradients.h"
 #include "homogenization/fem/discretization.h"
-#include "meshes/plain/errors.h"
 
 #include <deal.II/lac/affine_constraints.h>
 #include <deal.II/lac/trilinos_sparse_matrix.h>
@@ -18,19 +18,6 @@
 
 namespace homespun::homogenization
 {
-/// Conjugate gradients met a direction x with x·A x <= 0: A is not positive definite.
-class IndefiniteMatrix : public meshes::NotConverged
-{
-public:
-  IndefiniteMatrix(std::vector<double> history, dealii::TrilinosWrappers::MPI::Vector direction)
-      : NotConverged("conjugate gradients: the matrix is not positive definite", std::move(history))
-      , direction(std::move(direction))
-  {
-  }
-
-  const dealii::TrilinosWrappers::MPI::Vector direction;
-};
-
 /// Elasticity with the preconditioner kept between solves, because nearby matrices (the steps of
 /// Newton's method) can share one.
 class ElasticSolver
@@ -56,6 +43,9 @@ public:
 
   bool has_preconditioner() const;
 
+  /// Whether a Cholesky factorization is faster than multigrid: on one rank, up to a measured size.
+  bool is_small() const;
+
   /// Conjugate gradients from the given start until the residual r = b − A x has |r| <= tolerance
   /// and, with the preconditioner M, r . M^-1 r <= energy_tolerance. The latter is about twice the
   /// energy of the error: where stiff parts lie in soft ones the former is that of the stiff parts,
@@ -70,12 +60,7 @@ public:
                      unsigned int max_iterations = 2000,
                      double energy_tolerance     = std::numeric_limits<double>::infinity());
 
-  /// Where conjugate gradients stop, see solve().
-  struct Target
-  {
-    double residual;                                         ///< in the unit of the right-hand side
-    double energy = std::numeric_limits<double>::infinity(); ///< [J]
-  };
+  using Target = GradientsTarget; ///< where conjugate gradients stop, see solve()
 
   /// solve() for several right-hand sides abreast: conjugate gradients of each by itself, whose
   /// iterations pass over the matrix, and over multigrid's (MultigridCycle), once for all of them;

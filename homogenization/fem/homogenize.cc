@@ -43,12 +43,6 @@ strain_displacement(const AffineTriangle &triangle,
 
 constexpr unsigned int most_iterations = 2000; ///< of conjugate gradients
 
-/// Up to which a Cholesky factorization on one rank is faster than multigrid. Measured on square
-/// inclusions of contrast 10, with OpenBLAS, on a machine with other work: of P1 with 33,282,
-/// 132,098 and 526,338 DoFs it takes 0.21, 0.5 and 0.7 of the time, of P2 with 526,338 half; the
-/// factor grows as n log n, in memory, and its work as n^3/2.
-constexpr unsigned long most_dofs_of_direct_solver = 600000;
-
 /// Of a positive definite matrix. Not by cofactors, whose determinant loses twice the digits of the
 /// condition number.
 Eigen::Matrix3d inverse_of(const Eigen::Matrix3d &matrix)
@@ -228,9 +222,8 @@ private:
       throw meshes::BadInput("found the direct solver on several ranks; expected it on one: leave "
                              "the choice to the program, or take multigrid");
     result.solver = options.solver != CellSolver::fastest ? options.solver
-                    : is_alone && result.n_dofs <= most_dofs_of_direct_solver
-                      ? CellSolver::direct
-                      : CellSolver::multigrid;
+                    : solver->is_small()                  ? CellSolver::direct
+                                                          : CellSolver::multigrid;
     if (result.solver == CellSolver::direct)
       solver->factorize();
     else

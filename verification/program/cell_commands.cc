@@ -112,7 +112,7 @@ void add_homogenize_command(CommandLine &line)
     ->add_option(
       "--solver", arguments->study.solve.solver,
       "Of the cell problems: fastest, direct (one rank), multigrid; fastest is direct on "
-      "one rank up to 600,000 DoFs")
+      "one rank up to 800,000 DoFs")
     ->transform(CLI::CheckedTransformer(solvers).description(""))
     ->default_str(homogenization::name_of(CellSolver::fastest));
   CLI::Option *tolerance =

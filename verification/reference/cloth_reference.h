@@ -6,7 +6,7 @@
 //                   v = (x − x_n)/h
 //   statics         W(x) − g·M x
 // over the nodes that are not held. Newton's method with line search on these energies, conjugate
-// gradients with multigrid kept between steps.
+// gradients with a preconditioner kept between steps.
 //
 // Gravity acts on the mass as it is discretised, M g. With lumped mass free fall is exact, and for
 // P1 M g is the consistent load; for P2 it is not, so that P2 shows its third order with the

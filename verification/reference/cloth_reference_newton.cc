@@ -45,7 +45,7 @@ public:
     of.evaluate(positions, inertia, residual_there, tangent, tension);
     const double target = std::max(0.1 * least(now), reduction * now.residual);
     step.n_linear +=
-      of.multigrid.solve(*of.solver, increment, forces, target, most_linear_iterations);
+      of.preconditioner.solve(*of.solver, increment, forces, target, most_linear_iterations);
     ++step.n_newton;
     step.n_projected += tangent == Tangent::projected;
     return -(forces * increment);

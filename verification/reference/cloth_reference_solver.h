@@ -3,7 +3,7 @@
 #pragma once
 
 #include "homogenization/fem/elastic_solver.h"
-#include "homogenization/fem/kept_multigrid.h"
+#include "homogenization/fem/kept_preconditioner.h"
 #include "verification/reference/cloth_reference.h"
 
 #include <memory>
@@ -108,7 +108,7 @@ private:
   std::unique_ptr<homogenization::ElasticSolver> solver;
   std::vector<double *> row_values; ///< of the owned rows
   std::vector<int> block_offset;    ///< (element, shape, shape): where in a row, −1 where nowhere
-  homogenization::KeptMultigrid multigrid;
+  homogenization::KeptPreconditioner preconditioner;
 
   Vector position, velocity, load_origin;
   Vector body_load; ///< at the end of the step; empty without a body force

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The resolved solution that an up-sampled cloth is held against: every triangle of the sheet, or
 // of one cell of an infinite cloth, with its own stiffness. Newton's method with line search, load
-// stepping with warm start, multigrid kept between steps.
+// stepping with warm start, a preconditioner kept between steps.
 #pragma once
 
 #include "meshes/plain/sheet.h"

@@ -28,6 +28,17 @@ bool has_negative_eigenvalue(const Eigen::Matrix4d &tangent, const Eigen::Matrix
   const double round_off = 1e-12 * C.cwiseAbs().maxCoeff();
   return (tangent + round_off * Eigen::Matrix4d::Identity()).llt().info() != Eigen::Success;
 }
+
+/// Adds w D^T T D. Coefficient by coefficient, for Eigen packs the operands of a product of this
+/// size, which takes longer than the product.
+template <int n>
+void add_tangent(const Eigen::Matrix4d &tangent, const Eigen::Matrix<double, 4, n> &D,
+                 const double weight, Eigen::Matrix<double, n, n> &K)
+{
+  const Eigen::Matrix4d weighted          = weight * tangent;
+  const Eigen::Matrix<double, 4, n> force = weighted.lazyProduct(D);
+  K += D.transpose().lazyProduct(force);
+}
 } // namespace
 
 /// What one triangle adds to matrix and forces.
@@ -66,7 +77,7 @@ FineReference::Solver::TriangleSums<n_shapes> FineReference::Solver::integrate(
       D.template block<2, 1>(2, 2 * i + 1) = g;
       F.row(0) += values[2 * k] * g.transpose();
       F.row(1) += values[2 * k + 1] * g.transpose();
-      size_of_terms += std::hypot(values[2 * k], values[2 * k + 1]) * g.norm();
+      size_of_terms += Eigen::Vector2d(values[2 * k], values[2 * k + 1]).norm() * g.norm();
       slopes += g.squaredNorm();
     }
     const double weight = reference.weights[q] * triangle.determinant;
@@ -86,14 +97,14 @@ FineReference::Solver::TriangleSums<n_shapes> FineReference::Solver::integrate(
     if (tangent == Tangent::exact)
     {
       sums.is_indefinite = sums.is_indefinite || has_negative_eigenvalue(local.tangent, C);
-      sums.K.noalias() += weight * D.transpose() * local.tangent * D;
+      add_tangent(local.tangent, D, weight, sums.K);
     }
     else if (tangent == Tangent::projected)
     {
       // Most triangles have no negative part, which is cheaper to see than to take out.
       const Eigen::Matrix4d positive =
         has_negative_eigenvalue(local.tangent, C) ? positive_part(local.tangent) : local.tangent;
-      sums.K.noalias() += weight * D.transpose() * positive * D;
+      add_tangent(positive, D, weight, sums.K);
     }
     if (tangent != Tangent::none && steady > 0.)
       sums.K.noalias() += weight * steady * D.transpose() * D;

@@ -110,7 +110,7 @@ unsigned int FineReference::Solver::solve_linearized(Vector &increment, const Ve
                                                      const double target)
 {
   if (law != Law::yarn_tension || Utilities::MPI::n_mpi_processes(discretization.communicator) > 1)
-    return multigrid.solve(*solver, increment, forces, target, most_linear_iterations);
+    return preconditioner.solve(*solver, increment, forces, target, most_linear_iterations);
   // Steadied by a small share, which no multigrid hierarchy bears.
   solver->factorize();
   std::vector<Vector> answer(1, solver->owned_vector());

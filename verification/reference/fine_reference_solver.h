@@ -3,7 +3,7 @@
 #pragma once
 
 #include "homogenization/fem/elastic_solver.h"
-#include "homogenization/fem/kept_multigrid.h"
+#include "homogenization/fem/kept_preconditioner.h"
 #include "verification/newton/newton.h"
 #include "verification/reference/fine_reference.h"
 #include "verification/reference/laws.h"
@@ -107,7 +107,7 @@ private:
   dealii::AffineConstraints<double> constraints; ///< homogeneous: held nodes, periodic images
   std::map<dealii::types::global_dof_index, int> clamp_of_node; ///< by the first DoF; 1 moves
   std::unique_ptr<homogenization::ElasticSolver> solver;
-  homogenization::KeptMultigrid multigrid;
+  homogenization::KeptPreconditioner preconditioner;
   double seconds_of_linear_solve = 0.;
   double steadied                = 1.; ///< times steadying(), in every matrix
   unsigned int most_newton_steps = NewtonOptions().most_steps;

@@ -54,7 +54,7 @@ Stability FineReference::Solver::examine(const Vector &displacement, const doubl
     {
       const double target = reduction_for(forces.size()) * forces.l2_norm();
       if (is_last) // by conjugate gradients, which tell the direction
-        multigrid.solve(*solver, answer, forces, target, most_linear_iterations);
+        preconditioner.solve(*solver, answer, forces, target, most_linear_iterations);
       else
         solve_linearized(answer, forces, target);
       return Stability::stable;
@@ -71,7 +71,7 @@ Stability FineReference::Solver::examine(const Vector &displacement, const doubl
         break;
       // A preconditioner of this very state, made definite.
       evaluate(displacement, mean_gradient, answer, Tangent::projected);
-      multigrid.build(*solver);
+      preconditioner.build(*solver);
       evaluate(displacement, mean_gradient, answer, Tangent::exact);
     }
   return Stability::unknown;

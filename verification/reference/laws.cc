@@ -49,7 +49,7 @@ Response green_response(const Eigen::Matrix3d &C, const Eigen::Matrix2d &F)
 
 Response biot_response(const Eigen::Matrix3d &C, const Eigen::Matrix2d &F)
 {
-  const double a = F(0, 0) + F(1, 1), b = F(1, 0) - F(0, 1), r = std::hypot(a, b);
+  const double a = F(0, 0) + F(1, 1), b = F(1, 0) - F(0, 1), r = std::sqrt(a * a + b * b);
   if (!(r > 0.))
     return {std::numeric_limits<double>::infinity(), Eigen::Vector4d::Zero(),
             Eigen::Matrix4d::Zero()};

@@ -13,6 +13,7 @@ FOLDER/report.html and FOLDER/figures/ appear when all of them are complete, or 
 import argparse
 import contextlib
 import errno
+import gc
 import os
 import shutil
 import sys
@@ -39,6 +40,10 @@ def write_report(folders, output, tells=False, with_pdf=False):
     @return the path of report.html
     @throws BadResults naming every file, line or key that is wrong
     """
+    # What is imported by now stays, and drawing makes few cycles of much that does not: looking for
+    # them as often as usual takes a sixth of the time.
+    gc.freeze()
+    gc.set_threshold(100_000)
     results = read_results(folders)
     if os.path.exists(output) and not os.path.isdir(output):
         raise BadResults([f"{output}: is a file, expected a folder. Give another --output."])

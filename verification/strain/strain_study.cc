@@ -141,6 +141,8 @@ private:
         RunTimeOptions of_run;
         of_run.strain  = pictured_strain(options);
         of_run.methods = options.methods;
+        if (options.is_quick)
+          of_run.n_runs = 3;
         of_run.law     = law_of(main_reference(options.references));
         of_run.edges   = edges.edges ? &*edges.edges : nullptr;
         of_run.fitted  = fitted_under(of_run.law);

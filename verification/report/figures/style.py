@@ -168,6 +168,7 @@ def log_axes(axes):
     """Logarithmic on both axes, strain or time in plain numbers where that is short."""
     axes.set(xscale="log", yscale="log")
     axes.xaxis.set_minor_formatter(ticker.NullFormatter())
+    axes.xaxis.set_minor_locator(ticker.LogLocator(subs=(2, 5)))  # each tick takes its time
     # Ten decades of minor ticks are only grey and slow.
     axes.yaxis.set_minor_locator(ticker.NullLocator())
 

@@ -8,6 +8,7 @@ there are cores, while the next is drawn.
 """
 import base64
 import functools
+import gc
 import io
 import json
 import multiprocessing
@@ -81,7 +82,9 @@ def svg_address(svg):
 def small_webp(figure, box, dpi):
     """A WebP for the page: a third to a tenth of the PNG, and the eye misses nothing."""
     buffer = io.BytesIO()
-    figure.savefig(buffer, format="png", dpi=dpi, bbox_inches=box)
+    figure.savefig(
+        buffer, format="png", dpi=dpi, bbox_inches=box, pil_kwargs={"compress_level": 0}
+    )
     picture = Image.open(buffer).convert("RGB")
     buffer = io.BytesIO()
     picture.save(buffer, format="webp", quality=84, method=4)
@@ -180,6 +183,7 @@ class Gallery:
 
     def send_saved(self, to, *figure):
         """save(), in a process of its own: what it returns or raises goes to the one that asked."""
+        gc.disable()  # it ends before there is much to collect
         try:
             to.send(self.save(*figure))
         except Exception as error:  # pylint: disable=broad-exception-caught

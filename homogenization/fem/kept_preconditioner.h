@@ -1,27 +1,29 @@
 // SPDX-License-Identifier: MIT
-// Conjugate gradients with the multigrid hierarchy of an earlier matrix, as long as that serves.
+// Conjugate gradients with the preconditioner of an earlier matrix, as long as that serves: a
+// Cholesky factor where ElasticSolver::is_small(), else a multigrid hierarchy.
 #pragma once
 
 #include "homogenization/fem/elastic_solver.h"
 
 namespace homespun::homogenization
 {
-class KeptMultigrid
+class KeptPreconditioner
 {
 public:
   /// Solves with the matrix of `solver` as it is, from zero.
   /// @param target of |forces − K increment|
   /// @return iterations
-  /// @throws NotConverged; the next call makes a hierarchy of its own
+  /// @throws NotConverged; the next call makes a preconditioner of its own
   unsigned int solve(ElasticSolver &solver, ElasticSolver::Vector &increment,
                      const ElasticSolver::Vector &forces, double target,
                      unsigned int most_iterations);
 
-  /// Makes a hierarchy of the present matrix.
+  /// Makes one of the present matrix; of a matrix that is not positive definite a hierarchy, with
+  /// which conjugate gradients tell the direction.
   void build(ElasticSolver &solver);
 
 private:
-  bool is_old                          = false;
+  bool is_old = false, is_factor = false;
   double iterations_per_digit_when_new = 0.;
 };
 } // namespace homespun::homogenization

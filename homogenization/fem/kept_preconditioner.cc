@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: MIT
+#include "homogenization/fem/kept_preconditioner.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace homespun::homogenization
+{
+namespace
+{
+/// A factor serves until it takes more iterations than this: those of a new one, one or two, and
+/// what a factorization costs, which is some dozen of them.
+constexpr unsigned int most_iterations_of_factor = 12;
+} // namespace
+
+void KeptPreconditioner::build(ElasticSolver &solver)
+{
+  is_old    = false;
+  is_factor = solver.is_small();
+  if (is_factor)
+    try
+    {
+      return solver.factorize();
+    }
+    catch (const meshes::NotConverged &)
+    {
+      is_factor = false;
+    }
+  solver.build_preconditioner();
+}
+
+unsigned int KeptPreconditioner::solve(ElasticSolver &solver, ElasticSolver::Vector &increment,
+                                       const ElasticSolver::Vector &forces, const double target,
+                                       const unsigned int most_iterations)
+{
+  const bool is_new = is_old || !solver.has_preconditioner();
+  if (is_new)
+    build(solver);
+  // Should this solve fail, the next one has a preconditioner of its own.
+  is_old                  = true;
+  increment               = 0.;
+  const unsigned int used = solver.solve(increment, forces, target, most_iterations);
+  // A hierarchy serves until it costs half as much again, per digit gained.
+  const double per_digit = (used + 1) / std::max(1., std::log10(forces.l2_norm() / target));
+  if (is_new)
+    iterations_per_digit_when_new = per_digit;
+  is_old =
+    is_factor ? used > most_iterations_of_factor : per_digit > 1.5 * iterations_per_digit_when_new;
+  return used;
+}
+} // namespace homespun::homogenization
