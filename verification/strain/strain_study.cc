@@ -143,9 +143,9 @@ private:
         of_run.methods = options.methods;
         if (options.is_quick)
           of_run.n_runs = 3;
-        of_run.law     = law_of(main_reference(options.references));
-        of_run.edges   = edges.edges ? &*edges.edges : nullptr;
-        of_run.fitted  = fitted_under(of_run.law);
+        of_run.law    = law_of(main_reference(options.references));
+        of_run.edges  = edges.edges ? &*edges.edges : nullptr;
+        of_run.fitted = fitted_under(of_run.law);
         const std::string fault =
           run_time_study({cell, homogenized, bounds, sheet, load}, of_run,
                          output ? output->uncertainty.rows() : std::vector<UncertaintyRow>(),
