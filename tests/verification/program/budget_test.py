@@ -97,7 +97,7 @@ class Budget(InFolder):
             self.assertIn("its law is biot", ways[way]["note"])
         p1 = float(ways["fine-p1"]["error_mean_m"])
         for row in rows_of(self.folder / "strain.csv"):
-            if f"{row['method']}-4" not in ways:  # localized: at other numbers of quads
+            if row["method"] == "localized":  # whose rows are at other numbers of quads
                 continue
             way = ways[row["method"] + "-4"]
             self.assertGreater(float(way["seconds_step"]), 0., row)
