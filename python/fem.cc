@@ -3,7 +3,7 @@
 // interpreter.
 #include "homogenization/fem/homogenize.h"
 #include "homogenization/lint/cell_reading.h"
-#include "meshes/plain/general_lattice.h"
+#include "homogenization/lint/conformity.h"
 #include "python/arrays.h"
 
 #include <mpi.h>
@@ -118,20 +118,20 @@ meshes::HomogenizedCell homogenize_arrays(const py::object &vertices, const py::
   std::vector<std::string> faults = meshes::faults_of(cell.mesh, cell.name);
   if (!faults.empty())
     throw meshes::BadInput(faults);
-  try
-  {
-    cell.lattice = meshes::lattice_of_outline(cell.mesh);
-  }
-  catch (const meshes::BadInput &)
-  {
-    const std::optional<meshes::Lattice> found = meshes::lattice_by_matching(cell.mesh);
-    if (!found)
-      throw;
-    cell.lattice = *found;
-  }
-  faults = meshes::periodicity_faults(cell.mesh, cell.lattice, cell.name);
+  faults = meshes::messages_of(homogenization::conformity_faults(cell.mesh, cell.name, false, 1.));
   if (!faults.empty())
     throw meshes::BadInput(faults);
+  homogenization::MatchedCell matched =
+    homogenization::match_drawn_sides(cell.mesh, {}, {}, cell.name);
+  faults = meshes::messages_of(matched.faults);
+  if (matched.cuts_holes && faults.empty())
+    faults = {cell.name +
+              ": the outline cuts holes; expected them inside: draw the cell from another "
+              "place, or homogenize it from a file"};
+  if (!faults.empty())
+    throw meshes::BadInput(faults);
+  cell.mesh    = std::move(matched.mesh);
+  cell.lattice = matched.lattice;
   return homogenized(cell, order, "homespun for Python, from arrays");
 }
 } // namespace

@@ -2,7 +2,6 @@
 #include "homogenization/cell/cell_keys.h"
 
 #include "meshes/plain/errors.h"
-#include "meshes/plain/general_lattice.h"
 
 #include <Eigen/LU>
 
@@ -224,30 +223,25 @@ void CellKeys::declare(ParameterKeys &keys)
     "`group: E1 E2 nu12 G12 angle, ...` in [Pa], [Pa], [-], [Pa] and [deg] from the x axis to "
     "the first axis of the material; replaces Young's modulus and Poisson's ratio for that "
     "group. Cell data `angle` [deg] of the mesh, one value per triangle, is added.");
-  keys.add("Lattice vectors", lattice,
-           "`auto` finds the sides of a parallelogram, or the translations that match any other "
-           "outline; or `x1 y1; x2 y2` in mesh units.");
+  keys.add(
+    "Lattice vectors", lattice,
+    "`auto` takes the parallelogram or hexagon around the drawing, else its bounding box; or "
+    "`x1 y1; x2 y2` in mesh units, as wavy outlines need it.");
+  keys.add("Matching tolerance", tolerance,
+           "Points of opposite sides nearer than this are one, in units of the shorter lattice "
+           "vector, 1e-12 to 1e-3. `auto`: 1e-7, or where coordinates are rounded to 11 digits or "
+           "fewer four units of their last digit, at most 1e-4.");
+  keys.add("Slits", slits,
+           "`refused`: gaps much thinner than the triangles around them are faults of the mesh; "
+           "`real`: they are meant.");
 }
 
 std::optional<meshes::Lattice> lattice_from(const std::string &file, const CellKeys &keys,
-                                            const double length_unit,
-                                            const meshes::TriangleMesh &mesh, Faults &faults)
+                                            const double length_unit, Faults &faults)
 {
   meshes::Lattice lattice;
   if (trimmed(keys.lattice) == "auto")
-  {
-    try
-    {
-      return meshes::lattice_of_outline(mesh);
-    }
-    catch (const meshes::BadInput &fault)
-    {
-      const auto general = meshes::lattice_by_matching(mesh);
-      if (!general)
-        faults.push_back(file + ": key `Lattice vectors` = auto: " + fault.what());
-      return general;
-    }
-  }
+    return std::nullopt;
   const std::vector<std::string> rows = split(keys.lattice, ';');
   bool good                           = rows.size() == 2;
   for (std::size_t r = 0; good && r < 2; ++r)
@@ -272,6 +266,31 @@ std::optional<meshes::Lattice> lattice_from(const std::string &file, const CellK
     return std::nullopt;
   }
   return lattice;
+}
+
+SideRules side_rules(const std::string &file, const CellKeys &keys, const double length_unit,
+                     const double rounding, Faults &faults)
+{
+  SideRules rules;
+  rules.rounding        = rounding * length_unit;
+  rules.metres_per_unit = length_unit;
+  if (trimmed(keys.tolerance) != "auto")
+  {
+    const auto given = numbers(keys.tolerance);
+    if (given && given->size() == 1 && (*given)[0] >= 1e-12 && (*given)[0] <= 1e-3)
+      rules.tolerance = (*given)[0];
+    else
+      faults.push_back(file + ": key `Matching tolerance`: found `" + keys.tolerance +
+                       "`; expected `auto` or a number from 1e-12 to 1e-3, in units of the shorter "
+                       "lattice vector" +
+                       number_hint(keys.tolerance));
+  }
+  const std::string slits = trimmed(keys.slits);
+  rules.slits_are_real    = slits == "real";
+  if (slits != "real" && slits != "refused")
+    faults.push_back(file + ": key `Slits`: found `" + keys.slits +
+                     "`; expected `refused` or `real`" + did_you_mean(slits, {"refused", "real"}));
+  return rules;
 }
 
 std::vector<Phase> assign_phases(const std::string &file, const CellKeys &keys,

@@ -5,6 +5,7 @@
 #include "homogenization/cell/cell_mesh_file.h"
 #include "homogenization/cell/material.h"
 #include "homogenization/cell/parameter_keys.h"
+#include "homogenization/cell/side_matching.h"
 #include "meshes/plain/lattice.h"
 
 #include <optional>
@@ -19,18 +20,21 @@ struct CellKeys
   std::string mesh;
   std::string length_unit = "0.01";
   std::string young, poisson, thickness, density, orthotropic;
-  std::string lattice = "auto";
+  std::string lattice = "auto", tolerance = "auto", slits = "refused";
 
   /// Adds all keys; their values go here.
   void declare(ParameterKeys &keys);
 };
 
-/// The lattice in metres that the key `Lattice vectors` names, or that of the outline.
-/// @param mesh [m]
-/// @return nothing where faults were added
+/// The lattice in metres that the key `Lattice vectors` names; nothing where it is `auto`, or where
+/// faults were added.
 std::optional<meshes::Lattice> lattice_from(const std::string &file, const CellKeys &keys,
-                                            double length_unit, const meshes::TriangleMesh &mesh,
-                                            Faults &faults);
+                                            double length_unit, Faults &faults);
+
+/// How sides are matched: the keys `Matching tolerance` and `Slits`.
+/// @param rounding of the coordinates, in the unit of the mesh
+SideRules side_rules(const std::string &file, const CellKeys &keys, double length_unit,
+                     double rounding, Faults &faults);
 
 /// Gives every group of the mesh its phase, an orthotropic one a phase per angle where the mesh has
 /// an angle per triangle; renumbers mesh.material to indices into the phases.

@@ -6,13 +6,44 @@
 #include "meshes/plain/errors.h"
 
 #include <algorithm>
+#include <array>
+#include <charconv>
 #include <filesystem>
+#include <fstream>
 #include <sstream>
 
 namespace homespun::homogenization
 {
 namespace
 {
+/// Coordinates with more digits than this have all that the drawing had.
+constexpr int most_rounded_digits = 11;
+
+/// Whether a file holds numbers as bytes: a zero among its first ones.
+bool is_binary(const std::string &file)
+{
+  std::ifstream stream(file, std::ios::binary);
+  std::string begin(1 << 16, ' ');
+  stream.read(begin.data(), static_cast<std::streamsize>(begin.size()));
+  begin.resize(static_cast<std::size_t>(stream.gcount()));
+  return begin.find('\0') != std::string::npos;
+}
+
+/// The digits of coordinates whose text is not at hand: those of the shortest text that gives the
+/// same number.
+DecimalDigits digits_of(const RawMesh &raw)
+{
+  DecimalDigits digits;
+  std::array<char, 40> text;
+  for (const Eigen::Vector3d &point : raw.points)
+    for (const double component : point)
+    {
+      const auto end = std::to_chars(text.data(), text.data() + text.size(), component).ptr;
+      digits.add({text.data(), static_cast<std::size_t>(end - text.data())});
+    }
+  return digits;
+}
+
 RawMesh read_any(const std::string &file, const MPI_Comm communicator)
 {
   if (lower(std::filesystem::path(file).extension().string()) == ".msh")
@@ -21,7 +52,9 @@ RawMesh read_any(const std::string &file, const MPI_Comm communicator)
     return read_msh(text);
   }
   MeshText text(file + ", converted to .msh", converted_to_msh(file, communicator));
-  return read_msh(text);
+  RawMesh raw = read_msh(text);
+  raw.digits  = is_binary(file) ? DecimalDigits() : digits_of(raw);
+  return raw;
 }
 
 void require_flat(const std::string &file, const RawMesh &raw)
@@ -120,6 +153,7 @@ CellMeshFile read_cell_mesh(const std::string &file, const MPI_Comm communicator
 
   CellMeshFile result;
   result.number_of_name      = raw.number_of_name;
+  result.rounding            = raw.digits.unit(most_rounded_digits);
   meshes::TriangleMesh &mesh = result.mesh;
   std::vector<int> new_index(raw.points.size(), -1);
   for (const RawMesh::Cell &cell : raw.cells)

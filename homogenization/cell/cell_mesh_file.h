@@ -19,6 +19,8 @@ struct CellMeshFile
   std::map<std::string, int> number_of_name; ///< names of groups, where the file has them
   Eigen::VectorXd angle;                     ///< (m) cell data `angle` of the file [deg], or empty
   std::vector<CurvedSide> curved_sides;      ///< of six-node triangles, in the file's unit
+  /// To what coordinates are rounded, in the file's unit; 0 where they have all digits.
+  double rounding = 0.;
 };
 
 /// Reads a mesh. Quadrilaterals are cut in two along their shorter diagonal (along the one that

@@ -109,54 +109,84 @@ std::optional<LatticeTriangles> glued_with_rims(const meshes::TriangleMesh &mesh
   return glued;
 }
 
+namespace
+{
+struct RimEdge
+{
+  LatticeCorner from, to;
+  std::array<int, 2> side; ///< triangle, and which of its sides
+  bool is_left = true;
+};
+
+/// The angle of the void between an edge that ends in a vertex and one that begins there. Where
+/// triangles overlap it is negative: a spike of the mesh, with almost all around it void, is no
+/// such place.
+double void_angle(const Eigen::RowVector2d &arriving, const Eigen::RowVector2d &leaving)
+{
+  constexpr double narrowest_spike = M_PI / 6.;
+  const double angle = std::atan2(cross(-arriving, leaving), -arriving.dot(leaving)); // -pi to pi
+  return angle < -narrowest_spike ? angle + 2. * M_PI : angle;
+}
+} // namespace
+
 std::vector<Rim> rims_of(const LatticeTriangles &mesh)
 {
-  struct RimEdge
-  {
-    LatticeCorner from, to;
-    bool is_left = true;
-  };
   const auto sides = sides_of_edges(mesh);
   std::vector<RimEdge> edges;
   std::map<int, std::vector<std::size_t>> leaving;
-  for (const LatticeTriangle &triangle : mesh.triangles)
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
     for (std::size_t k = 0; k < 3; ++k)
     {
-      const LatticeCorner &from = triangle.corners[k], &to = triangle.corners[(k + 1) % 3];
+      const auto &corners       = mesh.triangles[t].corners;
+      const LatticeCorner &from = corners[k], &to = corners[(k + 1) % 3];
       const EdgeSides &its = sides.at(edge_between(from, to));
       if (its.n_forwards + its.n_backwards > 1)
         continue;
       leaving[from.vertex].push_back(edges.size());
-      edges.push_back({from, to});
+      edges.push_back({from, to, {static_cast<int>(t), static_cast<int>(k)}});
     }
+  const auto vector_of = [&](const RimEdge &edge) -> Eigen::RowVector2d
+  { return (mesh.at(edge.to) - mesh.at(edge.from)) * mesh.lattice.vectors; };
   std::vector<Rim> rims;
-  for (const RimEdge &first : edges)
+  for (RimEdge &first : edges)
   {
     if (!first.is_left)
       continue;
     Rim rim;
-    const int begin                 = first.from.vertex;
     const Eigen::RowVector2d origin = mesh.at(first.from);
     Eigen::RowVector2d place        = origin;
-    int vertex                      = begin;
-    do
+    RimEdge *edge                   = &first;
+    while (true)
     {
-      const auto next = std::find_if(leaving[vertex].begin(), leaving[vertex].end(),
-                                     [&](const std::size_t e) { return edges[e].is_left; });
-      if (next == leaving[vertex].end())
-        return {}; // a rim that does not close: no mesh has one
-      RimEdge &edge               = edges[*next];
-      edge.is_left                = false;
-      const Eigen::RowVector2d to = place + mesh.at(edge.to) - mesh.at(edge.from);
+      edge->is_left               = false;
+      const Eigen::RowVector2d to = place + mesh.at(edge->to) - mesh.at(edge->from);
       rim.points.push_back(place);
       rim.reach.push_back(place);
-      if (const auto bulge = mesh.bulges.find(edge_between(edge.from, edge.to));
+      rim.sides.push_back(edge->side);
+      if (const auto bulge = mesh.bulges.find(edge_between(edge->from, edge->to));
           bulge != mesh.bulges.end())
         rim.reach.push_back(0.5 * (place + to) + 2. * bulge->second);
       rim.area += 0.5 * cross(place - origin, to - origin);
-      place  = to;
-      vertex = edge.to.vertex;
-    } while (vertex != begin);
+      place = to;
+      // Where rims touch, the next edge is the first one across the void.
+      RimEdge *next = nullptr;
+      double least  = std::numeric_limits<double>::infinity();
+      for (const std::size_t e : leaving[edge->to.vertex])
+        if (const double angle = void_angle(vector_of(*edge), vector_of(edges[e]));
+            (edges[e].is_left || &edges[e] == &first) && angle < least)
+        {
+          least = angle;
+          next  = &edges[e];
+        }
+      if (!next)
+        return {}; // a rim that does not close: no mesh has one
+      rim.void_angles.push_back(least);
+      if (next == &first)
+        break;
+      edge = next;
+    }
+    // At the first point the rim arrives last.
+    std::rotate(rim.void_angles.begin(), rim.void_angles.end() - 1, rim.void_angles.end());
     rim.period = (place - origin).array().round().cast<int>();
     rims.push_back(rim);
   }

@@ -64,6 +64,11 @@ struct Rim
   std::vector<Eigen::RowVector2d> reach;  ///< beside them what a curved edge stays within
   Eigen::RowVector2i period = {0, 0};     ///< not zero where it ends at an image of its beginning
   double area               = 0.;         ///< enclosed, in parts of the cell, negative of a hole
+  /// The triangle, and which of its sides, that is the edge from each point on.
+  std::vector<std::array<int, 2>> sides;
+  /// At each point the angle of the void, from the edge that ends there to the one that begins
+  /// [rad]; zero where the two lie on each other, negative where triangles overlap.
+  std::vector<double> void_angles;
 
   /// Where the edge that begins at a point ends.
   Eigen::RowVector2d end_of(const std::size_t k) const

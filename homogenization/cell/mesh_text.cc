@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cctype>
 #include <charconv>
+#include <cmath>
 #include <fstream>
 #include <sstream>
 
@@ -69,6 +70,34 @@ bool to_integer(std::string_view word, long &value)
   const char *end   = word.data() + word.size();
   const auto parsed = std::from_chars(word.data(), end, value);
   return parsed.ec == std::errc() && parsed.ptr == end;
+}
+
+void DecimalDigits::add(const std::string_view word)
+{
+  int digits = 0, after_point = 0;
+  bool is_after = false;
+  std::size_t k = 0;
+  for (; k < word.size() && word[k] != 'e' && word[k] != 'E'; ++k)
+    if (word[k] == '.')
+      is_after = true;
+    else if (word[k] >= '0' && word[k] <= '9')
+    {
+      digits += digits > 0 || word[k] != '0' ? 1 : 0;
+      after_point += is_after ? 1 : 0;
+    }
+  long exponent = 0;
+  if (k + 1 < word.size())
+    to_integer(word.substr(k + 1), exponent);
+  const int its = after_point - static_cast<int>(std::clamp(exponent, -400L, 400L));
+  if (digits == 0 || digits < most)
+    return;
+  decimals = digits > most ? its : std::min(decimals, its);
+  most     = digits;
+}
+
+double DecimalDigits::unit(const int at_most) const
+{
+  return most == 0 || most > at_most ? 0. : std::pow(10., -decimals);
 }
 
 MeshText::MeshText(const std::string &file)
@@ -138,6 +167,15 @@ Value MeshText::parsed(bool (*parse)(std::string_view, Value &), const char *wha
 double MeshText::number(const char *what)
 {
   return parsed(to_number, what);
+}
+
+double MeshText::number(const char *what, DecimalDigits &digits)
+{
+  skip_blanks();
+  const std::size_t first = position;
+  const double value      = number(what);
+  digits.add(std::string_view(content).substr(first, position - first));
+  return value;
 }
 
 long MeshText::integer(const char *what)

@@ -8,6 +8,20 @@
 
 namespace homespun::homogenization
 {
+/// How finely decimal numbers are written.
+struct DecimalDigits
+{
+  int most     = 0; ///< significant digits of any number
+  int decimals = 0; ///< of the coarsest of the numbers that have so many
+
+  /// @param word a decimal number; zeros tell nothing
+  void add(std::string_view word);
+
+  /// Half of the last digit of each number may be lost: the unit of that digit, for numbers with at
+  /// most this many digits; 0 where there are more, as double precision has.
+  double unit(int at_most) const;
+};
+
 /// Walks through the text of a file.
 class MeshText
 {
@@ -30,6 +44,9 @@ public:
 
   /// @param what is expected, completes "found `x`; expected ..."
   double number(const char *what);
+
+  /// The same, and how finely it is written.
+  double number(const char *what, DecimalDigits &digits);
   long integer(const char *what);
 
   /// A number of items that are still to come.

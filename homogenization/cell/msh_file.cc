@@ -4,6 +4,7 @@
 #include "homogenization/cell/mesh_formats.h"
 
 #include <cmath>
+#include <set>
 
 namespace homespun::homogenization
 {
@@ -143,8 +144,8 @@ private:
         {
           // Negative numbers mean a reversed surface.
           const long group = std::abs(text.integer("the number of a physical group"));
-          if (dimension == 2 && g == 0)
-            group_of_surface[tag] = group_number(text, static_cast<double>(group));
+          if (dimension == 2)
+            groups_of_surface[tag].insert(group_number(text, static_cast<double>(group)));
         }
         if (dimension > 0)
           text.skip(text.count("entities that bound another"), "the number of an entity");
@@ -156,7 +157,7 @@ private:
   {
     Eigen::Vector3d x;
     for (double &component : x)
-      component = text.number("a coordinate");
+      component = text.number("a coordinate", mesh.digits);
     return x;
   }
 
@@ -280,16 +281,37 @@ private:
     close(version < 2. ? "$ENDELM" : "$EndElements");
   }
 
+  /// The physical group of a surface, 0 where it has none.
+  int group_of_surface(const long surface) const
+  {
+    const auto groups = groups_of_surface.find(surface);
+    if (groups == groups_of_surface.end())
+      return 0;
+    if (groups->second.size() == 1)
+      return *groups->second.begin();
+    std::string names;
+    for (const int number : groups->second)
+    {
+      std::string name = std::to_string(number);
+      for (const auto &[its_name, its_number] : mesh.number_of_name)
+        name = its_number == number ? its_name : name;
+      names += (names.empty() ? "`" : " and `") + name + "`";
+    }
+    text.fail("surface " + std::to_string(surface) + " is in the groups " + names +
+              "; expected one group for each surface: take it out of the others "
+              "(`Physical Surface`)");
+  }
+
   void element_blocks()
   {
     for (long rest = blocks("elements", "the range of the numbers of elements"); rest > 0; --rest)
     {
       const auto [entity, dimension, type, n] = block("the type of elements", "elements");
-      const auto group                        = group_of_surface.find(entity);
+      const int group                         = dimension == 2 ? group_of_surface(entity) : 0;
       for (long k = 0; k < n; ++k)
       {
         const long element = text.integer("the number of an element");
-        add(element, type, dimension == 2 && group != group_of_surface.end() ? group->second : 0);
+        add(element, type, group);
       }
     }
     close("$EndElements");
@@ -347,7 +369,7 @@ private:
   double version = 0.;
   RawMesh mesh;
   PointNumbers numbers;
-  std::unordered_map<long, int> group_of_surface;
+  std::unordered_map<long, std::set<int>> groups_of_surface;
   std::vector<long> element_of_cell;
   std::unordered_map<long, double> angle_of_element; ///< [deg]
 };

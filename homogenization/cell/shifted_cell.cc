@@ -2,12 +2,12 @@
 #include "homogenization/cell/shifted_cell.h"
 
 #include "homogenization/cell/lattice_triangles.h"
-#include "meshes/plain/general_lattice.h"
 
 #include <algorithm>
 #include <cmath>
 #include <map>
 #include <sstream>
+#include <stdexcept>
 
 namespace homespun::homogenization
 {
@@ -19,9 +19,6 @@ constexpr double even_levels          = 24.;
 
 /// Lines that meet no hole, with this distance from it, in parts of a lattice vector.
 constexpr double clearance = 1e-6;
-
-/// Areas that are this part of the cell are nothing, as in placed_periodicity_faults().
-constexpr double no_area = 1e-6;
 
 struct Interval
 {
@@ -60,88 +57,6 @@ std::vector<Interval> free_intervals(const std::vector<Rim> &rims, const int axi
     reach = std::max(reach, its.end);
   }
   return free;
-}
-
-/// Whether two pieces of rim lie on each other, face to face: a slit, not a hole.
-bool has_slit(const std::vector<Rim> &rims, const meshes::Lattice &lattice)
-{
-  struct Edge
-  {
-    Eigen::RowVector2d middle, vector;
-  };
-  std::vector<Edge> edges;
-  for (const Rim &rim : rims)
-    for (std::size_t k = 0; k < rim.points.size(); ++k)
-    {
-      const Eigen::RowVector2d a = rim.points[k], b = rim.end_of(k);
-      edges.push_back({0.5 * (a + b) * lattice.vectors, (b - a) * lattice.vectors});
-    }
-  const double tolerance = meshes::image_tolerance * std::sqrt(lattice.area());
-  for (std::size_t i = 0; i < edges.size(); ++i)
-    for (std::size_t j = 0; j < i; ++j)
-    {
-      const double mine = edges[i].vector.norm(), other = edges[j].vector.norm();
-      const Eigen::RowVector2d along = edges[i].vector / mine;
-      const auto beside              = [&](const Eigen::RowVector2d &v)
-      { return std::abs(along(0) * v(1) - along(1) * v(0)); };
-      if (along.dot(edges[j].vector) > 0. || beside(edges[j].vector) > tolerance)
-        continue;
-      const Eigen::RowVector2d d = lattice.shortest(edges[j].middle - edges[i].middle);
-      if (beside(d) < tolerance && std::abs(along.dot(d)) < 0.5 * (mine + other) - tolerance)
-        return true;
-    }
-  return false;
-}
-
-/// A way to glue the mesh.
-struct Gluing
-{
-  LatticeTriangles cloth;
-  std::vector<Rim> rims;
-  double length = 0.; ///< of rims [m]
-};
-
-/// Whether triangles and holes make up the cell, as far as the rims close.
-bool fills_the_cell(const Gluing &gluing)
-{
-  double covered = 0.;
-  for (const LatticeTriangle &triangle : gluing.cloth.triangles)
-  {
-    const Eigen::RowVector2d a = gluing.cloth.at(triangle.corners[0]),
-                             u = gluing.cloth.at(triangle.corners[1]) - a,
-                             v = gluing.cloth.at(triangle.corners[2]) - a;
-    covered += 0.5 * (u(0) * v(1) - u(1) * v(0));
-  }
-  bool is_closed = true;
-  for (const Rim &rim : gluing.rims)
-  {
-    is_closed = is_closed && rim.period.isZero();
-    covered -= rim.area;
-  }
-  return is_closed ? std::abs(covered - 1.) < no_area : true;
-}
-
-/// Of the lattices the one that leaves the least rim: less likely ones would hide sides that were
-/// not meshed alike in a hole.
-std::optional<Gluing> best_gluing(const meshes::TriangleMesh &mesh, const Eigen::VectorXi &group,
-                                  const std::vector<CurvedSide> &curved_sides,
-                                  const std::vector<meshes::Lattice> &lattices)
-{
-  std::optional<Gluing> best;
-  for (const meshes::Lattice &lattice : lattices)
-  {
-    auto cloth = glued_with_rims(mesh, lattice, group, curved_sides);
-    if (!cloth)
-      continue;
-    Gluing gluing{std::move(*cloth), {}};
-    gluing.rims = rims_of(gluing.cloth);
-    for (const Rim &rim : gluing.rims)
-      for (std::size_t k = 0; k < rim.points.size(); ++k)
-        gluing.length += ((rim.end_of(k) - rim.points[k]) * lattice.vectors).norm();
-    if (fills_the_cell(gluing) && (!best || gluing.length < best->length * (1. - 1e-9)))
-      best = std::move(gluing);
-  }
-  return best;
 }
 
 /// Levels to try, that of the given cell first, then lines of the mesh.
@@ -228,7 +143,6 @@ CellCutAnew cut(LatticeTriangles cloth, const std::vector<Rim> &rims,
                 const Eigen::RowVector2d &drawn)
 {
   CellCutAnew result;
-  result.lattice = cloth.lattice;
   Eigen::RowVector2d corner;
   std::string in_the_way;
   for (int axis = 0; axis < 2; ++axis)
@@ -286,21 +200,16 @@ std::string sentence_of(const CellShift &shift)
   return text.str();
 }
 
-std::optional<CellCutAnew> cut_anew(const meshes::TriangleMesh &mesh, const Eigen::VectorXi &group,
-                                    const std::vector<CurvedSide> &curved_sides,
-                                    const std::optional<meshes::Lattice> &lattice)
+CellCutAnew cut_anew(const meshes::TriangleMesh &mesh, const Eigen::VectorXi &group,
+                     const std::vector<CurvedSide> &curved_sides, const meshes::Lattice &lattice)
 {
-  const std::vector<meshes::Lattice> lattices =
-    lattice ? std::vector<meshes::Lattice>{*lattice} : meshes::lattices_by_length(mesh);
-  const auto gluing = best_gluing(mesh, group, curved_sides, lattices);
-  if (!gluing || gluing->rims.empty() || has_slit(gluing->rims, gluing->cloth.lattice) ||
-      std::any_of(gluing->rims.begin(), gluing->rims.end(),
-                  [](const Rim &rim) { return !rim.period.isZero(); }))
-    return std::nullopt;
-  const meshes::Lattice &its = gluing->cloth.lattice;
-  Eigen::RowVector2d drawn   = its.fractional(mesh.vertices.row(0));
+  auto cloth = glued_with_rims(mesh, lattice, group, curved_sides);
+  if (!cloth)
+    throw std::logic_error("cut_anew() of a mesh whose triangles do not lie side by side");
+  const std::vector<Rim> rims = rims_of(*cloth);
+  Eigen::RowVector2d drawn    = lattice.fractional(mesh.vertices.row(0));
   for (int v = 0; v < mesh.n_vertices(); ++v)
-    drawn = drawn.cwiseMin(its.fractional(mesh.vertices.row(v)));
-  return cut(gluing->cloth, gluing->rims, drawn);
+    drawn = drawn.cwiseMin(lattice.fractional(mesh.vertices.row(v)));
+  return cut(std::move(*cloth), rims, drawn);
 }
 } // namespace homespun::homogenization

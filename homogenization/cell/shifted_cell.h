@@ -29,7 +29,6 @@ std::string sentence_of(const CellShift &shift);
 /// What comes of a cell whose outline cuts holes: the cell cut anew, or why there is none.
 struct CellCutAnew
 {
-  meshes::Lattice lattice;
   std::optional<CellShift> shift; ///< nothing where `obstacle` says why
   meshes::TriangleMesh mesh;      ///< counter-clockwise, materials as they were [m]
   std::vector<CurvedSide> curved_sides;
@@ -38,11 +37,8 @@ struct CellCutAnew
 
 /// Cuts a cell anew whose outline cuts holes. Lines are sought where no hole is; of these the one
 /// that leaves the best triangles, in its place as drawn where no hole is cut there.
-/// @param mesh sound, as placed_faults_of() has it, [m]
+/// @param mesh whose sides match but for holes, as of match_sides() [m]
 /// @param group (n_triangles) triangles of one group may exchange area; mostly their material
-/// @param lattice as it was given; else it is found by the pieces of the boundary that match
-/// @return nothing where holes that are cut are not all that is wrong with the outline
-std::optional<CellCutAnew> cut_anew(const meshes::TriangleMesh &mesh, const Eigen::VectorXi &group,
-                                    const std::vector<CurvedSide> &curved_sides,
-                                    const std::optional<meshes::Lattice> &lattice);
+CellCutAnew cut_anew(const meshes::TriangleMesh &mesh, const Eigen::VectorXi &group,
+                     const std::vector<CurvedSide> &curved_sides, const meshes::Lattice &lattice);
 } // namespace homespun::homogenization

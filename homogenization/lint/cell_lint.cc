@@ -32,12 +32,6 @@ constexpr double smallest_angle = 5.; // [deg]
 /// Of one kind no more than this many are told one by one.
 constexpr int most_of_a_kind = 3;
 
-/// A thousandth of the tolerance of images, 1e-10 of the cell: coordinates of 16 digits that were
-/// made alike agree to 1e-14, Gmsh's periodic curves and files with 14 digits to 1e-13. What lies
-/// between was rounded to few digits or single precision, or meshed apart and luckily alike, and
-/// may fail after the next change.
-constexpr double nearly = 1e-3;
-
 /// Where something is, in the unit of the mesh file.
 std::string place_text(const Eigen::RowVector2d &point, const double metres_per_unit)
 {
@@ -91,97 +85,6 @@ std::vector<Finding> lint_slivers(const TriangleMesh &mesh, const double metres_
          << ", below which solvers slow down and fields are wrong there: remesh, or merge points "
             "that nearly coincide";
   return {{Severity::warning, "sliver", what.str(), remedy.str(), place_of(mesh, worst)}};
-}
-
-std::vector<Finding> lint_coincidence(const TriangleMesh &mesh, const double metres_per_unit)
-{
-  // Only vertices on a boundary can lie side by side without being joined.
-  // Edges are counted whatever their direction: a folded mesh is told by another check.
-  std::map<std::array<int, 2>, int> n_triangles;
-  for (int t = 0; t < mesh.n_triangles(); ++t)
-    for (int k = 0; k < 3; ++k)
-    {
-      const int a = mesh.triangles(t, k), b = mesh.triangles(t, (k + 1) % 3);
-      ++n_triangles[{std::min(a, b), std::max(a, b)}];
-    }
-  std::set<int> ends;
-  for (const auto &[edge, n] : n_triangles)
-    if (n == 1)
-      ends.insert(edge.begin(), edge.end());
-  std::vector<int> boundary(ends.begin(), ends.end());
-  // By x, so that candidates are neighbours.
-  std::stable_sort(boundary.begin(), boundary.end(),
-                   [&](const int a, const int b)
-                   { return mesh.vertices(a, 0) < mesh.vertices(b, 0); });
-  const Eigen::RowVector2d size =
-    mesh.vertices.colwise().maxCoeff() - mesh.vertices.colwise().minCoeff();
-  const double tolerance = meshes::image_tolerance * size.norm();
-  int n = 0, first = -1, other = -1;
-  std::size_t open = 0;
-  for (std::size_t i = 0; i < boundary.size(); ++i)
-  {
-    const Eigen::RowVector2d x = mesh.vertices.row(boundary[i]);
-    while (x(0) - mesh.vertices(boundary[open], 0) > tolerance)
-      ++open;
-    for (std::size_t k = open; k < i; ++k)
-      if ((mesh.vertices.row(boundary[k]) - x).norm() <= tolerance)
-      {
-        if (n++ == 0)
-        {
-          first = boundary[k];
-          other = boundary[i];
-        }
-        break;
-      }
-  }
-  if (n == 0)
-    return {};
-  const Place place{mesh.vertices.row(first), -1, first};
-  return {
-    {Severity::error, "coinciding vertices",
-     std::to_string(n) + (n == 1 ? " pair" : " pairs") +
-       " of vertices coincide without being one, the first " + std::to_string(first) + " and " +
-       std::to_string(other) + place_text(place.point, metres_per_unit) +
-       ": parts that lie side by side there are not joined",
-     "expected one vertex at a place: join the parts before meshing (Gmsh: BooleanFragments, or "
-     "Coherence)",
-     place}};
-}
-
-std::vector<Finding> lint_sides(const TriangleMesh &mesh, const Lattice &lattice,
-                                const double metres_per_unit)
-{
-  const std::vector<int> outer       = meshes::outline(mesh);
-  const meshes::ImageClasses classes = meshes::match_images(mesh, outer, lattice);
-  const double tolerance             = meshes::image_tolerance * std::sqrt(lattice.area());
-  double widest                      = nearly * tolerance;
-  int vertex = -1, image = -1;
-  for (const int v : outer)
-  {
-    const int first  = classes.representative[at(v)];
-    const double gap = lattice.shortest(mesh.vertices.row(v) - mesh.vertices.row(first)).norm();
-    if (gap > widest)
-    {
-      widest = gap;
-      vertex = v;
-      image  = first;
-    }
-  }
-  if (vertex < 0)
-    return {};
-  std::ostringstream what, remedy;
-  what << "opposite sides match only just: vertex " << vertex
-       << place_text(mesh.vertices.row(vertex), metres_per_unit) << " and its image, vertex "
-       << image << place_text(mesh.vertices.row(image), metres_per_unit) << ", are off by "
-       << widest / metres_per_unit << ", " << 100. * widest / tolerance << " % of the tolerance";
-  remedy << "expected less than " << nearly * tolerance / metres_per_unit
-         << ": write coordinates in double precision with 16 digits, and mesh opposite sides alike "
-            "(Gmsh: Periodic Curve)";
-  return {{Severity::warning,
-           "nearly unmatched",
-           what.str(),
-           remedy.str(),
-           {mesh.vertices.row(vertex), -1, vertex}}};
 }
 
 std::vector<Finding> lint_mechanisms(const TriangleMesh &mesh, const Lattice &lattice,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What hurts later in a cell that can be read: shapes, sides, units, contrast, thin parts,
+// What hurts later in a cell that can be read: shapes, units, contrast, thin parts,
 // mechanisms. Each finding says what, where and what to do; none of them needs a solution.
 #pragma once
 
@@ -13,14 +13,6 @@ namespace homespun::homogenization
 /// Slivers: needs a mesh alone.
 /// @param metres_per_unit of the mesh file, for places in its own unit
 std::vector<Finding> lint_slivers(const meshes::TriangleMesh &mesh, double metres_per_unit);
-
-/// Vertices that coincide without being one, for meshes whose lattice is not known; else the check
-/// of periodicity tells them.
-std::vector<Finding> lint_coincidence(const meshes::TriangleMesh &mesh, double metres_per_unit);
-
-/// Sides that only just match: needs a lattice that fits.
-std::vector<Finding> lint_sides(const meshes::TriangleMesh &mesh, const meshes::Lattice &lattice,
-                                double metres_per_unit);
 
 /// Parts that move without energy, and hinges: needs a lattice that fits.
 std::vector<Finding> lint_mechanisms(const meshes::TriangleMesh &mesh,

@@ -4,6 +4,7 @@
 #include "homogenization/cell/cell_keys.h"
 #include "homogenization/cell/torus_mesh.h"
 #include "homogenization/lint/cell_lint.h"
+#include "homogenization/lint/conformity.h"
 #include "meshes/plain/errors.h"
 #include "meshes/plain/lattice.h"
 
@@ -81,54 +82,72 @@ std::vector<meshes::MeshFault> piece_faults(const meshes::TriangleMesh &mesh,
   return {{text.str(), place}};
 }
 
-/// Whether the cell is periodic; faults become findings.
-bool matches_its_images(CellReading &reading, const std::string &mesh_path)
-{
-  const auto faults =
-    meshes::placed_periodicity_faults(reading.cell.mesh, reading.cell.lattice, mesh_path);
-  add(reading.findings, "periodicity", faults);
-  return faults.empty();
-}
-
-/// Where the outline cuts holes, and nothing else is wrong with it: cuts the cell anew, or says
-/// first why not.
-/// @param geometry begins what was found of pieces, lattice and periodicity
+/// Where the outline cuts holes, and nothing else is wrong with it: cuts the cell anew, or says why
+/// not.
 /// @return whether the cell is another one now
-bool cut_anew_if_holes_are_cut(CellReading &reading, const std::string &mesh_path,
-                               const bool lattice_is_given, const std::size_t geometry)
+bool cut_anew_around_holes(CellReading &reading, const std::string &mesh_path)
 {
-  UnitCell &cell = reading.cell;
-  if (lattice_is_given && !reading.has_lattice)
-    return false;
+  UnitCell &cell        = reading.cell;
   Eigen::VectorXi group = cell.mesh.material;
   if (!cell.phases.empty() && group.maxCoeff() < static_cast<int>(cell.phases.size()))
     for (int &its : group)
       its = cell.group_of_phase()[static_cast<std::size_t>(its)];
-  auto anew =
-    cut_anew(cell.mesh, group, cell.curved_sides,
-             lattice_is_given ? std::optional<meshes::Lattice>(cell.lattice) : std::nullopt);
-  if (!anew)
-    return false;
-  std::vector<Finding> &findings = reading.findings;
-  const auto begin               = findings.begin() + static_cast<std::ptrdiff_t>(geometry);
-  if (!anew->shift)
+  CellCutAnew anew = cut_anew(cell.mesh, group, cell.curved_sides, cell.lattice);
+  if (!anew.shift)
   {
-    findings.erase(begin, findings.end());
-    findings.insert(findings.begin(), finding_of("cut hole", mesh_path + ": " + anew->obstacle));
+    reading.findings.insert(reading.findings.begin(),
+                            finding_of("cut hole", mesh_path + ": " + anew.obstacle));
     return false;
   }
-  findings.erase(begin, findings.end());
-  findings.insert(findings.begin(),
-                  {Severity::warning, "shifted cell", mesh_path + ": " + sentence_of(*anew->shift),
-                   "expected holes inside: nothing is to be done where the place of the cut does "
-                   "not matter; else draw the cell from the place that is meant",
-                   meshes::Place()});
-  cell.mesh           = std::move(anew->mesh);
-  cell.curved_sides   = std::move(anew->curved_sides);
-  cell.lattice        = anew->lattice;
-  cell.shift          = anew->shift;
-  reading.has_lattice = true;
+  reading.findings.insert(reading.findings.begin(),
+                          {Severity::warning, "shifted cell",
+                           mesh_path + ": " + sentence_of(*anew.shift),
+                           "expected holes inside: nothing is to be done where the place of the "
+                           "cut does not matter; else "
+                           "draw the cell from the place that is meant",
+                           meshes::Place()});
+  cell.mesh         = std::move(anew.mesh);
+  cell.curved_sides = std::move(anew.curved_sides);
+  cell.shift        = anew.shift;
   return true;
+}
+
+/// Sides that match only because points within the tolerance are one, and other cloths that the
+/// same outline may stand for.
+void warn_of_matching(const MatchedCell &matched, const SideRules &rules, const bool is_given,
+                      const std::string &mesh_path, std::vector<Finding> &findings)
+{
+  const double unit = rules.metres_per_unit;
+  if (matched.moved_vertex >= 0)
+  {
+    const Eigen::RowVector2d place = matched.mesh.vertices.row(matched.moved_vertex);
+    std::ostringstream what;
+    what.precision(6);
+    what << mesh_path << ": opposite sides match only within the tolerance: images were moved onto "
+         << "each other, vertex " << matched.moved_vertex << " at (" << place / unit
+         << ") in the mesh's unit farthest, by " << matched.largest_move / unit << ", "
+         << 100. * matched.largest_move / rules.gap(matched.lattice) << " % of the tolerance";
+    findings.push_back({Severity::warning,
+                        "nearly unmatched",
+                        what.str(),
+                        "expected images to agree to round-off: write coordinates in double "
+                        "precision with 16 digits, and mesh opposite sides alike (Gmsh: Periodic "
+                        "Curve)",
+                        {place, -1, matched.moved_vertex}});
+  }
+  if (is_given || !matched.cuts_holes)
+    return;
+  for (const meshes::Lattice &lattice : other_lattices(matched, rules))
+    findings.push_back(
+      {Severity::warning, "two cloths",
+       mesh_path + ": the cell is taken as drawn in its frame, `" +
+         lattice_line(matched.lattice, unit) +
+         "`, whose sides cut holes; its outline would also fill the plane without "
+         "them",
+       "expected one cloth: set `Lattice vectors` to the first where the holes are "
+       "meant, else `" +
+         lattice_line(lattice, unit) + "`",
+       meshes::Place()});
 }
 
 /// The path of a file that a cell file names. It stays in the folder of the cell file, links
@@ -186,9 +205,10 @@ CellKeys read_keys(const std::string &prm_file, CellReading &reading)
 }
 
 /// Mesh and phases.
+/// @param rounding is given that of the coordinates, in the file's unit
 /// @return whether the mesh was read and is sound
 bool read_mesh_and_phases(const CellKeys &keys, const MPI_Comm communicator, CellReading &reading,
-                          std::string &mesh_path)
+                          std::string &mesh_path, double &rounding)
 {
   UnitCell &cell                 = reading.cell;
   std::vector<Finding> &findings = reading.findings;
@@ -206,6 +226,7 @@ bool read_mesh_and_phases(const CellKeys &keys, const MPI_Comm communicator, Cel
   mesh_file.mesh.vertices *= reading.metres_per_unit;
   for (CurvedSide &side : mesh_file.curved_sides)
     side.sagitta *= reading.metres_per_unit;
+  rounding         = mesh_file.rounding;
   reading.has_mesh = true;
   add(findings, "mesh", meshes::placed_faults_of(mesh_file.mesh, mesh_path));
   const bool is_sound = !has_errors(findings);
@@ -221,44 +242,43 @@ bool read_mesh_and_phases(const CellKeys &keys, const MPI_Comm communicator, Cel
   return is_sound;
 }
 
-/// Pieces, lattice, images, and what moves without energy.
+/// Lattice, images, and what moves without energy.
 /// @return whether the cell fits its images
-bool read_geometry(const CellKeys &keys, const std::string &mesh_path, const bool mesh_is_sound,
+bool read_geometry(const CellKeys &keys, const SideRules &rules, const std::string &mesh_path,
                    CellReading &reading)
 {
   UnitCell &cell                 = reading.cell;
   std::vector<Finding> &findings = reading.findings;
-  const std::size_t geometry     = findings.size();
-  bool fits                      = false;
-  try
+  const auto not_joined =
+    conformity_faults(cell.mesh, mesh_path, rules.slits_are_real, rules.metres_per_unit);
+  add(findings, "conformity", not_joined);
+  if (!not_joined.empty())
+    return false;
+  Faults of_lattice;
+  const bool is_given = trimmed(keys.lattice) != "auto";
+  const auto given    = lattice_from(cell.file, keys, rules.metres_per_unit, of_lattice);
+  add(findings, "lattice", of_lattice);
+  if (!of_lattice.empty())
+    return false;
+  MatchedCell matched = given ? match_sides(cell.mesh, cell.curved_sides, *given, rules, mesh_path)
+                              : match_drawn_sides(cell.mesh, cell.curved_sides, rules, mesh_path);
+  reading.has_lattice = matched.lattice.area() > 0.;
+  cell.lattice        = matched.lattice;
+  if (!matched.faults.empty())
   {
-    const auto pieces = piece_faults(cell.mesh, mesh_path);
-    add(findings, "pieces", pieces);
-    Faults of_lattice;
-    std::optional<meshes::Lattice> lattice;
-    const bool is_given = trimmed(keys.lattice) != "auto";
-    if (pieces.empty() || is_given)
-      lattice = lattice_from(cell.file, keys, reading.metres_per_unit, cell.mesh, of_lattice);
-    add(findings, "lattice", of_lattice);
-    if (lattice)
-    {
-      reading.has_lattice = true;
-      cell.lattice        = *lattice;
-    }
-    if (lattice && pieces.empty())
-      fits = matches_its_images(reading, mesh_path);
-    if (!fits && mesh_is_sound && cut_anew_if_holes_are_cut(reading, mesh_path, is_given, geometry))
-      fits = matches_its_images(reading, mesh_path);
-    if (fits && mesh_is_sound && may_move(cell.mesh))
-      append(findings, mesh_path,
-             lint_mechanisms(cell.mesh, cell.lattice, reading.metres_per_unit));
-  }
-  catch (const meshes::BadInput &bad)
-  {
-    add(findings, "mesh", {mesh_path + ": " + bad.what()});
+    add(findings, "pieces", piece_faults(cell.mesh, mesh_path));
+    add(findings, "periodicity", matched.faults);
     return false;
   }
-  return fits;
+  warn_of_matching(matched, rules, is_given, mesh_path, findings);
+  cell.mesh         = std::move(matched.mesh);
+  cell.curved_sides = std::move(matched.curved_sides);
+  if (matched.cuts_holes && !cut_anew_around_holes(reading, mesh_path))
+    return false;
+  append(findings, mesh_path, lint_missing_triangles(cell.mesh, rules.metres_per_unit));
+  if (may_move(cell.mesh))
+    append(findings, mesh_path, lint_mechanisms(cell.mesh, cell.lattice, rules.metres_per_unit));
+  return true;
 }
 } // namespace
 
@@ -281,11 +301,15 @@ CellReading read_unit_cell_with_findings(const std::string &prm_file, const MPI_
     return reading;
 
   std::string mesh_path;
-  const bool mesh_is_sound = read_mesh_and_phases(keys, communicator, reading, mesh_path);
+  double rounding          = 0.;
+  const bool mesh_is_sound = read_mesh_and_phases(keys, communicator, reading, mesh_path, rounding);
   if (!reading.has_mesh)
     return reading;
-  const bool fits  = read_geometry(keys, mesh_path, mesh_is_sound, reading);
-  reading.is_whole = mesh_is_sound && fits && reading.has_phases;
+  Faults of_rules;
+  const SideRules rules = side_rules(prm_file, keys, reading.metres_per_unit, rounding, of_rules);
+  add(findings, "key", of_rules);
+  const bool fits  = mesh_is_sound && read_geometry(keys, rules, mesh_path, reading);
+  reading.is_whole = fits && of_rules.empty() && reading.has_phases;
   if (reading.is_whole)
     append(findings, prm_file, lint_contrast(cell));
   if (reading.is_whole && !cell.curved_sides.empty())
@@ -309,15 +333,12 @@ CellReading inspect_cell(const std::string &prm_file)
     return reading;
   std::vector<Finding> &findings = reading.findings;
   append(findings, prm_file, lint_slivers(cell.mesh, reading.metres_per_unit));
-  if (!reading.has_lattice)
-    append(findings, prm_file, lint_coincidence(cell.mesh, reading.metres_per_unit));
   const Eigen::RowVector2d box =
     cell.mesh.vertices.colwise().maxCoeff() - cell.mesh.vertices.colwise().minCoeff();
   const double side = reading.is_whole ? std::sqrt(cell.lattice.area()) : std::sqrt(box.prod());
   append(findings, prm_file, lint_size(side, reading.metres_per_unit));
   if (reading.is_whole)
   {
-    append(findings, prm_file, lint_sides(cell.mesh, cell.lattice, reading.metres_per_unit));
     append(findings, prm_file, lint_phases(cell, side));
     append(findings, prm_file, lint_continuity(cell, reading.metres_per_unit));
     append(findings, prm_file, lint_thin_parts(cell, reading.metres_per_unit));

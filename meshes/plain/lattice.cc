@@ -119,50 +119,6 @@ std::vector<int> outline(const TriangleMesh &mesh)
   return outer;
 }
 
-Lattice lattice_of_outline(const TriangleMesh &mesh)
-{
-  const std::vector<int> loop = outline(mesh);
-  std::vector<Eigen::RowVector2d> corners;
-  for (std::size_t k = 0; k < loop.size(); ++k)
-  {
-    const Eigen::RowVector2d here   = mesh.vertices.row(loop[k]);
-    const Eigen::RowVector2d before = mesh.vertices.row(loop[(k + loop.size() - 1) % loop.size()]);
-    const Eigen::RowVector2d after  = mesh.vertices.row(loop[(k + 1) % loop.size()]);
-    const Eigen::RowVector2d a = (here - before).normalized(), b = (after - here).normalized();
-    if (std::abs(a(0) * b(1) - a(1) * b(0)) > 1e-5)
-      corners.push_back(here);
-  }
-  std::ostringstream found;
-  for (std::size_t k = 0; k < std::min<std::size_t>(corners.size(), 6); ++k)
-    found << " (" << corners[k](0) << ", " << corners[k](1) << ")";
-  if (corners.size() > 6)
-    found << " ...";
-  const std::string remedy = "; expected a parallelogram: give `Lattice vectors` explicitly";
-  if (corners.size() != 4)
-    throw BadInput("the outline of the cell has " + std::to_string(corners.size()) + " corners," +
-                   found.str() + " in m" + remedy);
-
-  std::size_t lowest = 0;
-  for (std::size_t k = 1; k < 4; ++k)
-  {
-    const double scale = (corners[2] - corners[0]).norm();
-    const double dy    = corners[k](1) - corners[lowest](1);
-    if (dy < -1e-9 * scale || (dy < 1e-9 * scale && corners[k](0) < corners[lowest](0)))
-      lowest = k;
-  }
-  const Eigen::RowVector2d origin = corners[lowest];
-  Lattice lattice;
-  lattice.vectors.row(0) = corners[(lowest + 1) % 4] - origin;
-  lattice.vectors.row(1) = corners[(lowest + 3) % 4] - origin;
-  const Eigen::RowVector2d gap =
-    origin + lattice.vectors.row(0) + lattice.vectors.row(1) - corners[(lowest + 2) % 4];
-  if (gap.norm() > image_tolerance * std::sqrt(lattice.area()))
-    throw BadInput("the outline of the cell has the corners" + found.str() +
-                   " in m, which miss a parallelogram by " + std::to_string(gap.norm()) + " m" +
-                   remedy);
-  return lattice;
-}
-
 namespace
 {
 /// Two vertices within the tolerance of periodic images, anywhere in the mesh: whoever matches
@@ -233,10 +189,11 @@ void add_area_faults(const TriangleMesh &mesh, const Lattice &lattice, const std
   }
 }
 
-/// What to say of a vertex of the outline whose image is not there.
-/// @param i its place in the loop @param points those of the loop
+} // namespace
+
 std::string text_of_unmatched(const std::vector<int> &loop, const Points &points,
-                              const Lattice &lattice, const Eigen::Index i, const double tolerance)
+                              const Lattice &lattice, const Eigen::Index i,
+                              const double relative_tolerance)
 {
   const double cell_size = std::sqrt(lattice.area());
   Eigen::Index nearest   = -1;
@@ -259,12 +216,11 @@ std::string text_of_unmatched(const std::vector<int> &loop, const Points &points
   if (nearest >= 0)
     text << "; the nearest candidate is vertex " << loop[static_cast<std::size_t>(nearest)]
          << " at (" << points.row(nearest) << ") m, off by " << gap << " m";
-  text << "; expected one within " << tolerance * cell_size
+  text << "; expected one within " << relative_tolerance * cell_size
        << " m: mesh opposite sides alike (Gmsh: Periodic Curve {right} = {left} Translate {dx, dy, "
           "0};) or mend `Lattice vectors`";
   return text.str();
 }
-} // namespace
 
 std::vector<MeshFault> placed_periodicity_faults(const TriangleMesh &mesh, const Lattice &lattice,
                                                  const std::string &name,

@@ -49,12 +49,6 @@ struct ImageClasses
 ImageClasses match_images(const Points &points, const Lattice &lattice,
                           double relative_tolerance = image_tolerance);
 
-/// The lattice of a cell whose outline is a parallelogram: its two sides that leave the lowest
-/// corner, counter-clockwise, so that a1 x a2 > 0.
-/// @param mesh whose outer loop is searched for four corners
-/// @throws BadInput where the outline is not a parallelogram, with the corners that were found
-Lattice lattice_of_outline(const TriangleMesh &mesh);
-
 /// The outer loop of a mesh: the boundary loop that encloses the largest area.
 std::vector<int> outline(const TriangleMesh &mesh);
 
@@ -69,6 +63,14 @@ std::vector<std::string> periodicity_faults(const TriangleMesh &mesh, const Latt
 std::vector<MeshFault> placed_periodicity_faults(const TriangleMesh &mesh, const Lattice &lattice,
                                                  const std::string &name,
                                                  double relative_tolerance = image_tolerance);
+
+/// What to say of a vertex of the outline that has no periodic image: the nearest candidate, the
+/// gap, the remedy.
+/// @param loop vertices of the outline, or of a part of it
+/// @param points (n,2) where they lie [m]
+/// @param i its place in the loop
+std::string text_of_unmatched(const std::vector<int> &loop, const Points &points,
+                              const Lattice &lattice, Eigen::Index i, double relative_tolerance);
 
 /// The vertex at which characteristic displacements are anchored: of all vertices the one with the
 /// most images on the outline (the corners of a parallelogram), and of those the lowest-left.

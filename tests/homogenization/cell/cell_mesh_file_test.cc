@@ -2,6 +2,7 @@
 // One cell in every format: what Gmsh and VTK wrote of data/halves.geo holds the same areas by
 // group, and the same vertices, triangles, groups and angles where the format keeps their order.
 #include "homogenization/cell/cell_mesh_file.h"
+#include "meshes/plain/drawn_lattice.h"
 #include "meshes/plain/lattice.h"
 #include "tests/content_of.h"
 #include "tests/refusal.h"
@@ -39,7 +40,7 @@ void expect_halves(const std::string &name, const int soft, const int hard)
   EXPECT_NEAR(area_of(file, soft), 0.375, 1e-12) << name;
   EXPECT_NEAR(area_of(file, hard), 0.625, 1e-12) << name;
   EXPECT_TRUE(meshes::faults_of(file.mesh, name).empty()) << name;
-  EXPECT_NEAR(meshes::lattice_of_outline(file.mesh).area(), 1., 1e-12) << name;
+  EXPECT_NEAR(meshes::frames_of(file.mesh, 1e-9).at(0).lattice.area(), 1., 1e-12) << name;
 }
 
 class Folder

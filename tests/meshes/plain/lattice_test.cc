@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "meshes/plain/drawn_lattice.h"
 #include "meshes/plain/errors.h"
 #include "meshes/plain/lattice.h"
 #include "tests/meshes/plain/shapes.h"
@@ -47,13 +48,37 @@ TEST(invariant_lattice, classes_do_not_change_with_units_or_origin)
   }
 }
 
-TEST(exact_lattice, the_outline_gives_back_its_lattice)
+TEST(exact_lattice, the_frame_of_a_parallelogram_and_its_outline_give_back_its_lattice)
 {
   for (const Lattice &lattice : {tests::square_lattice(0.02), tests::skewed_lattice()})
-    EXPECT_LT((lattice_of_outline(tests::parallelogram(lattice, 3, 4)).vectors - lattice.vectors)
-                .cwiseAbs()
-                .maxCoeff(),
-              1e-15);
+  {
+    const TriangleMesh mesh          = tests::parallelogram(lattice, 3, 4);
+    const std::vector<Frame> frames  = frames_of(mesh, 1e-9);
+    const std::vector<Lattice> whole = lattices_of_outline(mesh, 1e-9);
+    ASSERT_FALSE(frames.empty());
+    ASSERT_EQ(whole.size(), 1u) << "corners onto corners: no brick bond";
+    EXPECT_LT((frames[0].lattice.vectors - lattice.vectors).cwiseAbs().maxCoeff(), 1e-15);
+    EXPECT_TRUE(is_same_lattice(whole[0], lattice));
+  }
+}
+
+TEST(exact_lattice, the_outline_of_a_plus_of_five_squares_fills_the_plane_in_two_ways)
+{
+  // The cross pentomino, which is not the square that frames it.
+  const TriangleMesh square = tests::parallelogram(tests::square_lattice(3.), 3, 3);
+  TriangleMesh plus         = square;
+  std::vector<int> kept;
+  for (int t = 0; t < square.n_triangles(); ++t)
+    if ((t / 2 % 3 == 1) || (t / 6 == 1))
+      kept.push_back(t);
+  plus.triangles = square.triangles(kept, Eigen::all);
+  plus.material.setZero(plus.n_triangles());
+  const std::vector<Lattice> found = lattices_of_outline(plus, 1e-9);
+  ASSERT_EQ(found.size(), 2u);
+  for (const Lattice &lattice : found)
+    EXPECT_NEAR(lattice.area(), 5., 1e-12);
+  EXPECT_FALSE(is_same_lattice(found[0], found[1])) << "one is the mirror image of the other";
+  EXPECT_NEAR(frames_of(plus, 1e-9).back().lattice.area(), 9., 1e-12);
 }
 
 TEST(exact_lattice, a_sound_cell_has_no_faults_and_its_lower_left_corner_is_the_anchor)
