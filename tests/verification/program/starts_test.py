@@ -63,7 +63,8 @@ class Starts(InFolder):
 
     def test_a_start_that_fails_is_no_claim_that_failed_and_says_why(self):
         for broken in ({"OMPI_MCA_pml": "absent"}, {"TMPDIR": str(self.folder / "none")}):
-            result = run(*SOLVE, "--output", self.folder / "out", env={**self.environment, **broken})
+            result = run(*SOLVE, "--output", self.folder / "out",
+                         env={**self.environment, **broken})
             self.assertEqual(result.returncode, 3)
             self.assertIn("MPI did not start", result.stderr)
             self.assertEqual(self.left(), [])
