@@ -14,7 +14,11 @@ namespace homespun::homogenization
 {
 namespace
 {
-/// `group: values, ...` as a map; malformed entries become faults.
+/// Stands for the group of values without a name: the default of all groups.
+constexpr const char *no_name = "";
+
+/// `group: values, ...` as a map, of which the first entry may have no name; malformed entries
+/// become faults.
 std::map<std::string, std::vector<double>> group_values(const std::string &file,
                                                         const std::string &key,
                                                         const std::string &text,
@@ -29,9 +33,13 @@ std::map<std::string, std::vector<double>> group_values(const std::string &file,
     const auto parsed =
       colon == std::string::npos ? std::nullopt : numbers(entry.substr(colon + 1));
     const auto lone = colon == std::string::npos ? numbers(entry) : std::nullopt;
-    if (lone && lone->size() == 1)
-      faults.push_back(file + ": key `" + key + "`: found `" + before + "," + entry +
-                       "`; expected a decimal point, not a comma: commas part the groups");
+    if (lone && lone->size() == n_values && before.empty())
+      values.emplace(no_name, *lone);
+    else if (lone && lone->size() == 1)
+      faults.push_back(
+        file + ": key `" + key + "`: found `" + before + "," + entry +
+        "`; expected a decimal point, not a comma: commas part the groups (a value for "
+        "all groups comes first)");
     else if (group.empty() || !parsed || parsed->size() != n_values)
       faults.push_back(file + ": key `" + key + "`: found `" + entry + "`; expected `group: " +
                        (n_values == 1 ? "value" : "E1 E2 nu12 G12 angle") + "`" +
@@ -105,21 +113,24 @@ struct GroupsOfMesh
   explicit GroupsOfMesh(const CellMeshFile &mesh_file)
       : present(mesh_file.mesh.material.data(),
                 mesh_file.mesh.material.data() + mesh_file.mesh.material.size())
-      , number_of_name(mesh_file.number_of_name)
+      , has_names(!mesh_file.number_of_name.empty())
   {
+    for (const auto &[name, number] : mesh_file.number_of_name)
+      names.emplace(number, name);
+    for (const int number : present)
+    {
+      names.emplace(number, std::to_string(number));
+      called.insert({names.at(number), std::to_string(number)});
+    }
   }
 
-  std::string name_of(const int number) const
+  const std::string &name_of(const int number) const
   {
-    for (const auto &[name, its_number] : number_of_name)
-      if (its_number == number)
-        return name;
-    return std::to_string(number);
+    return names.at(number);
   }
 
-  /// The values of a group, which may be called by its name or by its number; nothing where there
-  /// are none.
-  const std::vector<double> *find(const GroupValues &values, const int number) const
+  /// The values that a group is given by its name or by its number; nothing where there are none.
+  const std::vector<double> *named(const GroupValues &values, const int number) const
   {
     auto entry = values.find(name_of(number));
     if (entry == values.end())
@@ -127,21 +138,48 @@ struct GroupsOfMesh
     return entry == values.end() ? nullptr : &entry->second;
   }
 
+  /// The same, or else the default of all groups.
+  const std::vector<double> *find(const GroupValues &values, const int number) const
+  {
+    if (const std::vector<double> *its = named(values, number))
+      return its;
+    const auto entry = values.find(no_name);
+    return entry == values.end() ? nullptr : &entry->second;
+  }
+
+  /// The axes of a group, unless it is given by its name what has none.
+  const std::vector<double> *find_axes(const GroupTables &tables, const int number) const
+  {
+    if (const std::vector<double> *its = named(tables.orthotropic, number))
+      return its;
+    return named(tables.young, number) || named(tables.poisson, number)
+             ? nullptr
+             : find(tables.orthotropic, number);
+  }
+
   const std::set<int> present;
-  const std::map<std::string, int> &number_of_name;
+  const bool has_names;         ///< in the file
+  std::set<std::string> called; ///< the names and the numbers of those that are present
+
+private:
+  std::map<int, std::string> names;
 };
 
 /// Groups that keys name and no triangle has.
 void check_names(const std::string &file, const GroupTables &tables, const GroupsOfMesh &groups,
                  Faults &faults)
 {
+  constexpr std::size_t most = 10; // a list is there to be read
   std::string expected;
   std::vector<std::string> names;
   for (const int number : groups.present)
   {
     names.push_back(groups.name_of(number));
-    expected += (expected.empty() ? "`" : ", `") + names.back() + "`";
+    if (names.size() <= most)
+      expected += (expected.empty() ? "`" : ", `") + names.back() + "`";
   }
+  if (names.size() > most)
+    expected += " and " + std::to_string(names.size() - most) + " more";
   const std::vector<std::pair<const char *, const GroupValues *>> of_key = {
     {"Young's modulus", &tables.young},
     {"Poisson's ratio", &tables.poisson},
@@ -151,12 +189,7 @@ void check_names(const std::string &file, const GroupTables &tables, const Group
   for (const auto &[key, values] : of_key)
     for (const auto &entry : *values)
     {
-      const bool known = std::any_of(groups.present.begin(), groups.present.end(),
-                                     [&](const int number) {
-                                       return entry.first == groups.name_of(number) ||
-                                              entry.first == std::to_string(number);
-                                     });
-      if (!known)
+      if (entry.first != no_name && groups.called.count(entry.first) == 0)
         faults.push_back(file + ": key `" + key + "` names the group `" + entry.first +
                          "`, which no triangle of the mesh has; expected one of " + expected +
                          did_you_mean(entry.first, names));
@@ -175,15 +208,19 @@ Phase phase_of_group(const std::string &file, const GroupTables &tables, const G
     if (const auto *entry = groups.find(values, number))
       return (*entry)[0];
     faults.push_back(file + ": group `" + name + "` of the mesh has no value in key `" + key +
-                     "`; expected `" + name + ": value` there");
+                     "`; expected `" + name +
+                     ": value` there, or first a value without a name, for all groups");
     complete = false;
     return 1.;
   };
-  if (const auto *yarn = groups.find(tables.orthotropic, number))
+  if (const auto *yarn = groups.find_axes(tables, number))
   {
     const std::vector<double> &values = *yarn;
-    phase = {name, values[0], values[1], values[2], values[3], values[4], 0., 0.};
-    if (groups.find(tables.young, number) || groups.find(tables.poisson, number))
+    phase               = {name, values[0], values[1], values[2], values[3], values[4], 0., 0.};
+    const bool is_named = groups.named(tables.orthotropic, number) != nullptr;
+    const auto is_given = [&](const GroupValues &values)
+    { return (is_named ? groups.named(values, number) : groups.find(values, number)) != nullptr; };
+    if (is_given(tables.young) || is_given(tables.poisson))
       faults.push_back(
         file + ": group `" + name +
         "` is given both in `Orthotropic` and in `Young's modulus` or `Poisson's ratio`; "
@@ -214,7 +251,8 @@ void CellKeys::declare(ParameterKeys &keys)
            "Metres per mesh unit [m], positive; 0.01 for a mesh in centimetres.");
   keys.add("Young's modulus", young,
            "[Pa] One value per group of the mesh, `group: value, ...`; a group is a physical name "
-           "or number.");
+           "or number. A value without a name, which comes first, is that of all other groups; so "
+           "it is in all keys of groups.");
   keys.add("Poisson's ratio", poisson, "[-] One value per group, strictly between -1 and 1.");
   keys.add("Thickness", thickness, "[m] One value per group.");
   keys.add("Density", density, "[kg/m^3] One value per group.");
@@ -299,8 +337,8 @@ std::vector<Phase> assign_phases(const std::string &file, const CellKeys &keys,
   const GroupTables tables(file, keys, faults);
   const GroupsOfMesh groups(mesh_file);
   // Gmsh writes 0 where no physical group was given.
-  if (groups.number_of_name.empty() && groups.present == std::set<int>{0} &&
-      tables.young.count("0") == 0 && tables.orthotropic.count("0") == 0)
+  if (!groups.has_names && groups.present == std::set<int>{0} && !groups.find(tables.young, 0) &&
+      !groups.find(tables.orthotropic, 0))
   {
     faults.push_back(file + ": the mesh " + keys.mesh +
                      " has no physical groups, so that no triangle has a material; expected one "
@@ -316,7 +354,7 @@ std::vector<Phase> assign_phases(const std::string &file, const CellKeys &keys,
   {
     phase_of[number] = static_cast<int>(phases.size());
     phases.push_back(phase_of_group(file, tables, groups, number, faults));
-    is_orthotropic.push_back(groups.find(tables.orthotropic, number) != nullptr);
+    is_orthotropic.push_back(groups.find_axes(tables, number) != nullptr);
   }
   for (int &number : mesh_file.mesh.material)
     number = phase_of[number];

@@ -2,6 +2,7 @@
 #include "meshes/garment/fine_cloth.h"
 
 #include "meshes/cloth/cloth_faults.h"
+#include "meshes/garment/filled_holes.h"
 #include "meshes/garment/fine_panel.h"
 #include "meshes/garment/seam_distance.h"
 #include "meshes/plain/errors.h"
@@ -95,14 +96,22 @@ struct Collection
   const Eigen::RowVector2d &towards; ///< to which points on coarse edges belong
   Collected &fine;
 
-  /// A fine vertex at a corner of a kept triangle. @return its index
-  int add_vertex(const int corner)
+  /// Where a corner of a kept triangle lies, in the frame of the panel.
+  Eigen::RowVector2d place_of(const int corner) const
+  {
+    const int v = panel.cut_vertex_of(corner);
+    return v >= 0 ? panel.cut->vertices[at(v)].x
+                  : Eigen::RowVector2d(panel.sheet.mesh.vertices.row(corner));
+  }
+
+  /// A fine vertex at a corner of a kept triangle, which was cut from this one of the sheet.
+  /// @return its index
+  int add_vertex(const int corner, const int triangle)
   {
     const CutMesh &cut        = *panel.cut;
     const TriangleMesh &sheet = panel.sheet.mesh;
     const int v = panel.cut_vertex_of(corner), n_sheet = sheet.n_vertices();
-    const Eigen::RowVector2d x =
-      v >= 0 ? cut.vertices[at(v)].x : Eigen::RowVector2d(sheet.vertices.row(corner));
+    const Eigen::RowVector2d x = place_of(corner);
     fine.x.push_back(x + panel.base);
     fine.panel.push_back(panel.index);
     fine.seam_distance.push_back(seam_distance(x));
@@ -111,7 +120,8 @@ struct Collection
     fine.cell_weights.push_back({0., 0., 0.});
     if (corner >= n_sheet)
     {
-      const int parent            = cut.vertices[at(v)].parent;
+      const int made_in           = cut.vertices[at(v)].parent;
+      const int parent            = sheet.material(made_in) != hole ? made_in : triangle;
       const Eigen::RowVector2d x0 = sheet.vertices.row(sheet.triangles(parent, 0)),
                                e1 = sheet.vertices.row(sheet.triangles(parent, 1)) - x0,
                                e2 = sheet.vertices.row(sheet.triangles(parent, 2)) - x0;
@@ -169,8 +179,11 @@ struct Collection
   }
 };
 
-void collect(const std::vector<KeptTriangle> &kept, Collection into)
+/// Takes over what is kept of a panel but for its holes.
+/// @return their area [m^2]
+double collect(const std::vector<KeptTriangle> &kept, Collection into)
 {
+  double in_holes                            = 0.;
   const FinePanel &panel                     = into.panel;
   const std::vector<std::array<int, 3>> fans = fans_of(panel, kept);
   std::vector<int> first_copy(at(panel.sheet.mesh.n_vertices()) + panel.cut->vertices.size(),
@@ -178,6 +191,14 @@ void collect(const std::vector<KeptTriangle> &kept, Collection into)
   std::map<std::array<int, 2>, int> other_copies; // of fans 1, 2, ...
   for (std::size_t t = 0; t < kept.size(); ++t)
   {
+    const int material = panel.sheet.mesh.material(kept[t].parent);
+    if (material == hole)
+    {
+      const auto [a, b, c] = kept[t].corners;
+      in_holes +=
+        0.5 * cross(into.place_of(b) - into.place_of(a), into.place_of(c) - into.place_of(a));
+      continue;
+    }
     std::array<int, 3> corners{};
     for (std::size_t k = 0; k < 3; ++k)
     {
@@ -186,13 +207,14 @@ void collect(const std::vector<KeptTriangle> &kept, Collection into)
                       ? first_copy[at(corner)]
                       : other_copies.emplace(std::array<int, 2>{corner, fan}, -1).first->second;
       if (vertex < 0)
-        vertex = into.add_vertex(corner);
+        vertex = into.add_vertex(corner, kept[t].parent);
       corners[k] = vertex;
     }
     into.fine.triangles.push_back(corners);
-    into.fine.material.push_back(panel.sheet.mesh.material(kept[t].parent));
+    into.fine.material.push_back(material);
     into.put_on_outline(kept[t], corners);
   }
+  return in_holes;
 }
 
 /// The first of all vertices that a seam sews together.
@@ -268,12 +290,12 @@ std::vector<std::array<Eigen::RowVector2d, 2>> seams_along(const FinePanel &pane
   return segments;
 }
 
-/// The area of the fine triangles of a panel, those from `first` on.
+/// The area of the fine triangles of a panel, those from `first` on, with that of the holes.
 /// @throws BadInput where it is not that of the panel
 double covered_area(const FinePanel &panel, const Collected &collected, const std::size_t first,
-                    const Outline outline)
+                    const double in_holes, const Outline outline)
 {
-  double covered = 0.;
+  double covered = in_holes;
   for (std::size_t t = first; t < collected.triangles.size(); ++t)
   {
     const auto [a, b, c] = collected.triangles[t];
@@ -287,7 +309,7 @@ double covered_area(const FinePanel &panel, const Collected &collected, const st
     std::ostringstream text;
     text
       << "fine cloth: panel " << panel.index << " has an area of " << panel.area
-      << " m^2 and its fine triangles one of " << covered
+      << " m^2 and its fine triangles with the holes between them one of " << covered
       << " m^2; expected the same: the panel overlaps itself at rest: unwrap it without overlaps";
     throw BadInput(text.str());
   }
@@ -334,8 +356,9 @@ FineCloth fine_cloth(const TriangleMesh &cell_mesh, const Lattice &lattice, cons
       throw BadInput("fine cloth: grain " + std::to_string(p) +
                      " has an origin or an angle that is not a finite number");
 
+  const TriangleMesh filled = filled_holes(cell_mesh);
   const std::vector<FinePanel> panels =
-    fine_panels(cell_mesh, lattice, cloth, membership, options.grains);
+    fine_panels(filled, lattice, cloth, membership, options.grains);
   const std::vector<SeamEdge> seams = seam_edges(cloth);
   const double cell_area = lattice.area(), side = std::sqrt(cell_area);
   FineCloth fine;
@@ -357,8 +380,10 @@ FineCloth fine_cloth(const TriangleMesh &cell_mesh, const Lattice &lattice, cons
                                        lattice.vectors * panel.grain.rotation().transpose();
     const SeamDistance seam_distance(seams_along(panel, cloth, membership, seams),
                                      seam_reach * side);
-    collect(kept.triangles, {panel, cell_mesh, seam_distance, towards, collected});
-    fine.area_lost += panel.area - covered_area(panel, collected, before, options.outline);
+    const double in_holes =
+      collect(kept.triangles, {panel, filled, seam_distance, towards, collected});
+    fine.area_lost +=
+      panel.area - covered_area(panel, collected, before, in_holes, options.outline);
   }
   if (collected.triangles.empty())
     throw BadInput(

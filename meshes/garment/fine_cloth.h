@@ -38,7 +38,7 @@ struct FineCloth
   Eigen::VectorXi same_in_space; ///< (n) first vertex that a seam sews to this one, else itself
   int n_cut        = 0;  ///< triangles of the tiling that an outline crosses: clipped, or left out
   int n_slivers    = 0;  ///< pieces below 1e-12 of the cell's area that were left out
-  double area_lost = 0.; ///< what the panels have and the fine cloth has not [m^2]
+  double area_lost = 0.; ///< what the panels have and fine cloth and its holes have not [m^2]
 
   int n_vertices() const
   {
@@ -49,7 +49,7 @@ struct FineCloth
   Triangles sewn_triangles() const;
 };
 
-/// Tiles a cell over all panels.
+/// Tiles a cell over all panels. Holes of the cell are holes of the fine cloth, cut like it.
 ///
 /// Work and memory go with the panels' bounding boxes in lattice directions.
 /// @param cell_mesh periodic modulo the lattice, its outline the parallelogram of the lattice

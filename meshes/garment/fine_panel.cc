@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "meshes/garment/fine_panel.h"
 
+#include "meshes/garment/filled_holes.h"
 #include "meshes/plain/errors.h"
 
 #include <algorithm>
@@ -340,7 +341,7 @@ KeptTriangles kept_triangles(const FinePanel &panel, const Outline outline, cons
   };
   for (auto &[parent, fate] : fates)
     if (fate.n_inside > 0 && (fate.n_outside > 0 || fate.is_slit))
-      ++result.n_cut;
+      result.n_cut += sheet.material(parent) != hole ? 1 : 0;
     else if (fate.n_inside > 0 && outline == Outline::whole)
       kept.push_back(
         {{sheet.triangles(parent, 0), sheet.triangles(parent, 1), sheet.triangles(parent, 2)},
@@ -353,7 +354,7 @@ KeptTriangles kept_triangles(const FinePanel &panel, const Outline outline, cons
       continue;
     const auto [a, b, c] = cut.triangles[t].corners;
     if (cut.area(static_cast<int>(t)) < sliver * cell_area)
-      ++result.n_slivers;
+      result.n_slivers += sheet.material(cut.triangles[t].parent) != hole ? 1 : 0;
     else
       kept.push_back({{corner_of(a), corner_of(b), corner_of(c)}, cut.triangles[t].parent});
   }

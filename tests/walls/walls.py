@@ -109,7 +109,7 @@ PLACES = [
     (r"<deal\.II/(?!base/)", {"homogenization/fem", "verification/reference"},
      "finite elements of deal.II are used where finite elements are"),
     (r"<deal\.II/", {"homogenization/fem", "verification/reference",
-                     "verification/program/full_main.cc"},
+                     "verification/program/mpi_start.h"},
      "the rest of the house compiles without deal.II, in seconds"),
     (r"<Epetra",
      {f"homogenization/fem/{its}"

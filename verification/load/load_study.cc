@@ -17,6 +17,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iostream>
 #include <memory>
 #include <optional>
 #include <set>
@@ -316,6 +317,10 @@ private:
 
 std::vector<Verdict> run_load_study(const LoadStudyOptions &options, const MPI_Comm communicator)
 {
-  return LoadStudy(options, communicator).run();
+  LoadStudy study(options, communicator);
+  if (!options.quiet && is_root(communicator))
+    std::cout << "Prescribed: " << options.control.text() << "; axis " << options.control.axis
+              << " keeps its direction\n";
+  return study.run();
 }
 } // namespace homespun::verification

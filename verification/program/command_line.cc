@@ -46,6 +46,8 @@ void add_commands(CommandLine &line)
 /// What was chosen, when all that it needs is there.
 const Action &chosen(const CommandLine &line, const Program &program)
 {
+  if (line.check)
+    line.check();
   if (line.at_once)
     return line.at_once;
   if (program.before_records)
@@ -112,7 +114,7 @@ int run_command_line(const std::vector<std::string> &arguments, const Program &p
     "stiffness, the fine\nmesh is restored from it and held against the resolved solution.",
     "homespun");
   app.set_version_flag("--version", program.version);
-  CommandLine line{app, program.studies, text, {}, {}, {}, {}};
+  CommandLine line{app, program.studies, text, {}, {}, {}, {}, {}};
   add_commands(line);
   try
   {

@@ -21,17 +21,18 @@ using Action = std::function<int()>;
 /// exit status.
 using AfterMpi = std::function<int()>;
 
-/// What the commands add themselves to, and where the chosen one leaves its work in one of three
-/// places.
+/// What the commands add themselves to, and where the chosen one leaves what it checks, and its
+/// work in one of three places.
 struct CommandLine
 {
   CLI::App &app;
   const Studies &studies;
   const std::string text; ///< the command line, for the records
 
-  Action solve;       ///< with MPI
-  Action without_mpi; ///< on one process without MPI, on the ranks of a launcher with it
-  Action at_once;     ///< as `without_mpi`, and leaves no record of a run: needs no deal.II
+  std::function<void()> check; ///< before all else: throws BadInput of the command line
+  Action solve;                ///< with MPI
+  Action without_mpi;          ///< on one process without MPI, on the ranks of a launcher with it
+  Action at_once; ///< as `without_mpi`, and leaves no record of a run: needs no deal.II
   AfterMpi afterwards;
 };
 

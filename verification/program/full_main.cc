@@ -1,43 +1,13 @@
 // SPDX-License-Identifier: MIT
 // The whole program with deal.II and MPI, `homespun-full`, which `homespun` hands over to.
 #include "verification/program/command_line.h"
+#include "verification/program/mpi_start.h"
 #include "verification/record/blas.h"
 #include "verification/record/provenance.h"
 #include "verification/record/verdict.h"
 
-#include <deal.II/base/mpi.h>
-
-#include <array>
-#include <cstdlib>
-#include <optional>
-
 namespace
 {
-/// MPI, for as long as it runs. With one thread per rank.
-class Mpi
-{
-public:
-  /// @param name of the program. The command line is not handed on: PETSc, which deal.II starts
-  ///   with MPI, would take our options for its own and warn of them at the end.
-  void start(char *const name)
-  {
-    if (running)
-      return;
-    // A process by itself needs no daemon of Open MPI, whose start takes longer than all else in
-    // MPI_Init; only processes that start others by MPI do.
-    if (!homespun::verification::is_launched())
-      setenv("OMPI_MCA_ess_singleton_isolated", "1", 0);
-    arguments[0] = name;
-    running.emplace(n_arguments, first_argument, 1);
-  }
-
-private:
-  int n_arguments = 1;
-  std::array<char *, 2> arguments{};
-  char **first_argument = arguments.data();
-  std::optional<dealii::Utilities::MPI::MPI_InitFinalize> running;
-};
-
 /// All that happens while MPI runs.
 /// @param afterwards receives what is left to do when it has ended
 int run(int argc, char **argv, homespun::verification::AfterMpi &afterwards)

@@ -2,12 +2,10 @@
 // homespun load: an infinite cloth under prescribed stresses and strains.
 #include "verification/program/studies.h"
 #include "verification/program/study_arguments.h"
-#include "verification/record/on_root.h"
 
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
 
-#include <iostream>
 #include <memory>
 
 namespace homespun::verification
@@ -35,9 +33,6 @@ void check_load_arguments(LoadArguments &arguments)
   }
   faults.check_names("--law", study.laws, law_of);
   faults.throw_if_any();
-  if (!study.quiet && is_root(MPI_COMM_WORLD))
-    std::cout << "Prescribed: " << study.control.text() << "; axis " << study.control.axis
-              << " keeps its direction\n";
 }
 } // namespace
 

@@ -16,7 +16,7 @@ namespace homespun::verification
 {
 namespace
 {
-int prepare(CommandLine &line, ScalingOptions options)
+void check_scaling_arguments(const ScalingOptions &options)
 {
   ArgumentFaults faults;
   if (n_ranks_of(MPI_COMM_WORLD) > 1)
@@ -38,6 +38,10 @@ int prepare(CommandLine &line, ScalingOptions options)
     faults.add("--launcher: found `" + options.launcher +
                "`; expected {ranks} where the number of ranks stands, like `srun -n {ranks}`");
   faults.throw_if_any();
+}
+
+int prepare(CommandLine &line, ScalingOptions options)
+{
   if (options.output.empty())
     options.output = default_folder("scaling", stems(options.cell_files));
   line.afterwards = [options, run = line.studies.scaling]()
@@ -93,7 +97,11 @@ void add_scaling_command(CommandLine &line)
                   "Example:\n  homespun scaling meshes/cells/three-stiffness.prm\n"
                   "  homespun scaling mycell.prm --refine 4,5,6 --ranks 16,64,256 --launcher "
                   "\"srun -n {ranks}\"");
-  command->callback([&line, options]()
-                    { line.without_mpi = [&line, options]() { return prepare(line, *options); }; });
+  command->callback(
+    [&line, options]()
+    {
+      line.check       = [options]() { check_scaling_arguments(*options); };
+      line.without_mpi = [&line, options]() { return prepare(line, *options); };
+    });
 }
 } // namespace homespun::verification

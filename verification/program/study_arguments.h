@@ -164,9 +164,9 @@ void add_study(CommandLine &line, CLI::App &command, const std::shared_ptr<Argum
   command.callback(
     [&line, &command, arguments, study, check]()
     {
-      line.solve = [&line, &command, arguments, study, check]()
+      line.check = [arguments, check]() { check(*arguments); };
+      line.solve = [&line, &command, arguments, study]()
       {
-        check(*arguments);
         choose_folder(command, arguments->study);
         const auto verdicts = (line.studies.*study)(arguments->study, MPI_COMM_WORLD);
         if (!arguments->no_report)

@@ -36,7 +36,6 @@ int run_upsample(UpsampleOptions study)
 {
   if (!is_root(MPI_COMM_WORLD))
     return exit_status::good;
-  check_upsample_arguments(study);
   if (study.output.empty())
     study.output = default_folder("upsample", stems({study.rest_file}));
   run_upsample_study(study);
@@ -95,7 +94,11 @@ void add_upsample_command(CommandLine &line)
     "Examples:\n  homespun upsample out/dots/homogenize/cell.h5 --rest rest.obj "
     "'sim/frame_*.obj'\n"
     "  homespun upsample cell.h5 --rest rest.ply sim/*.ply --format ply,usda --up y\n");
-  command->callback([&line, study]()
-                    { line.without_mpi = [study]() { return run_upsample(*study); }; });
+  command->callback(
+    [&line, study]()
+    {
+      line.check       = [study]() { check_upsample_arguments(*study); };
+      line.without_mpi = [study]() { return run_upsample(*study); };
+    });
 }
 } // namespace homespun::verification

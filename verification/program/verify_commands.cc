@@ -15,9 +15,8 @@ namespace homespun::verification
 {
 namespace
 {
-int run_verify(StudyArguments<VerifyOptions> arguments, CommandLine &line)
+void check_verify_arguments(const VerifyOptions &options)
 {
-  VerifyOptions &options = arguments.study;
   ArgumentFaults faults;
   faults.check_names("--parts", options.parts, verify_parts());
   for (const std::string &part : options.parts)
@@ -26,6 +25,11 @@ int run_verify(StudyArguments<VerifyOptions> arguments, CommandLine &line)
                  " needs a cell, and none is given; expected CELL.prm, or the "
                  "self-tests converge and stress");
   faults.throw_if_any();
+}
+
+int run_verify(StudyArguments<VerifyOptions> arguments, CommandLine &line)
+{
+  VerifyOptions &options = arguments.study;
   choose_folder(*line.app.get_subcommand("verify"), options);
   const bool tells = is_root(MPI_COMM_WORLD);
   Verification result;
@@ -101,6 +105,9 @@ void add_verify_command(CommandLine &line)
     "homespun verify mycell.prm");
   command->callback(
     [&line, arguments]()
-    { line.solve = [&line, arguments]() { return run_verify(*arguments, line); }; });
+    {
+      line.check = [arguments]() { check_verify_arguments(arguments->study); };
+      line.solve = [&line, arguments]() { return run_verify(*arguments, line); };
+    });
 }
 } // namespace homespun::verification

@@ -15,13 +15,27 @@ MPIEXEC = os.environ.get("MPIEXEC", "mpiexec")
 CELLS = pathlib.Path(__file__).resolve().parents[3] / "meshes" / "cells"
 
 
+class Status(int):
+    """An exit status that shows, where an assertion on it fails, what the program said."""
+
+    def __new__(cls, status, command, stderr):
+        made = super().__new__(cls, status)
+        made.shown = f"{status} of {' '.join(map(str, command))}, which said: {stderr[-2000:]}"
+        return made
+
+    def __repr__(self):
+        return self.shown
+
+
 def run(*arguments, ranks=1, **options):
     """Runs homespun and returns the finished process, with its output as text."""
     command = [PROGRAM, *map(str, arguments)]
     if ranks > 1:
         command = [MPIEXEC, "--oversubscribe", "-n", str(ranks), *command]
-    return subprocess.run(command, capture_output=True, text=True, timeout=600 * PATIENCE,
-                          check=False, **options)
+    result = subprocess.run(command, capture_output=True, text=True, timeout=600 * PATIENCE,
+                            check=False, **options)
+    result.returncode = Status(result.returncode, command, result.stderr)
+    return result
 
 
 def rows_of(path):
