@@ -8,6 +8,7 @@
 #include <unistd.h>
 
 #include <iostream>
+#include <set>
 
 using namespace homespun;
 using namespace homespun::homogenization;
@@ -221,14 +222,29 @@ struct Damaged
 std::string damage(Damaged &its, Random &random)
 {
   meshes::TriangleMesh &mesh = its.mesh;
-  const auto boundary        = meshes::boundary_edges(mesh);
-  const auto on_side         = [&](const Eigen::RowVector2d &x) {
-    return std::min({x(0), x(1), 1. - x(0), 1. - x(1)}) < 1e-9;
+  // Of the boundary what has an image is a side, the rest is the rim of a hole.
+  const auto boundary   = meshes::boundary_edges(mesh);
+  const auto is_shifted = [&](const int from, const int to)
+  {
+    const Eigen::RowVector2d d = (mesh.vertices.row(to) - mesh.vertices.row(from)).cwiseAbs();
+    return d.minCoeff() < 1e-9 && std::abs(d.maxCoeff() - 1.) < 1e-9;
   };
   std::vector<int> sides;
+  std::set<std::array<int, 2>> rim;
   for (const auto &edge : boundary)
-    if (on_side(mesh.vertices.row(edge[0])))
-      sides.push_back(edge[0]);
+    if (std::any_of(boundary.begin(), boundary.end(),
+                    [&](const auto &other)
+                    { return is_shifted(edge[0], other[1]) && is_shifted(edge[1], other[0]); }))
+      sides.insert(sides.end(), edge.begin(), edge.end());
+    else
+      rim.insert(edge);
+  const auto is_at_rim = [&](const int triangle)
+  {
+    for (int k = 0; k < 3; ++k)
+      if (rim.count({mesh.triangles(triangle, k), mesh.triangles(triangle, (k + 1) % 3)}) > 0)
+        return true;
+    return false;
+  };
   const int t                = whole(random, 0, mesh.n_triangles() - 1);
   const Eigen::RowVector2d a = mesh.vertices.row(mesh.triangles(t, 0)),
                            b = mesh.vertices.row(mesh.triangles(t, 1)),
@@ -273,6 +289,8 @@ std::string damage(Damaged &its, Random &random)
   }
   case 3: // a T-junction, on one side of an edge
   {
+    if (is_at_rim(t)) // where it would be one point more
+      return "";
     const int middle   = its.add_vertex(0.5 * (a + b));
     const int material = mesh.material(t), third = mesh.triangles(t, 2);
     its.add_triangle(middle, mesh.triangles(t, 1), third, material);
@@ -288,11 +306,8 @@ std::string damage(Damaged &its, Random &random)
     return "triangle " + std::to_string(t) + " doubled";
   }
   case 5: // at the rim of a hole that would be another hole, as well drawn
-    for (const auto &edge : boundary)
-      for (int k = 0; k < 3; ++k)
-        if (edge[0] == mesh.triangles(t, k) && edge[1] == mesh.triangles(t, (k + 1) % 3) &&
-            !on_side(0.5 * (mesh.vertices.row(edge[0]) + mesh.vertices.row(edge[1]))))
-          return "";
+    if (is_at_rim(t))
+      return "";
     its.remove(t);
     return "triangle " + std::to_string(t) + " removed";
   default: // an overlap: a triangle more, somewhere
