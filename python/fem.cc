@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Homogenization for Python, on one rank. MPI starts with the first call and ends with the
 // interpreter.
+#include "homogenization/lint/cell_frame.h"
 #include "homogenization/fem/homogenize.h"
 #include "homogenization/lint/cell_reading.h"
 #include "homogenization/lint/conformity.h"
@@ -118,7 +119,8 @@ meshes::HomogenizedCell homogenize_arrays(const py::object &vertices, const py::
   std::vector<std::string> faults = meshes::faults_of(cell.mesh, cell.name);
   if (!faults.empty())
     throw meshes::BadInput(faults);
-  faults = meshes::messages_of(homogenization::conformity_faults(cell.mesh, cell.name, false, 1.));
+  faults = meshes::messages_of(
+    homogenization::conformity_faults(cell.mesh, cell.name, homogenization::Slits::refused, 1.));
   if (!faults.empty())
     throw meshes::BadInput(faults);
   homogenization::MatchedCell matched =

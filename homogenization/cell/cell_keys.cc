@@ -324,7 +324,7 @@ SideRules side_rules(const std::string &file, const CellKeys &keys, const double
                        number_hint(keys.tolerance));
   }
   const std::string slits = trimmed(keys.slits);
-  rules.slits_are_real    = slits == "real";
+  rules.slits             = slits == "real" ? Slits::real : Slits::refused;
   if (slits != "real" && slits != "refused")
     faults.push_back(file + ": key `Slits`: found `" + keys.slits +
                      "`; expected `refused` or `real`" + did_you_mean(slits, {"refused", "real"}));

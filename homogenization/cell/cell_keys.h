@@ -5,7 +5,6 @@
 #include "homogenization/cell/cell_mesh_file.h"
 #include "homogenization/cell/material.h"
 #include "homogenization/cell/parameter_keys.h"
-#include "homogenization/cell/side_matching.h"
 #include "meshes/plain/lattice.h"
 
 #include <optional>
@@ -30,6 +29,22 @@ struct CellKeys
 /// faults were added.
 std::optional<meshes::Lattice> lattice_from(const std::string &file, const CellKeys &keys,
                                             double length_unit, Faults &faults);
+
+/// What gaps are that are much thinner than the triangles around them.
+enum class Slits
+{
+  refused, ///< faults of the mesh
+  real     ///< meant
+};
+
+/// What counts as the same point, and as a hole.
+struct SideRules
+{
+  std::optional<double> tolerance; ///< of images, in units of the shorter lattice vector
+  double rounding = 0.; ///< of the coordinates [m]; it sets the tolerance where none is given
+  Slits slits     = Slits::refused;
+  double metres_per_unit = 1.; ///< of the mesh file, in whose unit lattices are written
+};
 
 /// How sides are matched: the keys `Matching tolerance` and `Slits`.
 /// @param rounding of the coordinates, in the unit of the mesh

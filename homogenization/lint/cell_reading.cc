@@ -3,6 +3,7 @@
 
 #include "homogenization/cell/cell_keys.h"
 #include "homogenization/cell/torus_mesh.h"
+#include "homogenization/lint/cell_frame.h"
 #include "homogenization/lint/cell_lint.h"
 #include "homogenization/lint/conformity.h"
 #include "meshes/plain/errors.h"
@@ -126,7 +127,8 @@ void warn_of_matching(const MatchedCell &matched, const SideRules &rules, const 
     what << mesh_path << ": opposite sides match only within the tolerance: images were moved onto "
          << "each other, vertex " << matched.moved_vertex << " at (" << place / unit
          << ") in the mesh's unit farthest, by " << matched.largest_move / unit << ", "
-         << 100. * matched.largest_move / rules.gap(matched.lattice) << " % of the tolerance";
+         << 100. * matched.largest_move / image_gap(rules, matched.lattice)
+         << " % of the tolerance";
     findings.push_back({Severity::warning,
                         "nearly unmatched",
                         what.str(),
@@ -250,7 +252,7 @@ bool read_geometry(const CellKeys &keys, const SideRules &rules, const std::stri
   UnitCell &cell                 = reading.cell;
   std::vector<Finding> &findings = reading.findings;
   const auto not_joined =
-    conformity_faults(cell.mesh, mesh_path, rules.slits_are_real, rules.metres_per_unit);
+    conformity_faults(cell.mesh, mesh_path, rules.slits, rules.metres_per_unit);
   add(findings, "conformity", not_joined);
   if (!not_joined.empty())
     return false;

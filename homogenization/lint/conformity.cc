@@ -147,10 +147,10 @@ const char *const part =
 class Conformity
 {
 public:
-  Conformity(const TriangleMesh &mesh, const std::string &name, const bool slits_are_real,
+  Conformity(const TriangleMesh &mesh, const std::string &name, const Slits slits,
              const double metres_per_unit)
       : mesh(mesh)
-      , slits_are_real(slits_are_real)
+      , slits(slits)
       , metres_per_unit(metres_per_unit)
       , edges(edges_of_boundary(mesh))
       , grid(mesh, edges)
@@ -214,7 +214,7 @@ private:
             tell_overlap(vertex, edge);
           continue;
         }
-        if (slits_are_real)
+        if (slits == Slits::real)
           continue;
         const int end = where < 0.5 ? edge.from : edge.to;
         if ((x(vertex) - x(end)).norm() < near)
@@ -327,7 +327,7 @@ private:
   }
 
   const TriangleMesh &mesh;
-  const bool slits_are_real;
+  const Slits slits;
   const double metres_per_unit;
   const std::vector<BoundaryEdge> edges;
   const EdgeGrid grid;
@@ -336,10 +336,9 @@ private:
 } // namespace
 
 std::vector<meshes::MeshFault> conformity_faults(const TriangleMesh &mesh, const std::string &name,
-                                                 const bool slits_are_real,
-                                                 const double metres_per_unit)
+                                                 const Slits slits, const double metres_per_unit)
 {
-  return Conformity(mesh, name, slits_are_real, metres_per_unit).run();
+  return Conformity(mesh, name, slits, metres_per_unit).run();
 }
 
 std::vector<Finding> lint_missing_triangles(const TriangleMesh &mesh, const double metres_per_unit)

@@ -5,6 +5,7 @@
 // cloth.
 #pragma once
 
+#include "homogenization/cell/cell_keys.h"
 #include "homogenization/cell/finding.h"
 #include "meshes/plain/triangle_mesh.h"
 
@@ -19,10 +20,10 @@ namespace homespun::homogenization
 /// triangles do not resolve it.
 /// @param mesh sound, as placed_faults_of() has it [m]
 /// @param name of the mesh, put before each message
-/// @param slits_are_real gaps across the void are meant, however thin; overlaps never are
+/// @param slits real: gaps across the void are meant, however thin; overlaps never are
 /// @param metres_per_unit of the mesh file, for places in its own unit
 std::vector<meshes::MeshFault> conformity_faults(const meshes::TriangleMesh &mesh,
-                                                 const std::string &name, bool slits_are_real,
+                                                 const std::string &name, Slits slits,
                                                  double metres_per_unit);
 
 /// Holes of the size of a single triangle, which may be one that is missing.

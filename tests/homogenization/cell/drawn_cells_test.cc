@@ -257,7 +257,7 @@ std::string damage(Damaged &its, Random &random)
     const int v =
       sides[static_cast<std::size_t>(whole(random, 0, static_cast<int>(sides.size()) - 1))];
     const Eigen::RowVector2d x  = mesh.vertices.row(v);
-    const double distance       = std::pow(10., uniform(random, -7., -1.));
+    const double distance       = std::pow(10., uniform(random, -8., -1.));
     Eigen::RowVector2d outwards = x(0) < 1e-9        ? Eigen::RowVector2d(-1., 0.)
                                   : x(0) > 1. - 1e-9 ? Eigen::RowVector2d(1., 0.)
                                   : x(1) < 1e-9      ? Eigen::RowVector2d(0., -1.)
@@ -343,8 +343,11 @@ void expect_faults_to_be_noticed(const unsigned int seed, const int n_faults)
     const std::string more  = whole(random, 0, 1) == 0 ? lattice : "";
     const CellReading sound = drawn.read(its.mesh, all, more);
     ASSERT_TRUE(sound.is_whole) << tests::texts_of(sound);
+    std::string done;
+    while (done.empty())
+      done = damage(its, random);
     const std::string what = "fault " + std::to_string(k) + " in cell " + std::to_string(kind) +
-                             (more.empty() ? " auto: " : " given: ") + damage(its, random);
+                             (more.empty() ? " auto: " : " given: ") + done;
     const CellReading reading = drawn.read(its.mesh, all, more);
     std::string said          = what + "\n" + tests::texts_of(reading);
     if (!reading.is_whole)
@@ -361,7 +364,7 @@ void expect_faults_to_be_noticed(const unsigned int seed, const int n_faults)
     };
     if (has("nearly unmatched"))
       ++n_matched;
-    else if (has("missing triangle"))
+    else if (has("missing triangle") || has("hinge"))
     {
       ++n_warned;
       continue;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Cells whose outline cuts holes, cut from the cloth anew: it stays the same cloth.
 #include "homogenization/bracket/loewner.h"
+#include "homogenization/lint/cell_frame.h"
 #include "homogenization/cell/shifted_cell.h"
-#include "homogenization/cell/side_matching.h"
 #include "meshes/plain/drawn_lattice.h"
 #include "tests/homogenization/bracket/bracket_cells.h"
 

@@ -4,7 +4,7 @@
 // that was not meshed like the opposite one: those two are told apart here.
 #pragma once
 
-#include "homogenization/cell/curved_sides.h"
+#include "homogenization/cell/cell_keys.h"
 #include "meshes/plain/lattice.h"
 #include "meshes/plain/mesh_fault.h"
 #include "meshes/plain/triangle_mesh.h"
@@ -15,18 +15,9 @@
 
 namespace homespun::homogenization
 {
-/// What counts as the same point, and as a hole.
-struct SideRules
-{
-  std::optional<double> tolerance; ///< of images, in units of the shorter lattice vector
-  double rounding     = 0.; ///< of the coordinates [m]; it sets the tolerance where none is given
-  bool slits_are_real = false;
-  double metres_per_unit = 1.; ///< of the mesh file, in whose unit lattices are written
-
-  /// How far images may lie apart [m]: the tolerance that was given; else 1e-7 of the shorter
-  /// lattice vector, or four times the rounding, at most 1e-4 of it.
-  double gap(const meshes::Lattice &lattice) const;
-};
+/// How far images may lie apart [m]: the tolerance that was given; else 1e-7 of the shorter lattice
+/// vector, or four times the rounding, at most 1e-4 of it.
+double image_gap(const SideRules &rules, const meshes::Lattice &lattice);
 
 /// A cell whose sides are matched.
 struct MatchedCell
@@ -54,18 +45,4 @@ struct MatchedCell
 MatchedCell match_sides(const meshes::TriangleMesh &mesh,
                         const std::vector<CurvedSide> &curved_sides, const meshes::Lattice &lattice,
                         const SideRules &rules, const std::string &name);
-
-/// The same with the lattice of the first frame around the drawing that fits: each pair of its
-/// sides has edges that are images, and the rest of the outline is rims. Where none does, the
-/// faults say of which lattices the outline as a whole would be.
-MatchedCell match_drawn_sides(const meshes::TriangleMesh &mesh,
-                              const std::vector<CurvedSide> &curved_sides, const SideRules &rules,
-                              const std::string &name);
-
-/// Lattices of another area under which the outline of a cell would be periodic as a whole, without
-/// the holes that it cuts.
-std::vector<meshes::Lattice> other_lattices(const MatchedCell &cell, const SideRules &rules);
-
-/// `set Lattice vectors = ...`, the line of a cell file.
-std::string lattice_line(const meshes::Lattice &lattice, double metres_per_unit);
 } // namespace homespun::homogenization

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "homogenization/cell/side_matching.h"
+#include "homogenization/lint/side_matching.h"
 
 #include "homogenization/cell/lattice_triangles.h"
-#include "meshes/plain/drawn_lattice.h"
 #include "meshes/plain/index.h"
 
 #include <Eigen/LU>
@@ -241,8 +240,9 @@ std::vector<Eigen::RowVector2i> offsets_of_matched_edges(const LatticeTriangles 
       const bool is_forwards =
         edge[0] == from.vertex &&
         (edge[0] != edge[1] || Eigen::RowVector2i(edge[2], edge[3]) == to.offset - from.offset);
-      const int vertex             = mesh.triangles(static_cast<Eigen::Index>(t),
-                                                    static_cast<Eigen::Index>(is_forwards ? k : (k + 1) % 3));
+      const std::size_t lower = is_forwards ? k : (k + 1) % 3;
+      const int vertex =
+        mesh.triangles(static_cast<Eigen::Index>(t), static_cast<Eigen::Index>(lower));
       const auto [place, is_first] = first.emplace(edge, Side{vertex, 1});
       if (is_first || place->second.vertex == vertex)
         continue;
@@ -287,7 +287,7 @@ void look_at_rims(MatchedCell &cell, const SideRules &rules, const double gap,
     if (!rim.period.isZero() || !its.crosses_sides())
       continue;
     cell.cuts_holes = true;
-    if (rules.slits_are_real && rim.area <= 0.)
+    if (rules.slits == Slits::real && rim.area <= 0.)
       continue;
     std::optional<std::size_t> where;
     for (std::size_t k = 0; k < its.n(); ++k)
@@ -312,12 +312,12 @@ void look_at_rims(MatchedCell &cell, const SideRules &rules, const double gap,
 }
 } // namespace
 
-double SideRules::gap(const meshes::Lattice &lattice) const
+double image_gap(const SideRules &rules, const meshes::Lattice &lattice)
 {
   const double shorter = lattice.vectors.rowwise().norm().minCoeff();
-  if (tolerance)
-    return *tolerance * shorter;
-  return std::clamp(4. * rounding, least_tolerance * shorter, most_tolerance * shorter);
+  if (rules.tolerance)
+    return *rules.tolerance * shorter;
+  return std::clamp(4. * rules.rounding, least_tolerance * shorter, most_tolerance * shorter);
 }
 
 MatchedCell match_sides(const meshes::TriangleMesh &mesh,
@@ -332,7 +332,7 @@ MatchedCell match_sides(const meshes::TriangleMesh &mesh,
     return cell;
   }
   // Decimal numbers differ by whole units of their last digit: exactly the tolerance is too far.
-  const double gap                   = rules.gap(lattice) * (1. - 1e-9);
+  const double gap                   = image_gap(rules, lattice) * (1. - 1e-9);
   const std::vector<int> boundary    = boundary_vertices(mesh);
   const meshes::Points points        = points_of(mesh, boundary);
   const double size                  = std::sqrt(lattice.area());
@@ -369,83 +369,5 @@ MatchedCell match_sides(const meshes::TriangleMesh &mesh,
   }
   look_at_rims(cell, rules, gap, name);
   return cell;
-}
-
-MatchedCell match_drawn_sides(const meshes::TriangleMesh &mesh,
-                              const std::vector<CurvedSide> &curved_sides, const SideRules &rules,
-                              const std::string &name)
-{
-  const Eigen::RowVector2d box =
-    mesh.vertices.colwise().maxCoeff() - mesh.vertices.colwise().minCoeff();
-  const double gap = rules.gap({Eigen::Matrix2d(box.asDiagonal())});
-  std::optional<MatchedCell> nearly; // a frame that has images on all sides, but faults
-  const auto fits = [&](const meshes::Frame &frame) -> std::optional<MatchedCell>
-  {
-    MatchedCell cell = match_sides(mesh, curved_sides, frame.lattice, rules, name);
-    for (const Eigen::RowVector2i &pair : frame.pairs)
-      if (std::none_of(cell.matched_offsets.begin(), cell.matched_offsets.end(),
-                       [&](const Eigen::RowVector2i &offset)
-                       { return offset == pair || offset == -pair; }))
-        return std::nullopt;
-    if (cell.faults.empty())
-      return cell;
-    if (!nearly)
-      nearly = std::move(cell);
-    return std::nullopt;
-  };
-  for (const meshes::Frame &frame : meshes::frames_of(mesh, gap))
-    if (auto cell = fits(frame))
-      return *cell;
-  for (const meshes::Frame &frame : meshes::frame_meant(mesh))
-    if (!nearly)
-      fits(frame);
-  MatchedCell cell{{}, mesh, curved_sides, 0., -1, false, {}, {}};
-  std::string lines;
-  for (const meshes::Lattice &lattice : meshes::lattices_of_outline(mesh, gap))
-    if (match_sides(mesh, curved_sides, lattice, rules, name).faults.empty())
-      lines +=
-        (lines.empty() ? " `" : " or `") + lattice_line(lattice, rules.metres_per_unit) + "`";
-  if (nearly && lines.empty())
-  {
-    cell.lattice = nearly->lattice;
-    cell.faults  = std::move(nearly->faults);
-    return cell;
-  }
-  cell.faults.push_back(
-    {name +
-       ": `Lattice vectors` = auto: neither the parallelogram or hexagon around the drawing nor "
-       "its "
-       "bounding box has edges on all of its sides that are periodic images; expected " +
-       (lines.empty()
-          ? "`Lattice vectors`: give the two translations that repeat the cell, and mesh opposite "
-            "sides alike (Gmsh: Periodic Curve)"
-          : "the line" + lines + ", under which the whole outline matches"),
-     {}});
-  return cell;
-}
-
-std::vector<meshes::Lattice> other_lattices(const MatchedCell &cell, const SideRules &rules)
-{
-  std::vector<meshes::Lattice> others;
-  for (const meshes::Lattice &lattice :
-       meshes::lattices_of_outline(cell.mesh, rules.gap(cell.lattice)))
-    if (std::abs(lattice.area() - cell.lattice.area()) > 1e-3 * cell.lattice.area())
-      others.push_back(lattice);
-  return others;
-}
-
-std::string lattice_line(const meshes::Lattice &lattice, const double metres_per_unit)
-{
-  std::ostringstream text;
-  text.precision(12);
-  // Round-off of the unit prints as zero.
-  const auto number = [&](const int row, const int column)
-  {
-    const double value = lattice.vectors(row, column) / metres_per_unit;
-    return std::abs(value) < 1e-12 * lattice.vectors.norm() / metres_per_unit ? 0. : value;
-  };
-  text << "set Lattice vectors = " << number(0, 0) << " " << number(0, 1) << "; " << number(1, 0)
-       << " " << number(1, 1);
-  return text.str();
 }
 } // namespace homespun::homogenization

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: MIT
+#include "homogenization/lint/cell_frame.h"
+
+#include "meshes/plain/drawn_lattice.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <sstream>
+
+namespace homespun::homogenization
+{
+MatchedCell match_drawn_sides(const meshes::TriangleMesh &mesh,
+                              const std::vector<CurvedSide> &curved_sides, const SideRules &rules,
+                              const std::string &name)
+{
+  const Eigen::RowVector2d box =
+    mesh.vertices.colwise().maxCoeff() - mesh.vertices.colwise().minCoeff();
+  const double gap = image_gap(rules, {Eigen::Matrix2d(box.asDiagonal())});
+  std::optional<MatchedCell> nearly; // a frame that has images on all sides, but faults
+  const auto fits = [&](const meshes::Frame &frame) -> std::optional<MatchedCell>
+  {
+    MatchedCell cell = match_sides(mesh, curved_sides, frame.lattice, rules, name);
+    for (const Eigen::RowVector2i &pair : frame.pairs)
+      if (std::none_of(cell.matched_offsets.begin(), cell.matched_offsets.end(),
+                       [&](const Eigen::RowVector2i &offset)
+                       { return offset == pair || offset == -pair; }))
+        return std::nullopt;
+    if (cell.faults.empty())
+      return cell;
+    if (!nearly)
+      nearly = std::move(cell);
+    return std::nullopt;
+  };
+  for (const meshes::Frame &frame : meshes::frames_of(mesh, gap))
+    if (auto cell = fits(frame))
+      return *cell;
+  for (const meshes::Frame &frame : meshes::frame_meant(mesh))
+    if (!nearly)
+      fits(frame);
+  MatchedCell cell{{}, mesh, curved_sides, 0., -1, false, {}, {}};
+  std::string lines;
+  for (const meshes::Lattice &lattice : meshes::lattices_of_outline(mesh, gap))
+    if (match_sides(mesh, curved_sides, lattice, rules, name).faults.empty())
+      lines +=
+        (lines.empty() ? " `" : " or `") + lattice_line(lattice, rules.metres_per_unit) + "`";
+  if (nearly && lines.empty())
+  {
+    cell.lattice = nearly->lattice;
+    cell.faults  = std::move(nearly->faults);
+    return cell;
+  }
+  cell.faults.push_back(
+    {name +
+       ": `Lattice vectors` = auto: neither the parallelogram or hexagon around the drawing nor "
+       "its "
+       "bounding box has edges on all of its sides that are periodic images; expected " +
+       (lines.empty()
+          ? "`Lattice vectors`: give the two translations that repeat the cell, and mesh opposite "
+            "sides alike (Gmsh: Periodic Curve)"
+          : "the line" + lines + ", under which the whole outline matches"),
+     {}});
+  return cell;
+}
+
+std::vector<meshes::Lattice> other_lattices(const MatchedCell &cell, const SideRules &rules)
+{
+  std::vector<meshes::Lattice> others;
+  for (const meshes::Lattice &lattice :
+       meshes::lattices_of_outline(cell.mesh, image_gap(rules, cell.lattice)))
+    if (std::abs(lattice.area() - cell.lattice.area()) > 1e-3 * cell.lattice.area())
+      others.push_back(lattice);
+  return others;
+}
+
+std::string lattice_line(const meshes::Lattice &lattice, const double metres_per_unit)
+{
+  std::ostringstream text;
+  text.precision(12);
+  // Round-off of the unit prints as zero.
+  const auto number = [&](const int row, const int column)
+  {
+    const double value = lattice.vectors(row, column) / metres_per_unit;
+    return std::abs(value) < 1e-12 * lattice.vectors.norm() / metres_per_unit ? 0. : value;
+  };
+  text << "set Lattice vectors = " << number(0, 0) << " " << number(0, 1) << "; " << number(1, 0)
+       << " " << number(1, 1);
+  return text.str();
+}
+} // namespace homespun::homogenization

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: MIT
+// The lattice of a cell that names none: that of the frame in which it is drawn.
+#pragma once
+
+#include "homogenization/lint/side_matching.h"
+
+#include <string>
+#include <vector>
+
+namespace homespun::homogenization
+{
+/// Matches the sides of a cell by the lattice of the first frame around the drawing that fits: each
+/// pair of its sides has edges that are images, and the rest of the outline is rims. Where none
+/// does, the faults say of which lattices the outline as a whole would be.
+MatchedCell match_drawn_sides(const meshes::TriangleMesh &mesh,
+                              const std::vector<CurvedSide> &curved_sides, const SideRules &rules,
+                              const std::string &name);
+
+/// Lattices of another area under which the outline of a cell would be periodic as a whole, without
+/// the holes that it cuts.
+std::vector<meshes::Lattice> other_lattices(const MatchedCell &cell, const SideRules &rules);
+
+/// `set Lattice vectors = ...`, the line of a cell file.
+std::string lattice_line(const meshes::Lattice &lattice, double metres_per_unit);
+} // namespace homespun::homogenization
