@@ -53,12 +53,13 @@ MatchedCell match_drawn_sides(const meshes::TriangleMesh &mesh,
   cell.faults.push_back(
     {name +
        ": `Lattice vectors` = auto: neither the parallelogram or hexagon around the drawing nor "
-       "its "
-       "bounding box has edges on all of its sides that are periodic images; expected " +
+       "its bounding box has edges on all of its sides that are periodic images: " +
        (lines.empty()
-          ? "`Lattice vectors`: give the two translations that repeat the cell, and mesh opposite "
+          ? "the frame is another one, or opposite sides are not meshed alike; expected "
+            "`Lattice vectors`: give the two translations that repeat the cell, and mesh opposite "
             "sides alike (Gmsh: Periodic Curve)"
-          : "the line" + lines + ", under which the whole outline matches"),
+          : "the outline is wavy or toothed; expected the line" + lines +
+              ", under which the whole outline matches"),
      {}});
   return cell;
 }

@@ -39,7 +39,12 @@ Lattice reduced(Vector one, Vector other)
       std::swap(one, other);
     const double times = std::round(one.dot(other) / one.squaredNorm());
     if (times == 0. || (other - times * one).norm() >= other.norm() * (1. - 1e-9))
-      return ordered(one, other);
+    {
+      Lattice lattice = ordered(one, other);
+      if (lattice.vectors(0, 0) < 0.)
+        lattice.vectors *= -1.;
+      return lattice;
+    }
     other -= times * one;
   }
 }
