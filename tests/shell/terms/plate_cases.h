@@ -36,22 +36,25 @@ inline void make_delaunay(meshes::TriangleMesh &mesh)
   {
     turned = false;
     std::map<std::array<int, 2>, std::array<int, 2>> sides;
-    for (int t = 0; t < mesh.n_triangles() && !turned; ++t)
-      for (int k = 0; k < 3 && !turned; ++k)
-      {
-        const int a = mesh.triangles(t, (k + 1) % 3), b = mesh.triangles(t, (k + 2) % 3);
-        sides[{a, b}] = {t, k};
-        if (const auto other = sides.find({b, a});
-            other != sides.end() &&
-            angle_at(t, k) + angle_at(other->second[0], other->second[1]) > M_PI + 1e-9)
-        {
-          const int c = mesh.triangles(t, k),
-                    d = mesh.triangles(other->second[0], other->second[1]);
-          mesh.triangles.row(t) << a, d, c;
-          mesh.triangles.row(other->second[0]) << d, b, c;
-          turned = true;
-        }
-      }
+    std::vector<bool> is_new(static_cast<std::size_t>(mesh.n_triangles()), false);
+    for (int t = 0; t < mesh.n_triangles(); ++t)
+      for (int k = 0; k < 3; ++k)
+        sides[{mesh.triangles(t, (k + 1) % 3), mesh.triangles(t, (k + 2) % 3)}] = {t, k};
+    for (const auto &[edge, side] : sides)
+    {
+      const auto [t, k] = side;
+      const auto other  = sides.find({edge[1], edge[0]});
+      if (other == sides.end())
+        continue;
+      const auto [s, l] = other->second;
+      if (is_new[static_cast<std::size_t>(t)] || is_new[static_cast<std::size_t>(s)] ||
+          angle_at(t, k) + angle_at(s, l) < M_PI + 1e-9)
+        continue;
+      const int c = mesh.triangles(t, k), d = mesh.triangles(s, l);
+      mesh.triangles.row(t) << edge[0], d, c;
+      mesh.triangles.row(s) << d, edge[1], c;
+      is_new[static_cast<std::size_t>(t)] = is_new[static_cast<std::size_t>(s)] = turned = true;
+    }
   }
 }
 
@@ -79,7 +82,7 @@ inline meshes::TriangleMesh plate_mesh(const std::string &kind, const int n)
   if (kind == "shaken" || kind == "Delaunay")
   {
     std::mt19937 generator(static_cast<unsigned int>(n));
-    const double distance = (kind == "shaken" ? 0.25 : 0.3) / n;
+    const double distance = 0.25 / n;
     std::uniform_real_distribution<double> random(-distance, distance);
     for (int j = 1; j < n; ++j)
       for (int i = 1; i < n; ++i)
