@@ -17,7 +17,7 @@
 //
 // Limits. The energy of a constant curvature is exact on any mesh, but only lattices cut along one
 // diagonal keep it in equilibrium. Others are too soft, and stay so however fine they are: 1 to 3 %
-// where vertices are displaced by a quarter of the mesh width, below 0.5 % for a tenth, 29 to 31 %
+// where vertices are displaced by a quarter of the mesh width, below 0.5 % for a tenth, a third
 // where diagonals alternate. patch_test_gain() measures it, and what is too soft is refused:
 // edge_angles.h converges on every mesh. Along free edges the energy of a shape that the cloth
 // would not take by itself misses a strip of half a cell. The model knows isometric bending: a

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Which plate a cloth has. Over hinges (bending.h) it takes a third of the time, and is right on
-// one kind of mesh; by edge angles (edge_angles.h) it converges on all.
+// Which plate a cloth has. Over hinges (bending.h) a step takes half the time, and is right
+// on one kind of mesh; by edge angles (edge_angles.h) it converges on all.
 #pragma once
 
 #include "shell/terms/bending.h"
