@@ -1,37 +1,20 @@
 // SPDX-License-Identifier: MIT
 #include "shell/terms/edge_angles.h"
 
-#include "meshes/plain/errors.h"
 #include "shell/algebra/index.h"
 #include "shell/algebra/triangle_slots.h"
-#include "shell/terms/hinges.h"
+#include "shell/terms/edge_plates.h"
 
 #include <Eigen/Dense>
 #include <Eigen/SparseCholesky>
 
 #include <cmath>
 #include <limits>
-#include <map>
 
 namespace homespun::shell
 {
 namespace
 {
-/// κ = G a (Voigt, engineering twist) of a triangle at rest.
-Eigen::Matrix3d curvature_of_angles(const meshes::ClothMesh &mesh, const int t, const double area)
-{
-  Eigen::Matrix3d G;
-  for (int k = 0; k < 3; ++k)
-  {
-    const Eigen::RowVector2d side = mesh.rest.vertices.row(mesh.rest.triangles(t, (k + 2) % 3)) -
-                                    mesh.rest.vertices.row(mesh.rest.triangles(t, (k + 1) % 3));
-    // |e| n n^T with n = (side 2, −side 1)/|e|
-    G.col(k) << side(1) * side(1), side(0) * side(0), -2. * side(0) * side(1);
-    G.col(k) /= side.norm() * area;
-  }
-  return G;
-}
-
 /// A triangle in space. About its edge k, opposite to corner k, it turns by Σ_v w(k,v) n·dx_v, with
 /// n the normal, m_k the normal of the edge in its plane, inwards, b_v the gradient of the linear
 /// function that is 1 at corner v, and w(k,v) = m_k·b_v.
@@ -45,27 +28,14 @@ struct Frame
 class EdgeAngles final : public Term
 {
 public:
-  EdgeAngles(const meshes::ClothMesh &mesh, const std::vector<PlateStiffness> &stiffness,
-             const std::vector<ClampedEdge> &clamps)
+  EdgeAngles(const meshes::ClothMesh &mesh, EdgePlates &&measured)
       : triangles(mesh.triangles)
+      , plates(std::move(measured.plates))
+      , edges(std::move(measured.edges))
+      , n_nodes(measured.n_nodes)
+      , padding(std::move(measured.padding))
   {
-    const Hinges hinges = neighbours_of(mesh, stiffness);
-    find_edges(hinges);
-    add_clamps(hinges, clamps);
-    std::vector<Eigen::Triplet<double>> entries;
-    plates.resize(hinges.area.size());
-    for (int t = 0; t < mesh.n_triangles(); ++t)
-    {
-      const Eigen::Matrix3d G = curvature_of_angles(mesh, t, hinges.area[index(t)]);
-      const Eigen::Matrix3d D = stiffness[index(mesh.rest.material(t))].matrix();
-      const Eigen::Matrix3d K = hinges.area[index(t)] * G.transpose() * D * G;
-      add_plate(t, K, entries);
-    }
-    const auto n = static_cast<Eigen::Index>(edges.size());
-    Eigen::SparseMatrix<double> C(n, n);
-    C.setFromTriplets(entries.begin(), entries.end());
-    compliance.compute(C);
-    give_places(mesh.n_vertices());
+    compliance.compute(measured.compliance);
   }
 
   std::string name() const override
@@ -116,7 +86,7 @@ public:
 
   double energy(const Vectors &x) const override
   {
-    if (first_line(x) >= 0)
+    if (first_collapsed(x) >= 0)
       return std::numeric_limits<double>::infinity();
     const Eigen::VectorXd theta = angles(x);
     return theta.size() == 0 ? 0. : 0.5 * theta.dot(compliance.solve(theta));
@@ -124,7 +94,7 @@ public:
 
   std::string why_infinite(const Vectors &x) const override
   {
-    const int t = first_line(x);
+    const int t = first_collapsed(x);
     return t < 0 ? std::string() : "triangle " + std::to_string(t) + ", a line without a normal";
   }
 
@@ -157,27 +127,13 @@ public:
   std::size_t bytes() const override
   {
     return index(triangles.size()) * sizeof(int) +
-           plates.size() * (sizeof(Plate) + sizeof(TriangleSlots) + sizeof(NodeSlots)) +
-           edges.size() * sizeof(Edge) +
+           plates.size() * (sizeof(EdgePlate) + sizeof(TriangleSlots) + sizeof(NodeSlots)) +
+           edges.size() * sizeof(PlateEdge) +
            static_cast<std::size_t>(compliance.matrixL().nestedExpression().nonZeros()) *
              (sizeof(double) + sizeof(int));
   }
 
 private:
-  /// Between two triangles, or of one and a plane.
-  struct Edge
-  {
-    std::array<int, 2> triangle, corner; ///< opposite corner; −1: a clamp
-    Eigen::Vector3d normal;              ///< of the clamp
-    int node = -1, component = -1;       ///< where its unknown is, if it has one
-  };
-  /// A triangle's stiffness against the angles a at its edges [N m]; zero rows at free edges.
-  struct Plate
-  {
-    Eigen::Matrix3d K;
-    std::array<int, 3> edge     = {-1, -1, -1}; ///< opposite to each corner; −1: free
-    std::array<double, 3> sides = {0., 0., 0.}; ///< sign of ψ in a; 0: none
-  };
   struct NodeSlots
   {
     std::array<std::array<BlockMatrix::Slot, 3>, 3> of_corner, of_edge;
@@ -189,116 +145,15 @@ private:
   }
   bool has_unknown(const int t, const int k) const
   {
-    return plates[index(t)].sides[index(k)] != 0.;
+    return plates[index(t)].sign[index(k)] != 0.;
   }
-  const Edge &edge_of(const int t, const int k) const
+  const PlateEdge &edge_of(const int t, const int k) const
   {
     return edges[index(plates[index(t)].edge[index(k)])];
   }
   int node(const int t, const int k) const
   {
-    return first_node + edge_of(t, k).node;
-  }
-
-  void find_edges(const Hinges &hinges)
-  {
-    plates.resize(hinges.of.size());
-    for (int t = 0; t < n_triangles(); ++t)
-      for (int k = 0; k < 3; ++k)
-        if (const HalfHinge &hinge = hinges.of[index(t)][index(k)]; hinge.neighbour > t)
-        {
-          Plate &own = plates[index(t)], &other = plates[index(hinge.neighbour)];
-          own.edge[index(k)]                         = static_cast<int>(edges.size());
-          own.sides[index(k)]                        = 1.;
-          other.edge[index(hinge.neighbour_corner)]  = static_cast<int>(edges.size());
-          other.sides[index(hinge.neighbour_corner)] = -1.;
-          edges.push_back({{t, hinge.neighbour}, {k, hinge.neighbour_corner}, {}});
-        }
-  }
-
-  void add_clamps(const Hinges &hinges, const std::vector<ClampedEdge> &clamps)
-  {
-    std::map<std::array<int, 2>, std::array<int, 2>> outline;
-    for (int t = 0; t < n_triangles(); ++t)
-      for (int k = 0; k < 3; ++k)
-        if (hinges.of[index(t)][index(k)].neighbour < 0)
-          outline[{triangles(t, (k + 1) % 3), triangles(t, (k + 2) % 3)}] = {t, k};
-    std::vector<std::string> faults;
-    for (const ClampedEdge &clamp : clamps)
-    {
-      auto found = outline.find({clamp.first, clamp.second});
-      if (found == outline.end())
-        found = outline.find({clamp.second, clamp.first});
-      const std::string its_name = "bending: clamp of edge (" + std::to_string(clamp.first) + ", " +
-                                   std::to_string(clamp.second) + ") ";
-      if (found == outline.end())
-        faults.push_back(its_name +
-                         "is not at the outline, or there twice; expected an edge of one "
-                         "triangle");
-      else if (!clamp.normal.allFinite() || !(clamp.normal.norm() > 0.))
-        faults.push_back(its_name + "has no normal; expected a vector that is not zero");
-      else
-      {
-        const auto [t, k]               = found->second;
-        plates[index(t)].edge[index(k)] = static_cast<int>(edges.size());
-        edges.push_back({{t, -1}, {k, -1}, clamp.normal.normalized()});
-        outline.erase(found);
-      }
-    }
-    if (!faults.empty())
-      throw meshes::BadInput(faults);
-  }
-
-  /// Free edges carry no moment: their rows and columns of K^-1 do not count.
-  void add_plate(const int t, const Eigen::Matrix3d &K,
-                 std::vector<Eigen::Triplet<double>> &entries)
-  {
-    Plate &plate = plates[index(t)];
-    std::vector<Eigen::Index> there;
-    for (Eigen::Index k = 0; k < 3; ++k)
-      if (plate.edge[index(k)] >= 0)
-        there.push_back(k);
-    plate.K.setZero();
-    if (there.empty())
-      return;
-    const Eigen::Matrix3d inverse = K.ldlt().solve(Eigen::Matrix3d::Identity());
-    const Eigen::MatrixXd kept    = (0.5 * (inverse + inverse.transpose()))(there, there),
-                          own     = kept.inverse();
-    plate.K(there, there)         = own;
-    plate.K                       = (0.5 * (plate.K + plate.K.transpose())).eval();
-    for (std::size_t i = 0; i < there.size(); ++i)
-      for (std::size_t j = 0; j < there.size(); ++j)
-        entries.emplace_back(plate.edge[index(there[i])], plate.edge[index(there[j])],
-                             kept(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)));
-  }
-
-  /// Three edges to a node, those that one vertex has in common: there are about as many nodes as
-  /// vertices, and the matrix keeps its blocks.
-  void give_places(const int n_vertices)
-  {
-    struct Open
-    {
-      int node = -1, n_edges = 3;
-    };
-    std::vector<Open> of_vertex(index(n_vertices));
-    for (Edge &edge : edges)
-    {
-      if (edge.triangle[1] < 0)
-        continue;
-      const int t = edge.triangle[0], a = triangles(t, (edge.corner[0] + 1) % 3),
-                b     = triangles(t, (edge.corner[0] + 2) % 3);
-      Open *open      = &of_vertex[index(std::min(a, b))];
-      Open &elsewhere = of_vertex[index(std::max(a, b))];
-      if (open->node >= 0 && open->n_edges == 3 && (elsewhere.node < 0 || elsewhere.n_edges < 3))
-        open = &elsewhere;
-      if (open->n_edges == 3)
-        *open = {n_nodes++, 0};
-      edge.node      = open->node;
-      edge.component = open->n_edges++;
-    }
-    for (const Open &open : of_vertex)
-      for (int component = open.n_edges; component < 3; ++component)
-        padding.emplace_back(open.node, component);
+    return first_node + edge_of(t, k).place.node;
   }
 
   Eigen::Vector3d side(const Vectors &x, const int t, const int k) const
@@ -312,7 +167,7 @@ private:
     return a.cross(b).norm() > 1e-12 * std::max(a.squaredNorm(), b.squaredNorm());
   }
 
-  int first_line(const Vectors &x) const
+  int first_collapsed(const Vectors &x) const
   {
     for (int t = 0; t < n_triangles(); ++t)
       if (!has_normal(x, t))
@@ -334,7 +189,7 @@ private:
     Eigen::VectorXd theta(static_cast<Eigen::Index>(edges.size()));
     for (std::size_t e = 0; e < edges.size(); ++e)
     {
-      const Edge &edge           = edges[e];
+      const PlateEdge &edge      = edges[e];
       const Eigen::Vector3d &own = normals[index(edge.triangle[0])],
                             &other =
                               edge.triangle[1] < 0 ? edge.normal : normals[index(edge.triangle[1])],
@@ -392,7 +247,7 @@ private:
   void add_corners(const int t, const Frame &own, const Eigen::VectorXd &moments,
                    const Hessian kind, BlockMatrix &matrix) const
   {
-    const Plate &plate       = plates[index(t)];
+    const EdgePlate &plate   = plates[index(t)];
     const Eigen::Matrix3d Kw = plate.K * own.turn, wKw = own.turn.transpose() * Kw;
     const Eigen::Matrix3d nn = own.normal * own.normal.transpose();
     const Eigen::Vector3d r  = moments_at(t, moments);
@@ -421,8 +276,8 @@ private:
         for (int v = 0; v < 3; ++v)
         {
           const BlockMatrix::Slot &slot = node_places[index(t)].of_corner[index(k)][index(v)];
-          const int component           = edge_of(t, k).component;
-          const Eigen::Vector3d column  = plate.sides[index(k)] * Kw(k, v) * own.normal;
+          const int component           = edge_of(t, k).place.component;
+          const Eigen::Vector3d column  = plate.sign[index(k)] * Kw(k, v) * own.normal;
           BlockMatrix::Block &stored    = matrix.blocks[index(slot.block)];
           if (slot.transposed)
             stored.row(component) += column.transpose();
@@ -433,7 +288,7 @@ private:
 
   void add_edges(const int t, BlockMatrix &matrix) const
   {
-    const Plate &plate = plates[index(t)];
+    const EdgePlate &plate = plates[index(t)];
     for (int k = 0; k < 3; ++k)
       for (int l = 0; l < 3; ++l)
       {
@@ -443,17 +298,19 @@ private:
         const bool is_diagonal        = node(t, k) == node(t, l);
         if (slot.transposed && !is_diagonal)
           continue; // stored once, when k and l come the other way round
-        matrix.blocks[index(slot.block)](edge_of(t, k).component, edge_of(t, l).component) +=
-          plate.sides[index(k)] * plate.sides[index(l)] * plate.K(k, l);
+        matrix.blocks[index(slot.block)](edge_of(t, k).place.component,
+                                         edge_of(t, l).place.component) +=
+          plate.sign[index(k)] * plate.sign[index(l)] * plate.K(k, l);
       }
   }
 
   const meshes::Triangles triangles;
-  std::vector<Plate> plates;                                     ///< (m)
-  std::vector<Edge> edges;                                       ///< between triangles, then clamps
+  const std::vector<EdgePlate> plates; ///< (m)
+  const std::vector<PlateEdge> edges;
+  const int n_nodes;
+  const std::vector<EdgePlates::Place> padding;
   Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> compliance; ///< C [1/(N m)]
-  int first_node = 0, n_nodes = 0;
-  std::vector<std::pair<int, int>> padding; ///< nodes and components that no edge has
+  int first_node = 0;
   std::vector<TriangleSlots> places;
   std::vector<NodeSlots> node_places;
   std::vector<std::pair<BlockMatrix::Slot, int>> padding_places;
@@ -464,6 +321,6 @@ std::unique_ptr<Term> edge_angles_term(const meshes::ClothMesh &mesh,
                                        const std::vector<PlateStiffness> &stiffness,
                                        const std::vector<ClampedEdge> &clamps)
 {
-  return std::make_unique<EdgeAngles>(mesh, stiffness, clamps);
+  return std::make_unique<EdgeAngles>(mesh, edge_plates(mesh, stiffness, clamps));
 }
 } // namespace homespun::shell

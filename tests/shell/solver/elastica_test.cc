@@ -75,6 +75,34 @@ struct Strip
 };
 } // namespace
 
+// A handle turns the planes of edges with it within the one linear solve of a step.
+TEST(order_edge_angles, a_linearly_implicit_step_of_a_moved_handle_leaves_an_error_of_second_order)
+{
+  const Strip strip(6);
+  const Eigen::VectorXd masses = lumped_masses(strip.mesh, {1e-3});
+  const auto moved             = [&](const Integrator integrator, const double height)
+  {
+    ClothOptions options;
+    options.integrator       = integrator;
+    options.newton_tolerance = 1e-12;
+    Cloth cloth(strip.mesh.positions, masses, {0, 7, 14, 10}, options);
+    cloth.add(membrane_term(strip.mesh, {tests::isotropic(1e3, 0.3)}));
+    cloth.add(edge_angles_term(strip.mesh, {PlateStiffness::isotropic(1., 0.3)}));
+    cloth.prescribe(10, strip.mesh.positions.row(10) + Eigen::RowVector3d(0., 0., height));
+    cloth.step(0.1);
+    return cloth.positions();
+  };
+  std::vector<double> heights, errors;
+  for (const double height : {4e-3, 2e-3, 1e-3, 5e-4})
+  {
+    heights.push_back(height);
+    errors.push_back(
+      (moved(Integrator::linearly_implicit, height) - moved(Integrator::implicit, height)).norm());
+  }
+  std::cout << "errors " << errors[0] << " ... " << errors[3] << '\n';
+  EXPECT_NEAR(tests::slope(heights, errors), 2., 0.1);
+}
+
 TEST(order_elastica, a_strip_that_hangs_over_droops_like_the_elastica_with_order_two)
 {
   std::vector<double> widths, errors;
