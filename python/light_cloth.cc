@@ -5,9 +5,9 @@
 #include "python/arrays.h"
 #include "python/light.h"
 #include "shell/solver/cloth.h"
-#include "shell/terms/bending.h"
 #include "shell/terms/inertial_terms.h"
 #include "shell/terms/membrane_term.h"
+#include "shell/terms/plate_term.h"
 
 #include <pybind11/stl.h>
 
@@ -43,12 +43,16 @@ shell::Integrator integrator_of(const std::string &name)
                          "`; expected `linearly implicit`, `implicit` or `conserving`");
 }
 
-void add_bending(const HomogenizedCell &cell, const meshes::ClothMesh &mesh, shell::Cloth &cloth)
+void add_bending(const HomogenizedCell &cell, const meshes::ClothMesh &mesh,
+                 const shell::Integrator integrator, shell::Cloth &cloth)
 {
   if (!cell.bending)
     throw meshes::BadInput("bending: the cell has no D^H; expected one that `homespun homogenize` "
                            "gave both stiffnesses: homogenize it again without --no-bars");
-  cloth.add(shell::bending_term(mesh, {shell::PlateStiffness::from(cell.bending->stiffness)}));
+  cloth.add(shell::plate_term(mesh, {shell::PlateStiffness::from(cell.bending->stiffness)},
+                              integrator == shell::Integrator::conserving
+                                ? shell::PlateModel::hinges
+                                : shell::PlateModel::by_mesh));
 }
 
 /// A cloth of one cell's stiffness: all triangles are phase 0.
@@ -66,7 +70,7 @@ std::unique_ptr<shell::Cloth> make_cloth(const HomogenizedCell &cell, const mesh
   if (choices.damping != 0.)
     cloth->add(shell::mass_damping_term(masses, choices.damping));
   if (choices.bends)
-    add_bending(cell, mesh, *cloth);
+    add_bending(cell, mesh, options.integrator, *cloth);
   return cloth;
 }
 

@@ -28,9 +28,14 @@ void IncrementalPotential::prepare()
   if (matrix)
     return;
   std::vector<std::array<int, 2>> pairs;
+  std::vector<bool> no_unknown = is_held; // of vertices, then of the terms' nodes
   for (const auto &term : all_terms)
+  {
+    const int first = static_cast<int>(no_unknown.size());
+    no_unknown.resize(no_unknown.size() + static_cast<std::size_t>(term->take_nodes(first)), false);
     term->couple(pairs);
-  matrix = std::make_unique<BlockMatrix>(pairs, is_held);
+  }
+  matrix = std::make_unique<BlockMatrix>(pairs, no_unknown);
   for (const auto &term : all_terms)
     term->attach(*matrix);
   diagonal.clear();
@@ -107,12 +112,27 @@ IncrementalPotential::Residual IncrementalPotential::assemble(const Vectors &pos
   return residual;
 }
 
+/// A right side with rows of zeros for the terms' nodes.
+Vectors IncrementalPotential::with_nodes(const Vectors &right_side) const
+{
+  Vectors all                    = Vectors::Zero(matrix->n_vertices(), 3);
+  all.topRows(right_side.rows()) = right_side;
+  return all;
+}
+
 bool IncrementalPotential::solve(const Vectors &right_side, Vectors &result, SolveCounts &counts)
 {
   ++counts.newton_iterations;
   if (!cholesky->factorize(*matrix))
     return false;
-  cholesky->solve(right_side, result);
+  if (matrix->n_vertices() == m.size())
+  {
+    cholesky->solve(right_side, result);
+    return true;
+  }
+  Vectors all;
+  cholesky->solve(with_nodes(right_side), all);
+  result = all.topRows(m.size());
   return true;
 }
 
@@ -132,7 +152,11 @@ Vectors IncrementalPotential::linear_step(const Vectors &positions, const Vector
   }
   Vectors right_side = (m / h).asDiagonal() * velocities - assembled_gradient;
   if (any_held)
+  {
+    if (matrix->n_vertices() > m.size())
+      right_side = with_nodes(right_side); // a moving handle turns what these stand for
     matrix->subtract_held(held_displacement, right_side);
+  }
   Vectors step = h * velocities;
   for (std::size_t i = 0; i < is_held.size(); ++i)
     if (is_held[i])

@@ -121,6 +121,8 @@ public:
   std::size_t bytes() const;
 
 private:
+  Vectors with_nodes(const Vectors &right_side) const;
+
   const Eigen::VectorXd m;
   const std::vector<bool> is_held;
   const SolverOptions options;

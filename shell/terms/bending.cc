@@ -1,11 +1,16 @@
 // SPDX-License-Identifier: MIT
 #include "shell/terms/bending.h"
 
+#include "meshes/plain/errors.h"
 #include "shell/algebra/index.h"
 #include "shell/algebra/vertex_matrix.h"
 #include "shell/terms/hinges.h"
 
+#include <Eigen/SparseCholesky>
+
+#include <algorithm>
 #include <map>
+#include <sstream>
 
 namespace homespun::shell
 {
@@ -124,6 +129,20 @@ public:
            static_cast<std::size_t>(diagonal.size()) * (sizeof(double) + sizeof(places[0]));
   }
 
+  /// The scalar matrix that all three components have (n,n) [N/m].
+  Eigen::SparseMatrix<double> matrix() const
+  {
+    std::vector<Eigen::Triplet<double>> entries;
+    for (std::size_t p = 0; p < pairs.size(); ++p)
+      for (const int side : {0, 1})
+        entries.emplace_back(pairs[p][index(side)], pairs[p][index(1 - side)], weights[p]);
+    for (int v = 0; v < static_cast<int>(diagonal.size()); ++v)
+      entries.emplace_back(v, v, diagonal(v));
+    Eigen::SparseMatrix<double> result(diagonal.size(), diagonal.size());
+    result.setFromTriplets(entries.begin(), entries.end());
+    return result;
+  }
+
 private:
   static void add_scalar(const BlockMatrix::Slot &where, const double value, BlockMatrix &matrix)
   {
@@ -136,11 +155,102 @@ private:
   Eigen::VectorXd diagonal;              ///< (n) [N/m]
   std::vector<BlockMatrix::Slot> places, diagonal_places;
 };
+
+/// Vertices at rest farther than one edge from the outline.
+std::vector<int> inside_two_rings(const meshes::TriangleMesh &rest)
+{
+  std::map<std::array<int, 2>, int> sides;
+  const auto side = [&](const int t, const int k) {
+    return std::array<int, 2>{rest.triangles(t, k), rest.triangles(t, (k + 1) % 3)};
+  };
+  for (int t = 0; t < rest.n_triangles(); ++t)
+    for (int k = 0; k < 3; ++k)
+      sides[side(t, k)] = t;
+  std::vector<bool> is_outline(index(rest.n_vertices()), false);
+  for (const auto &[edge, unused] : sides)
+    if (sides.count({edge[1], edge[0]}) == 0)
+      is_outline[index(edge[0])] = is_outline[index(edge[1])] = true;
+  std::vector<bool> is_held(index(rest.n_vertices()), true);
+  for (int t = 0; t < rest.n_triangles(); ++t)
+    for (int k = 0; k < 3; ++k)
+      is_held[index(rest.triangles(t, k))] = false; // but for vertices of no triangle
+  for (int t = 0; t < rest.n_triangles(); ++t)
+    for (int k = 0; k < 3; ++k)
+      if (is_outline[index(rest.triangles(t, k))])
+        for (int l = 0; l < 3; ++l)
+          is_held[index(rest.triangles(t, l))] = true;
+  std::vector<int> inside;
+  for (int v = 0; v < rest.n_vertices(); ++v)
+    if (!is_held[index(v)])
+      inside.push_back(v);
+  return inside;
+}
+
+/// One stiffness on all of some panels that lie flat and are not sewn.
+double gain_of(const meshes::ClothMesh &panels, const std::vector<int> &inside,
+               const PlateStiffness &stiffness)
+{
+  const Eigen::SparseMatrix<double> all = Bending(panels, {stiffness}).matrix();
+  std::vector<int> place(index(all.rows()), -1);
+  for (std::size_t i = 0; i < inside.size(); ++i)
+    place[index(inside[i])] = static_cast<int>(i);
+  std::vector<Eigen::Triplet<double>> entries;
+  for (int c = 0; c < all.outerSize(); ++c)
+    for (Eigen::SparseMatrix<double>::InnerIterator entry(all, c); entry; ++entry)
+      if (place[index(c)] >= 0 && place[index(entry.row())] >= 0)
+        entries.emplace_back(place[index(entry.row())], place[index(c)], entry.value());
+  const auto n = static_cast<Eigen::Index>(inside.size());
+  Eigen::SparseMatrix<double> free(n, n);
+  free.setFromTriplets(entries.begin(), entries.end());
+  const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> solver(free);
+  const meshes::Points centred =
+    panels.rest.vertices.rowwise() - panels.rest.vertices.colwise().mean();
+  const Eigen::ArrayXd y1 = centred.col(0), y2 = centred.col(1);
+  double largest = 0.;
+  for (const Eigen::ArrayXd &shape : {(y1 * y1).eval(), (y2 * y2).eval(), (y1 * y2).eval()})
+  {
+    const Eigen::VectorXd z = shape, forces = all * z;
+    Eigen::VectorXd residual(n);
+    for (Eigen::Index i = 0; i < n; ++i)
+      residual(i) = forces(inside[index(i)]);
+    largest = std::max(largest, residual.dot(solver.solve(residual)) / z.dot(forces));
+  }
+  return largest;
+}
 } // namespace
+
+double patch_test_gain(const meshes::ClothMesh &mesh, const std::vector<PlateStiffness> &stiffness)
+{
+  neighbours_of(mesh, stiffness); // its refusals
+  const std::vector<int> inside = inside_two_rings(mesh.rest);
+  if (inside.empty())
+    return 0.;
+  meshes::ClothMesh panels;
+  panels.rest      = mesh.rest;
+  panels.triangles = mesh.rest.triangles;
+  panels.rest.material.setZero();
+  panels.positions = meshes::SpacePoints::Zero(mesh.rest.n_vertices(), 3);
+  double largest   = 0.;
+  for (const PlateStiffness &of_phase : stiffness)
+    largest = std::max(largest, gain_of(panels, inside, of_phase));
+  return largest;
+}
 
 std::unique_ptr<Term> bending_term(const meshes::ClothMesh &mesh,
                                    const std::vector<PlateStiffness> &stiffness)
 {
+  if (const double gain = patch_test_gain(mesh, stiffness); gain > largest_patch_test_gain)
+  {
+    std::ostringstream text;
+    text.precision(2);
+    text
+      << "bending over hinges: on this mesh, held at a constant curvature, the plate is too soft "
+         "by "
+      << 100. * gain << " %; expected at most " << 100. * largest_patch_test_gain
+      << " %: cut the mesh along one diagonal, or take bending by edge angles "
+         "(shell/terms/edge_angles.h), with the linearly implicit or the implicit integrator";
+    throw meshes::BadInput(text.str());
+  }
   return std::make_unique<Bending>(mesh, stiffness);
 }
 } // namespace homespun::shell

@@ -15,13 +15,15 @@
 // of a moment there. In closed form E = Σ A ½ k·(G D^-1 G^T)^-1 k, with any symmetric positive
 // definite D.
 //
-// Limits. The energy of a constant curvature is exact on any mesh, but in equilibrium an irregular
-// one is somewhat too soft: 1 to 3 % where vertices are displaced by a quarter of the mesh width,
-// below 0.5 % for a tenth. Along free edges the energy of a shape that the cloth would not take by
-// itself misses a strip of half a cell. The model knows isometric bending: a stretch that varies
-// from triangle to triangle costs bending energy too, little beside its membrane energy. The
-// resistance of a hinge grows with sin(theta): it is largest at 90° and vanishes in a complete
-// fold.
+// Limits. The energy of a constant curvature is exact on any mesh, but only lattices cut along one
+// diagonal keep it in equilibrium. Others are too soft, and stay so however fine they are: 1 to 3 %
+// where vertices are displaced by a quarter of the mesh width, below 0.5 % for a tenth, a third
+// where diagonals alternate. patch_test_gain() measures it, and what is too soft is refused:
+// edge_angles.h converges on every mesh. Along free edges the energy of a shape that the cloth
+// would not take by itself misses a strip of half a cell. The model knows isometric bending: a
+// stretch that varies from triangle to triangle costs bending energy too, little beside its
+// membrane energy. The resistance of a hinge grows with sin(theta): it is largest at 90° and
+// vanishes in a complete fold.
 #pragma once
 
 #include "meshes/cloth/cloth_mesh.h"
@@ -33,10 +35,22 @@
 
 namespace homespun::shell
 {
+/// What the plate gains by leaving a constant curvature that it could keep, over the energy of that
+/// [-]: the panels lie flat, each of one phase's stiffness, two rings of vertices along their
+/// outline held at curvatures 11, 22 and 12 in turn; the largest of all. 0 where nothing is left
+/// inside the rings.
+/// @param stiffness one per phase [N m]
+/// @throws BadInput as bending_term()
+double patch_test_gain(const meshes::ClothMesh &mesh, const std::vector<PlateStiffness> &stiffness);
+
+/// The largest that is taken [-].
+constexpr double largest_patch_test_gain = 0.01;
+
 /// Bending about a flat rest shape.
 /// @param stiffness one per phase of mesh.rest [N m], positive definite
 /// @throws BadInput with all faults: stiffness, phases, indices, rest triangles without area, edges
-///   of more than two triangles or of two that traverse it the same way
+///   of more than two triangles or of two that traverse it the same way; a mesh whose patch test
+///   gains more than the largest
 std::unique_ptr<Term> bending_term(const meshes::ClothMesh &mesh,
                                    const std::vector<PlateStiffness> &stiffness);
 } // namespace homespun::shell

@@ -158,16 +158,22 @@ void measure(const meshes::ClothMesh &mesh, const Hinges &hinges, const int t, c
 
 } // namespace
 
-Hinges hinges_of(const meshes::ClothMesh &mesh, const std::vector<PlateStiffness> &stiffness)
+Hinges neighbours_of(const meshes::ClothMesh &mesh, const std::vector<PlateStiffness> &stiffness)
 {
   if (const auto faults = faults_of(mesh, stiffness); !faults.empty())
     throw meshes::BadInput(faults);
   Hinges hinges;
   hinges.of.resize(index(mesh.n_triangles()));
-  hinges.patches.resize(hinges.of.size());
   find_neighbours(mesh, hinges);
   for (int t = 0; t < mesh.n_triangles(); ++t)
     hinges.area.push_back(meshes::triangle_area<2>(rest_corners(mesh, t)).area);
+  return hinges;
+}
+
+Hinges hinges_of(const meshes::ClothMesh &mesh, const std::vector<PlateStiffness> &stiffness)
+{
+  Hinges hinges = neighbours_of(mesh, stiffness);
+  hinges.patches.resize(hinges.of.size());
   for (int t = 0; t < mesh.n_triangles(); ++t)
   {
     Patch &patch = hinges.patches[index(t)];

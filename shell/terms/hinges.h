@@ -50,6 +50,12 @@ struct Hinges
   std::vector<double> area;                 ///< (m) at rest [m^2]
 };
 
+/// Which triangles share an edge in space, with the areas; weights, curvatures and patches are
+/// empty.
+/// @param stiffness one per phase of mesh.rest [N m], positive definite
+/// @throws BadInput as hinges_of()
+Hinges neighbours_of(const meshes::ClothMesh &mesh, const std::vector<PlateStiffness> &stiffness);
+
 /// Measures the hinges of a cloth at rest.
 /// @param stiffness one per phase of mesh.rest [N m], positive definite
 /// @throws BadInput with all faults: stiffness, phases, indices, rest triangles without area, edges

@@ -39,6 +39,15 @@ public:
   /// As a scene file and a report call it.
   virtual std::string name() const = 0;
 
+  /// Called once before couple(): the term may take nodes that are no vertices, three unknowns
+  /// each, without mass, from a number on. They are in the matrix alone: E and its gradient are
+  /// those of the minimum over them, so that their right sides are zero; the Hessian of E is what
+  /// is left where they are eliminated. @return how many it takes. Default: none.
+  virtual int take_nodes(int /*first*/)
+  {
+    return 0;
+  }
+
   /// Appends the pairs of different vertices that the Hessian couples, in any order, repeated or
   /// not. Default: none, the Hessian is block diagonal.
   virtual void couple(std::vector<std::array<int, 2>> & /*pairs*/) const

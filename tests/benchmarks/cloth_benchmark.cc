@@ -10,9 +10,9 @@
 #include "meshes/cloth/cloth_mesh.h"
 #include "shell/algebra/free_vertex_matrix.h"
 #include "shell/solver/cloth.h"
-#include "shell/terms/bending.h"
 #include "shell/terms/inertial_terms.h"
 #include "shell/terms/membrane_term.h"
+#include "shell/terms/plate_term.h"
 #include "shell/terms/six_node_term.h"
 #include "tests/benchmarks/machine.h"
 #include "tests/meshes/plain/shapes.h"
@@ -21,6 +21,7 @@
 
 #include <cmath>
 #include <cstdlib>
+#include <optional>
 
 using namespace homespun;
 using namespace homespun::shell;
@@ -73,13 +74,13 @@ struct Hanging
     return result;
   }
 
-  std::unique_ptr<Cloth> cloth(const bool with_bending,
+  std::unique_ptr<Cloth> cloth(const std::optional<PlateModel> plate,
                                const std::vector<meshes::CubicForm> &cubic = {}) const
   {
     auto result = std::make_unique<Cloth>(mesh.positions, masses, held, ClothOptions());
     result->add(membrane_term(mesh, {stiffness()}, 0., cubic));
-    if (with_bending)
-      result->add(bending_term(mesh, {PlateStiffness::isotropic(1e-6, 0.3)}));
+    if (plate)
+      result->add(plate_term(mesh, {PlateStiffness::isotropic(1e-6, 0.3)}, *plate));
     result->add(gravity_term(masses, {0., 0., -9.81}));
     result->add(mass_damping_term(masses, 1.));
     return result;
@@ -314,11 +315,11 @@ void take_steps(benchmark::State &state, const std::unique_ptr<Cloth> &cloth, co
 }
 
 /// Whole steps, linearly implicit, of a sheet that swings.
-void step(benchmark::State &state, const bool with_bending,
+void step(benchmark::State &state, const std::optional<PlateModel> plate,
           const std::vector<meshes::CubicForm> &cubic = {})
 {
   const Hanging sheet(static_cast<int>(state.range(0)));
-  take_steps(state, sheet.cloth(with_bending, cubic), sheet.mesh.n_triangles());
+  take_steps(state, sheet.cloth(plate, cubic), sheet.mesh.n_triangles());
 }
 
 /// A cubic energy as large as a cell's: a tenth of the stress at 10 % strain.
@@ -333,7 +334,7 @@ meshes::CubicForm cubic_energy()
 /// The same with one.
 void step_of_second_order(benchmark::State &state)
 {
-  step(state, false, {cubic_energy()});
+  step(state, std::nullopt, {cubic_energy()});
 }
 
 /// The same of triangles with six nodes; with everything, a cubic energy too.
@@ -360,13 +361,14 @@ BENCHMARK(lay_out) HOMESPUN_SIZES;
 BENCHMARK(factorise) HOMESPUN_SIZES;
 BENCHMARK(factorise_by_scalars) HOMESPUN_SIZES;
 BENCHMARK(solve) HOMESPUN_SIZES;
-#define HOMESPUN_STEP(name, with_bending) BENCHMARK_CAPTURE(step, name, with_bending)
-HOMESPUN_STEP(direct, false) HOMESPUN_SIZES;
+#define HOMESPUN_STEP(name, plate) BENCHMARK_CAPTURE(step, name, plate)
+HOMESPUN_STEP(direct, std::nullopt) HOMESPUN_SIZES;
 BENCHMARK(step_of_second_order) HOMESPUN_SIZES;
 BENCHMARK_TEMPLATE(step_of_six_nodes, false) HOMESPUN_SIZES;
 BENCHMARK_TEMPLATE(step_of_six_nodes, true) HOMESPUN_SIZES;
-HOMESPUN_STEP(direct_bending, true) HOMESPUN_SIZES;
-HOMESPUN_STEP(direct_on_all_cores, false)
+HOMESPUN_STEP(direct_bending, PlateModel::hinges) HOMESPUN_SIZES;
+HOMESPUN_STEP(direct_edge_angles, PlateModel::edge_angles) HOMESPUN_SIZES;
+HOMESPUN_STEP(direct_on_all_cores, std::nullopt)
 HOMESPUN_SIZES->ThreadPerCpu()->UseRealTime();
-HOMESPUN_STEP(direct, false)->Arg(380)->Iterations(1)->Unit(benchmark::kMillisecond);
+HOMESPUN_STEP(direct, std::nullopt)->Arg(380)->Iterations(1)->Unit(benchmark::kMillisecond);
 } // namespace

@@ -127,6 +127,7 @@ DrapedCell::DrapedCell(const Scene &given, const homogenization::UnitCell &cell,
                            "C^H has axes, or corotational");
   effective        = {{homogenized.stiffness}, {homogenized.areal_density}};
   phases.stiffness = cell.stiffness_of_phase();
+  phases.plate     = shell::PlateModel::edge_angles; // order two, whatever mesh and phases
   for (const homogenization::Phase &phase : cell.phases)
     phases.areal_density.push_back(phase.thickness * phase.density);
   if (scene.has("bending") && !scene.bending)

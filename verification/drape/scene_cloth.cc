@@ -5,7 +5,6 @@
 #include "meshes/plain/errors.h"
 #include "meshes/plain/triangle_kinematics.h"
 #include "shell/contact/obstacles.h"
-#include "shell/terms/bending.h"
 #include "shell/terms/inertial_terms.h"
 #include "shell/terms/lagged_load.h"
 #include "shell/terms/membrane_term.h"
@@ -147,7 +146,10 @@ SceneCloth::SceneCloth(const Scene &scene, const meshes::ClothMesh &mesh,
       plates.assign(material.stiffness.size(), scene.has("bending")
                                                  ? *scene.bending
                                                  : shell::PlateStiffness::isotropic(1e-30, 0.));
-    moving->add(shell::bending_term(mesh, plates));
+    moving->add(shell::plate_term(mesh, plates,
+                                  options.integrator == shell::Integrator::conserving
+                                    ? shell::PlateModel::hinges
+                                    : material.plate));
   }
   if (scene.has("gravity") || forces("gravity"))
     moving->add(shell::gravity_term(

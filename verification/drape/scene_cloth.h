@@ -5,6 +5,7 @@
 
 #include "shell/membrane/six_node_membrane.h"
 #include "shell/solver/cloth.h"
+#include "shell/terms/plate_term.h"
 #include "verification/drape/held_motion.h"
 #include "verification/method/moving_edges.h"
 #include "verification/scene/scene.h"
@@ -52,6 +53,8 @@ struct ClothMaterial
   /// Triangles of the membrane on the same vertices, whose mass they have then; none: null, and the
   /// membrane has those of the mesh. All other terms keep those.
   std::shared_ptr<const shell::SixNodeMesh> six_nodes = {};
+  /// Conserving steps take hinges whatever it says.
+  shell::PlateModel plate = shell::PlateModel::by_mesh;
 };
 
 class SceneCloth

@@ -17,8 +17,9 @@ inline shell::BlockMatrix matrix_for(shell::Term &term, const int n_vertices,
                                      std::vector<bool> is_held = {})
 {
   std::vector<std::array<int, 2>> pairs;
+  const int n_nodes = term.take_nodes(n_vertices);
   term.couple(pairs);
-  is_held.resize(static_cast<std::size_t>(n_vertices), false);
+  is_held.resize(static_cast<std::size_t>(n_vertices + n_nodes), false);
   shell::BlockMatrix matrix(pairs, is_held);
   term.attach(matrix);
   return matrix;
@@ -48,6 +49,18 @@ inline Eigen::MatrixXd dense(const shell::BlockMatrix &matrix)
   return all;
 }
 
+/// The same of the vertices alone, a term's nodes eliminated.
+inline Eigen::MatrixXd dense(const shell::BlockMatrix &matrix, const Eigen::Index n_vertices)
+{
+  const Eigen::MatrixXd all = dense(matrix);
+  const Eigen::Index n = 3 * n_vertices, rest = all.rows() - n;
+  if (rest == 0)
+    return all;
+  return all.topLeftCorner(n, n) -
+         all.topRightCorner(n, rest) *
+           all.bottomRightCorner(rest, rest).ldlt().solve(all.bottomLeftCorner(rest, n));
+}
+
 inline Eigen::Vector3d torque(const shell::Vectors &x, const shell::Vectors &forces)
 {
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
@@ -65,11 +78,11 @@ inline TaylorOrders taylor_orders(shell::Term &term, const shell::Vectors &x,
                                   const shell::Vectors &direction)
 {
   shell::BlockMatrix matrix = matrix_for(term, static_cast<int>(x.rows()));
-  shell::Vectors gradient   = shell::Vectors::Zero(x.rows(), 3), product;
+  shell::Vectors gradient   = shell::Vectors::Zero(x.rows(), 3);
   term.add_derivatives(x, shell::Hessian::exact, gradient, matrix);
-  matrix.multiply(direction, product);
+  const Eigen::Map<const Eigen::VectorXd> along(direction.data(), direction.size());
   const double value = term.energy(x), first = gradient.cwiseProduct(direction).sum(),
-               second = product.cwiseProduct(direction).sum();
+               second = along.dot(dense(matrix, x.rows()) * along);
   std::vector<double> steps, two, three;
   for (double h = 1. / 16.; h > 2e-3; h *= 0.5)
   {

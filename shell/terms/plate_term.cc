@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: MIT
+#include "shell/terms/plate_term.h"
+
+namespace homespun::shell
+{
+std::unique_ptr<Term> plate_term(const meshes::ClothMesh &mesh,
+                                 const std::vector<PlateStiffness> &stiffness,
+                                 const PlateModel model)
+{
+  constexpr double round_off = 1e-9;
+  const auto is_exact        = [&]
+  { return mesh.triangles == mesh.rest.triangles && patch_test_gain(mesh, stiffness) < round_off; };
+  if (model == PlateModel::hinges || (model == PlateModel::by_mesh && is_exact()))
+    return bending_term(mesh, stiffness);
+  return edge_angles_term(mesh, stiffness);
+}
+} // namespace homespun::shell
