@@ -3,7 +3,6 @@
 
 #include "shell/algebra/index.h"
 #include "shell/algebra/triangle_slots.h"
-#include "shell/terms/edge_plates.h"
 
 #include <Eigen/Dense>
 #include <Eigen/SparseCholesky>

@@ -30,23 +30,14 @@
 
 #include "meshes/cloth/cloth_mesh.h"
 #include "shell/membrane/plate_stiffness.h"
+#include "shell/terms/edge_plates.h"
 #include "shell/terms/term.h"
-
-#include <Eigen/Core>
 
 #include <memory>
 #include <vector>
 
 namespace homespun::shell
 {
-/// An edge of the outline whose tangent plane is given: a_e is the angle from there to its
-/// triangle. Its ends are to be held, on a line in that plane.
-struct ClampedEdge
-{
-  int first = 0, second = 0; ///< vertices in space, in either order
-  Eigen::Vector3d normal;    ///< of the plane, on the side of the triangle's own
-};
-
 /// Bending about a flat rest shape.
 /// @param stiffness one per phase of mesh.rest [N m], positive definite
 /// @throws BadInput with all faults: stiffness, phases, indices, rest triangles without area, edges

@@ -3,7 +3,8 @@
 // angles at its own, and where in a step's matrix the unknowns of edges stand.
 #pragma once
 
-#include "shell/terms/edge_angles.h"
+#include "meshes/cloth/cloth_mesh.h"
+#include "shell/membrane/plate_stiffness.h"
 
 #include <Eigen/SparseCore>
 
@@ -12,6 +13,14 @@
 
 namespace homespun::shell
 {
+/// An edge of the outline whose tangent plane is given: a_e is the angle from there to its
+/// triangle. Its ends are to be held, on a line in that plane.
+struct ClampedEdge
+{
+  int first = 0, second = 0; ///< vertices in space, in either order
+  Eigen::Vector3d normal;    ///< of the plane, on the side of the triangle's own
+};
+
 /// Between two triangles, or of one and the plane of a clamp.
 struct PlateEdge
 {

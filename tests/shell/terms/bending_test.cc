@@ -197,7 +197,7 @@ TEST(order_bending, energy_of_a_rolled_sheet_converges_in_every_direction_on_any
                   << angle * 180. / M_PI << ": error " << errors.back() << ", order " << order
                   << ", extrapolated " << extrapolated << '\n';
         EXPECT_NEAR(order, 1., 0.15);
-        EXPECT_LT(extrapolated, irregularity > 0. ? 6e-3 : 1e-3);
+        EXPECT_LT(extrapolated, 1e-3);
       }
 }
 

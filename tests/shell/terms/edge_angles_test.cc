@@ -13,6 +13,7 @@
 using namespace homespun;
 using namespace homespun::shell;
 using homespun::tests::AnglesPlate;
+using homespun::tests::Bump;
 using homespun::tests::Deflection;
 using homespun::tests::PlateFault;
 using homespun::tests::refusal;
@@ -85,41 +86,6 @@ double patch_error(const meshes::TriangleMesh &mesh, const std::vector<PlateStif
     given[plate.unknown_of(edge)] = tests::outward_slope(mesh, edge, exact);
   return error_of(mesh, plate.minimum(given), exact);
 }
-
-/// sin(π x) sin(π y), simply supported, or its square, clamped: deflection, curvature and load.
-struct Bump
-{
-  bool is_clamped = false;
-
-  /// Of one factor: itself and four derivatives.
-  std::array<double, 5> factor(const double x) const
-  {
-    const double s = std::sin(M_PI * x), c = std::cos(M_PI * x), p = M_PI;
-    if (!is_clamped)
-      return {s, p * c, -p * p * s, -p * p * p * c, p * p * p * p * s};
-    const double s2 = std::sin(2. * p * x), c2 = std::cos(2. * p * x);
-    return {s * s, p * s2, 2. * p * p * c2, -4. * p * p * p * s2, -8. * p * p * p * p * c2};
-  }
-  Deflection deflection() const
-  {
-    return {[*this](const Eigen::RowVector2d &x) { return factor(x(0))[0] * factor(x(1))[0]; },
-            [*this](const Eigen::RowVector2d &x)
-            {
-              return Eigen::RowVector2d(factor(x(0))[1] * factor(x(1))[0],
-                                        factor(x(0))[0] * factor(x(1))[1]);
-            }};
-  }
-  Eigen::Vector3d curvature(const Eigen::RowVector2d &x) const
-  {
-    const auto f = factor(x(0)), g = factor(x(1));
-    return {f[2] * g[0], f[0] * g[2], 2. * f[1] * g[1]};
-  }
-  double load(const Eigen::RowVector2d &x, const PlateStiffness &D) const
-  {
-    const auto f = factor(x(0)), g = factor(x(1));
-    return D.D11 * f[4] * g[0] + D.D22 * f[0] * g[4] + 2. * (D.D12 + 2. * D.D66) * f[2] * g[2];
-  }
-};
 
 Eigen::VectorXd lumped_loads(const meshes::TriangleMesh &mesh, const Bump &bump,
                              const PlateStiffness &D)

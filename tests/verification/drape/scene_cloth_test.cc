@@ -194,4 +194,6 @@ TEST(tripwire_scene_cloth, bending_asked_of_a_cell_without_it_is_refused_by_name
   const DrapedCell draped(scene, cell, homogenized);
   EXPECT_EQ(draped.effective.bending[0].matrix(), 2. * D);
   EXPECT_EQ(draped.phases.bending[0].matrix(), D);
+  EXPECT_EQ(draped.effective.plate, shell::PlateModel::by_mesh);
+  EXPECT_EQ(draped.phases.plate, shell::PlateModel::edge_angles); // of every reference
 }
