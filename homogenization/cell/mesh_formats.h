@@ -34,6 +34,7 @@ struct RawMesh
   std::vector<Cell> cells;
   std::map<std::string, int> number_of_name; ///< names of groups, where the file has them
   std::vector<double> angles;                ///< cell data `angle` [deg], one per cell, or none
+  std::vector<std::string> other_data;       ///< names of other cell data, which nobody reads
 };
 
 /// Gmsh's text format 1, 2, 4.0 and 4.1. The group is the first physical number, 0 where there is
