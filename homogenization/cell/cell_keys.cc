@@ -340,10 +340,18 @@ std::vector<Phase> assign_phases(const std::string &file, const CellKeys &keys,
   if (!groups.has_names && groups.present == std::set<int>{0} && !groups.find(tables.young, 0) &&
       !groups.find(tables.orthotropic, 0))
   {
-    faults.push_back(file + ": the mesh " + keys.mesh +
-                     " has no physical groups, so that no triangle has a material; expected one "
-                     "per material: in Gmsh `Physical Surface(\"ground\", 1) = {...};`, or give "
-                     "all of it the values of group `0`");
+    std::string data;
+    for (const std::string &name : mesh_file.other_data)
+      data += (data.empty() ? "`" : ", `") + name + "`";
+    faults.push_back(
+      file + ": the mesh " + keys.mesh +
+      (data.empty()
+         ? " has no physical groups, so that no triangle has a material; expected one "
+           "per material: in Gmsh `Physical Surface(\"ground\", 1) = {...};`"
+         : " has no groups, so that no triangle has a material: its cell data are " + data +
+             "; expected cell data called `material`, `group`, `phase`, "
+             "`gmsh:physical` or the like: rename those that tell the material") +
+      ", or give all of it one value without a name");
     return {};
   }
   check_names(file, tables, groups, faults);

@@ -154,6 +154,7 @@ CellMeshFile read_cell_mesh(const std::string &file, const MPI_Comm communicator
   CellMeshFile result;
   result.number_of_name      = raw.number_of_name;
   result.rounding            = raw.digits.unit(most_rounded_digits);
+  result.other_data          = raw.other_data;
   meshes::TriangleMesh &mesh = result.mesh;
   std::vector<int> new_index(raw.points.size(), -1);
   for (const RawMesh::Cell &cell : raw.cells)

@@ -9,6 +9,7 @@
 
 #include <map>
 #include <string>
+#include <vector>
 
 namespace homespun::homogenization
 {
@@ -18,6 +19,7 @@ struct CellMeshFile
   meshes::TriangleMesh mesh;                 ///< mesh.material holds the file's numbers
   std::map<std::string, int> number_of_name; ///< names of groups, where the file has them
   Eigen::VectorXd angle;                     ///< (m) cell data `angle` of the file [deg], or empty
+  std::vector<std::string> other_data;       ///< names of cell data that nobody reads
   std::vector<CurvedSide> curved_sides;      ///< of six-node triangles, in the file's unit
   /// To what coordinates are rounded, in the file's unit; 0 where they have all digits.
   double rounding = 0.;

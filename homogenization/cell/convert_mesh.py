@@ -48,6 +48,7 @@ class Mesh:
 
     def __init__(self, points):
         self.points = points
+        self.other_data = []  # names of cell data that tell neither groups nor angles
         self.corners, self.groups, self.angles = [], [], []
         self.number_of_name = {}
 
@@ -160,6 +161,8 @@ def of_meshio(read):
         mesh.add(block.data.tolist(), [whole(group) for group in groups[b]],
                  [float(angle) for angle in angles[0][b]] if angles else None)
     mesh.number_of_name = {name: n for name, n in names.items() if n in set(mesh.groups) and n > 0}
+    mesh.other_data = [name for name in read.cell_data
+                       if name.lower() not in GROUP_ARRAYS | {"angle"}]
     return mesh
 
 
@@ -261,8 +264,9 @@ class Deck:
     @staticmethod
     def put_new(what, those, number, value):
         if those.setdefault(number, value) is not value:
-            raise Refusal(f"{what} {number} is given twice; expected each number once: write one "
-                          "part alone")
+            raise Refusal(f"{what} {number} is given twice, as in a deck of several parts; "
+                          "expected each number once: merge the parts (Abaqus: Merge/Cut "
+                          "Instances, retain intersecting boundaries), or number the nodes anew")
 
     def add_elements(self, parameters, lines):
         kind = parameters.get("type", "").lower()
@@ -440,7 +444,7 @@ def check(mesh):
 
 
 def write(mesh, path):
-    """Gmsh's format 2.2; `angle` as $ElementData."""
+    """Gmsh's format 2.2; `angle` as $ElementData, and the names of other data."""
     lines = ["$MeshFormat", "2.2 0 8", "$EndMeshFormat",
              "$PhysicalNames", f"{len(mesh.number_of_name)}"]
     for name, number in mesh.number_of_name.items():
@@ -455,6 +459,10 @@ def write(mesh, path):
         lines += ["$ElementData", "1", '"angle"', "1", "0.0", "3", "0", "1", f"{len(mesh.angles)}"]
         lines += [f"{k} {angle!r}" for k, angle in enumerate(mesh.angles)]
         lines.append("$EndElementData")
+    for name in mesh.other_data:
+        name = " ".join(name.replace('"', "'").split())
+        lines += ["$ElementData", "1", f'"{name}"', "1", "0.0", "3", "0", "1", "0",
+                  "$EndElementData"]
     with open(path, "w", encoding="utf-8") as file:
         file.write("\n".join(lines) + "\n")
 

@@ -35,6 +35,7 @@ struct RawMesh
   std::map<std::string, int> number_of_name; ///< names of groups, where the file has them
   std::vector<double> angles;                ///< cell data `angle` [deg], one per cell, or none
   DecimalDigits digits;                      ///< of the coordinates
+  std::vector<std::string> other_data;       ///< names of other cell data, which nobody reads
 };
 
 /// Gmsh's text format 1, 2, 4.0 and 4.1. The group is the first physical number, 0 where there is

@@ -37,7 +37,9 @@ public:
       else if (word == "$PhysicalNames")
         names();
       else if (word == "$Entities")
-        entities();
+        entities("$EndEntities", false);
+      else if (word == "$PartitionedEntities")
+        entities("$EndPartitionedEntities", true);
       else if (word == "$Nodes" || word == "$NOD")
       {
         version = word == "$NOD" ? 1. : version;
@@ -128,9 +130,16 @@ private:
     close("$EndPhysicalNames");
   }
 
-  void entities()
+  /// @param are_partitioned whether the mesh was cut into partitions: each surface is made of
+  ///   entities, which have its groups and say before them of what they are parts
+  void entities(const char *end, const bool are_partitioned)
   {
     need_version();
+    if (are_partitioned)
+    {
+      text.integer("the number of partitions");
+      text.skip(2 * text.count("ghost entities"), "a ghost entity");
+    }
     std::array<long, 4> n{};
     for (long &its : n)
       its = text.count("entities");
@@ -138,6 +147,11 @@ private:
       for (long k = 0; k < n[dimension]; ++k)
       {
         const long tag = text.integer("the number of an entity");
+        if (are_partitioned)
+        {
+          text.skip(2, "the entity that an entity is a part of");
+          text.skip(text.count("partitions of an entity"), "a partition");
+        }
         text.skip(dimension == 0 && version > 4.05 ? 3 : 6, "the box of an entity");
         const long n_groups = text.count("physical groups of an entity");
         for (long g = 0; g < n_groups; ++g)
@@ -150,7 +164,7 @@ private:
         if (dimension > 0)
           text.skip(text.count("entities that bound another"), "the number of an entity");
       }
-    close("$EndEntities");
+    close(end);
   }
 
   Eigen::Vector3d point()
@@ -327,8 +341,13 @@ private:
     for (long k = 0; k < n_names && text.line(line); ++k)
       name = k == 0 ? line : name;
     const std::size_t first = name.find('"'), last = name.rfind('"');
-    if (first == last || lower(name.substr(first + 1, last - first - 1)) != "angle")
+    const std::string called(first == last ? "" : name.substr(first + 1, last - first - 1));
+    if (lower(called) != "angle")
+    {
+      if (!called.empty())
+        mesh.other_data.push_back(called);
       return pass_over("ElementData");
+    }
     text.skip(text.count("real numbers of data"), "the time of data");
     const long n_integers = text.count("whole numbers of data");
     if (n_integers < 3)

@@ -135,7 +135,7 @@ std::string kind_of_other_file(const std::string &file)
   const auto begins = [&](const std::string &words) { return start.rfind(words, 0) == 0; };
   if (begins("\x89HDF"))
     return "an HDF5 file, like cell.h5 of a run";
-  if (begins("$MeshFormat"))
+  if (begins("$MeshFormat") || begins("$NOD"))
     return "a Gmsh mesh";
   if (begins("# vtk DataFile") || begins("<?xml") || begins("<VTKFile"))
     return "a VTK file";
@@ -153,13 +153,19 @@ std::string kind_of_other_file(const std::string &file)
     return "a JSON file";
   std::istringstream lines(content);
   std::string line;
-  bool is_empty = true;
+  bool is_empty = true, is_drawing = false;
   while (std::getline(lines, line))
   {
     if (!key_of(trimmed(line.substr(0, line.find('#')))).empty())
       return "";
     is_empty = is_empty && trimmed(line).empty();
+    // Commands of Gmsh, which end so but for a comment.
+    const std::string command = trimmed(line.substr(0, line.find("//")));
+    is_drawing                = is_drawing || (command.size() > 1 && command.back() == ';' &&
+                                command.find_first_of("(=") != std::string::npos);
   }
+  if (is_drawing)
+    return "a drawing of Gmsh (.geo), which `gmsh -2` makes a mesh of";
   // A line or two that are no keys are named one by one.
   return is_empty                                                ? ""
          : std::count(content.begin(), content.end(), '\n') > 40 ? "no list of keys"

@@ -157,10 +157,13 @@ void warn_of_matching(const MatchedCell &matched, const SideRules &rules, const 
 /// @throws BadInput where it leads out of the folder
 std::string file_beside(const std::string &prm_file, const std::string &name)
 {
+  // Absolute, for of a file that is not there only then.
+  const auto canonical = [](const std::filesystem::path &its)
+  { return std::filesystem::weakly_canonical(std::filesystem::absolute(its)); };
   const std::filesystem::path folder = std::filesystem::path(prm_file).parent_path(),
                               path   = folder / name;
-  const std::filesystem::path within = std::filesystem::weakly_canonical(path).lexically_relative(
-    std::filesystem::weakly_canonical(folder.empty() ? "." : folder));
+  const std::filesystem::path within =
+    canonical(path).lexically_relative(canonical(folder.empty() ? "." : folder));
   if (within.empty() || *within.begin() == "..")
     throw meshes::BadInput(
       prm_file + ": key `Mesh`: found `" + name +

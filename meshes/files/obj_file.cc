@@ -5,11 +5,14 @@
 #include "meshes/files/write_whole.h"
 #include "meshes/plain/errors.h"
 
+#include <Eigen/Geometry>
+
 #include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <vector>
 
 namespace homespun::meshes
@@ -67,6 +70,69 @@ void require_finite(const std::string &file, const Positions &positions)
       throw BadInput(file + ": not written: vertex " + std::to_string(v) +
                      " has a position that is not finite");
 }
+
+/// Twice the area of a face, along its normal.
+Eigen::RowVector3d doubled_area(const Polygons &mesh, const Polygon &face)
+{
+  const auto x = [&](const std::size_t k) -> Eigen::RowVector3d
+  { return mesh.positions.row(face[k]) - mesh.positions.row(face[0]); };
+  Eigen::RowVector3d twice = x(1).cross(x(2));
+  if (face[3] >= 0)
+    twice += x(2).cross(x(3));
+  return twice;
+}
+
+/// The plane of a mesh at rest.
+struct RestPlane
+{
+  std::array<Eigen::RowVector3d, 2> axes; ///< of the rest coordinates
+  std::string seen_from;                  ///< where they are a right-handed system
+};
+
+/// Distance of all points from the plane through the first one across a unit vector [m].
+Eigen::VectorXd distances(const Polygons &mesh, const Eigen::RowVector3d &normal)
+{
+  const Eigen::RowVector3d first = mesh.positions.row(0);
+  return ((mesh.positions.rowwise() - first) * normal.transpose()).cwiseAbs();
+}
+
+/// The unit normal of the faces, upwards, of an upright plane towards +y; zero where they have no
+/// area.
+Eigen::RowVector3d normal_of(const Polygons &mesh)
+{
+  Eigen::RowVector3d normal = Eigen::RowVector3d::Zero();
+  for (const Polygon &face : mesh.faces)
+  {
+    const Eigen::RowVector3d its = doubled_area(mesh, face);
+    normal += its.dot(normal) < 0. ? -its : its;
+  }
+  normal.normalize();
+  const bool is_upright = std::abs(normal(2)) <= 1e-6;
+  return (is_upright ? normal(1) : normal(2)) < 0. ? -normal : normal;
+}
+
+/// @return nothing where the mesh is not flat
+std::optional<RestPlane> plane_of(const Polygons &mesh)
+{
+  // What single precision leaves of a plane.
+  const double tolerance = 1e-6 * mesh.positions.cwiseAbs().maxCoeff();
+  const auto lies_across = [&](const Eigen::RowVector3d &normal)
+  { return distances(mesh, normal).maxCoeff() <= tolerance; };
+  const Eigen::RowVector3d x = Eigen::RowVector3d::UnitX(), y = Eigen::RowVector3d::UnitY(),
+                           z = Eigen::RowVector3d::UnitZ();
+  if (lies_across(z))
+    return RestPlane{{x, y}, "+z"};
+  if (lies_across(y))
+    return RestPlane{{x, -z}, "+y"};
+  if (lies_across(x))
+    return RestPlane{{y, z}, "+x"};
+  const Eigen::RowVector3d normal = normal_of(mesh);
+  if (normal.isZero() || !lies_across(normal))
+    return {};
+  const Eigen::RowVector3d along = (x - normal(0) * normal).normalized();
+  return RestPlane{{along, normal.cross(along)}, "above"};
+}
+
 /// The cloth of faces all of whose corners have vt.
 /// @throws BadInput with the faults of the cloth
 ClothMesh cloth_of(const ObjContent &content, const double vt_unit, const std::string &file)
@@ -128,30 +194,50 @@ ClothMesh read_cloth(const std::string &file, const double vt_unit)
   return cloth_of(read_obj(file, NeedsVt::yes), vt_unit, file);
 }
 
+bool is_flat(const Polygons &mesh)
+{
+  return plane_of(mesh).has_value();
+}
+
 ClothMesh flat_cloth(const Polygons &mesh, const std::string &name)
 {
-  // What single precision leaves of a plane.
-  const double size   = mesh.positions.cwiseAbs().maxCoeff();
-  const double height = mesh.positions(0, 2);
+  const auto plane = plane_of(mesh);
+  if (!plane)
+  {
+    Eigen::Index farthest = 0;
+    const double distance = distances(mesh, normal_of(mesh)).maxCoeff(&farthest);
+    throw BadInput(name + ": is not flat: vertex " + std::to_string(farthest) + " lies " +
+                   std::to_string(distance) +
+                   " m off the plane of its faces through vertex 0; expected the rest state as vt "
+                   "of an OBJ file, or as a mesh in a plane");
+  }
   ObjContent content;
   for (Eigen::Index v = 0; v < mesh.positions.rows(); ++v)
   {
-    const double x = mesh.positions(v, 0), y = mesh.positions(v, 1), z = mesh.positions(v, 2);
-    if (std::abs(z - height) > 1e-6 * size)
-      throw BadInput(name + ": is not flat: vertex " + std::to_string(v) +
-                     " has z = " + std::to_string(z) + ", vertex 0 has " + std::to_string(height) +
-                     "; expected the rest state as vt in metres of an OBJ file, or as a mesh in a "
-                     "plane z = const");
-    content.v.push_back({x, y, z});
-    content.vt.push_back({x, y});
+    const Eigen::RowVector3d x = mesh.positions.row(v);
+    content.v.push_back({x(0), x(1), x(2)});
+    content.vt.push_back({x.dot(plane->axes[0]), x.dot(plane->axes[1])});
   }
+  std::size_t n_clockwise = 0, first = 0;
   for (const Polygon &face : mesh.faces)
   {
     content.faces.emplace_back();
     for (const int v : face)
       if (v >= 0)
         content.faces.back().push_back({v, v});
+    if (doubled_area(mesh, face).dot(plane->axes[0].cross(plane->axes[1])) < 0. &&
+        n_clockwise++ == 0)
+      first = content.faces.size() - 1;
   }
+  if (n_clockwise == mesh.faces.size())
+    throw BadInput(name + ": all faces run clockwise seen from " + plane->seen_from +
+                   "; expected counter-clockwise: flip them, or turn the mesh over");
+  if (n_clockwise > 0)
+    throw BadInput(name + ": " + std::to_string(n_clockwise) + " of " +
+                   std::to_string(mesh.faces.size()) + " faces run clockwise seen from " +
+                   plane->seen_from + ", face " + std::to_string(first) +
+                   " is the first; expected counter-clockwise: flip them, and unfold what lies "
+                   "upside down");
   return cloth_of(content, 1., name);
 }
 

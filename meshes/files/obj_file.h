@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Wavefront OBJ: what every modelling program writes. Read are `v`, `vt` and `f` with three or four
 // corners; negative indices count from the last vertex so far; o, g, s, vn, usemtl, mtllib and
-// comments are skipped.
+// comments are skipped, and so is what ARCSim adds: ny, nv, nl, e, ea, ed, tl, tp, td, ms.
 #pragma once
 
 #include "meshes/cloth/cloth_faults.h"
@@ -21,12 +21,18 @@ namespace homespun::meshes
 /// @throws BadInput with the faults of all lines, or else those of cloth_faults()
 ClothMesh read_cloth(const std::string &file, double vt_unit = 1.);
 
-/// A cloth that is flat at rest, made of its rest mesh in the plane z = const: x and y are the rest
-/// coordinates. Quadrilaterals are cut as by read_cloth().
+/// A cloth that is flat at rest, made of its rest mesh in a plane. Rest coordinates are x and y in
+/// a plane z = const, x and −z where y is constant, y and z where x is; of any other plane, seen
+/// from above, the first axis is that of x in it and the second to its left. Quadrilaterals are cut
+/// as by read_cloth().
 /// @param mesh [m]
 /// @param name put before each message, usually the file
-/// @throws BadInput where it is not flat, or with cloth_faults()
+/// @throws BadInput where it is not flat, where faces run clockwise seen from there, or with
+///   cloth_faults()
 ClothMesh flat_cloth(const Polygons &mesh, const std::string &name);
+
+/// Whether flat_cloth() finds a mesh flat.
+bool is_flat(const Polygons &mesh);
 
 /// Reads a closed surface, an obstacle; vt are not needed. A quadrilateral is cut along its shorter
 /// diagonal.

@@ -85,12 +85,18 @@ private:
     if (words.empty())
       return;
     static const std::set<std::string_view> skipped = {"o", "g", "s", "vn", "usemtl", "mtllib"};
+    // What ARCSim adds of velocities, edges, remeshing and labels does not touch positions and
+    // faces.
+    static const std::set<std::string_view> of_arcsim = {"ny", "nv", "nl", "e",  "ea",
+                                                         "ed", "tl", "tp", "td", "ms"};
     if (words[0] == "v")
       read_coordinates(words, content.v);
     else if (words[0] == "vt")
       read_coordinates(words, content.vt);
     else if (words[0] == "f")
       read_face(words);
+    else if (of_arcsim.count(words[0]) > 0)
+      content.passed_over.insert(std::string(words[0]));
     else if (skipped.count(words[0]) == 0)
       faults.add("unknown lines", here() + "found `" + std::string(words[0]) +
                                     "`; expected v, vt or f (o, g, s, vn, usemtl, mtllib and # are "

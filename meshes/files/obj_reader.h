@@ -4,6 +4,7 @@
 #pragma once
 
 #include <array>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -20,6 +21,7 @@ struct ObjContent
   std::vector<std::array<double, 3>> v;
   std::vector<std::array<double, 2>> vt;
   std::vector<std::vector<ObjCorner>> faces; ///< three or four corners
+  std::set<std::string> passed_over;         ///< keywords of ARCSim
 };
 
 /// Whether faces without vt are a fault.

@@ -20,6 +20,7 @@ Polygons read_obj_polygons(const std::string &file)
   for (std::size_t v = 0; v < content.v.size(); ++v)
     mesh.positions.row(static_cast<Eigen::Index>(v)) << content.v[v][0], content.v[v][1],
       content.v[v][2];
+  mesh.passed_over = content.passed_over;
   mesh.faces.reserve(content.faces.size());
   for (const std::vector<ObjCorner> &face : content.faces)
   {

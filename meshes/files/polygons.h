@@ -8,6 +8,7 @@
 #include "meshes/cloth/cloth_mesh.h"
 
 #include <array>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -18,9 +19,10 @@ using Polygon = std::array<int, 4>;
 
 struct Polygons
 {
-  SpacePoints positions;      ///< (n,3) in the unit of the file, finite
-  std::vector<Polygon> faces; ///< in the order of the file
-  bool has_vt = false;        ///< whether it is an OBJ file and any face has vt
+  SpacePoints positions;             ///< (n,3) in the unit of the file, finite
+  std::vector<Polygon> faces;        ///< in the order of the file
+  bool has_vt = false;               ///< whether it is an OBJ file and any face has vt
+  std::set<std::string> passed_over; ///< keywords of ARCSim, which tell neither positions nor faces
 };
 
 /// Reads a file by its ending, .obj or .ply.

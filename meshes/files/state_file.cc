@@ -37,8 +37,8 @@ std::optional<ClothState> read_state(const std::string &file, const int n_vertic
   const Hdf5Reader reader(file, what);
   const auto n = static_cast<unsigned long long>(n_vertices);
   ClothState state;
-  for (const auto &[name, field] : {std::make_pair("/positions", &state.positions),
-                                    std::make_pair("/velocities", &state.velocities)})
+  for (const auto &[name, field] :
+       {std::pair("/positions", &state.positions), std::pair("/velocities", &state.velocities)})
     *field = Eigen::Map<const SpacePoints>(reader.numbers(name, {n, 3}).data(), n_vertices, 3);
   state.step_seconds     = reader.numbers("/step_seconds", {Hdf5Reader::any});
   const auto run_of_file = reader.text_attribute("/", "run");

@@ -101,7 +101,7 @@ void Cloth::set_state(const Vectors &positions, const Vectors &velocities, const
                            " positions and " + std::to_string(velocities.rows()) +
                            " velocities; expected " + std::to_string(x.rows()) + " of each");
   for (const auto &[what, values] :
-       {std::make_pair("position", &positions), std::make_pair("velocity", &velocities)})
+       {std::pair("position", &positions), std::pair("velocity", &velocities)})
     if (const int vertex = first_not_finite(*values); vertex >= 0)
       throw meshes::BadInput("cloth: a state whose vertex " + std::to_string(vertex) + " has a " +
                              what + " that is not finite");

@@ -342,8 +342,8 @@ std::vector<ConvergenceCase> time_cases(const UnitCell &cell,
 {
   std::vector<ConvergenceCase> cases;
   for (const auto &[name, integrator] :
-       {std::make_pair("linearly implicit Euler", shell::Integrator::linearly_implicit),
-        std::make_pair("implicit Euler", shell::Integrator::implicit)})
+       {std::pair("linearly implicit Euler", shell::Integrator::linearly_implicit),
+        std::pair("implicit Euler", shell::Integrator::implicit)})
     cases.push_back({cell.name, "time", name,
                      [&cell, &homogenized, integrator = integrator, sizes]()
                      { return refine_time_step(cell, homogenized, integrator, sizes); }});

@@ -21,8 +21,8 @@ struct QuadraturePoint
 std::vector<QuadraturePoint> six_points()
 {
   std::vector<QuadraturePoint> points;
-  for (const auto &[a, share] : {std::make_pair(0.445948490915965, 0.223381589678011),
-                                 std::make_pair(0.091576213509771, 0.109951743655322)})
+  for (const auto &[a, share] : {std::pair(0.445948490915965, 0.223381589678011),
+                                 std::pair(0.091576213509771, 0.109951743655322)})
     for (int k = 0; k < 3; ++k)
     {
       points.push_back({Eigen::RowVector3d::Constant(a), share});

@@ -2,6 +2,7 @@
 #include "verification/program/command_line.h"
 
 #include "meshes/plain/errors.h"
+#include "verification/program/command_faults.h"
 #include "verification/program/study_arguments.h"
 #include "verification/record/on_root.h"
 #include "verification/record/verdict.h"
@@ -116,16 +117,19 @@ int run_command_line(const std::vector<std::string> &arguments, const Program &p
   app.set_version_flag("--version", program.version);
   CommandLine line{app, program.studies, text, {}, {}, {}, {}, {}};
   add_commands(line);
+  const std::vector<std::string> given = joined_lists(arguments);
   try
   {
-    std::vector<std::string> words = joined_lists(arguments);
+    std::vector<std::string> words = given;
     std::reverse(words.begin(), words.end()); // as CLI11 takes them
     app.parse(words);
   }
   catch (const CLI::ParseError &error)
   {
     const bool is_fault = error.get_exit_code() != 0;
-    if (is_root)
+    if (is_root && is_fault)
+      std::cerr << "homespun: " << command_fault(app, given, error) << "\n";
+    else if (is_root)
       app.exit(error, std::cout, std::cerr);
     return is_fault ? exit_status::bad_input : exit_status::good;
   }

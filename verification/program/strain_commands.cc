@@ -65,9 +65,9 @@ void check_strain_arguments(StrainStudyOptions &study, const std::string &superc
                  "; expected fractions between 0 and 1 with a decimal point, 0.1 or 10% for 10 %");
   std::sort(study.strains.begin(), study.strains.end());
   study.strains.erase(std::unique(study.strains.begin(), study.strains.end()), study.strains.end());
-  for (const auto &[option, is_empty] : {std::make_pair("--strains", study.strains.empty()),
-                                         std::make_pair("--loads", study.loads.empty()),
-                                         std::make_pair("--methods", study.methods.empty())})
+  for (const auto &[option, is_empty] :
+       {std::pair("--strains", study.strains.empty()), std::pair("--loads", study.loads.empty()),
+        std::pair("--methods", study.methods.empty())})
     if (is_empty)
       faults.add(std::string(option) + ": found nothing; expected at least one");
   faults.check_names("--loads", study.loads, [](const std::string &name) { return Load(name); });

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // homespun upsample: fine positions for the frames of another program's coarse simulation.
 #include "verification/program/study_arguments.h"
+#include "verification/record/number_text.h"
 #include "verification/record/on_root.h"
 #include "verification/record/run_folder.h"
 #include "verification/upsample/upsample_study.h"
@@ -10,6 +11,7 @@
 
 #include <cmath>
 #include <memory>
+#include <utility>
 
 namespace homespun::verification
 {
@@ -25,8 +27,10 @@ void check_upsample_arguments(const UpsampleOptions &study)
     faults.add("--origin: expected two numbers in metres, as in 0.1,0.2");
   if (!std::isfinite(study.angle))
     faults.add("--angle: expected a number of degrees");
-  if (!(study.vt_unit > 0.) || !std::isfinite(study.vt_unit))
-    faults.add("--vt-unit: expected a positive number of metres");
+  for (const auto &[option, unit] : {std::pair("--unit", study.unit), {"--vt-unit", study.vt_unit}})
+    if (!(unit > 0.) || !std::isfinite(unit))
+      faults.add(std::string(option) + ": found " + short_text(unit) +
+                 "; expected a positive number of metres, as in 0.01 for centimetres");
   if (!(study.limit > 0.) || !std::isfinite(study.limit))
     faults.add("--limit: expected a positive part of the cell side, as in 0.01");
   faults.throw_if_any();
@@ -52,7 +56,7 @@ void add_upsample_command(CommandLine &line)
   command->add_option("CELL.h5", study->cell_file, "Cell of `homespun homogenize`")->required();
   command
     ->add_option("FRAMES", study->frames,
-                 "Frames, .obj or .ply in metres, or a pattern in quotes: 'sim/frame_*.obj'")
+                 "Frames, .obj or .ply, or a pattern in quotes: 'sim/frame_*.obj'")
     ->required();
   command
     ->add_option("--rest", study->rest_file,
@@ -66,9 +70,18 @@ void add_upsample_command(CommandLine &line)
     ->add_option("--angle", study->angle,
                  "Of the cell's first axis against the first rest axis [degrees]")
     ->capture_default_str();
+  command
+    ->add_option("--unit", study->unit,
+                 "Metres per unit of the positions, of the rest mesh and of all frames; 0.01 for "
+                 "centimetres. Results are in metres")
+    ->capture_default_str();
   command->add_option("--vt-unit", study->vt_unit, "Metres per unit of vt")->capture_default_str();
   command->add_flag("--flat", study->is_flat,
-                    "Take the rest state from x and y of a flat mesh although it has vt");
+                    "Take the rest state from the positions of a flat mesh although it has vt");
+  command->add_flag(
+    "--accept-strain", study->accepts_strain,
+    "Go on where the mean strain is above 50 %, the mean compression above 30 %, or "
+    "a coarse triangle longer than a hundred cells: units that differ look so");
   command->add_option("--up", study->up, "Axis that points up, y or z: said in .usda")
     ->capture_default_str();
   command->add_option("--validity", study->validity_file,
@@ -79,10 +92,14 @@ void add_upsample_command(CommandLine &line)
     ->capture_default_str();
   add_folder_options(*command, *study, "out/REST/upsample");
   command->footer(
-    "The rest state is that of `vt` of an OBJ file, in metres, or that of a mesh in a plane z = "
-    "const. A sheet\n"
-    "of whole cells, two triangles each, goes the fast way; cells are cut along the outlines of "
-    "all else.\n\n"
+    "The rest state is that of `vt` of an OBJ file, or that of a mesh in a plane. Its axes are x "
+    "and "
+    "y of a plane\n"
+    "z = const, x and -z of y = const, y and z of x = const, and else the x axis in the plane and "
+    "what is to its\n"
+    "left, seen from above. A sheet of whole cells, two triangles each, goes the fast way; cells "
+    "are cut along the\n"
+    "outlines of all else.\n\n"
     "upsample.csv says of each frame, without a reference, where its error may come from: `strain` "
     "(against the\n"
     "range of validity of the cell, where it is known), `strain_change` across one cell, and "

@@ -15,6 +15,7 @@
 #include "verification/record/table.h"
 #include "verification/record/timing.h"
 #include "verification/upsample/coarse_indicators.h"
+#include "verification/upsample/coarse_meshes.h"
 #include "verification/upsample/frame_files.h"
 #include "verification/upsample/upsampled_cloth.h"
 #include "verification/upsample/valid_strain.h"
@@ -28,6 +29,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 
 namespace homespun::verification
 {
@@ -52,64 +54,6 @@ constexpr std::array<Indicator, 3> indicators = {
    {"compression", &TriangleIndicators::compression,
     "1 - smallest principal stretch, where that is below 1: slack cloth wrinkles below the mesh"}}};
 
-/// The rest mesh as faces, which frames are held against, and as cloth.
-struct RestMesh
-{
-  Polygons faces;
-  meshes::ClothMesh cloth;
-};
-
-RestMesh read_rest(const UpsampleOptions &options)
-{
-  RestMesh rest = {meshes::read_polygons(options.rest_file), {}};
-  rest.cloth    = rest.faces.has_vt && !options.is_flat
-                    ? meshes::read_cloth(options.rest_file, options.vt_unit)
-                    : meshes::flat_cloth(rest.faces, options.rest_file);
-  return rest;
-}
-
-/// Whether a file lies in a folder, links followed.
-bool lies_in(const std::string &file, const std::string &folder)
-{
-  const fs::path inside =
-    fs::weakly_canonical(file).lexically_relative(fs::weakly_canonical(folder));
-  return !inside.empty() && *inside.begin() != "..";
-}
-
-/// All that is wrong with any frame.
-void check_frames(const std::vector<FrameFile> &frames, const Polygons &rest,
-                  const UpsampleOptions &options)
-{
-  std::vector<std::string> faults;
-  for (const FrameFile &frame : frames)
-    try
-    {
-      if (const std::string fault =
-            fault_of_frame(meshes::read_polygons(frame.file), frame.file, rest, options.rest_file);
-          !fault.empty())
-        faults.push_back(fault);
-    }
-    catch (const meshes::BadInput &bad)
-    {
-      faults.insert(faults.end(), bad.faults().begin(), bad.faults().end());
-    }
-  for (const FrameFile &frame : frames)
-    if (lies_in(frame.file, options.output))
-      faults.push_back(frame.file + ": lies in the folder of the results, " + options.output +
-                       "; expected it elsewhere: choose another --output");
-  if (faults.empty())
-    return;
-  constexpr std::size_t most = 10;
-  if (faults.size() > most)
-  {
-    const std::string more = options.rest_file + ": and " + std::to_string(faults.size() - most) +
-                             " more faults of frames";
-    faults.resize(most);
-    faults.push_back(more);
-  }
-  throw meshes::BadInput(faults);
-}
-
 class UpsampleStudy
 {
 public:
@@ -123,13 +67,16 @@ public:
 
   void run()
   {
-    check_frames(frames, rest.faces, options);
+    const double cell_side = std::sqrt(cell.lattice.area());
+    if (const std::string question = question_of_cells(rest.cloth, cell_side, rest.units);
+        !question.empty() && !options.accepts_strain)
+      throw meshes::BadInput(question);
+    check_frames(frames, rest, CoarseIndicators(rest.cloth, cell_side), options);
     valid = valid_strain(cell, options.cell_file, options.validity_file, options.limit);
     const meshes::Grain grain = {{options.origin[0], options.origin[1]},
                                  options.angle * M_PI / 180.};
     fine                      = std::make_unique<UpsampledCloth>(cell, rest.cloth, grain);
-    indicators_of =
-      std::make_unique<CoarseIndicators>(fine->coarse, std::sqrt(cell.lattice.area()));
+    indicators_of             = std::make_unique<CoarseIndicators>(fine->coarse, cell_side);
     const auto folder =
       open_run_folder(options.output, {"upsample", inputs()}, options.earlier, options.quiet);
     table = std::make_unique<Table<UpsampleRow>>(options.output);
@@ -166,8 +113,11 @@ public:
                       " on 99 % of the area" + beyond_text(row));
     }
     lines.push_back(validity_text());
-    if (worst_row("strain").largest > 1.)
-      lines.push_back("strain: above 100 %: are the frames and the rest mesh both in metres?");
+    std::string keywords;
+    for (const std::string &word : passed_over)
+      keywords += (keywords.empty() ? "" : ", ") + word;
+    if (!keywords.empty())
+      lines.push_back("frames: lines of ARCSim were passed over: " + keywords);
     return lines;
   }
 
@@ -185,6 +135,7 @@ private:
             {"formats", options.formats},
             {"origin_m", options.origin},
             {"angle_degrees", options.angle},
+            {"unit_m", options.unit},
             {"vt_unit_m", options.vt_unit},
             {"flat", options.is_flat},
             {"up", options.up},
@@ -233,7 +184,8 @@ private:
     if (is_made(frame.name, checksum))
       return;
     Polygons mesh;
-    seconds["read"].push_back(seconds_of([&]() { mesh = meshes::read_polygons(frame.file); }));
+    seconds["read"].push_back(seconds_of([&]() { mesh = read_in_metres(frame.file, options); }));
+    passed_over.insert(mesh.passed_over.begin(), mesh.passed_over.end());
     // The file may have been written anew since it was checked.
     if (const std::string fault = fault_of_frame(mesh, frame.file, rest.faces, options.rest_file);
         !fault.empty())
@@ -354,6 +306,7 @@ private:
   const meshes::HomogenizedCell cell;
   const RestMesh rest;
   const std::vector<FrameFile> frames; ///< of this call
+  std::set<std::string> passed_over;   ///< in them
   std::vector<std::string> names;      ///< of all frames in the folder, once this call's are made
   std::optional<ValidStrain> valid;
   std::unique_ptr<UpsampledCloth> fine;

@@ -3,34 +3,13 @@
 // error that need no reference (coarse_indicators.h). Nothing is judged.
 #pragma once
 
-#include "verification/record/earlier.h"
-
-#include <string>
-#include <vector>
+#include "verification/upsample/upsample_options.h"
 
 namespace homespun::verification
 {
-struct UpsampleOptions
-{
-  std::string cell_file;                       ///< cell.h5
-  std::string rest_file;                       ///< .obj or .ply, whose faces all frames have
-  std::vector<std::string> frames;             ///< files and patterns
-  std::vector<std::string> formats = {"vtu"};  ///< vtu, ply, obj, usda
-  std::vector<double> origin       = {0., 0.}; ///< a lattice point of the cells, at rest [m]
-  double angle   = 0.;       ///< of the cell's first axis against the first rest axis [degrees]
-  double vt_unit = 1.;       ///< metres per unit of vt [m]
-  bool is_flat   = false;    ///< the rest state is that of the positions, although there are vt
-  std::string up = "z";      ///< y or z: said in .usda
-  std::string validity_file; ///< empty: beside the cell, if there is one
-  double limit = 0.01;       ///< of the error, as a part of the cell side: of the range of validity
-  std::string output, command;
-  Earlier earlier = Earlier::keep_work;
-  bool quiet      = false;
-};
-
-/// Writes NAME.FORMAT of each frame, frames.pvd of .vtu, upsample.csv and upsample.json. A frame
-/// whose file is the one it was made of stays as it is; more frames may be added to a folder, of
-/// which frames.pvd and upsample.json name all.
+/// Writes NAME.FORMAT of each frame in metres, frames.pvd of .vtu, upsample.csv and upsample.json.
+/// A frame whose file is the one it was made of stays as it is; more frames may be added to a
+/// folder, of which frames.pvd and upsample.json name all.
 /// @throws BadInput, before anything is written, where cell, rest mesh or any frame cannot be used
 void run_upsample_study(const UpsampleOptions &options);
 } // namespace homespun::verification

@@ -2,7 +2,7 @@
 // The cells that come with homespun. For sources that are compiled with CELLS.
 #pragma once
 
-#include "homogenization/cell/unit_cell.h"
+#include "homogenization/lint/cell_reading.h"
 
 #include <string>
 

@@ -98,7 +98,7 @@ TEST(invariant_homogenize, effective_stiffness_is_unchanged_when_the_cell_is_shi
   const meshes::Lattice lattice = tests::skewed_lattice();
   const Eigen::Matrix3d before =
     solved(tests::cell_of(lattice, 8, 8, tests::soft_and_hard(), odd_pattern)).stiffness;
-  for (const auto &[di, dj] : {std::make_pair(3, 0), std::make_pair(0, 5), std::make_pair(6, 7)})
+  for (const auto &[di, dj] : {std::pair(3, 0), std::pair(0, 5), std::pair(6, 7)})
   {
     UnitCell shifted =
       tests::cell_of(lattice, 8, 8, tests::soft_and_hard(),

@@ -111,10 +111,10 @@ TEST(exact_conserving, a_triangle_on_a_line_at_both_ends_of_the_step_has_finite_
   const Eigen::Matrix3d D      = anisotropic();
   const Eigen::Vector3d places = corners * Eigen::Vector2d(1., 0.7);
   for (const auto &[before, after] :
-       {std::make_pair(Eigen::Matrix3d(places * one.transpose()),
-                       Eigen::Matrix3d(1.3 * places * other.transpose())),
-        std::make_pair(Eigen::Matrix3d(places * one.transpose()), Eigen::Matrix3d::Zero().eval()),
-        std::make_pair(Eigen::Matrix3d::Zero().eval(), Eigen::Matrix3d::Zero().eval())})
+       {std::pair(Eigen::Matrix3d(places * one.transpose()),
+                  Eigen::Matrix3d(1.3 * places * other.transpose())),
+        std::pair(Eigen::Matrix3d(places * one.transpose()), Eigen::Matrix3d::Zero().eval()),
+        std::pair(Eigen::Matrix3d::Zero().eval(), Eigen::Matrix3d::Zero().eval())})
   {
     const TriangleStep step = triangle_step(rest, before, after, D, {});
     ASSERT_TRUE(step.gradient.allFinite() && step.jacobian.allFinite());

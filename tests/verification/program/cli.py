@@ -8,7 +8,9 @@ import shutil
 import subprocess
 import tempfile
 import unittest
+import unittest.util
 
+unittest.util._MAX_LENGTH = 4000  # of what an assertion shows: Status is longer than 80 letters
 PROGRAM = os.environ["HOMESPUN"]
 PATIENCE = int(os.environ.get("PATIENCE", "1"))  # more where all assertions are on
 MPIEXEC = os.environ.get("MPIEXEC", "mpiexec")

@@ -57,6 +57,13 @@ class OtherFiles(InFolder):
         path.write_text("set Mesh = a.msh\n", encoding="utf-16")
         self.refused_in_one_line("check", path, "UTF-16")
 
+    def test_a_mesh_of_gmsh_1_and_a_drawing_are_one_line(self):
+        path = self.folder / "old.msh"
+        path.write_text("$NOD\n60\n" + "1 0 0 0\n" * 60 + "$ENDNOD\n")
+        self.refused_in_one_line("check", path, "is a Gmsh mesh")
+        self.refused_in_one_line("check", CELLS / "layered.geo", "is a drawing of Gmsh (.geo)",
+                                 "expected a file of lines `set KEY = VALUE`")
+
     def test_a_scene_given_to_homogenize_and_a_cell_given_to_drape_are_called_so(self):
         self.refused_in_one_line("homogenize", SCENES / "hang.prm", "is a scene",
                                  "homespun drape")
@@ -111,6 +118,29 @@ class WaysToWrite(InFolder):
         result = self.check()
         self.assertIn("names the group `embroidery`", result.stderr)
         self.assertNotIn("did you mean", result.stderr)
+
+    def test_a_value_without_a_name_is_that_of_all_other_groups(self):
+        self.cell.keys.update({"Poisson's ratio": "0.3", "Thickness": "5e-4, hard: 4e-4",
+                               "Density": "400"})
+        result = self.check()
+        self.assertEqual(result.returncode, 0, result.stderr)
+        path = self.cell.write(self.folder)
+        run("homogenize", path, "--no-bars", "--quiet", "--output", self.folder / "out")
+        phases = json.loads((self.folder / "out/cell.json").read_text())["phases"]
+        self.assertEqual({phase["name"]: phase["thickness"] for phase in phases},
+                         {"soft": 5e-4, "hard": 4e-4})
+        # Behind others it is a decimal comma.
+        self.refused("found `soft: 0,3`; expected a decimal point, not a comma",
+                     **{"Poisson's ratio": "soft: 0,3, hard: 0.3"})
+        # Axes by default and moduli by name, or the other way round, are both fine.
+        del self.cell.keys["Young's modulus"]
+        self.cell.keys.update({"Young's modulus": "soft: 1e6", "Poisson's ratio": "soft: 0.3",
+                               "Orthotropic": "1e7 1e6 0.3 4e5 45"})
+        self.assertEqual(self.check().returncode, 0)
+        self.cell.keys.update({"Young's modulus": "1e6", "Poisson's ratio": "0.3",
+                               "Orthotropic": "hard: 1e7 1e6 0.3 4e5 45"})
+        self.assertEqual(self.check().returncode, 0)
+        self.refused("is given both in `Orthotropic` and in", Orthotropic="1e7 1e6 0.3 4e5 45")
 
     def test_a_mesh_without_physical_groups_is_called_that(self):
         self.cell.groups = [0] * len(self.cell.groups)
@@ -209,6 +239,28 @@ class CutHoles(InFolder):
 
 
 class Options(InFolder):
+    def test_what_is_misspelt_or_in_another_order_is_one_line_with_what_was_meant(self):
+        cell = CELLS / "layered.prm"
+        for words, says in (
+                (("homogenise", cell), "found `homogenise`; expected a command first; did you mean "
+                                       "`homogenize`?"),
+                (("homogenize", cell, "--tol", "1e-3"), "found `--tol`; expected an option of "
+                 "`homespun homogenize`; did you mean `--tolerance`?"),
+                (("strain", "--lods=strip-1", cell), "did you mean `--loads`?"),
+                ((cell, "check"), f"found `{cell}`; expected a command first, as in "
+                                  f"`homespun check {cell}`"),
+                (("cells", "make", "twill", "--sets", "a=1"), "did you mean `--set`?"),
+                (("homogenize",), "homespun homogenize: CELL.prm is required"),
+                (("homogenize", cell, "--order", "3"), "--order: "),
+                ((), "found nothing; expected a command")):
+            with self.subTest(words=words):
+                result = run(*words)
+                self.assertEqual(result.returncode, 2)
+                self.assertEqual(result.stdout, "")
+                self.assertEqual(len(result.stderr.splitlines()), 1, result.stderr)
+                self.assertTrue(result.stderr.startswith("homespun: "), result.stderr)
+                self.assertIn(says, result.stderr)
+
     def test_lists_that_blanks_part_are_understood(self):
         for words in (["--loads", "strip-1,", "strip-2"], ["--loads", "strip-1", ",strip-2"],
                       ["--loads=strip-1,", "strip-2"]):

@@ -65,9 +65,9 @@ class Upsampling(InFolder):
                   self.triangles if triangles is None else triangles)
         return path
 
-    def moving(self, n):
+    def moving(self, n, step=0.01):
         """Frames that stretch step by step along the first axis."""
-        return [self.frame(f"f_{k}.obj", self.vertices * [1. + 0.01 * k, 1., 1.])
+        return [self.frame(f"f_{k}.obj", self.vertices * [1. + step * k, 1., 1.])
                 for k in range(n)]
 
     def upsample(self, *arguments, status=0):
@@ -179,10 +179,46 @@ class Results(Upsampling):
         self.assertEqual([(row["limit"], row["triangles_beyond"]) for row in rows],
                          [("0.015", "0"), ("0.015", "0"), ("0.015", "32")])
 
-    def test_frames_in_millimetres_are_suspected(self):
-        stdout = self.upsample(self.frame("mm.obj", 1000. * self.vertices))
-        self.assertIn("strain: above 100 %: are the frames and the rest mesh both in metres?",
-                      stdout)
+    def test_another_unit_is_asked_about_before_anything_is_written_and_answered(self):
+        for frame, words in (
+                (self.frame("mm.obj", 1000. * self.vertices),
+                 "lengths differ by a factor of 1e+03"),
+                (self.frame("pressed.obj", 0.6 * self.vertices), "pressed together by 40 %"),
+                (self.frame("drawn.obj", 1.6 * self.vertices), "strained by 60 %")):
+            said = self.upsample(frame, status=2)
+            self.assertIn(words, said)
+            self.assertIn("`--accept-strain` goes on as it is", said)
+            self.assertFalse(self.output.exists())
+        self.upsample(frame, "--accept-strain")
+        # Just below: nothing is asked.
+        self.output = self.folder / "below"
+        self.upsample(self.frame("less.obj", self.vertices * [0.72, 0.72, 1.]),
+                      self.frame("more.obj", self.vertices * [1.49, 1., 1.]))
+
+    def test_positions_in_centimetres_give_the_same_bits_as_in_metres(self):
+        moved = self.vertices * [1.02, 1., 1.]
+        self.upsample(self.frame("a.obj", moved), "--format", "ply")
+        expected = (self.output / "a.ply").read_bytes()
+        # A power of two, by which numbers are scaled exactly.
+        write_obj(self.rest, 128. * self.vertices, self.triangles)
+        self.output, frame = self.folder / "scaled", self.frame("a.obj", 128. * moved)
+        said = self.upsample(frame, "--format", "ply", status=2)
+        self.assertRegex(said, r"triangle \d+ is .* m long at rest, which are \S+ cells; expected "
+                               r"a hundred at most: .*`--unit 0.01` takes")
+        self.assertFalse(self.output.exists())
+        self.upsample(frame, "--format", "ply", "--unit", 1 / 128)
+        self.assertEqual((self.output / "a.ply").read_bytes(), expected)
+
+    def test_a_sheet_that_lies_in_another_plane_is_the_same_sheet(self):
+        moved = self.vertices * [1.02, 1., 1.]
+        self.upsample(self.frame("a.obj", moved), "--format", "ply")
+        expected = (self.output / "a.ply").read_bytes()
+        y_up = self.vertices[:, [0, 2, 1]] * [1., 1., -1.]
+        write_obj(self.rest, y_up, self.triangles)
+        self.output = self.folder / "y-up"
+        self.assertIn("a sheet of 4 x 4 cells", self.upsample(self.frame("a.obj", moved),
+                                                              "--format", "ply"))
+        self.assertEqual((self.output / "a.ply").read_bytes(), expected)
 
     def test_slack_cloth_is_counted_and_found(self):
         short = self.vertices.copy()
@@ -265,7 +301,7 @@ class OneRun(Upsampling):
                          [f"f_{k}" for k in range(12)])
 
     def test_a_run_that_was_killed_goes_on_to_the_same_bytes(self):
-        frames = self.moving(60)
+        frames = self.moving(60, 0.005)
         self.upsample(*frames, "--format", "obj,usda")
         whole = {path.name: path.read_bytes() for path in self.output.glob("f_*")}
         shutil.rmtree(self.output)
@@ -328,7 +364,7 @@ class BadInput(Upsampling):
 
     def test_what_cannot_be_used_is_named(self):
         good = self.frame("good.obj")
-        bent = self.vertices + [[0., 0., 0.01 * k] for k in range(len(self.vertices))]
+        bent = self.vertices + [[0., 0., 0.001 * k * k] for k in range(len(self.vertices))]
         ply = self.folder / "nan.ply"
         ply.write_bytes(b"ply\nformat binary_little_endian 1.0\nelement vertex 3\n"
                         b"property float x\nproperty float y\nproperty float z\nelement face 1\n"
@@ -341,13 +377,15 @@ class BadInput(Upsampling):
                 (("--rest", rest, self.folder / "none.obj"), "none.obj: cannot be read"),
                 (("--rest", rest, ply), "nan.ply: vertex 2 is at (0.000000, nan, 0.000000)"),
                 (("--rest", rest, rest.with_suffix(".stl")), "found the ending `.stl`"),
-                (("--rest", self.frame("bent.obj", bent), good), "bent.obj: is not flat: vertex 1"),
+                (("--rest", self.frame("bent.obj", bent), good), "bent.obj: is not flat: vertex "),
                 (("--rest", rest, good, good), "good.obj: has the name of"),
                 (("--rest", rest, good, "--format", "stl"),
                  "--format: found `stl`; expected vtu, ply, obj or usda"),
                 (("--rest", rest, good, "--up", "x"), "--up: found `x`; expected y or z"),
                 (("--rest", rest, good, "--origin", "1"), "--origin: expected two numbers"),
-                (("--rest", rest, good, "--vt-unit", "-1"), "--vt-unit: expected a positive"),
+                (("--rest", rest, good, "--vt-unit", "-1"),
+                 "--vt-unit: found -1; expected a positive"),
+                (("--rest", rest, good, "--unit", "0"), "--unit: found 0; expected a positive"),
                 (("--rest", rest, good, "--validity", self.folder / "v.csv"),
                  "v.csv: no such file"),
                 (("--rest", rest), "FRAMES is required"),

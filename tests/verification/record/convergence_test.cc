@@ -224,9 +224,8 @@ TEST(exact_convergence, two_or_three_levels_conclude_nothing)
 TEST(exact_convergence, a_band_is_a_limit_on_both_sides)
 {
   const std::vector<double> h = sizes();
-  for (const auto &[p, outcome] :
-       {std::make_pair(0.5, Outcome::fail), std::make_pair(1.4, Outcome::pass),
-        std::make_pair(2.5, Outcome::fail)})
+  for (const auto &[p, outcome] : {std::pair(0.5, Outcome::fail), std::pair(1.4, Outcome::pass),
+                                   std::pair(2.5, Outcome::fail)})
     EXPECT_EQ(
       judge_errors(h, at(h, [p = p](double s, auto) { return std::pow(s, p); }), {1., 2.}).outcome,
       outcome);

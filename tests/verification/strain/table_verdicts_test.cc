@@ -34,8 +34,7 @@ UncertaintyRow ladder_of(const double p1, const double p2, const double refined)
 std::vector<ForceRow> forces_of(const double resolved, const double affine)
 {
   std::vector<ForceRow> rows;
-  for (const auto &[method, force] :
-       {std::make_pair("resolved", resolved), std::make_pair("affine", affine)})
+  for (const auto &[method, force] : {std::pair("resolved", resolved), std::pair("affine", affine)})
   {
     rows.push_back({"cell", "strip-1", 0.01, "linear", method});
     rows.back().per_width = force;

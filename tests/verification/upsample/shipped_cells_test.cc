@@ -3,6 +3,8 @@
 // multiple of cells, and over a garment.
 #include "meshes/cloth/seams.h"
 #include "meshes/files/obj_file.h"
+#include "meshes/files/surface_files.h"
+#include "meshes/garment/fine_cloth.h"
 #include "meshes/plain/cross.h"
 #include "tests/homogenization/cell/shipped.h"
 #include "tests/localization/localization_cases.h"

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: MIT
+#include "verification/upsample/coarse_meshes.h"
+
+#include "meshes/files/obj_file.h"
+#include "meshes/plain/errors.h"
+
+#include <filesystem>
+
+namespace homespun::verification
+{
+namespace fs = std::filesystem;
+using meshes::Polygons;
+
+namespace
+{
+/// Whether a file lies in a folder, links followed.
+bool lies_in(const std::string &file, const std::string &folder)
+{
+  const fs::path inside =
+    fs::weakly_canonical(file).lexically_relative(fs::weakly_canonical(folder));
+  return !inside.empty() && *inside.begin() != "..";
+}
+
+} // namespace
+
+Polygons read_in_metres(const std::string &file, const UpsampleOptions &options)
+{
+  Polygons mesh = meshes::read_polygons(file);
+  mesh.positions *= options.unit;
+  return mesh;
+}
+
+RestMesh read_rest(const UpsampleOptions &options)
+{
+  RestMesh rest;
+  rest.faces = read_in_metres(options.rest_file, options);
+  rest.units = {options.rest_file, options.unit, options.vt_unit,
+                rest.faces.has_vt && !options.is_flat, false};
+  rest.cloth = rest.units.has_vt ? meshes::read_cloth(options.rest_file, options.vt_unit)
+                                 : meshes::flat_cloth(rest.faces, options.rest_file);
+  if (rest.units.has_vt)
+    rest.units.may_be_flat = meshes::is_flat(rest.faces);
+  return rest;
+}
+
+void check_frames(const std::vector<FrameFile> &frames, const RestMesh &rest,
+                  const CoarseIndicators &rest_indicators, const UpsampleOptions &options)
+{
+  std::vector<std::string> faults;
+  for (const FrameFile &frame : frames)
+    try
+    {
+      const Polygons mesh = read_in_metres(frame.file, options);
+      std::string fault   = fault_of_frame(mesh, frame.file, rest.faces, options.rest_file);
+      if (fault.empty() && !options.accepts_strain)
+      {
+        const TriangleIndicators of = rest_indicators.of(mesh.positions);
+        const auto mean             = [&](const Eigen::VectorXd &values)
+        { return rest_indicators.row_of(values, UpsampleRow::none, mesh.positions).mean; };
+        fault = question_of_strain(rest.cloth, frame.file, mesh.positions, mean(of.strain),
+                                   mean(of.compression), rest.units);
+      }
+      if (!fault.empty())
+        faults.push_back(fault);
+    }
+    catch (const meshes::BadInput &bad)
+    {
+      faults.insert(faults.end(), bad.faults().begin(), bad.faults().end());
+    }
+  for (const FrameFile &frame : frames)
+    if (lies_in(frame.file, options.output))
+      faults.push_back(frame.file + ": lies in the folder of the results, " + options.output +
+                       "; expected it elsewhere: choose another --output");
+  if (faults.empty())
+    return;
+  constexpr std::size_t most = 10;
+  if (faults.size() > most)
+  {
+    const std::string more = options.rest_file + ": and " + std::to_string(faults.size() - most) +
+                             " more faults of frames";
+    faults.resize(most);
+    faults.push_back(more);
+  }
+  throw meshes::BadInput(faults);
+}
+} // namespace homespun::verification
