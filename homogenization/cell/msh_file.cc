@@ -299,10 +299,8 @@ private:
   int group_of_surface(const long surface) const
   {
     const auto groups = groups_of_surface.find(surface);
-    if (groups == groups_of_surface.end())
-      return 0;
-    if (groups->second.size() == 1)
-      return *groups->second.begin();
+    if (groups == groups_of_surface.end() || groups->second.size() == 1)
+      return groups == groups_of_surface.end() ? 0 : *groups->second.begin();
     std::string names;
     for (const int number : groups->second)
     {
