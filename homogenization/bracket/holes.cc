@@ -5,7 +5,6 @@
 #include "meshes/plain/index.h"
 
 #include <cmath>
-#include <numeric>
 
 namespace homespun::homogenization
 {
@@ -18,48 +17,52 @@ Rims rims_of(const TorusMesh &mesh)
   rims.of_edge.resize(mesh.edges.size());
   const auto edges_of_rims = rim_edges(mesh);
   // Holes that touch in a vertex share value and gradient of a stress function there, hence the
-  // whole affine function.
-  std::vector<int> parent(at(mesh.n_vertices));
-  std::iota(parent.begin(), parent.end(), 0);
-  const auto root = [&](int v)
+  // whole affine function: they are one.
+  // A rim is walked along its edges, as it goes on beyond a side that cuts its hole.
+  struct Step
   {
-    while (parent[at(v)] != v)
-      v = parent[at(v)] = parent[at(parent[at(v)])];
-    return v;
+    int to, edge;
+    Eigen::Vector2d vector;
   };
-  for (const auto &[t, k] : edges_of_rims)
-  {
-    const TorusTriangle &triangle              = mesh.triangles[at(t)];
-    parent[at(root(triangle.vertices[at(k)]))] = root(triangle.vertices[at((k + 1) % 3)]);
-  }
-  std::vector<int> hole_of_root(at(mesh.n_vertices), -1);
-  std::vector<Eigen::Vector2d> origins;
-  const double tolerance = meshes::image_tolerance * std::sqrt(mesh.lattice.area());
+  std::vector<std::vector<Step>> steps_from(at(mesh.n_vertices));
   for (const auto &[t, k] : edges_of_rims)
   {
     const TorusTriangle &triangle = mesh.triangles[at(t)];
     const auto shape              = triangle.shape(mesh.edges);
-    int &hole                     = hole_of_root[at(root(triangle.vertices[at(k)]))];
-    if (hole < 0)
-    {
-      hole = static_cast<int>(origins.size());
-      origins.emplace_back(triangle.corner + shape[at(k)]);
-    }
-    const Eigen::Vector2d &origin           = origins[at(hole)];
-    const Eigen::Vector2d ends[2]           = {triangle.corner + shape[at(k)] - origin,
-                                               triangle.corner + shape[at((k + 1) % 3)] - origin};
-    rims.of_edge[at(triangle.edges[at(k)])] = {hole, 0.5 * (ends[0] + ends[1])};
-    for (int end = 0; end < 2; ++end)
-    {
-      RimPoint &rim = rims.of_vertex[at(triangle.vertices[at((k + end) % 3)])];
-      if (rim.hole >= 0 && (rim.position - ends[end]).norm() > tolerance)
-        throw meshes::BadInput(
-          "a hole of the cell meets an image of itself or of another hole at the outline; expected "
-          "holes inside the cell: shift the cell, or fill the hole with a soft phase");
-      rim = {hole, ends[end]};
-    }
+    const Eigen::Vector2d vector  = shape[at((k + 1) % 3)] - shape[at(k)];
+    const int from = triangle.vertices[at(k)], to = triangle.vertices[at((k + 1) % 3)];
+    steps_from[at(from)].push_back({to, triangle.edges[at(k)], vector});
+    steps_from[at(to)].push_back({from, triangle.edges[at(k)], -vector});
   }
-  rims.n_holes = static_cast<int>(origins.size());
+  const double tolerance = meshes::image_tolerance * std::sqrt(mesh.lattice.area());
+  for (const auto &[t, k] : edges_of_rims)
+  {
+    const int first = mesh.triangles[at(t)].vertices[at(k)];
+    if (rims.of_vertex[at(first)].hole >= 0)
+      continue;
+    rims.of_vertex[at(first)] = {rims.n_holes, Eigen::Vector2d::Zero()};
+    for (std::vector<int> left = {first}; !left.empty();)
+    {
+      const int from = left.back();
+      left.pop_back();
+      const Eigen::Vector2d here = rims.of_vertex[at(from)].position;
+      for (const Step &step : steps_from[at(from)])
+      {
+        RimPoint &there = rims.of_vertex[at(step.to)];
+        if (there.hole < 0)
+        {
+          there = {rims.n_holes, here + step.vector};
+          left.push_back(step.to);
+        }
+        else if ((there.position - here - step.vector).norm() > tolerance)
+          throw meshes::BadInput(
+            "a hole of the cell meets an image of itself; expected holes that end: mesh what "
+            "connects the cloth across it, or fill the hole with a soft phase");
+        rims.of_edge[at(step.edge)] = {rims.n_holes, here + 0.5 * step.vector};
+      }
+    }
+    ++rims.n_holes;
+  }
   return rims;
 }
 } // namespace homespun::homogenization

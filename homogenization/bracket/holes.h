@@ -32,6 +32,6 @@ struct Rims
   int n_holes = 0;
 };
 
-/// @throws BadInput where holes meet across the outline
+/// @throws BadInput where a hole meets an image of itself
 Rims rims_of(const TorusMesh &mesh);
 } // namespace homespun::homogenization

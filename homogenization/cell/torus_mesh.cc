@@ -27,14 +27,14 @@ struct GluedVertices
 
 GluedVertices glue_vertices(const meshes::TriangleMesh &mesh, const meshes::Lattice &lattice)
 {
-  // The outline alone: a rim may come near the image of another one without being it.
-  const std::vector<int> outline     = meshes::outline(mesh);
-  const meshes::ImageClasses classes = meshes::match_images(mesh, outline, lattice);
+  // The sides alone: a rim may come near the image of another one without being it.
+  const std::vector<int> sides       = meshes::sides_of(mesh, lattice).vertices;
+  const meshes::ImageClasses classes = meshes::match_images(mesh, sides, lattice);
 
   GluedVertices glued;
   const Eigen::RowVector2d origin = mesh.vertices.row(0);
   glued.positions                 = mesh.vertices.rowwise() - origin;
-  for (const int v : outline)
+  for (const int v : sides)
     glued.positions.row(v) = glued.positions.row(classes.representative[at(v)]) +
                              classes.offset.row(v).cast<double>() * lattice.vectors;
   std::vector<int> number(at(mesh.n_vertices()), -1);
@@ -55,20 +55,16 @@ std::map<std::array<int, 2>, std::array<int, 2>> glue_edges(const meshes::Triang
                                                             const GluedVertices &glued,
                                                             const meshes::Lattice &lattice)
 {
-  const std::vector<int> outline = meshes::outline(mesh);
-  const std::size_t n            = outline.size();
-  meshes::Points midpoints(static_cast<Eigen::Index>(n), 2);
-  for (std::size_t k = 0; k < n; ++k)
+  const std::vector<std::array<int, 2>> sides = meshes::sides_of(mesh, lattice).edges;
+  meshes::Points midpoints(static_cast<Eigen::Index>(sides.size()), 2);
+  for (std::size_t k = 0; k < sides.size(); ++k)
     midpoints.row(static_cast<Eigen::Index>(k)) =
-      0.5 * (glued.positions.row(outline[k]) + glued.positions.row(outline[(k + 1) % n]));
+      0.5 * (glued.positions.row(sides[k][0]) + glued.positions.row(sides[k][1]));
   const meshes::ImageClasses classes = meshes::match_images(midpoints, lattice);
   std::map<std::array<int, 2>, std::array<int, 2>> first_of;
-  const auto edge = [&](const std::size_t k) -> std::array<int, 2> {
-    return {outline[k], outline[(k + 1) % n]};
-  };
-  for (std::size_t k = 0; k < n; ++k)
+  for (std::size_t k = 0; k < sides.size(); ++k)
   {
-    const std::array<int, 2> mine = edge(k), first = edge(at(classes.representative[k]));
+    const std::array<int, 2> mine = sides[k], first = sides[at(classes.representative[k])];
     if (classes.size[k] != 2)
       throw meshes::BadInput("the edge of the outline from vertex " + std::to_string(mine[0]) +
                              " to vertex " + std::to_string(mine[1]) + " has " +

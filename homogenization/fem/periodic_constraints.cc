@@ -25,10 +25,11 @@ meshes::Points points_of(const std::vector<Node> &nodes)
   return points;
 }
 
-/// Nodes on the outline: its vertices, and with P2 as many edge midpoints.
-std::size_t n_outline_nodes(const Discretization &discretization)
+/// Nodes on the sides of the cell: their vertices, and with P2 the midpoints of their edges.
+std::size_t n_side_nodes(const Discretization &discretization, const meshes::Lattice &lattice)
 {
-  return meshes::outline(discretization.mesh).size() * discretization.order;
+  const meshes::Sides sides = meshes::sides_of(discretization.mesh, lattice);
+  return sides.vertices.size() + (discretization.order == 2 ? sides.edges.size() : 0);
 }
 
 std::string text_of(const Node &node, const global_dof_index dof)
@@ -49,11 +50,11 @@ void make_periodic_constraints(const Discretization &discretization, const meshe
   const auto has_images              = [](const int size) { return size > 1; };
   const auto matched =
     static_cast<std::size_t>(std::count_if(classes.size.begin(), classes.size.end(), has_images));
-  if (matched < n_outline_nodes(discretization))
-    throw meshes::BadInput(
-      std::to_string(n_outline_nodes(discretization) - matched) + " of " +
-      std::to_string(n_outline_nodes(discretization)) +
-      " nodes on the outline have no periodic image; `homespun check` names them");
+  const std::size_t n_sides = n_side_nodes(discretization, lattice);
+  if (n_sides == 0 || matched < n_sides)
+    throw meshes::BadInput(std::to_string(n_sides - matched) + " of " + std::to_string(n_sides) +
+                           " nodes on the sides have no periodic image; `homespun check` names "
+                           "them");
 
   dealii::IndexSet lines = discretization.locally_relevant;
   for (std::size_t k = 0; k < nodes.size(); ++k)
@@ -164,10 +165,11 @@ ConstraintAudit audit_periodic_constraints(const Discretization &discretization,
   std::size_t n_accounted = 0;
   for (std::size_t k = 0; k < nodes.size(); ++k)
     n_accounted += (is_tied[k] | is_master[k]);
-  if (n_accounted < n_outline_nodes(discretization))
+  const std::size_t n_sides = n_side_nodes(discretization, lattice);
+  if (n_accounted < n_sides)
     throw std::logic_error("audit of the periodic constraints: " +
-                           std::to_string(n_outline_nodes(discretization) - n_accounted) +
-                           " nodes on the outline are not tied to any image");
+                           std::to_string(n_sides - n_accounted) +
+                           " nodes on the sides are not tied to any image");
   return audit;
 }
 } // namespace homespun::homogenization

@@ -171,7 +171,9 @@ namespace
 /// Vertices as their images: the sides of the cell are no boundary of a part.
 std::vector<int> vertices_of_torus(const UnitCell &cell)
 {
-  return meshes::match_images(cell.mesh, meshes::outline(cell.mesh), cell.lattice).representative;
+  return meshes::match_images(cell.mesh, meshes::sides_of(cell.mesh, cell.lattice).vertices,
+                              cell.lattice)
+    .representative;
 }
 
 /// The edges of a cell on the torus, and which of them lie within a group.

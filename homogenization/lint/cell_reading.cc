@@ -83,10 +83,9 @@ std::vector<meshes::MeshFault> piece_faults(const meshes::TriangleMesh &mesh,
   return {{text.str(), place}};
 }
 
-/// Where the outline cuts holes, and nothing else is wrong with it: cuts the cell anew, or says why
-/// not.
-/// @return whether the cell is another one now
-bool cut_anew_around_holes(CellReading &reading, const std::string &mesh_path)
+/// Where the outline cuts holes, and nothing else is wrong with it: cuts the cell anew, or leaves
+/// it as it is drawn, without sheets, and says why.
+void cut_anew_around_holes(CellReading &reading, const std::string &mesh_path)
 {
   UnitCell &cell        = reading.cell;
   Eigen::VectorXi group = cell.mesh.material;
@@ -96,9 +95,11 @@ bool cut_anew_around_holes(CellReading &reading, const std::string &mesh_path)
   CellCutAnew anew = cut_anew(cell.mesh, group, cell.curved_sides, cell.lattice);
   if (!anew.shift)
   {
-    reading.findings.insert(reading.findings.begin(),
-                            finding_of("cut hole", mesh_path + ": " + anew.obstacle));
-    return false;
+    cell.lattice.cuts_holes = true;
+    Finding finding         = finding_of("cut hole", mesh_path + ": " + anew.obstacle);
+    finding.severity        = Severity::warning;
+    reading.findings.insert(reading.findings.begin(), std::move(finding));
+    return;
   }
   reading.findings.insert(reading.findings.begin(),
                           {Severity::warning, "shifted cell",
@@ -110,7 +111,6 @@ bool cut_anew_around_holes(CellReading &reading, const std::string &mesh_path)
   cell.mesh         = std::move(anew.mesh);
   cell.curved_sides = std::move(anew.curved_sides);
   cell.shift        = anew.shift;
-  return true;
 }
 
 /// Sides that match only because points within the tolerance are one, and other cloths that the
@@ -278,8 +278,8 @@ bool read_geometry(const CellKeys &keys, const SideRules &rules, const std::stri
   warn_of_matching(matched, rules, is_given, mesh_path, findings);
   cell.mesh         = std::move(matched.mesh);
   cell.curved_sides = std::move(matched.curved_sides);
-  if (matched.cuts_holes && !cut_anew_around_holes(reading, mesh_path))
-    return false;
+  if (matched.cuts_holes)
+    cut_anew_around_holes(reading, mesh_path);
   append(findings, mesh_path, lint_missing_triangles(cell.mesh, rules.metres_per_unit));
   if (may_move(cell.mesh))
     append(findings, mesh_path, lint_mechanisms(cell.mesh, cell.lattice, rules.metres_per_unit));

@@ -143,6 +143,8 @@ void write_all(const HomogenizedCell &cell, const CellEdges *const edges, const 
   file.write("/material", {m}, cell.mesh.material.data());
   const Eigen::Matrix<double, 2, 2, Eigen::RowMajor> lattice = cell.lattice.vectors;
   file.write("/lattice", {2, 2}, lattice.data(), "m");
+  if (cell.lattice.cuts_holes)
+    file.attribute("/lattice", "cuts_holes", 1);
   // Stored as (vertex, component, load); in memory a row is load-major.
   std::vector<double> chi(6 * static_cast<std::size_t>(n));
   for (Eigen::Index v = 0; v < cell.chi.rows(); ++v)
@@ -208,6 +210,7 @@ HomogenizedCell read_cell(const std::string &path)
   cell.mesh.material              = Eigen::Map<const Eigen::VectorXi>(material.data(), triangles);
   cell.lattice.vectors =
     Eigen::Map<const Eigen::Matrix<double, 2, 2, Eigen::RowMajor>>(lattice.data());
+  cell.lattice.cuts_holes = file.integer_attribute("/lattice", "cuts_holes").value_or(0) != 0;
   cell.stiffness     = Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(C.data());
   cell.areal_density = file.numbers("/areal_density", {1})[0];
   cell.chi.resize(rows, 6);

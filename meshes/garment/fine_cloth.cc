@@ -356,6 +356,7 @@ FineCloth fine_cloth(const TriangleMesh &cell_mesh, const Lattice &lattice, cons
       throw BadInput("fine cloth: grain " + std::to_string(p) +
                      " has an origin or an angle that is not a finite number");
 
+  require_sheets(lattice);
   const TriangleMesh filled = filled_holes(cell_mesh);
   const std::vector<FinePanel> panels =
     fine_panels(filled, lattice, cloth, membership, options.grains);

@@ -121,6 +121,61 @@ std::vector<int> outline(const TriangleMesh &mesh)
 
 namespace
 {
+Points points_at(const TriangleMesh &mesh, const std::vector<int> &vertices)
+{
+  return mesh.vertices(vertices, Eigen::all);
+}
+} // namespace
+
+void require_sheets(const Lattice &lattice)
+{
+  if (lattice.cuts_holes)
+    throw BadInput(
+      "sheets and garments cannot be cut from this cloth: each straight line along one of its "
+      "lattice vectors meets a hole; expected a cell whose sides pass between its holes: draw it "
+      "along other `Lattice vectors` of the same cloth, or fill the holes with a soft phase. C^H, "
+      "`load` and `stability` need no sheet");
+}
+
+Sides sides_of(const TriangleMesh &mesh, const Lattice &lattice)
+{
+  Sides sides{outline(mesh), {}};
+  if (!lattice.cuts_holes)
+  {
+    for (std::size_t k = 0; k < sides.vertices.size(); ++k)
+      sides.edges.push_back({sides.vertices[k], sides.vertices[(k + 1) % sides.vertices.size()]});
+    return sides;
+  }
+  const std::vector<std::array<int, 2>> boundary = boundary_edges(mesh);
+  std::vector<int> begins; // each vertex of the boundary once, but where rims touch
+  Points middles(static_cast<Eigen::Index>(boundary.size()), 2);
+  for (std::size_t e = 0; e < boundary.size(); ++e)
+  {
+    begins.push_back(boundary[e][0]);
+    middles.row(static_cast<Eigen::Index>(e)) =
+      0.5 * (mesh.vertices.row(boundary[e][0]) + mesh.vertices.row(boundary[e][1]));
+  }
+  std::sort(begins.begin(), begins.end());
+  begins.erase(std::unique(begins.begin(), begins.end()), begins.end());
+  const ImageClasses of_vertices = match_images(points_at(mesh, begins), lattice),
+                     of_edges    = match_images(middles, lattice);
+  sides.vertices.clear();
+  std::vector<char> has_image(static_cast<std::size_t>(mesh.n_vertices()), 0);
+  for (std::size_t k = 0; k < begins.size(); ++k)
+    if (of_vertices.size[k] > 1)
+    {
+      sides.vertices.push_back(begins[k]);
+      has_image[static_cast<std::size_t>(begins[k])] = 1;
+    }
+  for (std::size_t e = 0; e < boundary.size(); ++e)
+    if (of_edges.size[e] > 1 && has_image[static_cast<std::size_t>(boundary[e][0])] &&
+        has_image[static_cast<std::size_t>(boundary[e][1])])
+      sides.edges.push_back(boundary[e]);
+  return sides;
+}
+
+namespace
+{
 /// Two vertices within the tolerance of periodic images, anywhere in the mesh: whoever matches
 /// images would take them for one.
 std::vector<MeshFault> coincidence_faults(const TriangleMesh &mesh, const Lattice &lattice,
@@ -237,9 +292,7 @@ std::vector<MeshFault> placed_periodicity_faults(const TriangleMesh &mesh, const
   }
 
   const std::vector<int> loop = outline(mesh);
-  Points points(static_cast<Eigen::Index>(loop.size()), 2);
-  for (std::size_t k = 0; k < loop.size(); ++k)
-    points.row(static_cast<Eigen::Index>(k)) = mesh.vertices.row(loop[k]);
+  const Points points         = points_at(mesh, loop);
   add_area_faults(mesh, lattice, name, loop, faults);
   for (const MeshFault &fault : coincidence_faults(mesh, lattice, name, relative_tolerance))
     faults.push_back(fault);
@@ -264,12 +317,10 @@ std::vector<MeshFault> placed_periodicity_faults(const TriangleMesh &mesh, const
 
 int anchor_vertex(const TriangleMesh &mesh, const Lattice &lattice)
 {
-  const std::vector<int> loop = outline(mesh);
-  Points points(static_cast<Eigen::Index>(loop.size()), 2);
-  for (std::size_t k = 0; k < loop.size(); ++k)
-    points.row(static_cast<Eigen::Index>(k)) = mesh.vertices.row(loop[k]);
-  const ImageClasses classes = match_images(points, lattice);
-  const double slack         = image_tolerance * std::sqrt(lattice.area());
+  const std::vector<int> loop = sides_of(mesh, lattice).vertices;
+  const Points points         = points_at(mesh, loop);
+  const ImageClasses classes  = match_images(points, lattice);
+  const double slack          = image_tolerance * std::sqrt(lattice.area());
 
   std::size_t best = 0;
   for (std::size_t k = 1; k < loop.size(); ++k)

@@ -8,6 +8,7 @@
 
 #include <Eigen/Core>
 
+#include <array>
 #include <vector>
 
 namespace homespun::meshes
@@ -16,6 +17,9 @@ namespace homespun::meshes
 struct Lattice
 {
   Eigen::Matrix2d vectors = Eigen::Matrix2d::Identity(); ///< row 0: a1, row 1: a2 [m]
+  /// Whether each line along a1 or along a2 meets a hole of the cell: what of its outline has no
+  /// image is then the rim of one. Such a cell is periodic, but no sheet can be cut from its cloth.
+  bool cuts_holes = false;
 
   /// |a1 x a2|, the area of the cell Y [m^2].
   double area() const;
@@ -52,6 +56,18 @@ ImageClasses match_images(const Points &points, const Lattice &lattice,
 /// The outer loop of a mesh: the boundary loop that encloses the largest area.
 std::vector<int> outline(const TriangleMesh &mesh);
 
+/// The sides of a cell: its outline; where that cuts holes, what of the boundary has images.
+struct Sides
+{
+  std::vector<int> vertices;
+  std::vector<std::array<int, 2>> edges; ///< directed, the mesh on their left
+};
+
+Sides sides_of(const TriangleMesh &mesh, const Lattice &lattice);
+
+/// @throws BadInput where no sheet can be cut from the cloth of the cell, with the reason
+void require_sheets(const Lattice &lattice);
+
 /// The faults that make a cell mesh not periodic: vertices of the outline without an image (with
 /// the nearest candidate and the gap), vertices anywhere that are closer than the tolerance and
 /// count as one, an outline that does not enclose |Y|, triangles that overlap.
@@ -73,6 +89,6 @@ std::string text_of_unmatched(const std::vector<int> &loop, const Points &points
                               const Lattice &lattice, Eigen::Index i, double relative_tolerance);
 
 /// The vertex at which characteristic displacements are anchored: of all vertices the one with the
-/// most images on the outline (the corners of a parallelogram), and of those the lowest-left.
+/// most images on the sides (the corners of a parallelogram), and of those the lowest-left.
 int anchor_vertex(const TriangleMesh &mesh, const Lattice &lattice);
 } // namespace homespun::meshes

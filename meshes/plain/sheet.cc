@@ -116,6 +116,7 @@ void check_size(const TriangleMesh &cell_mesh, const int n1, const int n2)
 
 Sheet tile(const TriangleMesh &cell_mesh, const Lattice &lattice, const int n1, const int n2)
 {
+  require_sheets(lattice);
   Sheet sheet;
   sheet.lattice         = lattice;
   sheet.origin          = cell_mesh.vertices.row(anchor_vertex(cell_mesh, lattice));

@@ -12,6 +12,15 @@ namespace homespun::verification
 Supercell::Supercell(const meshes::HomogenizedCell &one, const Eigen::Vector2i &n)
     : n(n)
 {
+  if (one.lattice.cuts_holes && n == Eigen::Vector2i(1, 1)) // as it is drawn
+  {
+    cell.mesh    = one.mesh;
+    cell.lattice = one.lattice;
+    cell.anchor  = one.anchor;
+    cell_vertex  = Eigen::VectorXi::LinSpaced(one.mesh.n_vertices(), 0, one.mesh.n_vertices() - 1);
+    of_lattice.setZero(one.mesh.n_vertices(), 2);
+    return;
+  }
   const meshes::Sheet sheet = meshes::tile(one.mesh, one.lattice, n(0), n(1));
   cell.mesh                 = sheet.mesh;
   cell.lattice.vectors      = n.cast<double>().asDiagonal() * one.lattice.vectors;

@@ -127,7 +127,7 @@ void expect_nets_to_be_those_of_their_frame(const unsigned int seed, const int n
   Random random(seed);
   const DrawnCell drawn;
   const tests::Digits all;
-  int n_framed = 0, n_answers = 0, n_sound = 0;
+  int n_framed = 0, n_answers = 0, n_sound = 0, n_without_sheets = 0;
   for (int k = 0; k < n_nets; ++k)
   {
     const int n                     = whole(random, 4, 6);
@@ -146,6 +146,7 @@ void expect_nets_to_be_those_of_their_frame(const unsigned int seed, const int n
       continue;
     }
     ++n_sound;
+    n_without_sheets += given.cell.lattice.cuts_holes ? 1 : 0;
     const Eigen::Matrix3d C = tests::stiffness_of(given);
     const auto expect_same  = [&](const CellReading &other, const char *which)
     {
@@ -168,11 +169,14 @@ void expect_nets_to_be_those_of_their_frame(const unsigned int seed, const int n
       drawn.read(tests::pixels(n, is_solid, 0, 0, 2), all, "set Lattice vectors = 2 0; 0 2\n"),
       "tiled");
   }
-  std::cout << "nets, seed " << seed << ": " << n_sound << " of " << n_nets
-            << " are cells, of those that reach all sides of their frame " << n_answers << " of "
-            << n_framed << " answer without lattice\n";
+  std::cout
+    << "nets, seed " << seed << ": " << n_sound << " of " << n_nets << " are cells, "
+    << n_without_sheets
+    << " of them without a line between their holes, of those that reach all sides of their frame "
+    << n_answers << " of " << n_framed << " answer without lattice\n";
   EXPECT_GE(n_answers, 0.9 * n_framed);
   EXPECT_GT(n_sound, n_nets / 4);
+  EXPECT_GT(n_without_sheets, 0);
 }
 
 /// A mesh as lists, easily damaged.

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
 // Cells whose outline cuts holes, cut from the cloth anew: it stays the same cloth.
 #include "homogenization/bracket/loewner.h"
-#include "homogenization/lint/cell_frame.h"
 #include "homogenization/cell/shifted_cell.h"
+#include "homogenization/lint/cell_frame.h"
 #include "meshes/plain/drawn_lattice.h"
+#include "meshes/plain/errors.h"
+#include "meshes/plain/sheet.h"
 #include "tests/homogenization/bracket/bracket_cells.h"
 
 #include <gtest/gtest.h>
@@ -321,6 +323,21 @@ TEST(tripwire_shifted_cell, holes_that_leave_no_line_are_named)
   ASSERT_TRUE(two);
   EXPECT_FALSE(two->shift);
   EXPECT_NE(two->obstacle.find(", that around"), std::string::npos) << two->obstacle;
+}
+
+TEST(invariant_shifted_cell, holes_that_leave_no_line_have_one_bracket_wherever_they_are_drawn)
+{
+  Cloth cloth;
+  cloth.is_void = [](const int i, const int j)
+  { return (hole(12, 4, 2, 4)(i, j)) || (hole(3, 13, 9, 11)(i, j)); };
+  cloth.material_at        = [](const int i, const int j) { return (i + j) % 5 == 0 ? 1 : 0; };
+  cloth.lattice.cuts_holes = true;
+  const Bracket here       = bracket_of(cloth.cell(0, 0), cloth.lattice),
+                there      = bracket_of(cloth.cell(6, 3), cloth.lattice);
+  EXPECT_LT((here.stiffness - there.stiffness).norm(), 1e-9 * here.stiffness.norm());
+  EXPECT_LT((here.compliance - there.compliance).norm(), 1e-9 * here.compliance.norm());
+  expect_one_stiffness(here, there);
+  EXPECT_THROW(meshes::tile(cloth.cell(0, 0), cloth.lattice, 2, 2), meshes::BadInput);
 }
 
 TEST(tripwire_shifted_cell, other_faults_of_an_outline_are_no_holes)
