@@ -339,11 +339,10 @@ private:
     for (long k = 0; k < n_names && text.line(line); ++k)
       name = k == 0 ? line : name;
     const std::size_t first = name.find('"'), last = name.rfind('"');
-    const std::string called(first == last ? "" : name.substr(first + 1, last - first - 1));
-    if (lower(called) != "angle")
+    if (first == last || lower(name.substr(first + 1, last - first - 1)) != "angle")
     {
-      if (!called.empty())
-        mesh.other_data.push_back(called);
+      if (first != last)
+        mesh.other_data.emplace_back(name.substr(first + 1, last - first - 1));
       return pass_over("ElementData");
     }
     text.skip(text.count("real numbers of data"), "the time of data");
