@@ -203,20 +203,14 @@ void ElasticSolver::build_preconditioner()
 
 Eigen::SparseMatrix<double> ElasticSolver::lower_triangle() const
 {
-  const auto n = static_cast<Eigen::Index>(matrix.m());
-  Eigen::SparseMatrix<double> lower(n, n);
-  lower.reserve(static_cast<Eigen::Index>((matrix.n_nonzero_elements() + matrix.m()) / 2));
-  // The matrix is symmetric: what stands right of the diagonal in a row is a column of it.
-  for (Eigen::Index row = 0; row < n; ++row)
-  {
-    lower.startVec(row);
-    const auto stored_row = static_cast<types::global_dof_index>(row);
-    for (auto entry = matrix.begin(stored_row); entry != matrix.end(stored_row); ++entry)
-      if (entry->column() >= stored_row)
-        lower.insertBack(static_cast<Eigen::Index>(entry->column()), row) = entry->value();
-  }
-  lower.finalize();
-  return lower;
+  // Not by deal.II's iterators, each of which makes room for a full row: n^2 in all.
+  const int n  = static_cast<int>(matrix.m());
+  int *columns = nullptr, *first = nullptr;
+  double *values = nullptr;
+  matrix.trilinos_matrix().ExtractCrsDataPointers(first, columns, values);
+  // The matrix is symmetric: its rows are its columns, and nothing has to be transposed.
+  const Eigen::Map<const Eigen::SparseMatrix<double>> all(n, n, first[n], first, columns, values);
+  return all.triangularView<Eigen::Lower>();
 }
 
 void ElasticSolver::factorize()
