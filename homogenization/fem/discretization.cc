@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "homogenization/fem/discretization.h"
 
-#include <deal.II/base/mpi.h>
 #include <deal.II/base/quadrature_lib.h>
-
-#include <Eigen/LU>
+#include <deal.II/dofs/dof_tools.h>
+#include <deal.II/fe/fe_simplex_p.h>
 
 #include <algorithm>
 
@@ -14,22 +13,41 @@ using namespace dealii;
 
 namespace
 {
-ReferenceElement reference_element(const FiniteElement<2> &element, const Quadrature<2> &quadrature)
+using Cell = DoFHandler<2>::active_cell_iterator;
+
+void create(const meshes::TriangleMesh &mesh, Triangulation<2> &triangulation)
 {
-  ReferenceElement reference;
-  reference.n_shapes = element.n_dofs_per_cell();
-  reference.weights  = quadrature.get_weights();
-  for (const Point<2> &point : quadrature.get_points())
+  std::vector<Point<2>> vertices;
+  for (const auto &vertex : mesh.vertices.rowwise())
+    vertices.emplace_back(vertex(0), vertex(1));
+  std::vector<CellData<2>> cells(static_cast<std::size_t>(mesh.n_triangles()), CellData<2>(3));
+  for (std::size_t t = 0; t < cells.size(); ++t)
   {
-    std::vector<Eigen::Vector2d> gradients;
-    for (unsigned int i = 0; i < reference.n_shapes; ++i)
-    {
-      const Tensor<1, 2> gradient = element.shape_grad(i, point);
-      gradients.emplace_back(gradient[0], gradient[1]);
-    }
-    reference.gradients.push_back(std::move(gradients));
+    const auto row = static_cast<Eigen::Index>(t);
+    for (int k = 0; k < 3; ++k)
+      cells[t].vertices[static_cast<std::size_t>(k)] =
+        static_cast<unsigned int>(mesh.triangles(row, k));
+    cells[t].material_id = static_cast<types::material_id>(mesh.material(row));
   }
-  return reference;
+  triangulation.create_triangulation(vertices, cells, SubCellData());
+}
+
+/// Node k of a cell: its corners, then the midpoints of its sides.
+Node node_of(const Cell &cell, const unsigned int k,
+             const std::vector<types::global_dof_index> &dofs)
+{
+  const Point<2> point = k < 3 ? cell->vertex(k) : cell->face(k - 3)->center();
+  const auto first     = dofs[k * cell->get_fe().n_components()];
+  return {first, first + 1, {point[0], point[1]}};
+}
+
+std::vector<Node> sorted_once(std::vector<Node> nodes)
+{
+  std::sort(nodes.begin(), nodes.end(),
+            [](const Node &a, const Node &b) { return a.first_dof < b.first_dof; });
+  const auto is_same = [](const Node &a, const Node &b) { return a.first_dof == b.first_dof; };
+  nodes.erase(std::unique(nodes.begin(), nodes.end(), is_same), nodes.end());
+  return nodes;
 }
 } // namespace
 
@@ -39,162 +57,63 @@ Discretization::Discretization(const meshes::TriangleMesh &mesh, const unsigned 
     , order(order)
     , n_components(n_components)
     , communicator(communicator)
-    , shapes(order)
-    , n_dofs_per_triangle(n_components * shapes.n_dofs_per_cell())
+    , element(FE_SimplexP<2>(order), n_components)
+    , mapping(FE_SimplexP<2>(1))
+    , stiffness_quadrature(QGaussSimplex<2>(order))
+    , nonlinear_quadrature(QWitherdenVincentSimplex<2>(order))
+    , triangulation(communicator, Triangulation<2>::none, false, // no cell is artificial
+                    parallel::shared::Triangulation<2>::Settings::partition_metis)
+    , dof_handler(triangulation)
 {
-  const unsigned int n_ranks = Utilities::MPI::n_mpi_processes(communicator),
-                     rank    = Utilities::MPI::this_mpi_process(communicator);
-  const meshes::TriangleSides sides(mesh);
-  const std::vector<unsigned int> parts = parts_of(mesh, n_ranks);
-  const NodeNumbers numbers(mesh, sides, order, parts, n_ranks);
-  first_dof_of_vertex.reserve(numbers.of_vertex.size());
-  for (const unsigned int number : numbers.of_vertex)
-    first_dof_of_vertex.push_back(first_dof(number));
-  find_near_triangles(parts, rank);
-  list_dofs(sides, numbers, rank);
-  list_boundary_nodes(sides, numbers);
-
-  const Quadrature<2> three_points({{1. / 6., 1. / 6.}, {2. / 3., 1. / 6.}, {1. / 6., 2. / 3.}},
-                                   {1. / 6., 1. / 6., 1. / 6.});
-  const Quadrature<2> one_point = QWitherdenVincentSimplex<2>(1);
-  stiffness_quadrature          = reference_element(shapes, order == 1 ? one_point : three_points);
-  nonlinear_quadrature =
-    reference_element(shapes, order == 1 ? one_point : QWitherdenVincentSimplex<2>(2));
+  create(mesh, triangulation);
+  dof_handler.distribute_dofs(element);
+  locally_owned = dof_handler.locally_owned_dofs();
+  DoFTools::extract_locally_active_dofs(dof_handler, locally_relevant);
 }
 
-types::global_dof_index Discretization::first_dof(const unsigned int number) const
+FEValues<2> Discretization::fe_values(const Quadrature<2> &quadrature,
+                                      const UpdateFlags flags) const
 {
-  return static_cast<types::global_dof_index>(n_components) * number;
+  return {mapping, element, quadrature, flags};
 }
 
-/// The triangles of a rank's part, and those that share a vertex with them.
-void Discretization::find_near_triangles(const std::vector<unsigned int> &parts,
-                                         const unsigned int rank)
+std::vector<Node> Discretization::nodes() const
 {
-  std::vector<char> is_touched(static_cast<std::size_t>(mesh.n_vertices()), 0);
-  for (std::size_t t = 0; t < parts.size(); ++t)
-    if (parts[t] == rank)
-      for (const int vertex : mesh.triangles.row(static_cast<Eigen::Index>(t)))
-        is_touched[static_cast<std::size_t>(vertex)] = 1;
-  for (std::size_t t = 0; t < parts.size(); ++t)
-  {
-    const auto corners = mesh.triangles.row(static_cast<Eigen::Index>(t));
-    if (std::none_of(corners.begin(), corners.end(),
-                     [&](const int vertex)
-                     { return is_touched[static_cast<std::size_t>(vertex)]; }))
-      continue;
-    near_triangles.push_back(static_cast<unsigned int>(t));
-    is_owned.push_back(parts[t] == rank);
-  }
-}
-
-/// DoFs of the triangles that are near, of the rank, and of those triangles.
-void Discretization::list_dofs(const meshes::TriangleSides &sides, const NodeNumbers &numbers,
-                               const unsigned int rank)
-{
-  const unsigned int begin = numbers.begin_of_part[rank], end = numbers.begin_of_part[rank + 1];
-  std::vector<unsigned int> foreign;
-  const auto add = [&](const unsigned int number)
-  {
-    first_dofs.push_back(first_dof(number));
-    if (number < begin || number >= end)
-      foreign.push_back(number);
-  };
-  first_dofs.reserve(near_triangles.size() * shapes.n_dofs_per_cell());
-  for (const unsigned int t : near_triangles)
-  {
-    for (const int vertex : mesh.triangles.row(t))
-      add(numbers.of_vertex[static_cast<std::size_t>(vertex)]);
-    if (order == 2)
-      for (const int side : sides.of_triangle.row(t))
-        add(numbers.of_side[static_cast<std::size_t>(side)]);
-  }
-  locally_owned.set_size(first_dof(numbers.n()));
-  locally_owned.add_range(first_dof(begin), first_dof(end));
-  locally_owned.compress();
-  locally_relevant = locally_owned;
-  std::sort(foreign.begin(), foreign.end());
-  foreign.erase(std::unique(foreign.begin(), foreign.end()), foreign.end());
-  for (const unsigned int number : foreign)
-    locally_relevant.add_range(first_dof(number), first_dof(number + 1));
-  locally_relevant.compress();
-}
-
-void Discretization::list_boundary_nodes(const meshes::TriangleSides &sides,
-                                         const NodeNumbers &numbers)
-{
-  const auto add = [&](const unsigned int number, const int triangle, const int shape)
-  {
-    const types::global_dof_index dof = first_dof(number);
-    on_boundary.push_back(
-      {dof, dof + 1,
-       point_of(static_cast<unsigned int>(triangle), static_cast<unsigned int>(shape))});
-  };
-  for (int t = 0; t < mesh.n_triangles(); ++t)
-    for (int k = 0; k < 3; ++k)
+  std::vector<Node> of_cells;
+  for_owned_cells(
+    [&](const Cell &cell, const std::vector<types::global_dof_index> &dofs)
     {
-      const auto side = static_cast<std::size_t>(sides.of_triangle(t, k));
-      if (sides.n_triangles[side] > 1)
-        continue;
-      for (const int corner : {k, (k + 1) % 3})
-        add(numbers.of_vertex[static_cast<std::size_t>(mesh.triangles(t, corner))], t, corner);
-      if (order == 2)
-        add(numbers.of_side[side], t, 3 + k);
-    }
-  std::sort(on_boundary.begin(), on_boundary.end(),
-            [](const Node &a, const Node &b) { return a.first_dof < b.first_dof; });
-  on_boundary.erase(std::unique(on_boundary.begin(), on_boundary.end(),
-                                [](const Node &a, const Node &b)
-                                { return a.first_dof == b.first_dof; }),
-                    on_boundary.end());
+      for (unsigned int k = 0; k < dofs.size() / n_components; ++k)
+        of_cells.push_back(node_of(cell, k, dofs));
+    });
+  return sorted_once(std::move(of_cells));
 }
 
-Eigen::RowVector2d Discretization::point_of(const unsigned int triangle,
-                                            const unsigned int shape) const
-{
-  const auto corners             = mesh.triangles.row(triangle);
-  const Eigen::RowVector2d point = mesh.vertices.row(corners(shape % 3));
-  if (shape < 3)
-    return point;
-  return 0.5 * (point + mesh.vertices.row(corners((shape + 1) % 3))); // of side (k, k + 1)
-}
-
-std::vector<Node> Discretization::owned_nodes() const
+std::vector<Node> Discretization::boundary_nodes() const
 {
   std::vector<Node> nodes;
-  nodes.reserve(locally_owned.n_elements() / n_components);
-  std::vector<bool> is_listed(locally_owned.n_elements(), false);
-  for_owned_triangles(
-    [&](const unsigned int t, const std::vector<types::global_dof_index> &dofs)
-    {
-      for (unsigned int shape = 0; shape < dofs.size() / n_components; ++shape)
+  std::vector<types::global_dof_index> dofs(element.n_dofs_per_cell());
+  for (const auto &cell : dof_handler.active_cell_iterators())
+    for (const unsigned int side : cell->face_indices())
+      if (cell->face(side)->at_boundary())
       {
-        const types::global_dof_index dof = dofs[n_components * shape];
-        if (!locally_owned.is_element(dof) || is_listed[locally_owned.index_within_set(dof)])
-          continue;
-        is_listed[locally_owned.index_within_set(dof)] = true;
-        nodes.push_back({dof, dof + 1, point_of(t, shape)});
+        cell->get_dof_indices(dofs);
+        nodes.push_back(node_of(cell, side, dofs));
+        nodes.push_back(node_of(cell, (side + 1) % 3, dofs));
+        if (order == 2)
+          nodes.push_back(node_of(cell, 3 + side, dofs));
       }
-    });
-  return nodes;
+  return sorted_once(std::move(nodes));
 }
 
 DofTable Discretization::vertex_dofs() const
 {
   DofTable of_vertex(mesh.n_vertices(), n_components);
-  for (Eigen::Index v = 0; v < of_vertex.rows(); ++v)
-    for (unsigned int c = 0; c < n_components; ++c)
-      of_vertex(v, c) = first_dof_of_vertex[static_cast<std::size_t>(v)] + c;
+  for (const auto &cell : dof_handler.active_cell_iterators())
+    for (const unsigned int k : cell->vertex_indices())
+      for (unsigned int c = 0; c < n_components; ++c)
+        of_vertex(static_cast<Eigen::Index>(cell->vertex_index(k)), c) =
+          cell->vertex_dof_index(k, c);
   return of_vertex;
-}
-
-AffineTriangle::AffineTriangle(const meshes::TriangleMesh &mesh, const unsigned int triangle)
-{
-  const Eigen::RowVector2d x0 = mesh.vertices.row(mesh.triangles(triangle, 0));
-  Eigen::Matrix2d jacobian;
-  jacobian.col(0)   = (mesh.vertices.row(mesh.triangles(triangle, 1)) - x0).transpose();
-  jacobian.col(1)   = (mesh.vertices.row(mesh.triangles(triangle, 2)) - x0).transpose();
-  determinant       = jacobian.determinant();
-  inverse_transpose = jacobian.inverse().transpose();
 }
 } // namespace homespun::homogenization

@@ -2,22 +2,21 @@
 #include "homogenization/fem/elastic_solver.h"
 
 #include "homogenization/algebra/cholesky_factor.h"
-#include "homogenization/fem/multigrid_cycle.h"
 #include "homogenization/fem/rigid_modes.h"
-#include "meshes/plain/errors.h"
 
+#include <deal.II/base/mpi.h>
+#include <deal.II/dofs/dof_tools.h>
 #include <deal.II/lac/dynamic_sparsity_pattern.h>
+#include <deal.II/lac/solver_cg.h>
 #include <deal.II/lac/sparsity_tools.h>
 #include <deal.II/lac/trilinos_precondition.h>
-#include <deal.II/lac/trilinos_sparsity_pattern.h>
+#include <deal.II/lac/trilinos_solver.h>
 
-#include <Epetra_CrsMatrix.h>
-#include <Epetra_MultiVector.h>
 #include <Teuchos_ParameterList.hpp>
 
-#include <algorithm>
 #include <cmath>
-#include <utility>
+#include <sstream>
+#include <string>
 
 namespace homespun::homogenization
 {
@@ -25,6 +24,8 @@ using namespace dealii;
 
 namespace
 {
+using Vector = ElasticSolver::Vector;
+
 /// Up to which a Cholesky factorization on one rank is faster than multigrid. Measured on square
 /// inclusions of contrast 10, with OpenBLAS, on a machine with other work: of P1 with 33,282,
 /// 132,098 and 526,338 DoFs it takes 0.21, 0.5 and 0.7 of the time, of P2 with 526,338 half; of
@@ -32,30 +33,103 @@ namespace
 /// memory of multigrid. Of a sheet of P2 with 1.15 million it is no faster. The factor grows as
 /// n log n, in memory, and its work as n^3/2.
 constexpr unsigned long most_dofs_of_direct_solver = 800000;
+constexpr unsigned int most_corrections            = 10; ///< of a direct solver
+
+using Target = ElasticSolver::Target;
+
+meshes::NotConverged not_converged(const std::string &solver, const Target &target,
+                                   const double product, const std::vector<double> &history)
+{
+  std::ostringstream text;
+  text << solver << " did not reach a residual of " << target.residual;
+  if (!std::isinf(target.energy))
+    text << " and an energy of the error of " << 0.5 * target.energy << " J";
+  text << " in " << history.size() - 1 << " iterations; the last are " << history.back();
+  if (!std::isinf(target.energy))
+    text << " and " << 0.5 * product << " J";
+  return {text.str(), history};
+}
+
+/// A matrix that refuses directions of negative curvature, which SolverCG passes over.
+struct PositiveMatrix
+{
+  void vmult(Vector &image, const Vector &direction) const
+  {
+    matrix.vmult(image, direction);
+    const double curvature = direction * image;
+    if (!(curvature > 0.) || !std::isfinite(curvature))
+      throw IndefiniteMatrix(control.get_history_data(), direction);
+  }
+
+  const TrilinosWrappers::SparseMatrix &matrix;
+  const SolverControl &control;
+};
+
+/// Thrown out of SolverCG, whose iterate is then good enough: only where the preconditioner has
+/// been applied to a residual is its energy known.
+struct EnergyIsMet
+{
+};
+
+/// A preconditioner M that refuses to be indefinite, and stops where r . M^-1 r meets the target.
+template <typename Preconditioner>
+struct PositivePreconditioner
+{
+  void vmult(Vector &corrections, const Vector &residuals) const
+  {
+    preconditioner.vmult(corrections, residuals);
+    product = residuals * corrections;
+    if (!(product > 0.) || !std::isfinite(product))
+      throw meshes::NotConverged("conjugate gradients: the preconditioner is not positive definite",
+                                 control.get_history_data());
+    if (control.get_history_data().back() <= target.residual && product <= target.energy)
+      throw EnergyIsMet();
+  }
+
+  const Preconditioner &preconditioner;
+  const SolverControl &control;
+  const Target &target;
+  double &product;
+};
 } // namespace
 
 /// One of the three.
 struct ElasticSolver::Preconditioner
 {
-  TrilinosWrappers::PreconditionAMG multigrid;
-  std::unique_ptr<MultigridCycle> cycle; ///< of loads abreast
-  std::unique_ptr<CholeskyFactor> factor;
+  std::unique_ptr<TrilinosWrappers::PreconditionAMG> multigrid;
+  std::unique_ptr<CholeskyFactor> factor;             ///< on one rank
+  std::unique_ptr<TrilinosWrappers::SolverDirect> lu; ///< on several
 
-  void apply(const Epetra_MultiVector &residual, Epetra_MultiVector &preconditioned)
+  void vmult(Vector &corrections, const Vector &residuals) const
   {
-    if (cycle)
-      return cycle->apply(residual, preconditioned);
+    const auto n = static_cast<Eigen::Index>(residuals.size());
+    if (factor)
+      Eigen::Map<Eigen::VectorXd>(corrections.begin(), n) =
+        factor->solve(Eigen::Map<const Eigen::VectorXd>(residuals.begin(), n));
+    else if (lu)
+      lu->solve(corrections, residuals);
+    else
+      multigrid->vmult(corrections, residuals);
+  }
+
+  /// Of several; a factor is read once.
+  void vmult(std::vector<Vector> &corrections, const std::vector<Vector> &residuals) const
+  {
     if (!factor)
     {
-      multigrid.trilinos_operator().ApplyInverse(residual, preconditioned);
+      for (std::size_t k = 0; k < residuals.size(); ++k)
+        vmult(corrections[k], residuals[k]);
       return;
     }
-    Eigen::MatrixXd columns(residual.MyLength(), residual.NumVectors());
-    for (int k = 0; k < residual.NumVectors(); ++k)
-      columns.col(k) = Eigen::Map<const Eigen::VectorXd>(residual[k], columns.rows());
+    const auto n = static_cast<Eigen::Index>(residuals.front().size());
+    Eigen::MatrixXd columns(n, residuals.size());
+    for (std::size_t k = 0; k < residuals.size(); ++k)
+      columns.col(static_cast<Eigen::Index>(k)) =
+        Eigen::Map<const Eigen::VectorXd>(residuals[k].begin(), n);
     columns = factor->solve(columns);
-    for (int k = 0; k < residual.NumVectors(); ++k)
-      Eigen::Map<Eigen::VectorXd>(preconditioned[k], columns.rows()) = columns.col(k);
+    for (std::size_t k = 0; k < residuals.size(); ++k)
+      Eigen::Map<Eigen::VectorXd>(corrections[k].begin(), n) =
+        columns.col(static_cast<Eigen::Index>(k));
   }
 };
 
@@ -64,16 +138,14 @@ ElasticSolver::ElasticSolver(const Discretization &discretization,
     : discretization(discretization)
 {
   const IndexSet rows = constraints.get_local_lines();
-  const auto n_dofs   = discretization.locally_owned.size();
+  const auto n_dofs   = discretization.n_dofs();
   DynamicSparsityPattern pattern(n_dofs, n_dofs, rows);
-  discretization.for_owned_triangles(
-    [&](unsigned int, const std::vector<types::global_dof_index> &dofs)
-    { constraints.add_entries_local_to_global(dofs, pattern, false); });
+  DoFTools::make_sparsity_pattern(discretization.dof_handler, pattern, constraints, false,
+                                  discretization.triangulation.locally_owned_subdomain());
   SparsityTools::distribute_sparsity_pattern(pattern, discretization.locally_owned,
                                              discretization.communicator, rows);
   matrix.reinit(discretization.locally_owned, discretization.locally_owned, pattern,
                 discretization.communicator);
-  rigid_modes = rigid_body_modes(discretization);
 }
 
 ElasticSolver::~ElasticSolver() = default;
@@ -85,149 +157,178 @@ bool ElasticSolver::has_preconditioner() const
 
 bool ElasticSolver::is_small() const
 {
-  return Utilities::MPI::n_mpi_processes(discretization.communicator) == 1 &&
-         discretization.n_dofs() <= most_dofs_of_direct_solver;
+  return discretization.n_dofs() <= most_dofs_of_direct_solver;
 }
 
-ElasticSolver::Vector ElasticSolver::owned_vector() const
+Vector ElasticSolver::owned_vector() const
 {
   return Vector(discretization.locally_owned, discretization.communicator);
 }
 
 void ElasticSolver::build_preconditioner()
 {
-  // Measured on cells of 47,000 to 740,000 DoFs: with the constant modes alone and a V-cycle the
-  // iterations grow from 40 to 57; with the rotation as a third mode and a W-cycle they stay at 32.
-  TrilinosWrappers::PreconditionAMG::AdditionalData options;
-  options.elliptic              = true;
-  options.higher_order_elements = discretization.order > 1;
-  options.smoother_sweeps       = discretization.order > 1 ? 3 : 2;
-  options.aggregation_threshold = 0.;
-  options.w_cycle               = true;
-
+  // What PreconditionAMG::AdditionalData makes of elliptic problems, but for the modes: it takes
+  // none that turn. Measured on cells of 47,000 to 740,000 DoFs: with the constant modes alone and
+  // a V-cycle the iterations grow from 40 to 57; with the rotation as a third mode and a W-cycle
+  // they stay at 32.
+  const bool is_in_space = discretization.n_components == 3;
+  if (rigid_modes.empty())
+    rigid_modes = rigid_body_modes(discretization);
   Teuchos::ParameterList parameters;
-  std::unique_ptr<Epetra_MultiVector> unused_modes;
-  options.set_parameters(parameters, unused_modes, matrix);
+  parameters.set("default values", "SA");
+  parameters.set("ML output", 0);
+  parameters.set("max levels", 10);
+  parameters.set("aggregation: type", discretization.order > 1 ? "Uncoupled" : "Uncoupled-MIS");
+  parameters.set("aggregation: threshold", 0.);
+  parameters.set("smoother: type", "Chebyshev");
+  parameters.set("smoother: sweeps", discretization.order > 1 ? 3 : 2);
+  parameters.set("coarse: type", "Amesos-KLU");
+  parameters.set("coarse: max size", 2000);
+  parameters.set("initialize random seed", true); // the same hierarchy every time
+  parameters.set("PDE equations", static_cast<int>(discretization.n_components));
   parameters.set("null space: type", "pre-computed");
   parameters.set("null space: dimension", 3);
   parameters.set("null space: vectors", rigid_modes.data());
-  if (discretization.n_components == 2)
-    parameters.set("PDE equations", 2);
-  if (discretization.n_components == 3)
-  {
-    // Measured on a hanging sheet of 434,283 DoFs, whose plane is 1e4 times as stiff as its normal:
-    // nodes aggregated with all components and the translations as modes take less than half the
-    // time of components aggregated apart; with the rotation as a fourth mode the steps fail. The
-    // smoother has to reach down to the soft normal, hence the wide range of eigenvalues. A W-cycle
-    // saves a quarter of the iterations and costs half as much again.
-    parameters.set("PDE equations", 3);
-    parameters.set("smoother: Chebyshev alpha", 20.);
-    parameters.set("prec type", "MGV");
-  }
-  preconditioner = std::make_unique<Preconditioner>();
-  preconditioner->multigrid.initialize(matrix, parameters);
+  // Measured on a hanging sheet of 434,283 DoFs, whose plane is 1e4 times as stiff as its normal:
+  // nodes aggregated with all components and the translations as modes take less than half the time
+  // of components aggregated apart; with the rotation as a fourth mode the steps fail. The smoother
+  // has to reach down to the soft normal, hence the wide range of eigenvalues. A W-cycle saves a
+  // quarter of the iterations and costs half as much again.
+  parameters.set("smoother: Chebyshev alpha", is_in_space ? 20. : 10.);
+  parameters.set("prec type", is_in_space ? "MGV" : "MGW");
+  preconditioner            = std::make_unique<Preconditioner>();
+  preconditioner->multigrid = std::make_unique<TrilinosWrappers::PreconditionAMG>();
+  preconditioner->multigrid->initialize(matrix, parameters);
 }
 
+Eigen::SparseMatrix<double> ElasticSolver::lower_triangle() const
+{
+  // Not by deal.II's iterators, each of which makes room for a full row: n^2 in all.
+  const int n  = static_cast<int>(matrix.m());
+  int *columns = nullptr, *first = nullptr;
+  double *values = nullptr;
+  matrix.trilinos_matrix().ExtractCrsDataPointers(first, columns, values);
+  // The matrix is symmetric: its rows are its columns, and nothing has to be transposed.
+  const Eigen::Map<const Eigen::SparseMatrix<double>> all(n, n, first[n], first, columns, values);
+  return all.triangularView<Eigen::Lower>();
+}
 
 void ElasticSolver::factorize()
 {
-  const Epetra_CrsMatrix &stored = matrix.trilinos_matrix();
-  const int n                    = stored.NumMyRows();
-  AssertThrow(n == stored.NumGlobalRows() && stored.ColMap().SameAs(stored.RowMap()),
-              ExcMessage("a factorization is made on one rank"));
-  int *first = nullptr, *columns = nullptr;
-  double *values = nullptr;
-  stored.ExtractCrsDataPointers(first, columns, values);
-  // The matrix is symmetric: its rows are its columns, and nothing has to be transposed.
-  const Eigen::Map<const Eigen::SparseMatrix<double>> all(n, n, first[n], first, columns, values);
-  preconditioner         = std::make_unique<Preconditioner>();
-  preconditioner->factor = std::make_unique<CholeskyFactor>(
-    Eigen::SparseMatrix<double>(all.triangularView<Eigen::Lower>()), "cell problems");
+  preconditioner.reset(); // what takes memory goes first
+  auto made = std::make_unique<Preconditioner>();
+  if (Utilities::MPI::n_mpi_processes(discretization.communicator) == 1)
+    made->factor = std::make_unique<CholeskyFactor>(lower_triangle(), "cell problems");
+  else
+    try
+    {
+      static SolverControl unused;
+      made->lu = std::make_unique<TrilinosWrappers::SolverDirect>(
+        unused, TrilinosWrappers::SolverDirect::AdditionalData(false, "Amesos_Mumps"));
+      made->lu->initialize(matrix);
+    }
+    catch (const ExceptionBase &fault)
+    {
+      throw meshes::NotConverged(std::string("the direct solver (MUMPS) stopped: ") + fault.what(),
+                                 {});
+    }
+  preconditioner = std::move(made);
 }
 
 unsigned int ElasticSolver::solve(Vector &solution, const Vector &right_hand_side,
-                                  const double tolerance, const unsigned int max_iterations,
-                                  const double energy_tolerance)
+                                  const Target &target, const unsigned int max_iterations)
 {
-  // Written out, because deal.II's SolverCG neither notices a direction of negative curvature nor
-  // hands out its residual history.
-  Vector residual(right_hand_side), image(right_hand_side);
-  matrix.vmult(image, solution);
-  residual -= image;
-  std::vector<double> history = {residual.l2_norm()};
-  if (history.back() <= tolerance)
-    return 0;
-
-  const bool is_by_residual = std::isinf(energy_tolerance);
-  Vector preconditioned(residual), direction(residual);
+  SolverControl control(max_iterations, target.residual, false, false);
+  control.enable_history_data();
   double product = 0.;
-  for (unsigned int iteration = 1; iteration <= max_iterations; ++iteration)
+  const PositivePreconditioner<Preconditioner> positive_preconditioner{*preconditioner, control,
+                                                                       target, product};
+  SolverCG<Vector> conjugate_gradients(control);
+  conjugate_gradients.connect(
+    [&](const unsigned int iteration, const double residual, const Vector &)
+    {
+      const bool is_final = iteration == 0 || residual == 0. || std::isinf(target.energy);
+      if (residual <= target.residual && is_final)
+        return SolverControl::success;
+      return iteration < max_iterations ? SolverControl::iterate : SolverControl::failure;
+    });
+  try
   {
-    preconditioner->apply(residual.trilinos_vector(), preconditioned.trilinos_vector());
-    const double old_product = product;
-    product                  = residual * preconditioned;
-    if (history.back() <= tolerance && std::abs(product) <= energy_tolerance)
-      return iteration - 1;
-    if (!(product > 0.) || !std::isfinite(product))
-      throw meshes::NotConverged("conjugate gradients: the preconditioner is not positive definite",
-                                 history);
-    if (iteration == 1)
-      direction = preconditioned;
-    else
-      direction.sadd(product / old_product, preconditioned);
-    matrix.vmult(image, direction);
-    const double curvature = direction * image;
-    if (!(curvature > 0.) || !std::isfinite(curvature))
-      throw IndefiniteMatrix(history, direction);
-    const double step = product / curvature;
-    solution.add(step, direction);
-    residual.add(-step, image);
-    history.push_back(residual.l2_norm());
-    if (is_by_residual && history.back() <= tolerance)
-      return iteration;
+    conjugate_gradients.solve(PositiveMatrix{matrix, control}, solution, right_hand_side,
+                              positive_preconditioner);
   }
-  throw not_converged({tolerance, energy_tolerance}, product, history);
+  catch (const EnergyIsMet &)
+  {
+  }
+  catch (const SolverControl::NoConvergence &)
+  {
+    throw not_converged("conjugate gradients", target, product, control.get_history_data());
+  }
+  return static_cast<unsigned int>(control.get_history_data().size()) - 1;
 }
 
-std::vector<unsigned int> ElasticSolver::solve_abreast(std::vector<Vector> &solutions,
-                                                       std::vector<Vector> right_hand_sides,
-                                                       const std::vector<Target> &targets,
-                                                       const unsigned int max_iterations)
+ElasticSolver::Solved ElasticSolver::solve_all(std::vector<Vector> &solutions,
+                                               const std::vector<Vector> &right_hand_sides,
+                                               const std::vector<Target> &targets,
+                                               const unsigned int max_iterations)
 {
-  const auto apply = [this](const Epetra_MultiVector &from, Epetra_MultiVector &to)
-  { preconditioner->apply(from, to); };
-  const std::size_t at_once = preconditioner->factor ? targets.size() : 6;
-  if (!preconditioner->factor && !preconditioner->cycle)
-  {
-    preconditioner->cycle = std::make_unique<MultigridCycle>(
-      matrix.trilinos_matrix(), preconditioner->multigrid.trilinos_operator(),
-      discretization.order > 1 ? 3 : 2, discretization.communicator);
-    preconditioner->multigrid.clear(); // from here on solve() takes the cycle, too
-  }
-  std::vector<unsigned int> iterations;
-  for (std::size_t first = 0; first < targets.size(); first += at_once)
-  {
-    std::vector<LoadAbreast> loads;
-    for (std::size_t k = first; k < std::min(first + at_once, targets.size()); ++k)
-      loads.push_back({&solutions[k], &right_hand_sides[k], targets[k]});
-    const std::vector<unsigned int> its =
-      gradients_abreast(matrix.trilinos_matrix(), apply, loads, max_iterations);
-    iterations.insert(iterations.end(), its.begin(), its.end());
-  }
-  return iterations;
+  Solved solved;
+  if (!is_direct())
+    try
+    {
+      for (std::size_t k = 0; k < targets.size(); ++k)
+        solved.iterations.push_back(
+          solve(solutions[k], right_hand_sides[k], targets[k], max_iterations));
+      return solved;
+    }
+    catch (const meshes::NotConverged &failure)
+    {
+      solved.abandoned = failure.residual_history();
+      factorize();
+    }
+  solved.iterations = solve_directly(solutions, right_hand_sides, targets);
+  return solved;
 }
 
-ElasticSolver::MatrixRow ElasticSolver::matrix_row(const int row) const
+bool ElasticSolver::is_direct() const
 {
-  MatrixRow stored;
-  int *columns = nullptr;
-  matrix.trilinos_matrix().ExtractMyRowView(row, stored.n, stored.values, columns);
-  stored.columns = columns;
-  return stored;
+  return preconditioner && (preconditioner->factor || preconditioner->lu);
 }
 
-int ElasticSolver::local_column(const int dof) const
+std::vector<unsigned int> ElasticSolver::solve_directly(std::vector<Vector> &solutions,
+                                                        const std::vector<Vector> &right_hand_sides,
+                                                        const std::vector<Target> &targets) const
 {
-  return matrix.trilinos_matrix().LCID(dof);
+  std::vector<Vector> residuals = right_hand_sides, corrections(targets.size(), owned_vector());
+  std::vector<std::vector<double>> histories(targets.size());
+  std::vector<unsigned int> iterations(targets.size(), 0);
+  std::vector<double> products(targets.size(), std::numeric_limits<double>::infinity());
+  for (Vector &solution : solutions)
+    solution = 0.;
+  for (unsigned int iteration = 0;; ++iteration)
+  {
+    preconditioner->vmult(corrections, residuals);
+    bool are_met = true;
+    for (std::size_t k = 0; k < targets.size(); ++k)
+    {
+      const double product = residuals[k] * corrections[k], size = residuals[k].l2_norm();
+      histories[k].push_back(size);
+      // A correction that gains no digit is the round-off of the residual: there is no better
+      // answer.
+      const bool is_final = iteration == 0 || std::abs(product) <= targets[k].energy ||
+                            std::abs(product) > 0.1 * products[k];
+      products[k] = std::abs(product);
+      if (size <= targets[k].residual && is_final)
+        continue;
+      are_met = false;
+      if (iteration == most_corrections || !std::isfinite(product))
+        throw not_converged("the direct solver", targets[k], product, histories[k]);
+      solutions[k] += corrections[k];
+      ++iterations[k];
+      matrix.residual(residuals[k], solutions[k], right_hand_sides[k]);
+    }
+    if (are_met)
+      return iterations;
+  }
 }
 } // namespace homespun::homogenization

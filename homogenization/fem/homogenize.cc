@@ -11,9 +11,11 @@
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/timer.h>
+#include <deal.II/lac/full_matrix.h>
 
 #include <Eigen/Cholesky>
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -24,19 +26,21 @@ using Vector = ElasticSolver::Vector;
 
 namespace
 {
-/// The 3 x 2n strain-displacement matrix B of a triangle at one quadrature point.
-template <int n_shapes>
-Eigen::Matrix<double, 3, 2 * n_shapes>
-strain_displacement(const AffineTriangle &triangle,
-                    const std::vector<Eigen::Vector2d> &reference_gradients)
+constexpr int most_shapes = 12; ///< of a triangle: P2, two components
+/// The strain-displacement matrix B (3,n) of a triangle at one quadrature point.
+using StrainMatrix = Eigen::Matrix<double, 3, Eigen::Dynamic, 0, 3, most_shapes>;
+using ElementMatrix =
+  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, most_shapes, most_shapes>;
+using ThreeLoads = Eigen::Matrix<double, Eigen::Dynamic, 3, 0, most_shapes, 3>;
+
+StrainMatrix strain_displacement(const FEValues<2> &fe_values, const unsigned int q)
 {
-  Eigen::Matrix<double, 3, 2 * n_shapes> B;
-  for (int i = 0; i < n_shapes; ++i)
+  const FEValuesExtractors::Vector displacement(0);
+  StrainMatrix B(3, fe_values.dofs_per_cell);
+  for (const unsigned int i : fe_values.dof_indices())
   {
-    const Eigen::Vector2d g =
-      triangle.inverse_transpose * reference_gradients[static_cast<std::size_t>(i)];
-    B.col(2 * i) << g(0), 0., g(1);
-    B.col(2 * i + 1) << 0., g(1), g(0);
+    const SymmetricTensor<2, 2> strain = fe_values[displacement].symmetric_gradient(i, q);
+    B.col(i) << strain[0][0], strain[1][1], 2. * strain[0][1];
   }
   return B;
 }
@@ -69,13 +73,13 @@ public:
     constrain();
     solver = std::make_unique<ElasticSolver>(discretization, constraints);
     lap(result.seconds.setup);
-    options.order == 1 ? assemble<3>() : assemble<6>();
+    assemble();
     lap(result.seconds.assembly);
     precondition();
     lap(result.seconds.preconditioner);
     solve();
     lap(result.seconds.solve);
-    options.order == 1 ? evaluate<3>() : evaluate<6>();
+    evaluate();
     sample_at_vertices();
     if (!options.pieces.empty())
       write_pieces(options.pieces, discretization, solutions);
@@ -90,7 +94,7 @@ public:
   {
     constrain();
     solver = std::make_unique<ElasticSolver>(discretization, constraints);
-    options.order == 1 ? assemble<3>() : assemble<6>();
+    assemble();
     for (int a = 0; a < 3; ++a)
     {
       const Vector further = forces.load_vector(a, discretization, constraints);
@@ -129,44 +133,39 @@ private:
     result.n_dofs = discretization.n_dofs();
   }
 
-  template <int n_shapes>
   void assemble()
   {
-    constexpr int n = 2 * n_shapes;
     for (int a = 0; a < 3; ++a)
     {
       loads[a]      = solver->owned_vector();
       load_sizes[a] = 0.;
     }
-    const ReferenceElement &reference = discretization.stiffness_quadrature;
+    FEValues<2> fe_values = discretization.fe_values(discretization.stiffness_quadrature);
+    const unsigned int n  = fe_values.dofs_per_cell;
     FullMatrix<double> matrix(n, n);
     dealii::Vector<double> load(n);
-    discretization.for_owned_triangles(
-      [&](const unsigned int t, const std::vector<types::global_dof_index> &dofs)
+    discretization.for_owned_cells(
+      [&](const auto &cell, const std::vector<types::global_dof_index> &dofs)
       {
-        const AffineTriangle triangle(discretization.mesh, t);
-        const Eigen::Matrix3d &c =
-          stiffness_of_phase[static_cast<std::size_t>(discretization.mesh.material(t))];
-
-        Eigen::Matrix<double, n, n> element_matrix = Eigen::Matrix<double, n, n>::Zero();
-        Eigen::Matrix<double, n, 3> element_loads  = Eigen::Matrix<double, n, 3>::Zero();
-        for (std::size_t q = 0; q < reference.weights.size(); ++q)
+        fe_values.reinit(cell);
+        const Eigen::Matrix3d &c     = stiffness_of_phase[cell->material_id()];
+        ElementMatrix element_matrix = ElementMatrix::Zero(n, n);
+        ThreeLoads element_loads     = ThreeLoads::Zero(n, 3);
+        for (const unsigned int q : fe_values.quadrature_point_indices())
         {
-          const auto B        = strain_displacement<n_shapes>(triangle, reference.gradients[q]);
-          const double weight = reference.weights[q] * triangle.determinant;
-          const Eigen::Matrix<double, n, 3> stress_rows = weight * B.transpose() * c;
+          const StrainMatrix B         = strain_displacement(fe_values, q);
+          const ThreeLoads stress_rows = fe_values.JxW(q) * B.transpose() * c;
           element_matrix.noalias() += stress_rows * B;
           element_loads += stress_rows; // B^T c e_a for the three unit strains
         }
-        for (int i = 0; i < n; ++i)
-          for (int j = 0; j < n; ++j)
-            matrix(static_cast<unsigned int>(i), static_cast<unsigned int>(j)) =
-              element_matrix(i, j);
+        for (unsigned int i = 0; i < n; ++i)
+          for (unsigned int j = 0; j < n; ++j)
+            matrix(i, j) = element_matrix(i, j);
         constraints.distribute_local_to_global(matrix, dofs, solver->matrix);
         for (int a = 0; a < 3; ++a)
         {
-          for (int i = 0; i < n; ++i)
-            load(static_cast<unsigned int>(i)) = element_loads(i, a);
+          for (unsigned int i = 0; i < n; ++i)
+            load(i) = element_loads(i, a);
           constraints.distribute_local_to_global(load, dofs, loads[a]);
           load_sizes[a] += element_loads.col(a).squaredNorm();
         }
@@ -204,11 +203,13 @@ private:
       targets.push_back(
         {options.tolerance * load_sizes[a],
          std::pow(1e2 * options.tolerance, 2) * softest(static_cast<Eigen::Index>(a))});
-    const std::vector<unsigned int> iterations =
-      solver->solve_abreast(owned, std::move(loads), targets, most_iterations);
+    const ElasticSolver::Solved solved = solver->solve_all(owned, loads, targets, most_iterations);
+    std::copy(solved.iterations.begin(), solved.iterations.end(), result.iterations.begin());
+    result.abandoned = solved.abandoned;
+    if (!solved.abandoned.empty())
+      result.solver = CellSolver::direct;
     for (std::size_t a = 0; a < 3; ++a)
     {
-      result.iterations[a] = iterations[a];
       constraints.distribute(owned[a]);
       solutions[a].reinit(discretization.locally_owned, ghosted, discretization.communicator);
       solutions[a] = owned[a];
@@ -217,10 +218,6 @@ private:
 
   void precondition()
   {
-    const bool is_alone = Utilities::MPI::n_mpi_processes(discretization.communicator) == 1;
-    if (options.solver == CellSolver::direct && !is_alone)
-      throw meshes::BadInput("found the direct solver on several ranks; expected it on one: leave "
-                             "the choice to the program, or take multigrid");
     result.solver = options.solver != CellSolver::fastest ? options.solver
                     : solver->is_small()                  ? CellSolver::direct
                                                           : CellSolver::multigrid;
@@ -230,37 +227,36 @@ private:
       solver->build_preconditioner();
   }
 
-  template <int n_shapes>
   void evaluate()
   {
-    constexpr int n                   = 2 * n_shapes;
-    const ReferenceElement &reference = discretization.stiffness_quadrature;
     Eigen::Matrix3d energy = Eigen::Matrix3d::Zero(), flux = Eigen::Matrix3d::Zero();
     Eigen::Matrix3d mean = Eigen::Matrix3d::Zero(), mean_compliance = Eigen::Matrix3d::Zero();
     std::vector<Eigen::Matrix3d> compliance_of_phase;
     for (const Eigen::Matrix3d &c : stiffness_of_phase)
       compliance_of_phase.push_back(inverse_of(c));
     result.strains.setZero(cell.mesh.n_triangles(), 9);
-    discretization.for_owned_triangles(
-      [&](const unsigned int t, const std::vector<types::global_dof_index> &dofs)
+    FEValues<2> fe_values = discretization.fe_values(discretization.stiffness_quadrature);
+    discretization.for_owned_cells(
+      [&](const auto &element, const std::vector<types::global_dof_index> &dofs)
       {
-        const AffineTriangle triangle(discretization.mesh, t);
-        const auto phase         = static_cast<std::size_t>(discretization.mesh.material(t));
-        const Eigen::Matrix3d &c = stiffness_of_phase[phase];
-        Eigen::Matrix<double, n, 3> chi;
-        for (int a = 0; a < 3; ++a)
-          for (int i = 0; i < n; ++i)
-            chi(i, a) = solutions[a](dofs[static_cast<std::size_t>(i)]);
-        for (std::size_t q = 0; q < reference.weights.size(); ++q)
+        fe_values.reinit(element);
+        const Eigen::Matrix3d &c = stiffness_of_phase[element->material_id()];
+        const auto given_triangle =
+          static_cast<Eigen::Index>(element->active_cell_index() >> 2 * options.refine);
+        ThreeLoads chi(dofs.size(), 3);
+        for (std::size_t a = 0; a < 3; ++a)
+          for (std::size_t i = 0; i < dofs.size(); ++i)
+            chi(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(a)) = solutions[a](dofs[i]);
+        for (const unsigned int q : fe_values.quadrature_point_indices())
         {
-          const auto B        = strain_displacement<n_shapes>(triangle, reference.gradients[q]);
-          const double weight = reference.weights[q] * triangle.determinant;
-          const Eigen::Matrix3d strain = Eigen::Matrix3d::Identity() - B * chi;
+          const double weight = fe_values.JxW(q);
+          const Eigen::Matrix3d strain =
+            Eigen::Matrix3d::Identity() - strain_displacement(fe_values, q) * chi;
           energy += weight * strain.transpose() * c * strain;
           flux += weight * c * strain;
           mean += weight * c;
-          mean_compliance += weight * compliance_of_phase[phase];
-          result.strains.row(static_cast<Eigen::Index>(t >> 2 * options.refine)) +=
+          mean_compliance += weight * compliance_of_phase[element->material_id()];
+          result.strains.row(given_triangle) +=
             weight * Eigen::Map<const Eigen::Matrix<double, 1, 9>>(strain.data());
         }
       });

@@ -20,9 +20,9 @@ namespace homespun::homogenization
 /// What solves the linear systems of the cell problems.
 enum class CellSolver
 {
-  fastest,  ///< `direct` on one rank up to a measured size, else `multigrid`
-  direct,   ///< Cholesky factorization; on one rank alone
-  multigrid ///< preconditions conjugate gradients
+  fastest,  ///< `direct` up to a measured size, else `multigrid`
+  direct,   ///< a factorization: CHOLMOD on one rank, MUMPS on several
+  multigrid ///< preconditions conjugate gradients; where these fail, `direct` takes over
 };
 
 /// `fastest`, `direct` or `multigrid`.
@@ -60,9 +60,10 @@ struct Homogenization
   Eigen::Matrix3d voigt;             ///< mean of c [N/m]
   Eigen::Matrix3d reuss;             ///< inverse of the mean of c^-1 [N/m]
   unsigned long n_dofs;
-  std::array<unsigned int, 3>
-    iterations;      ///< of the conjugate gradients, per load, since the start of this run
-  CellSolver solver; ///< the one that was taken
+  std::array<unsigned int, 3> iterations; ///< of the solver, per load
+  CellSolver solver;                      ///< the one that gave the answer
+  /// Residuals of conjugate gradients that were given up for the direct solver; empty: none were.
+  std::vector<double> abandoned;
   std::map<std::string, meshes::SecondOrder> second_order; ///< by law: those of the options
   ConstraintAudit audit;
   HomogenizationSeconds seconds;
@@ -77,9 +78,8 @@ struct Homogenization
 /// Discretization error: O(h^2) for P1, O(h^4) for P2 on smooth solutions; at corners of a phase
 /// less.
 ///
-/// @throws NotConverged with the residual history; BadInput where the cell is not periodic, or a
-///   direct solver is asked for on several ranks; std::logic_error where the audit of the
-///   constraints fails
+/// @throws NotConverged with the residual history; BadInput where the cell is not periodic;
+///   std::logic_error where the audit of the constraints fails
 /// Source: the paper, Eqs. 2-4, with I as diag(1,1,1) on strains with engineering shear.
 Homogenization homogenize(const UnitCell &cell, const HomogenizationOptions &options,
                           MPI_Comm communicator);

@@ -15,8 +15,9 @@ constexpr unsigned int most_iterations_of_factor = 12;
 
 void KeptPreconditioner::build(ElasticSolver &solver)
 {
-  is_old    = false;
-  is_factor = solver.is_small();
+  is_old = false;
+  // On several ranks a hierarchy is kept, which tells directions of negative curvature.
+  is_factor = solver.is_small() && solver.matrix.local_size() == solver.matrix.m();
   if (is_factor)
     try
     {
@@ -37,9 +38,26 @@ unsigned int KeptPreconditioner::solve(ElasticSolver &solver, ElasticSolver::Vec
   if (is_new)
     build(solver);
   // Should this solve fail, the next one has a preconditioner of its own.
-  is_old                  = true;
-  increment               = 0.;
-  const unsigned int used = solver.solve(increment, forces, target, most_iterations);
+  is_old            = true;
+  increment         = 0.;
+  unsigned int used = 0;
+  try
+  {
+    used = solver.solve(increment, forces, {target}, most_iterations);
+  }
+  catch (const IndefiniteMatrix &)
+  {
+    throw;
+  }
+  catch (const meshes::NotConverged &)
+  {
+    if (is_factor)
+      throw;
+    solver.factorize();
+    is_factor = true;
+    increment = 0.;
+    used      = solver.solve(increment, forces, {target}, most_iterations);
+  }
   // A hierarchy serves until it costs half as much again, per digit gained.
   const double per_digit = (used + 1) / std::max(1., std::log10(forces.l2_norm() / target));
   if (is_new)

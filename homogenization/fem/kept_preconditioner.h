@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Conjugate gradients with the preconditioner of an earlier matrix, as long as that serves: a
-// Cholesky factor where ElasticSolver::is_small(), else a multigrid hierarchy.
+// Cholesky factor on one rank where ElasticSolver::is_small(), else a multigrid hierarchy; where
+// conjugate gradients with that fail, a factor takes over.
 #pragma once
 
 #include "homogenization/fem/elastic_solver.h"

@@ -16,8 +16,10 @@ std::vector<double> rigid_body_modes(const Discretization &discretization)
   const double size                = (highest - lowest).maxCoeff();
 
   std::vector<double> modes(3 * n, 0.);
-  for (const Node &node : discretization.owned_nodes())
+  for (const Node &node : discretization.nodes())
   {
+    if (!owned.is_element(node.first_dof))
+      continue;
     const Eigen::RowVector2d arm = (node.point - centre) / size;
     const std::size_t first      = owned.index_within_set(node.first_dof);
     for (unsigned int c = 0; c < discretization.n_components; ++c)

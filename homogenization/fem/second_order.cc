@@ -20,17 +20,12 @@ using GradientMatrix = Eigen::Matrix<double, 4, Eigen::Dynamic, 0, 4, most_unkno
 using Unknowns       = Eigen::Matrix<double, Eigen::Dynamic, 3, 0, most_unknowns, 3>;
 using ElementLoads   = Eigen::Matrix<double, Eigen::Dynamic, 6, 0, most_unknowns, 6>;
 
-GradientMatrix gradient_matrix(const AffineTriangle &triangle,
-                               const std::vector<Eigen::Vector2d> &reference_gradients)
+GradientMatrix gradient_matrix(const FEValues<2> &fe_values, const unsigned int q)
 {
-  GradientMatrix matrix = GradientMatrix::Zero(4, 2 * reference_gradients.size());
-  for (std::size_t i = 0; i < reference_gradients.size(); ++i)
-  {
-    const Eigen::Vector2d g           = triangle.inverse_transpose * reference_gradients[i];
-    const auto column                 = static_cast<Eigen::Index>(2 * i);
-    matrix.block<2, 1>(0, column)     = g;
-    matrix.block<2, 1>(2, column + 1) = g;
-  }
+  GradientMatrix matrix = GradientMatrix::Zero(4, fe_values.dofs_per_cell);
+  for (const unsigned int i : fe_values.dof_indices())
+    for (unsigned int d = 0; d < 2; ++d)
+      matrix(2 * (i % 2) + d, i) = fe_values.shape_grad(i, q)[d];
   return matrix;
 }
 
@@ -53,7 +48,6 @@ struct QuadraticLoads
 QuadraticLoads quadratic_loads(const SolvedCell &solved, const MembraneLaw law, const Vector &zero)
 {
   const Discretization &discretization   = solved.discretization;
-  const ReferenceElement &reference      = discretization.nonlinear_quadrature;
   std::vector<Eigen::Matrix3d> stiffness = solved.cell.stiffness_of_phase();
   std::vector<QuadraticStrain> q;
   for (const Phase &phase : solved.cell.phases)
@@ -63,23 +57,24 @@ QuadraticLoads quadratic_loads(const SolvedCell &solved, const MembraneLaw law, 
   QuadraticLoads result;
   result.loads.assign(meshes::strain_pairs.size(), zero);
   result.sizes.fill(0.);
-  const auto n = static_cast<Eigen::Index>(2 * reference.n_shapes);
-  dealii::Vector<double> load(static_cast<unsigned int>(n));
-  discretization.for_owned_triangles(
-    [&](const unsigned int t, const std::vector<types::global_dof_index> &dofs)
+  FEValues<2> fe_values = discretization.fe_values(discretization.nonlinear_quadrature);
+  const auto n          = static_cast<Eigen::Index>(fe_values.dofs_per_cell);
+  dealii::Vector<double> load(fe_values.dofs_per_cell);
+  discretization.for_owned_cells(
+    [&](const auto &element, const std::vector<types::global_dof_index> &dofs)
     {
-      const AffineTriangle triangle(discretization.mesh, t);
-      const auto phase = static_cast<std::size_t>(discretization.mesh.material(t));
+      fe_values.reinit(element);
+      const std::size_t phase = element->material_id();
       Unknowns chi(n, 3);
       for (int a = 0; a < 3; ++a)
         for (Eigen::Index i = 0; i < n; ++i)
           chi(i, a) = solved.chi[static_cast<std::size_t>(a)](dofs[static_cast<std::size_t>(i)]);
       ElementLoads element_loads = ElementLoads::Zero(n, 6);
-      for (std::size_t point = 0; point < reference.weights.size(); ++point)
+      for (const unsigned int q_point : fe_values.quadrature_point_indices())
       {
-        const GradientMatrix G              = gradient_matrix(triangle, reference.gradients[point]);
+        const GradientMatrix G              = gradient_matrix(fe_values, q_point);
         const Eigen::Matrix<double, 4, 3> H = macro - G * chi;
-        const double weight                 = reference.weights[point] * triangle.determinant;
+        const double weight                 = fe_values.JxW(q_point);
         std::array<GradientEntries, 6> stresses;
         for (std::size_t k = 0; k < stresses.size(); ++k)
         {
@@ -120,7 +115,7 @@ QuadraticLoads quadratic_loads(const SolvedCell &solved, const MembraneLaw law, 
 SecondOrderFields second_order_fields(const SolvedCell &solved, const MembraneLaw law,
                                       const SecondOrderTarget &target, ElasticSolver &solver)
 {
-  QuadraticLoads right = quadratic_loads(solved, law, solver.owned_vector());
+  const QuadraticLoads right = quadratic_loads(solved, law, solver.owned_vector());
   std::vector<Vector> modes(right.loads.size(), solver.owned_vector());
   std::vector<ElasticSolver::Target> targets;
   for (std::size_t k = 0; k < modes.size(); ++k)
@@ -130,7 +125,7 @@ SecondOrderFields second_order_fields(const SolvedCell &solved, const MembraneLa
     targets.push_back(
       {target.tolerance * right.sizes[k], std::pow(1e2 * target.tolerance, 2) * energy});
   }
-  solver.solve_abreast(modes, std::move(right.loads), targets, target.most_iterations);
+  solver.solve_all(modes, right.loads, targets, target.most_iterations);
   for (Vector &mode : modes)
     solved.constraints.distribute(mode);
   return {modes, right.energy};

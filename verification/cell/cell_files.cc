@@ -277,6 +277,7 @@ ordered_json membrane_json(const UnitCell &cell, const AssessedCell &assessed,
     {"dofs", result.n_dofs},
     {"solver", homogenization::name_of(result.solver)},
     {"iterations", result.iterations},
+    {"abandoned_residuals", result.abandoned}, // of conjugate gradients, where `direct` took over
     {"seconds",
      {{"setup", result.seconds.setup},
       {"assembly", result.seconds.assembly},

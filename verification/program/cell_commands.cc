@@ -111,8 +111,8 @@ void add_homogenize_command(CommandLine &line)
   command
     ->add_option(
       "--solver", arguments->study.solve.solver,
-      "Of the cell problems: fastest, direct (one rank), multigrid; fastest is direct on "
-      "one rank up to 800,000 DoFs")
+      "Of the cell problems: fastest, direct, multigrid; fastest is direct up to 800,000 DoFs, and "
+      "direct takes over where multigrid fails")
     ->transform(CLI::CheckedTransformer(solvers).description(""))
     ->default_str(homogenization::name_of(CellSolver::fastest));
   CLI::Option *tolerance =

@@ -3,93 +3,88 @@
 #include "verification/reference/cloth_reference_solver.h"
 
 #include <deal.II/base/mpi.h>
+#include <deal.II/lac/full_matrix.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <stdexcept>
+#include <numeric>
 
 namespace homespun::verification
 {
 using namespace dealii;
 using homogenization::ElasticSolver;
-using homogenization::ReferenceElement;
 
 namespace
 {
 constexpr double machine_epsilon = std::numeric_limits<double>::epsilon();
 
 /// A field in space at the nodes of a triangle, one per row.
-using FieldAtNodes = Eigen::Matrix<double, Eigen::Dynamic, 3>;
+using FieldAtNodes = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>;
 
-/// Sum over all triangles of all ranks of what each gives from a field at its nodes.
-template <typename Element, typename OfTriangle>
-double sum_over_triangles(const homogenization::Discretization &discretization,
-                          const std::vector<Element> &elements, const ElasticSolver::Vector &field,
-                          const OfTriangle &of_triangle)
+/// Of a field at the nodes of a cell, node after node.
+Eigen::Map<const FieldAtNodes> at_nodes(const std::vector<double> &values)
 {
-  ElasticSolver::Vector ghosted(discretization.locally_owned, discretization.locally_relevant,
-                                discretization.communicator);
-  ghosted                    = field;
-  const double *const values = ghosted.begin();
-  double sum                 = 0.;
-  for (const Element &element : elements)
-    if (element.is_owned)
+  return {values.data(), static_cast<Eigen::Index>(values.size() / 3), 3};
+}
+
+ElasticSolver::Vector ghosted(const homogenization::Discretization &discretization,
+                              const ElasticSolver::Vector &field)
+{
+  ElasticSolver::Vector result(discretization.locally_owned, discretization.locally_relevant,
+                               discretization.communicator);
+  result = field;
+  return result;
+}
+
+/// Sum over all cells of all ranks of what each gives from a field at its nodes.
+template <typename OfCell>
+double sum_over_cells(const homogenization::Discretization &discretization,
+                      const ElasticSolver::Vector &field, const OfCell &of_cell)
+{
+  FEValues<2> fe_values = discretization.fe_values(discretization.nonlinear_quadrature);
+  const ElasticSolver::Vector everywhere = ghosted(discretization, field);
+  std::vector<double> values(fe_values.dofs_per_cell);
+  double sum = 0.;
+  discretization.for_owned_cells(
+    [&](const auto &cell, const std::vector<types::global_dof_index> &dofs)
     {
-      FieldAtNodes at(element.nodes.size(), 3);
-      for (std::size_t i = 0; i < element.nodes.size(); ++i)
-        at.row(static_cast<Eigen::Index>(i)) =
-          Eigen::Map<const Eigen::RowVector3d>(values + 3 * element.nodes[i]);
-      sum += of_triangle(element, at);
-    }
+      fe_values.reinit(cell);
+      everywhere.extract_subvector_to(dofs, values);
+      sum += of_cell(fe_values, cell->material_id(), at_nodes(values));
+    });
   return Utilities::MPI::sum(sum, discretization.communicator);
+}
+
+double area_of(const FEValues<2> &fe_values)
+{
+  const std::vector<double> &weights = fe_values.get_JxW_values();
+  return std::accumulate(weights.begin(), weights.end(), 0.);
+}
+
+template <int n_shapes>
+Eigen::Matrix<double, n_shapes, 2, Eigen::RowMajor> gradients_of(const FEValues<2> &fe_values,
+                                                                 const unsigned int q)
+{
+  Eigen::Matrix<double, n_shapes, 2, Eigen::RowMajor> gradients;
+  for (unsigned int i = 0; i < n_shapes; ++i)
+    for (unsigned int d = 0; d < 2; ++d)
+      gradients(i, d) = fe_values.shape_grad(3 * i, q)[d];
+  return gradients;
 }
 } // namespace
 
-/// The matrix, and where each 3x3 block of each element goes in the rows of this rank, so that an
-/// assembly need not search for it.
 void ClothReference::Solver::lay_out_matrix()
 {
   solver.reset(); // before its constraints change
   constraints.clear();
   constraints.reinit(discretization.locally_relevant);
-  for (std::size_t node = 0; node < node_points.size(); ++node)
+  for (std::size_t node = 0; node < nodes.size(); ++node)
     if (is_held[node])
       for (unsigned int c = 0; c < 3; ++c)
-        constraints.add_line(node_dofs[node] + c);
+        constraints.add_line(nodes[node].first_dof + c);
   constraints.close();
   solver = std::make_unique<ElasticSolver>(discretization, constraints);
-
-  row_values.resize(discretization.locally_owned.n_elements());
-  const std::size_t n_shapes = elements.empty() ? 0 : elements.front().nodes.size();
-  block_offset.assign(elements.size() * n_shapes * n_shapes, -1);
-  for (std::size_t row = 0; row < row_values.size(); ++row)
-    row_values[row] = solver->matrix_row(static_cast<int>(row)).values;
-  ElasticSolver::MatrixRow stored;
-  std::size_t k = 0;
-  for (const Element &element : elements)
-    for (const int i : element.nodes)
-    {
-      const int row = owned_row[static_cast<std::size_t>(i)];
-      if (row >= 0)
-        stored = solver->matrix_row(row);
-      for (const int j : element.nodes)
-      {
-        if (row >= 0 && !is_held[static_cast<std::size_t>(i)] &&
-            !is_held[static_cast<std::size_t>(j)])
-        {
-          const int dof   = static_cast<int>(node_dofs[static_cast<std::size_t>(j)]);
-          const int *end  = stored.columns + stored.n,
-                    *from = std::find(stored.columns, end, solver->local_column(dof));
-          if (from + 2 >= end || from[1] != solver->local_column(dof + 1) ||
-              from[2] != solver->local_column(dof + 2))
-            throw std::logic_error("the components of DoF " + std::to_string(dof) +
-                                   " do not follow one another in the matrix");
-          block_offset[k] = static_cast<int>(from - stored.columns);
-        }
-        ++k;
-      }
-    }
 }
 
 /// What the membrane of one triangle gives.
@@ -105,26 +100,21 @@ struct ClothReference::Solver::ElasticSums
 
 template <int n_shapes>
 ClothReference::Solver::ElasticSums<n_shapes>
-ClothReference::Solver::integrate(const Element &element, const Eigen::Matrix3d &C,
+ClothReference::Solver::integrate(const FEValues<2> &fe_values, const Eigen::Matrix3d &C,
                                   const Eigen::Matrix<double, n_shapes, 3, Eigen::RowMajor> &at,
                                   const Tangent tangent, const double tension) const
 {
-  const ReferenceElement &reference = discretization.nonlinear_quadrature;
   ElasticSums<n_shapes> sums;
   if (tangent != Tangent::none)
     sums.K.setZero();
-  for (std::size_t q = 0; q < reference.weights.size(); ++q)
+  for (const unsigned int q : fe_values.quadrature_point_indices())
   {
-    Eigen::Matrix<double, n_shapes, 2, Eigen::RowMajor> gradients;
-    for (int i = 0; i < n_shapes; ++i)
-      gradients.row(i) =
-        (element.inverse_transpose * reference.gradients[q][static_cast<std::size_t>(i)])
-          .transpose();
+    const auto gradients = gradients_of<n_shapes>(fe_values, q);
     // From differences to the first node: cloth far from the origin keeps its digits.
     SpaceGradient F = SpaceGradient::Zero();
     for (int i = 1; i < n_shapes; ++i)
       F += (at.row(i) - at.row(0)).transpose() * gradients.row(i);
-    const double weight       = reference.weights[q] * element.determinant;
+    const double weight       = fe_values.JxW(q);
     const SpaceResponse local = space_response(options.law, C, F, tangent);
     sums.energy += weight * local.energy;
     sums.forces.noalias() += weight * gradients * local.stress.transpose();
@@ -151,43 +141,6 @@ ClothReference::Solver::integrate(const Element &element, const Eigen::Matrix3d 
   return sums;
 }
 
-/// Adds the blocks of one triangle to the matrix.
-/// @param offsets of its blocks in the rows of this rank
-/// @param inertia by which its mass of unit density counts
-template <int n_shapes>
-void ClothReference::Solver::add_blocks(const Element &element, const int *const offsets,
-                                        const Eigen::Matrix<double, 3 * n_shapes, 3 * n_shapes> &K,
-                                        const double inertia)
-{
-  for (int i = 0; i < n_shapes; ++i)
-  {
-    const int row = owned_row[static_cast<std::size_t>(element.nodes[static_cast<std::size_t>(i)])];
-    for (int j = 0; j < n_shapes; ++j)
-    {
-      const int offset = offsets[n_shapes * i + j];
-      if (offset < 0)
-        continue;
-      const double mass = inertia * reference_mass(i, j);
-      for (int a = 0; a < 3; ++a)
-      {
-        double *const to = row_values[static_cast<std::size_t>(row + a)] + offset;
-        for (int b = 0; b < 3; ++b)
-          to[b] += K(3 * i + a, 3 * j + b) + (a == b ? mass : 0.);
-      }
-    }
-  }
-}
-
-/// A zero matrix, but for the rows of held nodes, which have their diagonal only.
-void ClothReference::Solver::clear_matrix()
-{
-  solver->matrix = 0.;
-  for (std::size_t node = 0; node < node_points.size(); ++node)
-    if (owned_row[node] >= 0 && is_held[node])
-      for (int c = 0; c < 3; ++c)
-        row_values[static_cast<std::size_t>(owned_row[node] + c)][0] = 1.;
-}
-
 /// Energy, residual and, where asked for, the matrix, whose tangent has `tension` added to its
 /// stress (a fictitious isotropic one, for continuation; neither energy nor residual know of it).
 template <int n_shapes>
@@ -195,54 +148,44 @@ ClothReference::Solver::Evaluation
 ClothReference::Solver::assemble(const Vector &positions, const Inertia &inertia, Vector &residual,
                                  const Tangent tangent, const double tension)
 {
-  using NodeVectors = Eigen::Matrix<double, n_shapes, 3, Eigen::RowMajor>;
-  Vector ghosted(discretization.locally_owned, discretization.locally_relevant,
-                 discretization.communicator);
-  Vector ghosted_centre(ghosted), ghosted_origin(ghosted);
-  ghosted        = positions;
-  ghosted_centre = inertia.centre;
-  ghosted_origin = load_origin;
-  // Values of the locally relevant DoFs stand in ascending order.
-  const double *const x = ghosted.begin(), *const y = ghosted_centre.begin(),
-                      *const x0 = ghosted_origin.begin();
-  residual                      = 0.;
-  double *const r               = residual.begin();
+  using NodeVectors       = Eigen::Matrix<double, n_shapes, 3, Eigen::RowMajor>;
+  constexpr int n         = 3 * n_shapes;
+  const Vector everywhere = ghosted(discretization, positions),
+               centre     = ghosted(discretization, inertia.centre),
+               origin     = ghosted(discretization, load_origin);
+  residual                = 0.;
   if (tangent != Tangent::none)
-    clear_matrix();
+    solver->matrix = 0.;
   const Eigen::Matrix<double, n_shapes, n_shapes> unit_mass = reference_mass;
 
   std::vector<double> sums(4, 0.); // energy, its size, force size², round off²
-  std::size_t first_block = 0;
-  for (const Element &element : elements)
-  {
-    NodeVectors at, from_centre, from_origin;
-    for (int i = 0; i < n_shapes; ++i)
+  FEValues<2> fe_values = discretization.fe_values(discretization.nonlinear_quadrature);
+  std::vector<double> values(n);
+  FullMatrix<double> cell_matrix(n, n);
+  dealii::Vector<double> cell_forces(n);
+  discretization.for_owned_cells(
+    [&](const auto &cell, const std::vector<types::global_dof_index> &dofs)
     {
-      const std::size_t first =
-        3 * static_cast<std::size_t>(element.nodes[static_cast<std::size_t>(i)]);
-      for (std::size_t c = 0; c < 3; ++c)
+      fe_values.reinit(cell);
+      const auto of_field = [&](const Vector &field) -> NodeVectors
       {
-        const int k       = static_cast<int>(c);
-        at(i, k)          = x[first + c];
-        from_centre(i, k) = x[first + c] - y[first + c];
-        from_origin(i, k) = x[first + c] - x0[first + c];
-      }
-    }
-    const Eigen::Matrix3d &C = stiffness_of_phase[static_cast<std::size_t>(element.phase)];
-    const double mass_scale =
-      0.5 * element.determinant * areal_density_of_phase[static_cast<std::size_t>(element.phase)];
+        field.extract_subvector_to(dofs, values);
+        return at_nodes(values);
+      };
+      const NodeVectors at = of_field(everywhere), from_centre = at - of_field(centre),
+                        from_origin = at - of_field(origin);
+      const Eigen::Matrix3d &C      = stiffness_of_phase[cell->material_id()];
+      const double mass_scale = area_of(fe_values) * areal_density_of_phase[cell->material_id()];
 
-    const ElasticSums<n_shapes> sums_of_element =
-      integrate<n_shapes>(element, C, at, tangent, tension);
-    const NodeVectors &elastic    = sums_of_element.forces;
-    const NodeVectors accelerated = mass_scale * inertia.factor * (unit_mass * from_centre);
-    const NodeVectors weights =
-      mass_scale * (unit_mass * Eigen::Matrix<double, n_shapes, 1>::Ones()) * loads.gravity;
-    const NodeVectors total = elastic + accelerated - weights;
-    if (element.is_owned)
-    {
-      const double lifted   = weights.cwiseProduct(from_origin).sum();
-      const double inertial = 0.5 * accelerated.cwiseProduct(from_centre).sum();
+      const ElasticSums<n_shapes> sums_of_element =
+        integrate<n_shapes>(fe_values, C, at, tangent, tension);
+      const NodeVectors &elastic    = sums_of_element.forces;
+      const NodeVectors accelerated = mass_scale * inertia.factor * (unit_mass * from_centre);
+      const NodeVectors weights =
+        mass_scale * (unit_mass * Eigen::Matrix<double, n_shapes, 1>::Ones()) * loads.gravity;
+      const NodeVectors total = elastic + accelerated - weights;
+      const double lifted     = weights.cwiseProduct(from_origin).sum();
+      const double inertial   = 0.5 * accelerated.cwiseProduct(from_centre).sum();
       sums[0] += sums_of_element.energy + inertial - lifted;
       sums[1] +=
         sums_of_element.energy + inertial + weights.cwiseProduct(from_origin).cwiseAbs().sum();
@@ -251,20 +194,20 @@ ClothReference::Solver::assemble(const Vector &positions, const Inertia &inertia
         machine_epsilon * at.cwiseAbs().maxCoeff() *
         (sums_of_element.steepest * C.diagonal().maxCoeff() + mass_scale * inertia.factor);
       sums[3] += rounding * rounding;
-    }
-    for (int i = 0; i < n_shapes; ++i)
-    {
-      const auto node = static_cast<std::size_t>(element.nodes[static_cast<std::size_t>(i)]);
-      if (owned_row[node] < 0 || is_held[node])
-        continue;
-      for (int c = 0; c < 3; ++c)
-        r[owned_row[node] + c] += total(i, c);
-    }
-    if (tangent != Tangent::none)
-      add_blocks<n_shapes>(element, &block_offset[first_block], sums_of_element.K,
-                           mass_scale * inertia.factor);
-    first_block += n_shapes * n_shapes;
-  }
+      std::copy(total.data(), total.data() + n, cell_forces.begin());
+      constraints.distribute_local_to_global(cell_forces, dofs, residual);
+      if (tangent == Tangent::none)
+        return;
+      for (int i = 0; i < n; ++i)
+        for (int j = 0; j < n; ++j)
+          cell_matrix(static_cast<unsigned int>(i), static_cast<unsigned int>(j)) =
+            sums_of_element.K(i, j) +
+            (i % 3 == j % 3 ? mass_scale * inertia.factor * unit_mass(i / 3, j / 3) : 0.);
+      constraints.distribute_local_to_global(cell_matrix, dofs, solver->matrix);
+    });
+  residual.compress(VectorOperation::add);
+  if (tangent != Tangent::none)
+    solver->matrix.compress(VectorOperation::add);
   return summed(std::move(sums), positions, residual);
 }
 
@@ -304,23 +247,21 @@ ClothReference::Solver::evaluate(const Vector &positions, const Inertia &inertia
 
 double ClothReference::Solver::stored_energy() const
 {
-  const ReferenceElement &reference = discretization.nonlinear_quadrature;
-  return sum_over_triangles(
-    discretization, elements, position,
-    [&](const Element &element, const FieldAtNodes &at)
+  return sum_over_cells(
+    discretization, position,
+    [&](const FEValues<2> &fe_values, const std::size_t phase, const auto &at)
     {
       double energy = 0.;
-      for (std::size_t q = 0; q < reference.weights.size(); ++q)
+      for (const unsigned int q : fe_values.quadrature_point_indices())
       {
         SpaceGradient F = SpaceGradient::Zero();
-        for (std::size_t i = 0; i < element.nodes.size(); ++i)
-          F += at.row(static_cast<Eigen::Index>(i)).transpose() *
-               (element.inverse_transpose * reference.gradients[q][i]).transpose();
-        energy +=
-          reference.weights[q] * element.determinant *
-          space_response(options.law, stiffness_of_phase[static_cast<std::size_t>(element.phase)],
-                         F, Tangent::none)
-            .energy;
+        for (Eigen::Index i = 0; i < at.rows(); ++i)
+        {
+          const Tensor<1, 2> &slope = fe_values.shape_grad(3 * static_cast<unsigned int>(i), q);
+          F += at.row(i).transpose() * Eigen::RowVector2d(slope[0], slope[1]);
+        }
+        energy += fe_values.JxW(q) *
+                  space_response(options.law, stiffness_of_phase[phase], F, Tangent::none).energy;
       }
       return energy;
     });
@@ -328,13 +269,11 @@ double ClothReference::Solver::stored_energy() const
 
 double ClothReference::Solver::kinetic_energy() const
 {
-  return sum_over_triangles(
-    discretization, elements, velocity,
-    [&](const Element &element, const FieldAtNodes &at)
-    {
-      return 0.25 * element.determinant *
-             areal_density_of_phase[static_cast<std::size_t>(element.phase)] *
-             at.cwiseProduct(reference_mass * at).sum();
-    });
+  return sum_over_cells(discretization, velocity,
+                        [&](const FEValues<2> &fe_values, const std::size_t phase, const auto &at)
+                        {
+                          return 0.5 * area_of(fe_values) * areal_density_of_phase[phase] *
+                                 at.cwiseProduct(reference_mass * at).sum();
+                        });
 }
 } // namespace homespun::verification

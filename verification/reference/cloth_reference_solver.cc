@@ -17,8 +17,7 @@
 namespace homespun::verification
 {
 using namespace dealii;
-using homogenization::AffineTriangle;
-using homogenization::ElasticSolver;
+using homogenization::Node;
 
 namespace
 {
@@ -87,50 +86,11 @@ ClothReference::Solver::Solver(const meshes::TriangleMesh &rest,
                      options.order, communicator, 3)
     , vertex_dofs(discretization.vertex_dofs())
     , reference_mass(mass_of_unit_triangle(options.order, options.consistent_mass))
+    , nodes(discretization.nodes())
+    , position(discretization.locally_owned, discretization.communicator)
+    , velocity(position)
+    , load_origin(position)
 {
-  lay_out();
-}
-
-/// Elements and nodes. A rank computes all triangles that touch one of its nodes, its neighbours'
-/// too: each row of the matrix is then complete without sending any.
-void ClothReference::Solver::lay_out()
-{
-  const IndexSet &relevant = discretization.locally_relevant;
-  const IndexSet &owned    = discretization.locally_owned;
-  const std::size_t n      = relevant.n_elements() / 3;
-  node_points.resize(n);
-  node_dofs.resize(n);
-  owned_row.assign(n, -1);
-  discretization.for_near_triangles(
-    [&](const unsigned int t, const std::vector<types::global_dof_index> &dofs, const bool is_own)
-    {
-      const AffineTriangle triangle(discretization.mesh, t);
-      Element element;
-      // An owned triangle counts in the energy even where neighbours own all of its nodes.
-      bool is_needed = is_own;
-      for (unsigned int shape = 0; shape < dofs.size() / 3; ++shape)
-      {
-        const types::global_dof_index dof = dofs[3 * shape];
-        const std::size_t node            = relevant.index_within_set(dof) / 3;
-        element.nodes.push_back(static_cast<int>(node));
-        node_points[node] = discretization.point_of(t, shape);
-        node_dofs[node]   = dof;
-        if (owned.is_element(dof))
-        {
-          owned_row[node] = static_cast<int>(owned.index_within_set(dof));
-          is_needed       = true;
-        }
-      }
-      element.inverse_transpose = triangle.inverse_transpose;
-      element.determinant       = triangle.determinant;
-      element.phase             = discretization.mesh.material(t);
-      element.is_owned          = is_own;
-      if (is_needed)
-        elements.push_back(element);
-    });
-  position.reinit(owned, discretization.communicator);
-  velocity    = position;
-  load_origin = position;
 }
 
 unsigned long ClothReference::Solver::n_dofs() const
@@ -149,15 +109,16 @@ void ClothReference::Solver::start(const Placement &initial_position, const Held
   present_time = 0.;
   velocity     = 0.;
   std::string fault;
-  for (std::size_t node = 0; node < node_points.size(); ++node)
-    if (owned_row[node] >= 0)
+  for (const Node &node : nodes)
+    if (discretization.locally_owned.is_element(node.first_dof))
     {
-      const Eigen::RowVector3d at = initial_position(node_points[node]);
+      const Eigen::RowVector3d at = initial_position(node.point);
       if (!at.allFinite())
-        fault = not_finite("the initial position", node_points[node]);
-      for (int c = 0; c < 3; ++c)
-        position.begin()[owned_row[node] + c] = at(c);
+        fault = not_finite("the initial position", node.point);
+      for (unsigned int c = 0; c < 3; ++c)
+        position(node.first_dof + c) = at(c);
     }
+  position.compress(VectorOperation::insert);
   throw_on_all_ranks(fault, discretization.communicator);
   hold(0.);
   put_held(position);
@@ -193,16 +154,16 @@ void ClothReference::Solver::resume(const meshes::SpacePoints &positions,
 /// changed.
 void ClothReference::Solver::hold(const double new_time)
 {
-  const std::size_t n = node_points.size();
+  const std::size_t n = nodes.size();
   std::string fault;
   held_at.resize(n);
   std::vector<char> now(n);
   for (std::size_t node = 0; node < n; ++node)
   {
-    held_at[node] = held(node_points[node], new_time);
+    held_at[node] = held(nodes[node].point, new_time);
     now[node]     = held_at[node].has_value();
     if (now[node] && !held_at[node]->allFinite())
-      fault = not_finite("the held position", node_points[node]);
+      fault = not_finite("the held position", nodes[node].point);
   }
   throw_on_all_ranks(fault, discretization.communicator);
   const bool changed = !solver || now != is_held;
@@ -219,10 +180,11 @@ void ClothReference::Solver::hold(const double new_time)
 
 void ClothReference::Solver::put_held(Vector &positions) const
 {
-  for (std::size_t node = 0; node < node_points.size(); ++node)
-    if (owned_row[node] >= 0 && held_at[node])
-      for (int c = 0; c < 3; ++c)
-        positions.begin()[owned_row[node] + c] = (*held_at[node])(c);
+  for (std::size_t node = 0; node < nodes.size(); ++node)
+    if (held_at[node] && discretization.locally_owned.is_element(nodes[node].first_dof))
+      for (unsigned int c = 0; c < 3; ++c)
+        positions(nodes[node].first_dof + c) = (*held_at[node])(c);
+  positions.compress(VectorOperation::insert);
 }
 
 void ClothReference::Solver::advance(const double dt, ClothStep &step)

@@ -36,15 +36,6 @@ public:
 private:
   using Vector = homogenization::ElasticSolver::Vector;
 
-  /// A triangle that this rank or a neighbour owns.
-  struct Element
-  {
-    std::vector<int> nodes; ///< local node of each shape
-    Eigen::Matrix2d inverse_transpose;
-    double determinant; ///< [m^2]
-    int phase;
-    bool is_owned;
-  };
   /// Quadratic form that is added to the energy: ½ factor |x − centre|²_M.
   struct Inertia
   {
@@ -61,20 +52,15 @@ private:
   };
   class Minimum; ///< as Newton's method sees it
 
-  void lay_out();
   void hold(double new_time);
   void put_held(Vector &positions) const;
   void lay_out_matrix();
   template <int n_shapes>
   struct ElasticSums;
   template <int n_shapes>
-  ElasticSums<n_shapes> integrate(const Element &element, const Eigen::Matrix3d &C,
+  ElasticSums<n_shapes> integrate(const dealii::FEValues<2> &fe_values, const Eigen::Matrix3d &C,
                                   const Eigen::Matrix<double, n_shapes, 3, Eigen::RowMajor> &at,
                                   Tangent tangent, double tension) const;
-  template <int n_shapes>
-  void add_blocks(const Element &element, const int *offsets,
-                  const Eigen::Matrix<double, 3 * n_shapes, 3 * n_shapes> &K, double inertia);
-  void clear_matrix();
   Evaluation summed(std::vector<double> sums, const Vector &positions, Vector &residual) const;
   template <int n_shapes>
   Evaluation assemble(const Vector &positions, const Inertia &inertia, Vector &residual,
@@ -93,21 +79,15 @@ private:
   const homogenization::DofTable vertex_dofs;
   const Eigen::MatrixXd reference_mass; ///< (shape, shape) of a triangle of area 1 and density 1
 
-  std::vector<Element> elements;
-  std::vector<Eigen::RowVector2d> node_points; ///< of the local nodes, in the order of their DoFs
-  std::vector<dealii::types::global_dof_index> node_dofs; ///< their first DoFs
-  std::vector<int>
-    owned_row; ///< of the local nodes: first row on this rank, −1 where another owns it
+  const std::vector<homogenization::Node> nodes; ///< of the cells that this rank owns
 
   Held held;
   ClothLoads loads;
   double present_time = 0.;
-  std::vector<std::optional<Eigen::RowVector3d>> held_at; ///< of the local nodes
+  std::vector<std::optional<Eigen::RowVector3d>> held_at; ///< of the nodes
   std::vector<char> is_held;                              ///< what the matrix is laid out for
   dealii::AffineConstraints<double> constraints;
   std::unique_ptr<homogenization::ElasticSolver> solver;
-  std::vector<double *> row_values; ///< of the owned rows
-  std::vector<int> block_offset;    ///< (element, shape, shape): where in a row, −1 where nowhere
   homogenization::KeptPreconditioner preconditioner;
 
   Vector position, velocity, load_origin;

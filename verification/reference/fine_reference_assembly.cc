@@ -16,9 +16,6 @@
 namespace homespun::verification
 {
 using namespace dealii;
-using homogenization::AffineTriangle;
-using homogenization::Discretization;
-using homogenization::ReferenceElement;
 
 namespace
 {
@@ -39,6 +36,13 @@ void add_tangent(const Eigen::Matrix4d &tangent, const Eigen::Matrix<double, 4, 
   const Eigen::Matrix<double, 4, n> force = weighted.lazyProduct(D);
   K += D.transpose().lazyProduct(force);
 }
+/// Of the shape of one degree of freedom.
+Eigen::Vector2d gradient_of(const FEValues<2> &fe_values, const unsigned int dof,
+                            const unsigned int q)
+{
+  const Tensor<1, 2> &gradient = fe_values.shape_grad(dof, q);
+  return {gradient[0], gradient[1]};
+}
 } // namespace
 
 /// What one triangle adds to matrix and forces.
@@ -53,17 +57,15 @@ struct FineReference::Solver::TriangleSums
 
 template <int n_shapes>
 FineReference::Solver::TriangleSums<n_shapes> FineReference::Solver::integrate(
-  const AffineTriangle &triangle, const LawOfPhase &phase, const std::vector<double> &values,
+  const FEValues<2> &fe_values, const LawOfPhase &phase, const std::vector<double> &values,
   const Eigen::Matrix2d &mean_gradient, const Tangent tangent, Evaluation &state) const
 {
   constexpr int n          = 2 * n_shapes;
   const Eigen::Matrix3d &C = phase.stiffness();
-  const ReferenceElement &reference =
-    law == Law::linear ? discretization.stiffness_quadrature : discretization.nonlinear_quadrature;
-  const double rounded = round_off_of(law) * C.cwiseAbs().maxCoeff();
-  const double steady  = steadied * steadying(law, C);
+  const double rounded     = round_off_of(law) * C.cwiseAbs().maxCoeff();
+  const double steady      = steadied * steadying(law, C);
   TriangleSums<n_shapes> sums;
-  for (std::size_t q = 0; q < reference.weights.size(); ++q)
+  for (const unsigned int q : fe_values.quadrature_point_indices())
   {
     // D maps the displacements of the nodes to the entries F11, F12, F21, F22 of grad u.
     Eigen::Matrix<double, 4, n> D = Eigen::Matrix<double, 4, n>::Zero();
@@ -71,8 +73,8 @@ FineReference::Solver::TriangleSums<n_shapes> FineReference::Solver::integrate(
     double size_of_terms = F.norm(), slopes = 0.; // of the sum that F is, and |grad v|^2
     for (int i = 0; i < n_shapes; ++i)
     {
-      const auto k                         = static_cast<std::size_t>(i);
-      const Eigen::Vector2d g              = triangle.inverse_transpose * reference.gradients[q][k];
+      const auto k            = static_cast<std::size_t>(i);
+      const Eigen::Vector2d g = gradient_of(fe_values, 2 * static_cast<unsigned int>(i), q);
       D.template block<2, 1>(0, 2 * i)     = g;
       D.template block<2, 1>(2, 2 * i + 1) = g;
       F.row(0) += values[2 * k] * g.transpose();
@@ -80,7 +82,7 @@ FineReference::Solver::TriangleSums<n_shapes> FineReference::Solver::integrate(
       size_of_terms += Eigen::Vector2d(values[2 * k], values[2 * k + 1]).norm() * g.norm();
       slopes += g.squaredNorm();
     }
-    const double weight = reference.weights[q] * triangle.determinant;
+    const double weight = fe_values.JxW(q);
     if (!(F.determinant() > 0.))
     {
       sums.is_inverted = true;
@@ -127,16 +129,19 @@ FineReference::Solver::assemble(const Vector &displacement, const Eigen::Matrix2
     solver->matrix = 0.;
 
   Evaluation state;
+  FEValues<2> fe_values = discretization.fe_values(
+    law == Law::linear ? discretization.stiffness_quadrature : discretization.nonlinear_quadrature);
   std::vector<double> values(n);
   FullMatrix<double> element_matrix(n, n);
   dealii::Vector<double> element_residual(n);
-  discretization.for_owned_triangles(
-    [&](const unsigned int t, const std::vector<types::global_dof_index> &dofs)
+  discretization.for_owned_cells(
+    [&](const auto &cell, const std::vector<types::global_dof_index> &dofs)
     {
-      const LawOfPhase &phase = phases[static_cast<std::size_t>(discretization.mesh.material(t))];
+      fe_values.reinit(cell);
+      const LawOfPhase &phase = phases[cell->material_id()];
       ghosted.extract_subvector_to(dofs, values);
-      const TriangleSums<n_shapes> sums = integrate<n_shapes>(
-        AffineTriangle(discretization.mesh, t), phase, values, mean_gradient, tangent, state);
+      const TriangleSums<n_shapes> sums =
+        integrate<n_shapes>(fe_values, phase, values, mean_gradient, tangent, state);
       state.n_inverted += sums.is_inverted;
       state.n_indefinite += sums.is_indefinite;
       state.force_size += sums.f.squaredNorm();

@@ -115,7 +115,7 @@ unsigned int FineReference::Solver::solve_linearized(Vector &increment, const Ve
   solver->factorize();
   std::vector<Vector> answer(1, solver->owned_vector());
   const unsigned int used =
-    solver->solve_abreast(answer, {forces}, {{target}}, most_linear_iterations).front();
+    solver->solve_all(answer, {forces}, {{target}}, most_linear_iterations).iterations.front();
   increment = answer.front();
   return used;
 }

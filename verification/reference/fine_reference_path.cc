@@ -39,7 +39,7 @@ public:
     const Vector slope = residual_by_strain();
     const Evaluation state =
       of.evaluate(displacement, of.mean_gradient_at(strain), residual, Tangent::exact);
-    const Eigen::SparseMatrix<double> tangent = matrix();
+    const Eigen::SparseMatrix<double> tangent = of.solver->lower_triangle();
     if (!is_analyzed)
       factor.analyzePattern(tangent);
     is_analyzed = true;
@@ -112,22 +112,6 @@ private:
     ahead.add(-1., behind);
     ahead *= 0.5 / width;
     return ahead;
-  }
-
-  Eigen::SparseMatrix<double> matrix() const
-  {
-    const auto n = static_cast<int>(residual.size());
-    std::vector<Eigen::Triplet<double>> entries;
-    for (int row = 0; row < n; ++row)
-    {
-      const homogenization::ElasticSolver::MatrixRow stored = of.solver->matrix_row(row);
-      for (int k = 0; k < stored.n; ++k)
-        if (stored.columns[k] <= row)
-          entries.emplace_back(row, stored.columns[k], stored.values[k]);
-    }
-    Eigen::SparseMatrix<double> lower(n, n);
-    lower.setFromTriplets(entries.begin(), entries.end());
-    return lower;
   }
 
   void solve(const Vector &forces, Vector &answer) const

@@ -103,8 +103,10 @@ FineReference::Solver::Vector FineReference::Solver::affine(const double strain)
   Vector displacement = solver->owned_vector();
   if (load->is_periodic())
     return displacement;
-  for (const homogenization::Node &node : discretization.owned_nodes())
+  for (const homogenization::Node &node : discretization.nodes())
   {
+    if (!discretization.locally_owned.is_element(node.first_dof))
+      continue;
     const Eigen::RowVector2d moved =
       load->displacement(sheet.fraction(node.point), sheet.sides(), strain);
     displacement(node.first_dof)  = moved(0);

@@ -79,8 +79,8 @@ private:
   template <int n_shapes>
   struct TriangleSums;
   template <int n_shapes>
-  TriangleSums<n_shapes> integrate(const homogenization::AffineTriangle &triangle,
-                                   const LawOfPhase &phase, const std::vector<double> &values,
+  TriangleSums<n_shapes> integrate(const dealii::FEValues<2> &fe_values, const LawOfPhase &phase,
+                                   const std::vector<double> &values,
                                    const Eigen::Matrix2d &mean_gradient, Tangent tangent,
                                    Evaluation &state) const;
   void add_over_ranks(Evaluation &state) const;

@@ -2,144 +2,97 @@
 #include "homogenization/fem/discretization.h"
 #include "tests/meshes/plain/shapes.h"
 
-#include <deal.II/dofs/dof_handler.h>
 #include <deal.II/dofs/dof_tools.h>
-#include <deal.II/fe/fe_system.h>
-#include <deal.II/grid/tria.h>
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <array>
-#include <map>
+#include <cmath>
+#include <vector>
 
 using namespace homespun;
 using namespace homespun::homogenization;
 
-namespace
+// What chi.h5 and the references rely on: cell t is triangle t, its corners in their order, its
+// material id the phase, its shapes node after node.
+TEST(exact_discretization, cells_are_the_triangles_of_the_mesh)
 {
-/// Edges whose triangles belong to different parts.
-int n_cut_edges(const meshes::TriangleMesh &mesh, const std::vector<unsigned int> &part)
-{
-  std::map<std::array<int, 2>, unsigned int> first;
-  int n = 0;
+  meshes::TriangleMesh mesh = tests::parallelogram(tests::skewed_lattice(), 4, 3);
   for (int t = 0; t < mesh.n_triangles(); ++t)
-    for (int k = 0; k < 3; ++k)
-    {
-      const int a = mesh.triangles(t, k), b = mesh.triangles(t, (k + 1) % 3);
-      const unsigned int its  = part[static_cast<std::size_t>(t)];
-      const auto [at, is_new] = first.insert({{std::min(a, b), std::max(a, b)}, its});
-      n += !is_new && at->second != its;
-    }
-  return n;
-}
-} // namespace
-
-TEST(exact_discretization, parts_are_of_equal_size_to_one_triangle)
-{
-  const meshes::TriangleMesh mesh = tests::parallelogram(tests::skewed_lattice(), 7, 5);
-  for (const unsigned int n_parts : {1u, 2u, 3u, 5u, 8u, 70u})
-  {
-    std::vector<int> size(n_parts, 0);
-    for (const unsigned int part : parts_of(mesh, n_parts))
-      ++size.at(part);
-    const auto [least, most] = std::minmax_element(size.begin(), size.end());
-    EXPECT_LE(*most - *least, n_parts < 8u ? 1 : 2) << n_parts; // of halves of halves
-  }
-}
-
-// A cut across a square of n x n squares meets n edges, and one more per square where it runs
-// between the triangles of a square.
-TEST(bound_discretization, parts_meet_along_short_lines)
-{
-  constexpr int n                 = 32;
-  const meshes::TriangleMesh mesh = tests::parallelogram(tests::square_lattice(1.), n, n);
-  EXPECT_EQ(n_cut_edges(mesh, parts_of(mesh, 1)), 0);
-  EXPECT_LE(n_cut_edges(mesh, parts_of(mesh, 2)), 2 * n);
-  EXPECT_LE(n_cut_edges(mesh, parts_of(mesh, 4)), 4 * n);
-  EXPECT_LE(n_cut_edges(mesh, parts_of(mesh, 16)), 12 * n);
-}
-
-// Each node belongs to the first part that has a triangle with it, and those of a part follow one
-// another.
-TEST(exact_discretization, nodes_are_numbered_part_after_part)
-{
-  const meshes::TriangleMesh mesh = tests::parallelogram(tests::skewed_lattice(), 7, 5);
-  const meshes::TriangleSides sides(mesh);
-  for (const unsigned int order : {1u, 2u})
-    for (const unsigned int n_parts : {1u, 2u, 3u, 70u})
-    {
-      const std::vector<unsigned int> parts = parts_of(mesh, n_parts);
-      const NodeNumbers numbers(mesh, sides, order, parts, n_parts);
-      ASSERT_EQ(numbers.begin_of_part.size(), n_parts + 1);
-      std::vector<unsigned int> first_part(numbers.n(), n_parts);
-      std::vector<int> is_taken(numbers.n(), 0);
-      for (const auto *const of_nodes : {&numbers.of_vertex, &numbers.of_side})
-        for (const unsigned int number : *of_nodes)
-          ++is_taken.at(number);
-      EXPECT_EQ(is_taken, std::vector<int>(numbers.n(), 1));
-      for (int t = 0; t < mesh.n_triangles(); ++t)
-        for (int k = 0; k < 3; ++k)
-        {
-          const auto vertex       = static_cast<std::size_t>(mesh.triangles(t, k)),
-                     side         = static_cast<std::size_t>(sides.of_triangle(t, k));
-          unsigned int &of_vertex = first_part.at(numbers.of_vertex.at(vertex));
-          of_vertex               = std::min(of_vertex, parts[static_cast<std::size_t>(t)]);
-          if (order == 1)
-            continue;
-          unsigned int &of_side = first_part.at(numbers.of_side.at(side));
-          of_side               = std::min(of_side, parts[static_cast<std::size_t>(t)]);
-        }
-      for (unsigned int node = 0; node < numbers.n(); ++node)
-      {
-        EXPECT_GE(node, numbers.begin_of_part[first_part[node]]);
-        EXPECT_LT(node, numbers.begin_of_part[first_part[node] + 1]);
-      }
-    }
-}
-
-// A second code: on one rank DoFs are those that deal.II gives a triangulation.
-TEST(exact_discretization, on_one_rank_numbers_are_those_of_a_dof_handler)
-{
-  const meshes::TriangleMesh mesh = tests::parallelogram(tests::skewed_lattice(), 4, 3);
-  std::vector<dealii::Point<2>> points;
-  for (const auto &vertex : mesh.vertices.rowwise())
-    points.emplace_back(vertex(0), vertex(1));
-  std::vector<dealii::CellData<2>> cells(static_cast<std::size_t>(mesh.n_triangles()),
-                                         dealii::CellData<2>(3));
-  for (std::size_t t = 0; t < cells.size(); ++t)
-    for (int k = 0; k < 3; ++k)
-      cells[t].vertices[static_cast<std::size_t>(k)] =
-        static_cast<unsigned int>(mesh.triangles(static_cast<Eigen::Index>(t), k));
-  dealii::Triangulation<2> triangulation;
-  triangulation.create_triangulation(points, cells, dealii::SubCellData());
+    mesh.material(t) = t % 3;
   for (const unsigned int order : {1u, 2u})
     for (const unsigned int n_components : {2u, 3u})
     {
-      const dealii::FESystem<2> element(dealii::FE_SimplexP<2>(order), n_components);
-      dealii::DoFHandler<2> handler(triangulation);
-      handler.distribute_dofs(element);
       const Discretization discretization(mesh, order, MPI_COMM_SELF, n_components);
-      EXPECT_EQ(discretization.n_dofs(), handler.n_dofs());
+      // Euler: vertices − edges + triangles = 1.
+      const int n_edges = mesh.n_vertices() + mesh.n_triangles() - 1;
+      EXPECT_EQ(discretization.n_dofs(),
+                n_components * (mesh.n_vertices() + (order == 2 ? n_edges : 0)));
       EXPECT_EQ(discretization.locally_relevant, discretization.locally_owned);
-      auto cell             = handler.begin_active();
-      unsigned int n_walked = 0;
-      discretization.for_near_triangles(
-        [&](const unsigned int t, const std::vector<dealii::types::global_dof_index> &its,
-            const bool is_owned)
+      const DofTable of_vertex = discretization.vertex_dofs();
+      int n_walked             = 0;
+      discretization.for_owned_cells(
+        [&](const auto &cell, const std::vector<dealii::types::global_dof_index> &dofs)
         {
-          EXPECT_TRUE(is_owned);
-          EXPECT_EQ(t, n_walked++);
-          std::vector<dealii::types::global_dof_index> dofs(element.n_dofs_per_cell());
-          cell->get_dof_indices(dofs);
-          EXPECT_EQ(its, dofs);
-          ++cell;
+          const int t = n_walked++;
+          EXPECT_EQ(static_cast<int>(cell->active_cell_index()), t);
+          EXPECT_EQ(static_cast<int>(cell->material_id()), mesh.material(t));
+          for (unsigned int k = 0; k < 3; ++k)
+          {
+            const int vertex = mesh.triangles(t, static_cast<int>(k));
+            EXPECT_EQ(cell->vertex(k)[0], mesh.vertices(vertex, 0));
+            EXPECT_EQ(cell->vertex(k)[1], mesh.vertices(vertex, 1));
+            for (unsigned int c = 0; c < n_components; ++c)
+              EXPECT_EQ(of_vertex(vertex, c), dofs[k * n_components + c]);
+          }
+          for (std::size_t i = 0; i < dofs.size();
+               ++i) // the components of a node follow each other
+            EXPECT_EQ(dofs[i], dofs[i - i % n_components] + i % n_components);
         });
       EXPECT_EQ(n_walked, mesh.n_triangles());
-      const auto boundary =
-        dealii::DoFTools::extract_boundary_dofs(handler, dealii::ComponentMask(n_components, true));
-      EXPECT_EQ(discretization.boundary_nodes().size() * n_components, boundary.n_elements());
-      for (const Node &node : discretization.boundary_nodes())
-        EXPECT_TRUE(boundary.is_element(node.first_dof));
     }
+}
+
+TEST(exact_discretization, nodes_of_the_boundary_are_those_that_deal_ii_finds)
+{
+  const meshes::TriangleMesh mesh = tests::parallelogram(tests::skewed_lattice(), 4, 3);
+  for (const unsigned int order : {1u, 2u})
+  {
+    const Discretization discretization(mesh, order, MPI_COMM_SELF);
+    const auto boundary = dealii::DoFTools::extract_boundary_dofs(discretization.dof_handler,
+                                                                  dealii::ComponentMask(2, true));
+    const std::vector<Node> nodes = discretization.boundary_nodes();
+    EXPECT_EQ(nodes.size() * 2, boundary.n_elements());
+    for (const Node &node : nodes)
+      EXPECT_TRUE(boundary.is_element(node.first_dof));
+    EXPECT_EQ(discretization.nodes().size() * 2, discretization.n_dofs());
+  }
+}
+
+// Fields of the order of the elements are theirs: the area integral of x^p, by FEValues on straight
+// triangles, is that of Gauss.
+TEST(exact_discretization, both_quadratures_are_exact_where_they_are_used)
+{
+  const meshes::TriangleMesh mesh = tests::parallelogram(tests::square_lattice(1.), 3, 3);
+  for (const unsigned int order : {1u, 2u})
+  {
+    const Discretization discretization(mesh, order, MPI_COMM_SELF);
+    const auto integral = [&](const dealii::Quadrature<2> &quadrature, const unsigned int degree)
+    {
+      auto fe_values = discretization.fe_values(quadrature, dealii::update_quadrature_points |
+                                                              dealii::update_JxW_values);
+      double sum     = 0.;
+      discretization.for_owned_cells(
+        [&](const auto &cell, const auto &)
+        {
+          fe_values.reinit(cell);
+          for (const unsigned int q : fe_values.quadrature_point_indices())
+            sum += fe_values.JxW(q) * std::pow(fe_values.quadrature_point(q)[0], degree);
+        });
+      return sum;
+    };
+    const unsigned int linear = 2 * (order - 1), nonlinear = order == 1 ? 1 : 4;
+    EXPECT_NEAR(integral(discretization.stiffness_quadrature, linear), 1. / (linear + 1), 1e-14);
+    EXPECT_NEAR(integral(discretization.nonlinear_quadrature, nonlinear), 1. / (nonlinear + 1),
+                1e-14);
+  }
 }

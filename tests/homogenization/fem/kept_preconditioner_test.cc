@@ -33,21 +33,22 @@ public:
   /// −Laplace's operator minus `shift`.
   void assemble(const double shift)
   {
-    solver->matrix                 = 0.;
-    const ReferenceElement &shapes = discretization.stiffness_quadrature;
+    solver->matrix = 0.;
+    auto fe_values = discretization.fe_values(discretization.stiffness_quadrature);
     dealii::FullMatrix<double> of_triangle(6, 6);
-    discretization.for_owned_triangles(
-      [&](const unsigned int t, const std::vector<dealii::types::global_dof_index> &dofs)
+    discretization.for_owned_cells(
+      [&](const auto &cell, const std::vector<dealii::types::global_dof_index> &dofs)
       {
-        const AffineTriangle triangle(discretization.mesh, t);
-        const double area = 0.5 * triangle.determinant;
+        fe_values.reinit(cell);
+        const double area = fe_values.JxW(0);
         for (unsigned int i = 0; i < 6; ++i)
           for (unsigned int j = 0; j < 6; ++j)
           {
-            const auto slope = [&](const unsigned int k) -> Eigen::Vector2d
-            { return triangle.inverse_transpose * shapes.gradients[0][k / 2]; };
             const double mass = shift * area / (i == j ? 6. : 12.);
-            of_triangle(i, j) = i % 2 == j % 2 ? area * slope(i).dot(slope(j)) - mass : 0.;
+            of_triangle(i, j) =
+              i % 2 == j % 2
+                ? area * (fe_values.shape_grad(i, 0) * fe_values.shape_grad(j, 0)) - mass
+                : 0.;
           }
         constraints.distribute_local_to_global(of_triangle, dofs, solver->matrix);
       });
