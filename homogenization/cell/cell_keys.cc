@@ -271,7 +271,7 @@ void CellKeys::declare(ParameterKeys &keys)
            "fewer four units of their last digit, at most 1e-4.");
   keys.add("Slits", slits,
            "`refused`: gaps much thinner than the triangles around them are faults of the mesh; "
-           "`real`: they are meant.");
+           "`real`: they are meant, and wider than the matching tolerance.");
 }
 
 std::optional<meshes::Lattice> lattice_from(const std::string &file, const CellKeys &keys,

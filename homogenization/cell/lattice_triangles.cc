@@ -60,7 +60,8 @@ LatticeEdge edge_between(const LatticeCorner &from, const LatticeCorner &to)
 std::optional<LatticeTriangles> glued_with_rims(const meshes::TriangleMesh &mesh,
                                                 const meshes::Lattice &lattice,
                                                 const Eigen::VectorXi &group,
-                                                const std::vector<CurvedSide> &curved_sides)
+                                                const std::vector<CurvedSide> &curved_sides,
+                                                const double relative_tolerance)
 {
   std::vector<int> boundary;
   for (const std::array<int, 2> &edge : meshes::boundary_edges(mesh))
@@ -70,7 +71,7 @@ std::optional<LatticeTriangles> glued_with_rims(const meshes::TriangleMesh &mesh
   meshes::Points points(static_cast<Eigen::Index>(boundary.size()), 2);
   for (std::size_t k = 0; k < boundary.size(); ++k)
     points.row(static_cast<Eigen::Index>(k)) = mesh.vertices.row(boundary[k]);
-  const meshes::ImageClasses classes = meshes::match_images(points, lattice);
+  const meshes::ImageClasses classes = meshes::match_images(points, lattice, relative_tolerance);
 
   LatticeTriangles glued;
   glued.lattice = lattice;

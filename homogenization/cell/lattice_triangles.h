@@ -81,10 +81,10 @@ struct Rim
 /// @param group (n_triangles)
 /// @return nothing where the triangles do not then lie side by side: vertices that coincide without
 ///   being one, edges with more than two triangles
-std::optional<LatticeTriangles> glued_with_rims(const meshes::TriangleMesh &mesh,
-                                                const meshes::Lattice &lattice,
-                                                const Eigen::VectorXi &group,
-                                                const std::vector<CurvedSide> &curved_sides);
+std::optional<LatticeTriangles>
+glued_with_rims(const meshes::TriangleMesh &mesh, const meshes::Lattice &lattice,
+                const Eigen::VectorXi &group, const std::vector<CurvedSide> &curved_sides,
+                double relative_tolerance = meshes::image_tolerance);
 
 /// The rims that are left when images are glued.
 std::vector<Rim> rims_of(const LatticeTriangles &mesh);

@@ -32,14 +32,28 @@ MatchedCell match_drawn_sides(const meshes::TriangleMesh &mesh,
       nearly = std::move(cell);
     return std::nullopt;
   };
+  std::optional<MatchedCell> found;
   for (const meshes::Frame &frame : meshes::frames_of(mesh, gap))
     if (auto cell = fits(frame))
-      return *cell;
-  for (const meshes::Frame &frame : meshes::frame_meant(mesh))
-    if (!nearly)
-      fits(frame);
-  MatchedCell cell{{}, mesh, curved_sides, 0., -1, false, {}, {}};
+    {
+      if (!found)
+        found = std::move(cell);
+      else if (std::abs(cell->lattice.area() / found->lattice.area() - 1.) > 1e-3)
+        found->alternatives.push_back(cell->lattice);
+    }
+  if (found)
+  {
+    if (found->cuts_holes)
+      for (const meshes::Lattice &lattice : meshes::lattices_of_outline(found->mesh, gap))
+        if (std::abs(lattice.area() / found->lattice.area() - 1.) > 1e-3)
+          found->alternatives.push_back(lattice);
+    return *found;
+  }
+  MatchedCell cell{{}, mesh, curved_sides, 0., -1, false, {}, {}, {}};
   std::string lines;
+  for (const meshes::Frame &frame : meshes::frame_meant(mesh))
+    if (!nearly && fits(frame))
+      lines = " `" + lattice_line(frame.lattice, rules.metres_per_unit) + "`";
   for (const meshes::Lattice &lattice : meshes::lattices_of_outline(mesh, gap))
     if (match_sides(mesh, curved_sides, lattice, rules, name).faults.empty())
       lines +=
@@ -62,16 +76,6 @@ MatchedCell match_drawn_sides(const meshes::TriangleMesh &mesh,
               ", under which the whole outline matches"),
      {}});
   return cell;
-}
-
-std::vector<meshes::Lattice> other_lattices(const MatchedCell &cell, const SideRules &rules)
-{
-  std::vector<meshes::Lattice> others;
-  for (const meshes::Lattice &lattice :
-       meshes::lattices_of_outline(cell.mesh, image_gap(rules, cell.lattice)))
-    if (std::abs(lattice.area() - cell.lattice.area()) > 1e-3 * cell.lattice.area())
-      others.push_back(lattice);
-  return others;
 }
 
 std::string lattice_line(const meshes::Lattice &lattice, const double metres_per_unit)

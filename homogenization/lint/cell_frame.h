@@ -16,10 +16,6 @@ MatchedCell match_drawn_sides(const meshes::TriangleMesh &mesh,
                               const std::vector<CurvedSide> &curved_sides, const SideRules &rules,
                               const std::string &name);
 
-/// Lattices of another area under which the outline of a cell would be periodic as a whole, without
-/// the holes that it cuts.
-std::vector<meshes::Lattice> other_lattices(const MatchedCell &cell, const SideRules &rules);
-
 /// `set Lattice vectors = ...`, the line of a cell file.
 std::string lattice_line(const meshes::Lattice &lattice, double metres_per_unit);
 } // namespace homespun::homogenization

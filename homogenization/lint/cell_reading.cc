@@ -115,7 +115,7 @@ void cut_anew_around_holes(CellReading &reading, const std::string &mesh_path)
 
 /// Sides that match only because points within the tolerance are one, and other cloths that the
 /// same outline may stand for.
-void warn_of_matching(const MatchedCell &matched, const SideRules &rules, const bool is_given,
+void warn_of_matching(const MatchedCell &matched, const SideRules &rules,
                       const std::string &mesh_path, std::vector<Finding> &findings)
 {
   const double unit = rules.metres_per_unit;
@@ -137,19 +137,15 @@ void warn_of_matching(const MatchedCell &matched, const SideRules &rules, const 
                         "Curve)",
                         {place, -1, matched.moved_vertex}});
   }
-  if (is_given || !matched.cuts_holes)
-    return;
-  for (const meshes::Lattice &lattice : other_lattices(matched, rules))
-    findings.push_back(
-      {Severity::warning, "two cloths",
-       mesh_path + ": the cell is taken as drawn in its frame, `" +
-         lattice_line(matched.lattice, unit) +
-         "`, whose sides cut holes; its outline would also fill the plane without "
-         "them",
-       "expected one cloth: set `Lattice vectors` to the first where the holes are "
-       "meant, else `" +
-         lattice_line(lattice, unit) + "`",
-       meshes::Place()});
+  for (const meshes::Lattice &lattice : matched.alternatives)
+    findings.push_back({Severity::warning, "two cloths",
+                        mesh_path + ": the cell is taken as drawn in its frame, `" +
+                          lattice_line(matched.lattice, unit) +
+                          "`; its outline would also fill the plane otherwise",
+                        "expected one cloth: set `Lattice vectors` to the first where it is meant, "
+                        "else `" +
+                          lattice_line(lattice, unit) + "`",
+                        meshes::Place()});
 }
 
 /// The path of a file that a cell file names. It stays in the folder of the cell file, links
@@ -260,14 +256,12 @@ bool read_geometry(const CellKeys &keys, const SideRules &rules, const std::stri
   if (!not_joined.empty())
     return false;
   Faults of_lattice;
-  const bool is_given = trimmed(keys.lattice) != "auto";
-  const auto given    = lattice_from(cell.file, keys, rules.metres_per_unit, of_lattice);
+  const auto given = lattice_from(cell.file, keys, rules.metres_per_unit, of_lattice);
   add(findings, "lattice", of_lattice);
   if (!of_lattice.empty())
     return false;
   MatchedCell matched = given ? match_sides(cell.mesh, cell.curved_sides, *given, rules, mesh_path)
                               : match_drawn_sides(cell.mesh, cell.curved_sides, rules, mesh_path);
-  reading.has_lattice = matched.lattice.area() > 0.;
   cell.lattice        = matched.lattice;
   if (!matched.faults.empty())
   {
@@ -275,13 +269,13 @@ bool read_geometry(const CellKeys &keys, const SideRules &rules, const std::stri
     add(findings, "periodicity", matched.faults);
     return false;
   }
-  warn_of_matching(matched, rules, is_given, mesh_path, findings);
+  warn_of_matching(matched, rules, mesh_path, findings);
   cell.mesh         = std::move(matched.mesh);
   cell.curved_sides = std::move(matched.curved_sides);
   if (matched.cuts_holes)
     cut_anew_around_holes(reading, mesh_path);
   append(findings, mesh_path, lint_missing_triangles(cell.mesh, rules.metres_per_unit));
-  if (may_move(cell.mesh))
+  if (cell.lattice.cuts_holes || may_move(cell.mesh))
     append(findings, mesh_path, lint_mechanisms(cell.mesh, cell.lattice, rules.metres_per_unit));
   return true;
 }

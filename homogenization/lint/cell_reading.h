@@ -19,7 +19,6 @@ struct CellReading
     cell; ///< [m]; where its phases could not be given, material holds the numbers of the mesh file
   double metres_per_unit = 1.;    ///< of the mesh file
   bool has_mesh          = false; ///< the mesh file was read
-  bool has_lattice       = false; ///< it was given, or found from the outline; it need not fit
   bool has_phases = false; ///< its groups have their phases, and material holds their indices
   bool is_whole   = false; ///< mesh, phases and lattice are sound: a UnitCell
   std::vector<Finding> findings;

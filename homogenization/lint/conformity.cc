@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "homogenization/lint/conformity.h"
 
+#include "homogenization/lint/edge_grid.h"
 #include "meshes/plain/cross.h"
 #include "meshes/plain/fault_list.h"
 #include "meshes/plain/index.h"
@@ -8,11 +9,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <set>
 #include <sstream>
-#include <unordered_map>
 
 namespace homespun::homogenization
 {
@@ -26,92 +25,11 @@ namespace
 /// Gaps below this part of the edges beside them are none that was drawn.
 constexpr double thinnest = 0.01;
 
+/// Across the sides of a cell gaps below this part are edges that were meant to match.
+constexpr double thinnest_across = 0.5;
+
 /// What lies nearer than this part of an edge lies on it.
 constexpr double touching = 1e-6;
-
-/// An edge of the boundary and its triangle, which lies to its left.
-struct BoundaryEdge
-{
-  int from, to, apex = -1, triangle = -1;
-};
-
-std::vector<BoundaryEdge> edges_of_boundary(const TriangleMesh &mesh)
-{
-  std::vector<BoundaryEdge> edges;
-  std::map<std::array<int, 2>, std::size_t> number;
-  std::vector<char> is_on_boundary(at(mesh.n_vertices()), 0);
-  for (const std::array<int, 2> &edge : meshes::boundary_edges(mesh))
-  {
-    number[edge] = edges.size();
-    edges.push_back({edge[0], edge[1]});
-    is_on_boundary[at(edge[0])] = is_on_boundary[at(edge[1])] = 1;
-  }
-  for (int t = 0; t < mesh.n_triangles(); ++t)
-    for (int k = 0; k < 3; ++k)
-    {
-      const int from = mesh.triangles(t, k), to = mesh.triangles(t, (k + 1) % 3);
-      if (!is_on_boundary[at(from)] || !is_on_boundary[at(to)])
-        continue;
-      if (const auto edge = number.find({from, to}); edge != number.end())
-      {
-        edges[edge->second].apex     = mesh.triangles(t, (k + 2) % 3);
-        edges[edge->second].triangle = t;
-      }
-    }
-  return edges;
-}
-
-/// Edges by the squares of a grid that they may pass, about one in each.
-class EdgeGrid
-{
-public:
-  EdgeGrid(const TriangleMesh &mesh, const std::vector<BoundaryEdge> &edges)
-      : low(mesh.vertices.colwise().minCoeff())
-  {
-    const Vector size = Vector(mesh.vertices.colwise().maxCoeff()) - low;
-    width = std::max(size.maxCoeff() / std::sqrt(static_cast<double>(edges.size()) + 1.),
-                     std::numeric_limits<double>::min());
-    for (std::size_t e = 0; e < edges.size(); ++e)
-    {
-      const Vector a = mesh.vertices.row(edges[e].from), b = mesh.vertices.row(edges[e].to);
-      const double reach = thinnest * (b - a).norm();
-      const auto first   = square_of(a.cwiseMin(b).array() - reach),
-                 last    = square_of(a.cwiseMax(b).array() + reach);
-      for (int i = first[0]; i <= last[0]; ++i)
-        for (int j = first[1]; j <= last[1]; ++j)
-          edges_in[key(i, j)].push_back(e);
-    }
-  }
-
-  /// Those near to a point.
-  const std::vector<std::size_t> &around(const Vector &x) const
-  {
-    static const std::vector<std::size_t> none;
-    const auto square = square_of(x);
-    const auto found  = edges_in.find(key(square[0], square[1]));
-    return found == edges_in.end() ? none : found->second;
-  }
-
-  const std::unordered_map<long, std::vector<std::size_t>> &squares() const
-  {
-    return edges_in;
-  }
-
-private:
-  std::array<int, 2> square_of(const Vector &x) const
-  {
-    return {static_cast<int>(std::floor((x(0) - low(0)) / width)),
-            static_cast<int>(std::floor((x(1) - low(1)) / width))};
-  }
-  static long key(const int i, const int j)
-  {
-    return (static_cast<long>(i) << 32) + j;
-  }
-
-  Vector low;
-  double width;
-  std::unordered_map<long, std::vector<std::size_t>> edges_in;
-};
 
 bool is_inside(const TriangleMesh &mesh, const int t, const Vector &x)
 {
@@ -144,25 +62,39 @@ const char *const part =
   "expected triangles side by side: remove one of two parts that lie on each "
   "other, or cut them along each other before meshing (Gmsh: BooleanFragments)";
 
+/// Copies of a cell side by side.
+struct Copies
+{
+  std::vector<int> of_triangle; ///< which copy it is of; triangles are numbered copy after copy
+  std::vector<int> vertex;      ///< of the drawing
+  const TriangleMesh *drawn;
+};
+
 class Conformity
 {
 public:
   Conformity(const TriangleMesh &mesh, const std::string &name, const Slits slits,
-             const double metres_per_unit)
+             const double metres_per_unit, const Copies *const copies = nullptr)
       : mesh(mesh)
       , slits(slits)
       , metres_per_unit(metres_per_unit)
+      , copies(copies)
       , edges(edges_of_boundary(mesh))
-      , grid(mesh, edges)
+      , grid(mesh, edges, copies ? thinnest_across : thinnest)
       , faults(name)
   {
+    for (const BoundaryEdge &edge : edges)
+      for (const int end : {edge.from, edge.to})
+        if (copies)
+          copies_at[end].insert(copies->of_triangle[at(edge.triangle)]);
   }
 
   std::vector<meshes::MeshFault> run()
   {
     look_at_vertices();
     look_at_crossings();
-    look_at_parts();
+    if (!copies)
+      look_at_parts();
     return faults.take_placed();
   }
 
@@ -172,13 +104,34 @@ private:
     return mesh.vertices.row(vertex);
   }
 
+  /// Whether a vertex and an edge belong to different copies of the cell alone.
+  bool is_across(const int vertex, const BoundaryEdge &edge) const
+  {
+    return copies_at.at(vertex).count(copies->of_triangle[at(edge.triangle)]) == 0;
+  }
+
+  /// Where a vertex is drawn.
+  meshes::Place place_of(const int vertex, const int triangle = -1) const
+  {
+    if (!copies)
+      return {x(vertex), triangle, vertex};
+    const int drawn = copies->vertex[at(vertex)];
+    return {copies->drawn->vertices.row(drawn), -1, drawn};
+  }
+
   std::string name(const int vertex) const
   {
+    const meshes::Place place = place_of(vertex);
     std::ostringstream text;
     text.precision(8);
-    text << vertex << " at (" << mesh.vertices(vertex, 0) / metres_per_unit << ", "
-         << mesh.vertices(vertex, 1) / metres_per_unit << ")";
+    text << place.vertex << " at (" << place.point(0) / metres_per_unit << ", "
+         << place.point(1) / metres_per_unit << ")";
     return text.str();
+  }
+
+  std::string name_of_triangle(const int t) const
+  {
+    return std::to_string(copies ? t % copies->drawn->n_triangles() : t);
   }
 
   /// Vertices on, near to or beyond an edge that is not theirs.
@@ -197,13 +150,14 @@ private:
       for (const std::size_t e : grid.around(x(vertex)))
       {
         const BoundaryEdge &edge = edges[e];
-        if (vertex == edge.from || vertex == edge.to || vertex == edge.apex)
+        if (vertex == edge.from || vertex == edge.to || vertex == edge.apex ||
+            (copies && !is_across(vertex, edge)))
           continue;
         const Vector a = x(edge.from), along = x(edge.to) - a;
         const double length = along.norm(),
                      where  = std::clamp((x(vertex) - a).dot(along) / (length * length), 0., 1.);
         const double gap    = (x(vertex) - a - where * along).norm(),
-                     near   = thinnest * std::min(length, its_shortest);
+                     near = (copies ? thinnest_across : thinnest) * std::min(length, its_shortest);
         if (gap >= near)
           continue;
         const double left = cross(along, x(vertex) - a) / length;
@@ -216,6 +170,11 @@ private:
         }
         if (slits == Slits::real)
           continue;
+        if (copies)
+        {
+          tell_across(vertex, edge, gap);
+          continue;
+        }
         const int end = where < 0.5 ? edge.from : edge.to;
         if ((x(vertex) - x(end)).norm() < near)
         {
@@ -227,12 +186,26 @@ private:
       }
   }
 
+  void tell_across(const int vertex, const BoundaryEdge &edge, const double gap)
+  {
+    std::ostringstream what;
+    what.precision(3);
+    what << "opposite sides are not meshed alike: vertex " << name(vertex) << " lies "
+         << gap / metres_per_unit << " beside the edge from vertex " << name(edge.from)
+         << " to vertex " << name(edge.to)
+         << " of the opposite side, less than half of an edge, and is not joined to it; expected "
+            "both sides to have the same points there (Gmsh: Periodic Curve {right} = {left} "
+            "Translate {dx, dy, 0};), or `Slits = real` where a slit is meant";
+    faults.add("places where opposite sides are not meshed alike", what.str(), place_of(vertex));
+  }
+
   void tell_overlap(const int vertex, const BoundaryEdge &edge)
   {
     faults.add("overlaps",
-               "vertex " + name(vertex) + " lies inside triangle " + std::to_string(edge.triangle) +
+               "vertex " + name(vertex) + " lies inside triangle " +
+                 name_of_triangle(edge.triangle) +
                  " of which it is no corner: triangles overlap there; " + part,
-               {x(vertex), edge.triangle, vertex});
+               place_of(vertex, edge.triangle));
   }
 
   void tell_pair(const int vertex, const int other)
@@ -241,7 +214,7 @@ private:
     what << "vertices " << name(std::min(vertex, other)) << " and " << name(std::max(vertex, other))
          << (x(vertex) == x(other) ? " coincide" : " nearly coincide")
          << " without being one: parts that lie side by side there are not joined; " << join;
-    faults.add("pairs of vertices that coincide", what.str(), {x(vertex), -1, vertex});
+    faults.add("pairs of vertices that coincide", what.str(), place_of(vertex));
   }
 
   void tell_side(const int vertex, const BoundaryEdge &edge, const double gap, const double length)
@@ -259,7 +232,7 @@ private:
                                      : "a slit that is thinner than a hundredth of its edges")
          << "; " << join << "; a slit that is meant asks for `Slits = real`";
     faults.add(gap < touching * length ? "T-junctions" : "vertices at slits", what.str(),
-               {x(vertex), edge.triangle, vertex});
+               place_of(vertex, edge.triangle));
   }
 
   /// Edges of the boundary that cross, where no vertex has told it.
@@ -272,7 +245,9 @@ private:
         {
           const BoundaryEdge &one = edges[near[i]], &other = edges[near[j]];
           if (one.from == other.from || one.from == other.to || one.to == other.from ||
-              one.to == other.to)
+              one.to == other.to ||
+              (copies &&
+               copies->of_triangle[at(one.triangle)] == copies->of_triangle[at(other.triangle)]))
             continue;
           const Vector a = x(one.from), b = x(one.to), c = x(other.from), d = x(other.to);
           const double scale = touching * (b - a).norm() * (d - c).norm();
@@ -287,11 +262,11 @@ private:
       const BoundaryEdge &one = edges[first], &other = edges[second];
       faults.add("overlaps",
                  "the side from vertex " + name(one.from) + " to vertex " + name(one.to) +
-                   " of triangle " + std::to_string(one.triangle) +
+                   " of triangle " + name_of_triangle(one.triangle) +
                    " crosses the one from vertex " + name(other.from) + " to vertex " +
-                   name(other.to) + " of triangle " + std::to_string(other.triangle) +
+                   name(other.to) + " of triangle " + name_of_triangle(other.triangle) +
                    ": triangles overlap there; " + part,
-                 {0.5 * (x(one.from) + x(one.to)), one.triangle, -1});
+                 place_of(one.from, one.triangle));
     }
   }
 
@@ -329,8 +304,10 @@ private:
   const TriangleMesh &mesh;
   const Slits slits;
   const double metres_per_unit;
+  const Copies *copies; ///< null: the mesh is the drawing
   const std::vector<BoundaryEdge> edges;
   const EdgeGrid grid;
+  std::map<int, std::set<int>> copies_at; ///< of the edges of the boundary at a vertex
   meshes::FaultList faults;
 };
 } // namespace
@@ -339,6 +316,41 @@ std::vector<meshes::MeshFault> conformity_faults(const TriangleMesh &mesh, const
                                                  const Slits slits, const double metres_per_unit)
 {
   return Conformity(mesh, name, slits, metres_per_unit).run();
+}
+
+std::vector<meshes::MeshFault> conformity_faults_across(const LatticeTriangles &glued,
+                                                        const TriangleMesh &drawn,
+                                                        const std::string &name, const Slits slits,
+                                                        const double metres_per_unit)
+{
+  Copies copies{{}, {}, &drawn};
+  TriangleMesh four;
+  four.triangles.resize(4 * drawn.n_triangles(), 3);
+  std::map<std::array<int, 3>, int> vertex_of;
+  std::vector<Vector> points;
+  for (int copy = 0; copy < 4; ++copy)
+    for (int t = 0; t < drawn.n_triangles(); ++t)
+    {
+      copies.of_triangle.push_back(copy);
+      for (int k = 0; k < 3; ++k)
+      {
+        const LatticeCorner &corner     = glued.triangles[at(t)].corners[at(k)];
+        const Eigen::RowVector2i offset = corner.offset + Eigen::RowVector2i(copy % 2, copy / 2);
+        const std::array<int, 3> key    = {corner.vertex, offset(0), offset(1)};
+        const auto [place, is_new]      = vertex_of.emplace(key, static_cast<int>(points.size()));
+        if (is_new)
+        {
+          points.emplace_back(glued.at({corner.vertex, offset}) * glued.lattice.vectors);
+          copies.vertex.push_back(drawn.triangles(t, k));
+        }
+        four.triangles(copy * drawn.n_triangles() + t, k) = place->second;
+      }
+    }
+  four.vertices.resize(static_cast<Eigen::Index>(points.size()), 2);
+  for (std::size_t p = 0; p < points.size(); ++p)
+    four.vertices.row(static_cast<Eigen::Index>(p)) = points[p];
+  four.material.setZero(four.triangles.rows());
+  return Conformity(four, name, slits, metres_per_unit, &copies).run();
 }
 
 std::vector<Finding> lint_missing_triangles(const TriangleMesh &mesh, const double metres_per_unit)

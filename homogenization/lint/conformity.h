@@ -7,6 +7,7 @@
 
 #include "homogenization/cell/cell_keys.h"
 #include "homogenization/cell/finding.h"
+#include "homogenization/cell/lattice_triangles.h"
 #include "meshes/plain/triangle_mesh.h"
 
 #include <vector>
@@ -25,6 +26,16 @@ namespace homespun::homogenization
 std::vector<meshes::MeshFault> conformity_faults(const meshes::TriangleMesh &mesh,
                                                  const std::string &name, Slits slits,
                                                  double metres_per_unit);
+
+/// The same between a cell and its images, where its sides cut holes: vertices nearer than half of
+/// an edge to an edge across a side to which they are not joined, and triangles that overlap
+/// images.
+/// @param glued the cell, its matched vertices one @param drawn the same triangles as they are
+/// drawn
+std::vector<meshes::MeshFault> conformity_faults_across(const LatticeTriangles &glued,
+                                                        const meshes::TriangleMesh &drawn,
+                                                        const std::string &name, Slits slits,
+                                                        double metres_per_unit);
 
 /// Holes of the size of a single triangle, which may be one that is missing.
 std::vector<Finding> lint_missing_triangles(const meshes::TriangleMesh &mesh,

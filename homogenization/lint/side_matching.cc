@@ -2,6 +2,7 @@
 #include "homogenization/lint/side_matching.h"
 
 #include "homogenization/cell/lattice_triangles.h"
+#include "homogenization/lint/conformity.h"
 #include "meshes/plain/index.h"
 
 #include <Eigen/LU>
@@ -75,8 +76,7 @@ meshes::Lattice fitted(const meshes::Lattice &given, const meshes::Points &point
   return {normal.inverse() * right};
 }
 
-/// Moves images to the mean of their class, exactly a lattice vector apart, and gives matched sides
-/// of six-node triangles the mean of their curves.
+/// Moves images to the mean of their class, exactly a lattice vector apart.
 void snap(MatchedCell &cell, const std::vector<int> &boundary, const meshes::Points &points,
           const meshes::ImageClasses &classes)
 {
@@ -87,12 +87,10 @@ void snap(MatchedCell &cell, const std::vector<int> &boundary, const meshes::Poi
     mean.row(classes.representative[at(static_cast<int>(i))]) +=
       (points.row(i) - classes.offset.row(i).cast<double>() * cell.lattice.vectors) /
       classes.size[at(static_cast<int>(i))];
-  std::map<int, int> class_of;
   for (Eigen::Index i = 0; i < n; ++i)
   {
     const int first = classes.representative[at(static_cast<int>(i))],
               v     = boundary[at(static_cast<int>(i))];
-    class_of[v]     = first;
     if (classes.size[at(static_cast<int>(i))] == 1)
       continue;
     const Eigen::RowVector2d to =
@@ -105,20 +103,33 @@ void snap(MatchedCell &cell, const std::vector<int> &boundary, const meshes::Poi
     }
     cell.mesh.vertices.row(v) = to;
   }
-  std::map<std::array<int, 2>, std::vector<std::size_t>> sides_of;
+}
+
+/// Gives matched sides of six-node triangles the mean of their curves, where they differ by no more
+/// than images may.
+void match_curves(MatchedCell &cell, const std::vector<int> &boundary,
+                  const meshes::ImageClasses &classes, const double gap)
+{
+  std::map<int, LatticeCorner> corner_of;
+  for (std::size_t i = 0; i < boundary.size(); ++i)
+    corner_of[boundary[i]] = {classes.representative[i],
+                              classes.offset.row(static_cast<Eigen::Index>(i))};
+  std::map<LatticeEdge, std::vector<std::size_t>> sides_at;
   for (std::size_t s = 0; s < cell.curved_sides.size(); ++s)
   {
-    const auto a = class_of.find(cell.curved_sides[s].a), b = class_of.find(cell.curved_sides[s].b);
-    if (a != class_of.end() && b != class_of.end())
-      sides_of[{std::min(a->second, b->second), std::max(a->second, b->second)}].push_back(s);
+    const auto a = corner_of.find(cell.curved_sides[s].a),
+               b = corner_of.find(cell.curved_sides[s].b);
+    if (a != corner_of.end() && b != corner_of.end())
+      sides_at[edge_between(a->second, b->second)].push_back(s);
   }
-  for (const auto &[ends, sides] : sides_of)
+  for (const auto &[edge, sides] : sides_at)
     if (sides.size() == 2)
     {
-      const Eigen::Vector2d sagitta =
-        0.5 * (cell.curved_sides[sides[0]].sagitta + cell.curved_sides[sides[1]].sagitta);
-      if ((cell.curved_sides[sides[0]].sagitta - sagitta).norm() <= 2. * cell.largest_move)
-        cell.curved_sides[sides[0]].sagitta = cell.curved_sides[sides[1]].sagitta = sagitta;
+      Eigen::Vector2d &one = cell.curved_sides[sides[0]].sagitta,
+                      &two = cell.curved_sides[sides[1]].sagitta;
+      const double apart   = (one - two).norm();
+      if (apart <= gap && apart > round_off * std::sqrt(cell.lattice.area()))
+        one = two = 0.5 * (one + two).eval();
     }
 }
 
@@ -227,7 +238,6 @@ std::vector<Eigen::RowVector2i> offsets_of_matched_edges(const LatticeTriangles 
   struct Side
   {
     int vertex; ///< of the drawing, at the lower end of the edge of the torus
-    int n = 0;
   };
   std::map<LatticeEdge, Side> first;
   std::set<std::array<int, 2>> offsets;
@@ -243,7 +253,7 @@ std::vector<Eigen::RowVector2i> offsets_of_matched_edges(const LatticeTriangles 
       const std::size_t lower = is_forwards ? k : (k + 1) % 3;
       const int vertex =
         mesh.triangles(static_cast<Eigen::Index>(t), static_cast<Eigen::Index>(lower));
-      const auto [place, is_first] = first.emplace(edge, Side{vertex, 1});
+      const auto [place, is_first] = first.emplace(edge, Side{vertex});
       if (is_first || place->second.vertex == vertex)
         continue;
       const Eigen::RowVector2d offset = glued.lattice.fractional(
@@ -262,7 +272,8 @@ void look_at_rims(MatchedCell &cell, const SideRules &rules, const double gap,
                   const std::string &name)
 {
   const auto glued =
-    glued_with_rims(cell.mesh, cell.lattice, Eigen::VectorXi::Zero(cell.mesh.n_triangles()), {});
+    glued_with_rims(cell.mesh, cell.lattice, Eigen::VectorXi::Zero(cell.mesh.n_triangles()), {},
+                    std::min(gap / std::sqrt(cell.lattice.area()), meshes::image_tolerance));
   if (!glued)
   {
     cell.faults = meshes::placed_periodicity_faults(cell.mesh, cell.lattice, name);
@@ -286,8 +297,9 @@ void look_at_rims(MatchedCell &cell, const SideRules &rules, const double gap,
     const DrawnRim its{rim, cell.mesh, cell.lattice};
     if (!rim.period.isZero() || !its.crosses_sides())
       continue;
-    cell.cuts_holes = true;
-    if (rules.slits == Slits::real && rim.area <= 0.)
+    cell.cuts_holes     = true;
+    const double length = its.length();
+    if (rules.slits == Slits::real && rim.area * cell.lattice.area() < 1e-9 * length * length)
       continue;
     std::optional<std::size_t> where;
     for (std::size_t k = 0; k < its.n(); ++k)
@@ -300,6 +312,9 @@ void look_at_rims(MatchedCell &cell, const SideRules &rules, const double gap,
     if (where)
       cell.faults.push_back(unlike_sides(its, *where, gap, name));
   }
+  if (cell.faults.empty() && cell.cuts_holes)
+    cell.faults =
+      conformity_faults_across(*glued, cell.mesh, name, rules.slits, rules.metres_per_unit);
   const bool is_whole = !cell.cuts_holes && is_closed;
   if (cell.faults.empty() && (is_whole || !is_closed || std::abs(filled - 1.) > 1e-6))
     cell.faults = meshes::placed_periodicity_faults(cell.mesh, cell.lattice, name);
@@ -324,7 +339,7 @@ MatchedCell match_sides(const meshes::TriangleMesh &mesh,
                         const std::vector<CurvedSide> &curved_sides, const meshes::Lattice &lattice,
                         const SideRules &rules, const std::string &name)
 {
-  MatchedCell cell{lattice, mesh, curved_sides, 0., -1, false, {}, {}};
+  MatchedCell cell{lattice, mesh, curved_sides, 0., -1, false, {}, {}, {}};
   if (!lattice.vectors.allFinite() ||
       !(lattice.area() > 1e-6 * lattice.vectors.rowwise().norm().prod()))
   {
@@ -367,6 +382,7 @@ MatchedCell match_sides(const meshes::TriangleMesh &mesh,
     if (!cell.faults.empty())
       return cell;
   }
+  match_curves(cell, boundary, classes, gap);
   look_at_rims(cell, rules, gap, name);
   return cell;
 }

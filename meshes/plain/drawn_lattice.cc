@@ -141,7 +141,7 @@ Frame frame_of_parallelogram(const Polygon &corners)
     if (dy < -1e-9 * scale || (dy < 1e-9 * scale && corners[k](0) < corners[lowest](0)))
       lowest = k;
   }
-  Frame frame{"the parallelogram around the drawing", {}, {{1, 0}, {0, 1}}};
+  Frame frame{{}, {{1, 0}, {0, 1}}};
   frame.lattice.vectors << corners[(lowest + 1) % 4] - corners[lowest],
     corners[(lowest + 3) % 4] - corners[lowest];
   return frame;
@@ -156,7 +156,7 @@ Frame frame_of_hexagon(const Polygon &corners)
   std::stable_sort(translations.begin(), translations.end(),
                    [](const Vector &a, const Vector &b)
                    { return a.norm() < b.norm() * (1. - 1e-9); });
-  Frame frame{"the hexagon around the drawing", ordered(translations[0], translations[1]), {}};
+  Frame frame{ordered(translations[0], translations[1]), {}};
   for (const Vector &translation : translations)
     frame.pairs.emplace_back(frame.lattice.fractional(translation).array().round().cast<int>());
   return frame;
@@ -171,7 +171,7 @@ std::vector<Frame> frames_of(const TriangleMesh &mesh, const double tolerance)
     frames.push_back(corners.size() == 4 ? frame_of_parallelogram(corners)
                                          : frame_of_hexagon(corners));
   const Vector size = mesh.vertices.colwise().maxCoeff() - mesh.vertices.colwise().minCoeff();
-  Frame box{"the bounding box", {}, {{1, 0}, {0, 1}}};
+  Frame box{{}, {{1, 0}, {0, 1}}};
   box.lattice.vectors << size(0), 0., 0., size(1);
   if (size.minCoeff() > 0. &&
       (frames.empty() ||

@@ -400,6 +400,62 @@ TEST(tripwire_drawn_cells, a_fault_of_the_mesh_is_refused_or_told_by_its_place)
   expect_faults_to_be_noticed(1729, 60);
 }
 
+TEST(tripwire_drawn_cells, the_end_of_a_bar_that_is_off_as_a_whole_is_no_hole)
+{
+  // Two bars and a column: what is missing between the end of a bar and its image joins two holes.
+  const int n         = 10;
+  const auto is_solid = [](const int i, const int j)
+  { return j == 1 || j == 6 || i == 4 || i == 5; };
+  const DrawnCell drawn;
+  for (const char *lattice : {"", "set Lattice vectors = 1 0; 0 1\n"})
+  {
+    meshes::TriangleMesh mesh = tests::pixels(n, is_solid);
+    EXPECT_TRUE(drawn.read(mesh, {}, lattice).is_whole) << lattice;
+    for (int v = 0; v < mesh.n_vertices(); ++v)
+      if (mesh.vertices(v, 0) > 1. - 1e-9 && mesh.vertices(v, 1) > 0.55)
+        mesh.vertices(v, 1) += 1e-3;
+    const CellReading reading = drawn.read(mesh, {}, lattice);
+    EXPECT_FALSE(reading.is_whole) << lattice;
+    EXPECT_NE(tests::texts_of(reading).find("opposite sides are not meshed alike"),
+              std::string::npos)
+      << tests::texts_of(reading);
+  }
+}
+
+TEST(tripwire_drawn_cells, a_tab_that_reaches_into_its_image_is_no_hole)
+{
+  // Across the right side into the notch of the left one, and beyond it.
+  const int n = 20;
+  meshes::TriangleMesh mesh =
+    tests::pixels(n, [](const int i, const int j) { return i >= 4 || j < 8 || j > 11; });
+  const auto vertex_at = [&](const double x, const double y)
+  {
+    Eigen::Index nearest;
+    (mesh.vertices.rowwise() - Eigen::RowVector2d(x, y)).rowwise().norm().minCoeff(&nearest);
+    return static_cast<int>(nearest);
+  };
+  Damaged its{mesh};
+  const int low = vertex_at(1., 0.475), high = vertex_at(1., 0.525),
+            far_low = its.add_vertex({1.3, 0.475}), far_high = its.add_vertex({1.3, 0.525});
+  its.add_triangle(low, far_low, vertex_at(1., 0.5), 0);
+  its.add_triangle(vertex_at(1., 0.5), far_low, far_high, 0);
+  its.add_triangle(vertex_at(1., 0.5), far_high, high, 0);
+  const DrawnCell drawn;
+  EXPECT_TRUE(drawn.read(mesh, {}, "set Lattice vectors = 1 0; 0 1\n").is_whole);
+  const CellReading reading = drawn.read(its.mesh, {}, "set Lattice vectors = 1 0; 0 1\n");
+  EXPECT_FALSE(reading.is_whole) << tests::texts_of(reading);
+}
+
+TEST(tripwire_drawn_cells, parts_that_meet_their_images_in_vertices_alone_are_a_mechanism)
+{
+  meshes::TriangleMesh mesh = tests::parallelogram(tests::square_lattice(1.), 4, 4);
+  Eigen::Matrix2d turn;
+  turn << 0.5, 0.5, -0.5, 0.5; // a diamond whose corners are those of no line of edges
+  mesh.vertices             = (mesh.vertices * turn).eval();
+  const CellReading reading = DrawnCell().read(mesh, {}, "set Lattice vectors = 1 0; 0 1\n");
+  EXPECT_FALSE(reading.is_whole) << tests::texts_of(reading);
+}
+
 TEST(long_drawn_cells, full_cells_nets_and_faults)
 {
   expect_no_holes_in_full_cells(1, 1000);
