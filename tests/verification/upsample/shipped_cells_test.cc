@@ -54,7 +54,7 @@ meshes::HomogenizedCell cell_of(const std::string &name, const double side)
   return cell;
 }
 
-ClothMesh flat(const meshes::TriangleMesh &rest)
+ClothMesh laid_flat(const meshes::TriangleMesh &rest)
 {
   return meshes::placed_sheet(rest, Eigen::Matrix<double, 3, 2>::Identity(), {0., 0., 0.});
 }
@@ -152,7 +152,7 @@ TEST(exact_shipped_cells, lie_on_whole_cells_and_on_a_mesh_that_is_no_multiple_o
     // chi is linear in a triangle where a vertex was made on the outline; field curves there.
     const double curvature = 0.05 * 0.01 * side;
 
-    const ClothMesh whole = flat(meshes::coarse_sheet({0., 0.}, cell.lattice.vectors, 3, 2));
+    const ClothMesh whole = laid_flat(meshes::coarse_sheet({0., 0.}, cell.lattice.vectors, 3, 2));
     const UpsampledCloth on_cells(cell, whole, {});
     EXPECT_NE(on_cells.description.find("a sheet of 3 x 2 cells"), std::string::npos);
     EXPECT_NEAR(area_of(on_cells, whole.positions), 6. * solid, 1e-5 * 6. * solid);
@@ -160,7 +160,7 @@ TEST(exact_shipped_cells, lie_on_whole_cells_and_on_a_mesh_that_is_no_multiple_o
     const Eigen::RowVector2d size(2.3 * side, 1.7 * side);
     Eigen::Matrix2d steps = Eigen::Matrix2d::Zero();
     steps.diagonal() << size(0) / 5., size(1) / 4.;
-    const ClothMesh own = flat(meshes::coarse_sheet({0., 0.}, steps, 5, 4));
+    const ClothMesh own = laid_flat(meshes::coarse_sheet({0., 0.}, steps, 5, 4));
     const UpsampledCloth on_own(cell, own, {});
     EXPECT_NE(on_own.description.find("1 panel, 40 coarse triangles"), std::string::npos);
     const double expected = covered_area(cell, size);

@@ -360,7 +360,7 @@ TEST_F(tripwire_frame_files, patterns_without_files_and_two_of_a_name_are_refuse
 
 TEST_F(tripwire_frame_files, a_frame_of_another_mesh_is_refused_with_both)
 {
-  const meshes::Polygons rest = {SpacePoints::Zero(4, 3), {{0, 1, 2, -1}, {0, 2, 3, -1}}};
+  const meshes::Polygons rest = {SpacePoints::Zero(4, 3), {{0, 1, 2, -1}, {0, 2, 3, -1}}, {}};
   EXPECT_EQ(fault_of_frame(rest, "a", rest, "rest.obj"), "");
   meshes::Polygons more = rest, fewer = rest, other = rest;
   more.positions.setZero(5, 3);
