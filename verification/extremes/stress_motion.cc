@@ -3,7 +3,7 @@
 #include "meshes/plain/symmetric_eigen.h"
 #include "meshes/plain/triangle_mesh.h"
 #include "shell/contact/obstacles.h"
-#include "shell/terms/bending.h"
+#include "shell/terms/plate_term.h"
 #include "shell/terms/inertial_terms.h"
 #include "shell/terms/wind.h"
 #include "verification/extremes/stress_cases.h"
@@ -185,7 +185,7 @@ StressAnswer draped(const SheetStiffness &stiffness, const double h, const bool 
   const Eigen::Vector3d centre(0.1, 0.1, -0.1);
   const meshes::ClothMesh mesh = lying_mesh(cells_per_side);
   Cloth cloth                  = sheet_cloth(mesh, stiffness, {});
-  cloth.add(shell::bending_term(mesh, {plate()}));
+  cloth.add(shell::plate_term(mesh, {plate()}));
   shell::ContactParameters contact;
   contact.gravity << 0., 0., -gravity;
   if (with_obstacle)
@@ -217,7 +217,7 @@ StressAnswer with_bending(const SheetStiffness &stiffness, const double h, const
 {
   const meshes::ClothMesh mesh = hanging_mesh(cells_per_side);
   Cloth cloth                  = sheet_cloth(mesh, stiffness, upper_corners(cells_per_side));
-  cloth.add(shell::bending_term(mesh, {plate()}));
+  cloth.add(shell::plate_term(mesh, {plate()}));
   Vectors velocities = meshes::random_vectors(mesh.n_vertices(), seed);
   for (const int v : upper_corners(cells_per_side))
     velocities.row(v).setZero();

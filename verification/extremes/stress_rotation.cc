@@ -4,7 +4,7 @@
 #include "meshes/plain/sheet.h"
 #include "shell/contact/obstacles.h"
 #include "shell/membrane/corotational_energy.h"
-#include "shell/terms/bending.h"
+#include "shell/terms/plate_term.h"
 #include "shell/terms/inertial_terms.h"
 #include "shell/terms/membrane_term.h"
 #include "shell/terms/wind.h"
@@ -162,7 +162,7 @@ StressAnswer forces_before_the_first_step(const SheetStiffness &stiffness)
 {
   const meshes::ClothMesh mesh = hanging_mesh(4);
   Cloth cloth                  = sheet_cloth(mesh, stiffness, {});
-  cloth.add(shell::bending_term(mesh, {shell::PlateStiffness::isotropic(1e-5, 0.3)}));
+  cloth.add(shell::plate_term(mesh, {shell::PlateStiffness::isotropic(1e-5, 0.3)}));
   cloth.add(shell::wind_term(mesh, {}));
   cloth.add(shell::pressure_term(mesh, [](double) { return 0.; }));
   cloth.add(shell::obstacle_term({"floor", shell::plane({0., 0., -1.}, {0., 0., 1.}), 0.3, {}},

@@ -238,7 +238,7 @@ class CutHoles(InFolder):
         self.assertIn("the outline cuts holes", said)
         self.assertIn("every straight line along a2 meets a hole: ", said)
         # C^H is that of the torus, a sheet is refused with the reason.
-        found, _ = self.homogenized(file, "net")
+        found, _ = self.homogenized(cell, "net")
         self.assertGreater(found["C"][2][2], 0)
         result = run("strain", file, "--quick", "--output", self.folder / "strain")
         self.assertEqual(result.returncode, 2, result.stdout)
