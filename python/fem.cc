@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Homogenization for Python, on one rank. MPI starts with the first call and ends with the
 // interpreter.
-#include "homogenization/lint/cell_frame.h"
 #include "homogenization/fem/homogenize.h"
+#include "homogenization/lint/cell_frame.h"
 #include "homogenization/lint/cell_reading.h"
 #include "homogenization/lint/conformity.h"
 #include "python/arrays.h"

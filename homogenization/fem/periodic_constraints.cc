@@ -167,9 +167,9 @@ ConstraintAudit audit_periodic_constraints(const Discretization &discretization,
     n_accounted += (is_tied[k] | is_master[k]);
   const std::size_t n_sides = n_side_nodes(discretization, lattice);
   if (n_accounted < n_sides)
-    throw std::logic_error("audit of the periodic constraints: " +
-                           std::to_string(n_sides - n_accounted) +
-                           " nodes on the sides are not tied to any image");
+    throw std::logic_error(
+      "audit of the periodic constraints: " + std::to_string(n_sides - n_accounted) +
+      " nodes on the sides are not tied to any image");
   return audit;
 }
 } // namespace homespun::homogenization

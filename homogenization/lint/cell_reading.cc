@@ -11,6 +11,7 @@
 
 #include <cmath>
 #include <filesystem>
+#include <ostream>
 #include <set>
 #include <sstream>
 
@@ -346,8 +347,11 @@ CellReading inspect_cell(const std::string &prm_file)
   return reading;
 }
 
-UnitCell read_unit_cell(const std::string &prm_file, const MPI_Comm communicator)
+UnitCell read_unit_cell(const std::string &prm_file, const MPI_Comm communicator,
+                        std::ostream *const warnings)
 {
+  static const std::set<std::string> of_the_drawing = {"nearly unmatched", "two cloths",
+                                                       "missing triangle", "cut hole"};
   CellReading reading = read_unit_cell_with_findings(prm_file, communicator);
   std::vector<std::string> faults;
   for (const Finding &finding : reading.findings)
@@ -355,6 +359,9 @@ UnitCell read_unit_cell(const std::string &prm_file, const MPI_Comm communicator
       faults.push_back(text_of(finding));
   if (!faults.empty())
     throw meshes::BadInput(faults);
+  for (const Finding &finding : reading.findings)
+    if (warnings && of_the_drawing.count(finding.kind) > 0)
+      *warnings << "warning: " << text_of(finding) << "\n";
   return std::move(reading.cell);
 }
 } // namespace homespun::homogenization

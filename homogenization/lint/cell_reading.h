@@ -8,6 +8,7 @@
 
 #include <mpi.h>
 
+#include <iosfwd>
 #include <string>
 #include <vector>
 
@@ -35,6 +36,10 @@ CellReading inspect_cell(const std::string &prm_file);
 
 /// Reads and validates a cell file.
 /// @param communicator as of read_unit_cell_with_findings()
+/// @param warnings where it says, a line each, what it did to the drawing and what else that may
+/// be:
+///   points that were moved, a second cloth, a missing triangle, why there are no sheets; or null
 /// @throws BadInput with one message per fault, each naming the file and the key, group or element
-UnitCell read_unit_cell(const std::string &prm_file, MPI_Comm communicator = MPI_COMM_NULL);
+UnitCell read_unit_cell(const std::string &prm_file, MPI_Comm communicator = MPI_COMM_NULL,
+                        std::ostream *warnings = nullptr);
 } // namespace homespun::homogenization

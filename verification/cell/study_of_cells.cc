@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iostream>
 #include <utility>
 
 namespace homespun::verification
@@ -35,7 +36,8 @@ StudyOfCells::StudyOfCells(std::string name_of_command, StudyOptions options,
     , begin(std::chrono::steady_clock::now())
 {
   for (const std::string &file : given.cell_files)
-    all_cells.push_back(homogenization::read_unit_cell(file, communicator));
+    all_cells.push_back(
+      homogenization::read_unit_cell(file, communicator, is_root ? &std::cerr : nullptr));
   check_names(all_cells);
 }
 

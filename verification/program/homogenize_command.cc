@@ -12,8 +12,8 @@ namespace homespun::verification
 {
 int homogenize_cell(const HomogenizeArguments &arguments)
 {
-  const homogenization::UnitCell cell =
-    homogenization::read_unit_cell(arguments.file, MPI_COMM_WORLD);
+  const homogenization::UnitCell cell = homogenization::read_unit_cell(
+    arguments.file, MPI_COMM_WORLD, is_root(MPI_COMM_WORLD) ? &std::cerr : nullptr);
   CellStudyOptions study = arguments.study;
   study.uncertain        = uncertain_inputs(cell, arguments.uncertain);
   if (study.output.empty())
