@@ -305,7 +305,8 @@ std::vector<unsigned int> ElasticSolver::solve_directly(std::vector<Vector> &sol
   std::vector<double> products(targets.size(), std::numeric_limits<double>::infinity());
   for (Vector &solution : solutions)
     solution = 0.;
-  // A row of n entries is summed with an error of n eps |A| |x|: no residual is known better.
+  // A row of n entries is summed with an error of n eps |A| |x|: no residual is known better. A
+  // target below the last digit of the load is none.
   const double stiffness = matrix.linfty_norm();
   const double per_row   = static_cast<double>(matrix.n_nonzero_elements()) /
                          static_cast<double>(matrix.m()) * std::numeric_limits<double>::epsilon();
@@ -313,6 +314,8 @@ std::vector<unsigned int> ElasticSolver::solve_directly(std::vector<Vector> &sol
   {
     const std::vector<double> &sizes = histories[k];
     return sizes.size() > 1 && sizes.back() > 0.5 * sizes[sizes.size() - 2] &&
+           targets[k].residual >=
+             std::numeric_limits<double>::epsilon() * right_hand_sides[k].l2_norm() &&
            sizes.back() <=
              per_row * (stiffness * solutions[k].l2_norm() + right_hand_sides[k].l2_norm());
   };
