@@ -161,6 +161,9 @@ std::string summary(const UnitCell &cell, const AssessedCell &assessed,
        << " triangles, " << cell.phases.size() << " phases, P" << assessed.options.order << ", "
        << result.n_dofs << " DoFs, " << result.iterations[0] << "/" << result.iterations[1] << "/"
        << result.iterations[2] << " iterations\n";
+  if (!result.abandoned.empty())
+    text << "Conjugate gradients with multigrid were given up after " << result.abandoned.size() - 1
+         << " iterations; a direct solver took over\n";
   for (const std::string &note : notes_on_cuts({cell}))
     text << note << "\n";
   text << "C^H" << (is_of_drawing(assessed) ? " of the drawing" : "")
