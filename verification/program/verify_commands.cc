@@ -78,7 +78,8 @@ void add_verify_command(CommandLine &line)
 {
   CLI::App *command = line.app.add_subcommand(
     "verify",
-    "Everything, for a list of cells: one report with all claims; without a cell the self-tests");
+    "homogenize, strain, converge and drape, for a list of cells: one report with all claims; without "
+    "a cell the self-tests");
   const auto arguments   = std::make_shared<StudyArguments<VerifyOptions>>();
   VerifyOptions &options = arguments->study;
   options.command        = line.text;

@@ -48,13 +48,7 @@ std::vector<std::string> notes_on_references(const StrainStudyOptions &asked,
   if (!asked.references.empty())
     return notes;
   for (const UnitCell &cell : cells)
-  {
-    std::string note = note_on_default_law(cell);
-    if (asked.run_time && default_law(cell) != Law::biot)
-      note += "; run times are measured against biot alone and left out of this cell: "
-              "--references biot asks for them";
-    notes.push_back(note);
-  }
+    notes.push_back(note_on_default_law(cell));
   return notes;
 }
 } // namespace homespun::verification

@@ -100,7 +100,8 @@ std::string note_of_fluctuation(const std::vector<StepRow> &steps)
   std::snprintf(
     text, sizeof(text),
     "Fluctuation: reference minus the homogenized sheet (C^H in every triangle, quads a quarter "
-    "of a cell wide; law linear beside the linear reference, biot beside all others). Its mean "
+    "of a cell wide; the law of the reference, but biot beside green, and beside yarn where C^H has "
+    "no axes of yarns). Its mean "
     "changes by at most %.2g %% from a homogenized sheet half as fine; these sheets took %.3g s, "
     "the references %.3g s.",
     100. * largest_change, seconds, seconds_fine);
