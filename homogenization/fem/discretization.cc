@@ -67,8 +67,8 @@ Discretization::Discretization(const meshes::TriangleMesh &mesh, const unsigned 
 {
   create(mesh, triangulation);
   dof_handler.distribute_dofs(element);
-  locally_owned = dof_handler.locally_owned_dofs();
-  DoFTools::extract_locally_active_dofs(dof_handler, locally_relevant);
+  locally_owned  = dof_handler.locally_owned_dofs();
+  locally_active = DoFTools::extract_locally_active_dofs(dof_handler);
 }
 
 FEValues<2> Discretization::fe_values(const Quadrature<2> &quadrature,
@@ -108,7 +108,8 @@ std::vector<Node> Discretization::boundary_nodes() const
 
 DofTable Discretization::vertex_dofs() const
 {
-  DofTable of_vertex(mesh.n_vertices(), n_components);
+  DofTable of_vertex =
+    DofTable::Constant(mesh.n_vertices(), n_components, numbers::invalid_dof_index);
   for (const auto &cell : dof_handler.active_cell_iterators())
     for (const unsigned int k : cell->vertex_indices())
       for (unsigned int c = 0; c < n_components; ++c)

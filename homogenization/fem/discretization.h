@@ -21,12 +21,12 @@
 
 namespace homespun::homogenization
 {
-/// A point that carries the displacement components of one node: component c has the DoF
+/// A point that carries the displacement components of one node: component c, from 0, has the DoF
 /// first_dof + c.
 struct Node
 {
   dealii::types::global_dof_index first_dof;
-  dealii::types::global_dof_index second_dof; ///< of component 2
+  dealii::types::global_dof_index second_dof; ///< of component 1
   Eigen::RowVector2d point;                   ///< [m]
 };
 
@@ -86,13 +86,13 @@ public:
 
   const dealii::FESystem<2> element;
   const dealii::MappingFE<2> mapping; ///< of straight triangles
-  /// Exact for the quadratic form of a linear law: 1 point for P1, 3 for P2.
+  /// Exact for the quadratic form of a linear law: of degree 0 for P1, 2 for P2.
   const dealii::Quadrature<2> stiffness_quadrature;
   /// For laws that are not quadratic: 1 point for P1 (F is constant), 6 (degree 4) for P2.
   const dealii::Quadrature<2> nonlinear_quadrature;
   dealii::parallel::shared::Triangulation<2> triangulation;
   dealii::DoFHandler<2> dof_handler;
   dealii::IndexSet locally_owned;
-  dealii::IndexSet locally_relevant; ///< of the cells that this rank owns
+  dealii::IndexSet locally_active; ///< those of the cells that this rank owns
 };
 } // namespace homespun::homogenization

@@ -26,13 +26,12 @@ namespace
 {
 using Vector = ElasticSolver::Vector;
 
-/// Up to which a Cholesky factorization on one rank is faster than multigrid. Measured on square
-/// inclusions of contrast 10, with OpenBLAS, on a machine with other work: of P1 with 33,282,
-/// 132,098 and 526,338 DoFs it takes 0.21, 0.5 and 0.7 of the time, of P2 with 526,338 half; of
-/// three-stiffness with 739,458, nothing beside, 0.77 with P1 and 0.55 with P2, and 1.7 times the
-/// memory of multigrid. Of a sheet of P2 with 1.15 million it is no faster. The factor grows as
-/// n log n, in memory, and its work as n^3/2.
-constexpr unsigned long most_dofs_of_direct_solver = 800000;
+/// Up to which a factorization is taken. Of three-stiffness with P2, three loads, direct solver
+/// over multigrid in seconds: 739,458 DoFs 0.34 on one rank (CHOLMOD), 0.6 on two (MUMPS);
+/// 2,953,474 DoFs 0.73 and 1.29, with 1.9 and 3.6 times the memory. In between the two meet on two
+/// ranks near 1.9 million, and a factor takes 2.5 kB per DoF. It grows as n log n, its work as
+/// n^3/2.
+constexpr unsigned long most_dofs_of_direct_solver = 1600000;
 constexpr unsigned int most_corrections            = 10; ///< of a direct solver
 
 using Target = ElasticSolver::Target;
@@ -224,7 +223,7 @@ void ElasticSolver::factorize()
 {
   preconditioner.reset(); // what takes memory goes first
   auto made = std::make_unique<Preconditioner>();
-  if (Utilities::MPI::n_mpi_processes(discretization.communicator) == 1)
+  if (n_ranks() == 1)
     made->factor = std::make_unique<CholeskyFactor>(lower_triangle(), "cell problems");
   else
     try
@@ -295,6 +294,11 @@ ElasticSolver::Solved ElasticSolver::solve_all(std::vector<Vector> &solutions,
     }
   solved.iterations = solve_directly(solutions, right_hand_sides, targets);
   return solved;
+}
+
+unsigned int ElasticSolver::n_ranks() const
+{
+  return Utilities::MPI::n_mpi_processes(discretization.communicator);
 }
 
 bool ElasticSolver::is_direct() const

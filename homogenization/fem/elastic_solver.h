@@ -57,7 +57,7 @@ public:
 
   bool has_preconditioner() const;
 
-  /// Whether a factorization is faster than multigrid: up to a measured size.
+  /// Whether a factorization is taken: up to a measured size it is faster than multigrid.
   bool is_small() const;
 
   /// Where to stop, for the residual r and the preconditioner M.
@@ -69,9 +69,8 @@ public:
     double energy = std::numeric_limits<double>::infinity();
   };
 
-  /// Conjugate gradients from the given start until both targets are met, the energy by the
-  /// residual before the last. A start with a small residual is left as it is: what it misses is
-  /// round-off.
+  /// Conjugate gradients from the given start until a residual meets both targets. A start with a
+  /// small residual is left as it is: what it misses is round-off.
   /// @return number of iterations
   /// @throws NotConverged with the residual history after `max_iterations`, or where the
   ///   preconditioner turns out not to be positive definite; IndefiniteMatrix where the matrix does
@@ -94,6 +93,7 @@ public:
                    const std::vector<Target> &targets, unsigned int max_iterations);
 
   bool is_direct() const; ///< whether there is a factor
+  unsigned int n_ranks() const;
 
   /// Of the matrix, on one rank.
   Eigen::SparseMatrix<double> lower_triangle() const;

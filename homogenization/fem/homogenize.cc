@@ -126,7 +126,7 @@ private:
   {
     result.anchor                   = meshes::anchor_vertex(cell.mesh, cell.lattice);
     const Eigen::RowVector2d anchor = cell.mesh.vertices.row(result.anchor);
-    const std::vector<Node> &nodes  = discretization.boundary_nodes();
+    const std::vector<Node> nodes   = discretization.boundary_nodes();
     make_periodic_constraints(discretization, cell.lattice, anchor, nodes, constraints);
     result.audit =
       audit_periodic_constraints(discretization, cell.lattice, anchor, nodes, constraints);
@@ -309,6 +309,8 @@ private:
     const SecondOrderFields found = second_order_fields(
       {cell, discretization, constraints, solutions}, law,
       {options.tolerance, energies_at_equal_stress(), most_iterations}, *solver);
+    if (result.abandoned.empty())
+      result.abandoned = found.abandoned;
     return {found.energy, at_vertices<6>(found.modes)};
   }
 

@@ -30,10 +30,12 @@ const char *name_of(CellSolver solver);
 
 struct HomogenizationOptions
 {
-  unsigned int order  = 2;     ///< 1 or 2, of the displacement elements
-  unsigned int refine = 0;     ///< uniform refinements of the given mesh before the solve
-  double tolerance    = 1e-11; ///< of |residual|, relative to the summed size of the element loads
-  CellSolver solver   = CellSolver::multigrid;
+  unsigned int order  = 2; ///< 1 or 2, of the displacement elements
+  unsigned int refine = 0; ///< uniform refinements of the given mesh before the solve
+  /// Of |residual|, relative to the root of the sum of squares of the element loads; of the energy
+  /// of the error, (100 tolerance)^2 of that of equal stress in all phases.
+  double tolerance  = 1e-11;
+  CellSolver solver = CellSolver::multigrid;
   std::string pieces; ///< path without ending of .pvtu and its pieces (write_pieces()); empty: none
   /// Whose quadratic modes and cubic energy are computed too: six more right-hand sides each.
   std::vector<MembraneLaw> second_order;
@@ -71,7 +73,8 @@ struct Homogenization
 
 /// Solves the cell problems: find periodic chi_a with
 ///   integral eps(v) : c : eps(chi_a) = integral eps(v) : c : e_a   for all periodic v,
-/// for the unit macro strains e_a, a = 11, 22, 12 (engineering shear), and forms
+/// for the unit macro strains e_a, a = 11, 22, 12 (engineering shear), with chi_a = 0 at one node
+/// of the outline: the loads do no work on a translation, so that this costs nothing. Forms
 ///   C^H_ab = 1/|Y| integral (e_a − eps(chi_a)) : c : (e_b − eps(chi_b)),
 /// the energy form, which is symmetric, approaches the exact C^H from above and differs from
 /// Eq. 4, 1/|Y| integral e_a : c : (e_b − eps(chi_b)), by what the solver left undone.

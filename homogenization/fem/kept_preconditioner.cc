@@ -17,7 +17,7 @@ void KeptPreconditioner::build(ElasticSolver &solver)
 {
   is_old = false;
   // On several ranks a hierarchy is kept, which tells directions of negative curvature.
-  is_factor = solver.is_small() && solver.matrix.local_size() == solver.matrix.m();
+  is_factor = solver.is_small() && solver.n_ranks() == 1;
   if (is_factor)
     try
     {

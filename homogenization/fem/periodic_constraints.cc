@@ -40,6 +40,15 @@ std::string text_of(const Node &node, const global_dof_index dof)
        << node.point << ") m";
   return text.str();
 }
+
+/// A fault of one rank ends all: others wait for it.
+/// @param fault of this rank; empty: none
+void throw_on_all_ranks(const std::string &fault, const MPI_Comm communicator)
+{
+  if (dealii::Utilities::MPI::max(fault.empty() ? 0 : 1, communicator) > 0)
+    throw std::logic_error(
+      fault.empty() ? "audit of the periodic constraints: another rank found a fault" : fault);
+}
 } // namespace
 
 void make_periodic_constraints(const Discretization &discretization, const meshes::Lattice &lattice,
@@ -52,13 +61,14 @@ void make_periodic_constraints(const Discretization &discretization, const meshe
     static_cast<std::size_t>(std::count_if(classes.size.begin(), classes.size.end(), has_images));
   const std::size_t n_sides = n_side_nodes(discretization, lattice);
   if (n_sides == 0 || matched < n_sides)
-    throw meshes::BadInput(std::to_string(n_sides - matched) + " of " + std::to_string(n_sides) +
+    throw meshes::BadInput(std::to_string(n_sides - std::min(matched, n_sides)) + " of " +
+                           std::to_string(n_sides) +
                            " nodes on the sides have no periodic image; `homespun check` names "
                            "them");
 
-  dealii::IndexSet lines = discretization.locally_relevant;
+  dealii::IndexSet lines = discretization.locally_active;
   for (std::size_t k = 0; k < nodes.size(); ++k)
-    if (discretization.locally_relevant.is_element(nodes[k].first_dof))
+    if (discretization.locally_active.is_element(nodes[k].first_dof))
     {
       const Node &master = nodes[static_cast<std::size_t>(classes.representative[k])];
       lines.add_index(master.first_dof);
@@ -111,7 +121,7 @@ ConstraintAudit audit_periodic_constraints(const Discretization &discretization,
   }
   const double tolerance = meshes::image_tolerance * std::sqrt(lattice.area());
   ConstraintAudit audit;
-  // Nodes that are tied, or to which others are tied; on the owner's rank only, then summed.
+  // Nodes that are tied, or to which others are tied; on the owner's rank only; then of all ranks.
   std::vector<unsigned int> is_tied(nodes.size(), 0), is_master(nodes.size(), 0);
   const auto check_line = [&](const std::size_t k, const global_dof_index dof)
   {
@@ -144,17 +154,26 @@ ConstraintAudit audit_periodic_constraints(const Discretization &discretization,
     is_master[m]      = 1;
     ++audit.n_constrained;
   };
-  for (std::size_t k = 0; k < nodes.size(); ++k)
-    if (discretization.locally_owned.is_element(nodes[k].first_dof))
-    {
-      check_line(k, nodes[k].first_dof);
-      check_line(k, nodes[k].second_dof);
-      if (constraints.is_constrained(nodes[k].first_dof) !=
-          constraints.is_constrained(nodes[k].second_dof))
-        throw std::logic_error(
-          "audit of the periodic constraints: " + text_of(nodes[k], nodes[k].first_dof) +
-          ": only one of its components is tied");
-    }
+  std::string fault;
+  try
+  {
+    for (std::size_t k = 0; k < nodes.size(); ++k)
+      if (discretization.locally_owned.is_element(nodes[k].first_dof))
+      {
+        check_line(k, nodes[k].first_dof);
+        check_line(k, nodes[k].second_dof);
+        if (constraints.is_constrained(nodes[k].first_dof) !=
+            constraints.is_constrained(nodes[k].second_dof))
+          throw std::logic_error(
+            "audit of the periodic constraints: " + text_of(nodes[k], nodes[k].first_dof) +
+            ": only one of its components is tied");
+      }
+  }
+  catch (const std::logic_error &found)
+  {
+    fault = found.what();
+  }
+  throw_on_all_ranks(fault, discretization.communicator);
   const auto sum = [&](const unsigned int value)
   { return dealii::Utilities::MPI::sum(value, discretization.communicator); };
   audit.n_constrained = sum(audit.n_constrained);

@@ -125,9 +125,10 @@ SecondOrderFields second_order_fields(const SolvedCell &solved, const MembraneLa
     targets.push_back(
       {target.tolerance * right.sizes[k], std::pow(1e2 * target.tolerance, 2) * energy});
   }
-  solver.solve_all(modes, right.loads, targets, target.most_iterations);
+  const ElasticSolver::Solved found =
+    solver.solve_all(modes, right.loads, targets, target.most_iterations);
   for (Vector &mode : modes)
     solved.constraints.distribute(mode);
-  return {modes, right.energy};
+  return {modes, right.energy, found.abandoned};
 }
 } // namespace homespun::homogenization

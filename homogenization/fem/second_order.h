@@ -32,7 +32,7 @@ struct SolvedCell
 /// When the modes are solved: as the characteristic displacements are.
 struct SecondOrderTarget
 {
-  double tolerance;         ///< of |residual|, relative to the summed size of the element loads
+  double tolerance;         ///< of |residual|, as in HomogenizationOptions
   Eigen::Vector3d energies; ///< of the unit strains if all triangles had the same stress [J]
   unsigned int most_iterations;
 };
@@ -41,6 +41,7 @@ struct SecondOrderFields
 {
   std::vector<ElasticSolver::Vector> modes; ///< chi_ab in the order of meshes::strain_pairs [m]
   meshes::CubicForm energy;                 ///< W3 [N/m]
+  std::vector<double> abandoned;            ///< as Homogenization::abandoned
 };
 
 /// All ranks must call this.

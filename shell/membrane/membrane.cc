@@ -81,15 +81,6 @@ const GuardedCubic *cubic_of(const Membrane &membrane, const int t)
   return membrane.cubic.empty() ? nullptr : &membrane.cubic[phase_of(membrane, t)];
 }
 
-/// The relaxed energy of a triangle of yarns.
-template <int dim>
-TensionField<dim> tension_field_of(const RestTriangle &rest,
-                                   const Eigen::Matrix<double, 3, dim> &corners,
-                                   const meshes::YarnAxes &yarns, const Hessian kind)
-{
-  return tension_field<dim>(deformation_gradient<dim>(rest, corners), yarns, kind);
-}
-
 /// The energy of a triangle but for the cubic part of the corotational law.
 template <int dim>
 double energy_of(const Membrane &membrane, const int t,
@@ -97,10 +88,8 @@ double energy_of(const Membrane &membrane, const int t,
 {
   const RestTriangle &rest = membrane.rest[static_cast<std::size_t>(t)];
   if (const meshes::YarnAxes *const yarns = yarns_of(membrane, t))
-    return rest.area * (membrane.compression == Compression::relaxed
-                          ? tension_field_of<dim>(rest, corners, *yarns, Hessian::exact).energy
-                          : yarn_energy_density<dim>(deformation_gradient<dim>(rest, corners),
-                                                     *yarns, cubic_of(membrane, t)));
+    return rest.area * yarn_energy_density<dim>(deformation_gradient<dim>(rest, corners), *yarns,
+                                                cubic_of(membrane, t));
   return triangle_energy<dim>(rest, corners, stiffness_of(membrane, t).D);
 }
 
@@ -112,12 +101,7 @@ Eigen::Matrix<double, 3, dim> forces_of(const Membrane &membrane, const int t,
   const RestTriangle &rest = membrane.rest[static_cast<std::size_t>(t)];
   const Eigen::Matrix3d &D = stiffness_of(membrane, t).D;
   if (const meshes::YarnAxes *const yarns = yarns_of(membrane, t))
-  {
-    if (membrane.compression == Compression::relaxed)
-      return by_corners<dim>(rest, tension_field_of<dim>(rest, corners, *yarns, Hessian::exact))
-        .gradient;
     return yarn_triangle_gradient<dim>(rest, corners, *yarns, cubic_of(membrane, t));
-  }
   if (membrane.cubic.empty())
     return triangle_gradient<dim>(rest, corners, D);
   const DeformationGradient<dim> F = deformation_gradient<dim>(rest, corners);
@@ -204,7 +188,7 @@ void add_cubic_energy(Membrane &membrane, const std::vector<meshes::CubicForm> &
   }
 }
 
-void take_yarn_law(Membrane &membrane, const Compression compression)
+void take_yarn_law(Membrane &membrane)
 {
   std::vector<meshes::YarnAxes> yarns;
   for (const MembraneStiffness &stiffness : membrane.stiffness)
@@ -212,26 +196,11 @@ void take_yarn_law(Membrane &membrane, const Compression compression)
   if (std::none_of(yarns.begin(), yarns.end(),
                    [](const meshes::YarnAxes &each) { return each.are_there; }))
     return;
-  if (compression == Compression::relaxed && !membrane.cubic.empty())
-    throw meshes::BadInput("law yarn-tension: the membrane has a cubic energy, which is one of "
-                           "cloth that carries compression; expected none");
   for (std::size_t phase = 0; phase < membrane.cubic.size(); ++phase)
     if (const meshes::YarnAxes &axes = yarns[phase]; axes.are_there)
       membrane.cubic[phase] =
         GuardedCubic(cubic_of_yarn_strain(membrane.cubic[phase].form(), axes), axes.C);
-  membrane.yarns       = std::move(yarns);
-  membrane.compression = compression;
-}
-
-template <int dim>
-TensionState tension_state(const Membrane &membrane, const int t, const Positions<dim> &positions)
-{
-  const meshes::YarnAxes *const yarns = yarns_of(membrane, t);
-  if (yarns == nullptr || membrane.compression == Compression::carried)
-    return TensionState::taut;
-  return tension_field_of<dim>(membrane.rest[static_cast<std::size_t>(t)],
-                               corners_of<dim>(membrane, positions, t), *yarns, Hessian::exact)
-    .state;
+  membrane.yarns = std::move(yarns);
 }
 
 template <int dim>
@@ -313,8 +282,6 @@ TriangleDerivatives<dim> membrane_triangle_derivatives(const Membrane &membrane,
   const meshes::YarnAxes *const yarns = yarns_of(membrane, t);
   if (yarns == nullptr)
     return triangle_derivatives<dim>(rest, corners, stiffness_of(membrane, t), kind);
-  if (membrane.compression == Compression::relaxed)
-    return by_corners<dim>(rest, tension_field_of<dim>(rest, corners, *yarns, kind));
   return yarn_triangle_derivatives<dim>(rest, corners, *yarns, kind, cubic_of(membrane, t));
 }
 
@@ -353,7 +320,6 @@ int first_not_finite(const Positions<dim> &positions)
 
 #define HOMESPUN_INSTANTIATE(dim)                                                                  \
   template double membrane_energy<dim>(const Membrane &, const Positions<dim> &);                  \
-  template TensionState tension_state<dim>(const Membrane &, int, const Positions<dim> &);         \
   template TriangleDerivatives<dim> membrane_triangle_derivatives<dim>(                            \
     const Membrane &, int, const Eigen::Matrix<double, 3, dim> &, Hessian);                        \
   template MembraneGradient<dim> membrane_gradient<dim>(const Membrane &, const Positions<dim> &); \

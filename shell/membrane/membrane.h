@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // The membrane term of a cloth: the corotational energy of corotational_energy.h, or that of
-// yarn_energy.h or tension_field.h, summed over a triangle mesh with a stiffness per phase. Value,
-// gradient and Hessian take the same arguments and keep no state, so that a solver adds further
-// terms beside it or leaves this one out.
+// yarn_energy.h, summed over a triangle mesh with a stiffness per phase. Value, gradient and
+// Hessian take the same arguments and keep no state, so that a solver adds further terms beside it
+// or leaves this one out.
 #pragma once
 
 #include "meshes/cloth/cloth_mesh.h"
@@ -11,7 +11,6 @@
 #include "shell/algebra/free_vertex_matrix.h"
 #include "shell/membrane/corotational_energy.h"
 #include "shell/membrane/guarded_cubic.h"
-#include "shell/membrane/tension_field.h"
 
 #include <Eigen/Core>
 
@@ -23,13 +22,6 @@ namespace homespun::shell
 template <int dim>
 using Positions = Eigen::Matrix<double, Eigen::Dynamic, dim, Eigen::RowMajor>;
 
-/// What yarns do where they, or the sheet between them, are compressed.
-enum class Compression
-{
-  carried, ///< yarn_energy.h
-  relaxed  ///< tension_field.h: wrinkles take it
-};
-
 /// A membrane at rest.
 struct Membrane
 {
@@ -40,8 +32,7 @@ struct Membrane
   std::vector<MembraneStiffness> stiffness; ///< Voigt 11, 22, 12, engineering shear [N/m]
   /// One per phase, of the strain of the phase's law; empty: the energy is quadratic.
   std::vector<GuardedCubic> cubic;
-  std::vector<meshes::YarnAxes> yarns;            ///< one per phase; empty: all are corotational
-  Compression compression = Compression::carried; ///< of yarns
+  std::vector<meshes::YarnAxes> yarns; ///< one per phase; empty: all are corotational
 };
 
 /// Prepares the rest state of a membrane, mesh.material being the phase of each triangle.
@@ -64,12 +55,7 @@ void add_cubic_energy(Membrane &membrane, const std::vector<meshes::CubicForm> &
 /// Gives the phases whose stiffness has axes the law of yarns (yarn_energy.h). One that is alike in
 /// all directions stays corotational; where every phase is so, nothing changes. A cubic energy
 /// stays that of the Biot strain: the whole energy keeps its third order (cubic_of_yarn_strain()).
-/// @throws BadInput where the membrane has a cubic energy and compression is relaxed
-void take_yarn_law(Membrane &membrane, Compression compression = Compression::carried);
-
-/// The state of a triangle under Compression::relaxed; one that is not of yarns is taut.
-template <int dim>
-TensionState tension_state(const Membrane &membrane, int triangle, const Positions<dim> &positions);
+void take_yarn_law(Membrane &membrane);
 
 /// Total energy, sum of area times W [J].
 /// @param positions (n,dim) [m]

@@ -24,7 +24,7 @@ public:
 
   std::string name() const override
   {
-    return carries_compression() ? "yarn membrane" : "yarn-tension membrane";
+    return "yarn membrane";
   }
 
   void couple(std::vector<std::array<int, 2>> &pairs) const override
@@ -44,7 +44,7 @@ public:
 
   std::string why_infinite(const Vectors &positions) const override
   {
-    for (int t = 0; t < n_triangles() && carries_compression(); ++t)
+    for (int t = 0; t < n_triangles(); ++t)
       if (const meshes::YarnAxes &yarns = membrane.yarns[index(membrane.phase[index(t)])];
           yarns.are_there &&
           !has_length<3>(deformation_gradient<3>(membrane.rest[index(t)], corners_of(positions, t)),
@@ -81,7 +81,7 @@ public:
 
   bool has_discrete_gradient() const override
   {
-    return carries_compression();
+    return true;
   }
 
   void add_discrete_gradient(const Vectors &old, const Vectors &positions, Vectors &gradient,
@@ -111,10 +111,6 @@ private:
   {
     return static_cast<int>(membrane.triangles.rows());
   }
-  bool carries_compression() const
-  {
-    return membrane.compression == Compression::carried;
-  }
   Eigen::Matrix3d corners_of(const Vectors &positions, const int t) const
   {
     Eigen::Matrix3d corners;
@@ -129,11 +125,10 @@ private:
 } // namespace
 
 std::unique_ptr<Term> yarn_term(const meshes::ClothMesh &cloth,
-                                const std::vector<Eigen::Matrix3d> &stiffness,
-                                const Compression compression)
+                                const std::vector<Eigen::Matrix3d> &stiffness)
 {
   Membrane whole = membrane(cloth, stiffness);
-  take_yarn_law(whole, compression);
+  take_yarn_law(whole);
   if (whole.yarns.empty())
     throw meshes::BadInput("law yarn: the stiffness of every phase is alike in all directions; "
                            "expected one with axes, or membrane_term()");

@@ -1,11 +1,8 @@
 // SPDX-License-Identifier: MIT
-// The membrane of a moving cloth of yarns: the energy of yarn_energy.h, or of tension_field.h, in
-// the place of the corotational one of membrane_term.h, E = Σ_triangles A W. Phases that are alike
-// in all directions stay corotational. Its viscosity, where there is one, is viscosity_term()
-// beside it.
-//
-// A conserving step takes it where compression is carried (yarn_discrete_gradient.h); a relaxed
-// energy has no discrete gradient here.
+// The membrane of a moving cloth of yarns: the energy of yarn_energy.h in the place of the
+// corotational one of membrane_term.h, E = Σ_triangles A W. Phases that are alike in all directions
+// stay corotational. Its viscosity, where there is one, is viscosity_term() beside it. A conserving
+// step takes it (yarn_discrete_gradient.h).
 #pragma once
 
 #include "meshes/cloth/cloth_mesh.h"
@@ -20,6 +17,5 @@ namespace homespun::shell
 ///   whose axes are those of its yarns [N/m]
 /// @throws BadInput as membrane() does, and where no stiffness has axes
 std::unique_ptr<Term> yarn_term(const meshes::ClothMesh &cloth,
-                                const std::vector<Eigen::Matrix3d> &stiffness,
-                                Compression compression = Compression::carried);
+                                const std::vector<Eigen::Matrix3d> &stiffness);
 } // namespace homespun::shell

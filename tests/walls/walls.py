@@ -85,11 +85,6 @@ MAY_INCLUDE = {
     "verification/bloch": {"verification/record", "verification/newton", "verification/reference",
                            "verification/periodic_cell", "verification/cell",
                            "verification/laws", "meshes/plain", "meshes/files"} | CELLS,
-    "verification/scaling": {"meshes/plain", "meshes/files", "verification/record",
-                             "verification/cell"} | CELLS,
-    "verification/benchmark": {"meshes/plain", "shell/algebra", "shell/terms",
-                               "homogenization/fem", "homogenization/lint", "localization",
-                               "verification/record", "verification/drape"},
     "verification/upsample": {"meshes/plain", "meshes/files", "meshes/cloth", "meshes/garment",
                               "verification/record", "localization"},
     "verification/program": {"verification/record", "verification/cell", "verification/laws",
@@ -98,8 +93,7 @@ MAY_INCLUDE = {
                              "verification/converge", "verification/scene",
                              "verification/drape",
                              "verification/extremes", "verification/load", "verification/bloch",
-                             "verification/scaling", "verification/upsample",
-                             "verification/benchmark",
+                             "verification/upsample",
                              "meshes/plain", "meshes/files"} | CELLS,
 }
 FOLDERS = sorted({wing.split("/")[0] for wing in MAY_INCLUDE})

@@ -164,9 +164,6 @@ std::optional<meshes::Points> BudgetStudy::solve_by_second_code(const Law law, c
     const Load load(load_name);
     if (law == Law::linear)
       positions = second_linear_sheet(cells.given, cells.stiffness_of_phase, *sheet, load, strain);
-    else if (law == Law::yarn_tension && !load.is_periodic())
-      positions =
-        second_sheet_of_tension(cells.given, cells.stiffness_of_phase, *sheet, load, tight);
     else
       positions =
         second_nonlinear_sheet(law, cells.given, cells.stiffness_of_phase, *sheet, load, strain);

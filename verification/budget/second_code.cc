@@ -40,8 +40,7 @@ shell::MembraneSolver<2> second_solver(const Law law, const meshes::HomogenizedC
 {
   shell::Membrane membrane = shell::membrane(second_mesh(cell, sheet), stiffness_of_phase);
   if (is_of_yarns(law))
-    shell::take_yarn_law(membrane, law == Law::yarn_tension ? shell::Compression::relaxed
-                                                            : shell::Compression::carried);
+    shell::take_yarn_law(membrane);
   return {std::move(membrane), held_vertices(load, sheet, sheet.mesh.vertices)};
 }
 
@@ -154,16 +153,6 @@ meshes::Points second_nonlinear_sheet(const Law law, const meshes::HomogenizedCe
   tight.relative_tolerance   = 1e-13; // round-off counts as zero before
   const meshes::Points moved = moved_affinely(load, sheet, sheet.mesh.vertices, strain);
   return solver.solve_equilibrium(solver.solve_linear(moved), tight).positions;
-}
-
-meshes::Points second_sheet_of_tension(const meshes::HomogenizedCell &cell,
-                                       const std::vector<Eigen::Matrix3d> &stiffness_of_phase,
-                                       const meshes::Sheet &sheet, const Load &load,
-                                       const meshes::Points &start)
-{
-  return second_solver(Law::yarn_tension, cell, stiffness_of_phase, sheet, load)
-    .solve_equilibrium(start)
-    .positions;
 }
 
 Eigen::Matrix3d second_p2_stiffness(const meshes::HomogenizedCell &cell,

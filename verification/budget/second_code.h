@@ -43,16 +43,6 @@ meshes::Points second_nonlinear_sheet(Law law, const meshes::HomogenizedCell &ce
                                       const std::vector<Eigen::Matrix3d> &stiffness_of_phase,
                                       const meshes::Sheet &sheet, const Load &load, double strain);
 
-/// The resolved sheet under `yarn-tension`, from the positions of the reference: its law leaves
-/// open where a slack cloth lies, and by its own way the second code would end elsewhere. Where it
-/// has other forces there, it leaves them.
-/// @param start (n,2) [m]
-/// @throws NotConverged
-meshes::Points second_sheet_of_tension(const meshes::HomogenizedCell &cell,
-                                       const std::vector<Eigen::Matrix3d> &stiffness_of_phase,
-                                       const meshes::Sheet &sheet, const Load &load,
-                                       const meshes::Points &start);
-
 /// C^H of P2 on the cell's mesh by the direct solver on the glued mesh [N/m].
 Eigen::Matrix3d second_p2_stiffness(const meshes::HomogenizedCell &cell,
                                     const std::vector<Eigen::Matrix3d> &stiffness_of_phase);

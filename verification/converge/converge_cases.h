@@ -18,12 +18,9 @@
 //               a sheet that closes along one axis: order 1 per cell side. Corners between clamped
 //               and free edges leave 2 lambda − 1, lambda their exponent.
 // strain        periodic loads under the cell's default law: the linear characteristic
-// displacements err by strain
-//               squared, `affine` by strain.
+//               displacements err by strain squared, `affine` by strain.
 // time          the coarse cloth swings down from one edge, linearly implicit and implicit Euler:
 //               order 1.
-// manufactured  manufactured_cases.h: L2 order p + 1, H1 order p; steps in time order 1, of the
-//               conserving integrator 2; up-sampled positions order 2 in H.
 #pragma once
 
 #include "homogenization/cell/unit_cell.h"
@@ -77,6 +74,4 @@ std::vector<ConvergenceCase> edge_cases(const homogenization::UnitCell &cell,
 std::vector<ConvergenceCase> time_cases(const homogenization::UnitCell &cell,
                                         const meshes::HomogenizedCell &homogenized,
                                         const ConvergenceSizes &sizes);
-/// No cell: "none" stands in its place.
-std::vector<ConvergenceCase> manufactured_study_cases(MPI_Comm communicator);
 } // namespace homespun::verification

@@ -4,7 +4,6 @@
 #include "meshes/plain/errors.h"
 #include "verification/converge/cell_refinement.h"
 #include "verification/converge/converge_cases.h"
-#include "verification/converge/manufactured_cases.h"
 #include "verification/laws/default_law.h"
 #include "verification/method/lightweight_cloth.h"
 #include "verification/record/number_text.h"
@@ -182,46 +181,6 @@ std::vector<ConvergenceCase> strain_cases(const UnitCell &cell,
     cases.push_back({cell.name, "strain", name,
                      [&cell, &homogenized, load = Load(name), sizes, communicator]()
                      { return climb_strains(cell, homogenized, load, sizes, communicator); }});
-  return cases;
-}
-
-std::vector<ConvergenceCase> manufactured_study_cases(const MPI_Comm communicator)
-{
-  std::vector<ConvergenceCase> cases;
-  for (const ManufacturedCase &one : manufactured_cases())
-    cases.push_back(
-      {"none", "manufactured", one.name + "; P" + std::to_string(one.order),
-       [&one, communicator]()
-       {
-         const ManufacturedLadder ladder = climb(one, communicator);
-         const ManufacturedClaims claims = judge(one, ladder);
-         ConvergenceResult result;
-         result.unfinished = ladder.unfinished;
-         const auto add    = [&](const char *quantity, const std::vector<double> &errors,
-                              const OrderJudgement &judgement, const std::string &claim)
-         {
-           Series series;
-           series.quantity  = quantity;
-           series.order     = one.order;
-           series.h_unit    = one.h_unit;
-           series.judgement = judgement;
-           for (std::size_t k = 0; k < errors.size(); ++k)
-             series.levels.push_back({ladder.h[k], ladder.n_dofs[k], std::nullopt, errors[k], 0.});
-           result.add(series, {claim, one.theory + with_settled});
-         };
-         add("L2 error [side]", ladder.L2, claims.L2, one.L2_claim);
-         if (one.has_H1)
-           add("H1 error [-]", ladder.H1, claims.H1, "the H1 error has order p");
-         if (one.has_tolerance)
-           result.verdicts.push_back(
-             {"the algebraic error lies 100 times below the smallest L2 error (their ratio)",
-              claims.algebraic_share <= largest_algebraic_share ? Outcome::pass
-                                                                : Outcome::inconclusive,
-              claims.algebraic_share, "<= 0.01",
-              "1 % of the smallest error changes an order from one level to the next by at most "
-              "log2(1.01 / 0.99) = 0.03, less than a third of its tolerance"});
-         return result;
-       }});
   return cases;
 }
 } // namespace homespun::verification

@@ -6,7 +6,7 @@ namespace homespun::verification
 const std::vector<std::string> &convergence_studies()
 {
   static const std::vector<std::string> all = {"mesh",  "adaptive", "scale", "coarse",
-                                               "edges", "strain",   "time",  "manufactured"};
+                                               "edges", "strain",   "time"};
   return all;
 }
 } // namespace homespun::verification

@@ -60,14 +60,6 @@ nlohmann::ordered_json what_was_left_out(const ConvergenceStudyOptions &options,
   for (const std::string &study : convergence_studies())
     if (!has(options, study))
       left_out("study " + study, "--studies does not name it");
-  if (has(options, "manufactured"))
-  {
-    left_out("manufactured solutions with P2 and lumped mass",
-             "lumping takes one order from P2, as cloth_reference.h says");
-    left_out(
-      "manufactured solutions of the homogenizer with P2 and a stiffness that varies smoothly",
-      "a stiffness per triangle stands for it with order 2, which is P1's");
-  }
   if (options.is_quick)
     left_out("finer levels", "--quick");
   // Series of meshes whose number the DoFs decide, by cell, order and kind of mesh.
@@ -108,11 +100,6 @@ std::vector<std::string> notes(const ConvergenceStudyOptions &options)
   add("adaptive", "h is one over the square root of the DoFs of the displacements. Adaptive meshes "
                   "do not grow evenly: the order is fitted to the last five levels and to the "
                   "last three, and both must lie within the limit.");
-  add("manufactured",
-      "smooth motions with strains of some ten per cent, body forces from energies written apart "
-      "from the solvers' laws; irregular meshes, refined uniformly. A stiffness that varies is one "
-      "per triangle. Up-sampled positions are compared at the fine vertices, from coarse ones that "
-      "stand where the motion takes them.");
   return list;
 }
 
@@ -206,9 +193,6 @@ private:
     add("strain", [&](const UnitCell &cell, const auto &h)
         { return strain_cases(cell, h, sizes, communicator); });
     add("time", [&](const UnitCell &cell, const auto &h) { return time_cases(cell, h, sizes); });
-    if (has(options, "manufactured"))
-      for (ConvergenceCase &one : manufactured_study_cases(communicator))
-        cases.push_back(std::move(one));
   }
 
   void run_cases()
@@ -217,7 +201,7 @@ private:
     std::string group;
     for (const ConvergenceCase &one : cases)
     {
-      const std::string here = one.cell == "none" ? one.study : one.cell + ", " + one.study;
+      const std::string here = one.cell + ", " + one.study;
       if (here == group)
         progress.begin(here + ": " + one.name);
       else

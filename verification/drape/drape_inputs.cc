@@ -184,8 +184,7 @@ void check_references(const DrapeOptions &options, const Scene &scene)
                          "`; expected `implicit` or `linearly implicit`");
   if (scene.integration == TimeIntegration::conserving)
     for (const std::string &variant : options.variants)
-      if (const MembraneModel model = membrane_model_of(variant);
-          !has_energy(model) || model == MembraneModel::woven_tension)
+      if (const MembraneModel model = membrane_model_of(variant); !has_energy(model))
         faults.push_back("--variants " + variant + ": scene `" + scene.name +
                          "` has the key `Integrator` = conserving, which asks for a membrane whose "
                          "forces over a step are known; expected corotational or woven, or another "

@@ -139,10 +139,8 @@ private:
                   { return name == name_of(MembraneModel::corotational) || name == "quadratic"; });
     if (const std::string loss = note_on_corotational_cloth(C); is_corotational && !loss.empty())
       drape.note(draped.cell.name + ": " + loss);
-    if (is_woven(draped.model))
-      drape.note(draped.cell.name + ": " +
-                 note_on_coarse_yarns(
-                   draped.model == MembraneModel::woven ? Law::yarn : Law::yarn_tension, C));
+    if (draped.model == MembraneModel::woven)
+      drape.note(draped.cell.name + ": " + note_on_coarse_yarns(Law::yarn, C));
   }
 
   nlohmann::ordered_json description_of(const DrapedCell &draped)

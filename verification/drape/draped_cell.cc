@@ -121,7 +121,7 @@ DrapedCell::DrapedCell(const Scene &given, const homogenization::UnitCell &cell,
     , model(model)
     , side(std::sqrt(cell.lattice.area()))
 {
-  if (is_woven(model) && !meshes::yarn_axes(homogenized.stiffness).are_there)
+  if (model == MembraneModel::woven && !meshes::yarn_axes(homogenized.stiffness).are_there)
     throw meshes::BadInput("--variants " + name_of(model) + ": C^H of " + cell.file +
                            " is alike in all directions and has no yarns; expected a cell whose "
                            "C^H has axes, or corotational");
@@ -239,7 +239,7 @@ MembraneModel DrapedCell::fine_model() const
   const bool has_yarns = std::any_of(phases.stiffness.begin(), phases.stiffness.end(),
                                      [](const Eigen::Matrix3d &stiffness)
                                      { return meshes::yarn_axes(stiffness).are_there; });
-  return is_woven(model) && has_yarns ? model : MembraneModel::corotational;
+  return model == MembraneModel::woven && has_yarns ? model : MembraneModel::corotational;
 }
 
 HeldMotion DrapedCell::coarse_motion() const

@@ -12,6 +12,7 @@
 #include "shell/terms/warping.h"
 #include "shell/terms/wind.h"
 #include "shell/terms/yarn_term.h"
+#include "verification/reference/laws.h"
 
 #include <Eigen/LU>
 
@@ -68,8 +69,6 @@ std::string name_of(const MembraneModel model)
     return "corotational";
   case MembraneModel::woven:
     return "woven";
-  case MembraneModel::woven_tension:
-    return "woven-tension";
   case MembraneModel::triangle_warping:
     return "triangle-warping";
   case MembraneModel::nodal_warping:
@@ -80,24 +79,18 @@ std::string name_of(const MembraneModel model)
 
 bool has_energy(const MembraneModel model)
 {
-  return model == MembraneModel::corotational || is_woven(model);
-}
-
-bool is_woven(const MembraneModel model)
-{
-  return model == MembraneModel::woven || model == MembraneModel::woven_tension;
+  return model == MembraneModel::corotational || model == MembraneModel::woven;
 }
 
 MembraneModel membrane_model_of(const std::string &name)
 {
-  for (const MembraneModel model :
-       {MembraneModel::corotational, MembraneModel::woven, MembraneModel::woven_tension,
-        MembraneModel::triangle_warping, MembraneModel::nodal_warping})
+  for (const MembraneModel model : {MembraneModel::corotational, MembraneModel::woven,
+                                    MembraneModel::triangle_warping, MembraneModel::nodal_warping})
     if (name_of(model) == name)
       return model;
+  refuse_removed_law(name);
   throw meshes::BadInput("found `" + name +
-                         "`; expected corotational, woven, woven-tension, triangle-warping or "
-                         "nodal-warping");
+                         "`; expected corotational, woven, triangle-warping or nodal-warping");
 }
 
 std::vector<std::string> terms_with_a_cost(const Scene &scene)
@@ -204,10 +197,6 @@ void SceneCloth::add_membrane(const ClothMaterial &material, const MembraneModel
     break;
   case MembraneModel::woven:
     add([&](const meshes::ClothMesh &of) { return shell::yarn_term(of, material.stiffness); });
-    break;
-  case MembraneModel::woven_tension:
-    add([&](const meshes::ClothMesh &of)
-        { return shell::yarn_term(of, material.stiffness, shell::Compression::relaxed); });
     break;
   case MembraneModel::triangle_warping:
     moving->add(shell::triangle_warping_term(mesh, material.stiffness));

@@ -20,18 +20,14 @@ namespace homespun::verification
 /// in its place, without one.
 enum class MembraneModel
 {
-  corotational,  ///< law biot
-  woven,         ///< law yarn, shell/terms/yarn_term.h
-  woven_tension, ///< law yarn-tension
+  corotational, ///< law biot
+  woven,        ///< law yarn, shell/terms/yarn_term.h
   triangle_warping,
   nodal_warping
 };
 
 /// Whether a model has an energy, and so may be the method, against which variants are held.
 bool has_energy(MembraneModel model);
-
-/// Whether it is one of yarns: a stiffness needs axes.
-bool is_woven(MembraneModel model);
 
 std::string name_of(MembraneModel model);
 

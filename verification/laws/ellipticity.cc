@@ -227,12 +227,6 @@ std::optional<double> EllipticityOfLaw::at_unless_above(const Eigen::Matrix2d &F
   return least_wave(here.tangent).stiffness / at_rest;
 }
 
-bool EllipticityOfLaw::is_lost(const double least) const
-{
-  constexpr double round_off = 1e-9;
-  return law == Law::yarn_tension ? least < -round_off : !(least > 0.);
-}
-
 std::vector<PhaseEllipticity>
 ellipticity_of_phases(const meshes::TriangleMesh &rest,
                       const std::vector<Eigen::Matrix3d> &stiffness_of_phase, const Law law,
@@ -251,14 +245,9 @@ ellipticity_of_phases(const meshes::TriangleMesh &rest,
     // What lies above changes nothing.
     if (const auto ratio = laws[phase].at_unless_above(F, std::max(0., p.least)))
     {
-      p.n_lost += laws[phase].is_lost(*ratio) ? 1 : 0;
+      p.n_lost += *ratio > 0. ? 0 : 1;
       p.least = std::min(p.least, *ratio);
     }
-    if (law != Law::yarn_tension)
-      continue;
-    const ClothState state = cloth_state(stiffness_of_phase[phase], F);
-    p.n_wrinkled += state == ClothState::wrinkled ? 1 : 0;
-    p.n_slack += state == ClothState::slack ? 1 : 0;
   }
   return found;
 }

@@ -50,7 +50,7 @@ LeastWave least_wave(const Eigen::Matrix4d &tangent);
 bool every_wave_is_above(const Eigen::Matrix4d &tangent, double bound);
 
 /// The least wave of a stiffness under a law, as a part of the one at rest: 1 at rest, whatever the
-/// unit; is_lost() where ellipticity is. Not finite where the law is not.
+/// unit; not positive where ellipticity is lost. Not finite where the law is not.
 class EllipticityOfLaw
 {
 public:
@@ -64,10 +64,6 @@ public:
   /// made then.
   std::optional<double> at_unless_above(const Eigen::Matrix2d &F, double bound) const;
 
-  /// Whether a value of at() is of a state that is lost: not positive; under yarn-tension, whose
-  /// wrinkles have waves that cost nothing, negative by more than round-off.
-  bool is_lost(double least) const;
-
 private:
   Law law;
   LawOfPhase phase;
@@ -78,9 +74,8 @@ private:
 struct PhaseEllipticity
 {
   int n_triangles = 0;
-  int n_lost      = 0;             ///< of them not elliptic
-  double least    = 1.;            ///< as a part of the value at rest, of the worst triangle
-  int n_wrinkled = 0, n_slack = 0; ///< under yarn-tension: relaxed (yarns/tension_field.h)
+  int n_lost      = 0;  ///< of them not elliptic: least is not positive
+  double least    = 1.; ///< as a part of the value at rest, of the worst triangle
 };
 
 /// Of each phase of a mesh whose triangles deform evenly.

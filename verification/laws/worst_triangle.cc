@@ -32,8 +32,7 @@ WorstTriangle worst_triangle(const meshes::TriangleMesh &rest,
   }
   if (worst.triangle < 0)
     return worst;
-  worst.is_lost =
-    laws[static_cast<std::size_t>(rest.material(worst.triangle))].is_lost(worst.least);
+  worst.is_lost           = !(worst.least > 0.);
   const Eigen::Matrix2d F = meshes::deformation_gradient<2>(rest, worst.triangle, positions);
   const Response here =
     response(law, stiffness_of_phase[static_cast<std::size_t>(rest.material(worst.triangle))], F);

@@ -18,10 +18,8 @@ namespace
 /// The first law of yarns among some names; empty where there is none.
 std::string law_of_yarns(const std::vector<std::string> &names)
 {
-  const auto found =
-    std::find_if(names.begin(), names.end(),
-                 [](const std::string &name)
-                 { return name == name_of(Law::yarn) || name == name_of(Law::yarn_tension); });
+  const auto found = std::find_if(
+    names.begin(), names.end(), [](const std::string &name) { return name == name_of(Law::yarn); });
   return found == names.end() ? std::string() : *found;
 }
 

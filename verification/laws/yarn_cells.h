@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What the laws of yarns, `yarn` and `yarn-tension`, make of a cell: which phases have yarns, which
-// keep `biot`, and where those of the coarse cloth lie.
+// What the law `yarn` makes of a cell: which phases have yarns, which keep `biot`, and where those
+// of the coarse cloth lie.
 #pragma once
 
 #include "homogenization/cell/unit_cell.h"

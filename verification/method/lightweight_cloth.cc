@@ -108,13 +108,12 @@ UpsamplerOptions Method::options(const Law law) const
 bool Method::is_of_second_order(const Law law) const
 {
   // The cubic energy of a weave reaches a tenth of a per cent, its fitted modes go beyond.
-  return is_of_second_order() && law != Law::linear && law != Law::yarn_tension &&
-         !(has_fitted && law == Law::yarn);
+  return is_of_second_order() && law != Law::linear && !(has_fitted && law == Law::yarn);
 }
 
 bool Method::has_fitted_modes(const Law law) const
 {
-  return has_fitted && law != Law::linear && law != Law::yarn_tension &&
+  return has_fitted && law != Law::linear &&
          (law == Law::yarn || known(name).laws == OfLaws::fitted);
 }
 

@@ -12,7 +12,6 @@ Law homogenized_law(const Law of_reference, const Eigen::Matrix3d &stiffness)
   case Law::linear:
     return Law::linear;
   case Law::yarn:
-  case Law::yarn_tension:
     return meshes::yarn_axes(stiffness).are_there ? of_reference : Law::biot;
   case Law::biot:
   case Law::green:
@@ -34,19 +33,14 @@ const shell::Membrane &law_of(const shell::SixNodeMembrane &membrane)
   return membrane.points;
 }
 
-shell::Compression compression_under(const Law law)
+void give_yarns(shell::Membrane &membrane)
 {
-  return law == Law::yarn_tension ? shell::Compression::relaxed : shell::Compression::carried;
+  shell::take_yarn_law(membrane);
 }
 
-void give_yarns(shell::Membrane &membrane, const Law law)
+void give_yarns(shell::SixNodeMembrane &membrane)
 {
-  shell::take_yarn_law(membrane, compression_under(law));
-}
-
-void give_yarns(shell::SixNodeMembrane &membrane, const Law law)
-{
-  give_yarns(membrane.points, law);
+  give_yarns(membrane.points);
 }
 } // namespace
 
@@ -73,13 +67,13 @@ const typename SheetSolvers<Sheet>::OfLaw &SheetSolvers<Sheet>::under(const Law 
   const Law law = homogenized_law(of_reference, law_of(corotational.membrane).stiffness.front().D);
   if (!is_of_yarns(law))
     return corotational;
-  if (of_yarns.count(law) == 0)
+  if (!of_yarns)
   {
     Sheet membrane = corotational.membrane;
-    give_yarns(membrane, law);
-    of_yarns.emplace(law, made(std::move(membrane)));
+    give_yarns(membrane);
+    of_yarns = made(std::move(membrane));
   }
-  return of_yarns.at(law);
+  return *of_yarns;
 }
 
 template <typename Sheet>

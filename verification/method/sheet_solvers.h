@@ -8,15 +8,15 @@
 
 #include <Eigen/Core>
 
-#include <map>
 #include <memory>
+#include <optional>
 #include <vector>
 
 namespace homespun::verification
 {
-/// The law of a homogenized sheet, coarse cloth or resolved, against a reference: `linear`, `yarn`
-/// and `yarn-tension` have their like, but for a stiffness without axes, which has none of yarns;
-/// all others the corotational law, `biot`, which they approach as strain squared.
+/// The law of a homogenized sheet, coarse cloth or resolved, against a reference: `linear` and
+/// `yarn` have their like, but for a stiffness without axes, which has none of yarns; all others
+/// the corotational law, `biot`, which they approach as strain squared.
 /// @param stiffness C^H (3,3) [N/m]
 Law homogenized_law(Law of_reference, const Eigen::Matrix3d &stiffness);
 
@@ -55,6 +55,6 @@ private:
 
   std::vector<int> held;
   OfLaw corotational;
-  mutable std::map<Law, OfLaw> of_yarns;
+  mutable std::optional<OfLaw> of_yarns;
 };
 } // namespace homespun::verification

@@ -99,8 +99,7 @@ CellAssembly::Sums CellAssembly::sums(const Eigen::Matrix2d &macro, const meshes
     if (with_tangent)
     {
       const Eigen::Matrix4d second =
-        part * ((tangent == Tangent::projected ? positive_part(local.tangent) : local.tangent) +
-                steadying(law, c) * Eigen::Matrix4d::Identity());
+        part * (tangent == Tangent::projected ? positive_part(local.tangent) : local.tangent);
       coupling  = B.transpose() * second;
       stiffness = coupling * B;
       sum.macro_tangent += second;

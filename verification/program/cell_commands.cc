@@ -109,10 +109,10 @@ void add_homogenize_command(CommandLine &line)
   for (const CellSolver solver : {CellSolver::fastest, CellSolver::direct, CellSolver::multigrid})
     solvers[homogenization::name_of(solver)] = solver;
   command
-    ->add_option(
-      "--solver", arguments->study.solve.solver,
-      "Of the cell problems: fastest, direct, multigrid; fastest is direct up to 800,000 DoFs, and "
-      "direct takes over where multigrid fails")
+    ->add_option("--solver", arguments->study.solve.solver,
+                 "Of the cell problems: fastest, direct, multigrid; fastest is direct up to "
+                 "1,600,000 DoFs, and "
+                 "direct takes over where multigrid fails")
     ->transform(CLI::CheckedTransformer(solvers).description(""))
     ->default_str(homogenization::name_of(CellSolver::fastest));
   CLI::Option *tolerance =

@@ -40,8 +40,6 @@ void add_commands(CommandLine &line)
   add_cells_command(line);
   add_load_command(line);
   add_stability_command(line);
-  add_scaling_command(line);
-  add_benchmark_command(line);
 }
 
 /// What was chosen, when all that it needs is there.

@@ -48,8 +48,6 @@ void add_cells_command(CommandLine &line);
 void add_load_command(CommandLine &line);
 void add_stability_command(CommandLine &line);
 void add_upsample_command(CommandLine &line);
-void add_scaling_command(CommandLine &line);
-void add_benchmark_command(CommandLine &line);
 
 /// What a page saves of its figures beside their numbers.
 enum class FigureFiles

@@ -28,9 +28,7 @@ void add_converge_command(CommandLine &line)
              "Studies: mesh (uniform refinement of the cell, P1 and P2), adaptive (width of "
              "the bracket on C^H), scale\n"
              "(cells per sheet), coarse (coarse triangles per cell), strain (periodic loads "
-             "under biot), time (steps of the coarse cloth), manufactured\n"
-             "(every solver against motions that it must reproduce; needs no cell, but is run "
-             "once with the first).\n"
+             "under biot), time (steps of the coarse cloth).\n"
              "An order that has not settled is INCONCLUSIVE, not a failure: exit status 4.\n"
              "Example:\n  homespun converge mycell.prm --quick\n"
              "  mpirun -n 2 homespun converge mycell.prm --studies mesh,scale"},

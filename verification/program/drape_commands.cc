@@ -32,14 +32,15 @@ void check_drape_arguments(DrapeArguments &arguments)
   faults.check_names("--variants", study.variants, membrane_model_of);
   faults.check_names("--methods", study.methods,
                      [](const std::string &name) { return Method(name); });
-  faults.check_names("--references", study.references,
-                     {"shell", "biot", "green", "yarn", "yarn-tension"});
+  for (const std::string &name : study.references)
+    refuse_removed_law(name);
+  faults.check_names("--references", study.references, {"shell", "biot", "green", "yarn"});
   faults.check_names("--frames", study.frames, {"vtu", "ply", "obj"});
   if (!study.variants.empty() &&
       (study.variants.front() == name_of(MembraneModel::nodal_warping) ||
        study.variants.front() == name_of(MembraneModel::triangle_warping)))
     faults.add("--variants: found `" + study.variants.front() +
-               "` first; expected corotational, woven or woven-tension, which have an energy: "
+               "` first; expected corotational or woven, which have an energy: "
                "references and other variants are held against the first");
   if (!(study.time_step >= 0.) || !(study.duration >= 0.))
     faults.add("--time-step, --duration: expected positive numbers in seconds");
@@ -62,12 +63,12 @@ void add_drape_command(CommandLine &line)
   add_list(*command, "--unit-cells", study.cell_files,
            "Cell files in place of the scene's, comma-separated");
   add_list(*command, "--references", study.references,
-           "Full-resolution cloths to run beside it, comma-separated: shell, biot, green, yarn,\n"
-           "yarn-tension");
-  add_list(*command, "--variants", study.variants,
-           "Membrane models of the coarse cloth, the method's first: corotational, woven (law\n"
-           "yarn), woven-tension (yarn-tension), triangle-warping, nodal-warping (default: woven\n"
-           "where a phase loses ellipticity under biot before 20 %, else corotational)");
+           "Full-resolution cloths to run beside it, comma-separated: shell, biot, green, yarn");
+  add_list(
+    *command, "--variants", study.variants,
+    "Membrane models of the coarse cloth, the method's first: corotational, woven (law\n"
+    "yarn), triangle-warping, nodal-warping (default: woven where a phase loses ellipticity\n"
+    "under biot before 20 %, else corotational)");
   add_list(*command, "--methods", study.methods,
            "Ways to the fine positions; edges and full (of a scene with the term selvedge),\n"
            "quadratic and p2 move coarse cloths of their own");

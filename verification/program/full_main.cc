@@ -20,8 +20,7 @@ int run(int argc, char **argv, homespun::verification::AfterMpi &afterwards)
     mpi.start(argv[0]);
   Program program;
   program.studies = {homogenize_cell,       run_strain_study, run_drape_study,     run_stress_study,
-                     run_convergence_study, run_load_study,   run_stability_study, verify,
-                     run_benchmark,         run_scaling_study};
+                     run_convergence_study, run_load_study,   run_stability_study, verify};
   program.before_solving = [&]() { mpi.start(argv[0]); };
   program.version        = []() { return version_text("/proc/self/exe"); };
   return run_command_line({argv + 1, argv + argc}, program, afterwards);

@@ -57,9 +57,9 @@ void add_load_command(CommandLine &line)
     ->check(CLI::Range(1, 10000))
     ->capture_default_str();
   add_list(*command, "--law", study.laws,
-           "Laws of the phases, linear, biot, green, yarn or yarn-tension (default: yarn where "
-           "biot loses a phase of "
-           "the cell before 20 %, else biot); linear is always there");
+           "Laws of the phases, linear, biot, green or yarn (default: yarn where biot loses a "
+           "phase of the "
+           "cell before 20 %, else biot); linear is always there");
   add_list(*command, "--measured", study.measured,
            "CSV files, comma-separated, with curves to draw on the same axes: columns strain_11, "
            "stress_11_N_per_m and so on");

@@ -66,16 +66,7 @@ void check_stability_arguments(StabilityArguments &arguments)
   faults.check_names("--load", study.loads,
                      std::vector<std::string>{"periodic-11", "periodic-22", "periodic-12",
                                               "uniaxial-1", "uniaxial-2"});
-  faults.check_names("--law", study.laws,
-                     [](const std::string &name)
-                     {
-                       if (law_of(name) == Law::yarn_tension)
-                         throw meshes::BadInput(
-                           "the law `yarn-tension` has waves without cost wherever it relaxes a "
-                           "pressure: its margin is zero there and says nothing; expected linear, "
-                           "biot, green or yarn");
-                       return law_of(name);
-                     });
+  faults.check_names("--law", study.laws, law_of);
   if (const auto n = read_supercell(arguments.supercell, faults))
     study.supercell = Eigen::Vector2i((*n)[0], (*n)[1]);
   faults.throw_if_any();

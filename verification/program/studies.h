@@ -4,7 +4,6 @@
 // what needs no study and hands all else over to `homespun-full`.
 #pragma once
 
-#include "verification/benchmark/benchmark_study.h"
 #include "verification/bloch/stability_study.h"
 #include "verification/converge/converge_study.h"
 #include "verification/drape/drape_study.h"
@@ -13,7 +12,6 @@
 #include "verification/program/homogenize_command.h"
 #include "verification/program/verify_study.h"
 #include "verification/record/verdict.h"
-#include "verification/scaling/scaling_study.h"
 #include "verification/strain/strain_study.h"
 
 #include <mpi.h>
@@ -38,7 +36,5 @@ struct Studies
   Study<LoadStudyOptions> load;
   Study<StabilityStudyOptions> stability;
   std::function<Verification(const VerifyOptions &, MPI_Comm)> verify;
-  std::function<std::vector<BenchmarkRow>(const BenchmarkOptions &, MPI_Comm)> benchmark;
-  std::function<ScalingResult(const ScalingOptions &)> scaling; ///< starts its ranks itself
 };
 } // namespace homespun::verification

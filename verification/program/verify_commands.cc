@@ -20,10 +20,10 @@ void check_verify_arguments(const VerifyOptions &options)
   ArgumentFaults faults;
   faults.check_names("--parts", options.parts, verify_parts());
   for (const std::string &part : options.parts)
-    if (options.cell_files.empty() && part != "converge" && part != "stress")
+    if (options.cell_files.empty() && part != "stress")
       faults.add("--parts: " + part +
                  " needs a cell, and none is given; expected CELL.prm, or the "
-                 "self-tests converge and stress");
+                 "self-tests stress");
   faults.throw_if_any();
 }
 
@@ -76,17 +76,17 @@ int run_verify(StudyArguments<VerifyOptions> arguments, CommandLine &line)
 
 void add_verify_command(CommandLine &line)
 {
-  CLI::App *command = line.app.add_subcommand(
-    "verify",
-    "homogenize, strain, converge and drape, for a list of cells: one report with all claims; without "
-    "a cell the self-tests");
+  CLI::App *command =
+    line.app.add_subcommand("verify", "homogenize, strain, converge and drape, for a list of "
+                                      "cells: one report with all claims; without "
+                                      "a cell the self-tests");
   const auto arguments   = std::make_shared<StudyArguments<VerifyOptions>>();
   VerifyOptions &options = arguments->study;
   options.command        = line.text;
   command->add_option("CELL.prm", options.cell_files, "Cell files; none: the self-tests");
   add_list(*command, "--parts", options.parts,
            "What to run, comma-separated (default with cells "
-           "homogenize,strain,converge,drape, without converge,stress)");
+           "homogenize,strain,converge,drape, without stress)");
   add_folder_options(*command, options,
                      "out/NAME/verify, without a cell out/verify, with --quick verify-quick");
   command->add_flag("--quick", options.is_quick, "Small sizes everywhere: minutes");
@@ -94,7 +94,7 @@ void add_verify_command(CommandLine &line)
   command->footer(
     "Parts: homogenize (brackets of C^H), strain (error against strain, budget, run time, range of "
     "validity),\n"
-    "converge (observed orders; without a cell manufactured solutions), stress (stability), drape "
+    "converge (observed orders), stress (stability), drape "
     "(hang and pull in motion against "
     "biot).\n"
     "The first line says PASS, or FAIL with the first claim that failed; each part has a folder of "

@@ -18,7 +18,7 @@ std::vector<std::string> default_parts(const std::vector<std::string> &cell_file
 {
   if (!cell_files.empty())
     return {"homogenize", "strain", "converge", "drape"};
-  return {"converge", "stress"};
+  return {"stress"};
 }
 
 std::string outcome_line(const std::vector<Verdict> &verdicts)

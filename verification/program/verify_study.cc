@@ -158,11 +158,8 @@ private:
   {
     ConvergenceStudyOptions study;
     study.cell_files = options.cell_files;
-    // Manufactured solutions know no cell: they are made once, with the self-tests.
-    for (const std::string &name : convergence_studies())
-      if ((name == "manufactured") == cells.empty())
-        study.studies.push_back(name);
-    study.is_quick = options.is_quick;
+    study.studies    = convergence_studies();
+    study.is_quick   = options.is_quick;
     take_run(study, folder);
     return run_convergence_study(study, communicator);
   }

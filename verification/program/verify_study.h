@@ -30,7 +30,7 @@ struct Verification
 const std::vector<std::string> &verify_parts();
 
 /// What runs where nothing was asked for: of cells all that speaks of them; without a cell what
-/// speaks of the program alone, manufactured solutions and stress cases.
+/// speaks of the program alone, the stress cases.
 std::vector<std::string> default_parts(const std::vector<std::string> &cell_files);
 
 /// Runs the parts one after the other, each into a folder of its own below the output, and writes

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Writes schema.json, the columns of every table and the rank of the methods, for the report: run
 // by the build.
-#include "verification/benchmark/benchmark_tables.h"
 #include "verification/bloch/pattern_tables.h"
 #include "verification/bloch/stability_tables.h"
 #include "verification/budget/budget_tables.h"
@@ -13,7 +12,6 @@
 #include "verification/record/json_files.h"
 #include "verification/record/main_method.h"
 #include "verification/record/schema.h"
-#include "verification/scaling/scaling_tables.h"
 #include "verification/strain/strain_tables.h"
 #include "verification/upsample/upsample_tables.h"
 
@@ -55,9 +53,7 @@ int main(int argc, char **argv)
   add_to_schema<ZoneRow>(schema);
   add_to_schema<ModeRow>(schema);
   add_to_schema<PatternRow>(schema);
-  add_to_schema<ScalingRun>(schema);
   add_to_schema<UpsampleRow>(schema);
-  add_to_schema<BenchmarkRow>(schema);
   schema["methods_by_rank"] = {{"yarn", methods_by_rank_of_yarns}, {"others", methods_by_rank}};
   write_json(argv[1], schema);
   return exit_status::good;

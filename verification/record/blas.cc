@@ -48,19 +48,6 @@ Blas loaded_blas()
   return {file, file.find("/blas/libblas.so") != std::string::npos ? 1 : 0};
 }
 
-bool multiply_by_blas(const int n, const double *a, const double *b, double *c)
-{
-  using Product      = void(const char *, const char *, const int *, const int *, const int *,
-                       const double *, const double *, const int *, const double *, const int *,
-                       const double *, double *, const int *);
-  const auto product = function<Product>("dgemm_");
-  const double one = 1., zero = 0.;
-  if (product == nullptr)
-    return false;
-  product("N", "N", &n, &n, &n, &one, a, &n, b, &n, &zero, c, &n);
-  return true;
-}
-
 void choose_blas_kernels()
 {
   const auto core_name           = function<char *()>("openblas_get_corename");

@@ -16,10 +16,6 @@ struct Blas
 /// the name under which those that are linked find it. Where there is none, nothing happens.
 void load_blas();
 
-/// c = a b of full matrices (n,n), column by column, by the BLAS that is loaded.
-/// @return whether there is one
-bool multiply_by_blas(int n, const double *a, const double *b, double *c);
-
 /// The library that is loaded, asked while the program runs.
 Blas loaded_blas();
 

@@ -10,10 +10,10 @@
 namespace homespun::verification
 {
 /// The first of them that has a meaning under a law and load is the method that a study speaks of.
-/// The first of all errs least; `runtime.csv`, under the law of the study's main reference, says what
-/// its step takes beside those of the others.
-/// These stand for it where it has no meaning, as `quadratic` in an infinite cloth, which has no
-/// edges, or `first-order` under a law without a second order.
+/// The first of all errs least; `runtime.csv`, under the law of the study's main reference, says
+/// what its step takes beside those of the others. These stand for it where it has no meaning, as
+/// `quadratic` in an infinite cloth, which has no edges, or `first-order` under a law without a
+/// second order.
 inline constexpr std::array<const char *, 5> methods_by_rank = {"full", "first-order", "edges",
                                                                 "quadratic", "localized"};
 

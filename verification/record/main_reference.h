@@ -9,13 +9,13 @@
 
 namespace homespun::verification
 {
-/// `biot`, that of the corotational coarse cloth, where it is among them; else `yarn` or
-/// `yarn-tension`, which the coarse cloth takes, too; else the first.
+/// `biot`, that of the corotational coarse cloth, where it is among them; else `yarn`,
+/// which the coarse cloth takes, too; else the first.
 /// @param references names of laws
 /// @return empty where there are none
 inline std::string main_reference(const std::vector<std::string> &references)
 {
-  for (const char *law : {"biot", "yarn", "yarn-tension"})
+  for (const char *law : {"biot", "yarn"})
     if (std::find(references.begin(), references.end(), law) != references.end())
       return law;
   return references.empty() ? std::string() : references.front();

@@ -31,7 +31,7 @@ Eigen::Map<const FieldAtNodes> at_nodes(const std::vector<double> &values)
 ElasticSolver::Vector ghosted(const homogenization::Discretization &discretization,
                               const ElasticSolver::Vector &field)
 {
-  ElasticSolver::Vector result(discretization.locally_owned, discretization.locally_relevant,
+  ElasticSolver::Vector result(discretization.locally_owned, discretization.locally_active,
                                discretization.communicator);
   result = field;
   return result;
@@ -78,7 +78,7 @@ void ClothReference::Solver::lay_out_matrix()
 {
   solver.reset(); // before its constraints change
   constraints.clear();
-  constraints.reinit(discretization.locally_relevant);
+  constraints.reinit(discretization.locally_active);
   for (std::size_t node = 0; node < nodes.size(); ++node)
     if (is_held[node])
       for (unsigned int c = 0; c < 3; ++c)

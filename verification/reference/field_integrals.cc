@@ -50,7 +50,7 @@ FieldDistance distance(const Discretization &discretization, const Vector &field
   FEValues<2> fe_values = discretization.fe_values(QWitherdenVincentSimplex<2>(4),
                                                    update_values | update_gradients |
                                                      update_quadrature_points | update_JxW_values);
-  Vector ghosted(discretization.locally_owned, discretization.locally_relevant,
+  Vector ghosted(discretization.locally_owned, discretization.locally_active,
                  discretization.communicator);
   ghosted = field;
 

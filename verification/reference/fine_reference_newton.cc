@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // One level of a resolved sheet: what Newton's method asks of it.
-#include "verification/newton/kinked_newton.h"
+#include "verification/newton/newton.h"
 #include "verification/reference/field_integrals.h"
 #include "verification/reference/fine_reference_solver.h"
 
@@ -14,7 +14,7 @@ namespace homespun::verification
 {
 using namespace dealii;
 
-class FineReference::Solver::Level final : public KinkedProblem
+class FineReference::Solver::Level final : public NewtonProblem
 {
 public:
   /// @param displacement which carries the prescribed values of the strain
@@ -46,7 +46,8 @@ public:
     if (tangent == Tangent::exact)
       step.n_indefinite = assembled.n_indefinite;
     const double target = std::max(0.1 * now.least_residual(tolerance), reduction * now.residual);
-    step.n_linear += of.solve_linearized(increment, forces, target);
+    step.n_linear +=
+      of.preconditioner.solve(*of.solver, increment, forces, target, most_linear_iterations);
     of.constraints.distribute(increment);
     ++step.n_newton;
     return -(forces * increment);
@@ -65,16 +66,6 @@ public:
     displacement = trial;
     residual     = residual_there;
     now          = next;
-  }
-
-  void steady(const double times) override
-  {
-    of.steadied = times;
-  }
-
-  double slope_there() const override
-  {
-    return residual_there * increment;
   }
 
   const Evaluation &evaluation() const
@@ -106,20 +97,6 @@ private:
   Evaluation now, next;
 };
 
-unsigned int FineReference::Solver::solve_linearized(Vector &increment, const Vector &forces,
-                                                     const double target)
-{
-  if (law != Law::yarn_tension || Utilities::MPI::n_mpi_processes(discretization.communicator) > 1)
-    return preconditioner.solve(*solver, increment, forces, target, most_linear_iterations);
-  // Steadied by a small share, which no multigrid hierarchy bears.
-  solver->factorize();
-  std::vector<Vector> answer(1, solver->owned_vector());
-  const unsigned int used =
-    solver->solve_all(answer, {forces}, {{target}}, most_linear_iterations).iterations.front();
-  increment = answer.front();
-  return used;
-}
-
 void FineReference::Solver::take_body_force(const double strain)
 {
   if (body_force)
@@ -141,14 +118,7 @@ void FineReference::Solver::solve(Vector &displacement, const double strain, con
   of_newton.most_steps = most_newton_steps;
   if (law == Law::linear)
     of_newton.largest_reduction = 0.; // one step
-  if (law == Law::yarn_tension)
-  {
-    of_newton.most_steps        = 400; // frames of 4 x 4 cells at 1 % take 223: wrinkle by wrinkle
-    of_newton.largest_reduction = 1e-6;
-    minimize_with_kinks(level, of_newton);
-  }
-  else
-    minimize(level, of_newton);
+  minimize(level, of_newton);
   const Evaluation &found = level.evaluation();
   step.relative_residual  = found.residual / found.force_size;
   step.energy             = found.energy;

@@ -25,8 +25,7 @@ namespace
 {
 constexpr unsigned int most_halvings_of_level = 3; // of the way from one level to the next
 /// Steps after which a part of that way is given up that can be halved. Sheets of 20 x 20 cells
-/// that are found in one part take one to five; layered at 20 % shear, which stalls, is halved. Of
-/// no meaning under yarn-tension, whose minimiser has a limit of its own.
+/// that are found in one part take one to five; layered at 20 % shear, which stalls, is halved.
 constexpr unsigned int most_steps_of_long_parts = 12;
 } // namespace
 
@@ -61,10 +60,10 @@ void FineReference::Solver::constrain(const Load &load)
     return;
   }
   constraints.clear();
-  constraints.reinit(discretization.locally_relevant);
+  constraints.reinit(discretization.locally_active);
   for (const homogenization::Node &node : boundary)
     if (const Eigen::RowVector2d f = sheet.fraction(node.point);
-        load.holds(f) && discretization.locally_relevant.is_element(node.first_dof))
+        load.holds(f) && discretization.locally_active.is_element(node.first_dof))
     {
       constraints.add_line(node.first_dof);
       constraints.add_line(node.second_dof);
@@ -116,8 +115,8 @@ FineReference::Solver::Vector FineReference::Solver::affine(const double strain)
   return displacement;
 }
 
-/// All loads are proportional to strain, u = s v(s), and v(0) is that of linear theory, but under
-/// yarn-tension, where v(0) has relaxed: v is the polynomial through some levels.
+/// All loads are proportional to strain, u = s v(s), and v(0) is that of linear theory: v is the
+/// polynomial through some levels.
 FineReference::Solver::SolvedLevel
 FineReference::Solver::extrapolated(const std::vector<const SolvedLevel *> &from,
                                     const double strain) const
@@ -140,7 +139,7 @@ FineReference::Solver::extrapolated(const std::vector<const SolvedLevel *> &from
 FineReference::Solver::SolvedLevel FineReference::Solver::guess(const double strain)
 {
   std::vector<const SolvedLevel *> from;
-  if (linear_rate && law != Law::linear && (law != Law::yarn_tension || levels.empty()))
+  if (linear_rate && law != Law::linear)
     from.push_back(&*linear_rate);
   for (const SolvedLevel &level : levels)
     from.push_back(&level);

@@ -73,7 +73,6 @@ private:
   void solve_with_sides(Vector &displacement, double strain, double tolerance, ReferenceStep &step);
   Eigen::Matrix2d slope_of_sides(const Vector &displacement, double strain, double tolerance,
                                  ReferenceStep step);
-  unsigned int solve_linearized(Vector &increment, const Vector &forces, double target);
   Evaluation evaluate(const Vector &displacement, const Eigen::Matrix2d &mean_gradient,
                       Vector &residual, Tangent tangent);
   template <int n_shapes>
@@ -109,7 +108,6 @@ private:
   std::unique_ptr<homogenization::ElasticSolver> solver;
   homogenization::KeptPreconditioner preconditioner;
   double seconds_of_linear_solve = 0.;
-  double steadied                = 1.; ///< times steadying(), in every matrix
   unsigned int most_newton_steps = NewtonOptions().most_steps;
 
   std::vector<SolvedLevel> levels;        ///< the last three

@@ -15,10 +15,7 @@ using namespace dealii;
 
 namespace
 {
-constexpr double missed = 0.01;
-/// What resists in no way is neither stable nor unstable: under yarn-tension a curvature below this
-/// part of steadying(), a millionth of the resistance at rest, counts as none.
-constexpr double steadied_in_examination = 1e-3;
+constexpr double missed                  = 0.01;
 constexpr unsigned int most_mode_changes = 3;
 
 /// How far random forces must be solved for, relative to their size, that a mode of negative
@@ -39,7 +36,6 @@ Stability FineReference::Solver::examine(const Vector &displacement, const doubl
 {
   Vector forces = solver->owned_vector(), answer = solver->owned_vector();
   const Eigen::Matrix2d mean_gradient = mean_gradient_at(strain);
-  steadied                            = steadied_in_examination;
   step.n_indefinite = evaluate(displacement, mean_gradient, answer, Tangent::exact).n_indefinite;
   if (step.n_indefinite == 0)
     return Stability::every_triangle;
@@ -53,10 +49,7 @@ Stability FineReference::Solver::examine(const Vector &displacement, const doubl
     try
     {
       const double target = reduction_for(forces.size()) * forces.l2_norm();
-      if (is_last) // by conjugate gradients, which tell the direction
-        preconditioner.solve(*solver, answer, forces, target, most_linear_iterations);
-      else
-        solve_linearized(answer, forces, target);
+      preconditioner.solve(*solver, answer, forces, target, most_linear_iterations);
       return Stability::stable;
     }
     catch (const homogenization::IndefiniteMatrix &found)

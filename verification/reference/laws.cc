@@ -3,7 +3,6 @@
 
 #include "meshes/plain/errors.h"
 #include "meshes/plain/symmetric_eigen.h"
-#include "verification/yarns/tension_field.h"
 #include "verification/yarns/yarn_law.h"
 
 #include <algorithm>
@@ -94,27 +93,30 @@ std::string name_of(const Law law)
     return "green";
   case Law::yarn:
     return "yarn";
-  case Law::yarn_tension:
-    return "yarn-tension";
   }
   throw std::logic_error("a law without a name");
 }
 
 const std::vector<Law> &all_laws()
 {
-  static const std::vector<Law> all = {Law::linear, Law::biot, Law::green, Law::yarn,
-                                       Law::yarn_tension};
+  static const std::vector<Law> all = {Law::linear, Law::biot, Law::green, Law::yarn};
   return all;
+}
+
+void refuse_removed_law(const std::string &name)
+{
+  if (name == "yarn-tension" || name == "woven-tension")
+    throw meshes::BadInput("law `" + name +
+                           "` was removed in 0.2.0; use `yarn`: compression is marked");
 }
 
 Law law_of(const std::string &name)
 {
+  refuse_removed_law(name);
   for (const Law law : all_laws())
     if (name == name_of(law))
       return law;
-  throw meshes::BadInput("unknown reference `" + name +
-                         "`; expected linear, biot, green, yarn or "
-                         "yarn-tension");
+  throw meshes::BadInput("unknown reference `" + name + "`; expected linear, biot, green or yarn");
 }
 
 LawOfPhase::LawOfPhase(const Law law, const Eigen::Matrix3d &stiffness)
@@ -134,13 +136,11 @@ Response LawOfPhase::response(const Eigen::Matrix2d &F) const
   case Law::green:
     return green_response(C, F);
   case Law::yarn:
-  case Law::yarn_tension:
-    if (yarns.are_there)
-      return law == Law::yarn ? yarn_response(yarns, F) : tension_response(yarns, F);
-    return biot_response(C, F);
-  default:
+    return yarns.are_there ? yarn_response(yarns, F) : biot_response(C, F);
+  case Law::biot:
     return biot_response(C, F);
   }
+  throw std::logic_error("a law without a response");
 }
 
 Response response(const Law law, const Eigen::Matrix3d &C, const Eigen::Matrix2d &F)
@@ -151,11 +151,5 @@ Response response(const Law law, const Eigen::Matrix3d &C, const Eigen::Matrix2d
 Eigen::Matrix4d positive_part(const Eigen::Matrix4d &tangent)
 {
   return meshes::positive_part<4>(tangent);
-}
-
-double steadying(const Law law, const Eigen::Matrix3d &C)
-{
-  constexpr double part = 1e-3;
-  return law == Law::yarn_tension ? part * std::min({C(0, 0), C(1, 1), C(2, 2)}) : 0.;
 }
 } // namespace homespun::verification

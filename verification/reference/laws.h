@@ -18,21 +18,18 @@ namespace homespun::verification
 /// green:  W = ½ E:C:E,            E = ½ (F^T F − I)  (St. Venant-Kirchhoff)
 /// yarn:   W = ½ e:C:e,            e of the stretches of two yarns and their angle (yarn_law.h);
 ///         biot where C has no axes
-/// yarn-tension: yarn without compression, relaxed by wrinkles (tension_field.h); biot where C has
-///         no axes
 enum class Law
 {
   linear,
   biot,
   green,
-  yarn,
-  yarn_tension
+  yarn
 };
 
 /// Whether a law is one of yarns: it needs axes.
 inline bool is_of_yarns(const Law law)
 {
-  return law == Law::yarn || law == Law::yarn_tension;
+  return law == Law::yarn;
 }
 
 /// Every law, in this order.
@@ -40,7 +37,10 @@ const std::vector<Law> &all_laws();
 
 std::string name_of(Law law);
 
-/// @throws BadInput listing the names, where it is none of them
+/// @throws BadInput naming what to take in its place, where a law of that name was removed
+void refuse_removed_law(const std::string &name);
+
+/// @throws BadInput listing the names, where it is none of them, or one that was removed
 Law law_of(const std::string &name);
 
 /// The response of a law at a deformation gradient.
@@ -78,11 +78,4 @@ private:
 
 /// The tangent with its negative eigenvalues set to zero, for Newton steps away from stability.
 Eigen::Matrix4d positive_part(const Eigen::Matrix4d &tangent);
-
-/// What a solver adds to a tangent under yarn-tension, whose wrinkles and slack triangles resist
-/// nothing: a part of the resistance at rest, so that its matrix stays regular. It changes the way
-/// to an equilibrium and not the equilibrium. Zero of other laws.
-/// @param C membrane stiffness (3,3) [N/m]
-/// @return multiple of |grad v|² [N/m]
-double steadying(Law law, const Eigen::Matrix3d &C);
 } // namespace homespun::verification

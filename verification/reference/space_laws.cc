@@ -2,7 +2,6 @@
 #include "verification/reference/space_laws.h"
 
 #include "verification/yarns/metric_response.h"
-#include "verification/yarns/tension_field.h"
 #include "verification/yarns/yarn_law.h"
 
 #include <Eigen/Cholesky>
@@ -10,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
 namespace homespun::verification
 {
@@ -67,14 +67,20 @@ MetricResponse biot_response(const Eigen::Matrix3d &C, const SpaceGradient &F)
 
 MetricResponse metric_response(const Law law, const Eigen::Matrix3d &C, const SpaceGradient &F)
 {
-  if (law == Law::green)
+  switch (law)
+  {
+  case Law::linear:
+    break; // is no function of the metric
+  case Law::green:
     return green_response(C, F);
-  if (law == Law::yarn || law == Law::yarn_tension)
+  case Law::yarn:
     if (const meshes::YarnAxes yarns = meshes::yarn_axes(C); yarns.are_there)
-      return law == Law::yarn_tension
-               ? tension_field(yarns, F.transpose() * F).response
-               : yarn_metric_response(yarns, F * yarns.axes.col(0), F * yarns.axes.col(1));
-  return biot_response(C, F);
+      return yarn_metric_response(yarns, F * yarns.axes.col(0), F * yarns.axes.col(1));
+    return biot_response(C, F);
+  case Law::biot:
+    return biot_response(C, F);
+  }
+  throw std::logic_error("the law " + name_of(law) + " is none of a sheet in space");
 }
 
 /// S without its compression.

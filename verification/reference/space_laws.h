@@ -5,7 +5,7 @@
 // differentiated in its own eigenvectors.
 //
 // All are functions of E = ½ (F^T F − I) (metric_response.h), with S = dW/dE and H = d²W/dE².
-// green: S = C E, H = C. yarn: yarn_law.h. yarn-tension: tension_field.h. biot: from U U = F^T F,
+// green: S = C E, H = C. yarn: yarn_law.h. biot: from U U = F^T F,
 // in the frame of the principal stretches l1, l2,
 //   dU_ij = 2 dE_ij / (l_i + l_j),   d²U_ij = −2 (dU dU)_ij / (l_i + l_j)   along straight E,
 // and W = ½ (U − I):C:(U − I) follows by the chain rule. No difference l1 − l2 is divided by.

@@ -57,24 +57,17 @@ bool is_zero(const double error, const double strain)
 /// Above it the bar of a sum says too little of the error to decide on it.
 constexpr double widest_bar = 0.2;
 
-bool is_sheet_of_tension(const BudgetRow &level)
-{
-  return law_of(level.reference) == Law::yarn_tension && !Load(level.load).is_periodic();
-}
-
 /// Whether a sheet of yarns is so far from linear theory, which the part `rest` is of, that the sum
 /// of its parts decides nothing: yarns turn against each other where they are pulled by as much as
-/// the cloth resists that. Under yarn-tension at every strain: what is pulled one way is free
-/// across, however little. More left than the bar is a fault under any law.
+/// the cloth resists that. More left than the bar is a fault under any law.
 bool has_left_linear_theory(const std::vector<BudgetRow> &rows, const BudgetRow &level)
 {
   if (!is_of_yarns(law_of(level.reference)) || Load(level.load).is_periodic() ||
       is_zero(mean_of(rows, level, "total"), level.strain))
     return false;
   const double bar = mean_of(rows, level, "unexplained-bar");
-  return std::isfinite(bar) ? bar > widest_bar * mean_of(rows, level, "total") &&
-                                mean_of(rows, level, "unexplained") <= bar
-                            : is_sheet_of_tension(level);
+  return std::isfinite(bar) && bar > widest_bar * mean_of(rows, level, "total") &&
+         mean_of(rows, level, "unexplained") <= bar;
 }
 
 /// What a reader is told in the place of a claim on the sum.
@@ -85,13 +78,8 @@ std::string note_of_sum(const std::vector<BudgetRow> &rows, const BudgetRow &lev
     return "under " + level.reference + " the error is not split: a part has no solution";
   const auto percent = [&](const std::string &part)
   { return short_text(std::round(100. * mean_of(rows, level, part) / total)) + " %"; };
-  std::string text = "what the parts leave, " + percent("unexplained") +
-                     " of the error, is not judged: under " + level.reference;
-  if (is_sheet_of_tension(level))
-    return text +
-           " what is pulled one way is free across at any strain, so that no strain is small "
-           "enough for the linear theory that `rest` and the terms of edges are of";
-  return text +
+  return "what the parts leave, " + percent("unexplained") +
+         " of the error, is not judged: under " + level.reference +
          " the sheet, its cell and the terms of edges have left linear theory, which the "
          "part `rest` is of, by up to " +
          percent("unexplained-bar") + " of the error";
@@ -103,8 +91,6 @@ void judge_level(const std::vector<BudgetRow> &rows, const BudgetRow &level,
 {
   const std::string what = title_of(level);
   const double total = mean_of(rows, level, "total"), sum = mean_of(rows, level, "sum");
-  if (is_sheet_of_tension(level) && !std::isfinite(total))
-    return; // budget_notes() says so
   if (is_zero(total, level.strain))
   {
     verdicts.push_back({what + "the error is zero to what the solvers leave, and so is the sum of "
@@ -269,8 +255,6 @@ std::vector<Verdict> budget_verdicts(const std::vector<StrainRow> &strain_rows,
                    { judge_level(budget_rows, level, bar_of(strain_rows, level), verdicts); });
   for (const auto &[of_case, its_strains] : budgeted_cases(strain_rows))
   {
-    if (law_of(of_case.reference) == Law::yarn_tension)
-      continue; // whose relaxed triangles answer differently from the first per cent on
     if (!Load(of_case.load).is_periodic()) // whose motion no law decides
       judge_slope({"macro-law", "geometric nonlinearity of the macro law"}, budget_rows, of_case,
                   strains, verdicts);
@@ -317,20 +301,14 @@ std::vector<Verdict> second_code_verdicts(const std::vector<SecondCodeRow> &rows
                             : row.distance <= agreement  ? Outcome::pass
                                                          : Outcome::fail;
     const std::string why = row.fault.empty() ? "" : "; " + row.fault;
-    const bool is_begun_there =
-      law_of(row.reference) == Law::yarn_tension && !Load(row.load).is_periodic();
     if (is_sheet)
       verdicts.push_back(
         {row.cell + ", " + row.load + " at " + short_text(100. * row.strain) +
-           " %: a second code " + (is_begun_there ? "that begins at" : "finds") +
-           " the positions of the reference " + (is_begun_there ? "stays there " : "") +
-           "(mean distance per strain and cell side)",
+           " %: a second code finds the positions of the reference (mean distance per strain and "
+           "cell side)",
          answer, row.distance, "<= 1e-06" + why,
-         is_begun_there ? "theory 0, one discrete problem: the second code moves where its own "
-                          "forces are above 1e-10 of those that cancel in a vertex; slack cloth "
-                          "has no condition, so that the distance says only whether it moved"
-                        : "theory 0, one discrete problem; both codes leave 1e-11 of the "
-                          "forces, times 1e5 for the condition of a sheet",
+         "theory 0, one discrete problem; both codes leave 1e-11 of the forces, times 1e5 for the "
+         "condition of a sheet",
          Kind::program});
     else
       verdicts.push_back({row.cell +

@@ -39,8 +39,6 @@ EllipticityRow row_of(const StrainLevel &level, const std::string &part,
   row.triangles = found.n_triangles;
   row.lost      = found.n_lost;
   row.least     = found.least;
-  row.wrinkled  = found.n_wrinkled;
-  row.slack     = found.n_slack;
   return row;
 }
 
@@ -53,15 +51,6 @@ std::string words_of(const WorstTriangle &worst, const meshes::Sheet &sheet)
   const Eigen::RowVector2d place = sheet.fraction(centre);
   return "at (" + short_text(place(0)) + ", " + short_text(place(1)) +
          ") of the sides of the sheet, " + stress_text(worst);
-}
-
-/// What the relaxed law gave away; empty where every triangle is taut.
-std::string relaxed_of_all(const EllipticityRow &row)
-{
-  if (row.wrinkled + row.slack == 0)
-    return "";
-  return std::to_string(row.wrinkled) + " wrinkled and " + std::to_string(row.slack) +
-         " slack of " + std::to_string(row.triangles) + " triangles";
 }
 
 std::string lost_of_all(const EllipticityRow &row)
@@ -85,8 +74,6 @@ by_group(const std::vector<PhaseEllipticity> &found, const std::vector<std::stri
     }
     of_group[g].n_triangles += found[p].n_triangles;
     of_group[g].n_lost += found[p].n_lost;
-    of_group[g].n_wrinkled += found[p].n_wrinkled;
-    of_group[g].n_slack += found[p].n_slack;
     of_group[g].least = std::min(of_group[g].least, found[p].least);
   }
   return {groups, of_group};
@@ -115,12 +102,6 @@ void write_ellipticity(const StrainLevel &level, const ResolvedLevel &resolved,
   {
     const EllipticityRow row = row_of(level, groups[g], of_group[g]);
     output.ellipticity.append_if_missing(row);
-    if (const std::string relaxed = relaxed_of_all(row); !relaxed.empty())
-      output.write_note(level, relaxed + " of phase " + groups[g] + " under " + row.reference +
-                                 ": what was pressed there is relaxed" +
-                                 (row.slack > 0 ? ", and where the cloth lies within slack ones is "
-                                                  "not determined by the law"
-                                                : ""));
     if (row.lost > 0)
       output.write_note(
         level,

@@ -117,11 +117,10 @@ struct EllipticityRow
 
   std::string cell, load, reference;
   double strain = 0.;
-  std::string part;            ///< a phase, or `coarse cloth`
-  int triangles = 0;           ///< of that part
-  int lost      = 0;           ///< of them not elliptic
-  double least  = 1.;          ///< stiffness of the plane wave that costs least, over that at rest
-  int wrinkled = 0, slack = 0; ///< triangles that yarn-tension relaxes, one way or both
+  std::string part;   ///< a phase, or `coarse cloth`
+  int triangles = 0;  ///< of that part
+  int lost      = 0;  ///< of them not elliptic
+  double least  = 1.; ///< stiffness of the plane wave that costs least, over that at rest
 
   template <typename Column>
   static void columns(Column &&column)
@@ -134,8 +133,6 @@ struct EllipticityRow
     column("triangles", &EllipticityRow::triangles, Domain::positive);
     column("not_elliptic", &EllipticityRow::lost, Domain::not_negative);
     column("least_wave", &EllipticityRow::least, Domain::real);
-    column("wrinkled", &EllipticityRow::wrinkled, Domain::not_negative);
-    column("slack", &EllipticityRow::slack, Domain::not_negative);
   }
 };
 

@@ -54,11 +54,6 @@ nlohmann::ordered_json what_was_left_out(const StrainStudyOptions &options)
       for (const std::string &method : options.methods)
         if (!Method(method).has_meaning(law_of(law)))
           left_out(method + " against the reference " + law, "there `full` is more");
-  if (has(options.references, "yarn-tension"))
-    for (const std::string &method : options.methods)
-      if (!Method(method).has_meaning(Law::yarn_tension))
-        left_out(method + " against the reference yarn-tension",
-                 "cells have no second order under a law whose stress has kinks");
   for (const std::string &method : options.methods)
     if (has_periodic(options) && !has_meaning(Method(method), Load("periodic-11")))
       left_out(method + " under periodic loads", Method(method).has_edge_terms()
@@ -100,7 +95,8 @@ std::string note_of_fluctuation(const std::vector<StepRow> &steps)
   std::snprintf(
     text, sizeof(text),
     "Fluctuation: reference minus the homogenized sheet (C^H in every triangle, quads a quarter "
-    "of a cell wide; the law of the reference, but biot beside green, and beside yarn where C^H has "
+    "of a cell wide; the law of the reference, but biot beside green, and beside yarn where C^H "
+    "has "
     "no axes of yarns). Its mean "
     "changes by at most %.2g %% from a homogenized sheet half as fine; these sheets took %.3g s, "
     "the references %.3g s.",

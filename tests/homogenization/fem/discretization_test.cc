@@ -27,7 +27,7 @@ TEST(exact_discretization, cells_are_the_triangles_of_the_mesh)
       const int n_edges = mesh.n_vertices() + mesh.n_triangles() - 1;
       EXPECT_EQ(discretization.n_dofs(),
                 n_components * (mesh.n_vertices() + (order == 2 ? n_edges : 0)));
-      EXPECT_EQ(discretization.locally_relevant, discretization.locally_owned);
+      EXPECT_EQ(discretization.locally_active, discretization.locally_owned);
       const DofTable of_vertex = discretization.vertex_dofs();
       int n_walked             = 0;
       discretization.for_owned_cells(

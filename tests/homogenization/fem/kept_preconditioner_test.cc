@@ -22,7 +22,7 @@ public:
   Held()
       : discretization(tests::parallelogram(tests::square_lattice(1.), 12, 12), 1, MPI_COMM_SELF)
   {
-    constraints.reinit(discretization.locally_relevant);
+    constraints.reinit(discretization.locally_active);
     for (const Node &node : discretization.boundary_nodes())
       for (const auto dof : {node.first_dof, node.second_dof})
         constraints.add_line(dof);

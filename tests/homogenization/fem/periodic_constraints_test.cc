@@ -46,7 +46,7 @@ struct Periodic
                                              Plant &&plant) const
   {
     dealii::AffineConstraints<double> copy;
-    copy.reinit(discretization.locally_relevant);
+    copy.reinit(discretization.locally_active);
     for (const auto &line : constraints.get_lines())
       if (line.index != bugged)
       {
@@ -143,7 +143,7 @@ TEST(tripwire_periodic_constraints, a_lost_pair_is_caught)
   auto bugged     = periodic.with_bug(node.first_dof, [](auto &) {});
   // One component of the node is still tied; lose the other one as well.
   dealii::AffineConstraints<double> lost;
-  lost.reinit(periodic.discretization.locally_relevant);
+  lost.reinit(periodic.discretization.locally_active);
   for (const auto &line : bugged.get_lines())
     if (line.index != node.second_dof)
     {
@@ -160,7 +160,7 @@ TEST(tripwire_periodic_constraints, dirichlet_conditions_instead_of_periodic_one
 {
   const Periodic periodic(1);
   dealii::AffineConstraints<double> clamped;
-  clamped.reinit(periodic.discretization.locally_relevant);
+  clamped.reinit(periodic.discretization.locally_active);
   for (const Node &node : periodic.nodes)
   {
     clamped.add_line(node.first_dof);

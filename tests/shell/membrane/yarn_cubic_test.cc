@@ -147,11 +147,3 @@ TYPED_TEST(derivative_yarn_cubic, of_a_mesh_forces_and_stiffness_are_those_of_it
   EXPECT_NEAR(tests::slope(steps, without_second), 2., 0.1);
   EXPECT_NEAR(tests::slope(steps, with_second), 3., 0.2);
 }
-
-TEST(tripwire_yarn_cubic, is_refused_where_compression_is_relaxed)
-{
-  Membrane relaxed = sheet(false, some_form());
-  EXPECT_NE(refusal([&] { take_yarn_law(relaxed, Compression::relaxed); })
-              .find("law yarn-tension: the membrane has a cubic energy"),
-            std::string::npos);
-}

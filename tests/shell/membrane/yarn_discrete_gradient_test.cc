@@ -126,15 +126,3 @@ TEST(invariant_yarn_step, an_undamped_sheet_of_yarns_keeps_energy_and_momenta)
     EXPECT_LT((cloth.angular_momentum() - L).norm(), 1e-9 * L.norm()) << h;
   }
 }
-
-TEST(tripwire_yarn_step, yarns_that_do_not_carry_compression_are_refused)
-{
-  const meshes::ClothMesh mesh = lying_sheet(3);
-  ClothOptions options;
-  options.integrator = Integrator::conserving;
-  Cloth cloth(mesh.positions, lumped_masses(mesh, {0.2}), {}, options);
-  const std::string text =
-    refusal([&] { cloth.add(yarn_term(mesh, {anisotropic()}, Compression::relaxed)); });
-  EXPECT_NE(text.find("`yarn-tension membrane`"), std::string::npos) << text;
-  EXPECT_NE(text.find("discrete gradient"), std::string::npos) << text;
-}

@@ -304,35 +304,6 @@ TEST(exact_second_code, both_codes_find_one_sheet_of_yarns_which_is_not_the_coro
   }
 }
 
-// By its own way it would end where another cloth lies slack; where it stays it has no forces.
-TEST(exact_second_code, of_a_cloth_that_wrinkles_it_stays_where_the_reference_is_and_nowhere_else)
-{
-  const UnitCell cell     = homogenization::read_unit_cell(CELLS "plain-weave.prm");
-  const BudgetCells cells = budget_cells(cell);
-  const Load load("strip-1");
-  const meshes::Sheet sheet = meshes::tile(cell.mesh, cell.lattice, 1, 1);
-  constexpr double strain   = 0.05;
-  const double unit         = strain * std::sqrt(cell.lattice.area());
-  const auto moved_by       = [&](const Law law)
-  {
-    FineReference reference(sheet, cell.stiffness_of_phase(), {}, MPI_COMM_WORLD);
-    reference.start(load, law);
-    EXPECT_TRUE(reference.advance(strain).reached);
-    const meshes::Points start = reference.tighten(1e-11).positions;
-    try
-    {
-      return mean(
-        start - second_sheet_of_tension(cells.given, cells.stiffness_of_phase, sheet, load, start));
-    }
-    catch (const meshes::NotConverged &)
-    { // it left, and ended nowhere
-      return std::numeric_limits<double>::infinity();
-    }
-  };
-  EXPECT_LT(moved_by(Law::yarn_tension), agreement * unit);
-  EXPECT_GT(moved_by(Law::yarn), 100. * agreement * unit);
-}
-
 TEST(tripwire_second_code, exchanged_phases_and_a_p2_cell_that_was_never_computed_are_seen)
 {
   const UnitCell cell     = homogenization::read_unit_cell(CELLS "three-stiffness.prm");

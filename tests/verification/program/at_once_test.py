@@ -13,7 +13,7 @@ from cli import CELLS, PROGRAM, InFolder, run
 FULL = pathlib.Path(PROGRAM).with_name("homespun-full")
 CELL = CELLS / "layered.prm"
 COMMANDS = ("check", "homogenize", "strain", "drape", "upsample", "stress", "converge", "verify",
-            "report", "cells", "load", "stability", "scaling", "benchmark")
+            "report", "cells", "load", "stability")
 AT_ONCE = [("--help",), ("--version",), (), ("frobnicate",), ("strain", "--frobnicate"),
            ("check",), ("check", CELL), ("check", "nothere.prm"), ("cells",),
            ("cells", "make", "nothere"), ("report", "nothere"),

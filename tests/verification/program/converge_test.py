@@ -47,8 +47,8 @@ class Converge(InFolder):
         self.assertTrue(any("laminate" in verdict["claim"] and verdict["verdict"] == "PASS"
                             for verdict in verdicts))
         study = json.loads((self.folder / "study.json").read_text())
-        self.assertTrue(any(item["what"] == "study manufactured" for item in study["left_out"]))
-        self.assertFalse(any(note.startswith(("manufactured", "adaptive"))
+        self.assertTrue(any(item["what"] == "study edges" for item in study["left_out"]))
+        self.assertFalse(any(note.startswith("adaptive")
                              for note in study["notes"]), "they did not run")
         page = (self.folder / "report.html").read_text(encoding="utf-8")
         self.assertIn("observed orders lie within their limits", page)
@@ -148,7 +148,7 @@ class Converge(InFolder):
         result = run("converge", CELLS / "layered.prm", "--studies", "mesh,knit", "--output",
                      self.folder)
         self.assertEqual(result.returncode, 2)
-        for word in ("--studies", "knit", "manufactured", "scale"):
+        for word in ("--studies", "knit", "edges", "scale"):
             self.assertIn(word, result.stderr)
 
 

@@ -179,8 +179,8 @@ class PublishTest(unittest.TestCase):
     def test_orders_stand_with_their_limits(self):
         folder = os.path.join(self.place, "converge")
         os.makedirs(folder)
-        row = {"cell": "none", "study": "manufactured", "case": "statics",
-               "quantity": "L2 error [side]", "order_p": 2, "h_unit": "side", "dofs": 5,
+        row = {"cell": "dots", "study": "mesh", "case": "uniform refinement",
+               "quantity": "C11 [N/m]", "order_p": 2, "h_unit": "side", "dofs": 5,
                "order": 3.01, "order_lowest": 2.9, "order_highest": 3.1, "judgement": "PASS",
                "seconds": 0.1}
         write_table(folder, "converge.csv",

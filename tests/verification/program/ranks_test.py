@@ -9,7 +9,7 @@ from xml.etree import ElementTree
 import meshio
 import numpy
 
-from cli import CELLS, InFolder, cut, rows_of, run
+from cli import CELLS, InFolder, cut, run
 
 sys.path.append(str(CELLS.parents[1] / "verification" / "report"))
 from read.vtu import read_vtu  # noqa: E402
@@ -134,51 +134,6 @@ class Homogenize(InFolder):
         self.assertEqual(again.returncode, 0)
         found = json.loads((self.folder / "homogenize.json").read_text())
         self.assertEqual(found["cell"], "layered")
-
-
-class Scaling(InFolder):
-    STUDY = ["scaling", CELLS / "layered.prm", "--refine", "1,2", "--ranks", "1,2", "--repeats",
-             "1", "--quiet"]
-
-    def test_rows_of_every_mesh_and_number_of_ranks_are_written_and_kept(self):
-        (self.folder / "run").mkdir()  # of the user: not the study's to remove
-        result = run(*self.STUDY, "--output", self.folder)
-        # Meshes as small as these are no claim on memory.
-        self.assertIn(result.returncode, (0, 1, 4), result.stderr)
-        rows = rows_of(self.folder / "scaling.csv")
-        self.assertEqual([(row["refine"], row["ranks"]) for row in rows],
-                         [("1", "1"), ("1", "2"), ("2", "1"), ("2", "2")])
-        self.assertTrue(all(float(row["seconds_solve"]) > 0
-                            and float(row["bytes_largest_rank"]) > 1e7 for row in rows))
-        verdicts = json.loads((self.folder / "verdicts.json").read_text())["verdicts"]
-        self.assertEqual(verdicts[0]["verdict"], "PASS", verdicts[0])
-        self.assertEqual(sorted(path.name for path in self.folder.iterdir()),
-                         ["run", "run.json", "scaling.csv", "scaling.json", "verdicts.json"])
-        self.assertIn("Iterations lie between",
-                      *json.loads((self.folder / "scaling.json").read_text())["notes"])
-        again = run(*self.STUDY, "--output", self.folder, "--resume")
-        self.assertEqual(again.returncode, result.returncode, again.stderr)
-        self.assertEqual(rows_of(self.folder / "scaling.csv"), rows)
-        table = self.folder / "scaling.csv"
-        table.write_text(table.read_text().replace(rows[1]["dofs"], "12x", 1))
-        cut(self.folder)
-        damaged = run(*self.STUDY, "--output", self.folder, "--resume")
-        self.assertEqual(damaged.returncode, 2)
-        self.assertIn("scaling.csv:2: column `dofs`: found `12x`", damaged.stderr)
-
-    def test_faults_are_told_at_once_and_a_launcher_that_does_not_run_by_what_it_said(self):
-        result = run(*self.STUDY, "--ranks", "0", "--launcher", "mpirun -n 2", "--output",
-                     self.folder)
-        self.assertEqual(result.returncode, 2)
-        self.assertIn("--ranks: found 0", result.stderr)
-        self.assertIn("expected {ranks} where the number of ranks stands", result.stderr)
-        result = run(*self.STUDY, "--launcher", "no-such-launcher {ranks}", "--output",
-                     self.folder / "out")
-        self.assertEqual(result.returncode, 2)
-        self.assertIn("mend --launcher", result.stderr)
-        result = run(*self.STUDY, "--output", self.folder / "out", ranks=2)
-        self.assertEqual(result.returncode, 2)
-        self.assertIn("without mpirun", result.stderr)
 
 
 if __name__ == "__main__":

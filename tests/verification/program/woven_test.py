@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Cloth of yarns: in motion, and where it cannot be pressed."""
+"""Cloth of yarns in motion, and a law that is no more."""
 import json
 import unittest
 
@@ -44,35 +44,33 @@ class Moving(InFolder):
         self.assertEqual(self.variants(), {"corotational"})
 
     def test_the_model_that_is_asked_for_wins_and_what_it_loses_is_told(self):
-        result = self.run_scene("--variants", "corotational,woven,woven-tension")
+        result = self.run_scene("--variants", "corotational,woven")
         self.assertIn(result.returncode, (0, 1, 4), result.stderr)
-        self.assertEqual(self.variants(), {"corotational", "woven", "woven-tension"})
+        self.assertEqual(self.variants(), {"corotational", "woven"})
         self.assertTrue([note for note in self.notes() if "corotational cloth (law biot)" in note])
 
     def test_what_has_no_yarns_or_no_energy_is_refused(self):
         for options, cell, texts in (
                 (("--references", "yarn"), "layered.prm", ("layered.prm", "--references yarn")),
                 (("--variants", "nodal-warping,woven"), None, ("found `nodal-warping` first",)),
-                (("--variants", "knitted"), None, ("corotational, woven, woven-tension",))):
+                (("--variants", "knitted"), None, ("corotational, woven, triangle-warping",))):
             result = self.run_scene(*options, cell=cell)
             self.assertEqual(result.returncode, 2, result.stdout)
             for text in texts:
                 self.assertIn(text, result.stderr)
 
 
-class Tension(InFolder):
-    def test_it_is_refused_without_yarns_and_where_its_margin_says_nothing(self):
-        for study, texts in (
-                (("strain", CELLS / "layered.prm", "--references", "yarn-tension"),
-                 ("--references yarn-tension", "alike in all directions")),
-                (("load", CELLS / "layered.prm", "--strain", "11=1%", "--law", "yarn-tension"),
-                 ("--law yarn-tension", "alike in all directions")),
-                (("stability", CELLS / "plain-weave.prm", "--law", "yarn-tension"),
-                 ("--law", "waves without cost"))):
+class RemovedLaw(InFolder):
+    def test_it_is_refused_with_what_to_take_in_its_place(self):
+        hang, weave = SCENES / "hang.prm", CELLS / "plain-weave.prm"
+        for study in (("strain", weave, "--references", "yarn-tension"),
+                      ("load", weave, "--strain", "11=1%", "--law", "yarn-tension"),
+                      ("stability", weave, "--law", "yarn-tension"),
+                      ("drape", hang, "--references", "yarn-tension"),
+                      ("drape", hang, "--variants", "woven-tension")):
             result = run(*study, "--output", self.folder / "run")
             self.assertEqual(result.returncode, 2, study)
-            for text in texts:
-                self.assertIn(text, result.stderr)
+            self.assertIn("was removed in 0.2.0; use `yarn`: compression is marked", result.stderr)
             self.assertFalse((self.folder / "run").exists())
 
 

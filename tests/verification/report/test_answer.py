@@ -255,7 +255,7 @@ class AnswerPageTest(PageTest):
             self.assertIn(words, first)
         for word, meaning in GLOSSARY:
             self.assertTrue(meaning, word)
-        for word in ("anchor", "lift", "localized", "linear, biot, green, yarn, yarn-tension"):
+        for word in ("anchor", "lift", "localized", "linear, biot, green, yarn"):
             self.assertIn(f"<dt>{word}</dt>", page)
 
     def test_a_cell_without_a_study_answers_with_its_stiffness(self):

@@ -11,7 +11,6 @@ from figures import style
 
 GUIDE = "#6B6B6B"
 THEORY = "order of the theory, or its bounds"
-LAW_COLOURS = {"linear": style.GREEN, "biot": style.BLUE, "green": style.VERMILLION, "yarn": style.PURPLE, "yarn-tension": style.ORANGE}
 ORDER_MARKERS = {1: "o", 2: "^"}
 TIME_COLOURS = (style.BLUE, style.VERMILLION)
 METHOD_LINES = {"localized": "-", "affine": "--", "full": "-."}
@@ -265,40 +264,6 @@ def time_figure(convergence):
     return order_figure(panels)
 
 
-def manufactured_figure(convergence):
-    """One panel per solver and load; colour tells the law, marker the order, dashes the H1 error.
-    """
-    groups = {}
-    for s in convergence.of("manufactured"):
-        parts = s.case.split("; ")
-        law = next((part for part in parts if part in LAW_COLOURS), "")
-        group = ", ".join(part for part in parts if part not in LAW_COLOURS and part != f"P{s.p}")
-        norm = s.name.split()[0]
-        label = f"{law}, P{s.p}, {norm}"
-        groups.setdefault(group, (s.h_unit, []))[1].append(
-            Line(
-                s,
-                label,
-                LAW_COLOURS.get(law, style.BLACK),
-                ORDER_MARKERS[s.p],
-                "-" if norm == "L2" else "--",
-            )
-        )
-    panels = []
-    for group, (unit, lines) in groups.items():
-        xlabel = "time step [s]" if unit == "s" else "mesh width [sides]"
-        ylabel = "L2 error [sides]" if unit == "s" else "error: L2 [sides], H1 [-]"
-        panels.append(
-            (
-                group.replace("sheet in the plane", "plane").replace("cloth in space", "space"),
-                xlabel,
-                ylabel,
-                lines,
-            )
-        )
-    return order_figure(panels)
-
-
 FIGURES = {
     "mesh": mesh_figure,
     "adaptive": adaptive_figure,
@@ -307,5 +272,4 @@ FIGURES = {
     "edges": edges_figure,
     "strain": strain_figure,
     "time": time_figure,
-    "manufactured": manufactured_figure,
 }

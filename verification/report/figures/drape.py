@@ -13,17 +13,14 @@ from figures.sheet import unit_of
 
 ENERGY_ROUND_OFF = 1e-14  # of the largest energy: sums of squares of positions carry 16 digits
 BLOWN = 1e3  # times the largest value of the first cloth
-VARIANTS = ("corotational", "triangle-warping", "nodal-warping")
-VARIANT_COLOURS = dict(zip(VARIANTS, (style.BLUE, style.GREEN, style.ORANGE, style.VERMILLION)))
-# Of yarns: in the place of the corotational one where that is no law for the cell.
-WOVEN = ("woven", "woven-tension")
-VARIANTS = (VARIANTS[0], *WOVEN, *VARIANTS[1:])
-VARIANT_COLOURS |= dict(zip(WOVEN, ("#332288", "#AA4499")))
+# woven: in the place of the corotational one where that is no law for the cell.
+VARIANTS = ("corotational", "woven", "triangle-warping", "nodal-warping")
+VARIANT_COLOURS = dict(zip(VARIANTS, (style.BLUE, "#332288", style.GREEN, style.ORANGE)))
 # Methods with coarse cloths of their own.
 METHODS = ("edges", "quadratic", "p2", "full", "first-order")
 VARIANT_COLOURS |= {name: style.METHOD_COLOURS[name] for name in METHODS}
-REFERENCES = ("shell", "biot", "green", "yarn", "yarn-tension")
-REFERENCE_LINES = dict(zip(REFERENCES, ("--", ":", "-.", (0, (5, 1)), (0, (1, 3)))))
+REFERENCES = ("shell", "biot", "green", "yarn")
+REFERENCE_LINES = dict(zip(REFERENCES, ("--", ":", "-.", (0, (5, 1)))))
 FALL = 3.0  # a height that ranges over so many times that of the others gets a panel of its own
 
 

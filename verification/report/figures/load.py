@@ -6,7 +6,7 @@ from matplotlib import pyplot
 from figures import style
 from read.load_results import COMPONENTS
 
-LAW_COLOURS = {"linear": style.BLACK, "biot": style.BLUE, "green": style.VERMILLION, "yarn": style.PURPLE, "yarn-tension": style.ORANGE}
+LAW_COLOURS = {"linear": style.BLACK, "biot": style.BLUE, "green": style.VERMILLION, "yarn": style.PURPLE}
 METHOD_LINES = {"resolved": ("-", "o"), "coarse": ("--", None)}
 MEASURED_MARKERS = ("D", "s", "^", "v")
 ROUND_OFF = 1e-9  # of the largest stress or strain of a run: what is smaller is not drawn as physics

@@ -45,7 +45,6 @@ SPARE_COLOURS = ("#7F7F7F", YELLOW)
 
 # Line style and marker of each reference law.
 REFERENCE_STYLES = {"linear": (":", "s"), "biot": ("-", "o"), "green": ("--", "^"), "yarn": ("-.", "v"),
-    "yarn-tension": ((0, (3, 1, 1, 1, 1, 1)), "P"),
 }
 
 LOADS = (

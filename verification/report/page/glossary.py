@@ -36,12 +36,10 @@ GLOSSARY = (
      " `localized-piecewise` leaves it out"),
     ("reference", "the fine mesh solved by finite elements: what counts as the truth, with an error"
      " bar of its own"),
-    ("linear, biot, green, yarn, yarn-tension", "laws of the reference: small strain;"
+    ("linear, biot, green, yarn", "laws of the reference: small strain;"
      " ½ (U−I):C:(U−I), which is also the law of the coarse cloth; St. Venant-Kirchhoff; stretches"
-     " and angle of two yarns, which the coarse cloth then has too; the same without compression"),
-    ("wrinkled, slack", "under yarn-tension: pressed across a pull, or both ways; such a triangle"
-     " gives way, and where the cloth is slack its place is not determined"),
-    ("woven, woven-tension", "a moving cloth under the law yarn, or yarn-tension"),
+     " and angle of two yarns, which the coarse cloth then has too"),
+    ("woven", "a moving cloth under the law yarn"),
     ("fluctuation", "what the cloth does beside an even sheet of stiffness C^H: the part that"
      " up-sampling is to restore"),
     ("cell side", "square root of the area of the cell; errors are given in it"),

@@ -65,7 +65,7 @@ def self_tests(results, output):
                 return {"link": link, "sentence": "Self-tests of this revision of the program"}
     return {
         "link": "",
-        "sentence": "Self-tests of the program (manufactured solutions, stress cases) are made once"
+        "sentence": "Self-tests of the program (stress cases) are made once"
         " by `homespun verify` without a cell; none of this revision lies beside these results.",
     }
 

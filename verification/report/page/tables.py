@@ -19,7 +19,7 @@ CHOSEN_STRAINS = (0.01, 0.1)
 def main_reference(rows):
     """The law that the coarse solver's own energy matches, or the first there is."""
     references = style.ordered_references(row["reference"] for row in rows)
-    return next((law for law in ("biot", "yarn", "yarn-tension", *references) if law in references), None)
+    return next((law for law in ("biot", "yarn", *references) if law in references), None)
 
 
 def nearest_strains(rows):

@@ -47,7 +47,7 @@ def levels(rows):
     """
     table = {}
     laws = [row["reference"] for row in rows]
-    law = next((law for law in ("biot", "yarn", "yarn-tension", *laws) if law in laws), None)
+    law = next((law for law in ("biot", "yarn", *laws) if law in laws), None)
     for row in (row for row in rows if row["reference"] == law):
         table.setdefault((row["load"], row["strain"]), {}).setdefault(row["region"], {})[
             row["part"]

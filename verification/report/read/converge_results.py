@@ -12,7 +12,7 @@ AGAIN = "Run `homespun converge` again."
 KEYS = ("cell", "study", "case", "quantity", "order_p", "level")
 # Studies whose limits are bands, and the tolerance at both ends.
 BAND_TOLERANCES = {"mesh": 0.1, "scale": 0.15, "coarse": 0.1, "edges": 0.1}
-STUDIES = ("mesh", "adaptive", "scale", "coarse", "edges", "strain", "time", "manufactured")
+STUDIES = ("mesh", "adaptive", "scale", "coarse", "edges", "strain", "time")
 
 
 @dataclass

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "verification/converge/manufactured.h"
+#include "tests/verification/manufactured/manufactured.h"
 
 #include <Eigen/LU>
 
@@ -95,102 +95,8 @@ std::array<double, 3> slopes_of(const Function &function, const double (&c)[3])
   return slopes;
 }
 
-/// The metric of a cloth that cannot be pressed, C + A of least energy with A = α (c, s) (c, s)^T:
-/// for each direction α by halves on its slope, the direction by a search and by halves. Slopes are
-/// those of complex steps, and have all digits.
-class Wrinkle
-{
-public:
-  Wrinkle(const Eigen::Matrix3d &stiffness, const Eigen::Vector2d &along, const double (&c)[3])
-      : stiffness(stiffness)
-      , along(along)
-      , c{c[0], c[1], c[2]}
-  {
-  }
-
-  /// C11, C22, C12 to be added. Where no stretch is above 1 the cloth is slack: up to I.
-  std::array<double, 3> added() const
-  {
-    const double missing1 = 1. - c[0], missing2 = 1. - c[1];
-    if (missing1 + missing2 > 0. && missing1 * missing2 > c[2] * c[2])
-      return {missing1, missing2, -c[2]};
-    if (is_in_tension())
-      return {0., 0., 0.};
-    constexpr int n = 64; // directions of half a turn
-    int best        = 0;
-    double least    = std::numeric_limits<double>::infinity();
-    for (int k = 0; k < n; ++k)
-    {
-      const double angle = M_PI * k / n, energy = real_at(length(angle), angle);
-      if (energy < least)
-      {
-        least = energy;
-        best  = k;
-      }
-    }
-    double from = M_PI * (best - 1) / n, to = M_PI * (best + 1) / n;
-    if (length(M_PI * best / n) == 0.)
-      return {0., 0., 0.};
-    for (int halving = 0; halving < 50; ++halving)
-    {
-      const double middle = 0.5 * (from + to);
-      // The slope by the angle at the best α is that of the best energy.
-      (slope(length(middle), middle, {0., 1.}) < 0. ? from : to) = middle;
-    }
-    const double angle = 0.5 * (from + to), alpha = length(angle);
-    return {alpha * std::cos(angle) * std::cos(angle), alpha * std::sin(angle) * std::sin(angle),
-            alpha * std::cos(angle) * std::sin(angle)};
-  }
-
-private:
-  /// The slope by α at C is (c, s) dW/dC (c, s)^T: of no direction negative where dW/dC has no
-  /// negative eigenvalue.
-  bool is_in_tension() const
-  {
-    const std::array<double, 3> by = slopes_of(
-      [&](const Complex(&moved)[3]) { return yarn_energy<Complex>(stiffness, along, moved); }, c);
-    return by[0] + by[1] >= 0. && 4. * by[0] * by[1] >= by[2] * by[2];
-  }
-  template <typename Scalar>
-  Scalar at(const Scalar &alpha, const Scalar &angle) const
-  {
-    using std::cos;
-    using std::sin;
-    const Scalar x = cos(angle), y = sin(angle);
-    return yarn_energy<Scalar>(stiffness, along,
-                               {c[0] + alpha * x * x, c[1] + alpha * y * y, c[2] + alpha * x * y});
-  }
-  double real_at(const double alpha, const double angle) const
-  {
-    return at<double>(alpha, angle);
-  }
-  double slope(const double alpha, const double angle, const std::array<double, 2> &by) const
-  {
-    constexpr double small = 1e-30;
-    return at<Complex>(Complex(alpha, small * by[0]), Complex(angle, small * by[1])).imag() / small;
-  }
-  double length(const double angle) const
-  {
-    if (slope(0., angle, {1., 0.}) >= 0.)
-      return 0.;
-    double from = 0., to = 0.1;
-    for (int doubling = 0; doubling < 8 && slope(to, angle, {1., 0.}) < 0.; ++doubling)
-      to *= 2.;
-    for (int halving = 0; halving < 54; ++halving)
-    {
-      const double middle                               = 0.5 * (from + to);
-      (slope(middle, angle, {1., 0.}) < 0. ? from : to) = middle;
-    }
-    return 0.5 * (from + to);
-  }
-
-  const Eigen::Matrix3d &stiffness;
-  const Eigen::Vector2d &along;
-  const double c[3];
-};
-
 /// W of a law but linear as a function of C11, C22, C12 of C = F^T F, which may have imaginary
-/// parts; of yarn-tension where A has been added.
+/// parts.
 /// @param along direction of the first yarns
 template <typename Scalar>
 Scalar energy(const Law law, const Eigen::Matrix3d &stiffness, const Eigen::Vector2d &along,
@@ -229,13 +135,7 @@ EnergyAndStress energy_and_stress(const Law law, const Eigen::Matrix3d &stiffnes
   if (law == Law::linear)
     return linear_law(stiffness, F);
   const Eigen::Matrix2d C = F.transpose() * F;
-  double c[3]             = {C(0, 0), C(1, 1), C(0, 1)};
-  if (law == Law::yarn_tension)
-  { // of the least energy the slope by A is none: the stress is that of yarns at C + A
-    const std::array<double, 3> added = Wrinkle(stiffness, along, c).added();
-    for (int a = 0; a < 3; ++a)
-      c[a] += added[static_cast<std::size_t>(a)];
-  }
+  const double c[3]       = {C(0, 0), C(1, 1), C(0, 1)};
   EnergyAndStress result;
   result.energy                     = energy<double>(law, stiffness, along, c);
   const std::array<double, 3> slope = slopes_of(

@@ -2,10 +2,10 @@
 // The cloth of shell/ against motions that it must reproduce: its equilibria in the plane and in
 // space, steps in time on finer and finer meshes, and finer and finer steps on one mesh.
 #include "shell/solver/equilibrium.h"
-#include "verification/converge/following_cloth.h"
-#include "verification/converge/manufactured.h"
-#include "verification/converge/manufactured_cases.h"
-#include "verification/converge/nodal_fields.h"
+#include "tests/verification/manufactured/following_cloth.h"
+#include "tests/verification/manufactured/manufactured.h"
+#include "tests/verification/manufactured/manufactured_cases.h"
+#include "tests/verification/manufactured/nodal_fields.h"
 
 #include <cmath>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "verification/converge/nodal_fields.h"
+#include "tests/verification/manufactured/nodal_fields.h"
 
 #include <Eigen/LU>
 

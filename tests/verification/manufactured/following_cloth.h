@@ -5,9 +5,9 @@
 
 #include "meshes/cloth/cloth_mesh.h"
 #include "shell/solver/cloth.h"
-#include "verification/converge/manufactured.h"
-#include "verification/converge/manufactured_cases.h"
-#include "verification/converge/manufactured_motions.h"
+#include "tests/verification/manufactured/manufactured.h"
+#include "tests/verification/manufactured/manufactured_cases.h"
+#include "tests/verification/manufactured/manufactured_motions.h"
 
 #include <Eigen/Core>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "verification/converge/manufactured_cases.h"
+#include "tests/verification/manufactured/manufactured_cases.h"
 
 #include "verification/record/number_text.h"
 

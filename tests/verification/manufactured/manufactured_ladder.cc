@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "meshes/plain/errors.h"
-#include "verification/converge/manufactured_cases.h"
+#include "tests/verification/manufactured/manufactured_cases.h"
 
 #include <cmath>
 #include <limits>

@@ -10,8 +10,8 @@
 #include "homogenization/fem/homogenize.h"
 #include "meshes/cloth/irregular_sheet.h"
 #include "meshes/plain/refine.h"
-#include "verification/converge/manufactured.h"
-#include "verification/converge/manufactured_cases.h"
+#include "tests/verification/manufactured/manufactured.h"
+#include "tests/verification/manufactured/manufactured_cases.h"
 #include "verification/reference/field_integrals.h"
 
 #include <Eigen/LU>

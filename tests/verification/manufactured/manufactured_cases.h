@@ -10,7 +10,7 @@
 #pragma once
 
 #include "localization/options.h"
-#include "verification/converge/manufactured_motions.h"
+#include "tests/verification/manufactured/manufactured_motions.h"
 #include "verification/record/convergence.h"
 #include "verification/reference/known_field.h"
 

@@ -14,7 +14,7 @@
 #include "localization/upsampler.h"
 #include "meshes/plain/sheet.h"
 #include "meshes/plain/symmetric_eigen.h"
-#include "verification/converge/manufactured_cases.h"
+#include "tests/verification/manufactured/manufactured_cases.h"
 
 #include <Eigen/LU>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "verification/converge/manufactured_motions.h"
+#include "tests/verification/manufactured/manufactured_motions.h"
 
 #include "meshes/cloth/irregular_sheet.h"
 #include "meshes/plain/refine.h"

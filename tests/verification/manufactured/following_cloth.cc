@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "verification/converge/following_cloth.h"
+#include "tests/verification/manufactured/following_cloth.h"
 
 #include "meshes/plain/errors.h"
 #include "shell/terms/external_term.h"
 #include "shell/terms/membrane_term.h"
-#include "verification/converge/nodal_fields.h"
+#include "tests/verification/manufactured/nodal_fields.h"
 #include "verification/record/number_text.h"
 
 #include <cmath>
