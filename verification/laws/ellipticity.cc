@@ -2,7 +2,6 @@
 #include "verification/laws/ellipticity.h"
 
 #include "meshes/plain/triangle_kinematics.h"
-#include "verification/yarns/tension_field.h"
 
 #include <algorithm>
 #include <array>

@@ -211,8 +211,6 @@ void write_coarse_ellipticity(const StrainLevel &level, const MethodOnSheet &met
                                             known.part == coarse_cloth_part && known.lost > 0;
                                    });
   output.ellipticity.append_if_missing(row);
-  if (const std::string relaxed = relaxed_of_all(row); !relaxed.empty())
-    output.write_note(level, relaxed + " of the coarse cloth under its law, " + name_of(law));
   if (row.lost > 0 && !is_told)
     output.write_note(
       level, lost_of_all(row) + " of the coarse cloth are not elliptic under its law, " +
