@@ -6,23 +6,10 @@
 #include <Eigen/LU>
 
 #include <algorithm>
+#include <stdexcept>
 
 namespace homespun::homogenization
 {
-std::string name_of(const MembraneLaw law)
-{
-  switch (law)
-  {
-  case MembraneLaw::biot:
-    return "biot";
-  case MembraneLaw::green:
-    return "green";
-  case MembraneLaw::yarn:
-    return "yarn";
-  }
-  return "";
-}
-
 namespace
 {
 /// The symmetric form of the product of two linear ones.
@@ -52,29 +39,54 @@ QuadraticStrain of_yarns(const meshes::YarnAxes &yarns)
 }
 } // namespace
 
-std::vector<MembraneLaw> laws_of_second_order(const std::vector<Phase> &phases)
+std::vector<Law> laws_of_second_order(const std::vector<Phase> &phases)
 {
-  std::vector<MembraneLaw> laws = {MembraneLaw::biot, MembraneLaw::green};
-  if (std::any_of(phases.begin(), phases.end(),
-                  [](const Phase &phase)
-                  { return meshes::yarn_axes(plane_stress_stiffness(phase)).are_there; }))
-    laws.push_back(MembraneLaw::yarn);
+  const bool have_axes = std::any_of(
+    phases.begin(), phases.end(),
+    [](const Phase &phase) { return meshes::yarn_axes(plane_stress_stiffness(phase)).are_there; });
+  std::vector<Law> laws;
+  for (const Law law : meshes::all_laws())
+    if (const meshes::LawProperties &of = meshes::properties_of(law);
+        of.has_second_order && (have_axes || !of.has_yarns))
+      laws.push_back(law);
   return laws;
 }
 
-QuadraticStrain quadratic_strain(const MembraneLaw law, const Phase &phase)
+namespace
 {
-  if (law == MembraneLaw::yarn)
-    if (const auto yarns = meshes::yarn_axes(plane_stress_stiffness(phase)); yarns.are_there)
-      return of_yarns(yarns);
+QuadraticStrain of_biot()
+{
   const GradientEntries H11 = GradientEntries::Unit(0), H12 = GradientEntries::Unit(1),
                         H21 = GradientEntries::Unit(2), H22 = GradientEntries::Unit(3);
-  if (law == MembraneLaw::green)
-    return {0.5 * (product(H11, H11) + product(H21, H21)),
-            0.5 * (product(H12, H12) + product(H22, H22)), product(H11, H12) + product(H21, H22)};
   const GradientEntries shear = H12 + H21, turn = 0.5 * (H21 - H12);
   return {0.5 * (product(shear, turn) + product(turn, turn)),
           0.5 * (product(turn, turn) - product(shear, turn)), product(H22 - H11, turn)};
+}
+
+QuadraticStrain of_green()
+{
+  const GradientEntries H11 = GradientEntries::Unit(0), H12 = GradientEntries::Unit(1),
+                        H21 = GradientEntries::Unit(2), H22 = GradientEntries::Unit(3);
+  return {0.5 * (product(H11, H11) + product(H21, H21)),
+          0.5 * (product(H12, H12) + product(H22, H22)), product(H11, H12) + product(H21, H22)};
+}
+} // namespace
+
+QuadraticStrain quadratic_strain(const Law law, const Phase &phase)
+{
+  switch (law)
+  {
+  case Law::linear:
+    break;
+  case Law::biot:
+    return of_biot();
+  case Law::green:
+    return of_green();
+  case Law::yarn:
+    const meshes::YarnAxes yarns = meshes::yarn_axes(plane_stress_stiffness(phase));
+    return yarns.are_there ? of_yarns(yarns) : of_biot();
+  }
+  throw std::logic_error("the law " + meshes::name_of(law) + " has no second order");
 }
 
 Eigen::Matrix<double, 3, 4> linear_strain()

@@ -15,25 +15,16 @@
 #pragma once
 
 #include "homogenization/cell/material.h"
+#include "meshes/plain/law.h"
 
 #include <Eigen/Core>
 
 #include <array>
-#include <string>
 #include <vector>
 
 namespace homespun::homogenization
 {
-/// The laws of phases whose second order is known.
-enum class MembraneLaw
-{
-  biot,  ///< W = ½ (U − I).c.(U − I)
-  green, ///< W = ½ E.c.E, E = ½ (F^T F − I)
-  yarn   ///< W = ½ e.c.e, e = (|F a1| − 1, |F a2| − 1, angle) in the axes a1, a2 of the phase
-};
-
-/// `biot`, `green` or `yarn`.
-std::string name_of(MembraneLaw law);
+using meshes::Law;
 
 /// The entries of a displacement gradient, H11, H12, H21, H22.
 using GradientEntries = Eigen::Vector4d;
@@ -41,12 +32,14 @@ using GradientEntries = Eigen::Vector4d;
 /// q of a law: component k of q(F, G) is F.Q_k G, each Q_k symmetric [-].
 using QuadraticStrain = std::array<Eigen::Matrix4d, 3>;
 
+/// @param law that has_second_order
 /// @param phase whose axes `yarn` refers to (meshes/plain/yarn_axes.h)
-QuadraticStrain quadratic_strain(MembraneLaw law, const Phase &phase);
+/// @throws std::logic_error of another law
+QuadraticStrain quadratic_strain(Law law, const Phase &phase);
 
-/// The laws of a cell: `biot` and `green`, and `yarn` where a phase has axes; one without them
-/// keeps `biot` under that law.
-std::vector<MembraneLaw> laws_of_second_order(const std::vector<Phase> &phases);
+/// The laws of a cell that have a second order: those of yarns where a phase has axes; one without
+/// them keeps `biot` under such a law.
+std::vector<Law> laws_of_second_order(const std::vector<Phase> &phases);
 
 /// eps of the entries of a gradient, (H11, H22, H12 + H21): a matrix (3,4).
 Eigen::Matrix<double, 3, 4> linear_strain();

@@ -84,7 +84,7 @@ public:
     if (!options.pieces.empty())
       write_pieces(options.pieces, discretization, solutions);
     lap(result.seconds.evaluation);
-    for (const MembraneLaw law : options.second_order)
+    for (const Law law : options.second_order)
       result.second_order[name_of(law)] = second_order(law);
     lap(result.seconds.second_order);
     return result;
@@ -304,7 +304,7 @@ private:
     return rows;
   }
 
-  meshes::SecondOrder second_order(const MembraneLaw law)
+  meshes::SecondOrder second_order(const Law law)
   {
     const SecondOrderFields found = second_order_fields(
       {cell, discretization, constraints, solutions}, law,

@@ -38,7 +38,7 @@ struct HomogenizationOptions
   CellSolver solver = CellSolver::multigrid;
   std::string pieces; ///< path without ending of .pvtu and its pieces (write_pieces()); empty: none
   /// Whose quadratic modes and cubic energy are computed too: six more right-hand sides each.
-  std::vector<MembraneLaw> second_order;
+  std::vector<Law> second_order;
 };
 
 /// Seconds of each stage on the slowest rank.

@@ -45,7 +45,7 @@ struct QuadraticLoads
   meshes::CubicForm energy;    ///< W3 [N/m]
 };
 
-QuadraticLoads quadratic_loads(const SolvedCell &solved, const MembraneLaw law, const Vector &zero)
+QuadraticLoads quadratic_loads(const SolvedCell &solved, const Law law, const Vector &zero)
 {
   const Discretization &discretization   = solved.discretization;
   std::vector<Eigen::Matrix3d> stiffness = solved.cell.stiffness_of_phase();
@@ -112,7 +112,7 @@ QuadraticLoads quadratic_loads(const SolvedCell &solved, const MembraneLaw law, 
 }
 } // namespace
 
-SecondOrderFields second_order_fields(const SolvedCell &solved, const MembraneLaw law,
+SecondOrderFields second_order_fields(const SolvedCell &solved, const Law law,
                                       const SecondOrderTarget &target, ElasticSolver &solver)
 {
   const QuadraticLoads right = quadratic_loads(solved, law, solver.owned_vector());

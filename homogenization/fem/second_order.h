@@ -47,6 +47,6 @@ struct SecondOrderFields
 /// All ranks must call this.
 /// @param solver with its preconditioner, as chi was solved with
 /// @throws NotConverged with the residual history
-SecondOrderFields second_order_fields(const SolvedCell &solved, MembraneLaw law,
+SecondOrderFields second_order_fields(const SolvedCell &solved, Law law,
                                       const SecondOrderTarget &target, ElasticSolver &solver);
 } // namespace homespun::homogenization

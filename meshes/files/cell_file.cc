@@ -5,6 +5,7 @@
 #include "meshes/files/hdf5_reader.h"
 #include "meshes/files/hdf5_writer.h"
 #include "meshes/plain/errors.h"
+#include "meshes/plain/law.h"
 #include "meshes/plain/symmetric_eigen.h"
 
 
@@ -83,9 +84,6 @@ std::vector<std::string> faults_of(const HomogenizedCell &cell, const std::strin
     add("/lattice spans no area; expected two independent vectors");
   return faults;
 }
-
-/// The laws that a file may hold second orders of.
-constexpr std::array<const char *, 3> laws = {"biot", "green", "yarn"};
 
 /// Columns 2 k + c of a row in memory, stored as (vertex, component, mode).
 constexpr int n_modes = 6;
@@ -225,7 +223,7 @@ HomogenizedCell read_cell(const std::string &path)
     cell.bending = {Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(D.data()),
                     Eigen::Map<const Deflection>(deflection.data(), rows, 3)};
   }
-  for (const char *law : laws)
+  for (const std::string &law : laws_with(&LawProperties::has_second_order))
     if (file.has(std::string("/W3/") + law) || file.has(std::string("/chi_quadratic/") + law))
       cell.second_order[law] = read_second_order(file, law, n);
   const std::optional<int> anchor = file.integer_attribute("/chi", "anchor");

@@ -16,8 +16,8 @@
 
 namespace homespun::verification
 {
-using homogenization::MembraneLaw;
 using homogenization::UnitCell;
+using meshes::Law;
 
 namespace
 {
@@ -30,7 +30,7 @@ std::string key_of(const UnitCell &cell)
   return cell.name + " " + fingerprint(cell);
 }
 
-AssessedCell by_p1(const UnitCell &cell, const std::vector<MembraneLaw> &second_order,
+AssessedCell by_p1(const UnitCell &cell, const std::vector<Law> &second_order,
                    const MPI_Comm communicator)
 {
   homogenization::HomogenizationOptions p1;
@@ -103,7 +103,7 @@ const AssessedCell &AssessedCells::of(const UnitCell &cell, const CellNeeds &nee
   const bool is_known =
     found != cells.end() &&
     std::all_of(needs.second_order.begin(), needs.second_order.end(),
-                [&](const MembraneLaw law)
+                [&](const Law law)
                 { return found->second.result.second_order.count(name_of(law)) != 0; });
   if (!is_known)
     cells[key] = by_p1(cell, needs.second_order, communicator);

@@ -14,9 +14,9 @@ namespace homespun::verification
 /// What a study asks of a cell beside C^H and chi.
 struct CellNeeds
 {
-  std::vector<homogenization::MembraneLaw> second_order; ///< whose quadratic modes and cubic energy
-  bool bending = false;                                  ///< D^H and deflections
-  bool edges   = false;                                  ///< slip, tension and modes of its edges
+  std::vector<meshes::Law> second_order; ///< whose quadratic modes and cubic energy
+  bool bending = false;                  ///< D^H and deflections
+  bool edges   = false;                  ///< slip, tension and modes of its edges
 };
 
 /// Cells by P1 on their given mesh, the discretization of the fine reference, so that a study shows

@@ -177,7 +177,7 @@ std::vector<ConvergenceCase> strain_cases(const UnitCell &cell,
                                           const MPI_Comm communicator)
 {
   std::vector<ConvergenceCase> cases;
-  for (const char *name : {"periodic-11", "periodic-22", "periodic-12", "periodic-all"})
+  for (const std::string &name : Load::names_of(LoadKind::periodic))
     cases.push_back({cell.name, "strain", name,
                      [&cell, &homogenized, load = Load(name), sizes, communicator]()
                      { return climb_strains(cell, homogenized, load, sizes, communicator); }});

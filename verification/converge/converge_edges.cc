@@ -43,7 +43,7 @@ Series series_of(const std::string &method)
 /// The exponent of the corner between the clamped and the free edges of a sheet.
 double corner_exponent(const meshes::HomogenizedCell &cell, const Load &load)
 {
-  const int clamped = load.clamped_axis();
+  const int clamped = load.axis();
   // The edge normal to lattice axis 1 is clamped lies along a2, and the free one along a1.
   Eigen::RowVector2d ray  = cell.lattice.vectors.row(1 - clamped),
                      free = cell.lattice.vectors.row(clamped);
@@ -173,7 +173,7 @@ std::vector<ConvergenceCase> edge_cases(const UnitCell &cell,
   };
   std::vector<ConvergenceCase> cases = {
     {cell.name, "edges", "closed along axis 1", guarded([of]() { return without_corners(*of); })}};
-  for (const char *name : {"strip-1", "strip-2", "shear-frame"})
+  for (const std::string &name : Load::names_of(LoadKind::sheet))
     cases.push_back({cell.name, "edges", name,
                      guarded([of, load = Load(name)]() { return with_corners(*of, load); })});
   return cases;

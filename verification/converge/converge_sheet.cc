@@ -18,8 +18,6 @@ using homogenization::UnitCell;
 
 namespace
 {
-const std::vector<std::string> sheet_loads = {"strip-1", "strip-2", "shear-frame"};
-
 /// The linear reference is in proportion to the strain: any will do.
 constexpr double linear_strain = 0.01;
 
@@ -310,7 +308,7 @@ std::vector<ConvergenceCase> of_sheet_loads(const UnitCell &cell, const std::str
                                             const Run &run)
 {
   std::vector<ConvergenceCase> cases;
-  for (const std::string &name : sheet_loads)
+  for (const std::string &name : Load::names_of(LoadKind::sheet))
     cases.push_back({cell.name, study, name, [run, load = Load(name)]() { return run(load); }});
   return cases;
 }

@@ -167,8 +167,7 @@ private:
     for (const UnitCell &cell : cells())
     {
       CellNeeds needs;
-      needs.second_order = {default_law(cell) == Law::yarn ? homogenization::MembraneLaw::yarn
-                                                           : homogenization::MembraneLaw::biot};
+      needs.second_order = {default_law(cell) == Law::yarn ? meshes::Law::yarn : meshes::Law::biot};
       std::vector<Verdict> checks; // a study of orders claims nothing of C^H itself
       homogenized.push_back(
         homogenized_cell(cell, homogenize(cell, needs, checks), provenance_line()));

@@ -76,7 +76,7 @@ CellNeeds needs_of(const DrapeOptions &options)
   CellNeeds needs;
   needs.edges = asks_for(options, [](const Method &method) { return method.has_edge_terms(); });
   if (asks_for(options, [](const Method &method) { return method.is_of_second_order(); }))
-    needs.second_order = {homogenization::MembraneLaw::biot};
+    needs.second_order = {meshes::Law::biot};
   return needs;
 }
 

@@ -88,7 +88,7 @@ MembraneModel membrane_model_of(const std::string &name)
                                     MembraneModel::triangle_warping, MembraneModel::nodal_warping})
     if (name_of(model) == name)
       return model;
-  refuse_removed_law(name);
+  meshes::refuse_removed_law(name);
   throw meshes::BadInput("found `" + name +
                          "`; expected corotational, woven, triangle-warping or nodal-warping");
 }

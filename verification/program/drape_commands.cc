@@ -33,8 +33,10 @@ void check_drape_arguments(DrapeArguments &arguments)
   faults.check_names("--methods", study.methods,
                      [](const std::string &name) { return Method(name); });
   for (const std::string &name : study.references)
-    refuse_removed_law(name);
-  faults.check_names("--references", study.references, {"shell", "biot", "green", "yarn"});
+    meshes::refuse_removed_law(name);
+  std::vector<std::string> references = meshes::laws_with(&meshes::LawProperties::is_of_space);
+  references.insert(references.begin(), "shell");
+  faults.check_names("--references", study.references, references);
   faults.check_names("--frames", study.frames, {"vtu", "ply", "obj"});
   if (!study.variants.empty() &&
       (study.variants.front() == name_of(MembraneModel::nodal_warping) ||

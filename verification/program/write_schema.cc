@@ -54,6 +54,14 @@ int main(int argc, char **argv)
   add_to_schema<ModeRow>(schema);
   add_to_schema<PatternRow>(schema);
   add_to_schema<UpsampleRow>(schema);
+  for (const meshes::LawProperties &law : meshes::law_table)
+    schema["laws"].push_back({{"name", law.name},
+                              {"has_yarns", law.has_yarns},
+                              {"is_of_coarse_cloth", law.is_of_coarse_cloth},
+                              {"is_of_space", law.is_of_space}});
+  for (const LoadProperties &load : load_table)
+    schema["loads"].push_back(
+      {{"name", load.name}, {"label", load.label}, {"is_infinite", load.kind != LoadKind::sheet}});
   schema["methods_by_rank"] = {{"yarn", methods_by_rank_of_yarns}, {"others", methods_by_rank}};
   write_json(argv[1], schema);
   return exit_status::good;

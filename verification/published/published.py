@@ -22,7 +22,7 @@ sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), os.p
 # pylint: disable=wrong-import-position
 from read.cell_results import relative_width  # noqa: E402
 from read.runs import read_run  # noqa: E402
-from read.schema import NoSchema, main_method  # noqa: E402
+from read.schema import NoSchema, loads, main_method, main_reference  # noqa: E402
 from read.stored import BadResults  # noqa: E402
 from run_files import Results  # noqa: E402
 
@@ -30,7 +30,6 @@ STRAIN, LARGE_STRAIN, REFERENCE = 0.01, 0.1, "biot"
 LADDER = ("affine", "localized", "edges", "quadratic", "p2", "full", "first-order",
           "full-fitted")
 SCENE = "pull"
-SHEETS = ("strip-1", "strip-2", "shear-frame")
 KEYS = {  # columns that name a row of each file, for README's marks
     "errors.csv": ("cell", "load"),
     "ladder.csv": ("cell", "load"),
@@ -43,10 +42,13 @@ KEYS = {  # columns that name a row of each file, for README's marks
 }
 
 
+def is_sheet(load):
+    return not loads()[load]["is_infinite"]
+
+
 def level(rows, cell, load, strain):
     """{method: row} of one level against the law that the claims of the cell speak of."""
-    laws = [row["reference"] for row in rows if row["cell"] == cell]
-    law = next((one for one in ("biot", "yarn") if one in laws), None)
+    law = main_reference(row["reference"] for row in rows if row["cell"] == cell)
     return {
         row["method"]: row
         for row in rows
@@ -67,7 +69,7 @@ def errors(results):
         row
         for row in results.table("strain.csv")
         if row["reference"] == REFERENCE
-        and row["load"] in SHEETS
+        and is_sheet(row["load"])
         and math.isclose(row["strain"], STRAIN, rel_tol=1e-6)
     ]
     for cell, load in dict.fromkeys((row["cell"], row["load"]) for row in rows):
@@ -100,7 +102,7 @@ def ladder(results):
     against yarn, in 1/1000 of strain x cell side. Columns of 10 % end in `_10`, empty where no
     equilibrium was reached. Gain: localized / main, the method that pages speak of.
     """
-    rows = [row for row in results.table("strain.csv") if row["load"] in SHEETS]
+    rows = [row for row in results.table("strain.csv") if is_sheet(row["load"])]
     for cell, load in dict.fromkeys((row["cell"], row["load"]) for row in rows):
         small, large = (level(rows, cell, load, strain) for strain in (STRAIN, LARGE_STRAIN))
         if not set(LADDER[:2]) < small.keys() or spoken_of(small) == "localized":
@@ -152,7 +154,7 @@ def times(results):
     rows = [
         row
         for row in results.table("steps.csv")
-        if row["load"] in SHEETS and row["reference"] == REFERENCE
+        if is_sheet(row["load"]) and row["reference"] == REFERENCE
     ]
     for cell in dict.fromkeys(row["cell"] for row in rows):
         by_load = {}

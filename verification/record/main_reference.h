@@ -3,19 +3,20 @@
 // one that the coarse cloth shares with its reference.
 #pragma once
 
+#include "meshes/plain/law.h"
+
 #include <algorithm>
 #include <string>
 #include <vector>
 
 namespace homespun::verification
 {
-/// `biot`, that of the corotational coarse cloth, where it is among them; else `yarn`,
-/// which the coarse cloth takes, too; else the first.
+/// The first that the coarse cloth has too, `biot` before `yarn`; else the first.
 /// @param references names of laws
 /// @return empty where there are none
 inline std::string main_reference(const std::vector<std::string> &references)
 {
-  for (const char *law : {"biot", "yarn"})
+  for (const std::string &law : meshes::laws_with(&meshes::LawProperties::is_of_coarse_cloth))
     if (std::find(references.begin(), references.end(), law) != references.end())
       return law;
   return references.empty() ? std::string() : references.front();

@@ -67,7 +67,7 @@ void FineReference::Solver::constrain(const Load &load)
     {
       constraints.add_line(node.first_dof);
       constraints.add_line(node.second_dof);
-      clamp_of_node[node.first_dof] = f(load.clamped_axis()) < 0.5 ? 0 : 1;
+      clamp_of_node[node.first_dof] = f(load.axis()) < 0.5 ? 0 : 1;
     }
   constraints.close();
 }

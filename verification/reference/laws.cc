@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "verification/reference/laws.h"
 
-#include "meshes/plain/errors.h"
 #include "meshes/plain/symmetric_eigen.h"
 #include "verification/yarns/yarn_law.h"
 
@@ -80,44 +79,6 @@ Response biot_response(const Eigen::Matrix3d &C, const Eigen::Matrix2d &F)
   return result;
 }
 } // namespace
-
-std::string name_of(const Law law)
-{
-  switch (law)
-  {
-  case Law::linear:
-    return "linear";
-  case Law::biot:
-    return "biot";
-  case Law::green:
-    return "green";
-  case Law::yarn:
-    return "yarn";
-  }
-  throw std::logic_error("a law without a name");
-}
-
-const std::vector<Law> &all_laws()
-{
-  static const std::vector<Law> all = {Law::linear, Law::biot, Law::green, Law::yarn};
-  return all;
-}
-
-void refuse_removed_law(const std::string &name)
-{
-  if (name == "yarn-tension" || name == "woven-tension")
-    throw meshes::BadInput("law `" + name +
-                           "` was removed in 0.2.0; use `yarn`: compression is marked");
-}
-
-Law law_of(const std::string &name)
-{
-  refuse_removed_law(name);
-  for (const Law law : all_laws())
-    if (name == name_of(law))
-      return law;
-  throw meshes::BadInput("unknown reference `" + name + "`; expected linear, biot, green or yarn");
-}
 
 LawOfPhase::LawOfPhase(const Law law, const Eigen::Matrix3d &stiffness)
     : law(law)

@@ -3,45 +3,25 @@
 // gradient F. Written apart from the coarse cloth's element, which one of them must equal.
 #pragma once
 
+#include "meshes/plain/law.h"
 #include "meshes/plain/yarn_axes.h"
 #include "verification/yarns/response.h"
 
 #include <Eigen/Core>
 
-#include <string>
-#include <vector>
 
 namespace homespun::verification
 {
-/// linear: W = ½ e:C:e,            e = sym(F − I)
-/// biot:   W = ½ (U−I):C:(U−I),    U = sqrt(F^T F)
-/// green:  W = ½ E:C:E,            E = ½ (F^T F − I)  (St. Venant-Kirchhoff)
-/// yarn:   W = ½ e:C:e,            e of the stretches of two yarns and their angle (yarn_law.h);
-///         biot where C has no axes
-enum class Law
-{
-  linear,
-  biot,
-  green,
-  yarn
-};
+using meshes::all_laws;
+using meshes::Law;
+using meshes::law_of;
+using meshes::name_of;
 
 /// Whether a law is one of yarns: it needs axes.
 inline bool is_of_yarns(const Law law)
 {
-  return law == Law::yarn;
+  return meshes::properties_of(law).has_yarns;
 }
-
-/// Every law, in this order.
-const std::vector<Law> &all_laws();
-
-std::string name_of(Law law);
-
-/// @throws BadInput naming what to take in its place, where a law of that name was removed
-void refuse_removed_law(const std::string &name);
-
-/// @throws BadInput listing the names, where it is none of them, or one that was removed
-Law law_of(const std::string &name);
 
 /// The response of a law at a deformation gradient.
 ///

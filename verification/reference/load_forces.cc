@@ -33,7 +33,7 @@ double force_per_width(const Load &load, const Eigen::Matrix2d &sides, const Loa
       .sum();
   if (load.is_periodic())
     return forces.stress.cwiseProduct(load.gradient(1.) - load.gradient(0.)).sum();
-  return force_along(load, sides, forces) / sides.row(1 - load.clamped_axis()).norm();
+  return force_along(load, sides, forces) / sides.row(1 - load.axis()).norm();
 }
 
 LoadForces load_forces(const Load &load, const meshes::Sheet &sheet, const meshes::Points &rest,
@@ -43,7 +43,7 @@ LoadForces load_forces(const Load &load, const meshes::Sheet &sheet, const meshe
   if (!load.is_periodic())
     for (Eigen::Index v = 0; v < rest.rows(); ++v)
       if (const Eigen::RowVector2d f = sheet.fraction(rest.row(v)); load.holds(f))
-        forces.on_clamps.row(f(load.clamped_axis()) < 0.5 ? 0 : 1) += gradient.row(v);
+        forces.on_clamps.row(f(load.axis()) < 0.5 ? 0 : 1) += gradient.row(v);
   // Relative to a corner of the sheet, so that one far from the origin keeps its digits.
   forces.stress =
     gradient.transpose() * (rest.rowwise() - sheet.origin) / std::abs(sheet.sides().determinant());

@@ -3,37 +3,70 @@
 
 #include "meshes/plain/errors.h"
 
-#include <algorithm>
 #include <stdexcept>
 #include <utility>
 
 namespace homespun::verification
 {
+namespace
+{
+const LoadProperties &properties_of(const std::string &name)
+{
+  std::string known;
+  for (const LoadProperties &load : load_table)
+  {
+    if (name == load.name)
+      return load;
+    known += (known.empty()                 ? ""
+              : &load == &load_table.back() ? " or "
+                                            : ", ") +
+             std::string(load.name);
+  }
+  throw meshes::BadInput("unknown load `" + name + "`; expected " + known);
+}
+} // namespace
+
 const std::vector<std::string> &Load::names()
 {
-  static const std::vector<std::string> all = {"periodic-11", "periodic-22", "periodic-12",
-                                               "strip-1",     "strip-2",     "shear-frame"};
+  static const std::vector<std::string> all = []()
+  {
+    std::vector<std::string> names;
+    for (const LoadProperties &load : load_table)
+      if (load.is_in_default_study)
+        names.emplace_back(load.name);
+    return names;
+  }();
   return all;
+}
+
+std::vector<std::string> Load::names_of(const LoadKind kind)
+{
+  std::vector<std::string> names;
+  for (const LoadProperties &load : load_table)
+    if (load.kind == kind)
+      names.emplace_back(load.name);
+  return names;
 }
 
 Load::Load(const std::string &name)
     : name(name)
+    , properties(&properties_of(name))
 {
-  if (!has_free_sides() && name != "periodic-all" &&
-      std::find(names().begin(), names().end(), name) == names().end())
-    throw meshes::BadInput("unknown load `" + name +
-                           "`; expected periodic-11, periodic-22, periodic-12, periodic-all, "
-                           "uniaxial-1, uniaxial-2, strip-1, strip-2 or shear-frame");
 }
 
 bool Load::is_periodic() const
 {
-  return name.rfind("periodic", 0) == 0 || has_free_sides();
+  return properties->kind != LoadKind::sheet;
 }
 
 bool Load::has_free_sides() const
 {
-  return name == "uniaxial-1" || name == "uniaxial-2";
+  return properties->kind == LoadKind::free_sides;
+}
+
+int Load::axis() const
+{
+  return properties->axis;
 }
 
 Load Load::with_free_strains(FreeStrains strains) const
@@ -51,22 +84,14 @@ Eigen::Matrix2d Load::gradient(const double strain) const
       throw std::logic_error(name + ": the strains of free sides are not known");
     return gradient(strain, free_strains(strain));
   }
-  Eigen::Matrix2d F = Eigen::Matrix2d::Identity();
-  if (name == "periodic-11")
-    F(0, 0) += strain;
-  else if (name == "periodic-22")
-    F(1, 1) += strain;
-  else if (name == "periodic-12")
-    F(0, 1) += strain;
-  else
-    F += strain * Eigen::Matrix2d{{1., 1.}, {0., 0.5}};
-  return F;
+  const auto &[G11, G12, G21, G22] = properties->gradient;
+  return Eigen::Matrix2d::Identity() + strain * Eigen::Matrix2d{{G11, G12}, {G21, G22}};
 }
 
 Eigen::Matrix2d Load::gradient(const double strain, const Eigen::Vector2d &of_sides) const
 {
   Eigen::Matrix2d F = Eigen::Matrix2d::Identity();
-  const int axis    = name == "uniaxial-1" ? 0 : 1;
+  const int axis    = properties->axis;
   F(axis, axis) += strain;
   F(1 - axis, 1 - axis) += of_sides(0);
   F(axis, 1 - axis) += of_sides(1);
@@ -75,29 +100,25 @@ Eigen::Matrix2d Load::gradient(const double strain, const Eigen::Vector2d &of_si
 
 Eigen::Vector2d Load::stress_of_sides(const Eigen::Matrix2d &P) const
 {
-  const int axis = name == "uniaxial-1" ? 0 : 1;
+  const int axis = properties->axis;
   return {P(1 - axis, 1 - axis), P(axis, 1 - axis)};
-}
-
-int Load::clamped_axis() const
-{
-  return name == "strip-1" ? 0 : 1;
 }
 
 bool Load::holds(const Eigen::RowVector2d &fraction) const
 {
   constexpr double close = 1e-5; // far below a mesh width, far above the tolerance of images
-  const double f         = fraction(clamped_axis());
+  const double f         = fraction(axis());
   return f < close || f > 1. - close;
 }
 
 Eigen::RowVector2d Load::displacement(const Eigen::RowVector2d &fraction,
                                       const Eigen::Matrix2d &sides, const double strain) const
 {
-  const Eigen::RowVector2d far_edge = name == "shear-frame"
-                                        ? sides.row(1).norm() * sides.row(0).normalized()
-                                        : Eigen::RowVector2d(sides.row(clamped_axis()));
-  return strain * fraction(clamped_axis()) * far_edge;
+  const int moved                = properties->moved_axis;
+  const Eigen::RowVector2d apart = sides.row(axis());
+  const Eigen::RowVector2d motion =
+    moved == axis() ? apart : apart.norm() * sides.row(moved).normalized();
+  return strain * fraction(axis()) * motion;
 }
 
 std::vector<int> held_vertices(const Load &load, const meshes::Sheet &sheet,

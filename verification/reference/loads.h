@@ -7,24 +7,60 @@
 
 #include <Eigen/Core>
 
+#include <array>
 #include <functional>
 #include <string>
 #include <vector>
 
 namespace homespun::verification
 {
-/// A load by its name:
-/// - periodic-11, periodic-22: infinite cloth under F = I + strain along axis 1 or 2
-/// - periodic-12: infinite cloth under simple shear, F = (1, strain; 0, 1)
-/// - periodic-all: the three at once, F = (1 + strain, strain; 0, 1 + strain/2): what is of second
-///   order in strain mixes them, and no two are equal
-/// - uniaxial-1, uniaxial-2: infinite cloth pulled along axis 1 or 2, which keeps its direction,
-///   its sides free of stress: F = (1 + strain, g; 0, 1 + e) or (1 + e, 0; g, 1 + strain) with the
-///   free strains e and g that each cloth finds for itself
-/// - strip-1, strip-2: the two edges normal to axis 1 or 2 clamped, the far one moved outwards
-///   along that axis by strain times length, the other two edges free
-/// - shear-frame: the two edges normal to axis 2 clamped, the upper moved along axis 1 by strain
-///   times length, sides free
+enum class LoadKind
+{
+  periodic,   ///< infinite cloth under a given deformation gradient
+  free_sides, ///< infinite cloth pulled along an axis that keeps its direction, its sides free
+  sheet       ///< the two edges normal to an axis clamped, the far one moved, the others free
+};
+
+/// What the program has to know of a load.
+struct LoadProperties
+{
+  const char *name;
+  const char *label; ///< as a picture in words
+  LoadKind kind;
+  bool is_in_default_study;
+  /// Of periodic loads G11, G12, G21, G22 of F = I + strain G.
+  std::array<double, 4> gradient;
+  int axis = 0; ///< 0 or 1: that is pulled, or along which the clamps are apart
+  /// Of sheets, the axis along which the far edge moves, by strain times its distance.
+  int moved_axis = 0;
+};
+
+/// The one list, from which messages, defaults and schema.json are made. `periodic-all`: what is of
+/// second order in strain mixes its three strains, and no two are equal.
+inline constexpr std::array<LoadProperties, 9> load_table = {{
+  {"periodic-11", "Endless cloth, stretched along axis 1", LoadKind::periodic, true, {1, 0, 0, 0}},
+  {"periodic-22", "Endless cloth, stretched along axis 2", LoadKind::periodic, true, {0, 0, 0, 1}},
+  {"periodic-12", "Endless cloth, sheared", LoadKind::periodic, true, {0, 1, 0, 0}},
+  {"periodic-all", "Endless cloth, all strains", LoadKind::periodic, false, {1, 1, 0, 0.5}},
+  {"uniaxial-1",
+   "Endless cloth, pulled along axis 1 with free sides",
+   LoadKind::free_sides,
+   false,
+   {},
+   0},
+  {"uniaxial-2",
+   "Endless cloth, pulled along axis 2 with free sides",
+   LoadKind::free_sides,
+   false,
+   {},
+   1},
+  {"strip-1", "Sheet pulled along axis 1", LoadKind::sheet, true, {}, 0, 0},
+  {"strip-2", "Sheet pulled along axis 2", LoadKind::sheet, true, {}, 1, 1},
+  {"shear-frame", "Sheet sheared in a frame", LoadKind::sheet, true, {}, 1, 0},
+}};
+
+/// A load by its name. With free sides F = (1 + strain, g; 0, 1 + e) or (1 + e, 0; g, 1 + strain)
+/// with the free strains e and g that each cloth finds for itself.
 /// The axes of periodic loads are x and y. Those of sheets are the sides of the sheet: on a lattice
 /// that is not rectangular the clamped edges are those that a2 (strip-1) or a1 joins, and move
 /// along a1 or a2.
@@ -36,6 +72,9 @@ public:
 
   /// Those of a study that is not told otherwise: the periodic ones and those of sheets.
   static const std::vector<std::string> &names();
+
+  /// All of one kind.
+  static std::vector<std::string> names_of(LoadKind kind);
 
   /// Whether it is one of an infinite cloth.
   bool is_periodic() const;
@@ -69,13 +108,14 @@ public:
   Eigen::RowVector2d displacement(const Eigen::RowVector2d &fraction, const Eigen::Matrix2d &sides,
                                   double strain) const;
 
-  /// Of a sheet, the axis of its fractions along which the clamps are apart: the one at 0 stays,
-  /// the one at 1 moves.
-  int clamped_axis() const;
+  /// 0 or 1: the axis that is pulled where sides are free; of a sheet that of its fractions along
+  /// which the clamps are apart: the one at 0 stays, the one at 1 moves.
+  int axis() const;
 
   const std::string name;
 
 private:
+  const LoadProperties *properties;
   FreeStrains free_strains;
 };
 

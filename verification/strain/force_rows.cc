@@ -95,7 +95,7 @@ ForceRow affine_row(const StrainLevel &level, const ResolvedLevel &resolved,
   }
   try
   {
-    const double width = sides.row(1 - load.clamped_axis()).norm();
+    const double width = sides.row(1 - load.axis()).norm();
     row.force          = motion.slope(coarse) / load.displacement({1., 1.}, sides, 1.).norm();
     row.per_width      = row.force / width;
   }

@@ -18,15 +18,15 @@
 
 namespace homespun::verification
 {
-std::vector<homogenization::MembraneLaw> laws_of_second_order(const StrainStudyOptions &options)
+std::vector<Law> laws_of_second_order(const StrainStudyOptions &options)
 {
-  std::vector<homogenization::MembraneLaw> laws;
+  std::vector<Law> laws;
   if (std::any_of(options.methods.begin(), options.methods.end(),
                   [](const std::string &name) { return Method(name).is_of_second_order(); }))
-    for (const auto law : {homogenization::MembraneLaw::biot, homogenization::MembraneLaw::green,
-                           homogenization::MembraneLaw::yarn})
-      if (std::find(options.references.begin(), options.references.end(), name_of(law)) !=
-          options.references.end())
+    for (const Law law : all_laws())
+      if (meshes::properties_of(law).has_second_order &&
+          std::find(options.references.begin(), options.references.end(), name_of(law)) !=
+            options.references.end())
         laws.push_back(law);
   return laws;
 }

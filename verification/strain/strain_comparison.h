@@ -19,7 +19,7 @@ double compared_strain(const StrainStudyOptions &options);
 
 /// The laws of the references that a method of second order in strain is held against; none where
 /// no method is of second order.
-std::vector<homogenization::MembraneLaw> laws_of_second_order(const StrainStudyOptions &options);
+std::vector<Law> laws_of_second_order(const StrainStudyOptions &options);
 
 /// The level nearest to 10 %: it is pictured, and its run times are measured.
 double pictured_strain(const StrainStudyOptions &options);

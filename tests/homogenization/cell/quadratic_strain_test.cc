@@ -14,7 +14,7 @@ namespace
 {
 
 const Phase phase   = {"any", 10., 3., 0.3, 0.4, 25., 1., 1.};
-const auto all_laws = {MembraneLaw::biot, MembraneLaw::green, MembraneLaw::yarn};
+const auto all_laws = {Law::biot, Law::green, Law::yarn};
 
 Eigen::Matrix2d matrix_of(const GradientEntries &H)
 {
@@ -24,10 +24,10 @@ Eigen::Matrix2d matrix_of(const GradientEntries &H)
 }
 
 /// The whole strain, by the square root of its eigenvalues: written apart from the product.
-Eigen::Vector3d strain_of(const MembraneLaw law, const GradientEntries &H)
+Eigen::Vector3d strain_of(const Law law, const GradientEntries &H)
 {
   const Eigen::Matrix2d F = Eigen::Matrix2d::Identity() + matrix_of(H);
-  if (law == MembraneLaw::yarn)
+  if (law == Law::yarn)
   {
     const double angle = M_PI / 180. * phase.angle, c = std::cos(angle), s = std::sin(angle);
     const Eigen::Vector2d f1 = F * Eigen::Vector2d(c, s), f2 = F * Eigen::Vector2d(-s, c);
@@ -37,7 +37,7 @@ Eigen::Vector3d strain_of(const MembraneLaw law, const GradientEntries &H)
             2. * c * s * (e(0) - e(1)) + (c * c - s * s) * e(2)};
   }
   const Eigen::Matrix2d E =
-    law == MembraneLaw::green
+    law == Law::green
       ? Eigen::Matrix2d(0.5 * (F.transpose() * F - Eigen::Matrix2d::Identity()))
       : Eigen::Matrix2d(
           Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(F.transpose() * F).operatorSqrt() -
@@ -53,7 +53,7 @@ Eigen::Vector3d value_of(const QuadraticStrain &q, const GradientEntries &H)
 
 TEST(derivative_quadratic_strain, strains_agree_with_their_second_order_up_to_the_third)
 {
-  for (const MembraneLaw law : all_laws)
+  for (const Law law : all_laws)
     for (const GradientEntries &H :
          {GradientEntries(0.3, -0.8, 0.5, 0.7), GradientEntries(-0.2, 0.9, 0.4, 0.1)})
     {
@@ -64,7 +64,7 @@ TEST(derivative_quadratic_strain, strains_agree_with_their_second_order_up_to_th
           .norm();
       };
       const double order = std::log2(left(0.02) / left(0.01));
-      if (law == MembraneLaw::green)
+      if (law == Law::green)
         EXPECT_LT(left(0.02), 1e-16) << "its second order is all there is";
       else
         EXPECT_NEAR(order, 3., 0.1);
@@ -74,17 +74,17 @@ TEST(derivative_quadratic_strain, strains_agree_with_their_second_order_up_to_th
 TEST(exact_quadratic_strain, a_phase_without_axes_has_no_yarns_and_keeps_biot)
 {
   const Phase isotropic_phase   = isotropic("plain", 3., 0.2, 1., 1.);
-  const QuadraticStrain of_yarn = quadratic_strain(MembraneLaw::yarn, isotropic_phase),
-                        of_biot = quadratic_strain(MembraneLaw::biot, isotropic_phase);
+  const QuadraticStrain of_yarn = quadratic_strain(Law::yarn, isotropic_phase),
+                        of_biot = quadratic_strain(Law::biot, isotropic_phase);
   for (std::size_t k = 0; k < of_yarn.size(); ++k)
     EXPECT_EQ(of_yarn[k], of_biot[k]);
   EXPECT_EQ(laws_of_second_order({isotropic_phase}).size(), 2u);
-  EXPECT_EQ(laws_of_second_order({isotropic_phase, phase}).back(), MembraneLaw::yarn);
+  EXPECT_EQ(laws_of_second_order({isotropic_phase, phase}).back(), Law::yarn);
 }
 
 TEST(exact_quadratic_strain, a_symmetric_gradient_has_no_second_order_under_biot)
 {
-  const QuadraticStrain q = quadratic_strain(MembraneLaw::biot, phase);
+  const QuadraticStrain q = quadratic_strain(Law::biot, phase);
   EXPECT_LT(value_of(q, {0.4, 0.3, 0.3, -0.2}).norm(), 1e-16);
 }
 
@@ -92,7 +92,7 @@ TEST(derivative_quadratic_strain, the_stress_of_second_order_is_the_third_deriva
 {
   Eigen::Matrix3d c;
   c << 5., 1.2, 0.3, 1.2, 4., -0.4, 0.3, -0.4, 1.5;
-  for (const MembraneLaw law : all_laws)
+  for (const Law law : all_laws)
   {
     const QuadraticStrain q = quadratic_strain(law, phase);
     const auto W3           = [&](const GradientEntries &H)

@@ -11,7 +11,7 @@ using namespace homespun::homogenization;
 
 namespace
 {
-const std::vector<MembraneLaw> laws = {MembraneLaw::biot, MembraneLaw::green};
+const std::vector<Law> laws = {Law::biot, Law::green};
 
 Homogenization with_second_order(const UnitCell &cell, const unsigned int order = 1)
 {

@@ -19,14 +19,14 @@ UnitCell small_inclusion()
                         homogenization::isotropic("hard", 1e7, 0.3, 1e-3, 100.));
 }
 
-CellNeeds needs_of(const std::vector<homogenization::MembraneLaw> &laws)
+CellNeeds needs_of(const std::vector<meshes::Law> &laws)
 {
   CellNeeds needs;
   needs.second_order = laws;
   return needs;
 }
 
-constexpr auto biot = homogenization::MembraneLaw::biot;
+constexpr auto biot = meshes::Law::biot;
 } // namespace
 
 TEST(exact_assessed_cells, a_cell_is_homogenized_once_for_all_who_ask)

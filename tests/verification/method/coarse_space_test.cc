@@ -83,7 +83,7 @@ TEST(exact_coarse_space, of_one_phase_full_is_p2)
   const homogenization::UnitCell cell = one_phase();
   homogenization::HomogenizationOptions options;
   options.order                   = 1;
-  options.second_order            = {homogenization::MembraneLaw::biot};
+  options.second_order            = {meshes::Law::biot};
   const meshes::HomogenizedCell h = homogenization::homogenized_cell(
     cell, homogenization::homogenize(cell, options, MPI_COMM_WORLD), "test");
   const meshes::CellEdges edges = homogenization::edges_of(cell, {});

@@ -84,7 +84,7 @@ meshes::HomogenizedCell of_second_order(const homogenization::UnitCell &cell)
 {
   homogenization::HomogenizationOptions options;
   options.tolerance    = 1e-12;
-  options.second_order = {homogenization::MembraneLaw::biot};
+  options.second_order = {meshes::Law::biot};
   return homogenization::homogenized_cell(
     cell, homogenization::homogenize(cell, options, MPI_COMM_SELF), "test");
 }

@@ -14,8 +14,8 @@
 
 using namespace homespun;
 using namespace homespun::verification;
-using homogenization::MembraneLaw;
 using homogenization::UnitCell;
+using meshes::Law;
 
 namespace
 {
@@ -45,8 +45,7 @@ UnitCell cell_of(const std::string &name)
   return cell;
 }
 
-meshes::HomogenizedCell homogenized(const UnitCell &cell,
-                                    const std::vector<MembraneLaw> &second_order)
+meshes::HomogenizedCell homogenized(const UnitCell &cell, const std::vector<Law> &second_order)
 {
   homogenization::HomogenizationOptions options;
   options.order        = 1; // as the reference
@@ -139,7 +138,7 @@ TEST(invariant_method_of_second_order, a_cell_without_cubic_energy_is_refused_by
 {
   const UnitCell cell =
     homogenization::read_unit_cell(std::string(CELLS) + "layered.prm", MPI_COMM_WORLD);
-  const meshes::HomogenizedCell h = homogenized(cell, {MembraneLaw::biot});
+  const meshes::HomogenizedCell h = homogenized(cell, {Law::biot});
   const meshes::Sheet sheet       = meshes::tile(cell.mesh, cell.lattice, 2, 2);
   LightweightCloth cloth(h, sheet, Load("strip-1"), {CoarseEnergy::cubic});
   EXPECT_EQ(tests::refusal([&]() { cloth.solve(Law::biot, 0.01); }), "");

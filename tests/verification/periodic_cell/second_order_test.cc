@@ -11,8 +11,8 @@
 
 using namespace homespun;
 using namespace homespun::verification;
-using homogenization::MembraneLaw;
 using homogenization::UnitCell;
+using meshes::Law;
 
 namespace
 {

@@ -148,7 +148,7 @@ TEST(exact_load_forces, of_a_uniform_strip_are_those_of_the_closed_form_coarse_a
       {
         EXPECT_NEAR(force_along(load, sheet.sides(), forces) / (1e3 * 0.1 * width), 1., 1e-9);
         EXPECT_NEAR(force_per_width(load, sheet.sides(), forces) / 100., 1., 1e-9);
-        const int along = load.clamped_axis();
+        const int along = load.axis();
         EXPECT_NEAR(forces.stress(along, along) / 100., 1., 1e-9);
         EXPECT_LT(std::abs(forces.stress(1 - along, 1 - along)), 1e-7);
       }
@@ -223,7 +223,7 @@ TEST(invariant_load_forces, both_clamps_balance_and_carry_the_mean_stress)
         const double size = forces.on_clamps.row(1).norm();
         EXPECT_LT(forces.on_clamps.colwise().sum().norm(), 1e-8 * size) << name << order;
         // A cut along the moving clamp has its force; the other sides are free.
-        const int along    = load.clamped_axis();
+        const int along    = load.axis();
         const double width = sheet.sides().row(1 - along).norm();
         EXPECT_LT((forces.stress.col(along).transpose() * width - forces.on_clamps.row(1)).norm(),
                   1e-8 * size)

@@ -10,6 +10,7 @@ from matplotlib.patches import Patch
 from figures import style
 from figures.plot_data import band, name_unseen
 from figures.sheet import unit_of
+from read import schema
 
 ENERGY_ROUND_OFF = 1e-14  # of the largest energy: sums of squares of positions carry 16 digits
 BLOWN = 1e3  # times the largest value of the first cloth
@@ -19,8 +20,8 @@ VARIANT_COLOURS = dict(zip(VARIANTS, (style.BLUE, "#332288", style.GREEN, style.
 # Methods with coarse cloths of their own.
 METHODS = ("edges", "quadratic", "p2", "full", "first-order")
 VARIANT_COLOURS |= {name: style.METHOD_COLOURS[name] for name in METHODS}
-REFERENCES = ("shell", "biot", "green", "yarn")
-REFERENCE_LINES = dict(zip(REFERENCES, ("--", ":", "-.", (0, (5, 1)))))
+SHELL_LINE = "--"
+LAW_LINES = (":", "-.", (0, (5, 1)))  # of the laws of a sheet in space, in the order of the schema
 FALL = 3.0  # a height that ranges over so many times that of the others gets a panel of its own
 
 
@@ -34,8 +35,13 @@ def ordered_variants(names):
     return ordered(names, VARIANTS)
 
 
+def reference_lines():
+    """{reference: line style}, in their order."""
+    return {"shell": SHELL_LINE, **dict(zip(schema.laws("is_of_space"), LAW_LINES))}
+
+
 def ordered_references(names):
-    return ordered(names, REFERENCES)
+    return ordered(names, reference_lines())
 
 
 def variant_colour(name):
@@ -129,12 +135,12 @@ def plot_members(axes, rows, key, factor=1.0, positive=False):
         time, value = curve([row for row in rows if row["variant"] == name], key, factor)
         if positive:
             time, value = time[value > 0.0], value[value > 0.0]
-        if name in REFERENCES:
+        if name in reference_lines():
             axes.plot(
                 time,
                 value,
                 color=style.BLACK,
-                ls=REFERENCE_LINES[name],
+                ls=reference_lines()[name],
                 lw=1.6,
                 zorder=4,
                 label=f"reference {name}",
@@ -150,7 +156,7 @@ def plot_members(axes, rows, key, factor=1.0, positive=False):
 
 
 def members(rows):
-    return ordered([row["variant"] for row in rows], VARIANTS + REFERENCES)
+    return ordered([row["variant"] for row in rows], (*VARIANTS, *reference_lines()))
 
 
 def member_handles(rows):
@@ -160,11 +166,11 @@ def member_handles(rows):
                 [],
                 [],
                 color=style.BLACK,
-                ls=REFERENCE_LINES[name],
+                ls=reference_lines()[name],
                 lw=1.6,
                 label=f"reference {name}",
             )
-            if name in REFERENCES
+            if name in reference_lines()
             else Line2D([], [], color=variant_colour(name), lw=2.0, label=name)
         )
         for name in members(rows)
@@ -207,9 +213,9 @@ def height_figure(rows, up, gravity):
     for name in members(rows):
         heights = [row["height"] for row in rows if row["variant"] == name]
         span[name] = max(heights) - min(heights)
-    usual = max(span[name] for name in span if name in REFERENCES or name == members(rows)[0])
+    usual = max(span[name] for name in span if name in reference_lines() or name == members(rows)[0])
     falling = [
-        name for name in span if name not in REFERENCES and span[name] > FALL * max(usual, 1e-12)
+        name for name in span if name not in reference_lines() and span[name] > FALL * max(usual, 1e-12)
     ]
     staying = [row for row in rows if row["variant"] not in falling]
     figure, grid = pyplot.subplots(

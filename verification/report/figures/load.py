@@ -6,7 +6,6 @@ from matplotlib import pyplot
 from figures import style
 from read.load_results import COMPONENTS
 
-LAW_COLOURS = {"linear": style.BLACK, "biot": style.BLUE, "green": style.VERMILLION, "yarn": style.PURPLE}
 METHOD_LINES = {"resolved": ("-", "o"), "coarse": ("--", None)}
 MEASURED_MARKERS = ("D", "s", "^", "v")
 ROUND_OFF = 1e-9  # of the largest stress or strain of a run: what is smaller is not drawn as physics
@@ -85,7 +84,7 @@ def load_figure(load, cell):
         for path in paths:
             line, marker = METHOD_LINES.get(path.method, (":", None))
             rows = [{key: 0.0 for key in (x, y, bar_key(x), bar_key(y))}] + path.rows
-            colour = LAW_COLOURS.get(path.law, style.GREEN)
+            colour = style.law_style(path.law)[2]
             across, values = scaled(rows, x, 100.0), scaled(rows, y, of_y)
             axes.plot(
                 across,

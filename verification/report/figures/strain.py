@@ -13,6 +13,7 @@ from matplotlib.patches import Patch
 
 from figures import style
 from figures.plot_data import ROUND_OFF_NOTE, band
+from read import schema
 
 MARKED_STRAIN = 0.01  # real textiles hardly stretch more under their own weight
 
@@ -109,7 +110,7 @@ def draw_panel(axes, rows, load, methods, references, key, factor, floor, side):
                     gid=ROUND_OFF_NOTE,
                 )
     if style.is_infinite(load) and key == "error_mean_per_cell":
-        shared = "biot" if any(r["reference"] == "biot" for r in rows) else "yarn"
+        shared = schema.main_reference(r["reference"] for r in rows)
         some = [r for r in rows if r["method"] == "localized" and r["reference"] == shared]
         strain, value, low = floored(some, key, factor)
         if len(strain) > 1 and not low.any():

@@ -10,6 +10,8 @@ import math
 import matplotlib
 from matplotlib import colors, ticker
 
+from read import schema
+
 matplotlib.use("Agg")  # no display on a compute node
 
 BLACK, ORANGE, SKY, GREEN, YELLOW, BLUE, VERMILLION, PURPLE = (
@@ -43,24 +45,13 @@ COLOUR_NAMES = {"edges": "wine", "quadratic": "light blue", "p2": "olive", "full
 METHOD_LABELS = {"localized": "localized (the paper's method)"}
 SPARE_COLOURS = ("#7F7F7F", YELLOW)
 
-# Line style and marker of each reference law.
-REFERENCE_STYLES = {"linear": (":", "s"), "biot": ("-", "o"), "green": ("--", "^"), "yarn": ("-.", "v"),
-}
+# Line style, marker and colour of the reference laws, in the order of the schema.
+LAW_STYLES = ((":", "s", BLACK), ("-", "o", BLUE), ("--", "^", VERMILLION), ("-.", "v", PURPLE))
+OTHER_LAW = ("-.", "D", GREEN)
 
-LOADS = (
-    "periodic-11",
-    "periodic-22",
-    "periodic-12",
-    "uniaxial-1",
-    "uniaxial-2",
-    "strip-1",
-    "strip-2",
-    "shear-frame",
-)
-LOAD_COLOURS = dict(
-    zip(LOADS, (SKY, BLUE, PURPLE, BLACK, "#7F7F7F", GREEN, ORANGE, VERMILLION))
-)
-LOAD_MARKERS = dict(zip(LOADS, ("v", "^", "D", "<", ">", "s", "o", "P")))
+# Colour and marker of the loads, in the order of the schema.
+LOAD_STYLES = ((SKY, "v"), (BLUE, "^"), (PURPLE, "D"), (YELLOW, "X"), (BLACK, "<"), ("#7F7F7F", ">"),
+               (GREEN, "s"), (ORANGE, "o"), (VERMILLION, "P"))
 
 # Two errors that differ by less than this part of a cell side are the same in double precision:
 # positions of a sheet of 20 cells carry 16 digits, and solvers stop some digits earlier.
@@ -106,26 +97,37 @@ def method_colour(method, methods=()):
 
 def reference_style(reference):
     """(line style, marker) of a reference law."""
-    return REFERENCE_STYLES.get(reference, ("-.", "D"))
+    return law_style(reference)[:2]
+
+
+def law_style(law):
+    """(line style, marker, colour) of a law."""
+    return dict(zip(schema.laws(), LAW_STYLES)).get(law, OTHER_LAW)
 
 
 def is_infinite(load):
     """Whether a load is one of a cloth without edges."""
-    return load.startswith(("periodic", "uniaxial"))
+    return schema.loads().get(load, {"is_infinite": False})["is_infinite"]
 
 
 def load_colour(load):
-    return LOAD_COLOURS.get(load, BLACK)
+    return load_style(load)[0]
 
 
 def load_marker(load):
-    return LOAD_MARKERS.get(load, "X")
+    return load_style(load)[1]
+
+
+def load_style(load):
+    """(colour, marker) of a load."""
+    return dict(zip(schema.loads(), LOAD_STYLES)).get(load, (BLACK, "X"))
 
 
 def ordered_loads(loads):
     """Known loads in the order of the design, then the others by name."""
     loads = set(loads)
-    return [load for load in LOADS if load in loads] + sorted(loads.difference(LOADS))
+    known = schema.loads()
+    return [load for load in known if load in loads] + sorted(loads.difference(known))
 
 
 def ordered_methods(methods):
@@ -135,10 +137,8 @@ def ordered_methods(methods):
 
 
 def ordered_references(references):
-    references = set(references)
-    return [r for r in REFERENCE_STYLES if r in references] + sorted(
-        references.difference(REFERENCE_STYLES)
-    )
+    references, known = set(references), schema.laws()
+    return [r for r in known if r in references] + sorted(references.difference(known))
 
 
 def phase_colours(stiffnesses):

@@ -10,21 +10,11 @@ from figures.strain import error_figure
 from figures.style import percent, three
 from page import tables
 from page.budget_contents import validity_text
+from read import schema
 from read.budget_results import levels
 from read.results import cell_side
 from read.schema import main_method
 
-# A load as a picture in words, and the same where the subject is the cloth.
-LOADS = {
-    "periodic-11": "Endless cloth, stretched along axis 1",
-    "periodic-22": "Endless cloth, stretched along axis 2",
-    "periodic-12": "Endless cloth, sheared",
-    "uniaxial-1": "Endless cloth, pulled along axis 1 with free sides",
-    "uniaxial-2": "Endless cloth, pulled along axis 2 with free sides",
-    "strip-1": "Sheet pulled along axis 1",
-    "strip-2": "Sheet pulled along axis 2",
-    "shear-frame": "Sheet sheared in a frame",
-}
 # What each part of the budget is, after "because"; only parts of the sum are causes.
 CAUSES = {
     "slip": "clamped edges slip by a part of a cell, which the anchor leaves out",
@@ -115,7 +105,7 @@ def line_of(load, affine, best, parts):
 
     @param best row of the method that the page speaks of
     """
-    title = LOADS.get(load, load)
+    title = schema.loads().get(load, {}).get("label", load)
     before, after = (row["error_mean_per_cell"] for row in (affine, best))
     bar = best["reference_uncertainty_m"]
     if before < style.ROUND_OFF and after < style.ROUND_OFF:

@@ -10,6 +10,7 @@ from figures.run_time import METHOD
 from figures.strain import errors_are_round_off
 from figures.style import percent, seconds, three
 from page.entries import ENTRIES, entry_texts, other_stiffnesses, source_of
+from read import schema
 from read.cell_results import relative_width
 from read.results import cell_side
 
@@ -18,8 +19,7 @@ CHOSEN_STRAINS = (0.01, 0.1)
 
 def main_reference(rows):
     """The law that the coarse solver's own energy matches, or the first there is."""
-    references = style.ordered_references(row["reference"] for row in rows)
-    return next((law for law in ("biot", "yarn", *references) if law in references), None)
+    return schema.main_reference(style.ordered_references(row["reference"] for row in rows))
 
 
 def nearest_strains(rows):

@@ -4,6 +4,7 @@ rows alone.
 """
 import math
 
+from read import schema
 from read.stored import read_csv
 
 # In their order, and what each is called in a figure.
@@ -42,12 +43,11 @@ def read_budget(path_of, results, faults):
 def levels(rows):
     """(load, strain) -> region -> part -> row, of one cell, levels with a total alone.
 
-    Of several reference laws, as a study that was taken up again with others leaves them, biot
-    counts, else yarn, else the first.
+    Of several reference laws, as a study that was taken up again with others leaves them, the one
+    counts that claims speak of.
     """
     table = {}
-    laws = [row["reference"] for row in rows]
-    law = next((law for law in ("biot", "yarn", *laws) if law in laws), None)
+    law = schema.main_reference(row["reference"] for row in rows)
     for row in (row for row in rows if row["reference"] == law):
         table.setdefault((row["load"], row["strain"]), {}).setdefault(row["region"], {})[
             row["part"]

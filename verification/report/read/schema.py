@@ -3,10 +3,14 @@
 order, what each may hold, and how many of the first ones name a row.
 
     {"format_version": 1, "methods_by_rank": {"yarn": ["first-order", ...], "others": ["full", ...]},
+     "laws": [{"name": "linear", "has_yarns": false, ...}, ...],
+     "loads": [{"name": "strip-1", "label": "Sheet pulled along axis 1", "is_infinite": false}, ...],
      FILE: {"keys": 5, "columns": [{"name": "strain", "domain": "positive"}, ...]}, ...}
 
 `format_version` is that of all files that this version of the program writes; the first of
-`methods_by_rank` that a study has under a load and law is the one that its page speaks of.
+`methods_by_rank` that a study has under a load and law is the one that its page speaks of; `laws`
+are those of references and `loads` those of studies, in their order, with what the program knows of
+each.
 
 The program hands on where the file lies in HOMESPUN_SCHEMA; an installed report has it beside
 report.py.
@@ -112,6 +116,32 @@ def main_method(methods, reference):
     return next((name for name in rank if name in methods), rank[-1])
 
 
+def laws(of=None):
+    """Names of the laws, in their order: all, or those that have a property.
+
+    @throws NoSchema
+    """
+    return [law["name"] for law in read(place())[3] if of is None or law[of]]
+
+
+def loads():
+    """{name: what the program knows of it} of the loads, in their order.
+
+    @throws NoSchema
+    """
+    return {load["name"]: load for load in read(place())[4]}
+
+
+def main_reference(references):
+    """The law that claims, budget and pictures speak of: the first that the coarse cloth has too,
+    else the first there is; None where there are none.
+
+    @throws NoSchema
+    """
+    references = list(references)
+    return next((law for law in (*laws("is_of_coarse_cloth"), *references) if law in references), None)
+
+
 def table(file):
     """@throws NoSchema where the program writes no such file"""
     known = tables()
@@ -133,6 +163,9 @@ def read(path):
             law: [str(name) for name in rank]
             for law, rank in value.pop("methods_by_rank").items()
         }
+        laws_there, loads_there = (
+            [dict(one) for one in value.pop(key)] for key in ("laws", "loads")
+        )
         return (
             version,
             {
@@ -146,6 +179,8 @@ def read(path):
                 for name, one in value.items()
             },
             ranks,
+            laws_there,
+            loads_there,
         )
     except OSError as error:
         raise NoSchema(

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: MIT
+#include "meshes/plain/law.h"
+
+#include "meshes/plain/errors.h"
+
+namespace homespun::meshes
+{
+const std::vector<Law> &all_laws()
+{
+  static const std::vector<Law> all = []()
+  {
+    std::vector<Law> laws;
+    for (std::size_t k = 0; k < law_table.size(); ++k)
+      laws.push_back(static_cast<Law>(k));
+    return laws;
+  }();
+  return all;
+}
+
+std::vector<std::string> laws_with(const LawProperty property)
+{
+  std::vector<std::string> names;
+  for (const LawProperties &law : law_table)
+    if (law.*property)
+      names.emplace_back(law.name);
+  return names;
+}
+
+std::string name_of(const Law law)
+{
+  return properties_of(law).name;
+}
+
+void refuse_removed_law(const std::string &name)
+{
+  if (name == "yarn-tension" || name == "woven-tension")
+    throw BadInput("law `" + name + "` was removed in 0.2.0; use `yarn`: compression is marked");
+}
+
+Law law_of(const std::string &name)
+{
+  refuse_removed_law(name);
+  std::string known;
+  for (const Law law : all_laws())
+  {
+    if (name == name_of(law))
+      return law;
+    known += (known.empty() ? "" : law == all_laws().back() ? " or " : ", ") + name_of(law);
+  }
+  throw BadInput("unknown reference `" + name + "`; expected " + known);
+}
+} // namespace homespun::meshes
