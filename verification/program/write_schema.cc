@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Writes schema.json, the columns of every table and the rank of the methods, for the report: run
 // by the build.
+#include "meshes/plain/law.h"
 #include "verification/bloch/pattern_tables.h"
 #include "verification/bloch/stability_tables.h"
 #include "verification/budget/budget_tables.h"
@@ -12,6 +13,7 @@
 #include "verification/record/json_files.h"
 #include "verification/record/main_method.h"
 #include "verification/record/schema.h"
+#include "verification/reference/loads.h"
 #include "verification/strain/strain_tables.h"
 #include "verification/upsample/upsample_tables.h"
 
@@ -54,7 +56,7 @@ int main(int argc, char **argv)
   add_to_schema<ModeRow>(schema);
   add_to_schema<PatternRow>(schema);
   add_to_schema<UpsampleRow>(schema);
-  for (const meshes::LawProperties &law : meshes::law_table)
+  for (const homespun::meshes::LawProperties &law : homespun::meshes::law_table)
     schema["laws"].push_back({{"name", law.name},
                               {"has_yarns", law.has_yarns},
                               {"is_of_coarse_cloth", law.is_of_coarse_cloth},
