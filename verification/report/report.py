@@ -18,6 +18,7 @@ import os
 import shutil
 import sys
 import tempfile
+import warnings
 
 from figures import style
 
@@ -120,7 +121,11 @@ def main(arguments=None):
     options = parser.parse_args(arguments)
     try:
         tells = not options.quiet and sys.stderr.isatty()
-        path = write_report(options.folders, options.output, tells, options.pdf)
+        with warnings.catch_warnings():
+            # Pages are drawn by processes that are forked where nothing else runs: the threads that
+            # Python 3.12 and later warn of are those of BLAS, which wait.
+            warnings.filterwarnings("ignore", message=".*use of fork", category=DeprecationWarning)
+            path = write_report(options.folders, options.output, tells, options.pdf)
         if tells:
             print("\r\033[K", end="", file=sys.stderr)
     except BadResults as error:

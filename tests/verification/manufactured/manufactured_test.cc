@@ -100,7 +100,7 @@ void expect_orders(const std::string &beginning, const int n_cases)
 
 TEST(order_manufactured, sheets_in_the_plane_converge_with_p_plus_1_and_p)
 {
-  expect_orders("sheet in the plane", 18);
+  expect_orders("sheet in the plane", 16);
 }
 
 TEST(order_manufactured, cloth_in_space_converges_with_p_plus_1_and_p_at_rest)

@@ -46,6 +46,9 @@ class AtOnce(InFolder):
                              for pid, text in logs.items()}
 
     def test_what_needs_no_finite_elements_loads_none(self):
+        # Of all that the whole program loads, some 270 libraries, a quarter at most.
+        pid, loaded = self.libraries("homogenize", CELL, "--no-bars", "--output", "out")
+        most = len(loaded[pid]) / 4
         for arguments in AT_ONCE:
             with self.subTest(arguments=arguments):
                 pid, loaded = self.libraries(*arguments)
@@ -54,7 +57,7 @@ class AtOnce(InFolder):
                     self.assertEqual([name for name in libraries
                                       if re.match(r"libdeal|libtrilinos|libpetsc|libdmumps", name)],
                                      [])
-                self.assertLess(len(loaded[pid]), 60)
+                self.assertLess(len(loaded[pid]), most)
 
     def test_what_solves_is_handed_over_to_the_same_process(self):
         pid, loaded = self.libraries("homogenize", CELL, "--no-bars", "--output", "out")
