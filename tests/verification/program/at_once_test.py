@@ -46,9 +46,9 @@ class AtOnce(InFolder):
                              for pid, text in logs.items()}
 
     def test_what_needs_no_finite_elements_loads_none(self):
-        # Of all that the whole program loads, some 270 libraries, a quarter at most.
+        # Of all that the whole program loads, some 250 libraries, a third at most.
         pid, loaded = self.libraries("homogenize", CELL, "--no-bars", "--output", "out")
-        most = len(loaded[pid]) / 4
+        most = len(loaded[pid]) / 3
         for arguments in AT_ONCE:
             with self.subTest(arguments=arguments):
                 pid, loaded = self.libraries(*arguments)
