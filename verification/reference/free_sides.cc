@@ -22,9 +22,8 @@ Eigen::Vector2d free_strains_of(const Load &load,
                                 const Eigen::Matrix3d &C, const double strain)
 {
   // Places of e and g among F11, F12, F21, F22.
-  const Eigen::Vector2i places =
-    load.axis() == 0 ? Eigen::Vector2i(3, 1) : Eigen::Vector2i(0, 2);
-  Eigen::Vector2d free = Eigen::Vector2d::Zero();
+  const Eigen::Vector2i places = load.axis() == 0 ? Eigen::Vector2i(3, 1) : Eigen::Vector2i(0, 2);
+  Eigen::Vector2d free         = Eigen::Vector2d::Zero();
   std::vector<double> history;
   for (int newton = 0; newton < 50; ++newton)
   {
