@@ -63,7 +63,7 @@ def main():
                 if heads is None:
                     heads = list(row)
                     table.writerow(heads)
-                table.writerow(f"{row[head]:.6g}" if isinstance(row[head], float) else row[head]
+                table.writerow(f"{row[head]:.12g}" if isinstance(row[head], float) else row[head]
                                for head in heads)
                 sys.stdout.flush()
 

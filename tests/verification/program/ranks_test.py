@@ -2,6 +2,8 @@
 """The answer does not depend on the number of ranks."""
 import csv
 import json
+import os
+import subprocess
 import sys
 import unittest
 from xml.etree import ElementTree
@@ -9,7 +11,7 @@ from xml.etree import ElementTree
 import meshio
 import numpy
 
-from cli import CELLS, InFolder, cut, run
+from cli import CELLS, PROGRAM, InFolder, cut, run
 
 sys.path.append(str(CELLS.parents[1] / "verification" / "report"))
 from read.vtu import read_vtu  # noqa: E402
@@ -134,6 +136,25 @@ class Homogenize(InFolder):
         self.assertEqual(again.returncode, 0)
         found = json.loads((self.folder / "homogenize.json").read_text())
         self.assertEqual(found["cell"], "layered")
+
+
+class Scaling(InFolder):
+    def test_a_row_for_each_mesh_solver_and_number_of_ranks_and_one_stiffness_for_each_mesh(self):
+        script = CELLS.parents[1] / "tests" / "benchmarks" / "scaling.py"
+        found = subprocess.run(
+            [sys.executable, script, PROGRAM, CELLS / "three-stiffness.prm", "--refine", "0,1",
+             "--ranks", "1,2", "--solver", "multigrid,direct", "--repeats", "1", "--launcher",
+             f"{os.environ['MPIEXEC']} --oversubscribe -n {{ranks}}"],
+            check=True, capture_output=True, text=True, timeout=600)
+        rows = list(csv.DictReader(found.stdout.splitlines()))
+        self.assertEqual(len(rows), 8)
+        for row in rows:
+            self.assertGreater(float(row["seconds_solve"]), 0)
+            self.assertGreater(float(row["bytes_largest_rank"]), 1e7)
+            self.assertEqual(row["given_up"], "0")
+        for refine in ("0", "1"):
+            stiffnesses = [float(row["C_11"]) for row in rows if row["refine"] == refine]
+            self.assertLess(max(stiffnesses) - min(stiffnesses), 1e-10 * max(stiffnesses))
 
 
 if __name__ == "__main__":
