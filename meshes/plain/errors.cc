@@ -47,4 +47,12 @@ NotConverged::NotConverged(const std::string &what, std::vector<double> residual
     , residuals(std::move(residuals))
 {
 }
+
+std::string one_of(const std::vector<std::string> &names)
+{
+  std::string text;
+  for (std::size_t k = 0; k < names.size(); ++k)
+    text += (k == 0 ? "" : k + 1 == names.size() ? " or " : ", ") + names[k];
+  return text;
+}
 } // namespace homespun::meshes

@@ -43,4 +43,7 @@ public:
 private:
   std::vector<double> residuals;
 };
+
+/// "a, b or c": what was expected, in messages.
+std::string one_of(const std::vector<std::string> &names);
 } // namespace homespun::meshes

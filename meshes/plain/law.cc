@@ -40,13 +40,13 @@ void refuse_removed_law(const std::string &name)
 Law law_of(const std::string &name)
 {
   refuse_removed_law(name);
-  std::string known;
+  std::vector<std::string> known;
   for (const Law law : all_laws())
   {
     if (name == name_of(law))
       return law;
-    known += (known.empty() ? "" : law == all_laws().back() ? " or " : ", ") + name_of(law);
+    known.push_back(name_of(law));
   }
-  throw BadInput("unknown reference `" + name + "`; expected " + known);
+  throw BadInput("unknown reference `" + name + "`; expected " + one_of(known));
 }
 } // namespace homespun::meshes

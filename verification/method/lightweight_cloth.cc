@@ -57,10 +57,8 @@ const KnownMethod &known(const std::string &name)
                                   [&](const KnownMethod &each) { return name == each.name; });
   if (found != known_methods.end())
     return *found;
-  std::string expected;
-  for (const std::string &each : Method::names())
-    expected += (expected.empty() ? "" : each == Method::names().back() ? " or " : ", ") + each;
-  throw meshes::BadInput("unknown method `" + name + "`; expected " + expected);
+  throw meshes::BadInput("unknown method `" + name + "`; expected " +
+                         meshes::one_of(Method::names()));
 }
 } // namespace
 

@@ -32,8 +32,6 @@ void check_drape_arguments(DrapeArguments &arguments)
   faults.check_names("--variants", study.variants, membrane_model_of);
   faults.check_names("--methods", study.methods,
                      [](const std::string &name) { return Method(name); });
-  for (const std::string &name : study.references)
-    meshes::refuse_removed_law(name);
   std::vector<std::string> references = meshes::laws_with(&meshes::LawProperties::is_of_space);
   references.insert(references.begin(), "shell");
   faults.check_names("--references", study.references, references);

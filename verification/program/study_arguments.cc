@@ -2,6 +2,7 @@
 #include "verification/program/study_arguments.h"
 
 #include "homogenization/cell/parameter_text.h"
+#include "meshes/plain/law.h"
 #include "verification/record/on_root.h"
 
 #include <algorithm>
@@ -19,10 +20,8 @@ void ArgumentFaults::check_names(const std::string &option, const std::vector<st
               {
                 if (std::find(known.begin(), known.end(), name) != known.end())
                   return;
-                std::string list;
-                for (std::size_t k = 0; k < known.size(); ++k)
-                  list += (k == 0 ? "" : k + 1 == known.size() ? " or " : ", ") + known[k];
-                throw meshes::BadInput("found `" + name + "`; expected " + list);
+                meshes::refuse_removed_law(name);
+                throw meshes::BadInput("found `" + name + "`; expected " + meshes::one_of(known));
               });
 }
 

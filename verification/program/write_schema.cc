@@ -58,7 +58,6 @@ int main(int argc, char **argv)
   add_to_schema<UpsampleRow>(schema);
   for (const homespun::meshes::LawProperties &law : homespun::meshes::law_table)
     schema["laws"].push_back({{"name", law.name},
-                              {"has_yarns", law.has_yarns},
                               {"is_of_coarse_cloth", law.is_of_coarse_cloth},
                               {"is_of_space", law.is_of_space}});
   for (const LoadProperties &load : load_table)

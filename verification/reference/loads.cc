@@ -12,17 +12,14 @@ namespace
 {
 const LoadProperties &properties_of(const std::string &name)
 {
-  std::string known;
+  std::vector<std::string> known;
   for (const LoadProperties &load : load_table)
   {
     if (name == load.name)
       return load;
-    known += (known.empty()                 ? ""
-              : &load == &load_table.back() ? " or "
-                                            : ", ") +
-             std::string(load.name);
+    known.emplace_back(load.name);
   }
-  throw meshes::BadInput("unknown load `" + name + "`; expected " + known);
+  throw meshes::BadInput("unknown load `" + name + "`; expected " + meshes::one_of(known));
 }
 } // namespace
 

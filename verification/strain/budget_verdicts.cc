@@ -74,8 +74,6 @@ bool has_left_linear_theory(const std::vector<BudgetRow> &rows, const BudgetRow 
 std::string note_of_sum(const std::vector<BudgetRow> &rows, const BudgetRow &level)
 {
   const double total = mean_of(rows, level, "total");
-  if (!std::isfinite(total))
-    return "under " + level.reference + " the error is not split: a part has no solution";
   const auto percent = [&](const std::string &part)
   { return short_text(std::round(100. * mean_of(rows, level, part) / total)) + " %"; };
   return "what the parts leave, " + percent("unexplained") +

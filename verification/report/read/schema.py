@@ -3,7 +3,7 @@
 order, what each may hold, and how many of the first ones name a row.
 
     {"format_version": 1, "methods_by_rank": {"yarn": ["first-order", ...], "others": ["full", ...]},
-     "laws": [{"name": "linear", "has_yarns": false, ...}, ...],
+     "laws": [{"name": "linear", "is_of_space": false, ...}, ...],
      "loads": [{"name": "strip-1", "label": "Sheet pulled along axis 1", "is_infinite": false}, ...],
      FILE: {"keys": 5, "columns": [{"name": "strain", "domain": "positive"}, ...]}, ...}
 
