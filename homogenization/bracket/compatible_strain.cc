@@ -4,6 +4,7 @@
 #include "homogenization/algebra/cholesky_solver.h"
 #include "meshes/plain/epsilon.h"
 #include "meshes/plain/index.h"
+#include "meshes/plain/triangle_kinematics.h"
 
 #include <Eigen/LU>
 
@@ -37,16 +38,11 @@ strain_displacement(const Eigen::Matrix<double, 3, 2> &gradients,
   return B;
 }
 
-/// Gradients of the barycentric coordinates, one per row, and the area.
-std::pair<Eigen::Matrix<double, 3, 2>, double>
-gradients_of(const std::array<Eigen::Vector2d, 3> &shape)
+meshes::TriangleGeometry geometry_of(const std::array<Eigen::Vector2d, 3> &shape)
 {
-  Eigen::Matrix2d legs;
-  legs << shape[1], shape[2];
-  Eigen::Matrix<double, 3, 2> gradients;
-  gradients.bottomRows<2>() = legs.inverse();
-  gradients.row(0)          = -gradients.row(1) - gradients.row(2);
-  return {gradients, 0.5 * legs.determinant()};
+  Eigen::Matrix2d sides;
+  sides << shape[1], shape[2];
+  return meshes::triangle_geometry(sides);
 }
 } // namespace
 
@@ -92,7 +88,7 @@ void CompatibleStrain::assemble_and_solve()
   {
     const TorusTriangle &triangle = mesh.triangles[at(t)];
     const Eigen::Matrix3d &c      = stiffnesses[at(triangle.material)];
-    const auto [gradients, area]  = gradients_of(triangle.shape(mesh.edges));
+    const auto [area, gradients]  = geometry_of(triangle.shape(mesh.edges));
     Eigen::Matrix<double, 2 * n_shapes, 2 * n_shapes> matrix;
     Eigen::Matrix<double, 2 * n_shapes, 3> load;
     matrix.setZero();
@@ -219,7 +215,7 @@ Eigen::Matrix<double, 2 * n_shapes, 3> CompatibleStrain::roundings_of(const int 
 template <int n_shapes>
 FieldOfLoads CompatibleStrain::strain_of(const int t, FieldOfLoads *const bar) const
 {
-  const auto gradients = gradients_of(mesh.triangles[at(t)].shape(mesh.edges)).first;
+  const auto gradients = geometry_of(mesh.triangles[at(t)].shape(mesh.edges)).shape_gradients;
   const auto chi       = displacements_from_first_vertex<n_shapes>(t);
   FieldOfLoads field;
   for (int q = 0; q < n_field_points; ++q)
@@ -245,7 +241,7 @@ std::vector<FieldProducts> CompatibleStrain::products() const
   {
     const TorusTriangle &triangle = mesh.triangles[at(t)];
     const double weight =
-      gradients_of(triangle.shape(mesh.edges)).second / (n_field_points * mesh.lattice.area());
+      geometry_of(triangle.shape(mesh.edges)).area / (n_field_points * mesh.lattice.area());
     const FieldOfLoads field = strain(t);
     for (int q = 0; q < n_field_points; ++q)
       add_products(weight, field.middleRows<3>(3 * q), products[at(triangle.material)]);
@@ -274,7 +270,7 @@ Eigen::VectorXd CompatibleStrain::unbalanced_tractions_of(const Eigen::Matrix3d 
   {
     const TorusTriangle &triangle = mesh.triangles[at(t)];
     const Eigen::Matrix3d &c      = stiffnesses[at(triangle.material)];
-    const auto gradients          = gradients_of(triangle.shape(mesh.edges)).first;
+    const auto gradients          = geometry_of(triangle.shape(mesh.edges)).shape_gradients;
     const auto chi                = displacements_from_first_vertex<n_shapes>(t);
     for (int k = 0; k < 3; ++k)
     {
@@ -321,7 +317,7 @@ void CompatibleStrain::evaluate()
   {
     const TorusTriangle &triangle = mesh.triangles[at(t)];
     const Eigen::Matrix3d &c      = stiffnesses[at(triangle.material)];
-    const double weight = gradients_of(triangle.shape(mesh.edges)).second / n_field_points;
+    const double weight           = geometry_of(triangle.shape(mesh.edges)).area / n_field_points;
     FieldOfLoads bar;
     const FieldOfLoads field = order == 1 ? strain_of<3>(t, &bar) : strain_of<6>(t, &bar);
     for (int q = 0; q < n_field_points; ++q)

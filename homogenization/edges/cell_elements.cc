@@ -3,6 +3,7 @@
 
 #include "homogenization/algebra/cholesky_factor.h"
 #include "meshes/plain/errors.h"
+#include "meshes/plain/triangle_kinematics.h"
 
 #include <Eigen/Geometry>
 #include <Eigen/SparseCore>
@@ -115,14 +116,9 @@ Eigen::RowVector2d CellElements::fraction(const Eigen::RowVector2d &point) const
 
 std::vector<ElementPoint> CellElements::points_of(const int triangle) const
 {
-  Eigen::Matrix2d edges; // columns x1 − x0, x2 − x0
-  for (int k = 0; k < 2; ++k)
-    edges.col(k) =
-      (points.row(nodes(triangle, k + 1)) - points.row(nodes(triangle, 0))).transpose();
-  Eigen::Matrix<double, 2, 3> slopes; // of the barycentric coordinates
-  slopes.rightCols<2>() = edges.inverse().transpose();
-  slopes.col(0)         = -slopes.col(1) - slopes.col(2);
-  const double area     = 0.5 * edges.determinant();
+  const meshes::TriangleGeometry geometry =
+    meshes::triangle_geometry(meshes::sides_of_triangle<2>(nodes.row(triangle).head<3>(), points));
+  const Eigen::Matrix<double, 2, 3> slopes = geometry.shape_gradients.transpose();
 
   std::vector<ElementPoint> result;
   const int n = n_shapes();
@@ -149,7 +145,7 @@ std::vector<ElementPoint> CellElements::points_of(const int triangle) const
       point.strains(1, 2 * k + 1) = point.strains(2, 2 * k) = gradients(1, k);
     }
     point.values = values;
-    point.weight = b.weight * area;
+    point.weight = b.weight * geometry.area;
     result.push_back(point);
   }
   return result;

@@ -47,11 +47,9 @@ struct QuadraticLoads
 
 QuadraticLoads quadratic_loads(const SolvedCell &solved, const Law law, const Vector &zero)
 {
-  const Discretization &discretization   = solved.discretization;
-  std::vector<Eigen::Matrix3d> stiffness = solved.cell.stiffness_of_phase();
-  std::vector<QuadraticStrain> q;
-  for (const Phase &phase : solved.cell.phases)
-    q.push_back(quadratic_strain(law, phase));
+  const Discretization &discretization    = solved.discretization;
+  std::vector<Eigen::Matrix3d> stiffness  = solved.cell.stiffness_of_phase();
+  const QuadraticStrain q                 = quadratic_strain(law);
   const Eigen::Matrix<double, 4, 3> macro = unit_gradients();
 
   QuadraticLoads result;
@@ -79,8 +77,7 @@ QuadraticLoads quadratic_loads(const SolvedCell &solved, const Law law, const Ve
         for (std::size_t k = 0; k < stresses.size(); ++k)
         {
           const auto [a, b] = meshes::strain_pairs[k];
-          stresses[k] =
-            weight * second_order_stress(stiffness[phase], q[phase], H.col(a), H.col(b));
+          stresses[k]       = weight * second_order_stress(stiffness[phase], q, H.col(a), H.col(b));
           element_loads.col(static_cast<Eigen::Index>(k)) += G.transpose() * stresses[k];
         }
         for (std::size_t m = 0; m < meshes::CubicForm::indices.size(); ++m)

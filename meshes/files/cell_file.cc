@@ -223,8 +223,9 @@ HomogenizedCell read_cell(const std::string &path)
     cell.bending = {Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(D.data()),
                     Eigen::Map<const Deflection>(deflection.data(), rows, 3)};
   }
-  for (const std::string &law : laws_with(&LawProperties::has_second_order))
-    if (file.has(std::string("/W3/") + law) || file.has(std::string("/chi_quadratic/") + law))
+  for (const Law of : laws_with(&LawProperties::has_second_order))
+    if (const std::string law = name_of(of);
+        file.has(std::string("/W3/") + law) || file.has(std::string("/chi_quadratic/") + law))
       cell.second_order[law] = read_second_order(file, law, n);
   const std::optional<int> anchor = file.integer_attribute("/chi", "anchor");
   if (!anchor)

@@ -17,13 +17,13 @@ const std::vector<Law> &all_laws()
   return all;
 }
 
-std::vector<std::string> laws_with(const LawProperty property)
+std::vector<Law> laws_with(const LawProperty property)
 {
-  std::vector<std::string> names;
-  for (const LawProperties &law : law_table)
-    if (law.*property)
-      names.emplace_back(law.name);
-  return names;
+  std::vector<Law> laws;
+  for (const Law law : all_laws())
+    if (properties_of(law).*property)
+      laws.push_back(law);
+  return laws;
 }
 
 std::string name_of(const Law law)

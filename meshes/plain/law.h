@@ -40,7 +40,7 @@ inline constexpr std::array<LawProperties, 4> law_table = {{
   {"linear", false, false, false, false},
   {"biot", false, true, true, true},
   {"green", false, true, false, true},
-  {"yarn", true, true, true, true},
+  {"yarn", true, false, true, true},
 }};
 
 constexpr const LawProperties &properties_of(const Law law)
@@ -53,8 +53,8 @@ const std::vector<Law> &all_laws();
 
 using LawProperty = bool LawProperties::*;
 
-/// The names of the laws that have a property.
-std::vector<std::string> laws_with(LawProperty property);
+/// The laws that have a property.
+std::vector<Law> laws_with(LawProperty property);
 
 std::string name_of(Law law);
 

@@ -25,6 +25,25 @@ sides_of_triangle(const Eigen::RowVector3i &corners,
   return sides;
 }
 
+/// A triangle at rest and the functions that are linear on it.
+struct TriangleGeometry
+{
+  double area = 0.;                            ///< [m^2], negative where it runs clockwise
+  Eigen::Matrix<double, 3, 2> shape_gradients; ///< row k: gradient of the hat of corner k [1/m]
+};
+
+/// @param sides from the first corner, one per column [m]
+inline TriangleGeometry triangle_geometry(const Eigen::Matrix2d &sides)
+{
+  const double doubled = sides(0, 0) * sides(1, 1) - sides(1, 0) * sides(0, 1);
+  TriangleGeometry of;
+  of.area = 0.5 * doubled;
+  of.shape_gradients.row(1) << sides(1, 1) / doubled, -sides(0, 1) / doubled;
+  of.shape_gradients.row(2) << -sides(1, 0) / doubled, sides(0, 0) / doubled;
+  of.shape_gradients.row(0) = -(of.shape_gradients.row(1) + of.shape_gradients.row(2));
+  return of;
+}
+
 /// F = dx/dX of a triangle of a mesh, (dim,2): sides now times the inverse of the sides at rest.
 /// @param positions of the vertices (n,dim) [m]
 template <int dim>

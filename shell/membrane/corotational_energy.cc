@@ -257,15 +257,8 @@ MembraneStiffness::MembraneStiffness(const Eigen::Matrix3d &D)
 
 RestTriangle rest_triangle(const Eigen::Matrix<double, 3, 2> &corners)
 {
-  const Eigen::RowVector2d edge1 = corners.row(1) - corners.row(0),
-                           edge2 = corners.row(2) - corners.row(0);
-  const double doubled           = edge1(0) * edge2(1) - edge1(1) * edge2(0);
-  RestTriangle rest;
-  rest.area = 0.5 * doubled;
-  rest.shape_gradients.row(1) << edge2(1) / doubled, -edge2(0) / doubled;
-  rest.shape_gradients.row(2) << -edge1(1) / doubled, edge1(0) / doubled;
-  rest.shape_gradients.row(0) = -(rest.shape_gradients.row(1) + rest.shape_gradients.row(2));
-  return rest;
+  return meshes::triangle_geometry(
+    (corners.bottomRows<2>().rowwise() - corners.row(0)).transpose());
 }
 
 template <int dim>

@@ -19,6 +19,8 @@
 // All functions are stateless. Not-a-number in gives not-a-number out.
 #pragma once
 
+#include "meshes/plain/triangle_kinematics.h"
+
 #include <Eigen/Core>
 
 #include <array>
@@ -81,11 +83,7 @@ struct MembraneStiffness
 };
 
 /// What an element keeps of its rest triangle.
-struct RestTriangle
-{
-  double area = 0.;                            ///< [m^2]
-  Eigen::Matrix<double, 3, 2> shape_gradients; ///< row k: gradient of the hat of vertex k [1/m]
-};
+using RestTriangle = meshes::TriangleGeometry;
 
 /// The rest triangle with the given corners, counter-clockwise.
 /// @param corners (3,2) [m], of positive area

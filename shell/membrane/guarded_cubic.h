@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The cubic energy of a homogenized cell beside its quadratic one, so that the coarse cloth is
-// right at second order in strain: W = ½ e.C.e + G(e), e the Biot strain (corotational_energy.h) or
-// that of yarns (yarn_energy.h).
+// right at second order in strain: W = ½ e.C.e + G(e), e the Biot strain (corotational_energy.h).
 //
 // A cubic form has no lower bound, and its second derivative outgrows C. G is the form W3 itself
 // where it is small beside C, and beyond that is damped so that every strain, of any size, keeps at
@@ -54,12 +53,6 @@ public:
 
   /// Whether G is W3 itself at a strain.
   bool is_trusted(const Eigen::Vector3d &strain) const;
-
-  /// W3 [N/m].
-  const meshes::CubicForm &form() const
-  {
-    return energy;
-  }
 
   /// r0: up to which sqrt(e.C.e) this is so [sqrt(N/m)]; infinite of a form that is zero.
   double reach() const

@@ -75,12 +75,6 @@ const meshes::YarnAxes *yarns_of(const Membrane &membrane, const int t)
   return &membrane.yarns[phase_of(membrane, t)];
 }
 
-/// Of a triangle, null where the energy is quadratic.
-const GuardedCubic *cubic_of(const Membrane &membrane, const int t)
-{
-  return membrane.cubic.empty() ? nullptr : &membrane.cubic[phase_of(membrane, t)];
-}
-
 /// The energy of a triangle but for the cubic part of the corotational law.
 template <int dim>
 double energy_of(const Membrane &membrane, const int t,
@@ -88,8 +82,7 @@ double energy_of(const Membrane &membrane, const int t,
 {
   const RestTriangle &rest = membrane.rest[static_cast<std::size_t>(t)];
   if (const meshes::YarnAxes *const yarns = yarns_of(membrane, t))
-    return rest.area * yarn_energy_density<dim>(deformation_gradient<dim>(rest, corners), *yarns,
-                                                cubic_of(membrane, t));
+    return rest.area * yarn_energy_density<dim>(deformation_gradient<dim>(rest, corners), *yarns);
   return triangle_energy<dim>(rest, corners, stiffness_of(membrane, t).D);
 }
 
@@ -101,7 +94,7 @@ Eigen::Matrix<double, 3, dim> forces_of(const Membrane &membrane, const int t,
   const RestTriangle &rest = membrane.rest[static_cast<std::size_t>(t)];
   const Eigen::Matrix3d &D = stiffness_of(membrane, t).D;
   if (const meshes::YarnAxes *const yarns = yarns_of(membrane, t))
-    return yarn_triangle_gradient<dim>(rest, corners, *yarns, cubic_of(membrane, t));
+    return yarn_triangle_gradient<dim>(rest, corners, *yarns);
   if (membrane.cubic.empty())
     return triangle_gradient<dim>(rest, corners, D);
   const DeformationGradient<dim> F = deformation_gradient<dim>(rest, corners);
@@ -196,10 +189,10 @@ void take_yarn_law(Membrane &membrane)
   if (std::none_of(yarns.begin(), yarns.end(),
                    [](const meshes::YarnAxes &each) { return each.are_there; }))
     return;
-  for (std::size_t phase = 0; phase < membrane.cubic.size(); ++phase)
-    if (const meshes::YarnAxes &axes = yarns[phase]; axes.are_there)
-      membrane.cubic[phase] =
-        GuardedCubic(cubic_of_yarn_strain(membrane.cubic[phase].form(), axes), axes.C);
+  if (!membrane.cubic.empty())
+    throw meshes::BadInput(
+      "membrane: found a cubic energy beside the law of yarns; expected one of "
+      "the two");
   membrane.yarns = std::move(yarns);
 }
 
@@ -210,8 +203,6 @@ double membrane_energy(const Membrane &membrane, const Positions<dim> &positions
   if (!membrane.cubic.empty())
     for (int t = 0; t < static_cast<int>(membrane.triangles.rows()); ++t)
     {
-      if (yarns_of(membrane, t) != nullptr)
-        continue;
       const RestTriangle &rest = membrane.rest[static_cast<std::size_t>(t)];
       energy +=
         rest.area * membrane.cubic[phase_of(membrane, t)].value(biot_strain<dim>(
@@ -282,7 +273,7 @@ TriangleDerivatives<dim> membrane_triangle_derivatives(const Membrane &membrane,
   const meshes::YarnAxes *const yarns = yarns_of(membrane, t);
   if (yarns == nullptr)
     return triangle_derivatives<dim>(rest, corners, stiffness_of(membrane, t), kind);
-  return yarn_triangle_derivatives<dim>(rest, corners, *yarns, kind, cubic_of(membrane, t));
+  return yarn_triangle_derivatives<dim>(rest, corners, *yarns, kind);
 }
 
 template <int dim>
@@ -292,7 +283,7 @@ Eigen::Matrix<double, 3 * dim, 3 * dim> membrane_hessian(const Membrane &membran
 {
   const RestTriangle &rest = membrane.rest[static_cast<std::size_t>(t)];
   const auto corners       = corners_of<dim>(membrane, positions, t);
-  if (yarns_of(membrane, t) != nullptr || membrane.cubic.empty())
+  if (membrane.cubic.empty())
     return hessian_of_blocks<dim>(
       membrane_triangle_derivatives<dim>(membrane, t, corners, kind).blocks);
   const TangentLaw law = tangent_law(

@@ -53,8 +53,8 @@ Membrane membrane(const meshes::ClothMesh &cloth, const std::vector<Eigen::Matri
 void add_cubic_energy(Membrane &membrane, const std::vector<meshes::CubicForm> &energies);
 
 /// Gives the phases whose stiffness has axes the law of yarns (yarn_energy.h). One that is alike in
-/// all directions stays corotational; where every phase is so, nothing changes. A cubic energy
-/// stays that of the Biot strain: the whole energy keeps its third order (cubic_of_yarn_strain()).
+/// all directions stays corotational; where every phase is so, nothing changes.
+/// @throws BadInput where the membrane has a cubic energy, which is one of the Biot strain
 void take_yarn_law(Membrane &membrane);
 
 /// Total energy, sum of area times W [J].

@@ -38,8 +38,7 @@ struct Frames
 };
 
 template <int dim>
-Frames<dim> frames_of(const DeformationGradient<dim> &F, const YarnAxes &yarns,
-                      const GuardedCubic *const cubic)
+Frames<dim> frames_of(const DeformationGradient<dim> &F, const YarnAxes &yarns)
 {
   Frames<dim> frames;
   for (std::size_t i = 0; i < 2; ++i)
@@ -73,12 +72,6 @@ Frames<dim> frames_of(const DeformationGradient<dim> &F, const YarnAxes &yarns,
   frames.strain << frames.l[0] - 1., frames.l[1] - 1., std::atan2(frames.sine, frames.cosine);
   frames.stress    = yarns.C * frames.strain;
   frames.stiffness = yarns.C;
-  if (cubic != nullptr)
-  {
-    const GuardedCubic::Derivatives of = cubic->derivatives(frames.strain);
-    frames.stress += of.gradient;
-    frames.stiffness += of.hessian;
-  }
   return frames;
 }
 
@@ -172,32 +165,10 @@ Eigen::Matrix<double, dim, dim> block_of(const GradientHessian<dim> &hessian,
 }
 } // namespace
 
-meshes::CubicForm cubic_of_yarn_strain(const meshes::CubicForm &energy, const YarnAxes &yarns)
-{
-  const Eigen::Matrix3d back = yarns.turns.inverse();
-  const auto value           = [&](const Eigen::Vector3d &E)
-  {
-    const double shear = 0.5 * E(2); // E12
-    const Eigen::Vector3d q(0.5 * shear * shear, 0.5 * shear * shear, -(E(0) + E(1)) * shear);
-    return energy.value(back * E) - (yarns.C * E).dot(q);
-  };
-  meshes::CubicForm form; // by polarisation, which is exact
-  for (std::size_t k = 0; k < form.indices.size(); ++k)
-  {
-    const Eigen::Vector3d a                        = Eigen::Vector3d::Unit(form.indices[k][0]),
-                          b                        = Eigen::Vector3d::Unit(form.indices[k][1]),
-                          c                        = Eigen::Vector3d::Unit(form.indices[k][2]);
-    form.derivatives(static_cast<Eigen::Index>(k)) = value(a + b + c) - value(a + b) -
-                                                     value(a + c) - value(b + c) + value(a) +
-                                                     value(b) + value(c);
-  }
-  return form;
-}
-
 template <int dim>
 Eigen::Vector3d yarn_strain(const DeformationGradient<dim> &F, const YarnAxes &yarns)
 {
-  const Frames<dim> frames = frames_of<dim>(F, yarns, nullptr);
+  const Frames<dim> frames = frames_of<dim>(F, yarns);
   return frames.defined ? frames.strain
                         : Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
 }
@@ -209,29 +180,26 @@ bool has_length(const DeformationGradient<dim> &F, const YarnAxes &yarns)
 }
 
 template <int dim>
-double yarn_energy_density(const DeformationGradient<dim> &F, const YarnAxes &yarns,
-                           const GuardedCubic *const cubic)
+double yarn_energy_density(const DeformationGradient<dim> &F, const YarnAxes &yarns)
 {
-  const Frames<dim> frames = frames_of<dim>(F, yarns, nullptr);
+  const Frames<dim> frames = frames_of<dim>(F, yarns);
   if (!frames.defined)
     return std::numeric_limits<double>::infinity();
-  return 0.5 * frames.strain.dot(frames.stress) +
-         (cubic != nullptr ? cubic->value(frames.strain) : 0.);
+  return 0.5 * frames.strain.dot(frames.stress);
 }
 
 template <int dim>
 DeformationGradient<dim> yarn_energy_gradient(const DeformationGradient<dim> &F,
-                                              const YarnAxes &yarns,
-                                              const GuardedCubic *const cubic)
+                                              const YarnAxes &yarns)
 {
-  return pulls_of(frames_of<dim>(F, yarns, cubic)) * yarns.axes.transpose();
+  return pulls_of(frames_of<dim>(F, yarns)) * yarns.axes.transpose();
 }
 
 template <int dim>
 GradientHessian<dim> yarn_energy_hessian(const DeformationGradient<dim> &F, const YarnAxes &yarns,
-                                         const Hessian kind, const GuardedCubic *const cubic)
+                                         const Hessian kind)
 {
-  const GradientHessian<dim> by_yarns = hessian_of(frames_of<dim>(F, yarns, cubic), kind);
+  const GradientHessian<dim> by_yarns = hessian_of(frames_of<dim>(F, yarns), kind);
   GradientHessian<dim> hessian;
   for (int a = 0; a < 2; ++a)
     for (int b = 0; b < 2; ++b)
@@ -241,22 +209,21 @@ GradientHessian<dim> yarn_energy_hessian(const DeformationGradient<dim> &F, cons
 }
 
 template <int dim>
-Eigen::Matrix<double, 3, dim>
-yarn_triangle_gradient(const RestTriangle &rest, const Eigen::Matrix<double, 3, dim> &corners,
-                       const YarnAxes &yarns, const GuardedCubic *const cubic)
+Eigen::Matrix<double, 3, dim> yarn_triangle_gradient(const RestTriangle &rest,
+                                                     const Eigen::Matrix<double, 3, dim> &corners,
+                                                     const YarnAxes &yarns)
 {
   const DeformationGradient<dim> P =
-    rest.area * yarn_energy_gradient<dim>(deformation_gradient<dim>(rest, corners), yarns, cubic);
+    rest.area * yarn_energy_gradient<dim>(deformation_gradient<dim>(rest, corners), yarns);
   return rest.shape_gradients * P.transpose();
 }
 
 template <int dim>
 TriangleDerivatives<dim> yarn_triangle_derivatives(const RestTriangle &rest,
                                                    const Eigen::Matrix<double, 3, dim> &corners,
-                                                   const YarnAxes &yarns, const Hessian kind,
-                                                   const GuardedCubic *const cubic)
+                                                   const YarnAxes &yarns, const Hessian kind)
 {
-  const Frames<dim> frames = frames_of<dim>(deformation_gradient<dim>(rest, corners), yarns, cubic);
+  const Frames<dim> frames = frames_of<dim>(deformation_gradient<dim>(rest, corners), yarns);
   const GradientHessian<dim> hessian     = rest.area * hessian_of(frames, kind);
   const Eigen::Matrix<double, 3, 2> hats = rest.shape_gradients * yarns.axes; // along the yarns
   TriangleDerivatives<dim> result;
@@ -272,31 +239,26 @@ TriangleDerivatives<dim> yarn_triangle_derivatives(const RestTriangle &rest,
 template <int dim>
 Eigen::Matrix<double, 3 * dim, 3 * dim>
 yarn_triangle_hessian(const RestTriangle &rest, const Eigen::Matrix<double, 3, dim> &corners,
-                      const YarnAxes &yarns, const Hessian kind, const GuardedCubic *const cubic)
+                      const YarnAxes &yarns, const Hessian kind)
 {
-  return hessian_of_blocks<dim>(
-    yarn_triangle_derivatives<dim>(rest, corners, yarns, kind, cubic).blocks);
+  return hessian_of_blocks<dim>(yarn_triangle_derivatives<dim>(rest, corners, yarns, kind).blocks);
 }
 
 // In the plane and in space.
 #define HOMESPUN_INSTANTIATE(dim)                                                                \
   template Eigen::Vector3d yarn_strain<dim>(const DeformationGradient<dim> &, const YarnAxes &); \
   template bool has_length<dim>(const DeformationGradient<dim> &, const YarnAxes &);             \
-  template double yarn_energy_density<dim>(const DeformationGradient<dim> &, const YarnAxes &,   \
-                                           const GuardedCubic *);                                \
-  template DeformationGradient<dim> yarn_energy_gradient<dim>(                                   \
-    const DeformationGradient<dim> &, const YarnAxes &, const GuardedCubic *);                   \
-  template GradientHessian<dim> yarn_energy_hessian<dim>(                                        \
-    const DeformationGradient<dim> &, const YarnAxes &, Hessian, const GuardedCubic *);          \
+  template double yarn_energy_density<dim>(const DeformationGradient<dim> &, const YarnAxes &);  \
+  template DeformationGradient<dim> yarn_energy_gradient<dim>(const DeformationGradient<dim> &,  \
+                                                              const YarnAxes &);                 \
+  template GradientHessian<dim> yarn_energy_hessian<dim>(const DeformationGradient<dim> &,       \
+                                                         const YarnAxes &, Hessian);             \
   template Eigen::Matrix<double, 3, dim> yarn_triangle_gradient<dim>(                            \
-    const RestTriangle &, const Eigen::Matrix<double, 3, dim> &, const YarnAxes &,               \
-    const GuardedCubic *);                                                                       \
+    const RestTriangle &, const Eigen::Matrix<double, 3, dim> &, const YarnAxes &);              \
   template TriangleDerivatives<dim> yarn_triangle_derivatives<dim>(                              \
-    const RestTriangle &, const Eigen::Matrix<double, 3, dim> &, const YarnAxes &, Hessian,      \
-    const GuardedCubic *);                                                                       \
+    const RestTriangle &, const Eigen::Matrix<double, 3, dim> &, const YarnAxes &, Hessian);     \
   template Eigen::Matrix<double, 3 * dim, 3 * dim> yarn_triangle_hessian<dim>(                   \
-    const RestTriangle &, const Eigen::Matrix<double, 3, dim> &, const YarnAxes &, Hessian,      \
-    const GuardedCubic *);
+    const RestTriangle &, const Eigen::Matrix<double, 3, dim> &, const YarnAxes &, Hessian);
 HOMESPUN_INSTANTIATE(2)
 HOMESPUN_INSTANTIATE(3)
 #undef HOMESPUN_INSTANTIATE

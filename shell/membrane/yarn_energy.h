@@ -15,8 +15,6 @@
 // dim = 2: gamma has its sign, from −pi to pi, so that a triangle that is turned over costs energy.
 // dim = 3: gamma from −pi/2 to pi/2; a sheet in space has no sign. Where the yarns lie along each
 //   other the normal is undefined and gamma has a kink; we take zero from its subdifferential.
-// A cubic energy G(e) beside it (guarded_cubic.h) makes T = C e + dG/de and adds d²G/de² to C; the
-// rest is the same.
 //
 // Of a yarn without length the energy is infinite, which makes a line search step back, and the
 // derivatives are zero. All functions are stateless. Not-a-number in gives not-a-number out.
@@ -26,7 +24,6 @@
 
 #include "meshes/plain/yarn_axes.h"
 #include "shell/membrane/corotational_energy.h"
-#include "shell/membrane/guarded_cubic.h"
 
 #include <Eigen/Core>
 
@@ -41,54 +38,41 @@ Eigen::Vector3d yarn_strain(const DeformationGradient<dim> &F, const meshes::Yar
 template <int dim>
 bool has_length(const DeformationGradient<dim> &F, const meshes::YarnAxes &yarns);
 
-/// A cubic energy of the Biot strain E = U − I beside ½ E·C·E, as one of the strain e of yarns
-/// beside ½ e·C·e, so that both energies agree up to the fourth order: of I + E, symmetric, e = E +
-/// q(E) + O(E³) in the axes of the yarns, with q = (E12²/2, E12²/2, −(E11 + E22) E12), and the form
-/// is W3(E) − (C E)·q(E).
-/// @param energy W3, of strains in the axes of the sheet [N/m]
-/// @return of strains in the axes of the yarns [N/m]
-meshes::CubicForm cubic_of_yarn_strain(const meshes::CubicForm &energy,
-                                       const meshes::YarnAxes &yarns);
-
 /// Energy W = ½ e·C·e per rest area.
 /// @param F (dim,2) [-]
 /// @param yarns axes and stiffness in them [N/m]; they are there
-/// @param cubic G of the strain e, in the axes of the yarns; null: none. Here and below.
 /// @return [J/m^2]
 template <int dim>
-double yarn_energy_density(const DeformationGradient<dim> &F, const meshes::YarnAxes &yarns,
-                           const GuardedCubic *cubic = nullptr);
+double yarn_energy_density(const DeformationGradient<dim> &F, const meshes::YarnAxes &yarns);
 
 /// First Piola-Kirchhoff stress P = dW/dF.
 /// @return (dim,2) [N/m]
 template <int dim>
 DeformationGradient<dim> yarn_energy_gradient(const DeformationGradient<dim> &F,
-                                              const meshes::YarnAxes &yarns,
-                                              const GuardedCubic *cubic = nullptr);
+                                              const meshes::YarnAxes &yarns);
 
 /// Tangent d²W/dF². Projected it is the nearest positive semi-definite one: both parts lose their
 /// negative eigenvalues, and one that has none is not changed.
 /// @return (2 dim, 2 dim) [N/m]
 template <int dim>
-GradientHessian<dim>
-yarn_energy_hessian(const DeformationGradient<dim> &F, const meshes::YarnAxes &yarns,
-                    Hessian kind = Hessian::exact, const GuardedCubic *cubic = nullptr);
+GradientHessian<dim> yarn_energy_hessian(const DeformationGradient<dim> &F,
+                                         const meshes::YarnAxes &yarns,
+                                         Hessian kind = Hessian::exact);
 
 /// Gradient of a triangle's energy, area times W, by its corners.
 /// @param corners (3,dim) current positions [m]
 /// @return (3,dim) [N]
 template <int dim>
-Eigen::Matrix<double, 3, dim>
-yarn_triangle_gradient(const RestTriangle &rest, const Eigen::Matrix<double, 3, dim> &corners,
-                       const meshes::YarnAxes &yarns, const GuardedCubic *cubic = nullptr);
+Eigen::Matrix<double, 3, dim> yarn_triangle_gradient(const RestTriangle &rest,
+                                                     const Eigen::Matrix<double, 3, dim> &corners,
+                                                     const meshes::YarnAxes &yarns);
 
 /// Gradient and Hessian of a triangle's energy in one pass.
 /// @param corners (3,dim) current positions [m]
 template <int dim>
 TriangleDerivatives<dim>
 yarn_triangle_derivatives(const RestTriangle &rest, const Eigen::Matrix<double, 3, dim> &corners,
-                          const meshes::YarnAxes &yarns, Hessian kind = Hessian::exact,
-                          const GuardedCubic *cubic = nullptr);
+                          const meshes::YarnAxes &yarns, Hessian kind = Hessian::exact);
 
 /// Hessian of a triangle's energy; component i of corner k is unknown k dim + i.
 /// @param corners (3,dim) current positions [m]
@@ -96,6 +80,5 @@ yarn_triangle_derivatives(const RestTriangle &rest, const Eigen::Matrix<double, 
 template <int dim>
 Eigen::Matrix<double, 3 * dim, 3 * dim>
 yarn_triangle_hessian(const RestTriangle &rest, const Eigen::Matrix<double, 3, dim> &corners,
-                      const meshes::YarnAxes &yarns, Hessian kind = Hessian::exact,
-                      const GuardedCubic *cubic = nullptr);
+                      const meshes::YarnAxes &yarns, Hessian kind = Hessian::exact);
 } // namespace homespun::shell

@@ -53,7 +53,7 @@ MAY_INCLUDE = {
                           "homogenization/edges",
                           "verification/record"} | CELLS,
     "verification/method": {"meshes/plain", "meshes/cloth", "localization", "shell/algebra",
-                            "shell/membrane", "shell/solver", "shell/terms", "verification/record",
+                            "shell/membrane", "shell/solver", "shell/terms",
                             "verification/reference", "verification/periodic_cell"},
     "verification/budget": {"meshes/plain", "localization", "shell/solver",
                             "homogenization/bracket", "verification/record",

@@ -2,6 +2,7 @@
 #include "verification/budget/edge_parts.h"
 
 #include "localization/upsampler.h"
+#include "verification/method/method.h"
 
 namespace homespun::verification
 {
@@ -34,7 +35,7 @@ EdgePartsOfSheet::EdgePartsOfSheet(const meshes::HomogenizedCell &cell, const Ce
     , load(load)
     , pieces(edges_piece_by_piece(edges))
     , space(sheet, CoarseElement::three_nodes, refinement)
-    , solver(space.solver(cell.stiffness, held_by(load, sheet, space.nodes.mesh)))
+    , solver(space.solver(cell.stiffness, held_vertices(load, sheet, space.nodes.mesh.vertices)))
 {
 }
 
@@ -45,10 +46,10 @@ EdgeParts EdgePartsOfSheet::measure(const Law law, const shell::Positions<2> &u,
   shell::Positions<2> moved;
   for (std::size_t k = 0; k < pieces.size(); ++k)
   {
-    const EdgeTerms terms({cell, pieces[k]}, sheet, load, space.grid, law);
+    const EdgeTerms terms({cell, &pieces[k]}, sheet, load, space.grid, law);
     if (k < 3) // modes move no coarse vertex
       moved = with_edges(terms, space, *solver, u).positions;
-    localization::UpsamplerOptions options = Method("edges").options(law);
+    localization::UpsamplerOptions options = Method("localized+edges").options(law);
     terms.give_edges(options);
     localization::Upsampler<2, double>::Fine fine;
     localization::Upsampler<2, double>(cell, space.grid.mesh, sheet, options).upsample(moved, fine);

@@ -4,6 +4,7 @@
 #include "localization/upsampler.h"
 #include "meshes/plain/errors.h"
 #include "verification/budget/second_code.h"
+#include "verification/method/method.h"
 
 #include <algorithm>
 #include <limits>

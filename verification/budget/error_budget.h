@@ -38,12 +38,12 @@
 //                  one
 //
 // What the sum tests. In linear theory 1, 3 and 5 are links of one chain from M to T', whatever u
-// is: there the sum says that Upsampler and LightweightCloth do what the parts say of them, and
+// is: there the sum says that Upsampler and CoarseModel do what the parts say of them, and
 // that T is T', which shares with T the mesh, the stiffness of the phases and the load. At finite
 // strain the same holds up to what `rest` does beyond linear theory, which is in no part. In an
 // infinite cloth there is none: there the sum tests part 2 as well. That a link has its right name
 // is said by its order: 2 in strain for part 2; 2 in H for part 3, which `resolution` is read off;
-// for part 1 by the study of cells per sheet (converge), and by the method `edges`, which lacks
+// for part 1 by the study of cells per sheet (converge), and by the term `edges`, which lacks
 // what the four terms are without `rest`. `rest` is not measured at the strain itself: as [û + R^
 // ŵ(Ê)] + S4 − S0 − T' it would take up whatever part 2 has wrong, and the sum would close for any
 // part 2.
@@ -58,8 +58,8 @@
 #include "meshes/plain/cell_edges.h"
 #include "meshes/plain/homogenized_cell.h"
 #include "verification/budget/edge_parts.h"
+#include "verification/method/coarse_space.h"
 #include "verification/method/homogenized_sheet.h"
-#include "verification/method/lightweight_cloth.h"
 
 #include <limits>
 #include <map>

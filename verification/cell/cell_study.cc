@@ -46,7 +46,7 @@ AssessedCell run_cell_study(const homogenization::UnitCell &cell, const CellStud
 {
   homogenization::HomogenizationOptions solve = options.solve;
   if (too_dear_second_order(cell, solve).empty())
-    solve.second_order = homogenization::laws_of_second_order(cell.phases);
+    solve.second_order = meshes::laws_with(&meshes::LawProperties::has_second_order);
   if (options.pieces)
     solve.pieces = options.output + "/" + name_of_pieces;
   std::unique_ptr<RunFolder> folder; // on the first rank

@@ -228,7 +228,7 @@ std::string too_dear_second_order(const homogenization::UnitCell &cell,
     2. * cell.mesh.n_vertices() * std::pow(4., options.refine) * (options.order == 2 ? 4. : 1.);
   const double estimate =
     seconds_per_dof * n_dofs *
-    static_cast<double>(homogenization::laws_of_second_order(cell.phases).size());
+    static_cast<double>(meshes::laws_with(&meshes::LawProperties::has_second_order).size());
   if (estimate <= most_seconds)
     return "";
   char text[160];

@@ -6,6 +6,7 @@
 #include "localization/edge_modes.h"
 #include "meshes/plain/gauss_rule.h"
 #include "meshes/plain/sheet.h"
+#include "meshes/plain/triangle_kinematics.h"
 
 #include <Eigen/LU>
 
@@ -108,7 +109,7 @@ struct Amplitude
 class HomogenizedStrip
 {
 public:
-  HomogenizedStrip(const Strip &strip, const CellWithEdges &of, const bool has_edges)
+  HomogenizedStrip(const Strip &strip, const CellModel &of, const bool has_edges)
       : strip(strip)
       , polynomials(strip.height)
       , B_t(strain_along(strip.t))
@@ -127,8 +128,8 @@ public:
     if (!has_edges)
       return;
     const Amplitude bottom = at(0.), top = at(strip.height);
-    const Eigen::VectorXcd of_edges = edge_loads(of.edges, top.E);
-    U += solved(of_edges, of.edges.sides[2].slip * bottom.E);
+    const Eigen::VectorXcd of_edges = edge_loads(*of.edges, top.E);
+    U += solved(of_edges, of.edges->sides[2].slip * bottom.E);
   }
 
   Amplitude at(const double y) const
@@ -252,15 +253,9 @@ meshes::Points resolved(const homogenization::UnitCell &cell, const meshes::Shee
   Eigen::VectorXd load = Eigen::VectorXd::Zero(2 * n);
   for (int t = 0; t < sheet.mesh.n_triangles(); ++t)
   {
-    Eigen::Matrix2d spans;
-    for (int k = 0; k < 2; ++k)
-      spans.col(k) = (sheet.mesh.vertices.row(sheet.mesh.triangles(t, k + 1)) -
-                      sheet.mesh.vertices.row(sheet.mesh.triangles(t, 0)))
-                       .transpose();
-    const double area = 0.5 * spans.determinant();
-    Eigen::Matrix<double, 2, 3> slopes;
-    slopes.rightCols<2>()   = spans.inverse().transpose();
-    slopes.col(0)           = -slopes.col(1) - slopes.col(2);
+    const auto [area, gradients] = meshes::triangle_geometry(
+      meshes::sides_of_triangle<2>(sheet.mesh.triangles.row(t), sheet.mesh.vertices));
+    const Eigen::Matrix<double, 2, 3> slopes = gradients.transpose();
     const Eigen::Matrix3d c = area * stiffness[static_cast<std::size_t>(sheet.mesh.material(t))];
     for (int i = 0; i < 3; ++i)
     {
@@ -300,7 +295,7 @@ meshes::Points resolved(const homogenization::UnitCell &cell, const meshes::Shee
 } // namespace
 
 ClosedStripErrors closed_strip_errors(const homogenization::UnitCell &cell,
-                                      const CellWithEdges &homogenized, const int n)
+                                      const CellModel &homogenized, const int n)
 {
   const meshes::Sheet sheet = meshes::tile(cell.mesh, cell.lattice, n, n);
   const Strip strip         = strip_of(cell.lattice, n);
@@ -310,7 +305,7 @@ ClosedStripErrors closed_strip_errors(const homogenization::UnitCell &cell,
   const HomogenizedStrip plain(strip, homogenized, false), with_edges(strip, homogenized, true);
   localization::UpsamplerOptions options;
   options.anchor     = localization::Anchor::mean;
-  options.edges      = &homogenized.edges;
+  options.edges      = homogenized.edges;
   options.edge_kinds = {localization::EdgeKind::none, localization::EdgeKind::none,
                         localization::EdgeKind::clamped, localization::EdgeKind::free};
   const localization::EdgeModes near_edges(homogenized.cell, sheet, options);

@@ -29,5 +29,5 @@ struct ClosedStripErrors
 
 /// @throws NotConverged where the resolved sheet cannot be solved
 ClosedStripErrors closed_strip_errors(const homogenization::UnitCell &cell,
-                                      const CellWithEdges &homogenized, int n);
+                                      const CellModel &homogenized, int n);
 } // namespace homespun::verification

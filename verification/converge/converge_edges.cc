@@ -6,7 +6,7 @@
 #include "verification/cell/cell_edges.h"
 #include "verification/converge/closed_strip.h"
 #include "verification/converge/converge_cases.h"
-#include "verification/method/edge_terms.h"
+#include "verification/method/coarse_model.h"
 #include "verification/reference/fine_reference.h"
 
 #include <chrono>
@@ -63,21 +63,6 @@ double corner_exponent(const meshes::HomogenizedCell &cell, const Load &load)
   return least;
 }
 
-/// Coarse positions of six-node triangles in linear equilibrium, without terms of edges.
-EdgeTerms::Positions macro_positions(const EdgedCell &of, const meshes::Sheet &sheet,
-                                     const Load &load, const int quads_per_cell,
-                                     const double strain)
-{
-  const CoarseSpace space(sheet, CoarseElement::six_nodes, quads_per_cell);
-  const meshes::TriangleMesh &nodes = space.nodes.mesh;
-  EdgeTerms::Positions prescribed   = nodes.vertices;
-  for (int v = 0; v < nodes.n_vertices(); ++v)
-    prescribed.row(v) +=
-      load.displacement(sheet.fraction(nodes.vertices.row(v)), sheet.sides(), strain);
-  return space.solver(of.homogenized.stiffness, held_by(load, sheet, nodes))
-    ->solve_linear(prescribed);
-}
-
 ConvergenceResult with_corners(const EdgedCell &of, const Load &load)
 {
   constexpr double strain = 0.01; // any: the law is linear
@@ -92,11 +77,9 @@ ConvergenceResult with_corners(const EdgedCell &of, const Load &load)
     if (!fine.reached)
       throw meshes::NotConverged(load.name + ": " + fine.why, {});
     const int quads_per_cell = 2 * std::max(1, n_nodes / (2 * n));
-    const EdgedSheet edged({of.homogenized, *of.known.edges}, sheet, load, Method("full"),
-                           quads_per_cell);
-    const meshes::Points positions =
-      edged.upsample(Law::linear, macro_positions(of, sheet, load, quads_per_cell, strain))
-        .positions;
+    const CoarseModel model({of.homogenized, &*of.known.edges}, sheet, load, Method("full"),
+                            Law::linear, quads_per_cell);
+    const meshes::Points positions = model.upsample(model.solve(strain));
     full.levels.push_back({1. / n, reference.n_dofs(), std::nullopt,
                            (positions - fine.positions).rowwise().norm().mean() /
                              (strain * std::sqrt(of.cell.lattice.area())),
@@ -129,7 +112,7 @@ ConvergenceResult without_corners(const EdgedCell &of)
   {
     const auto start = std::chrono::steady_clock::now();
     const ClosedStripErrors errors =
-      closed_strip_errors(of.cell, {of.homogenized, *of.known.edges}, n);
+      closed_strip_errors(of.cell, {of.homogenized, &*of.known.edges}, n);
     const double seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     full.levels.push_back({1. / n, errors.n_dofs, std::nullopt, errors.full / side, seconds});

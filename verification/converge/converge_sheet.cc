@@ -6,7 +6,7 @@
 #include "shell/terms/inertial_terms.h"
 #include "shell/terms/membrane_term.h"
 #include "verification/converge/converge_cases.h"
-#include "verification/method/lightweight_cloth.h"
+#include "verification/method/coarse_model.h"
 #include "verification/reference/fine_reference.h"
 
 #include <chrono>
@@ -50,13 +50,12 @@ ConvergenceResult add_cells(const UnitCell &cell, const meshes::HomogenizedCell 
     const ReferenceStep fine = reference.advance(linear_strain);
     if (!fine.reached)
       throw meshes::NotConverged(load.name + ": " + fine.why, {});
-    LightweightCloth cloth(homogenized, sheet, load);
-    const auto coarse  = cloth.solve(Law::linear, linear_strain).positions;
     double fluctuation = 0.;
     for (std::size_t m = 0; m < 2; ++m)
     {
-      const double error = mean_distance(
-        cloth.upsample(Method(methods[m]), Law::linear, coarse).positions, fine.positions);
+      const CoarseModel model({homogenized}, sheet, load, Method(methods[m]), Law::linear);
+      const double error =
+        mean_distance(model.upsample(model.solve(linear_strain)), fine.positions);
       if (m == 0)
         fluctuation = error; // what the coarse motion lacks
       const double in_cells = error / (linear_strain * side);

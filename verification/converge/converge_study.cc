@@ -167,8 +167,9 @@ private:
     for (const UnitCell &cell : cells())
     {
       CellNeeds needs;
-      needs.second_order = {default_law(cell) == Law::yarn ? meshes::Law::yarn : meshes::Law::biot};
-      std::vector<Verdict> checks; // a study of orders claims nothing of C^H itself
+      if (!is_of_yarns(default_law(cell)))
+        needs.second_order = {Law::biot}; // whose methods are of third order in strain
+      std::vector<Verdict> checks;        // a study of orders claims nothing of C^H itself
       homogenized.push_back(
         homogenized_cell(cell, homogenize(cell, needs, checks), provenance_line()));
     }

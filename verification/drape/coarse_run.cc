@@ -127,9 +127,9 @@ void move_to(const int frame, const DrapeSchedule &schedule, SceneCloth &moving,
 }
 } // namespace
 
-bool belongs(const CoarseRun &run, const std::string &method)
+bool belongs(const CoarseRun &run, const DrapedCell &draped, const std::string &method)
 {
-  return run.is_of_method ? run.variant == method : !has_own_cloth(Method(method));
+  return run.is_of_method ? run.variant == method : !has_own_cloth(draped.used(Method(method)));
 }
 
 CoarseRun run_coarse(const DrapedCell &draped, const std::string &variant,
@@ -137,8 +137,7 @@ CoarseRun run_coarse(const DrapedCell &draped, const std::string &variant,
 {
   CoarseRun run;
   run.variant                 = variant;
-  const auto &methods         = Method::names();
-  run.is_of_method            = std::find(methods.begin(), methods.end(), variant) != methods.end();
+  run.is_of_method            = !is_membrane_model(variant);
   run.is_main                 = variant == name_of(draped.model);
   const Method method         = Method(run.is_of_method ? variant : "localized");
   const std::string name      = draped.cell.name + "-" + variant;
@@ -150,7 +149,7 @@ CoarseRun run_coarse(const DrapedCell &draped, const std::string &variant,
   Upsampler3f::Fine fine;
   const HeldMotion held = draped.coarse_motion();
   SceneCloth moving(draped.scene, draped.coarse, draped.effective_of(method), held,
-                    run.is_of_method ? draped.model_of(method) : membrane_model_of(variant));
+                    run.is_of_method ? draped.model : membrane_model_of(variant));
   const auto upsample = [&]() { upsampler.upsample(moving.cloth().positions(), fine); };
   for (int frame = 0; frame <= schedule.n_frames; ++frame)
   {

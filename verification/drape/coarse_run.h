@@ -29,7 +29,7 @@ struct CoarseRun
 };
 
 /// Whether a run is up-sampled by a method: one with a cloth of its own goes with that cloth alone.
-bool belongs(const CoarseRun &run, const std::string &method);
+bool belongs(const CoarseRun &run, const DrapedCell &draped, const std::string &method);
 
 /// Runs it and writes its frames and its rows of motion.csv. Takes seconds, and is computed again
 /// when a study is resumed. A cloth that does not converge ends the run, with the reason in

@@ -62,7 +62,7 @@ std::vector<meshes::VertexData> DrapeComparison::compare(const std::string &refe
     }
     for (const std::string &method : methods)
     {
-      if (!belongs(run, method))
+      if (!belongs(run, draped, method))
         continue;
       const SpacePoints up = method == "affine" ? affine : upsampled(method, run.frames[at]);
       const Eigen::VectorXd distance = (up - positions).rowwise().norm();
@@ -100,7 +100,7 @@ bool DrapeComparison::has_rows(const std::string &reference, const int frame,
   for (const CoarseRun &run : runs)
     if (run.frames.size() > static_cast<std::size_t>(frame))
       for (const std::string &method : methods)
-        if (belongs(run, method) &&
+        if (belongs(run, draped, method) &&
             !output.has(output.error_row(cell, run.variant, reference, method, frame)))
           return false;
   return true;

@@ -31,12 +31,6 @@ bool is_dealii(const std::string &reference)
   return reference != "shell";
 }
 
-bool asks_for(const DrapeOptions &options, const std::function<bool(const Method &)> &is_of_it)
-{
-  return std::any_of(options.methods.begin(), options.methods.end(),
-                     [&](const std::string &name) { return is_of_it(Method(name)); });
-}
-
 MembraneModel default_model(const UnitCell &cell, const Eigen::Matrix3d &stiffness)
 {
   return default_law(cell) == Law::yarn && meshes::yarn_axes(stiffness).are_there
@@ -49,82 +43,46 @@ std::string note_on_default_model(const UnitCell &cell, const MembraneModel mode
   return note_on_default_law(cell) + "; the moving cloth is " + name_of(model);
 }
 
-std::vector<std::string> cloths_of(const DrapeOptions &options, const MembraneModel main)
+std::vector<std::string> cloths_of(const DrapeOptions &options, const MembraneModel main,
+                                   const std::function<Method(const Method &)> &used)
 {
   std::vector<std::string> names = options.variants;
   if (names.empty())
     names.push_back(name_of(main));
   for (const std::string &name : options.methods)
-    if (has_own_cloth(Method(name)))
+    if (has_own_cloth(used(Method(name))))
       names.push_back(name);
   return names;
 }
 
-std::optional<meshes::CellEdges> edges_for(const DrapeOptions &options, const UnitCell &cell,
-                                           const AssessedCell &assessed)
-{
-  if (!needs_of(options).edges)
-    return {};
-  if (!assessed.edges->edges)
-    throw meshes::BadInput("--methods edges: " + cell.name + ": " + assessed.edges->why_not +
-                           "; expected a cell with terms of edges: leave the method out");
-  return assessed.edges->edges;
-}
-
-CellNeeds needs_of(const DrapeOptions &options)
+CellNeeds needs_of(const DrapeOptions &options, const Scene &scene)
 {
   CellNeeds needs;
-  needs.edges = asks_for(options, [](const Method &method) { return method.has_edge_terms(); });
-  if (asks_for(options, [](const Method &method) { return method.is_of_second_order(); }))
-    needs.second_order = {meshes::Law::biot};
+  for (const std::string &name : options.methods)
+  {
+    const Method method = used_in(scene, Method(name), MembraneModel::corotational);
+    needs.edges         = needs.edges || method.has(Term::edges);
+    if (method.is_of_second_order(Law::biot))
+      needs.second_order = {Law::biot};
+  }
   return needs;
 }
 
 namespace
 {
-/// Faults of the methods that have cloths of their own.
+/// Faults of the terms that are asked for by name; those of presets are left out instead.
 void check_methods(const DrapeOptions &options, const Scene &scene,
                    std::vector<std::string> &faults)
 {
-  const bool edges = asks_for(options, [](const Method &of) { return of.has_edge_terms(); });
-  if (edges && !scene.is_sheet())
-    faults.push_back("--methods edges: scene `" + scene.name +
-                     "` is a garment, whose outlines and seams are no lattice lines; expected a "
-                     "sheet: leave the method out");
-  else if (edges && !scene.has("selvedge"))
-    faults.push_back(scene.file + ": key `Terms`: --methods edges asks for the term `selvedge`, "
-                                  "which is not listed; expected it there: slip of clamped edges "
-                                  "without tension of free ones can do harm");
-  if (!edges && scene.has("selvedge"))
-    faults.push_back(
-      scene.file + ": key `Terms` lists `selvedge`, and no method takes it; expected "
-                   "`edges`, `full` or `first-order` among --methods, or a scene without the term");
+  if (scene.has("selvedge") && !needs_of(options, scene).edges)
+    faults.push_back(scene.file + ": key `Terms` lists `selvedge`, and no method takes it; "
+                                  "expected one with the term edges among --methods, like full, or "
+                                  "a scene without the term");
   for (const std::string &name : options.methods)
-  {
-    const Method method(name);
-    if (method.has_fitted_modes())
-      faults.push_back("--methods " + name +
-                       ": its modes are fitted by `homespun strain` alone; expected quadratic, or "
-                       "another method");
-    if (scene.integration == TimeIntegration::conserving &&
-        (method.is_of_second_order() || method.has_six_nodes()))
-      faults.push_back("--methods " + name + ": scene `" + scene.name +
-                       "` has the key `Integrator` = conserving, whose forces over a step are not "
-                       "known of this method; expected another integrator");
-    if (!scene.is_sheet() && method.is_of_second_order())
-      faults.push_back("--methods " + name + ": scene `" + scene.name +
-                       "` is a garment, of which up-sampling has no quadratic modes; expected a "
-                       "sheet: leave the method out");
-    if (!scene.is_sheet() && method.has_six_nodes())
-      faults.push_back("--methods " + name + ": scene `" + scene.name +
-                       "` is a garment, whose panels six-node triangles do not fill; expected a "
-                       "sheet: leave the method out");
-    else if (method.has_six_nodes() && (scene.n1 % 2 != 0 || scene.n2 % 2 != 0))
-      faults.push_back("--methods " + name + ": scene `" + scene.name + "` has " +
-                       std::to_string(scene.n1) + " x " + std::to_string(scene.n2) +
-                       " cells; expected even numbers, which six-node triangles two cells wide "
-                       "fill: another --cells, or leave the method out");
-  }
+    for (const Term term : {Term::p2, Term::edges, Term::cubic, Term::modes})
+      if (const std::string why = why_not(term, scene, MembraneModel::corotational);
+          Method(name).asks_for(term) && !why.empty())
+        faults.push_back("--methods " + name + ": scene `" + scene.name + why);
 }
 } // namespace
 

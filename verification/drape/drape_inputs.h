@@ -10,12 +10,10 @@
 #include "verification/drape/drape_options.h"
 #include "verification/drape/drape_schedule.h"
 #include "verification/drape/scene_cloth.h"
-#include "verification/method/lightweight_cloth.h"
+#include "verification/method/method.h"
 #include "verification/record/json_files.h"
 
-
 #include <functional>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -23,9 +21,6 @@ namespace homespun::verification
 {
 /// Whether a reference is solved by finite elements, else by the shell's own code.
 bool is_dealii(const std::string &reference);
-
-/// Whether one of the methods is of a kind.
-bool asks_for(const DrapeOptions &options, const std::function<bool(const Method &)> &is_of_it);
 
 /// The membrane that the moving cloth of a cell has where none is asked for: woven where the law of
 /// the cell is `yarn` (laws/default_law.h) and C^H has axes, else corotational.
@@ -37,17 +32,13 @@ std::string note_on_default_model(const homogenization::UnitCell &cell, Membrane
 
 /// Names of the coarse cloths that are run: variants of the membrane, the main one first, and the
 /// methods that have cloths of their own.
+/// @param used a method as the scene, or a cell in it, has it
 /// @param main where no variants are asked for
-std::vector<std::string> cloths_of(const DrapeOptions &options, MembraneModel main);
+std::vector<std::string> cloths_of(const DrapeOptions &options, MembraneModel main,
+                                   const std::function<Method(const Method &)> &used);
 
-/// What the cell does at edges, where a method asks for it.
-/// @throws BadInput where it has no terms of edges
-std::optional<meshes::CellEdges> edges_for(const DrapeOptions &options,
-                                           const homogenization::UnitCell &cell,
-                                           const AssessedCell &assessed);
-
-/// What the methods ask of a cell: edges, and second order by the law of the coarse cloth.
-CellNeeds needs_of(const DrapeOptions &options);
+/// What the methods ask of a cell: edges, and the second order of the law biot.
+CellNeeds needs_of(const DrapeOptions &options, const Scene &scene);
 
 /// The scene file with what the options replace.
 /// @throws BadInput with one message per fault

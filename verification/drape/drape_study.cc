@@ -42,12 +42,15 @@ public:
       : StudyOfCells("drape", options_of_study(options, scene), communicator)
       , options(options)
       , scene(scene)
-      , drape{
-          options, DrapeSchedule(scene), communicator,
-          Progress(is_root && !options.quiet,
-                   static_cast<int>(scene.cell_files.size()) * DrapeSchedule(scene).n_frames *
-                     static_cast<int>(cloths_of(options, {}).size() + options.references.size())),
-          verdicts}
+      , drape{options, DrapeSchedule(scene), communicator,
+              Progress(is_root && !options.quiet,
+                       static_cast<int>(scene.cell_files.size()) * DrapeSchedule(scene).n_frames *
+                         static_cast<int>(cloths_of(options, {},
+                                                    [&](const Method &method)
+                                                    { return used_in(scene, method, {}); })
+                                            .size() +
+                                          options.references.size())),
+              verdicts}
   {
   }
 
@@ -85,7 +88,7 @@ private:
   void study_cell(const UnitCell &cell)
   {
     drape.progress.milestone(cell.name + ": homogenization");
-    CellNeeds needs              = needs_of(options);
+    CellNeeds needs              = needs_of(options, scene);
     needs.bending                = scene.has("bending") && !scene.bending;
     const AssessedCell &assessed = homogenize(cell, needs, verdicts);
     const Eigen::Matrix3d &C     = assessed.result.stiffness;
@@ -93,11 +96,12 @@ private:
                                      ? default_model(cell, C)
                                      : membrane_model_of(options.variants.front());
     const DrapedCell draped(scene, cell, homogenized_cell(cell, assessed, provenance_line()),
-                            edges_for(options, cell, assessed), chosen);
+                            needs.edges ? assessed.edges->edges : std::nullopt, chosen);
     main_variants[cell.name] = name_of(draped.model);
     write_notes_on_laws(draped);
+    write_notes_on_methods(draped, needs.edges ? assessed.edges->why_not : "");
     if (draped.edges)
-      drape.note(cell.name + ": " + draped.moving_edges(Method("edges")).sentence());
+      drape.note(cell.name + ": " + draped.moving_edges(Method("localized+edges")).sentence());
     nlohmann::ordered_json description = description_of(draped);
 
     CoarseRuns coarse;
@@ -107,7 +111,7 @@ private:
               write_obstacles(draped);
               for (const Verdict &check : checks_of_scene(draped))
                 verdicts.push_back(check);
-              for (const std::string &variant : cloths_of(options, draped.model))
+              for (const std::string &variant : cloths_of_cell(draped))
               {
                 coarse.all.push_back(
                   run_coarse(draped, variant, drape.schedule, *drape.output, drape.progress));
@@ -125,18 +129,36 @@ private:
     cell_descriptions.push_back(description);
   }
 
+  /// What of the methods is left out, and why.
+  void write_notes_on_methods(const DrapedCell &draped, const std::string &why_no_edges)
+  {
+    for (const std::string &name : options.methods)
+    {
+      const Method method(name), used = draped.used(method);
+      for (const Term term : {Term::p2, Term::edges, Term::cubic, Term::modes})
+        if (const std::string why = why_not(term, scene, draped.model);
+            method.has(term) && !used.has(term))
+          drape.note(draped.cell.name + ": method " + name + " without " + name_of(term) +
+                     (why.empty() ? ": " + why_no_edges : ": scene `" + scene.name + why));
+    }
+  }
+
+  std::vector<std::string> cloths_of_cell(const DrapedCell &draped) const
+  {
+    return cloths_of(options, draped.model,
+                     [&](const Method &method) { return draped.used(method); });
+  }
+
   void write_notes_on_laws(const DrapedCell &draped)
   {
-    const std::vector<std::string> cloths = cloths_of(options, draped.model);
+    const std::vector<std::string> cloths = cloths_of_cell(draped);
     if (options.variants.empty())
       drape.note(note_on_default_model(draped.cell, draped.model));
     for (const std::string &note : notes_on_yarns(draped.cell, options.references))
       drape.note(note);
     const Eigen::Matrix3d &C = draped.homogenized.stiffness;
     const bool is_corotational =
-      std::any_of(cloths.begin(), cloths.end(),
-                  [](const std::string &name)
-                  { return name == name_of(MembraneModel::corotational) || name == "quadratic"; });
+      std::find(cloths.begin(), cloths.end(), name_of(MembraneModel::corotational)) != cloths.end();
     if (const std::string loss = note_on_corotational_cloth(C); is_corotational && !loss.empty())
       drape.note(draped.cell.name + ": " + loss);
     if (draped.model == MembraneModel::woven)

@@ -13,6 +13,11 @@ namespace homespun::verification
 {
 namespace
 {
+Law law_of_model(const MembraneModel model)
+{
+  return model == MembraneModel::woven ? Law::yarn : Law::biot;
+}
+
 int nearest_to_middle(const meshes::SpacePoints &positions)
 {
   const Eigen::RowVector3d middle = positions.colwise().mean();
@@ -60,9 +65,46 @@ std::vector<int> at_same_places(const std::vector<int> &vertices, const Scene &f
 }
 } // namespace
 
-bool has_own_cloth(const Method &method)
+std::string why_not(const Term term, const Scene &scene, const MembraneModel model)
 {
-  return method.has_edge_terms() || method.is_of_second_order() || method.has_six_nodes();
+  if (term == Term::micro)
+    return {};
+  if (!scene.is_sheet())
+    return "` is a garment, " +
+           std::string(term == Term::edges ? "whose outlines and seams are no lattice lines"
+                       : term == Term::p2  ? "whose panels six-node triangles do not fill"
+                                           : "of which up-sampling has no second order") +
+           "; expected a sheet: leave the term out";
+  if ((term == Term::cubic || term == Term::modes) && model == MembraneModel::woven)
+    return "` has a woven cloth, of which a scene has no second order, and whose modes are fitted "
+           "by "
+           "`homespun strain` alone; expected --variants corotational, or leave the term out";
+  const bool has_forces_of_steps = term == Term::p2 || term == Term::cubic;
+  if (has_forces_of_steps && scene.integration == TimeIntegration::conserving)
+    return "` has the key `Integrator` = conserving, whose forces over a step are not known of it; "
+           "expected another integrator";
+  if (term == Term::p2 && (scene.n1 % 2 != 0 || scene.n2 % 2 != 0))
+    return "` has " + std::to_string(scene.n1) + " x " + std::to_string(scene.n2) +
+           " cells; expected even numbers, which six-node triangles two cells wide fill: another "
+           "--cells, or leave the term out";
+  if (term == Term::edges && !scene.has("selvedge"))
+    return "` does not list `selvedge` among its `Terms`; expected it there: slip of clamped edges "
+           "without tension of free ones can do harm";
+  return {};
+}
+
+Method used_in(const Scene &scene, const Method &method, const MembraneModel model)
+{
+  Method left = method;
+  for (const Term term : {Term::p2, Term::edges, Term::cubic, Term::modes})
+    if (!why_not(term, scene, model).empty())
+      left = left.without(term);
+  return left;
+}
+
+bool has_own_cloth(const Method &used)
+{
+  return used.has(Term::edges) || used.has(Term::cubic) || used.has(Term::p2);
 }
 
 Scene scaled(const Scene &scene, const int n_cells)
@@ -192,13 +234,34 @@ DrapedCell::DrapedCell(const Scene &given, const homogenization::UnitCell &cell,
   data.on_triangles = {{"material", material}};
 }
 
+Law DrapedCell::law() const
+{
+  return law_of_model(model);
+}
+
+Method DrapedCell::used(const Method &method) const
+{
+  Method left = used_in(scene, method, model);
+  if (!edges)
+    left = left.without(Term::edges);
+  for (const Term term : {Term::edges, Term::cubic, Term::modes})
+    if (method.asks_for(term) && !left.has(term))
+      throw meshes::BadInput("--methods " + method.name + ": scene `" + scene.name +
+                             (why_not(term, scene, model).empty()
+                                ? "`: the cell " + cell.name +
+                                    " has no terms of edges; expected "
+                                    "one that has: leave them out"
+                                : why_not(term, scene, model)));
+  return left;
+}
+
 CoarseSpace DrapedCell::coarse_space(const Method &method) const
 {
   if (!sheet)
     throw meshes::BadInput(scene.file + ": method " + method.name +
                            " is one of sheets, and the cloth is a garment; expected a sheet of "
                            "whole cells: leave out the method");
-  return {*sheet, method.coarse(Law::biot).element};
+  return {*sheet, element_of(method)};
 }
 
 MovingEdges DrapedCell::moving_edges(const Method &method) const
@@ -211,21 +274,22 @@ MovingEdges DrapedCell::moving_edges(const Method &method) const
   return {homogenized, *edges, *sheet, space, coarse_motion().vertices(coarse)};
 }
 
-ClothMaterial DrapedCell::effective_of(const Method &method) const
+ClothMaterial DrapedCell::effective_of(const Method &asked) const
 {
+  const Method method    = used(asked);
   ClothMaterial material = effective;
-  if (method.is_of_second_order())
+  if (method.has(Term::cubic))
   {
-    const auto found = homogenized.second_order.find(name_of(Law::biot));
+    const auto found = homogenized.second_order.find(name_of(law()));
     if (found == homogenized.second_order.end())
       throw meshes::BadInput("method " + method.name + ": the cell " + cell.name +
-                             " has no cubic energy under the law biot; expected one: leave the "
-                             "method out");
+                             " has no cubic energy under the law " + name_of(law()) +
+                             "; expected one: leave the method out");
     material.cubic = {found->second.energy};
   }
-  if (method.has_edge_terms())
+  if (method.has(Term::edges))
     material.edges = std::make_shared<const MovingEdges>(moving_edges(method));
-  if (method.has_six_nodes())
+  if (method.has(Term::p2))
   {
     const CoarseSpace space = coarse_space(method);
     material.six_nodes      = std::make_shared<const shell::SixNodeMesh>(

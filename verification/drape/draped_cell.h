@@ -9,7 +9,8 @@
 #include "meshes/plain/sheet.h"
 #include "verification/drape/cloth_upsampler.h"
 #include "verification/drape/scene_cloth.h"
-#include "verification/method/lightweight_cloth.h"
+#include "verification/method/coarse_model.h"
+#include "verification/method/moving_edges.h"
 #include "verification/reference/laws.h"
 
 #include <optional>
@@ -21,9 +22,17 @@ namespace homespun::verification
 using Upsampler3f = ClothUpsampler<float>;
 using Upsampler3d = ClothUpsampler<double>;
 
-/// Whether a method moves a coarse cloth of its own: one with terms of edges, a cubic energy or
-/// six-node triangles. The cloth has the name of the method, beside the variants of the membrane.
-bool has_own_cloth(const Method &method);
+/// Why a scene has no use for a term under a model of the coarse cloth, a clause behind its name;
+/// empty where it has.
+std::string why_not(Term term, const Scene &scene, MembraneModel model);
+
+/// A method as a scene has it: without the terms that it has no use for.
+Method used_in(const Scene &scene, const Method &method, MembraneModel model);
+
+/// Whether a method, as it is used, moves a coarse cloth of its own: one with terms of edges, a
+/// cubic energy or six-node triangles. The cloth has the name of the method, beside the variants of
+/// the membrane.
+bool has_own_cloth(const Method &used);
 
 /// The scene on a smaller or larger sheet: translations of handles go with its size, held vertices
 /// are those at the same places. A garment has no cells per side and stays as it is.
@@ -55,15 +64,13 @@ public:
              const std::optional<meshes::CellEdges> &edges = {},
              MembraneModel model                           = MembraneModel::corotational);
 
+  /// A method as it is used here: used_in() the scene, and without edges where the cell has none.
+  /// @throws BadInput where a term that was asked for by name is not used
+  Method used(const Method &method) const;
+
   /// The coarse cloth of a method.
   /// @throws BadInput where the cell lacks what it asks for
   ClothMaterial effective_of(const Method &method) const;
-
-  /// The model of the coarse cloth of a method: the cell's cubic energy is one of the law biot.
-  MembraneModel model_of(const Method &method) const
-  {
-    return method.is_of_second_order() ? MembraneModel::corotational : model;
-  }
 
   /// The same model with a stiffness per triangle; corotational where no phase has yarns.
   MembraneModel fine_model() const;
@@ -73,15 +80,19 @@ public:
   HeldMotion fine_motion() const;
 
   template <typename Scalar>
-  ClothUpsampler<Scalar> upsampler(const Method &method) const
+  ClothUpsampler<Scalar> upsampler(const Method &asked) const
   {
-    localization::UpsamplerOptions options = method.options(Law::biot);
-    if (method.has_edge_terms())
+    const Method method                    = used(asked);
+    localization::UpsamplerOptions options = method.options(law());
+    if (method.has(Term::edges) && method.has(Term::micro))
       moving_edges(method).give_edges(*edges, options);
     if (sheet)
       return {homogenized, coarse_space(method), *sheet, options};
     return {homogenized, coarse, *garment, options};
   }
+
+  /// That of the model's energy: of second order the cell has that of the law.
+  Law law() const;
 
   /// Vertices that up-sampling gives.
   int n_fine() const;

@@ -17,6 +17,7 @@
 #include <Eigen/LU>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
@@ -59,6 +60,10 @@ shell::Integrator integrator_of(const TimeIntegration integration)
     return shell::Integrator::linearly_implicit;
   }
 }
+
+constexpr std::array<MembraneModel, 4> all_models = {
+  MembraneModel::corotational, MembraneModel::woven, MembraneModel::triangle_warping,
+  MembraneModel::nodal_warping};
 } // namespace
 
 std::string name_of(const MembraneModel model)
@@ -82,10 +87,15 @@ bool has_energy(const MembraneModel model)
   return model == MembraneModel::corotational || model == MembraneModel::woven;
 }
 
+bool is_membrane_model(const std::string &name)
+{
+  return std::any_of(all_models.begin(), all_models.end(),
+                     [&](const MembraneModel model) { return name_of(model) == name; });
+}
+
 MembraneModel membrane_model_of(const std::string &name)
 {
-  for (const MembraneModel model : {MembraneModel::corotational, MembraneModel::woven,
-                                    MembraneModel::triangle_warping, MembraneModel::nodal_warping})
+  for (const MembraneModel model : all_models)
     if (name_of(model) == name)
       return model;
   meshes::refuse_removed_law(name);

@@ -31,6 +31,8 @@ bool has_energy(MembraneModel model);
 
 std::string name_of(MembraneModel model);
 
+bool is_membrane_model(const std::string &name);
+
 /// @throws BadInput listing the names
 MembraneModel membrane_model_of(const std::string &name);
 

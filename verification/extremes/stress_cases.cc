@@ -221,7 +221,7 @@ std::vector<StressCase> start_cases(const std::vector<SheetStiffness> &stiffness
           const auto run = [=](const unsigned int seed)
           { return start_from(start, stiffness, h, is_free, seed); };
           // Without length a yarn has an infinite energy, and nothing pulls it out of a point.
-          if (start.is_point && is_free && stiffness.law == SheetLaw::yarn)
+          if (start.is_point && is_free && stiffness.law == meshes::Law::yarn)
             group.refused(name, "a yarn without length", run);
           else
             group.finite(name, never_grows, {energy_round_off, growth_of_energy}, run).is_random =

@@ -23,12 +23,6 @@ std::vector<StressCase> stiffness_cases();
 /// Positions that no cloth should begin with.
 std::vector<StressCase> start_cases(const std::vector<SheetStiffness> &stiffnesses);
 
-/// Sound and unsound meshes.
-std::vector<StressCase> mesh_cases(const SheetStiffness &stiffness);
-
-/// One triangle turned, mirrored, collapsed, scaled; numbers that are not finite; twisted strips.
-std::vector<StressCase> rotation_cases(const std::vector<SheetStiffness> &stiffnesses);
-
 /// Free sheets that spin, up to five turns per step: what each integrator keeps, and that they
 /// turn.
 std::vector<StressCase> spin_cases(const std::vector<SheetStiffness> &stiffnesses);

@@ -42,7 +42,7 @@ std::vector<SheetStiffness> with_twins_of_yarn(const std::vector<SheetStiffness>
     if (loss_of_biot(twin.D).strain < largest_strain_of_cloth)
     {
       twin.name += ", yarn";
-      twin.law = SheetLaw::yarn;
+      twin.law = meshes::Law::yarn;
       all.push_back(twin);
     }
   return all;
@@ -82,7 +82,7 @@ shell::Cloth sheet_cloth(const meshes::ClothMesh &mesh, const SheetStiffness &st
 {
   const Eigen::VectorXd masses = shell::lumped_masses(mesh, {stiffness.areal_density});
   shell::Cloth cloth(mesh.positions, masses, held, physics.options);
-  if (stiffness.law == SheetLaw::yarn)
+  if (stiffness.law == meshes::Law::yarn)
   {
     cloth.add(shell::yarn_term(mesh, {stiffness.D}));
     if (physics.viscosity > 0.)

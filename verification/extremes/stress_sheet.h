@@ -5,6 +5,7 @@
 
 #include "meshes/cloth/cloth_mesh.h"
 #include "meshes/cloth/irregular_sheet.h"
+#include "meshes/plain/law.h"
 #include "shell/solver/cloth.h"
 #include "verification/extremes/stress_case.h"
 
@@ -18,20 +19,13 @@ namespace homespun::verification
 /// Of the sheet along a side, but where cases say another number.
 constexpr int cells_per_side = 8;
 
-/// The energy of a sheet's membrane.
-enum class SheetLaw
-{
-  corotational,
-  yarn ///< shell/terms/yarn_term.h
-};
-
 /// A membrane stiffness by name.
 struct SheetStiffness
 {
   std::string name;
-  Eigen::Matrix3d D;          ///< Voigt 11, 22, 12, engineering shear [N/m]
-  double areal_density = 0.2; ///< [kg/m^2]
-  SheetLaw law         = SheetLaw::corotational;
+  Eigen::Matrix3d D;                        ///< Voigt 11, 22, 12, engineering shear [N/m]
+  double areal_density = 0.2;               ///< [kg/m^2]
+  meshes::Law law      = meshes::Law::biot; ///< or yarn
 };
 
 /// The same, and a twin under the law `yarn`, named so, of each that loses ellipticity under the

@@ -153,8 +153,7 @@ private:
     for (const std::vector<StressCase> &some :
          {cell_cases(cells(), by_all_ranks, n_ranks(), options.most_triangles),
           time_step_cases(stiffnesses), stiffness_cases(), start_cases(stiffnesses),
-          mesh_cases(stiffnesses[0]), rotation_cases(stiffnesses), spin_cases(stiffnesses),
-          motion_cases(stiffnesses), scene_cases(stiffnesses[0]),
+          spin_cases(stiffnesses), motion_cases(stiffnesses), scene_cases(stiffnesses[0]),
           localization_cases(homogenized, names)})
       cases.insert(cases.end(), some.begin(), some.end());
     std::set<std::vector<std::string>> keys;

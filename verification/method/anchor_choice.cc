@@ -2,7 +2,7 @@
 #include "verification/method/anchor_choice.h"
 
 #include "localization/upsampler.h"
-#include "verification/method/lightweight_cloth.h"
+#include "verification/method/method.h"
 
 #include <algorithm>
 #include <cstdio>

@@ -4,7 +4,7 @@
 #pragma once
 
 #include "localization/coarse_frames.h"
-#include "meshes/plain/triangle_mesh.h"
+#include "meshes/plain/triangle_kinematics.h"
 
 #include <Eigen/Core>
 #include <Eigen/LU>
@@ -35,16 +35,11 @@ bulk_forces(const meshes::TriangleMesh &mesh, const std::array<Eigen::Matrix3d, 
   localization::Positions<dim> forces = localization::Positions<dim>::Zero(mesh.n_vertices(), dim);
   for (int t = 0; t < mesh.n_triangles(); ++t)
   {
-    Eigen::Matrix2d spans;
-    for (int k = 0; k < 2; ++k)
-      spans.col(k) =
-        (mesh.vertices.row(mesh.triangles(t, k + 1)) - mesh.vertices.row(mesh.triangles(t, 0)))
-          .transpose();
-    Eigen::Matrix<double, 2, 3> slopes;
-    slopes.rightCols<2>()                = spans.inverse().transpose();
-    slopes.col(0)                        = -slopes.col(1) - slopes.col(2);
-    Eigen::Matrix<double, 2, 3> gradient = Eigen::Matrix<double, 2, 3>::Zero(); // d_b E_a
-    FrameRow<dim> mean                   = FrameRow<dim>::Zero();
+    const meshes::TriangleGeometry of =
+      meshes::triangle_geometry(meshes::sides_of_triangle<2>(mesh.triangles.row(t), mesh.vertices));
+    const Eigen::Matrix<double, 2, 3> slopes = of.shape_gradients.transpose();
+    Eigen::Matrix<double, 2, 3> gradient     = Eigen::Matrix<double, 2, 3>::Zero(); // d_b E_a
+    FrameRow<dim> mean                       = FrameRow<dim>::Zero();
     for (int k = 0; k < 3; ++k)
     {
       const FrameRow<dim> frame = of_vertices.row(mesh.triangles(t, k));
@@ -56,8 +51,7 @@ bulk_forces(const meshes::TriangleMesh &mesh, const std::array<Eigen::Matrix3d, 
       stress += gradient.row(b) * bulk[static_cast<std::size_t>(b)];
     Eigen::Matrix2d tensor;
     tensor << stress(0), stress(2), stress(2), stress(1);
-    const Eigen::Matrix<double, dim, 2> nominal =
-      0.5 * spans.determinant() * lift_of<dim>(mean) * tensor;
+    const Eigen::Matrix<double, dim, 2> nominal = of.area * lift_of<dim>(mean) * tensor;
     for (int k = 0; k < 3; ++k)
       forces.row(mesh.triangles(t, k)) -= (nominal * slopes.col(k)).transpose();
   }

@@ -74,9 +74,11 @@ values_on(const CoarseGrid &grid, const CoarseGrid &nodes, const shell::SixNodeM
 }
 } // namespace
 
-bool CoarseSpace::fits(const meshes::Sheet &sheet, const CoarseElement element)
+bool CoarseSpace::fits(const meshes::Sheet &sheet, const CoarseElement element,
+                       const int quads_per_cell)
 {
-  return element == CoarseElement::three_nodes || (sheet.n1 % 2 == 0 && sheet.n2 % 2 == 0);
+  return element == CoarseElement::three_nodes ||
+         (quads_per_cell * sheet.n1 % 2 == 0 && quads_per_cell * sheet.n2 % 2 == 0);
 }
 
 CoarseSpace::CoarseSpace(const meshes::Sheet &sheet, const CoarseElement element,

@@ -54,12 +54,12 @@ public:
   using Positions = shell::Positions<2>;
 
   /// @param quads_per_cell of three-node triangles, along either side: 1 is the sheet's own lattice
-  /// @throws BadInput where six-node triangles are asked for and the sheet has an odd number of
-  ///   cells along a side
+  /// @throws BadInput where six-node triangles are asked for and do not fill the sheet
   CoarseSpace(const meshes::Sheet &sheet, CoarseElement element, int quads_per_cell = 1);
 
-  /// Whether six-node triangles fill a sheet.
-  static bool fits(const meshes::Sheet &sheet, CoarseElement element);
+  /// Whether triangles fill a sheet: those of six nodes ask for an even number of quads along
+  /// either side.
+  static bool fits(const meshes::Sheet &sheet, CoarseElement element, int quads_per_cell = 1);
 
   /// Positions, or displacements, of the grid's vertices from those of the nodes, in the plane or
   /// in space.

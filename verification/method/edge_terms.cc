@@ -30,17 +30,17 @@ Eigen::RowVector2d middle_of(const int side)
 using Row7 = FrameRow<2>;
 } // namespace
 
-EdgeTerms::EdgeTerms(const CellWithEdges &of, const meshes::Sheet &sheet, const Load &load,
+EdgeTerms::EdgeTerms(const CellModel &of, const meshes::Sheet &sheet, const Load &load,
                      CoarseGrid of_grid, const Law law)
     : grid(std::move(of_grid))
     , law(law)
-    , edges(of.edges)
+    , edges(*of.edges)
     , fitted(of.fitted)
     , sheet(sheet)
     , frames(grid.mesh, options_of(law))
 {
   if (load.is_periodic())
-    throw meshes::BadInput("method edges: load " + load.name +
+    throw meshes::BadInput("terms of edges: load " + load.name +
                            " is one of an infinite cloth, which has no edges; expected strip-1, "
                            "strip-2 or shear-frame");
   for (int side = 0; side < meshes::CellEdges::n_sides; ++side)
@@ -108,16 +108,6 @@ void EdgeTerms::give_edges(localization::UpsamplerOptions &options) const
       is_clamped[side] ? localization::EdgeKind::clamped : localization::EdgeKind::free;
 }
 
-std::vector<int> held_by(const Load &load, const meshes::Sheet &sheet,
-                         const meshes::TriangleMesh &mesh)
-{
-  std::vector<int> held;
-  for (int v = 0; v < mesh.n_vertices(); ++v)
-    if (!load.is_periodic() && load.holds(sheet.fraction(mesh.vertices.row(v))))
-      held.push_back(v);
-  return held;
-}
-
 shell::Equilibrium<2> with_edges(const EdgeTerms &terms, const CoarseSpace &space,
                                  const CoarseSolver &solver, const EdgeTerms::Positions &positions)
 {
@@ -135,61 +125,7 @@ shell::Equilibrium<2> with_edges(const EdgeTerms &terms, const CoarseSpace &spac
   return solver.solve_equilibrium(terms.law, positions + slip, forces);
 }
 
-bool has_meaning(const Method &method, const Load &load)
-{
-  return !load.is_periodic() || !(method.has_edge_terms() || method.has_six_nodes());
-}
-
-bool has_meaning(const Method &method, const Law law, const Load &load)
-{
-  return method.has_meaning(law) && has_meaning(method, load);
-}
-
-EdgedSheet::EdgedSheet(const CellWithEdges &cell, const meshes::Sheet &sheet, const Load &load,
-                       const Method &method, const int quads_per_cell)
-    : cell(cell)
-    , sheet(sheet)
-    , load(load)
-    , method(method)
-    , space(sheet, method.coarse(Law::linear).element, quads_per_cell)
-{
-  const std::vector<int> held = held_by(load, sheet, space.nodes.mesh);
-  solvers[""]                 = space.solver(cell.cell.stiffness, held);
-  if (method.is_of_second_order())
-    for (const auto &[law, second] : cell.cell.second_order)
-      solvers[law] = space.solver(cell.cell.stiffness, held, {second.energy});
-}
-
-EdgedPositions EdgedSheet::upsample(const Law law, const EdgeTerms::Positions &coarse_positions,
-                                    const meshes::FittedModes *const fitted) const
-{
-  const EdgeTerms terms({cell.cell, cell.edges, fitted}, sheet, load, space.grid, law);
-  localization::UpsamplerOptions options = method.options(law);
-  options.fitted                         = fitted;
-  terms.give_edges(options);
-  const auto found = solvers.find(method.is_of_second_order(law) ? name_of(law) : "");
-  if (found == solvers.end())
-    throw meshes::BadInput("method " + method.name +
-                           ": the cell has no cubic energy under the law " + name_of(law));
-  shell::Equilibrium<2> moved;
-  EdgedPositions result;
-  result.seconds_of_terms =
-    median_seconds([&]() { moved = with_edges(terms, space, *found->second, coarse_positions); });
-  result.steps_of_terms = moved.iterations;
-  localization::Upsampler<2, double>::Fine in_double;
-  localization::Upsampler<2, double>(cell.cell, space.grid.mesh, sheet, options)
-    .upsample(space.on_grid<2>(moved.positions), in_double);
-  result.positions = in_double;
-
-  const localization::Upsampler<2, float> in_float(cell.cell, space.grid.mesh, sheet, options);
-  localization::Upsampler<2, float>::Fine fine;
-  const auto run = [&]() { in_float.upsample(space.on_grid<2>(moved.positions), fine); };
-  run(); // memory and caches, as in every frame but the first
-  result.seconds = result.seconds_of_terms + median_seconds(run);
-  return result;
-}
-
-std::string EdgedSheet::sentence() const
+std::string sentence_of_edges(const meshes::CellEdges &edges, const Load &load)
 {
   std::string clamped, free;
   for (int side = 0; side < meshes::CellEdges::n_sides; ++side)
@@ -198,10 +134,9 @@ std::string EdgedSheet::sentence() const
     list += std::string(list.empty() ? "" : " and ") + "axis " +
             std::to_string(meshes::axis_of_side(side) + 1) +
             (meshes::is_far_side(side) ? ", far end (" : ", near end (") +
-            std::to_string(cell.edges.sides[static_cast<std::size_t>(side)].n_cells) + " cells)";
+            std::to_string(edges.sides[static_cast<std::size_t>(side)].n_cells) + " cells)";
   }
-  return "method " + method.name +
-         ": all edges of the sheet are lattice lines and have their terms; clamped, "
+  return "all edges of the sheet are lattice lines and have their terms; clamped, "
          "with slip and modes: " +
          clamped + "; free, with tension and modes: " + free;
 }

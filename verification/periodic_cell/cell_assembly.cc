@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "verification/periodic_cell/cell_assembly.h"
 
+#include "meshes/plain/triangle_kinematics.h"
+
 #include <Eigen/LU>
 
 #include <cmath>
@@ -33,14 +35,9 @@ CellAssembly::CellAssembly(const meshes::HomogenizedCell &cell,
     }
   for (int t = 0; t < cell.mesh.n_triangles(); ++t)
   {
-    Eigen::Matrix2d edges;
-    for (int k = 0; k < 2; ++k)
-      edges.row(k) = cell.mesh.vertices.row(cell.mesh.triangles(t, k + 1)) -
-                     cell.mesh.vertices.row(cell.mesh.triangles(t, 0));
-    Eigen::Matrix<double, 3, 2> gradients;
-    gradients.bottomRows<2>() = edges.inverse().transpose();
-    gradients.row(0)          = -gradients.bottomRows<2>().colwise().sum();
-    hats.push_back(gradients);
+    hats.push_back(meshes::triangle_geometry(
+                     meshes::sides_of_triangle<2>(cell.mesh.triangles.row(t), cell.mesh.vertices))
+                     .shape_gradients);
   }
 }
 

@@ -2,7 +2,7 @@
 // homespun drape: a scene and its page.
 #include "meshes/plain/errors.h"
 #include "verification/drape/scene_cloth.h"
-#include "verification/method/lightweight_cloth.h"
+#include "verification/method/method.h"
 #include "verification/program/studies.h"
 #include "verification/program/study_arguments.h"
 #include "verification/scene/scene.h"
@@ -30,10 +30,10 @@ void check_drape_arguments(DrapeArguments &arguments)
     make_quick(study);
   ArgumentFaults faults;
   faults.check_names("--variants", study.variants, membrane_model_of);
-  faults.check_names("--methods", study.methods,
-                     [](const std::string &name) { return Method(name); });
-  std::vector<std::string> references = meshes::laws_with(&meshes::LawProperties::is_of_space);
-  references.insert(references.begin(), "shell");
+  faults.read_methods(study, study.methods);
+  std::vector<std::string> references = {"shell"};
+  for (const meshes::Law law : meshes::laws_with(&meshes::LawProperties::is_of_space))
+    references.push_back(name_of(law));
   faults.check_names("--references", study.references, references);
   faults.check_names("--frames", study.frames, {"vtu", "ply", "obj"});
   if (!study.variants.empty() &&
@@ -55,7 +55,7 @@ void add_drape_command(CommandLine &line)
     "Run a scene: the coarse cloth in motion, up-sampled every step, against the resolved one");
   const auto arguments = std::make_shared<DrapeArguments>();
   DrapeOptions &study  = arguments->study;
-  study.methods        = {"affine", "localized", "localized-affine-lift"};
+  study.methods        = {"affine", "localized"};
 
   command
     ->add_option("SCENE.prm", study.scene_file, "Scene file; the shipped ones are in meshes/scenes")
@@ -70,8 +70,9 @@ void add_drape_command(CommandLine &line)
     "yarn), triangle-warping, nodal-warping (default: woven where a phase loses ellipticity\n"
     "under biot before 20 %, else corotational)");
   add_list(*command, "--methods", study.methods,
-           "Ways to the fine positions; edges and full (of a scene with the term selvedge),\n"
-           "quadratic and p2 move coarse cloths of their own");
+           "Ways to the fine positions, as `homespun strain --help` has them; those with the terms "
+           "p2,\n"
+           "cubic or edges (of a scene with the term selvedge) move coarse cloths of their own");
   command
     ->add_option("--cells", study.n_cells, "Cells per side of a sheet, in place of the scene's")
     ->check(CLI::Range(1, 400));

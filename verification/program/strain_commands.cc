@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // homespun strain: error against strain and its page.
 #include "homogenization/cell/parameter_text.h"
-#include "verification/method/lightweight_cloth.h"
+#include "verification/method/method.h"
 #include "verification/program/studies.h"
 #include "verification/program/study_arguments.h"
 #include "verification/record/number_text.h"
@@ -72,8 +72,7 @@ void check_strain_arguments(StrainStudyOptions &study, const std::string &superc
       faults.add(std::string(option) + ": found nothing; expected at least one");
   faults.check_names("--loads", study.loads, [](const std::string &name) { return Load(name); });
   faults.check_names("--references", study.references, law_of);
-  faults.check_names("--methods", study.methods,
-                     [](const std::string &name) { return Method(name); });
+  faults.read_methods(study, study.methods);
   if (const auto n = read_supercell(supercell, faults))
     study.supercell = *n;
   if (has_supercell(study) &&
@@ -107,9 +106,8 @@ void add_strain_command(CommandLine &line)
   add_list(*command, "--references", study.references,
            "Laws of the fine reference (default linear, yarn or biot by the cell, green)");
   add_list(*command, "--methods", study.methods,
-           "Ways to the fine positions (default: all but fitted; its modes, and under yarn those "
-           "of\n"
-           "full-fitted, are fitted over the strains of the study)");
+           "Ways to the fine positions, comma-separated: a preset, and terms added to it or taken "
+           "away");
   command->add_flag("--quick", study.is_quick,
                     "4 x 4 cells at 0.1, 1 and 10 % unless given otherwise: seconds");
   command->add_flag("!--no-budget", study.budget,
@@ -125,6 +123,13 @@ void add_strain_command(CommandLine &line)
      "where asked for: uniaxial-1, uniaxial-2 (infinite cloth, pulled, its sides free), "
      "periodic-all\n"
      "(11, half of it 22, and 12 at once).\n"
+     "Methods: affine (the coarse motion, interpolated), localized (the paper's), full (all terms\n"
+     "that have a meaning under the law and load). Terms: p2 (coarse triangles of six nodes), "
+     "edges\n"
+     "(slip, tension and layers of the sheet's edges), cubic (energy of the coarse cloth), modes\n"
+     "(beside chi; quadratic, or under yarn fitted over the strains of the study), micro (chi and "
+     "what\n"
+     "goes with it). Like localized+p2, full-cubic-modes, full-micro.\n"
      "Of each level: errors (strain.csv), forces of the clamps or the stress (forces.csv); of\n"
      "sheets, at the largest strain and near 10 %, displacements for ParaView\n"
      "(CELL/sheet-LOAD-STRAIN.vtu).\n"

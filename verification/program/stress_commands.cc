@@ -24,8 +24,8 @@ void add_stress_command(CommandLine &line)
   add_study(
     line, *command, arguments,
     {"out/CELLS/stress, --quick stress-quick",
-     "Cells of high contrast, slivers, moved cells, time steps, stiffness, starts, meshes, "
-     "rotations,\n"
+     "Cells of high contrast, slivers, moved cells, time steps, stiffness, starts, "
+     "spins,\n"
      "motions, scenes, up-sampling; stress.csv has a row per case: what was expected, the outcome, "
      "one figure,\n"
      "its limit and where that comes from. A case that fails is a row, and exit status 1.\n"

@@ -3,12 +3,14 @@
 
 #include "homogenization/cell/parameter_text.h"
 #include "meshes/plain/law.h"
+#include "verification/method/method.h"
 #include "verification/record/on_root.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
+#include <iostream>
 
 namespace homespun::verification
 {
@@ -23,6 +25,33 @@ void ArgumentFaults::check_names(const std::string &option, const std::vector<st
                 meshes::refuse_removed_law(name);
                 throw meshes::BadInput("found `" + name + "`; expected " + meshes::one_of(known));
               });
+}
+
+void ArgumentFaults::read_methods(StudyOptions &study, std::vector<std::string> &methods)
+{
+  std::vector<std::string> read;
+  for (const std::string &text : methods)
+    try
+    {
+      const std::string now = Method::name_of_old(text);
+      const Method method(now.empty() ? text : now);
+      if (!now.empty() && !study.quiet && is_root(MPI_COMM_WORLD))
+        std::cerr << "homespun: --methods: `" << text << "` is called `" << now
+                  << "` since 0.2.0\n";
+      const auto same =
+        std::find_if(read.begin(), read.end(),
+                     [&](const std::string &other) { return method.has_terms_of(Method(other)); });
+      if (same == read.end())
+        read.push_back(method.name);
+      else if (now.empty())
+        throw meshes::BadInput("`" + text + "` has the terms of `" + *same +
+                               "`; expected one of the two");
+    }
+    catch (const meshes::BadInput &bad)
+    {
+      add(std::string("--methods: ") + bad.what());
+    }
+  methods = read;
 }
 
 std::optional<std::array<int, 2>> read_supercell(const std::string &text, ArgumentFaults &faults)

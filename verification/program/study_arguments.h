@@ -57,6 +57,10 @@ public:
       }
   }
 
+  /// Writes each of --methods in the one order of its terms. A name of version 0.1 becomes what it
+  /// is called now, which is told unless the study is quiet.
+  void read_methods(StudyOptions &study, std::vector<std::string> &methods);
+
   /// Each name must be one of those that are known.
   void check_names(const std::string &option, const std::vector<std::string> &names,
                    const std::vector<std::string> &known);

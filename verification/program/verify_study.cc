@@ -179,7 +179,7 @@ private:
     DrapeOptions study;
     study.scene_file = cells_folder() + "/../scenes/" + scene + ".prm";
     study.cell_files = options.cell_files;
-    study.methods    = {"affine", "localized", "localized-affine-lift"};
+    study.methods    = {"affine", "localized"};
     study.references = {"biot"};
     // The reference takes seconds per step at the paper's size, and minutes to hours over all
     // steps.

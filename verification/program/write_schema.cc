@@ -10,8 +10,8 @@
 #include "verification/drape/drape_tables.h"
 #include "verification/extremes/stress_tables.h"
 #include "verification/load/load_tables.h"
+#include "verification/method/method.h"
 #include "verification/record/json_files.h"
-#include "verification/record/main_method.h"
 #include "verification/record/schema.h"
 #include "verification/reference/loads.h"
 #include "verification/strain/strain_tables.h"
@@ -59,11 +59,13 @@ int main(int argc, char **argv)
   for (const homespun::meshes::LawProperties &law : homespun::meshes::law_table)
     schema["laws"].push_back({{"name", law.name},
                               {"is_of_coarse_cloth", law.is_of_coarse_cloth},
+                              {"has_second_order", law.has_second_order},
                               {"is_of_space", law.is_of_space}});
   for (const LoadProperties &load : load_table)
     schema["loads"].push_back(
       {{"name", load.name}, {"label", load.label}, {"is_infinite", load.kind != LoadKind::sheet}});
-  schema["methods_by_rank"] = {{"yarn", methods_by_rank_of_yarns}, {"others", methods_by_rank}};
+  for (const std::string &preset : Method::presets())
+    schema["methods"][preset] = Method(preset).term_names();
   write_json(argv[1], schema);
   return exit_status::good;
 }

@@ -27,8 +27,8 @@ from read.stored import BadResults  # noqa: E402
 from run_files import Results  # noqa: E402
 
 STRAIN, LARGE_STRAIN, REFERENCE = 0.01, 0.1, "biot"
-LADDER = ("affine", "localized", "edges", "quadratic", "p2", "full", "first-order",
-          "full-fitted")
+LADDER = ("affine", "localized", "localized+edges", "localized+cubic+modes", "localized+p2", "full",
+          "full-cubic-modes")
 SCENE = "pull"
 KEYS = {  # columns that name a row of each file, for README's marks
     "errors.csv": ("cell", "load"),
@@ -92,8 +92,6 @@ def errors(results):
             ),
             "share_of_affine_left": 100.0 * per["localized"] / per["affine"],
             "share_of_fluctuation_left": 100.0 * localized["error_mean_per_fluctuation"],
-            "mean_anchor": per.get("localized-mean-anchor", math.nan),
-            "affine_lift": per.get("localized-affine-lift", math.nan),
         }
 
 
@@ -121,7 +119,7 @@ def ladder(results):
 
 def spoken_of(some):
     """The method that pages speak of among the rows of a level, by method."""
-    return main_method(some, next((row["reference"] for row in some.values()), None))
+    return main_method(some)
 
 
 def per_strain(some, method):
@@ -262,8 +260,6 @@ def pull(results):
                 * row["reference_uncertainty_m"]
                 / row["error_mean_m"]
             ),
-            "affine_lift": at(cell, "corotational", "localized-affine-lift", end),
-            "mean_anchor": at(cell, "corotational", "localized-mean-anchor", end),
             "nodal_time_s": early,
             "nodal_localized": at(cell, "nodal-warping", "localized", early),
             "exact_there": at(cell, "corotational", "localized", early),

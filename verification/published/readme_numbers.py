@@ -91,7 +91,7 @@ def pattern_of(template):
     """(expression, columns) of a cell `{localized} ± {reference_bar}`; a group takes a number or a
     name.
     """
-    parts = re.split(r"\{([\w]+)\}", template.strip())
+    parts = re.split(r"\{([\w+-]+)\}", template.strip())
     expression = "".join(
         "(.+?)" if k % 2 else re.escape(part).replace(r"\ ", r"\s*") for k, part in enumerate(parts)
     )

@@ -16,9 +16,9 @@ namespace homespun::verification
 /// @return empty where there are none
 inline std::string main_reference(const std::vector<std::string> &references)
 {
-  for (const std::string &law : meshes::laws_with(&meshes::LawProperties::is_of_coarse_cloth))
-    if (std::find(references.begin(), references.end(), law) != references.end())
-      return law;
+  for (const meshes::Law law : meshes::laws_with(&meshes::LawProperties::is_of_coarse_cloth))
+    if (std::find(references.begin(), references.end(), name_of(law)) != references.end())
+      return name_of(law);
   return references.empty() ? std::string() : references.front();
 }
 

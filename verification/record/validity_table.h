@@ -18,7 +18,7 @@ namespace homespun::verification
 /// meets the limit. `elliptic_up_to` is the strain of the load from which on a triangle of
 /// reference or coarse cloth is not elliptic, the same for every measure and limit; empty where all
 /// levels that were reached are. Rows are of `localized`, which up-samples whatever moved the
-/// coarse cloth, and of the method that the study speaks of (main_method.h).
+/// coarse cloth, and of the method that the study speaks of (method/method.h).
 struct ValidityRow
 {
   static constexpr const char *file   = "validity.csv";

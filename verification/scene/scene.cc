@@ -315,7 +315,7 @@ const std::vector<std::pair<std::string, std::string>> &all_terms()
   static const std::vector<std::pair<std::string, std::string>> terms = {
     {"membrane", "in-plane elasticity"},
     {"bending", "elasticity of the plate"},
-    {"selvedge", "tension of free edges, in the cloth of the method edges"},
+    {"selvedge", "tension of free edges, in the cloth of the term edges"},
     {"gravity", "weight"},
     {"damping", "against the air at rest, and in the rate of strain"},
     {"wind", "drag and pressure"},

@@ -3,15 +3,16 @@
 #pragma once
 
 #include "meshes/plain/sheet.h"
-#include "verification/method/edge_terms.h"
+#include "verification/method/coarse_model.h"
 #include "verification/method/fluctuation.h"
-#include "verification/method/lightweight_cloth.h"
 #include "verification/reference/fine_reference.h"
 #include "verification/strain/reference_uncertainty.h"
 #include "verification/strain/strain_output.h"
 
 #include <map>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace homespun::verification
@@ -28,22 +29,34 @@ struct ResolvedLevel
   double seconds_stability;
 };
 
-/// The method, and what its error is measured by.
-struct MethodOnSheet
+/// A method, and where its coarse cloth has come to.
+struct MovedMethod
 {
-  const meshes::HomogenizedCell &cell;
-  LightweightCloth cloth;
+  MovedMethod(const CellModel &cell, const meshes::Sheet &sheet, const Load &load,
+              const Method &method, const Law law)
+      : model(cell, sheet, load, method, law)
+  {
+  }
+
+  CoarseModel model;
+  std::optional<CoarseState> state = {};
+};
+
+/// The methods on a sheet, and what their errors are measured by.
+struct MethodsOnSheet
+{
+  CellModel cell; ///< its fitted modes are those of the law, below
+  const meshes::Sheet &sheet;
+  const Load &load;
   FluctuationMeasure fluctuation;
-  std::vector<Eigen::Matrix3d> stiffness_of_phase; ///< of the resolved sheet [N/m]
-  std::vector<std::string> phases = {};            ///< their names
-  /// Other coarse cloths that methods ask for.
-  std::map<CoarseChoice, LightweightCloth> others = {};
-  /// Of the methods with terms of edges, by name; without those that nobody asked for, and empty
-  /// where the cell has no terms of edges, and then why.
-  std::map<std::string, EdgedSheet> edged = {};
-  std::string why_no_edges                = {};
-  /// By law, where a method asks for them.
-  std::map<Law, meshes::FittedModes> fitted = {};
+  std::vector<Eigen::Matrix3d> stiffness_of_phase;               ///< of the resolved sheet [N/m]
+  std::vector<std::string> phases                          = {}; ///< their names
+  std::string why_no_edges                                 = {}; ///< where the cell has none
+  std::map<Law, meshes::FittedModes> fitted                = {}; ///< where a method asks for them
+  std::map<std::pair<Law, std::string>, MovedMethod> moved = {}; ///< that were asked for
+
+  /// @throws NotConverged where its modes were to be fitted and could not be
+  MovedMethod &at(Law law, const std::string &name);
 };
 
 /// A sheet under a load, with what holds the method against the reference there.
@@ -54,7 +67,7 @@ struct LoadedSheet
   const Load &load;
   const ReferenceUncertainty &uncertainty;
   FineReference &reference;
-  MethodOnSheet &method;
+  MethodsOnSheet &methods;
   bool has_budget; ///< that can be measured
 };
 } // namespace homespun::verification

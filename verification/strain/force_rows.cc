@@ -38,46 +38,46 @@ ForceRow row_of_forces(const StrainLevel &level, const char *method, const Load 
 class AffineMotion
 {
 public:
-  AffineMotion(const StrainLevel &level, const ResolvedLevel &resolved, const MethodOnSheet &method)
+  AffineMotion(const StrainLevel &level, const MethodsOnSheet &methods, const CoarseModel &model)
       : level(level)
-      , sheet(resolved.sheet)
-      , method(method)
-      , interpolated(method.cell, method.cloth.coarse, resolved.sheet,
+      , methods(methods)
+      , model(model)
+      , interpolated(methods.cell.cell, model.mesh(), methods.sheet,
                      Method("affine").options(level.law))
   {
   }
 
-  SheetEnergy at(const shell::Positions<2> &coarse) const
+  SheetEnergy at(const CoarseState &state) const
   {
     localization::Upsampler<2, double>::Fine fine;
-    interpolated.upsample(coarse, fine);
-    return sheet_energy(sheet, method.stiffness_of_phase, level.law, fine);
+    interpolated.upsample(state.positions, fine);
+    return sheet_energy(methods.sheet, methods.stiffness_of_phase, level.law, fine);
   }
 
   /// dE/d(strain) [J].
-  double slope(const CoarseStep &coarse) const
+  double slope(const CoarseState &coarse) const
   {
     constexpr double part = 1e-3;
     const double ahead = (1. + part) * level.strain, behind = (1. - part) * level.strain;
-    return (at(method.cloth.near(coarse, level.law, ahead)).energy -
-            at(method.cloth.near(coarse, level.law, behind)).energy) /
+    return (at(model.solve(ahead, &coarse)).energy - at(model.solve(behind, &coarse)).energy) /
            (ahead - behind);
   }
 
 private:
   const StrainLevel &level;
-  const meshes::Sheet &sheet;
-  const MethodOnSheet &method;
+  const MethodsOnSheet &methods;
+  const CoarseModel &model;
   const localization::Upsampler<2, double> interpolated;
 };
 
-ForceRow affine_row(const StrainLevel &level, const ResolvedLevel &resolved,
-                    const MethodOnSheet &method, const Load &load, const CoarseStep &coarse)
+ForceRow affine_row(const StrainLevel &level, const MethodsOnSheet &methods,
+                    const CoarseModel &model, const CoarseState &coarse)
 {
   ForceRow row = row_of(level, "affine");
-  const AffineMotion motion(level, resolved, method);
-  const Eigen::Matrix2d sides  = resolved.sheet.sides();
-  const Eigen::Matrix2d stress = motion.at(coarse.positions).stress;
+  const AffineMotion motion(level, methods, model);
+  const Load &load             = methods.load;
+  const Eigen::Matrix2d sides  = methods.sheet.sides();
+  const Eigen::Matrix2d stress = motion.at(coarse).stress;
   put_stress(stress, row);
   if (load.has_free_sides())
   {
@@ -108,13 +108,14 @@ ForceRow affine_row(const StrainLevel &level, const ResolvedLevel &resolved,
 } // namespace
 
 std::vector<ForceRow> force_rows(const StrainLevel &level, const ResolvedLevel &resolved,
-                                 const MethodOnSheet &method, const Load &load,
-                                 const CoarseStep &coarse)
+                                 const MethodsOnSheet &methods, const CoarseModel &model,
+                                 const CoarseState &coarse)
 {
+  const Load &load            = methods.load;
   const Eigen::Matrix2d sides = resolved.sheet.sides();
   std::vector<ForceRow> rows = {row_of_forces(level, "resolved", load, sides, resolved.fine.forces),
-                                row_of_forces(level, "coarse", load, sides, coarse.forces),
-                                affine_row(level, resolved, method, load, coarse)};
+                                row_of_forces(level, "coarse", load, sides, model.forces(coarse)),
+                                affine_row(level, methods, model, coarse)};
   const double bar           = resolved.bar.force * std::abs(rows.front().per_width);
   for (ForceRow &row : rows)
     row.bar = bar;

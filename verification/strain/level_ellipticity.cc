@@ -192,17 +192,17 @@ void write_stop(const StrainLevel &level, const StoppedReference &stopped,
     write_ellipticity_of(level, stopped, output);
 }
 
-void write_coarse_ellipticity(const StrainLevel &level, const MethodOnSheet &method,
-                              const meshes::Points &positions, StrainOutput &output)
+void write_coarse_ellipticity(const StrainLevel &level, const meshes::TriangleMesh &coarse,
+                              const Eigen::Matrix3d &stiffness, const meshes::Points &positions,
+                              StrainOutput &output)
 {
   if (level.law == Law::linear)
     return;
-  const Law law            = homogenized_law(level.law, method.cell.stiffness);
-  meshes::TriangleMesh one = method.cloth.coarse;
+  const Law law            = homogenized_law(level.law, stiffness);
+  meshes::TriangleMesh one = coarse;
   one.material.setZero(one.n_triangles());
-  const EllipticityRow row =
-    row_of(level, coarse_cloth_part,
-           ellipticity_of_phases(one, {method.cell.stiffness}, law, positions).front());
+  const EllipticityRow row = row_of(
+    level, coarse_cloth_part, ellipticity_of_phases(one, {stiffness}, law, positions).front());
   const std::vector<EllipticityRow> &all = output.ellipticity.rows();
   const bool is_told                     = std::any_of(all.begin(), all.end(),
                                                        [&](const EllipticityRow &known)

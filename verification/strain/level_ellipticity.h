@@ -41,7 +41,9 @@ void write_stop(const StrainLevel &level, const StoppedReference &stopped,
 
 /// write_ellipticity() of the coarse cloth; its note is written at the first level of a load that
 /// needs it.
+/// @param stiffness C^H (3,3) [N/m]
 /// @param positions of the vertices of the coarse cloth [m]
-void write_coarse_ellipticity(const StrainLevel &level, const MethodOnSheet &method,
-                              const meshes::Points &positions, StrainOutput &output);
+void write_coarse_ellipticity(const StrainLevel &level, const meshes::TriangleMesh &coarse,
+                              const Eigen::Matrix3d &stiffness, const meshes::Points &positions,
+                              StrainOutput &output);
 } // namespace homespun::verification

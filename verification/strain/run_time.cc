@@ -3,9 +3,8 @@
 
 #include "localization/upsampler.h"
 #include "meshes/plain/errors.h"
-#include "verification/method/edge_terms.h"
+#include "verification/method/coarse_model.h"
 #include "verification/method/homogenized_sheet.h"
-#include "verification/method/lightweight_cloth.h"
 #include "verification/method/warped_rest.h"
 #include "verification/record/number_text.h"
 #include "verification/record/on_root.h"
@@ -23,8 +22,6 @@ namespace
 {
 using meshes::Points;
 using Clock = std::chrono::steady_clock;
-
-constexpr int runs_of_a_median = 5; // median_seconds()
 
 double seconds_since(const Clock::time_point begin)
 {
@@ -199,7 +196,7 @@ private:
     else
       coarse_cloth("reuss", "localized", sheet.n1, bounds.reuss);
 
-    for (const std::string &name : options.methods)
+    for (const std::string &name : distinct_methods(options.methods, options.law, load))
       own_cloth(Method(name));
     if (is_corotational("nodal-warping"))
       nodal_warping();
@@ -230,59 +227,57 @@ private:
               });
   }
 
-  void own_cloth(const Method &method)
+  void own_cloth(const Method &asked)
   {
-    const CoarseChoice choice = method.coarse(options.law);
-    const bool is_fitted      = method.has_fitted_modes(options.law);
-    const bool is_plain = !(CoarseChoice() < choice) && !method.has_edge_terms() && !is_fitted;
-    if (is_plain || (method.has_edge_terms() && options.edges == nullptr) ||
-        (is_fitted && options.fitted == nullptr) || !method.has_meaning(options.law) ||
-        !CoarseSpace::fits(sheet, choice.element))
+    CellModel of          = {homogenized, options.edges};
+    const Method method   = CoarseModel::used(asked, options.law, load, sheet, of);
+    const std::string way = method.name + "-" + std::to_string(sheet.n1);
+    const bool is_plain =
+      Method("localized").has_terms_of(method) || Method("affine").has_terms_of(method);
+    if (has(way) || is_plain || !asked.under(options.law, load).has_terms_of(method) ||
+        (method.has_fitted_modes(options.law) && options.fitted == nullptr))
       return;
-    const meshes::FittedModes *const fitted = is_fitted ? options.fitted : nullptr;
-    const std::string way                   = method.name + "-" + std::to_string(sheet.n1);
-    tell(way);
-    Timed outcome;
-    outcome.n_triangles = 2L * sheet.n1 * sheet.n2 / (method.has_six_nodes() ? 4 : 1);
-    attempt(way, outcome,
-            [&]()
-            {
-              LightweightCloth cloth(homogenized, sheet, load, choice);
-              const CoarseStep step = cloth.solve(options.law, options.strain);
-              EdgedPositions fine;
-              if (method.has_edge_terms())
-                fine = EdgedSheet({homogenized, *options.edges, fitted}, sheet, load, method)
-                         .upsample(options.law, step.positions, fitted);
-              else
-                static_cast<UpsampledSheet &>(fine) =
-                  cloth.upsample(method, options.law, step.positions, fitted);
-              outcome.positions = fine.positions;
-              outcome.seconds.assign(runs_of_a_median, step.seconds + fine.seconds);
-              outcome.seconds_step =
-                (step.seconds + fine.seconds_of_terms) / (step.iterations + fine.steps_of_terms);
-              outcome.seconds_apart = fine.seconds - fine.seconds_of_terms;
-            });
+    if (method.has_fitted_modes(options.law))
+      of.fitted = options.fitted;
+    const CoarseModel model(of, sheet, load, method, options.law);
+    upsampled(way, 2L * sheet.n1 * sheet.n2 / (method.has(Term::p2) ? 4 : 1),
+              model.upsampler<float>(), model.upsampler<double>(),
+              [&]()
+              {
+                const CoarseState state = model.solve(options.strain);
+                return Moved{model.on_grid(state), state.iterations};
+              });
   }
 
-  /// A coarse cloth in equilibrium.
+  /// A coarse cloth in equilibrium, as up-sampling reads it.
   struct Moved
   {
     shell::Positions<2> positions;
     int steps = 0; ///< Newton steps; 0 where there are none
   };
 
-  /// Solves a coarse cloth and up-samples it: timed in single precision, held against the best in
-  /// double.
+  /// The same of a homogenized sheet.
   template <typename Solve>
   void upsampled(const std::string &way, const std::string &method, const HomogenizedSheet &coarse,
                  const Solve &solve)
   {
-    tell(way);
     const localization::UpsamplerOptions choices = Method(method).options(options.law);
-    const localization::Upsampler<2, float> in_float(homogenized, coarse.mesh, sheet, choices);
+    upsampled(way, coarse.mesh.n_triangles(),
+              localization::Upsampler<2, float>(homogenized, coarse.mesh, sheet, choices),
+              localization::Upsampler<2, double>(homogenized, coarse.mesh, sheet, choices), solve);
+  }
+
+  /// Solves a coarse cloth and up-samples it: timed in single precision, held against the best in
+  /// double.
+  template <typename Solve>
+  void upsampled(const std::string &way, const long n_triangles,
+                 const localization::Upsampler<2, float> &in_float,
+                 const localization::Upsampler<2, double> &in_double, const Solve &solve)
+  {
+    tell(way);
     localization::Upsampler<2, float>::Fine fine;
     Timed outcome;
-    outcome.n_triangles = coarse.mesh.n_triangles();
+    outcome.n_triangles = n_triangles;
     attempt(way, outcome,
             [&]()
             {
@@ -298,10 +293,9 @@ private:
               if (moved.steps > 0)
                 outcome.seconds_step =
                   (median(outcome.seconds) - outcome.seconds_apart) / moved.steps;
-              localization::Upsampler<2, double>::Fine in_double;
-              localization::Upsampler<2, double>(homogenized, coarse.mesh, sheet, choices)
-                .upsample(moved.positions, in_double);
-              outcome.positions = in_double;
+              localization::Upsampler<2, double>::Fine best_of_way;
+              in_double.upsample(moved.positions, best_of_way);
+              outcome.positions = best_of_way;
             });
   }
 

@@ -8,10 +8,9 @@
 //                          all that follow; beside biot alone
 //   affine-Q, localized-Q  coarse cloth of Q x Q quads, Q = 5, 10, 20, 40, coarse motion alone or
 //                          localized
-//   edges-N, quadratic-N, p2-N, full-N, first-order-N, fitted-N, full-fitted-N
-//                          those of --methods that have a coarse cloth or modes of their own, on
-//                          the vertices of one quad per cell; their times are medians of the
-//                          equilibrium and of what follows it, terms of edges included
+//   METHOD-N               the others of --methods, like full-20, on the vertices of one quad per
+//                          cell; terms of edges are part of the equilibrium. Not those whose
+//                          terms the cell or the sheet does not have whole
 //   voigt, reuss           one quad per cell, localized, with the Voigt or Reuss stiffness in place
 //                          of C^H; Reuss not with holes
 //   nodal-warping          one quad per cell, localized, with the paper's warped stiffness

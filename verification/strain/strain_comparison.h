@@ -17,27 +17,20 @@ namespace homespun::verification
 /// The level nearest to 1 %, at which methods are compared.
 double compared_strain(const StrainStudyOptions &options);
 
-/// The laws of the references that a method of second order in strain is held against; none where
-/// no method is of second order.
+/// The laws of the references under which a method takes the cell's second order.
 std::vector<Law> laws_of_second_order(const StrainStudyOptions &options);
 
 /// The level nearest to 10 %: it is pictured, and its run times are measured.
 double pictured_strain(const StrainStudyOptions &options);
 
-/// The method as it is used on a sheet: with triangles of three nodes where those of six nodes do
-/// not fill it.
-Method used_on(const Method &method, const meshes::Sheet &sheet);
-
 /// Whether a method with terms of edges is among the methods.
 bool has_edges(const StrainStudyOptions &options);
 
-/// Prepares the methods that are asked for on a sheet; `edges` where the cell has terms of edges
-/// and the load is one of a sheet.
+/// Prepares the methods on a sheet.
 /// @param homogenized, edges, sheet, load to be kept by the caller
-MethodOnSheet method_on_sheet(const StrainStudyOptions &options,
-                              const homogenization::UnitCell &cell,
-                              const meshes::HomogenizedCell &homogenized, const KnownEdges &edges,
-                              const meshes::Sheet &sheet, const Load &load);
+MethodsOnSheet methods_on_sheet(const homogenization::UnitCell &cell,
+                                const meshes::HomogenizedCell &homogenized, const KnownEdges &edges,
+                                const meshes::Sheet &sheet, const Load &load);
 
 /// What a reader has to know of a level of the reference. Ready sentences.
 std::vector<std::string> notes_of(const ReferenceStep &fine, Stability stability);
@@ -48,6 +41,6 @@ std::vector<std::string> notes_of(const ReferenceStep &fine, Stability stability
 /// @return the coarse cloth, and the fine positions of `localized`
 /// @throws NotConverged where the coarse cloth finds no equilibrium, or positions are not finite
 UpsampledLevel compare_methods(const StrainStudyOptions &options, const StrainLevel &level,
-                               const ResolvedLevel &resolved, MethodOnSheet &method,
-                               const Load &load, StrainOutput &output);
+                               const ResolvedLevel &resolved, MethodsOnSheet &methods,
+                               StrainOutput &output);
 } // namespace homespun::verification

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "verification/strain/strain_options.h"
 
-#include "verification/method/lightweight_cloth.h"
+#include "verification/method/method.h"
 #include "verification/record/main_reference.h"
 #include "verification/reference/laws.h"
 
 #include <algorithm>
-#include <iterator>
 
 namespace homespun::verification
 {
@@ -15,9 +14,7 @@ StrainStudyOptions default_strain_study()
   StrainStudyOptions options;
   options.strains = {0.001, 0.002, 0.005, 0.01, 0.02, 0.05, 0.1, 0.15, 0.2};
   options.loads   = Load::names();
-  // Where second order reaches far, fitted modes belong to strains that a study has to name.
-  std::copy_if(Method::names().begin(), Method::names().end(), std::back_inserter(options.methods),
-               [](const std::string &name) { return !Method(name).has_fitted_modes(Law::biot); });
+  options.methods = Method::defaults();
   return options;
 }
 

@@ -2,8 +2,7 @@
 #include "verification/strain/strain_output.h"
 
 #include "verification/budget/budget_tables.h"
-#include "verification/method/edge_terms.h"
-#include "verification/method/lightweight_cloth.h"
+#include "verification/method/method.h"
 #include "verification/record/error_norms.h"
 #include "verification/record/number_text.h"
 #include "verification/strain/validity.h"
@@ -48,12 +47,10 @@ StrainOutput::StrainOutput(const StrainStudyOptions &options,
 
 bool StrainOutput::is_complete(const StrainLevel &level) const
 {
+  const std::vector<std::string> distinct = distinct_methods(methods, level.law, Load(level.load));
   return is_unreached(level) ||
-         std::all_of(methods.begin(), methods.end(),
-                     [&](const std::string &method) {
-                       return !has_meaning(Method(method), level.law, Load(level.load)) ||
-                              has_errors(level, method);
-                     });
+         std::all_of(distinct.begin(), distinct.end(),
+                     [&](const std::string &method) { return has_errors(level, method); });
 }
 
 bool StrainOutput::has_errors(const StrainLevel &level, const std::string &method) const

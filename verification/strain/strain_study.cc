@@ -205,14 +205,14 @@ private:
     if (!reference)
       reference = std::make_unique<FineReference>(sheet, cell.stiffness_of_phase(),
                                                   ReferenceOptions(), communicator);
-    MethodOnSheet method = method_on_sheet(options, cell, homogenized, edges, sheet, load);
-    method.fitted        = fitted;
+    MethodsOnSheet methods = methods_on_sheet(cell, homogenized, edges, sheet, load);
+    methods.fitted         = fitted;
     const LoadedSheet of_load{cell,
                               sheet,
                               load,
                               uncertainty,
                               *reference,
-                              method,
+                              methods,
                               begin_budget(cell, homogenized, sheet, load)};
     for (std::size_t k = 0; k < laws.size(); ++k)
     {
@@ -338,7 +338,7 @@ private:
                   compare_methods(options, level,
                                   {of.sheet, fine, of.reference.n_dofs(), n_ranks,
                                    of.uncertainty.at(law, strain), stability, seconds_stability},
-                                  of.method, of.load, *output);
+                                  of.methods, *output);
                 is_solved = 1;
               }
               catch (const meshes::NotConverged &failure)

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "verification/strain/strain_verdicts.h"
 
-#include "verification/record/main_method.h"
+#include "verification/method/method.h"
 #include "verification/record/main_reference.h"
 #include "verification/record/number_text.h"
 #include "verification/reference/fine_reference.h"

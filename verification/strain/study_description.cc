@@ -2,7 +2,7 @@
 #include "verification/strain/study_description.h"
 
 #include "verification/cell/study_inputs.h"
-#include "verification/method/edge_terms.h"
+#include "verification/method/method.h"
 #include "verification/record/provenance.h"
 #include "verification/reference/laws.h"
 #include "verification/reference/loads.h"
@@ -27,6 +27,23 @@ bool has(const std::vector<std::string> &names, const char *name)
   return std::find(names.begin(), names.end(), name) != names.end();
 }
 
+/// The methods that are no others than those before them, as in `a, b`; none where no load of the
+/// kind is asked for.
+std::string same_as_others(const StrainStudyOptions &options, const std::string &law,
+                           const LoadKind kind)
+{
+  const bool is_sheet = kind == LoadKind::sheet;
+  if (is_sheet ? !has_sheet(options) : !has_periodic(options))
+    return {};
+  const std::vector<std::string> distinct =
+    distinct_methods(options.methods, law_of(law), Load(Load::names_of(kind).front()));
+  std::string text;
+  for (const std::string &name : options.methods)
+    if (!has(distinct, name.c_str()))
+      text += (text.empty() ? "" : ", ") + name;
+  return text;
+}
+
 nlohmann::ordered_json what_was_left_out(const StrainStudyOptions &options)
 {
   nlohmann::ordered_json all = nlohmann::ordered_json::array();
@@ -42,23 +59,27 @@ nlohmann::ordered_json what_was_left_out(const StrainStudyOptions &options)
   if (has_periodic(options) && !has_supercell(options))
     left_out("resolved sheet of the periodic loads",
              "an infinite cloth repeats one cell: one cell with periodic constraints is exact");
-  if (has(options.references, "linear"))
-    for (const std::string &method : options.methods)
-      if (!Method(method).has_meaning(Law::linear))
-        left_out(method + " against the linear reference",
-                 Method(method).is_of_second_order() ? "linear theory has no second order"
-                 : Method(method).has_edge_terms()   ? "there `full` is the same"
-                                                     : "linear theory knows no lift");
-  for (const char *law : {"biot", "green"})
-    if (has(options.references, law))
-      for (const std::string &method : options.methods)
-        if (!Method(method).has_meaning(law_of(law)))
-          left_out(method + " against the reference " + law, "there `full` is more");
-  for (const std::string &method : options.methods)
-    if (has_periodic(options) && !has_meaning(Method(method), Load("periodic-11")))
-      left_out(method + " under periodic loads", Method(method).has_edge_terms()
-                                                   ? "an infinite cloth has no edges"
-                                                   : "the motion of the coarse cloth is given");
+  for (const std::string &name : options.methods)
+  {
+    const Method method(name);
+    for (const std::string &law : options.references)
+      if (const std::string less = method.beyond(method.under(law_of(law))); !less.empty())
+        left_out(less + " of the method " + name + " against the reference " + law,
+                 law == "linear" ? "linear theory has neither a cubic energy nor modes beside chi"
+                                 : "under laws of yarns a cell has no cubic energy");
+    const Method of_sheet = method.under(Law::linear);
+    if (const std::string less = of_sheet.beyond(of_sheet.under(Law::linear, Load("periodic-11")));
+        has_periodic(options) && !less.empty())
+      left_out(less + " of the method " + name + " under periodic loads",
+               "an infinite cloth has no edges, and the motion of its coarse cloth is given");
+  }
+  for (const LoadKind kind : {LoadKind::periodic, LoadKind::sheet})
+    for (const std::string &law : options.references)
+      if (const std::string same = same_as_others(options, law, kind); !same.empty())
+        left_out(
+          same + (kind == LoadKind::sheet ? " on sheets" : " under periodic loads") +
+            ", against the reference " + law,
+          "with the terms that count there it is the same as another method, which has rows");
   for (const std::string &load : Load::names())
     if (!has(options.loads, load.c_str()))
       left_out("load " + load, "--loads does not name it");
@@ -111,8 +132,8 @@ std::vector<std::string> notes_on_the_method(const StrainStudyOptions &options,
     "The cell is homogenized with P1 on its given mesh, the discretization of the reference: "
     "errors are those of the method on this mesh, which both sides share; the error bar says how "
     "far P1 is from the limit of fine meshes.",
-    "Errors are computed from positions in double precision; times of up-sampling are those of "
-    "single precision, median of five runs on one thread, beside the coarse solve on one thread."};
+    "Errors are computed from positions in double precision; the times beside them are of one run "
+    "of the coarse solve and of up-sampling, in double precision on one thread."};
   if (const std::string note = note_of_fluctuation(record.steps); !note.empty())
     notes.push_back(note);
   if (has_periodic(options) && has_supercell(options))

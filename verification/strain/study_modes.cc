@@ -2,7 +2,7 @@
 #include "verification/strain/study_modes.h"
 
 #include "meshes/plain/errors.h"
-#include "verification/method/lightweight_cloth.h"
+#include "verification/method/method.h"
 #include "verification/method/mode_fit.h"
 #include "verification/record/number_text.h"
 

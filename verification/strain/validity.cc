@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "verification/strain/validity.h"
 
-#include "verification/record/main_method.h"
+#include "verification/method/method.h"
 #include "verification/record/number_text.h"
 #include "verification/strain/ellipticity_rows.h"
 

@@ -24,7 +24,7 @@ Crossing crossing(const std::vector<double> &strains, const std::vector<double> 
                   double limit);
 
 /// Rows of validity.csv from those of strain.csv: `localized` and the main method of each case
-/// (record/main_method.h), every reference, limits of 1, 5 and 10 % of the mean fluctuation of the
+/// (method/method.h), every reference, limits of 1, 5 and 10 % of the mean fluctuation of the
 /// reference and 1 and 5 % of the cell side. Levels that were not reached end the ladder, and the
 /// first loss of ellipticity, of the worst triangle of reference or coarse cloth, ends the range:
 /// beyond it the reference is one equilibrium of its mesh.

@@ -12,9 +12,7 @@ using namespace homespun::homogenization;
 
 namespace
 {
-
-const Phase phase   = {"any", 10., 3., 0.3, 0.4, 25., 1., 1.};
-const auto all_laws = {Law::biot, Law::green, Law::yarn};
+const auto both_laws = {Law::biot, Law::green};
 
 Eigen::Matrix2d matrix_of(const GradientEntries &H)
 {
@@ -27,15 +25,6 @@ Eigen::Matrix2d matrix_of(const GradientEntries &H)
 Eigen::Vector3d strain_of(const Law law, const GradientEntries &H)
 {
   const Eigen::Matrix2d F = Eigen::Matrix2d::Identity() + matrix_of(H);
-  if (law == Law::yarn)
-  {
-    const double angle = M_PI / 180. * phase.angle, c = std::cos(angle), s = std::sin(angle);
-    const Eigen::Vector2d f1 = F * Eigen::Vector2d(c, s), f2 = F * Eigen::Vector2d(-s, c);
-    const Eigen::Vector3d e(f1.norm() - 1., f2.norm() - 1.,
-                            std::asin(f1.dot(f2) / (f1.norm() * f2.norm())));
-    return {c * c * e(0) + s * s * e(1) - c * s * e(2), s * s * e(0) + c * c * e(1) + c * s * e(2),
-            2. * c * s * (e(0) - e(1)) + (c * c - s * s) * e(2)};
-  }
   const Eigen::Matrix2d E =
     law == Law::green
       ? Eigen::Matrix2d(0.5 * (F.transpose() * F - Eigen::Matrix2d::Identity()))
@@ -53,14 +42,14 @@ Eigen::Vector3d value_of(const QuadraticStrain &q, const GradientEntries &H)
 
 TEST(derivative_quadratic_strain, strains_agree_with_their_second_order_up_to_the_third)
 {
-  for (const Law law : all_laws)
+  for (const Law law : both_laws)
     for (const GradientEntries &H :
          {GradientEntries(0.3, -0.8, 0.5, 0.7), GradientEntries(-0.2, 0.9, 0.4, 0.1)})
     {
       const auto left = [&](const double s)
       {
         return (strain_of(law, s * H) - s * (linear_strain() * H) -
-                s * s * value_of(quadratic_strain(law, phase), H))
+                s * s * value_of(quadratic_strain(law), H))
           .norm();
       };
       const double order = std::log2(left(0.02) / left(0.01));
@@ -71,20 +60,9 @@ TEST(derivative_quadratic_strain, strains_agree_with_their_second_order_up_to_th
     }
 }
 
-TEST(exact_quadratic_strain, a_phase_without_axes_has_no_yarns_and_keeps_biot)
-{
-  const Phase isotropic_phase   = isotropic("plain", 3., 0.2, 1., 1.);
-  const QuadraticStrain of_yarn = quadratic_strain(Law::yarn, isotropic_phase),
-                        of_biot = quadratic_strain(Law::biot, isotropic_phase);
-  for (std::size_t k = 0; k < of_yarn.size(); ++k)
-    EXPECT_EQ(of_yarn[k], of_biot[k]);
-  EXPECT_EQ(laws_of_second_order({isotropic_phase}).size(), 2u);
-  EXPECT_EQ(laws_of_second_order({isotropic_phase, phase}).back(), Law::yarn);
-}
-
 TEST(exact_quadratic_strain, a_symmetric_gradient_has_no_second_order_under_biot)
 {
-  const QuadraticStrain q = quadratic_strain(Law::biot, phase);
+  const QuadraticStrain q = quadratic_strain(Law::biot);
   EXPECT_LT(value_of(q, {0.4, 0.3, 0.3, -0.2}).norm(), 1e-16);
 }
 
@@ -92,9 +70,9 @@ TEST(derivative_quadratic_strain, the_stress_of_second_order_is_the_third_deriva
 {
   Eigen::Matrix3d c;
   c << 5., 1.2, 0.3, 1.2, 4., -0.4, 0.3, -0.4, 1.5;
-  for (const Law law : all_laws)
+  for (const Law law : both_laws)
   {
-    const QuadraticStrain q = quadratic_strain(law, phase);
+    const QuadraticStrain q = quadratic_strain(law);
     const auto W3           = [&](const GradientEntries &H)
     { return (c * linear_strain() * H).dot(value_of(q, H)); };
     const GradientEntries F(0.3, -0.8, 0.5, 0.7), G(-0.2, 0.9, 0.4, 0.1), H(0.6, 0.2, -0.5, 0.8);

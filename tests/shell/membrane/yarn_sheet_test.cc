@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: MIT
 // Sheets under the law of yarns: the sum over a mesh, and its equilibria.
 #include "meshes/plain/errors.h"
+#include "meshes/plain/sheet.h"
+#include "shell/membrane/membrane.h"
 #include "shell/membrane/yarn_energy.h"
+#include "tests/refusal.h"
 #include "tests/shell/dimensions.h"
 #include "tests/shell/shell_cases.h"
 
@@ -191,4 +194,14 @@ TEST(exact_yarn_sheet, a_stiffness_alike_in_all_directions_stays_corotational)
   };
   EXPECT_EQ(energy_of_first(both), energy_of_first(corotational));
   EXPECT_NE(membrane_energy<2>(both, x), membrane_energy<2>(corotational, x));
+}
+
+TEST(invariant_yarn_sheet, a_cubic_energy_beside_yarns_is_refused)
+{
+  const meshes::TriangleMesh rest =
+    meshes::coarse_sheet({0., 0.}, 0.01 * Eigen::Matrix2d::Identity(), 1, 1);
+  Membrane sheet = membrane(rest, {Eigen::Vector3d(1e3, 1e3, 1.).asDiagonal().toDenseMatrix()});
+  add_cubic_energy(sheet, {meshes::CubicForm()});
+  EXPECT_NE(tests::refusal([&]() { take_yarn_law(sheet); }).find("cubic energy beside the law"),
+            std::string::npos);
 }

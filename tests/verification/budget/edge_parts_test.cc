@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
 // What edges make of the error, piece by piece: nothing where theory has nothing, all of it with
-// what the method `edges` leaves, and whatever the constant of chi.
+// what the term `edges` leaves, and whatever the constant of chi.
 #include "homogenization/lint/cell_reading.h"
 #include "tests/homogenization/cell/cells.h"
 #include "verification/budget/edge_parts.h"
 #include "verification/cell/cell_edges.h"
+#include "verification/method/coarse_model.h"
 #include "verification/method/homogenized_sheet.h"
 
 #include <gtest/gtest.h>
@@ -74,9 +75,9 @@ TEST(exact_edge_parts, together_they_lead_from_localized_to_the_method_edges)
     {
       const Resolved of("three-stiffness", load, law);
       const EdgeParts parts = of.parts();
-      const EdgedSheet edged({of.homogenized, of.edges}, of.sheet, of.load, Method("edges"),
-                             Resolved::refinement);
-      const meshes::Points with = edged.upsample(law, of.u).positions;
+      const CoarseModel edged({of.homogenized, &of.edges}, of.sheet, of.load,
+                              Method("localized+edges"), law, Resolved::refinement);
+      const meshes::Points with = edged.upsample(edged.solve(0.01));
       EXPECT_LT(mean_length(of.localized_sheet() - parts.slip - parts.selvedge - parts.bulk -
                             parts.layer - with),
                 1e-12)

@@ -9,6 +9,7 @@
 #include "verification/budget/error_budget.h"
 #include "verification/budget/second_code.h"
 #include "verification/cell/cell_edges.h"
+#include "verification/method/coarse_model.h"
 #include "verification/reference/fine_reference.h"
 #include "verification/strain/budget_verdicts.h"
 #include "verification/strain/strain_verdicts.h"
@@ -62,10 +63,9 @@ ErrorBudget measured(const UnitCell &cell, const BudgetCells &cells, const Load 
   meshes::Points fine        = reference.advance(strain).positions;
   const meshes::Points tight = reference.tighten(1e-11).positions;
   fine.array() += left;
-  LightweightCloth cloth(used, sheet, load);
-  const CoarseStep coarse = cloth.solve(law, strain);
-  const meshes::Points upsampled =
-    cloth.upsample(Method("localized"), law, coarse.positions).positions;
+  const CoarseModel model({used}, sheet, load, Method("localized"), law);
+  const CoarseState coarse       = model.solve(strain);
+  const meshes::Points upsampled = model.upsample(coarse);
   LoadBudget budget(cells, sheet, load,
                     second_linear_sheet(cells.given, cells.stiffness_of_phase, sheet, load, 0.01),
                     0.01, refinement);

@@ -27,7 +27,7 @@ struct Strip
 
   double error(const int n) const
   {
-    return closed_strip_errors(cell, {homogenized, edges}, n).full;
+    return closed_strip_errors(cell, {homogenized, &edges}, n).full;
   }
 
   /// Between 4 and 12 cells.
@@ -49,7 +49,7 @@ TEST(order_closed_strip, with_all_terms_of_edges_the_error_per_cell_falls_with_o
     const Strip strip(name);
     EXPECT_NEAR(strip.order(), 1., 0.15) << name; // 4 cells are few
     const auto localized = [&](const int n) {
-      return closed_strip_errors(strip.cell, {strip.homogenized, strip.edges}, n).localized;
+      return closed_strip_errors(strip.cell, {strip.homogenized, &strip.edges}, n).localized;
     };
     EXPECT_LT(std::log(localized(4) / localized(12)) / std::log(3.), 0.3) << name;
   }

@@ -5,7 +5,7 @@
 #include "homogenization/lint/cell_reading.h"
 #include "tests/homogenization/cell/cells.h"
 #include "tests/refusal.h"
-#include "verification/method/edge_terms.h"
+#include "tests/verification/method/models.h"
 
 #include <gtest/gtest.h>
 
@@ -92,14 +92,10 @@ TEST(exact_coarse_space, of_one_phase_full_is_p2)
     for (const Law law : {Law::linear, Law::biot})
     {
       const Load load(name);
-      const Method full("full"), p2("p2");
-      LightweightCloth of_p2(h, sheet, load, p2.coarse(law)),
-        of_full(h, sheet, load, full.coarse(law));
-      const meshes::Points expected =
-        of_p2.upsample(p2, law, of_p2.solve(law, 0.1).positions).positions;
-      const meshes::Points found = EdgedSheet({h, edges}, sheet, load, full)
-                                     .upsample(law, of_full.solve(law, 0.1).positions)
-                                     .positions;
+      const auto of = [&](const char *method) {
+        return tests::upsampled(method, {h, &edges}, sheet, load, law, 0.1);
+      };
+      const meshes::Points expected = of("localized+p2"), found = of("full");
       EXPECT_LT((found - expected).cwiseAbs().maxCoeff(), 1e-9 * 0.01) << name;
     }
 }
@@ -116,12 +112,14 @@ TEST(bound_coarse_space, six_nodes_are_nearer_to_the_sheet_than_three_at_the_sam
   for (const char *name : {"strip-1", "strip-2", "shear-frame"})
   {
     const Load load(name);
-    const CoarseChoice of_six = {CoarseEnergy::quadratic, CoarseElement::six_nodes};
-    const auto force          = [&](LightweightCloth cloth)
-    { return force_along(load, sheet.sides(), cloth.solve(Law::linear, 0.01).forces); };
-    const double of_fine = force(LightweightCloth(of_quarter, fine, load)),
-                 three   = force(LightweightCloth(h, sheet, load)),
-                 six     = force(LightweightCloth(h, sheet, load, of_six));
+    const auto force =
+      [&](const char *method, const meshes::HomogenizedCell &of, const meshes::Sheet &on)
+    {
+      const CoarseModel model({of}, on, load, Method(method), Law::linear);
+      return force_along(load, sheet.sides(), model.forces(model.solve(0.01)));
+    };
+    const double of_fine = force("localized", of_quarter, fine),
+                 three = force("localized", h, sheet), six = force("localized+p2", h, sheet);
     EXPECT_GT(three, of_fine) << name;
     EXPECT_LT(six, three) << name;
     EXPECT_LT(std::abs(six - of_fine), 0.5 * (three - of_fine)) << name;

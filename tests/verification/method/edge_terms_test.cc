@@ -5,7 +5,8 @@
 #include "homogenization/lint/cell_reading.h"
 #include "meshes/plain/errors.h"
 #include "tests/homogenization/cell/cells.h"
-#include "verification/method/edge_terms.h"
+#include "tests/refusal.h"
+#include "tests/verification/method/models.h"
 #include "verification/method/homogenized_sheet.h"
 #include "verification/reference/fine_reference.h"
 
@@ -32,10 +33,7 @@ struct Edged
 
   meshes::Points upsampled(const Load &load, const Law law, const double strain) const
   {
-    LightweightCloth cloth(homogenized, sheet, load);
-    return EdgedSheet({homogenized, edges}, sheet, load)
-      .upsample(law, cloth.solve(law, strain).positions)
-      .positions;
+    return tests::upsampled("localized+edges", {homogenized, &edges}, sheet, load, law, strain);
   }
 
   const homogenization::UnitCell cell;
@@ -109,14 +107,10 @@ TEST(order_edge_terms, the_error_falls_with_the_cell_where_the_macro_problem_is_
       reference.start(load, Law::linear);
       const meshes::Points fine = reference.advance(strain).positions;
       constexpr int n_quads     = 160;
-      const HomogenizedSheet macro(edged.homogenized.stiffness, edged.sheet, load, n_quads,
-                                   n_quads);
-      const auto coarse = macro.solve(Law::linear, macro.prescribed(strain));
-      const EdgedSheet with({edged.homogenized, edged.edges}, edged.sheet, load, Method("edges"),
-                            n_quads / n);
-      errors.push_back(
-        1e3 * (with.upsample(Law::linear, coarse).positions - fine).rowwise().norm().mean() /
-        (strain * edged.side));
+      const CoarseModel with({edged.homogenized, &edged.edges}, edged.sheet, load,
+                             Method("localized+edges"), Law::linear, n_quads / n);
+      errors.push_back(1e3 * (with.upsample(with.solve(strain)) - fine).rowwise().norm().mean() /
+                       (strain * edged.side));
       const double known = ladder.known[errors.size() - 1];
       if (known != unknown)
       {
@@ -146,18 +140,16 @@ TEST(tripwire_edge_terms, a_bulk_term_of_the_wrong_sign_is_noticed)
   FineReference reference(edged.sheet, edged.cell.stiffness_of_phase(), ReferenceOptions(),
                           MPI_COMM_SELF);
   reference.start(load, Law::linear);
-  const meshes::Points fine = reference.advance(strain).positions;
-  constexpr int n_quads     = 40;
-  const HomogenizedSheet macro(edged.homogenized.stiffness, edged.sheet, load, n_quads, n_quads);
-  const auto coarse                          = macro.solve(Law::linear, macro.prescribed(strain));
+  const meshes::Points fine                  = reference.advance(strain).positions;
+  constexpr int n_quads                      = 40;
   const std::array<Eigen::Matrix3d, 2> as_is = edged.edges.bulk;
   const auto error                           = [&](const double factor)
   {
     for (std::size_t b = 0; b < 2; ++b)
       edged.edges.bulk[b] = factor * as_is[b];
-    const EdgedSheet with({edged.homogenized, edged.edges}, edged.sheet, load, Method("edges"),
-                          n_quads / 10);
-    return (with.upsample(Law::linear, coarse).positions - fine).rowwise().norm().mean();
+    const CoarseModel with({edged.homogenized, &edged.edges}, edged.sheet, load,
+                           Method("localized+edges"), Law::linear, n_quads / 10);
+    return (with.upsample(with.solve(strain)) - fine).rowwise().norm().mean();
   };
   EXPECT_LT(error(1.), error(0.));
   EXPECT_LT(error(0.), error(-1.));
@@ -216,7 +208,7 @@ TEST(exact_edge_terms, beside_fitted_modes_clamped_edges_slip_by_the_effective_s
   const CoarseSpace space(edged.sheet, CoarseElement::three_nodes);
   const auto loads = [&](const meshes::FittedModes *const fitted)
   {
-    const EdgeTerms terms({edged.homogenized, edged.edges, fitted}, edged.sheet, Load("strip-1"),
+    const EdgeTerms terms({edged.homogenized, &edged.edges, fitted}, edged.sheet, Load("strip-1"),
                           space.grid, Law::yarn);
     Eigen::Matrix2d F; // without rotation
     F << 1.02, 0.015, 0.015, 0.99;
@@ -235,15 +227,15 @@ TEST(exact_edge_terms, beside_fitted_modes_clamped_edges_slip_by_the_effective_s
 TEST(tripwire_edge_terms, an_infinite_cloth_has_no_edges)
 {
   const Edged edged(layers(4), 1);
-  const LightweightCloth cloth(edged.homogenized, edged.sheet, Load("periodic-11"));
-  try
-  {
-    EdgedSheet({edged.homogenized, edged.edges}, edged.sheet, Load("periodic-11"))
-      .upsample(Law::linear, cloth.coarse.vertices);
-    FAIL();
-  }
-  catch (const meshes::BadInput &refusal)
-  {
-    EXPECT_NE(std::string(refusal.what()).find("infinite cloth"), std::string::npos);
-  }
+  const Load load("periodic-11");
+  const CellModel cell      = {edged.homogenized, &edged.edges};
+  const std::string refusal = tests::refusal(
+    [&]()
+    {
+      EdgeTerms(cell, edged.sheet, load, CoarseSpace(edged.sheet, CoarseElement::three_nodes).grid,
+                Law::linear);
+    });
+  EXPECT_NE(refusal.find("infinite cloth"), std::string::npos);
+  EXPECT_FALSE(
+    CoarseModel::used(Method("full"), Law::biot, load, edged.sheet, cell).has(Term::edges));
 }

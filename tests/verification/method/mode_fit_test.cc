@@ -3,7 +3,6 @@
 #include "homogenization/lint/cell_reading.h"
 #include "tests/homogenization/cell/cells.h"
 #include "tests/refusal.h"
-#include "verification/method/lightweight_cloth.h"
 #include "verification/method/mode_fit.h"
 
 #include <gtest/gtest.h>

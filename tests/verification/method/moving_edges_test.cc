@@ -4,7 +4,7 @@
 #include "homogenization/lint/cell_reading.h"
 #include "tests/homogenization/cell/cells.h"
 #include "verification/drape/draped_cell.h"
-#include "verification/method/edge_terms.h"
+#include "verification/method/coarse_model.h"
 
 #include <Eigen/LU>
 
@@ -96,20 +96,19 @@ struct BothWays
   /// @param n cells, and coarse quads, per side
   /// @param method with terms of edges
   BothWays(const homogenization::UnitCell &cell, const int axis, const meshes::CellEdges &edges,
-           const int n = 6, const Method &method = Method("edges"))
+           const int n = 6, const Method &method = Method("localized+edges"))
       : homogenized(of_second_order(cell))
       , strain_side(strain * std::sqrt(cell.lattice.area()))
       , draped(pulled(n, strain, std::sqrt(cell.lattice.area()), axis), cell, homogenized, edges)
       , moving(draped.scene, draped.coarse, draped.effective_of(method), draped.coarse_motion())
   {
     const Load load(axis == 0 ? "strip-1" : "strip-2");
-    const CoarseChoice choice = method.coarse(Law::biot);
     without =
-      LightweightCloth(homogenized, *draped.sheet, load, choice).solve(Law::biot, strain).positions;
-    const CoarseSpace space(*draped.sheet, choice.element);
-    const EdgeTerms terms({homogenized, edges}, *draped.sheet, load, space.grid, Law::biot);
+      CoarseModel({homogenized}, *draped.sheet, load, method, Law::biot).solve(strain).positions;
+    const CoarseSpace space(*draped.sheet, element_of(method));
+    const EdgeTerms terms({homogenized, &edges}, *draped.sheet, load, space.grid, Law::biot);
     std::vector<meshes::CubicForm> cubic;
-    if (choice.energy == CoarseEnergy::cubic)
+    if (method.has(Term::cubic))
       cubic = {homogenized.second_order.at("biot").energy};
     const auto solver =
       space.solver(homogenized.stiffness, draped.coarse_motion().vertices(draped.coarse), cubic);
@@ -160,7 +159,8 @@ TEST(exact_moving_edges, slip_and_strain_gradients_of_a_slow_pull_end_in_those_o
         << name;
       // In motion the terms lag by a step, and the cloth swings for a while.
       SceneCloth slow(ways.draped.scene, ways.draped.coarse,
-                      ways.draped.effective_of(Method("edges")), ways.draped.coarse_motion());
+                      ways.draped.effective_of(Method("localized+edges")),
+                      ways.draped.coarse_motion());
       for (int k = 0; k < 150; ++k)
         slow.step(ways.draped.scene.time_step);
       EXPECT_LT((slow.cloth().positions() - ways.moving.cloth().positions()).cwiseAbs().maxCoeff(),
@@ -191,7 +191,7 @@ TEST(exact_moving_edges, full_comes_to_rest_where_the_static_method_does)
 
     localization::UpsamplerOptions options = full.options(Law::biot);
     const CoarseSpace space(*ways.draped.sheet, CoarseElement::six_nodes);
-    EdgeTerms({ways.homogenized, edges}, *ways.draped.sheet,
+    EdgeTerms({ways.homogenized, &edges}, *ways.draped.sheet,
               Load(axis == 0 ? "strip-1" : "strip-2"), space.grid, Law::biot)
       .give_edges(options);
     localization::Upsampler<2, double>::Fine in_plane;
@@ -240,7 +240,7 @@ TEST(exact_moving_edges, a_cell_of_one_phase_moves_as_without_them)
   std::vector<homogenization::Phase> phases = tests::soft_and_hard();
   phases[1]                                 = phases[0];
   const Pulled sheet(layers(phases), 3, 0.05);
-  SceneCloth with = sheet.cloth("edges"), without = sheet.cloth("localized");
+  SceneCloth with = sheet.cloth("localized+edges"), without = sheet.cloth("localized");
   for (int k = 0; k < 10; ++k)
   {
     with.step(0.02);
@@ -248,7 +248,7 @@ TEST(exact_moving_edges, a_cell_of_one_phase_moves_as_without_them)
   }
   EXPECT_LT((with.cloth().positions() - without.cloth().positions()).cwiseAbs().maxCoeff(),
             1e-12 * 0.03);
-  EXPECT_LT((sheet.upsampled("edges", with.cloth().positions()) -
+  EXPECT_LT((sheet.upsampled("localized+edges", with.cloth().positions()) -
              sheet.upsampled("localized", without.cloth().positions()))
               .cwiseAbs()
               .maxCoeff(),

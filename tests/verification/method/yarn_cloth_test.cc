@@ -2,8 +2,8 @@
 // The coarse cloth under the law of yarns: the same law as the reference's, in its solve, its
 // forces and what is measured beside it.
 #include "tests/homogenization/cell/cells.h"
+#include "verification/method/coarse_model.h"
 #include "verification/method/fluctuation.h"
-#include "verification/method/lightweight_cloth.h"
 #include "verification/reference/fine_reference.h"
 
 #include <gtest/gtest.h>
@@ -61,22 +61,21 @@ TEST(exact_yarn_cloth, of_one_phase_it_is_the_reference_itself)
       const Load load(name);
       const int n               = load.is_periodic() ? 1 : 4;
       const meshes::Sheet sheet = meshes::tile(cell.mesh, cell.lattice, n, n);
-      LightweightCloth cloth(as_one, sheet, load);
+      const CoarseModel cloth({as_one}, sheet, load, Method("localized"), Law::yarn);
       ReferenceOptions options;
       options.tolerance = 1e-11;
       FineReference reference(sheet, cell.stiffness_of_phase(), options, MPI_COMM_SELF);
       reference.start(load, Law::yarn);
       for (const double strain : {0.01, 0.05})
       {
-        const CoarseStep coarse  = cloth.solve(Law::yarn, strain);
+        const CoarseState coarse = cloth.solve(strain);
         const ReferenceStep fine = reference.advance(strain);
         ASSERT_TRUE(fine.reached) << fine.why;
-        const auto localized =
-          cloth.upsample(Method("localized"), Law::yarn, coarse.positions).positions;
+        const meshes::Points localized = cloth.upsample(coarse);
         EXPECT_LT((localized - fine.positions).cwiseAbs().maxCoeff(), 1e-7 * side)
           << name << degrees << " " << strain;
         const Eigen::Matrix2d stress = fine.forces.stress;
-        EXPECT_LT((coarse.forces.stress - stress).norm(), 1e-6 * stress.norm())
+        EXPECT_LT((cloth.forces(coarse).stress - stress).norm(), 1e-6 * stress.norm())
           << name << degrees << " " << strain;
       }
     }
@@ -89,30 +88,16 @@ TEST(derivative_yarn_cloth, its_forces_are_those_of_its_energy)
   const meshes::HomogenizedCell as_one = homogenized(cell);
   const Load load("strip-1");
   const meshes::Sheet sheet = meshes::tile(cell.mesh, cell.lattice, 4, 4);
-  LightweightCloth cloth(as_one, sheet, load);
-  const CoarseStep step    = cloth.solve(Law::yarn, 0.05);
-  shell::Membrane membrane = shell::membrane(cloth.coarse, {as_one.stiffness});
+  const CoarseModel cloth({as_one}, sheet, load, Method("localized"), Law::yarn);
+  const CoarseState step   = cloth.solve(0.05);
+  shell::Membrane membrane = shell::membrane(cloth.mesh(), {as_one.stiffness});
   shell::take_yarn_law(membrane);
   const double part = 1e-4, ahead = (1. + part) * 0.05, behind = (1. - part) * 0.05;
-  const double slope = (shell::membrane_energy<2>(membrane, cloth.near(step, Law::yarn, ahead)) -
-                        shell::membrane_energy<2>(membrane, cloth.near(step, Law::yarn, behind))) /
-                       (ahead - behind);
-  const double force = force_along(load, sheet.sides(), step.forces);
+  const auto energy = [&](const double strain)
+  { return shell::membrane_energy<2>(membrane, cloth.solve(strain, &step).positions); };
+  const double slope = (energy(ahead) - energy(behind)) / (ahead - behind);
+  const double force = force_along(load, sheet.sides(), cloth.forces(step));
   EXPECT_NEAR(force, slope / load.displacement({1., 1.}, sheet.sides(), 1.).norm(), 1e-6 * force);
-}
-
-TEST(invariant_yarn_cloth, what_is_asked_for_before_and_after_changes_no_other_law)
-{
-  const homogenization::UnitCell cell  = one_yarn(20.);
-  const meshes::HomogenizedCell as_one = homogenized(cell);
-  const Load load("strip-1");
-  const meshes::Sheet sheet = meshes::tile(cell.mesh, cell.lattice, 4, 4);
-  const auto alone          = [&](const Law law)
-  { return LightweightCloth(as_one, sheet, load).solve(law, 0.003).positions; };
-  LightweightCloth both(as_one, sheet, load);
-  for (const Law law : {Law::biot, Law::yarn, Law::linear, Law::yarn, Law::biot})
-    EXPECT_EQ(both.solve(law, 0.003).positions, alone(law)) << name_of(law);
-  EXPECT_GT((alone(Law::yarn) - alone(Law::biot)).norm(), 1e-9 * side);
 }
 
 // A sheet of one stiffness does not fluctuate, pulled far beyond where the corotational cloth is a

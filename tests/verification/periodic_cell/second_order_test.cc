@@ -22,7 +22,7 @@ meshes::HomogenizedCell homogenized(const UnitCell &cell)
   options.order        = 1; // as the cell at finite strain
   options.solver       = homogenization::CellSolver::fastest;
   options.tolerance    = 1e-13;
-  options.second_order = homogenization::laws_of_second_order(cell.phases);
+  options.second_order = {Law::biot, Law::green};
   return homogenization::homogenized_cell(
     cell, homogenization::homogenize(cell, options, MPI_COMM_WORLD), "");
 }
@@ -61,21 +61,6 @@ StateErrors errors_of(const meshes::HomogenizedCell &cell, const UnitCell &given
 const Eigen::Vector3d oblique(1., -0.3, 0.5);
 } // namespace
 
-/// Stripes of yarns that lie askew, neither along the stripes nor along each other's.
-UnitCell stripes_of_yarns(UnitCell cell)
-{
-  cell.name    = "stripes of yarns";
-  double angle = 20.;
-  for (homogenization::Phase &phase : cell.phases)
-  {
-    phase.E2    = 0.4 * phase.E1;
-    phase.G12   = 0.1 * phase.E1;
-    phase.angle = angle;
-    angle += 35.;
-  }
-  return cell;
-}
-
 UnitCell shipped(const char *name)
 {
   return homogenization::read_unit_cell(std::string(CELLS) + name + ".prm", MPI_COMM_WORLD);
@@ -107,19 +92,6 @@ TEST(order_second_order, fluctuation_and_stress_of_an_infinite_cloth_gain_one_or
     for (const Law law : {Law::biot, Law::green})
       expect_one_order_more(given, cell, law, 0.01);
   }
-}
-
-// Strains of yarns are small beside the ratio of shear to stretch stiffness, a thousandth in these
-// weaves: beyond it the pull of a yarn decides how far it turns.
-TEST(order_second_order, cells_of_yarns_gain_one_order_too)
-{
-  for (const char *name : {"plain-weave", "twill", "satin"})
-  {
-    const UnitCell given = shipped(name);
-    expect_one_order_more(given, homogenized(given), Law::yarn, 2e-5);
-  }
-  const UnitCell askew = stripes_of_yarns(shipped("layered"));
-  expect_one_order_more(askew, homogenized(askew), Law::yarn, 0.004);
 }
 
 // Two independent prototypes, to the digits that they print: half a unit of the last one, and 10 %.

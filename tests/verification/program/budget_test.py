@@ -66,7 +66,7 @@ class Budget(InFolder):
         self.assertEqual({v["verdict"] for v in claims}, {"PASS"})
 
     def test_methods_with_coarse_cloths_of_their_own_have_run_times(self):
-        methods = ("edges", "quadratic", "p2", "full")
+        methods = ("localized+edges", "localized+cubic+modes", "localized+p2", "full")
         result = run("strain", CELLS / "layered.prm", "--cells", "4", "--strains", "0.01",
                      "--loads", "shear-frame", "--references", "biot", "--methods",
                      ",".join(("localized",) + methods), "--no-budget", "--no-report", "--quiet",
@@ -76,7 +76,8 @@ class Budget(InFolder):
         for method in methods:
             row = ways[f"{method}-4"]
             self.assertGreater(float(row["seconds"]), 0., method)
-            self.assertEqual(row["triangles"], "8" if method in ("p2", "full") else "32", method)
+            self.assertEqual(row["triangles"], "8" if method in ("localized+p2", "full") else "32",
+                             method)
             self.assertEqual((row["runs"], row["ranks"]), ("5", "1"), method)
         # Against P1 the same positions err by as much, to the distance between P1 and P2.
         for row in rows_of(self.folder / "strain.csv"):
@@ -87,7 +88,7 @@ class Budget(InFolder):
 
     def test_of_a_weave_run_times_are_those_under_its_law(self):
         result = run("strain", CELLS / "plain-weave.prm", "--cells", "4", "--strains", "0.01",
-                     "--loads", "shear-frame", "--methods", "localized,first-order,full-fitted",
+                     "--loads", "shear-frame", "--methods", "localized,full-cubic-modes,full",
                      "--no-budget", "--no-report", "--quiet", "--output", self.folder)
         self.assertIn(result.returncode, (0, 1, 4), result.stderr)
         ways = {row["way"]: row for row in rows_of(self.folder / "runtime.csv")}

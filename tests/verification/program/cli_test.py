@@ -7,7 +7,7 @@ import unittest
 
 import h5py
 
-from cli import CELLS, InFolder, run
+from cli import CELLS, InFolder, rows_of, run
 
 
 class Help(unittest.TestCase):
@@ -268,6 +268,23 @@ class BadInput(InFolder):
         self.refused("strain", CELLS / "layered.prm", "--loads", "strip-3", "--methods", "magic",
                      "--references", "hooke", "--strains", "0.1,-2",
                      says=["`strip-3`", "`magic`", "`hooke`", "-2"])
+
+    def test_methods_are_read_in_any_order_and_old_names_are_told_once(self):
+        study = ["strain", CELLS / "layered.prm", "--quick", "--loads", "strip-1", "--references",
+                 "linear", "--strains", "0.01", "--cells", "2", "--no-budget", "--no-runtime",
+                 "--no-report", "--output", self.folder / "run"]
+        result = run(*study, "--methods", "localized,p2,localized+edges+p2,full,full-fitted",
+                     ranks=2)
+        self.assertIn(result.returncode, (0, 4), result.stderr)
+        self.assertEqual(result.stderr.count("`p2` is called `localized+p2` since 0.2.0"), 1,
+                         result.stderr)
+        self.assertEqual({row["method"] for row in rows_of(self.folder / "run" / "strain.csv")},
+                         {"localized", "localized+p2", "full"})
+        for methods, words in (("full,localized+micro+p2", "localized has the term micro already"),
+                               ("full,full-cubic-cubic", "the term cubic is there twice"),
+                               ("localized+p2,full-edges-cubic-modes",
+                                "`full-edges-cubic-modes` has the terms of `localized+p2`")):
+            self.refused(*study, "--methods", methods, says=[words])
 
     def test_an_output_that_cannot_be_written_is_named(self):
         for ranks in (1, 2):

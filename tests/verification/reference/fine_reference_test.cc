@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "homogenization/fem/homogenize.h"
 #include "tests/homogenization/cell/cells.h"
-#include "verification/method/lightweight_cloth.h"
+#include "tests/verification/method/models.h"
 #include "verification/reference/fine_reference.h"
 #include "verification/strain/strain_verdicts.h"
 
@@ -37,9 +37,7 @@ TEST(exact_fine_reference, a_homogeneous_sheet_moves_like_the_coarse_cloth_on_th
       reference.start(load, law);
       const ReferenceStep fine = reference.advance(0.15);
       ASSERT_TRUE(fine.reached) << fine.why;
-      LightweightCloth cloth(as_itself, sheet, load);
-      const CoarseStep coarse   = cloth.solve(law, 0.15);
-      const meshes::Points same = cloth.upsample(Method("affine"), law, coarse.positions).positions;
+      const meshes::Points same = tests::upsampled("affine", {as_itself}, sheet, load, law, 0.15);
       EXPECT_LT((same - fine.positions).rowwise().norm().maxCoeff(), 1e-8 * 0.01)
         << name << " " << name_of(law);
     }
@@ -60,15 +58,12 @@ TEST(exact_fine_reference, stripes_stretched_along_their_axes_are_localized_with
       reference.start(load, Law::biot);
       const ReferenceStep fine        = reference.advance(0.2);
       const meshes::HomogenizedCell h = tests::homogenized(cell);
-      LightweightCloth cloth(h, sheet, load);
-      const meshes::Points upsampled =
-        cloth.upsample(Method("localized"), Law::biot, cloth.solve(Law::biot, 0.2).positions)
-          .positions;
+      const auto of                   = [&](const char *method)
+      { return tests::upsampled(method, {h}, sheet, load, Law::biot, 0.2); };
+      const meshes::Points upsampled = of("localized");
       EXPECT_LT((upsampled - fine.positions).cwiseAbs().maxCoeff(), 1e-12) << name << order;
       // And the check can fail: without chi, or with its sign turned, the error is large.
-      const meshes::Points without =
-        cloth.upsample(Method("affine"), Law::biot, cloth.solve(Law::biot, 0.2).positions)
-          .positions;
+      const meshes::Points without = of("affine");
       if (load.name == "periodic-22")
       {
         EXPECT_GT((without - fine.positions).cwiseAbs().maxCoeff(), 1e-4);
@@ -90,17 +85,15 @@ TEST(order_fine_reference, the_localized_error_of_periodic_loads_falls_as_strain
     options.tolerance = 1e-10;
     FineReference reference(sheet, cell.stiffness_of_phase(), options, MPI_COMM_SELF);
     reference.start(load, Law::biot);
-    LightweightCloth cloth(h, sheet, load);
     std::vector<double> strains, errors, wrong;
     for (const double strain : {1e-4, 1e-3, 1e-2, 1e-1})
     {
       const ReferenceStep fine = reference.advance(strain);
       ASSERT_TRUE(fine.reached) << fine.why;
       ASSERT_TRUE(fine.reached) << fine.why;
-      const auto coarse = cloth.solve(Law::biot, strain).positions;
-      const auto error  = [&](const char *method)
+      const auto error = [&](const char *method)
       {
-        return (cloth.upsample(Method(method), Law::biot, coarse).positions - fine.positions)
+        return (tests::upsampled(method, {h}, sheet, load, Law::biot, strain) - fine.positions)
           .rowwise()
           .norm()
           .mean();

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Forces of clamps and mean stresses, of the resolved sheet and of the coarse cloth.
 #include "tests/homogenization/cell/cells.h"
-#include "verification/method/lightweight_cloth.h"
+#include "tests/verification/method/models.h"
 #include "verification/reference/fine_reference.h"
 #include "verification/reference/load_forces.h"
 
@@ -110,19 +110,19 @@ TEST(derivative_load_forces, of_the_coarse_cloth_are_those_of_its_energy)
       const meshes::Sheet sheet = meshes::tile(cell.mesh, cell.lattice, n, n);
       for (const Law law : {Law::linear, Law::biot})
       {
-        LightweightCloth cloth(as_one, sheet, load);
-        const shell::Membrane membrane = shell::membrane(cloth.coarse, {as_one.stiffness});
-        const CoarseStep step          = cloth.solve(law, 0.05);
+        const CoarseModel cloth({as_one}, sheet, load, Method("localized"), law);
+        const shell::Membrane membrane = shell::membrane(cloth.mesh(), {as_one.stiffness});
+        const CoarseState step         = cloth.solve(0.05);
         const auto energy_at           = [&](const double strain)
         {
-          const shell::Positions<2> x = cloth.near(step, law, strain);
+          const shell::Positions<2> x = cloth.solve(strain, &step).positions;
           if (law == Law::biot)
             return shell::membrane_energy<2>(membrane, x);
-          const shell::Positions<2> u = x - cloth.coarse.vertices;
+          const shell::Positions<2> u = x - cloth.mesh().vertices;
           return 0.5 * u.cwiseProduct(shell::linear_membrane_gradient(membrane, u)).sum();
         };
         const double energy = force_of_slope(slope(energy_at, 0.05), load, sheet);
-        EXPECT_NEAR(force_of(load, sheet, step.forces) / energy, 1., 1e-6)
+        EXPECT_NEAR(force_of(load, sheet, cloth.forces(step)) / energy, 1., 1e-6)
           << name << name_of(law) << is_skewed;
       }
     }
@@ -141,10 +141,9 @@ TEST(exact_load_forces, of_a_uniform_strip_are_those_of_the_closed_form_coarse_a
       const Load load(name);
       FineReference reference(sheet, cell.stiffness_of_phase(), of_order(1), MPI_COMM_SELF);
       reference.start(load, law);
-      LightweightCloth cloth(as_one, sheet, load);
       const double width = load.name == "strip-1" ? 3. * side : 4. * side;
       for (const LoadForces &forces :
-           {solved_at(reference, 0.1).forces, cloth.solve(law, 0.1).forces})
+           {solved_at(reference, 0.1).forces, tests::coarse_forces(as_one, sheet, load, law, 0.1)})
       {
         EXPECT_NEAR(force_along(load, sheet.sides(), forces) / (1e3 * 0.1 * width), 1., 1e-9);
         EXPECT_NEAR(force_per_width(load, sheet.sides(), forces) / 100., 1., 1e-9);
@@ -166,9 +165,8 @@ TEST(exact_load_forces, of_a_homogeneous_infinite_cloth_are_those_of_hookes_law)
     const Load load(Load::names()[static_cast<std::size_t>(a)]);
     FineReference reference(sheet, cell.stiffness_of_phase(), of_order(1), MPI_COMM_SELF);
     reference.start(load, Law::linear);
-    LightweightCloth cloth(as_one, sheet, load);
-    for (const LoadForces &forces :
-         {solved_at(reference, 0.1).forces, cloth.solve(Law::linear, 0.1).forces})
+    for (const LoadForces &forces : {solved_at(reference, 0.1).forces,
+                                     tests::coarse_forces(as_one, sheet, load, Law::linear, 0.1)})
     {
       const Eigen::Vector3d expected = 0.1 * C.col(a);
       EXPECT_NEAR(forces.stress(0, 0), expected(0), 1e-10 * C(0, 0));
@@ -193,9 +191,9 @@ TEST(exact_load_forces, of_an_infinite_cloth_are_equal_coarse_and_resolved_in_li
     const Load load(name);
     FineReference reference(sheet, cell.stiffness_of_phase(), of_order(1), MPI_COMM_SELF);
     reference.start(load, Law::linear);
-    const Eigen::Matrix2d
-      resolved = solved_at(reference, 0.02).forces.stress,
-      coarse   = LightweightCloth(as_one, sheet, load).solve(Law::linear, 0.02).forces.stress;
+    const Eigen::Matrix2d resolved = solved_at(reference, 0.02).forces.stress,
+                          coarse =
+                            tests::coarse_forces(as_one, sheet, load, Law::linear, 0.02).stress;
     EXPECT_LT((resolved - coarse).cwiseAbs().maxCoeff(), 1e-9 * resolved.cwiseAbs().maxCoeff());
   }
 }
@@ -213,7 +211,7 @@ TEST(invariant_load_forces, both_clamps_balance_and_carry_the_mean_stress)
         const Load load(name);
         LoadForces forces;
         if (order == 0)
-          forces = LightweightCloth(as_one, sheet, load).solve(law, 0.1).forces;
+          forces = tests::coarse_forces(as_one, sheet, load, law, 0.1);
         else
         {
           FineReference reference(sheet, cell.stiffness_of_phase(), of_order(order), MPI_COMM_SELF);
@@ -262,10 +260,8 @@ TEST(bound_load_forces, in_linear_theory_fall_from_affine_motion_to_refined_elem
   for (const char *name : {"strip-1", "strip-2", "shear-frame"})
   {
     const Load load(name);
-    LightweightCloth cloth(as_one, sheet, load);
     const meshes::Points interpolated =
-      cloth.upsample(Method("affine"), Law::linear, cloth.solve(Law::linear, 0.01).positions)
-        .positions;
+      tests::upsampled("affine", {as_one}, sheet, load, Law::linear, 0.01);
     const double way = load.displacement({1., 1.}, sheet.sides(), 0.01).norm();
     double before =
       2. * sheet_energy(sheet, cell.stiffness_of_phase(), Law::linear, interpolated).energy / way;

@@ -13,7 +13,7 @@ from made_up_study import SIDE, square_mesh
 GRAVITY = 9.81
 STIFFNESS = [[2839.91, 299.7, 0.0], [299.7, 999.001, 0.0], [0.0, 0.0, 349.65]]
 VARIANTS = ("corotational", "triangle-warping", "nodal-warping", "printed-nodal-warping")
-METHODS = ("affine", "localized", "localized-affine-lift")
+METHODS = ("affine", "localized", "localized+modes")
 REFERENCES = ("shell", "biot")
 
 

@@ -32,7 +32,7 @@ def strain_rows():
     sheet = {"cell": "stripes", "cells": 2, "coarse_triangles": 8, "fine_triangles": 32}
     for load in ("periodic-22", "shear-frame"):
         for strain in (0.001, 0.01, 0.1):
-            for method in ("affine", "localized", "localized-piecewise"):
+            for method in ("affine", "localized", "localized-micro"):
                 error = 0.2 * strain
                 if method != "affine":
                     error *= 0.0 if load == "periodic-22" else 4.0 * strain

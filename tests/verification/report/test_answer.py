@@ -74,8 +74,8 @@ class SentenceTest(unittest.TestCase):
 
     def test_what_is_small_beside_the_error_is_no_cause_of_it(self):
         some = {"solver": {"mean_m": 1e-12}, "modes": {"mean_m": 1e-6}, "rest": {"mean_m": 1e-9}}
-        self.assertIn("no part of the error budget", answer.why(some, "quadratic", 1e-8))
-        self.assertIn("cells are not small", answer.why(some, "quadratic", 2e-9))
+        self.assertIn("no part of the error budget", answer.why(some, "full", 1e-8, "biot"))
+        self.assertIn("cells are not small", answer.why(some, "full", 2e-9, "biot"))
 
     def test_another_method_stands_beside_the_paper_s(self):
         best, paper = {**row(1e-3), "method": "full"}, {**row(8e-3), "method": "localized"}
@@ -100,17 +100,18 @@ class SentenceTest(unittest.TestCase):
         self.assertEqual(answer.beside_the_bar(row(1e-3, bar=0.0)), "")
         self.assertEqual(answer.beside_the_bar(row(1e-15)), "")
 
-    def test_the_method_of_a_page_is_the_first_of_the_rank_that_its_load_has(self):
-        for methods, main in ((("affine", "localized", "edges", "full"), "full"),
-                              (("affine", "localized", "quadratic"), "quadratic"),
-                              (("affine", "edges", "quadratic"), "edges"), (("affine",), "localized")):
-            self.assertEqual(main_method(methods, "biot"), main, methods)
+    def test_the_method_of_a_page_is_the_one_with_most_terms(self):
+        for methods, main in ((("affine", "localized", "localized+p2", "full"), "full"),
+                              (("full-micro", "localized", "full-p2"), "full-p2"),
+                              (("localized+edges", "localized+p2"), "localized+edges"),
+                              (("affine", "full-micro", "unreached"), "localized")):
+            self.assertEqual(main_method(methods), main, methods)
 
-    def test_against_yarn_no_page_speaks_of_second_order(self):
-        for methods, main in ((("localized", "edges", "quadratic", "full", "first-order"), "first-order"),
-                              (("localized", "edges", "quadratic", "full"), "edges"),
-                              (("localized", "quadratic"), "localized")):
-            self.assertEqual(main_method(methods, "yarn"), main, methods)
+    def test_what_a_method_takes_away_of_the_budget_depends_on_the_law(self):
+        edges = {"slip", "selvedge", "bulk", "layer"}
+        self.assertEqual(answer.taken_away("full", "biot"), edges | {"macro-law", "modes"})
+        self.assertEqual(answer.taken_away("full", "yarn"), edges | {"modes"})
+        self.assertEqual(answer.taken_away("localized+p2", "biot"), set())
 
     def test_shares_keep_a_digit_where_none_would_say_nothing_or_all(self):
         for value, text in ((0.7412, "74"), (0.9989, "99.89"), (0.001, "0.1"), (0.5, "50")):

@@ -173,11 +173,11 @@ class Budget(unittest.TestCase):
         self.assertNotIn("voigt", sentence)
 
     def test_the_methods_on_the_front_are_named_and_what_beats_the_others(self):
-        ways = [way(*w) for w in (*WAYS, ("full-10", 1.5e-3, 0.002), ("edges-10", 2e-3, 0.004))]
+        ways = [way(*w) for w in (*WAYS, ("full-10", 1.5e-3, 0.002), ("localized+edges-10", 2e-3, 0.004))]
         self.assertEqual(
             budget_contents.front_sentence(ways),
             "On the front of error against run time: affine-5, localized-5, localized-10, full-10."
-            " Beaten in both: edges-10 by full-10.",
+            " Beaten in both: localized+edges-10 by full-10.",
         )
         self.assertIsNone(budget_contents.front_sentence([way(*w) for w in WAYS[:3]]))
         figure = budget.way_figure(ways, 0.01)

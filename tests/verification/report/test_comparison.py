@@ -120,7 +120,7 @@ class ComparisonTest(PageTest):
                 for strain in (0.01, 0.1)
             ]
 
-        every = rows("biot", "full", "localized", "affine", "edges")
+        every = rows("biot", "full", "localized", "affine", "localized+edges")
         self.assertEqual(
             {kind: method for kind, (method, _) in drawn(every, "biot").items()},
             {"spoken of": "full", "localized": "localized", "affine": "affine"},

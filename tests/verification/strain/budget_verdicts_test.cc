@@ -3,7 +3,6 @@
 // is planted must be found, and what is right must pass.
 #include "verification/budget/budget_rows.h"
 #include "verification/budget/budget_tables.h"
-#include "verification/record/main_method.h"
 #include "verification/record/timing.h"
 #include "verification/strain/budget_verdicts.h"
 #include "verification/strain/run_time.h"
@@ -417,7 +416,7 @@ TEST(exact_validity, rows_carry_the_error_bar_and_the_reason)
     row.method   = "full";
     row.per_cell = 0.1 * row.per_cell;
     both.push_back(row);
-    row.method = "edges";
+    row.method = "localized+edges";
     both.push_back(row);
   }
   const std::vector<ValidityRow> of_both = validity_rows(both);
@@ -440,19 +439,4 @@ TEST(exact_run_time, the_bar_of_the_best_solution_is_carried_to_the_full_sheet)
   EXPECT_NEAR(bar_of_p2(rows, {"cell", "strip-2", Law::biot, 0.1}, 20), 2e-8 / 0.05 * 0.5 * 0.1,
               1e-15);
   EXPECT_TRUE(std::isnan(bar_of_p2(rows, {"cell", "strip-1", Law::biot, 0.1}, 20)));
-}
-
-// Second order gains against `yarn` in the first tenths of a per cent alone.
-TEST(tripwire_validity, against_yarn_no_study_speaks_of_second_order)
-{
-  const std::vector<std::string> all = {"affine", "localized", "quadratic", "edges", "full"};
-  EXPECT_EQ(main_method(all, "biot"), "full");
-  EXPECT_EQ(main_method(all, "yarn"), "edges");
-  const std::vector<std::string> of_yarns = {"localized", "edges", "first-order"};
-  EXPECT_EQ(main_method(of_yarns, "yarn"), "first-order");
-  const std::vector<std::string> with_modes = {"localized", "edges", "first-order", "full-fitted"};
-  EXPECT_EQ(main_method(with_modes, "yarn"), "full-fitted");
-  EXPECT_EQ(main_method(with_modes, "biot"), "first-order");
-  const std::vector<std::string> without_edges = {"localized", "quadratic"};
-  EXPECT_EQ(main_method(without_edges, "yarn"), "localized");
 }

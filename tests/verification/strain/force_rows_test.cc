@@ -2,6 +2,7 @@
 // The rows of forces.csv: resolved, coarse and affine at one level.
 #include "tests/homogenization/cell/cells.h"
 #include "verification/strain/force_rows.h"
+#include "verification/strain/strain_comparison.h"
 
 #include <gtest/gtest.h>
 
@@ -28,15 +29,11 @@ std::vector<ForceRow> rows_of(const homogenization::UnitCell &cell, const std::s
   reference.start(load, law);
   const ReferenceStep fine = reference.advance(strain);
   EXPECT_TRUE(fine.reached) << fine.why;
-  MethodOnSheet method    = {as_one,
-                             LightweightCloth(as_one, sheet, load),
-                             FluctuationMeasure(as_one.stiffness, sheet, load),
-                             cell.stiffness_of_phase(),
-                             {}};
-  const CoarseStep coarse = method.cloth.solve(law, strain);
+  MethodsOnSheet methods   = methods_on_sheet(cell, as_one, {}, sheet, load);
+  const CoarseModel &model = methods.at(law, "localized").model;
   return force_rows({cell.name, name, law, strain},
-                    {sheet, fine, 0, 1, {0., 0., 0., bar}, Stability::every_triangle, 0.}, method,
-                    load, coarse);
+                    {sheet, fine, 0, 1, {0., 0., 0., bar}, Stability::every_triangle, 0.}, methods,
+                    model, model.solve(strain));
 }
 } // namespace
 

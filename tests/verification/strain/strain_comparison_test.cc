@@ -3,6 +3,7 @@
 #include "homogenization/edges/edge_layers.h"
 #include "meshes/files/temporary_folder.h"
 #include "tests/homogenization/cell/cells.h"
+#include "tests/verification/method/models.h"
 #include "verification/strain/strain_comparison.h"
 
 #include <gtest/gtest.h>
@@ -54,13 +55,13 @@ struct Level
   void compare(const Eigen::RowVector2d &away)
   {
     StrainOutput output(options, [&](const std::string &note) { notes.push_back(note); });
-    MethodOnSheet method = method_on_sheet(options, cell, homogenized, edges, sheet, load);
-    const shell::Positions<2> coarse = method.cloth.solve(Law::biot, small_strain).positions;
+    MethodsOnSheet methods = methods_on_sheet(cell, homogenized, edges, sheet, load);
     ReferenceStep fine;
-    fine.positions = method.cloth.upsample(Method("affine"), Law::biot, coarse).positions;
+    fine.positions =
+      tests::upsampled("affine", {homogenized}, sheet, load, Law::biot, small_strain);
     fine.positions.rowwise() += away;
     compare_methods(options, {cell.name, load.name, Law::biot, small_strain},
-                    {sheet, fine, 0, 1, {}, Stability::every_triangle, 0.}, method, load, output);
+                    {sheet, fine, 0, 1, {}, Stability::every_triangle, 0.}, methods, output);
     rows = output.strain_rows();
   }
 
@@ -93,18 +94,18 @@ TEST(exact_strain_comparison, errors_are_distances_in_metres_and_in_cell_sides)
 // no equilibrium that the solver finds.
 TEST(exact_strain_comparison, a_method_without_equilibrium_leaves_only_its_own_row_without_errors)
 {
-  Level level({"affine", "localized", "edges"}, 1e7);
+  Level level({"affine", "localized", "localized+edges"}, 1e7);
   level.compare({1e-5, 0.});
   ASSERT_EQ(level.rows.size(), 3u);
   for (const StrainRow &row : level.rows)
   {
     EXPECT_TRUE(row.is_reached()) << row.method;
-    EXPECT_EQ(std::isnan(row.mean), row.method == "edges") << row.method << row.mean;
+    EXPECT_EQ(std::isnan(row.mean), row.method == "localized+edges") << row.method << row.mean;
   }
   EXPECT_EQ(std::count_if(level.notes.begin(), level.notes.end(),
                           [](const std::string &note)
                           {
-                            return note.find("method edges: its coarse cloth finds no "
+                            return note.find("method localized+edges: its coarse cloth finds no "
                                              "equilibrium") != std::string::npos;
                           }),
             1);

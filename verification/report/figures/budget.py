@@ -10,6 +10,7 @@ from matplotlib.patches import Patch
 
 from figures import style
 from figures.plot_data import BAND_ALPHA, BAND_COLOUR, band, name_unseen
+from read import schema
 from read.budget_results import BESIDE_THE_SUM, PARTS, levels, pareto_front, unexplained
 
 PART_COLOURS = {
@@ -127,32 +128,48 @@ def draw_stack(axes, x, parts, drawn):
     )
 
 
+OTHER = "other"
 FAMILIES = {
     "fine": ("resolved sheet", "s", "#666666"),
     "affine": ("coarse motion alone", "o", style.VERMILLION),
     "localized": ("localized, the paper's method", "o", style.BLUE),
-    "edges": ("edges", "o", style.METHOD_COLOURS["edges"]),
-    "quadratic": ("quadratic", "o", style.METHOD_COLOURS["quadratic"]),
-    "p2": ("p2", "o", style.METHOD_COLOURS["p2"]),
-    "full": ("full", "o", style.METHOD_COLOURS["full"]),
+    **{
+        name: (name, "o", colour)
+        for name, colour in style.METHOD_COLOURS.items()
+        if name not in ("affine", "localized")
+    },
+    OTHER: ("other terms", "o", style.SPARE_COLOURS[0]),
     "voigt": ("Voigt stiffness, localized", "^", style.PURPLE),
     "reuss": ("Reuss stiffness, localized", "v", style.PURPLE),
     "nodal": ("the paper's nodal warping, localized", "D", style.GREEN),
 }
-LADDER = ("affine", "localized", "edges", "quadratic", "p2", "full")
 BAR_LABEL = "error bar of the best reference"
 
 
+def method_of(way):
+    """The method of a coarse cloth, like full of full-20; of other ways their first word."""
+    name, _, quads = way.rpartition("-")
+    return name if quads.isdigit() else way.partition("-")[0]
+
+
+def is_method(way):
+    return method_of(way) == "affine" or bool(schema.terms(method_of(way)))
+
+
 def family(way):
-    return next((name for name in FAMILIES if way.startswith(name)), "fine")
+    """What a point is drawn as: a method without a colour of its own as all such."""
+    name = method_of(way)
+    return name if name in FAMILIES else OTHER
 
 
 def label_of(way):
     """What stands beside a point: the quads per side of coarse cloths, the name of the resolved
     ways.
     """
-    kind, _, detail = way.partition("-")
-    return detail if kind in ("fine", *LADDER) else ""
+    name, detail = method_of(way), way.rpartition("-")[2]
+    if family(way) == OTHER:
+        return way
+    return detail if name == "fine" or is_method(way) else ""
 
 
 def front_line(front, end):

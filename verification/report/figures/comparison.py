@@ -34,7 +34,7 @@ def drawn(rows, reference):
     its rows). The method of the paper stands apart only where the page speaks of another one.
     """
     some = [row for row in rows if row["reference"] == reference]
-    spoken_of = main_method({row["method"] for row in some}, reference)
+    spoken_of = main_method({row["method"] for row in some})
     methods = {"spoken of": spoken_of, COARSE: COARSE}
     if spoken_of != PAPER:
         methods[PAPER] = PAPER

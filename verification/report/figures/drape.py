@@ -17,9 +17,8 @@ BLOWN = 1e3  # times the largest value of the first cloth
 # woven: in the place of the corotational one where that is no law for the cell.
 VARIANTS = ("corotational", "woven", "triangle-warping", "nodal-warping")
 VARIANT_COLOURS = dict(zip(VARIANTS, (style.BLUE, "#332288", style.GREEN, style.ORANGE)))
-# Methods with coarse cloths of their own.
-METHODS = ("edges", "quadratic", "p2", "full", "first-order")
-VARIANT_COLOURS |= {name: style.METHOD_COLOURS[name] for name in METHODS}
+# Methods may have coarse cloths of their own.
+VARIANT_COLOURS |= style.METHOD_COLOURS
 SHELL_LINE = "--"
 LAW_LINES = (":", "-.", (0, (5, 1)))  # of the laws of a sheet in space, in the order of the schema
 FALL = 3.0  # a height that ranges over so many times that of the others gets a panel of its own

@@ -27,7 +27,7 @@ def of_main_method(rows):
         row
         for row in rows
         if row["method"]
-        == main_method(methods[row["load"], row["reference"]], row["reference"])
+        == main_method(methods[row["load"], row["reference"]])
     ]
 
 

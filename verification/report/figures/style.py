@@ -28,22 +28,16 @@ BLACK, ORANGE, SKY, GREEN, YELLOW, BLUE, VERMILLION, PURPLE = (
 METHOD_COLOURS = {
     "affine": VERMILLION,
     "localized": BLUE,
-    "quadratic": SKY,
-    "edges": "#882255",
-    "p2": "#999933",
+    "localized+p2": "#999933",
+    "localized+edges": "#882255",
+    "localized+cubic+modes": SKY,
     "full": BLACK,
-    "first-order": "#332288",
-    "fitted": "#44AA99",
-    "full-fitted": "#117733",
-    "localized-affine-lift": GREEN,
-    "localized-mean-anchor": ORANGE,
-    "localized-piecewise": PURPLE,
 }
-COLOUR_NAMES = {"edges": "wine", "quadratic": "light blue", "p2": "olive", "full": "black",
-                "first-order": "indigo", "fitted": "teal",
-                "full-fitted": "dark green"}
 METHOD_LABELS = {"localized": "localized (the paper's method)"}
-SPARE_COLOURS = ("#7F7F7F", YELLOW)
+SPARE_COLOURS = ("#332288", "#44AA99", GREEN, ORANGE, PURPLE)
+COLOUR_NAMES = {VERMILLION: "orange", BLUE: "blue", "#999933": "olive", "#882255": "wine",
+                SKY: "light blue", BLACK: "black", "#332288": "indigo", "#44AA99": "teal",
+                GREEN: "green", ORANGE: "yellow", PURPLE: "pink"}
 
 # Line style, marker and colour of the reference laws, in the order of the schema.
 LAW_STYLES = ((":", "s", BLACK), ("-", "o", BLUE), ("--", "^", VERMILLION), ("-.", "v", PURPLE))
@@ -93,6 +87,11 @@ def method_colour(method, methods=()):
         return METHOD_COLOURS[method]
     unknown = [name for name in methods if name not in METHOD_COLOURS]
     return SPARE_COLOURS[unknown.index(method) % len(SPARE_COLOURS)] if method in unknown else BLACK
+
+
+def colour_name(method, methods=()):
+    """The colour of a method, in a word."""
+    return COLOUR_NAMES[method_colour(method, methods)]
 
 
 def reference_style(reference):

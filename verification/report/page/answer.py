@@ -28,10 +28,9 @@ CAUSES = {
     "blending": "strain is averaged between coarse triangles",
     "solver": "the solvers stopped early",
 }
-# What a method takes away of the budget, which is that of `localized`.
-EDGES, NONLINEARITY = ("slip", "selvedge", "bulk", "layer"), ("macro-law", "modes")
-TAKEN_AWAY = {"edges": EDGES, "quadratic": NONLINEARITY, "full": EDGES + NONLINEARITY,
-              "first-order": EDGES, "full-fitted": EDGES + ("modes",)}
+# What a term of a method takes away of the budget, which is that of `localized`.
+TAKEN_AWAY = {"edges": ("slip", "selvedge", "bulk", "layer"), "cubic": ("macro-law",),
+              "modes": ("modes",)}
 PAPER = "localized"
 SECOND_CAUSE = 0.25  # share of the error from which a second cause is named
 VALIDITY_LIMIT = 0.01  # of a cell side
@@ -55,7 +54,7 @@ def answer_of(results, name, gallery):
     lines = []
     for load in sheets_first(row["load"] for row in here):
         some = {row["method"]: row for row in here if row["load"] == load}
-        method = main_method(some, reference)
+        method = main_method(some)
         if method in some and "affine" in some:
             parts = budget.get((load, strains[0]), {}).get("all")
             line = line_of(load, some["affine"], some[method], parts)
@@ -70,7 +69,7 @@ def answer_of(results, name, gallery):
     methods = style.ordered_methods(
         {"affine", PAPER}
         | {
-            main_method({r["method"] for r in here if r["load"] == load}, reference)
+            main_method({r["method"] for r in here if r["load"] == load})
             for load in {r["load"] for r in here}
         }
     )
@@ -87,7 +86,7 @@ def answer_of(results, name, gallery):
             f"{name}-answer",
             f"{name}: mean error per vertex, in cell sides, against strain, of the coarse mesh"
             f" alone (orange), by the paper's method (blue)"
-            + "".join(f", by {m} ({style.COLOUR_NAMES[m]})" for m in methods[2:])
+            + "".join(f", by {m} ({style.colour_name(m, methods)})" for m in methods[2:])
             + f", against {reference}. Grey: not resolved by the reference. All laws and variants"
             " stand below.",
             plotted=False,
@@ -118,7 +117,7 @@ def line_of(load, affine, best, parts):
         gain = 1.0 - after / before if before > 0.0 else -math.inf
         change, mark = change_of(gain), "better" if gain > 0.0 else "worse"
         left = best["error_mean_m"]
-        words = sentence_of(gain, after, left, why(parts, best.get("method", PAPER), left))
+        words = sentence_of(gain, after, left, why(parts, best.get("method", PAPER), left, best.get("reference")))
         if abs(affine["error_mean_m"] - best["error_mean_m"]) <= bar:
             mark = "open"
             words = (
@@ -197,7 +196,18 @@ def sentence_of(gain, left_per_cell, left, reason):
     return f"up-sampling makes the error {share(-gain)} % worse ({size}) {reason}."
 
 
-def why(parts, method=PAPER, left_m=0.0):
+def taken_away(method, reference):
+    """The parts of the budget that a method takes away against a law."""
+    cubic = reference in schema.laws("has_second_order")
+    return {
+        part
+        for term in schema.terms(method)
+        if cubic or term != "cubic"
+        for part in TAKEN_AWAY.get(term, ())
+    }
+
+
+def why(parts, method=PAPER, left_m=0.0, reference=None):
     """What the error that is left comes from, in words; from the budget where there is one.
 
     The budget is that of the paper's method, whose shares are of its error; another method leaves
@@ -210,7 +220,8 @@ def why(parts, method=PAPER, left_m=0.0):
     if not parts:
         return "for a reason that was not measured: the error budget did not run at this level"
     if method != PAPER:
-        left = [part for part in CAUSES if part in parts and part not in TAKEN_AWAY.get(method, ())]
+        gone = taken_away(method, reference)
+        left = [part for part in CAUSES if part in parts and part not in gone]
         left = [part for part in left if parts[part]["mean_m"] > SECOND_CAUSE * left_m]
         if not left:
             return "for a reason that no part of the error budget has, as a higher order in strain"

@@ -3,7 +3,7 @@
 import math
 
 from figures import style
-from figures.budget import LADDER, budget_figure, family, way_figure
+from figures.budget import budget_figure, is_method, way_figure
 from figures.style import percent, seconds, three
 from read.budget_results import (
     BESIDE_THE_SUM,
@@ -211,7 +211,7 @@ def front_sentence(ways):
     method has both time and error.
     """
     known = [w for w in ways if w["seconds"] > 0 and not math.isnan(w["error_mean_per_cell"])]
-    ladder = [w for w in known if family(w["way"]) in LADDER]
+    ladder = [w for w in known if is_method(w["way"])]
     if not ladder:
         return None
     front = pareto_front(known)

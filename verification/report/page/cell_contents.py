@@ -186,7 +186,7 @@ def draw_strain(contents, rows, methods, reference, side, gallery):
         if row["reference"] == reference:
             of_load.setdefault(row["load"], set()).add(row["method"])
     spoken_of = {"affine", "localized"} | {
-        main_method(some, reference) for some in of_load.values()
+        main_method(some) for some in of_load.values()
     }
     main = [method for method in methods if method in spoken_of] or methods
     references = style.ordered_references(row["reference"] for row in rows)

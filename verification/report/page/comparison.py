@@ -148,7 +148,7 @@ def validity_rows(results, subjects):
             here = {
                 row["method"]: validity_text(row) for row in some if row["reference"] == reference
             }
-            best = main_method(here, reference)
+            best = main_method(here)
             beside = f" [{here[METHOD]}]" if best != METHOD and METHOD in here else ""
             texts.append(here.get(best, "–") + beside)
         rows.append((load, texts))
@@ -169,7 +169,7 @@ def error_rows(results, subjects, strain):
                 and row["reference"] == reference
                 and math.isclose(row["strain"], strain, rel_tol=1e-6)
             }
-            best = main_method(here, reference)
+            best = main_method(here)
             beside = "" if best == METHOD else f"{thousandths(here.get(METHOD))}; "
             texts.append(
                 f"{thousandths(here[best])} ({beside}{thousandths(here.get('affine'))})"

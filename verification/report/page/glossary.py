@@ -14,26 +14,24 @@ GLOSSARY = (
     ("characteristic displacements, χ", "how the vertices of a cell move beside an even strain,"
      " for a unit of each macro strain; computed once per cell"),
     ("anchor", "χ is known up to a constant; it is fixed by holding the corners of the cell still,"
-     " which makes the place of the cut matter. `localized-mean-anchor` takes mean zero instead"),
+     " which makes the place of the cut matter; with the term edges it has mean zero instead"),
     ("affine", "the coarse mesh alone: fine vertices follow their coarse triangle; the baseline"),
     ("localized", "up-sampling as the paper has it: affine plus χ times the strain of the coarse"
      " triangle, blended between triangles"),
-    ("quadratic", "up-sampling at second order in strain: the coarse cloth has the cubic energy of"
-     " the cell beside C^H, and χ is joined by six modes for the products of macro strains"),
-    ("edges", "up-sampling with what clamped and free edges of the sheet do: the slip of a clamped"
+    ("full", "up-sampling with all terms that have a meaning under the law and load: p2, edges,"
+     " cubic, modes and micro. Other methods are named by what is added or taken away:"
+     " `localized+p2`, `full-micro`"),
+    ("cubic", "a term: the coarse cloth has the cubic energy of the cell beside C^H"),
+    ("modes", "a term: χ is joined by six modes for the products of macro strains; in cloths of"
+     " yarns by modes that are fitted over the strains of the study, and the box is among the notes"),
+    ("micro", "a term: χ and all that goes with it; without it the coarse motion is interpolated"),
+    ("edges", "a term: what clamped and free edges of the sheet do: the slip of a clamped"
      " edge, the tension of a free one, and displacements that decay from both inwards; χ has mean"
      " zero"),
-    ("p2", "localized, the coarse cloth being made of triangles two cells wide whose displacements are"
+    ("p2", "a term: the coarse cloth is made of triangles two cells wide whose displacements are"
      " quadratic; it has the same vertices"),
-    ("full", "p2, quadratic and edges in one"),
-    ("first-order", "p2 and edges in one, for cloths of yarns, whose second order does not reach far"),
-    ("fitted", "quadratic with six modes that are fitted to the fluctuations of the cell over a box"
-     " of strains, for large ones; asked for by name, and the box is among the notes"),
-    ("full-fitted", "first-order with modes that are fitted over the strains of the study, for cloths of yarns"),
-    ("lift", "how a fine vertex is carried with the coarse cloth before χ is added; the affine lift"
-     " is the plain one"),
-    ("blending", "averaging the strain of neighbouring coarse triangles so that χ has no jumps;"
-     " `localized-piecewise` leaves it out"),
+    ("lift", "how χ is turned with the coarse cloth before it is added: by its rotation"),
+    ("blending", "averaging the strain of neighbouring coarse triangles so that χ has no jumps"),
     ("reference", "the fine mesh solved by finite elements: what counts as the truth, with an error"
      " bar of its own"),
     ("linear, biot, green, yarn", "laws of the reference: small strain;"

@@ -2,15 +2,15 @@
 """The tables that the program writes, as its build says them in schema.json: columns in their
 order, what each may hold, and how many of the first ones name a row.
 
-    {"format_version": 1, "methods_by_rank": {"yarn": ["first-order", ...], "others": ["full", ...]},
+    {"format_version": 1, "methods": {"affine": [], "localized": ["micro"], "full": ["p2", ...]},
      "laws": [{"name": "linear", "is_of_space": false, ...}, ...],
      "loads": [{"name": "strip-1", "label": "Sheet pulled along axis 1", "is_infinite": false}, ...],
      FILE: {"keys": 5, "columns": [{"name": "strain", "domain": "positive"}, ...]}, ...}
 
-`format_version` is that of all files that this version of the program writes; the first of
-`methods_by_rank` that a study has under a load and law is the one that its page speaks of; `laws`
-are those of references and `loads` those of studies, in their order, with what the program knows of
-each.
+`format_version` is that of all files that this version of the program writes; `methods` are the
+presets of methods with their terms, of which a name like `localized+p2` has more and `full-micro`
+less; `laws` are those of references and `loads` those of studies, in their order, with what the
+program knows of each.
 
 The program hands on where the file lies in HOMESPUN_SCHEMA; an installed report has it beside
 report.py.
@@ -19,6 +19,7 @@ import functools
 import json
 import math
 import os
+import re
 from dataclasses import dataclass
 
 OUTCOMES = ("PASS", "FAIL", "INCONCLUSIVE")
@@ -106,14 +107,32 @@ def format_version():
     return read(place())[0]
 
 
-def main_method(methods, reference):
-    """The method that a page speaks of among those of a load against a law.
+def terms(method):
+    """Names of the terms of a method; none of what is no method.
 
     @throws NoSchema
     """
-    ranks = read(place())[2]
-    rank = ranks.get(reference, ranks["others"])
-    return next((name for name in rank if name in methods), rank[-1])
+    preset, *changes = re.split("(?=[+-])", method)
+    found = set(read(place())[2].get(preset, ()))
+    for change in changes:
+        (found.add if change[0] == "+" else found.discard)(change[1:])
+    return found
+
+
+def main_method(methods):
+    """The method that a page speaks of among those of a load against a law: the one with most
+    terms, of several the one whose terms come last; `localized` where none has micro.
+
+    @throws NoSchema
+    """
+    order = read(place())[2]["full"]  # which has all terms
+    ranked = {name: sorted(map(order.index, terms(name))) for name in methods}
+    last = order.index("micro")
+    return max(
+        (name for name in ranked if last in ranked[name]),
+        key=lambda name: (len(ranked[name]), ranked[name]),
+        default="localized",
+    )
 
 
 def laws(of=None):
@@ -159,10 +178,7 @@ def read(path):
         with open(path, encoding="utf-8") as file:
             value = json.load(file)
         version = int(value.pop("format_version"))
-        ranks = {
-            law: [str(name) for name in rank]
-            for law, rank in value.pop("methods_by_rank").items()
-        }
+        presets = {str(name): list(its) for name, its in value.pop("methods").items()}
         laws_there, loads_there = (
             [dict(one) for one in value.pop(key)] for key in ("laws", "loads")
         )
@@ -178,7 +194,7 @@ def read(path):
                 )
                 for name, one in value.items()
             },
-            ranks,
+            presets,
             laws_there,
             loads_there,
         )

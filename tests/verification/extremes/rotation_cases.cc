@@ -8,7 +8,7 @@
 #include "shell/terms/membrane_term.h"
 #include "shell/terms/plate_term.h"
 #include "shell/terms/wind.h"
-#include "verification/extremes/stress_cases.h"
+#include "tests/verification/extremes/program_cases.h"
 #include "verification/record/fields.h"
 #include "verification/record/number_text.h"
 

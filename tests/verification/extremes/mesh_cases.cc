@@ -3,7 +3,7 @@
 #include "meshes/cloth/cloth_faults.h"
 #include "meshes/plain/errors.h"
 #include "shell/terms/membrane_term.h"
-#include "verification/extremes/stress_cases.h"
+#include "tests/verification/extremes/program_cases.h"
 
 #include <limits>
 
