@@ -22,8 +22,10 @@ AT_ONCE = [("--help",), ("--version",), (), ("frobnicate",), ("strain", "--frobn
            ("upsample", "cell.h5", "f.obj", "--rest", "r.obj", "--format", "none"),
            *((command, "--help") for command in COMMANDS)]
 # What the program is linked with: HDF5, which brings MPI and what the system's MPI needs, the C++
-# runtime, and the BLAS that it asks for its name.
-OWN = r"libhdf5|libmpi_cxx|libstdc\+\+|libgcc_s|lib(open)?blas|libgfortran|libquadmath"
+# runtime, and the BLAS that it asks for its name. UCX, which MPI of Debian 13 stands on, opens
+# plugins of its own when it is loaded.
+OWN = (r"libhdf5|libmpi_cxx|libstdc\+\+|libgcc_s|lib(open)?blas|libgfortran|libquadmath|"
+       r"libuc[a-z]_|libfuse3")
 
 
 def loads_of(path):
