@@ -40,7 +40,9 @@ def entries_of(lines):
         following = lines[number + 1] if number + 1 < len(lines) else ""
         if line.startswith(" " * COLUMN):
             pairs[-1][1] = (pairs[-1][1] + " " + line.strip()).strip()
-        elif line[COLUMN - 1 : COLUMN] == " " and not following.startswith(" " * COLUMN):
+        elif line[COLUMN - 2 : COLUMN] == "  " or (
+            line[COLUMN - 1 : COLUMN] == " " and not following.startswith(" " * COLUMN)
+        ):
             pairs.append([line[:COLUMN].strip(), line[COLUMN:].strip()])
         else:
             pairs.append([line.strip(), ""])

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Makes the runs that README's figures come from, and the tables of them: HOMESPUN SOURCES OUTPUT
+"""Makes the runs behind the published results, and their tables: HOMESPUN SOURCES OUTPUT
 [CELL...]
 
 All cells at the paper's size. What is there of the same revision is taken up. Hours on two cores;

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: MIT
-"""Makes the small tables that README's figures come from, out of folders of results.
+"""Makes the small tables behind the published results, out of folders of results.
 
     published.py OUTPUT DIR [DIR...]
 
@@ -30,7 +30,7 @@ STRAIN, LARGE_STRAIN, REFERENCE = 0.01, 0.1, "biot"
 LADDER = ("affine", "localized", "localized+edges", "localized+cubic+modes", "localized+p2", "full",
           "full-cubic-modes")
 SCENE = "pull"
-KEYS = {  # columns that name a row of each file, for README's marks
+KEYS = {  # columns that name a row of each file
     "errors.csv": ("cell", "load"),
     "ladder.csv": ("cell", "load"),
     "pull.csv": ("cell",),

@@ -1,19 +1,15 @@
 # SPDX-License-Identifier: MIT
 """Holds the numbers of a text in Markdown against the published tables.
 
-A table is marked by the line before it, a single number by a comment just before the number:
+A number is marked by a comment just before it, which names table, row and column:
 
-    <!-- published: errors.csv: {cell} | {load} | {localized} ± {reference_bar} | {affine} -->
     <!-- published: errors.csv layered/strip-2 localized -->8.8
 
-Of a table without `: ...` the headers are names of columns. Each cell must be what the file has, to
-the digits of the text, and each row of the file must stand in the table, unless the mark begins
-`published: part of FILE`. Cells that are empty, as the first of a group of rows says it, repeat the
-one above; of names what follows a comma is for readers.
-
-A row is named by its first columns, joined by `/`; with `*` it stands for several, of which the
-column says `:min`, `:max`, `:median`, `:sum` or `:count`. Names with blanks stand in quotes. Every number that
-has no mark is a fault, outside of code and of the kinds that are no results (ALLOWED).
+A row is named by its first columns, joined by `/`. With `*` the name stands for several rows, and
+the column ends in `:min`, `:max`, `:median`, `:sum` or `:count`. `A/B` in place of a column is the
+ratio of two, `A>B:count` the number of rows where one is larger. Names with blanks stand in quotes.
+Every number that has no mark is a fault, outside of code and of the kinds that are no results
+(ALLOWED).
 """
 import csv
 import fnmatch
@@ -23,7 +19,7 @@ import re
 import shlex
 import statistics
 
-MARK = re.compile(r"<!--\s*published:\s*(.*?)\s*-->")
+MARK = re.compile(r"<!--\s*published:\s*((?s:.)*?)\s*-->")
 NUMBER = r"[−-]?\d+(?:,\d{3})*(?:\.\d+)?(?:e[−+-]?\d+)?"
 BARE = re.compile(rf"(?<![\w.^/-]){NUMBER}(?![\w^]|\.\d|/)")
 FOLDS = {"min": min, "max": max, "median": statistics.median, "sum": sum, "count": len}
@@ -31,9 +27,9 @@ FOLDS = {"min": min, "max": max, "median": statistics.median, "sum": sum, "count
 # Numbers that are no results, by kind.
 ALLOWED = {
     "exit statuses": r"[Ee]xit status(?:es)?[^.\n]*(?:\n[^.\n]+)?",
-    "sizes that a command asks for": r"\d+ x \d+(?: cells)?",
+    "sizes that a command asks for": r"\d+ x\s\d+",
     "the paper's size": r"800 coarse and 288,000 fine triangles|800 triangles",
-    "strains at which errors are told": r"\b(?:1 %|10 %|1 % and 10 %) strain",
+    "strains at which errors are told": r"\b10?\s%\s+strain",
     "the unit of a table": r"1/1000|1000ths",
     "equations and figures of the paper": (
         r"(?:Eq\.|Equation|Figures?|Figs?\.) \d+(?:(?: and |, )\d+)*"
@@ -41,10 +37,11 @@ ALLOWED = {
     "axes": r"\baxis \d|\b11, 22, 12\b",
     "versions": (
         r"(?:Debian|version|C\+\+|homespun|homespun_|GCC|deal\.II|HDF5|Eigen|Python)"
-        r"\s?\d+(?:\.\d+)*\S*"
+        r"\s?\d+(?: or \d+|(?:\.\d+)*\S*)"
     ),
     "counts of commands": r"\b\d+ commands?\b",
     "ranks and threads": r"\b\d+ (?:MPI )?(?:ranks?|threads?|cores?|processors?)\b",
+    "times": r"\b\d+(?:\.\d+)?(?: to \d+)? (?:s|min|minutes|hours?|milliseconds)\b",
     "dimensions": r"\b[23]D\b|\bin 3 dimensions\b",
 }
 
@@ -82,20 +79,12 @@ def is_printed_as(value, text):
     )
 
 
-def words_of(text):
-    """A name as the tables have it: without backticks and what is said of it."""
-    return text.replace("`", "").split(",")[0].strip()
-
-
-def pattern_of(template):
-    """(expression, columns) of a cell `{localized} ± {reference_bar}`; a group takes a number or a
-    name.
-    """
-    parts = re.split(r"\{([\w+-]+)\}", template.strip())
-    expression = "".join(
-        "(.+?)" if k % 2 else re.escape(part).replace(r"\ ", r"\s*") for k, part in enumerate(parts)
-    )
-    return re.compile(expression + r"\Z"), parts[1::2]
+def value_of(row, column):
+    """The number in a column, or the ratio A/B of two; None where the row has none."""
+    parts = [row[name] for name in column.split("/")]
+    if "" in parts:
+        return None
+    return float(parts[0]) / (float(parts[1]) if len(parts) > 1 else 1.0)
 
 
 class Checker:
@@ -136,101 +125,27 @@ class Checker:
         rows = self.rows_named(line, file, name)
         if not rows:
             return
-        if column not in rows[0] and fold != "count":
-            self.fault(line, f"{file} has no column `{column}`")
+        unknown = [part for part in re.split("[/>]", column) if part not in rows[0]]
+        if unknown:
+            self.fault(line, f"{file} has no column `{unknown[0]}`")
         elif len(rows) > 1 and fold not in FOLDS:
             self.fault(
                 line,
                 (
-                    f"{file} has {len(rows)} rows `{name}`; expected one, or COLUMN:min, :max, :sum"
-                    " or :count"
+                    f"{file} has {len(rows)} rows `{name}`; expected one, or COLUMN:min, :max,"
+                    " :median, :sum or :count"
                 ),
             )
         else:
-            values = (
-                [1.0] * len(rows)
-                if fold == "count"
-                else [float(row[column]) for row in rows if row[column]]
-            )
+            larger, _, smaller = column.partition(">")
+            pairs = [
+                (value_of(row, larger), value_of(row, smaller) if smaller else -math.inf)
+                for row in rows
+            ]
+            values = [one for one, other in pairs if None not in (one, other) and one > other]
             value = FOLDS[fold](values) if fold else values[0] if values else math.nan
             if not is_printed_as(value, text):
                 self.fault(line, f"says {text}; {file}, {name}, {column} has {value:.8g}")
-
-    def check_table(self, line, mark, lines):
-        """A mark FILE[: TEMPLATE | ...], and the lines of the table behind it."""
-        head, _, templates = mark.partition(":")
-        is_part = head.startswith("part of ")
-        file = head.removeprefix("part of ").strip()
-        if file not in self.tables:
-            self.fault(
-                line, f"{file} is not published; expected one of {', '.join(self.tables) or 'none'}"
-            )
-            return
-        header, _, *body = [
-            [cell.strip() for cell in text.strip().strip("|").split("|")] for text in lines
-        ]
-        cells = (
-            [cell.strip() for cell in templates.split("|")]
-            if templates
-            else ["{" + words_of(name) + "}" for name in header]
-        )
-        patterns, above, found = [pattern_of(cell) for cell in cells], {}, set()
-        for k, texts in enumerate(body, start=line + 2):
-            above = self.check_row(k, file, patterns, texts, above)
-            found.add(tuple(above.get(key) for key in self.keys[file]))
-        for row in self.tables[file] if not is_part else []:
-            if tuple(row[key] for key in self.keys[file]) not in found:
-                self.fault(
-                    line,
-                    f"the table lacks {'/'.join(row[key] for key in self.keys[file])} of {file}",
-                )
-
-    def check_row(self, line, file, patterns, texts, above):
-        """@return names of this row, those that are empty from the row above"""
-        keys, values = dict(above), []
-        for (pattern, columns), text in zip(patterns, texts):
-            if not text and all(column in self.keys[file] for column in columns):
-                continue
-            match = pattern.match(text)
-            if not match:
-                self.fault(line, f"`{text}` is not of the form {pattern.pattern}")
-                continue
-            for column, part in zip(columns, match.groups()):
-                if column in self.keys[file]:
-                    keys[column] = words_of(part)
-                else:
-                    values.append((column, part.strip()))
-        if len(texts) != len(patterns):
-            self.fault(line, f"has {len(texts)} cells, its mark {len(patterns)}")
-        row = next(
-            (
-                row
-                for row in self.tables[file]
-                if all(row[key] == keys.get(key) for key in self.keys[file])
-            ),
-            None,
-        )
-        if row is None:
-            self.fault(
-                line, f"{file} has no row {'/'.join(str(keys.get(key)) for key in self.keys[file])}"
-            )
-            return keys
-        for column, text in values:
-            if column not in row:
-                self.fault(line, f"{file} has no column `{column}`")
-            elif not (
-                row[column] == text
-                or is_printed_as(row[column], text)
-                or (text == "–" and not row[column])
-            ):
-                self.fault(
-                    line,
-                    (
-                        f"says {text}; {file}, {'/'.join(row[key] for key in self.keys[file])},"
-                        f" {column} has {row[column] or 'nothing'}"
-                    ),
-                )
-        return keys
 
 
 def faults_of(text, tables, keys):
@@ -239,21 +154,6 @@ def faults_of(text, tables, keys):
     """
     checker = Checker(tables, keys)
     text = re.sub(r"^```.*?^```", lambda m: "\n" * m.group().count("\n"), text, flags=re.M | re.S)
-    lines = text.split("\n")
-    k = 0
-    while k < len(lines):
-        line = lines[k]
-        alone = MARK.fullmatch(line.strip())
-        if alone and k + 1 < len(lines) and lines[k + 1].lstrip().startswith("|"):
-            end = k + 1
-            while end < len(lines) and lines[end].lstrip().startswith("|"):
-                end += 1
-            checker.check_table(k + 1, alone.group(1), lines[k + 1 : end])
-            lines[k:end] = [""] * (end - k)
-            k = end
-            continue
-        k += 1
-    text = "\n".join(lines)
 
     def marked(match):
         line = text.count("\n", 0, match.start())

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The files of one run, as the tables of README are made from them."""
+"""The files of one run, as the published tables are made from them."""
 from read.stored import BadResults, check_verdicts, read_csv, read_json
 
 

@@ -1,8 +1,8 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: MIT
-"""Draws which law serves which cloth, with cells marked on it: the picture of the project's README.
+"""Draws which law serves which cloth, with cells marked on it: the picture of guides/findings.md.
 
-    draw_laws.py FOLDER... > which-law.svg
+    draw_laws.py FOLDER... > docs/pictures/which-law.svg
 
 FOLDER: of `homespun homogenize`, one per cell
 """

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""Every number of README's results comes from a file of verification/published.
+"""Every number of the front page and of the guides on results comes from a file of
+verification/published, and docs/results.md is the page of these files.
 
 A number without one is a fault.
 """
@@ -21,6 +22,7 @@ from made_up_drape import write_drape  # noqa: E402
 from made_up_run import verdict, write_run, write_table, write_verdicts  # noqa: E402
 from made_up_study import write_results, write_stress  # noqa: E402
 from read.stored import BadResults  # noqa: E402
+import results_page  # noqa: E402
 from readme_numbers import faults_of, is_printed_as, read_tables  # noqa: E402
 
 TABLES = {"errors.csv": [{"cell": "layered", "load": "strip-1", "affine": "51.27",
@@ -28,19 +30,24 @@ TABLES = {"errors.csv": [{"cell": "layered", "load": "strip-1", "affine": "51.27
                          {"cell": "layered", "load": "strip-2", "affine": "204.9",
                           "localized": "8.8123", "bar": ""}]}
 KEYS = {"errors.csv": ("cell", "load")}
-MARKED = """<!-- published: errors.csv: {cell} | {load} | {affine} | {localized} ± {bar} -->
-| cell | load | coarse | localized |
-|---|---|---|---|
-| `layered` | strip-1, along | 51.3 | 49.7 ± 1.4 |
-| | strip-2 | 205 | 8.8 ± – |
-"""
+MARKED = [ROOT / "README.md", *((ROOT / "guides" / f"{name}.md") for name in ("findings", "trust"))]
 
 
 class ReadmeTest(unittest.TestCase):
     @unittest.skipUnless(list(PUBLISHED.glob("*.csv")), "nothing is published yet")
-    def test_every_number_of_readme_is_that_of_its_file(self):
-        text = (ROOT / "README.md").read_text(encoding="utf-8")
-        self.assertEqual(faults_of(text, read_tables(PUBLISHED), published.KEYS), [])
+    def test_every_number_of_the_front_page_is_that_of_its_file(self):
+        for path in MARKED:
+            text = path.read_text(encoding="utf-8")
+            self.assertEqual(faults_of(text, read_tables(PUBLISHED), published.KEYS), [], path)
+
+    def test_no_line_begins_with_a_mark_which_would_end_its_paragraph(self):
+        for path in MARKED:
+            self.assertNotRegex(path.read_text(encoding="utf-8"), r"(?m)^\s*<!--")
+
+    def test_the_page_of_results_is_that_of_the_tables(self):
+        text = (ROOT / "docs" / "results.md").read_text(encoding="utf-8")
+        self.assertEqual(text, results_page.page(read_tables(PUBLISHED)),
+                         "`cmake --build --preset release --target docs` writes the page again")
 
     @unittest.skipUnless(list(PUBLISHED.glob("*.csv")), "nothing is published yet")
     def test_every_published_row_says_of_which_run_and_revision_it_is(self):
@@ -52,30 +59,6 @@ class ReadmeTest(unittest.TestCase):
 class CheckerTest(unittest.TestCase):
     def faults(self, text):
         return faults_of(text, TABLES, KEYS)
-
-    def test_a_table_that_says_what_its_file_has_is_without_fault(self):
-        self.assertEqual(self.faults(MARKED), [])
-
-    def test_a_wrong_cell_a_lacking_row_and_an_unknown_one_are_faults(self):
-        for old, new, words in (("51.3", "51.2",
-                                 "says 51.2; errors.csv, layered/strip-1, affine has 51.27"),
-                                ("± 1.4", "± 1.5", "says 1.5"), ("± –", "± 0", "says 0"),
-                                ("| 205 |", "| 204 |", "says 204"),
-                                ("| | strip-2 | 205 | 8.8 ± – |\n", "",
-                                 "the table lacks layered/strip-2"),
-                                ("strip-2", "strip-3", "has no row layered/strip-3"),
-                                ("49.7 ± 1.4", "49.7", "is not of the form"),
-                                ("errors.csv:", "other.csv:", "other.csv is not published")):
-            found = self.faults(MARKED.replace(old, new))
-            self.assertTrue(any(words in fault for fault in found), (new, found))
-        part = MARKED.replace("errors.csv:", "part of errors.csv:")
-        self.assertEqual(self.faults(part.replace("| | strip-2 | 205 | 8.8 ± – |\n", "")), [])
-
-    def test_headers_name_the_columns_of_a_table_without_a_form(self):
-        text = ("<!-- published: errors.csv -->\n| cell | load | affine |\n|---|---|---|\n"
-                "| layered | strip-1 | 51 |\n| layered | strip-2 | 204.9 |\n")
-        self.assertEqual(self.faults(text), [])
-        self.assertEqual(len(self.faults(text.replace("204.9", "204.8"))), 1)
 
     def test_a_number_in_a_sentence_is_held_against_its_row(self):
         mark = "<!-- published: errors.csv layered/strip-2 localized -->"
@@ -96,6 +79,16 @@ class CheckerTest(unittest.TestCase):
             self.assertEqual(len(faults(fold, "7")), 1)
         self.assertIn("has 2 rows", faults("", "8.8")[0])
 
+    def test_a_mark_may_ask_for_a_ratio_or_count_the_rows_of_a_comparison(self):
+        for column, number in (("affine/localized:max", "23.3"), ("affine/bar:min", "35.6"),
+                               ("localized>affine:count", "0"), ("affine>bar:count", "1"),
+                               ("affine>localized:count", "2")):
+            mark = f'<!-- published: errors.csv "layered/*" {column} -->'
+            self.assertEqual(self.faults(mark + number), [], column)
+            self.assertEqual(len(self.faults(mark + "77")), 1)
+        self.assertIn("no column `b`",
+                      self.faults('<!-- published: errors.csv "*" affine/b:min -->1')[0])
+
     def test_a_number_without_a_mark_is_a_fault_outside_of_code_and_of_what_is_no_result(self):
         self.assertEqual(self.faults("\nIt is 3.7 times faster."),
                          ["line 2: 3.7 has no mark `<!-- published: FILE ROW COLUMN -->`"])
@@ -115,6 +108,24 @@ class CheckerTest(unittest.TestCase):
                 self.assertTrue(is_printed_as(value, text), (value, text))
             for text in bad:
                 self.assertFalse(is_printed_as(value, text), (value, text))
+
+
+class ResultsPageTest(unittest.TestCase):
+    def test_the_page_lists_every_case_and_those_where_a_method_loses(self):
+        def row(cell, **errors):
+            text = {"cell": cell, "load": "strip-1", "run": "1", "revision": "a"}
+            for ending in ("", "_10"):
+                text |= {name + ending: str(errors.get(name, 4.)) for name, _ in
+                         results_page.ERRORS}
+            return text
+        rows = [row("good", affine=100., localized=50., main=10., **{"localized+p2": 25.}),
+                row("bad", affine=3., **{"localized+edges": ""})]
+        page = results_page.page({"ladder.csv": rows, "brackets.csv": [], "claims.csv": []})
+        self.assertIn("| `good` | strip-1 | 100 | 50.0 | 4.00 | 4.00 | 25.0 | 10.0 | 4.00 | 5.00 |"
+                      " 2.00 | 2.50 |", page)
+        self.assertIn("| `bad` | strip-1 | 3.00 | 4.00 | – |", page)
+        self.assertIn("- 1 % strain, 1 of 2: `bad` strip-1 (4.00 against 3.00).", page)
+        self.assertIn("| 10 % strain | total | 3.00 | 1.00 | 5.00 | 2 |", page)
 
 
 class PublishTest(unittest.TestCase):
