@@ -101,16 +101,6 @@ inline void frame_of(const double (&f1)[dim], const double (&f2)[dim], double *c
     frame[(4 + 2 * i) * stride] = l2;
   }
 }
-
-template <int dim>
-Frame<dim> to_frame(const Eigen::Matrix<double, 3 + 2 * dim, 1> &row)
-{
-  Frame<dim> frame;
-  frame.strain = row.template head<3>();
-  for (int i = 0; i < dim; ++i)
-    frame.lift.row(i) << row(3 + 2 * i), row(4 + 2 * i);
-  return frame;
-}
 } // namespace
 
 template <int dim>
@@ -259,39 +249,11 @@ Frame<dim> CoarseFrames<dim>::of_triangle(const int triangle, const Positions<di
   Eigen::Matrix<double, n_components, 1> row;
   with_choices(options, [&](const auto strain, const auto lift)
                { frame_of<dim, strain(), lift()>(f1, f2, row.data(), 1); });
-  return to_frame<dim>(row);
-}
-
-template <int dim>
-Frame<dim> CoarseFrames<dim>::at(const int triangle, const Eigen::Vector3d &weights,
-                                 const Positions<dim> &current) const
-{
-  if (options.blend == Blend::piecewise)
-    return of_triangle(triangle, current);
-  values(current);
-  Eigen::Matrix<double, n_components, 1> row = Eigen::Matrix<double, n_components, 1>::Zero();
-  for (int k = 0; k < 3; ++k)
-    row += weights(k) * of_vertices.row(mesh.triangles(triangle, k)).transpose();
-  return to_frame<dim>(row);
-}
-
-template <int dim>
-Eigen::Matrix<double, dim, 1>
-fine_position(const CoarseFrames<dim> &frames, const int triangle, const Eigen::Vector3d &weights,
-              const Eigen::Matrix<double, 1, 6> &chi, const Positions<dim> &current,
-              const Eigen::Matrix<double, 1, 12> &quadratic)
-{
-  const Frame<dim> frame = frames.at(triangle, weights, current);
-  Eigen::Vector2d w      = Eigen::Vector2d::Zero();
-  for (int a = 0; a < 3; ++a)
-    w -= frame.strain(a) * chi.segment<2>(2 * a).transpose();
-  const Eigen::Matrix<double, 6, 1> factors = meshes::quadratic_factors(frame.strain);
-  for (int k = 0; k < 6; ++k)
-    w -= factors(k) * quadratic.segment<2>(2 * k).transpose();
-  Eigen::Matrix<double, dim, 1> position = frame.lift * w;
-  for (int k = 0; k < 3; ++k)
-    position += weights(k) * current.row(frames.rest().triangles(triangle, k)).transpose();
-  return position;
+  Frame<dim> frame;
+  frame.strain = row.template head<3>();
+  for (int i = 0; i < dim; ++i)
+    frame.lift.row(i) << row(3 + 2 * i), row(4 + 2 * i);
+  return frame;
 }
 
 namespace
@@ -357,10 +319,4 @@ meshes::QuadraticChi anchored_fitted(const meshes::HomogenizedCell &cell,
 
 template class CoarseFrames<2>;
 template class CoarseFrames<3>;
-template Eigen::Vector2d fine_position<2>(const CoarseFrames<2> &, int, const Eigen::Vector3d &,
-                                          const Eigen::Matrix<double, 1, 6> &, const Positions<2> &,
-                                          const Eigen::Matrix<double, 1, 12> &);
-template Eigen::Vector3d fine_position<3>(const CoarseFrames<3> &, int, const Eigen::Vector3d &,
-                                          const Eigen::Matrix<double, 1, 6> &, const Positions<3> &,
-                                          const Eigen::Matrix<double, 1, 12> &);
 } // namespace homespun::localization

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Strain and lift of the coarse cloth, per triangle and blended to the vertices; and the definition
-// of an up-sampled position, one point at a time. The Upsampler computes the same for all points.
+// Strain and lift of the coarse cloth, per triangle and blended to the vertices, and the constant
+// of chi: what the up-sampled position of a fine point is made of.
 //
 //   x = sum_k b_k x_k + L w,   w = −(E11 chi_11 + E22 chi_22 + gamma12 chi_12)   (paper Eqs. 9, 12)
 //
@@ -63,10 +63,6 @@ public:
   /// Frame of one coarse triangle without any blending, the definition.
   Frame<dim> of_triangle(int triangle, const Positions<dim> &current) const;
 
-  /// Frame at a point of a coarse triangle, interpolated from values().
-  /// @param weights barycentric coordinates of the point in the triangle
-  Frame<dim> at(int triangle, const Eigen::Vector3d &weights, const Positions<dim> &current) const;
-
   const meshes::TriangleMesh &rest() const
   {
     return mesh;
@@ -86,17 +82,6 @@ private:
   std::vector<double> share;                ///< weight of each of them in the average
   mutable Values of_triangles, of_vertices; ///< the second where blended
 };
-
-/// Position of one fine point: the formula on top of this file.
-/// @param weights barycentric coordinates of its rest position in the coarse triangle
-/// @param chi its row of the characteristic displacements, column 2 a + c [m]
-/// @param quadratic its row of the quadratic modes, which w is extended by [m]
-/// @return (dim) [m]
-template <int dim>
-Eigen::Matrix<double, dim, 1>
-fine_position(const CoarseFrames<dim> &frames, int triangle, const Eigen::Vector3d &weights,
-              const Eigen::Matrix<double, 1, 6> &chi, const Positions<dim> &current,
-              const Eigen::Matrix<double, 1, 12> &quadratic = Eigen::Matrix<double, 1, 12>::Zero());
 
 /// Characteristic displacements with the chosen constant.
 /// @return (n,6) [m]: minus their values at the anchor, or minus their mean over the cell

@@ -2,9 +2,7 @@
 #include "localization/upsampler.h"
 
 #include "localization/cell_modes.h"
-#include "localization/garment_chi.h"
 #include "localization/upsampler_faults.h"
-#include "meshes/cloth/seams.h"
 #include "meshes/plain/errors.h"
 #include "meshes/plain/point_location.h"
 
@@ -73,28 +71,21 @@ Upsampler<dim, Scalar>::Upsampler(const meshes::HomogenizedCell &cell,
 }
 
 template <int dim, typename Scalar>
-Upsampler<dim, Scalar>::Upsampler(const meshes::HomogenizedCell &cell,
-                                  const meshes::ClothMesh &coarse, const meshes::FineCloth &fine,
-                                  const UpsamplerOptions &options)
-    : frames(coarse.rest, options)
-    , options(options)
+Upsampler<dim, Scalar>::Upsampler(const PlacedVertices &placed)
+    : frames(placed.coarse_rest, placed.options)
+    , options(placed.options)
+    , space_of_rest(placed.space_of_rest.begin(), placed.space_of_rest.end())
+    , n_space(placed.n_space)
+    , n_total(static_cast<int>(placed.triangle.size()))
 {
-  if (const auto faults = garment_faults(cell, coarse, fine, options); !faults.empty())
-    throw meshes::BadInput(faults);
-  const meshes::Chi none      = meshes::Chi::Zero(cell.mesh.n_vertices(), 6);
-  const meshes::Chi chi       = options.microscopic ? anchored(cell, options.anchor) : none;
-  n_total                     = fine.n_vertices();
-  n_space                     = coarse.n_vertices();
-  const Eigen::VectorXi space = meshes::space_of_rest(coarse);
-  space_of_rest.assign(space.data(), space.data() + space.size());
-  const double fade = options.seam_fade * std::sqrt(cell.lattice.area());
-  std::vector<std::vector<Member>> in_triangle(static_cast<std::size_t>(coarse.n_triangles()));
+  std::vector<std::vector<Member>> in_triangle(
+    static_cast<std::size_t>(placed.coarse_rest.n_triangles()));
   for (int v = 0; v < n_total; ++v)
-    in_triangle[static_cast<std::size_t>(fine.coarse_triangle(v))].push_back(
-      {v, fine.coarse_weights.row(v).transpose()});
-  tabulate(in_triangle, GarmentChi(cell, chi, fine, fade));
-  at_rest_vertices.resize(coarse.rest.n_vertices(), dim);
-  records.resize(static_cast<std::size_t>(coarse.rest.n_vertices()) *
+    in_triangle[static_cast<std::size_t>(placed.triangle(v))].push_back(
+      {v, placed.weights.row(v).transpose()});
+  tabulate(in_triangle, [&](const int v) { return placed.chi.row(v).eval(); });
+  at_rest_vertices.resize(placed.coarse_rest.n_vertices(), dim);
+  records.resize(static_cast<std::size_t>(placed.coarse_rest.n_vertices()) *
                  static_cast<std::size_t>(record_size(linear_modes)));
 }
 

@@ -12,10 +12,7 @@
 //   with eight runs per cell, for a sheet has the vertices of each of its eight triangles together.
 // General path, on any coarse mesh that covers the sheet: vertices grouped by coarse triangle, with
 //   8 numbers and an index per vertex.
-// A garment (meshes::FineCloth) takes the general path: vertices in space are gathered to the rest
-//   vertices of the panels, so that each panel has strains in its own rest frame and averages over
-//   its own triangles only. chi turns with the grain of the panel, and fades to zero at its seams
-//   (not at free edges): there both sides lie on the same coarse edge, and the seam stays closed.
+// Vertices that come placed, those of a garment (garment/placed_garment.h), take the general path.
 // Modes of edges (edge_modes.h) are constants of the vertices near edges: on the aligned path cells
 // that edges reach have a chi of their own, one for each way of being reached.
 // Terms that the options leave out have loops of their own without them; with quadratic modes there
@@ -28,8 +25,6 @@
 #include "localization/kernel.h"
 #include "localization/options.h"
 #include "localization/vertex_table.h"
-#include "meshes/cloth/cloth_mesh.h"
-#include "meshes/garment/fine_cloth.h"
 #include "meshes/plain/homogenized_cell.h"
 #include "meshes/plain/sheet.h"
 
@@ -39,6 +34,18 @@
 
 namespace homespun::localization
 {
+/// Fine vertices placed one by one, each with its own chi.
+struct PlacedVertices
+{
+  UpsamplerOptions options;         ///< without modes beside chi
+  meshes::TriangleMesh coarse_rest; ///< coarse mesh at rest
+  Eigen::VectorXi space_of_rest;    ///< coarse vertex in space of each of its vertices
+  int n_space = 0;                  ///< coarse vertices in space
+  Eigen::VectorXi triangle;         ///< (n) coarse triangle of each fine vertex
+  Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor> weights; ///< (n,3) barycentric
+  meshes::Chi chi;                                                   ///< (n,6) [m]
+};
+
 /// @tparam dim 2: in-plane scenes carry two components; 3: cloth in space
 /// @tparam Scalar of the fine positions; the coarse positions and their strains are double
 template <int dim, typename Scalar = float>
@@ -58,12 +65,8 @@ public:
   Upsampler(const meshes::HomogenizedCell &cell, const meshes::TriangleMesh &coarse_rest,
             const meshes::Sheet &fine, const UpsamplerOptions &options = {});
 
-  /// Places the fine cloth of a garment on its coarse cloth.
-  /// @param coarse panels at rest and how they are sewn; its positions are not used
-  /// @param fine made by meshes::fine_cloth() from that cell and that coarse cloth
-  /// @throws BadInput where the coarse cloth has faults, or the three do not belong together
-  Upsampler(const meshes::HomogenizedCell &cell, const meshes::ClothMesh &coarse,
-            const meshes::FineCloth &fine, const UpsamplerOptions &options = {});
+  /// Takes vertices as they are placed.
+  explicit Upsampler(const PlacedVertices &placed);
 
   /// Whether the fast path is taken: the coarse mesh is meshes::coarse_sheet() of the sheet's own
   /// lattice, two triangles per cell, or of that lattice with the sides of cells halved.
@@ -72,7 +75,7 @@ public:
   /// Number of fine vertices.
   int n_fine() const;
 
-  /// Number of coarse vertices: of the garment in space, or of the coarse mesh.
+  /// Number of coarse vertices, in space where vertices come placed.
   int n_coarse() const;
 
   /// Fine positions of the current coarse positions. Uses work space of the object: one thread at a
@@ -121,14 +124,14 @@ private:
 
   CoarseFrames<dim> frames;
   UpsamplerOptions options;
-  std::vector<int> space_of_rest; ///< garment: vertex in space of each rest vertex; else empty
-  int n_space = 0;                ///< coarse vertices
-  int n_total = 0;                ///< fine vertices
-  CellTables<Scalar> cells;       ///< aligned: of all vertices but the last
-  VertexTable<Scalar> own;        ///< of all vertices that stand in no block
-  std::vector<Group> groups;      ///< of `own`
-  std::vector<int> target;        ///< fine vertex of each row of `own`, −1 for padding
-  mutable Positions<dim> at_rest_vertices; ///< garment: positions by rest vertex
+  std::vector<int> space_of_rest;          ///< of placed vertices; else empty
+  int n_space = 0;                         ///< coarse vertices
+  int n_total = 0;                         ///< fine vertices
+  CellTables<Scalar> cells;                ///< aligned: of all vertices but the last
+  VertexTable<Scalar> own;                 ///< of all vertices that stand in no block
+  std::vector<Group> groups;               ///< of `own`
+  std::vector<int> target;                 ///< fine vertex of each row of `own`, −1 for padding
+  mutable Positions<dim> at_rest_vertices; ///< of placed vertices: positions by rest vertex
   meshes::FittedResponse fitted;           ///< where the options take fitted modes
   mutable std::vector<Scalar> records;     ///< of each coarse vertex: see record_size()
 };

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "homogenization/bracket/compatible_strain.h"
 
-#include "homogenization/algebra/cholesky_solver.h"
+#include "homogenization/algebra/refined_solution.h"
+#include "homogenization/bracket/displacement_shapes.h"
 #include "meshes/plain/epsilon.h"
 #include "meshes/plain/index.h"
 #include "meshes/plain/triangle_kinematics.h"
@@ -16,28 +17,6 @@ using meshes::at;
 
 namespace
 {
-/// The 3 x 2n strain-displacement matrix B at a point. P2 shapes 3, 4, 5 stand on the edges 0, 1,
-/// 2.
-template <int n_shapes>
-Eigen::Matrix<double, 3, 2 * n_shapes>
-strain_displacement(const Eigen::Matrix<double, 3, 2> &gradients,
-                    const Eigen::Vector3d &barycentric)
-{
-  Eigen::Matrix<double, 3, 2 * n_shapes> B;
-  for (int i = 0; i < n_shapes; ++i)
-  {
-    Eigen::RowVector2d g = gradients.row(i % 3);
-    if (n_shapes == 6 && i < 3)
-      g *= 4. * barycentric(i) - 1.;
-    else if (n_shapes == 6)
-      g = 4. * (barycentric(i - 3) * gradients.row((i - 2) % 3) +
-                barycentric((i - 2) % 3) * gradients.row(i - 3));
-    B.col(2 * i) << g(0), 0., g(1);
-    B.col(2 * i + 1) << 0., g(1), g(0);
-  }
-  return B;
-}
-
 meshes::TriangleGeometry geometry_of(const std::array<Eigen::Vector2d, 3> &shape)
 {
   Eigen::Matrix2d sides;
@@ -128,7 +107,7 @@ void CompatibleStrain::assemble_and_solve()
     solve_with_rigid_holes(matrix, loads);
     return;
   }
-  const CholeskySolver::Solution solution = CholeskySolver(matrix, "cell problems").solve(loads);
+  const RefinedSolution solution = refined_solution(matrix, loads, "cell problems");
   for (int unknown = 0; unknown < n_unknowns; ++unknown)
     if (row_of(unknown) >= 0)
       unknowns.row(unknown) = solution.values.row(row_of(unknown));
@@ -175,9 +154,9 @@ void CompatibleStrain::solve_with_rigid_holes(const Eigen::SparseMatrix<double> 
   basis.setFromTriplets(entries.begin(), entries.end());
   const Eigen::SparseMatrix<double> full    = matrix.selfadjointView<Eigen::Lower>();
   const Eigen::SparseMatrix<double> reduced = basis.transpose() * full * basis;
-  const CholeskySolver::Solution solution =
-    CholeskySolver(reduced.triangularView<Eigen::Lower>(), "cell problems with rigid holes")
-      .solve(basis.transpose() * (loads - full * known));
+  const RefinedSolution solution =
+    refined_solution(reduced.triangularView<Eigen::Lower>(),
+                     basis.transpose() * (loads - full * known), "cell problems with rigid holes");
   unknowns   = known + basis * solution.values;
   n_dofs     = static_cast<unsigned>(n_kept);
   excess     = solution.excess;

@@ -44,6 +44,12 @@ public:
   /// @param weights of products of loads, sum over a, b of weights_ab t_a.t_b
   Eigen::VectorXd unbalanced_tractions(const Eigen::Matrix3d &weights) const;
 
+  /// chi at the nodes (2 n,3) [m]: two rows per vertex of the mesh, then, in P2, two per edge.
+  const Eigen::MatrixXd &chi_at_nodes() const
+  {
+    return unknowns;
+  }
+
   /// chi at the vertices of the mesh that was glued, shape (n,6) [m].
   meshes::Chi chi_at_given_vertices() const;
 

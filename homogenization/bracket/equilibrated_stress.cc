@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "homogenization/bracket/equilibrated_stress.h"
 
-#include "homogenization/algebra/cholesky_solver.h"
+#include "homogenization/algebra/refined_solution.h"
 #include "meshes/plain/epsilon.h"
 #include "meshes/plain/index.h"
 
@@ -200,7 +200,7 @@ void EquilibratedStress::assemble_and_solve()
     matrix = Eigen::SparseMatrix<double>(changed.triangularView<Eigen::Lower>()) + of_flat;
     loads  = loads_of_flat + basis.transpose() * loads;
   }
-  CholeskySolver::Solution solution = CholeskySolver(matrix, "complementary energy").solve(loads);
+  RefinedSolution solution = refined_solution(matrix, loads, "complementary energy");
   if (!flat.empty())
     solution.values = basis * solution.values;
   for (int unknown = 0; unknown <= n; ++unknown)

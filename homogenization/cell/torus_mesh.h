@@ -105,10 +105,6 @@ TorusMesh glued(const meshes::TriangleMesh &mesh, const meshes::Lattice &lattice
 /// @param is_marked (n_triangles)
 TorusMesh bisected(const TorusMesh &mesh, const std::vector<char> &is_marked);
 
-/// The mesh cut open again: the triangles in their order, each where it lies in the plane. Its
-/// precision is that of coordinates.
-meshes::TriangleMesh unfolded(const TorusMesh &mesh);
-
 /// The edges with a triangle on one side only: the rims of holes, each as {triangle, edge of it}.
 std::vector<std::array<int, 2>> rim_edges(const TorusMesh &mesh);
 

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "homogenization/edges/cell_elements.h"
 
-#include "homogenization/algebra/cholesky_factor.h"
+#include "homogenization/bracket/compatible_strain.h"
+#include "homogenization/bracket/displacement_shapes.h"
 #include "meshes/plain/errors.h"
+#include "meshes/plain/index.h"
 #include "meshes/plain/triangle_kinematics.h"
-
-#include <Eigen/Geometry>
-#include <Eigen/SparseCore>
 
 #include <array>
 #include <cmath>
@@ -15,6 +14,8 @@
 
 namespace homespun::homogenization
 {
+using meshes::at;
+
 namespace
 {
 /// Barycentric coordinates and weight of a point of quadrature; weights add up to one.
@@ -42,7 +43,24 @@ std::vector<Barycentric> quadrature(const unsigned int order)
   return points;
 }
 
-constexpr int edge_of_shape[3][2] = {{0, 1}, {1, 2}, {2, 0}};
+template <int n_shapes>
+ElementPoint element_point(const meshes::TriangleGeometry &geometry, const Barycentric &of)
+{
+  return {strain_displacement<n_shapes>(geometry.shape_gradients, of.at),
+          shape_values<n_shapes>(of.at), of.weight * geometry.area};
+}
+
+/// The corner of a triangle of a mesh with which it begins on the torus.
+int first_corner(const meshes::TriangleMesh &mesh, const int triangle, const TorusTriangle &its)
+{
+  int first        = 0;
+  const auto apart = [&](const int k)
+  { return (mesh.vertices.row(mesh.triangles(triangle, k)).transpose() - its.corner).norm(); };
+  for (int k = 1; k < 3; ++k)
+    if (apart(k) < apart(first))
+      first = k;
+  return first;
+}
 
 /// Refuses cells that make no straight edges.
 void require_parallelogram(const UnitCell &cell, const meshes::Lattice &lattice,
@@ -66,42 +84,40 @@ void require_parallelogram(const UnitCell &cell, const meshes::Lattice &lattice,
 
 CellElements::CellElements(const UnitCell &cell, const unsigned int order)
     : cell(cell)
+    , torus(glued(cell.mesh, cell.lattice))
+    , class_of(torus.vertex_of_original)
+    , n_classes(torus.n_vertices + (order == 2 ? torus.n_edges() : 0))
     , stiffness(cell.stiffness_of_phase())
     , origin(cell.mesh.vertices.row(meshes::anchor_vertex(cell.mesh, cell.lattice)))
 {
   require_parallelogram(cell, cell.lattice, origin);
   const meshes::TriangleMesh &mesh = cell.mesh;
   nodes.resize(mesh.n_triangles(), order == 1 ? 3 : 6);
-  nodes.leftCols<3>()                 = mesh.triangles;
-  std::vector<Eigen::RowVector2d> all = {};
-  for (int v = 0; v < mesh.n_vertices(); ++v)
-    all.emplace_back(mesh.vertices.row(v));
-  std::map<std::array<int, 2>, int> middle;
-  if (order == 2)
-    for (int t = 0; t < mesh.n_triangles(); ++t)
-      for (int k = 0; k < 3; ++k)
-      {
-        const int i = mesh.triangles(t, edge_of_shape[k][0]),
-                  j = mesh.triangles(t, edge_of_shape[k][1]);
-        const auto [place, is_new] =
-          middle.insert({{std::min(i, j), std::max(i, j)}, static_cast<int>(all.size())});
-        if (is_new)
-          all.emplace_back(0.5 * (mesh.vertices.row(i) + mesh.vertices.row(j)));
-        nodes(t, 3 + k) = place->second;
-      }
-  points.resize(static_cast<Eigen::Index>(all.size()), 2);
-  for (std::size_t n = 0; n < all.size(); ++n)
-    points.row(static_cast<Eigen::Index>(n)) = all[n];
-
-  const meshes::ImageClasses images = meshes::match_images(points, cell.lattice);
-  class_of.assign(all.size(), -1);
-  for (std::size_t n = 0; n < all.size(); ++n)
+  std::vector<Eigen::RowVector2d> middles;
+  std::map<std::array<int, 2>, int> middle; // of two vertices -> node
+  for (int t = 0; t < mesh.n_triangles(); ++t)
   {
-    int &of_first = class_of[static_cast<std::size_t>(images.representative[n])];
-    if (of_first < 0)
-      of_first = n_classes++;
-    class_of[n] = of_first;
+    const TorusTriangle &its = torus.triangles[at(t)];
+    const int first          = first_corner(mesh, t, its);
+    for (int k = 0; k < 3; ++k)
+      nodes(t, k) = mesh.triangles(t, (first + k) % 3);
+    for (int k = 0; k < (order == 2 ? 3 : 0); ++k)
+    {
+      const int i = nodes(t, k), j = nodes(t, (k + 1) % 3);
+      const auto [place, is_new] =
+        middle.insert({{std::min(i, j), std::max(i, j)}, static_cast<int>(class_of.size())});
+      if (is_new)
+      {
+        middles.emplace_back(0.5 * (mesh.vertices.row(i) + mesh.vertices.row(j)));
+        class_of.push_back(torus.n_vertices + its.edges[at(k)]);
+      }
+      nodes(t, 3 + k) = place->second;
+    }
   }
+  points.resize(static_cast<Eigen::Index>(class_of.size()), 2);
+  points.topRows(mesh.n_vertices()) = mesh.vertices;
+  for (std::size_t k = 0; k < middles.size(); ++k)
+    points.row(mesh.n_vertices() + static_cast<Eigen::Index>(k)) = middles[k];
 }
 
 const Eigen::Matrix3d &CellElements::stiffness_of(const int triangle) const
@@ -118,36 +134,10 @@ std::vector<ElementPoint> CellElements::points_of(const int triangle) const
 {
   const meshes::TriangleGeometry geometry =
     meshes::triangle_geometry(meshes::sides_of_triangle<2>(nodes.row(triangle).head<3>(), points));
-  const Eigen::Matrix<double, 2, 3> slopes = geometry.shape_gradients.transpose();
-
   std::vector<ElementPoint> result;
-  const int n = n_shapes();
-  for (const Barycentric &b : quadrature(n == 3 ? 1 : 2))
-  {
-    Eigen::Matrix<double, 2, Eigen::Dynamic> gradients(2, n);
-    Eigen::VectorXd values(n);
-    for (int k = 0; k < 3; ++k)
-    {
-      values(k)        = n == 3 ? b.at(k) : b.at(k) * (2. * b.at(k) - 1.);
-      gradients.col(k) = (n == 3 ? 1. : 4. * b.at(k) - 1.) * slopes.col(k);
-    }
-    for (int k = 3; k < n; ++k)
-    {
-      const int i = edge_of_shape[k - 3][0], j = edge_of_shape[k - 3][1];
-      values(k)        = 4. * b.at(i) * b.at(j);
-      gradients.col(k) = 4. * (b.at(i) * slopes.col(j) + b.at(j) * slopes.col(i));
-    }
-    ElementPoint point;
-    point.strains.setZero(3, 2 * n);
-    for (int k = 0; k < n; ++k)
-    {
-      point.strains(0, 2 * k) = point.strains(2, 2 * k + 1) = gradients(0, k);
-      point.strains(1, 2 * k + 1) = point.strains(2, 2 * k) = gradients(1, k);
-    }
-    point.values = values;
-    point.weight = b.weight * geometry.area;
-    result.push_back(point);
-  }
+  for (const Barycentric &b : quadrature(n_shapes() == 3 ? 1 : 2))
+    result.push_back(n_shapes() == 3 ? element_point<3>(geometry, b)
+                                     : element_point<6>(geometry, b));
   return result;
 }
 
@@ -159,7 +149,7 @@ Eigen::VectorXd CellElements::lengths_on_edge(const int axis) const
   for (int t = 0; t < n_triangles(); ++t)
     for (int k = 0; k < 3; ++k)
     {
-      const int i = nodes(t, edge_of_shape[k][0]), j = nodes(t, edge_of_shape[k][1]);
+      const int i = nodes(t, k), j = nodes(t, (k + 1) % 3);
       if (!is_on(i) || !is_on(j))
         continue;
       const double length = (points.row(j) - points.row(i)).norm();
@@ -174,17 +164,6 @@ Eigen::VectorXd CellElements::lengths_on_edge(const int axis) const
 
 namespace
 {
-/// DoFs of a triangle among the classes.
-std::vector<int> class_dofs(const CellElements &elements, const int triangle)
-{
-  std::vector<int> dofs;
-  for (int k = 0; k < elements.n_shapes(); ++k)
-    for (int c = 0; c < 2; ++c)
-      dofs.push_back(2 * elements.class_of[static_cast<std::size_t>(elements.nodes(triangle, k))] +
-                     c);
-  return dofs;
-}
-
 /// Minus the mean of the values at the vertices, linear in the triangles.
 void take_mean_off(const CellElements &elements, Eigen::MatrixXd &w)
 {
@@ -202,43 +181,9 @@ void take_mean_off(const CellElements &elements, Eigen::MatrixXd &w)
 
 ElementCellProblem solve_cell(const CellElements &elements)
 {
-  const int n = 2 * elements.n_classes - 2; // the last class is held
-  std::vector<Eigen::Triplet<double>> entries;
-  Eigen::MatrixXd loads = Eigen::MatrixXd::Zero(n + 2, 3);
-  Eigen::Matrix3d mean  = Eigen::Matrix3d::Zero();
-  for (int t = 0; t < elements.n_triangles(); ++t)
-  {
-    const std::vector<int> dofs = class_dofs(elements, t);
-    const Eigen::Matrix3d &c    = elements.stiffness_of(t);
-    for (const ElementPoint &point : elements.points_of(t))
-    {
-      const Eigen::MatrixXd rows   = point.weight * point.strains.transpose() * c;
-      const Eigen::MatrixXd matrix = rows * point.strains;
-      mean += point.weight * c;
-      for (std::size_t i = 0; i < dofs.size(); ++i)
-      {
-        loads.row(dofs[i]) -= rows.row(static_cast<Eigen::Index>(i));
-        for (std::size_t j = 0; j < dofs.size(); ++j)
-          if (dofs[i] >= dofs[j] && dofs[i] < n)
-            entries.emplace_back(
-              dofs[i], dofs[j], matrix(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)));
-      }
-    }
-  }
-  Eigen::SparseMatrix<double> lower(n, n);
-  lower.setFromTriplets(entries.begin(), entries.end());
-  const CholeskyFactor factor(lower, elements.cell.file + ": cell problem");
-  const Eigen::MatrixXd right = loads.topRows(n);
-  Eigen::MatrixXd w           = factor.solve(right);
-  for (int pass = 0; pass < 2; ++pass)
-    w += factor.solve(right - lower.selfadjointView<Eigen::Lower>() * w);
-
-  ElementCellProblem problem;
-  problem.w.setZero(n + 2, 3);
-  problem.w.topRows(n) = w;
-  // <c e_a> + <c eps(w_a)>, the second from the loads: they are −integral of B^T c.
-  problem.stiffness = (mean - loads.transpose() * problem.w) / elements.cell.lattice.area();
-  problem.stiffness = 0.5 * (problem.stiffness + problem.stiffness.transpose()).eval();
+  const CompatibleStrain solved(elements.torus, elements.cell.stiffness_of_phase(),
+                                elements.n_shapes() == 3 ? 1 : 2);
+  ElementCellProblem problem{-solved.chi_at_nodes(), solved.stiffness};
   take_mean_off(elements, problem.w);
   return problem;
 }

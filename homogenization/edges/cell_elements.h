@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
 // Displacement elements on one cell whose outline is the parallelogram of its lattice, with the
-// nodes that are lattice images of each other in one class: the ground of the cell problem and of
+// nodes that are lattice images of each other in one class, those of the glued cell: the ground of
 // the half strips at edges.
 #pragma once
 
+#include "homogenization/cell/torus_mesh.h"
 #include "homogenization/cell/unit_cell.h"
 
 #include <Eigen/Core>
@@ -53,10 +54,12 @@ public:
   }
 
   const UnitCell &cell;
-  meshes::Points points;     ///< of the nodes; those of the mesh come first [m]
-  Eigen::MatrixXi nodes;     ///< (m,shapes) of each triangle
-  std::vector<int> class_of; ///< of each node, 0 ... n_classes − 1
-  int n_classes = 0;
+  const TorusMesh torus; ///< the cell, glued
+  meshes::Points points; ///< of the nodes; those of the mesh come first [m]
+  Eigen::MatrixXi nodes; ///< (m,shapes) of each triangle
+  std::vector<int>
+    class_of; ///< of each node: a vertex of the torus, or one of its edges after them
+  const int n_classes;
 
 private:
   std::vector<Eigen::Matrix3d> stiffness;
@@ -70,7 +73,8 @@ struct ElementCellProblem
   Eigen::Matrix3d stiffness; ///< C^H, the mean stress [N/m]
 };
 
-/// Solves for the fluctuations w_a = −chi_a of the unit macro strains, on one rank, to round-off.
+/// The fluctuations w_a = −chi_a of the unit macro strains, as brackets solve for them
+/// (bracket/compatible_strain.h): on one rank, to round-off.
 /// The mean that is taken off is that of their values at the vertices, linear in the triangles.
 /// @throws NotConverged where a part of the cell moves freely
 ElementCellProblem solve_cell(const CellElements &elements);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The laws of a membrane, by name, and what the program has to know of each: the one list, from
 // which messages, defaults and schema.json are made. A law has its energy, stress and tangent in
-// verification/reference/laws.h, and as a sheet in space in space_laws.h beside it; the coarse
+// verification/law/laws.h, and as a sheet in space in space_laws.h beside it; the coarse
 // cloth has those that are marked so once more, in shell/membrane.
 #pragma once
 

@@ -70,6 +70,26 @@ Eigen::Matrix3d stretching(const DeformationGradient<3> &F, const Eigen::RowVect
 }
 } // namespace
 
+TriangleStep step_of_stress(const double area, const Eigen::Matrix<double, 3, 2> &hats,
+                            const DeformationGradient<3> &mean, const DeformationGradient<3> &F,
+                            const Eigen::Matrix2d &S, const Eigen::Matrix3d &dS)
+{
+  TriangleStep step;
+  step.gradient = area * hats * S * mean.transpose();
+  for (int a = 0; a < 3; ++a)
+  {
+    const Eigen::RowVector2d g = hats.row(a);
+    const Eigen::Matrix3d half = area * stretching(mean, g).transpose() * dS;
+    for (int b = 0; b < 3; ++b)
+    {
+      const Eigen::RowVector2d other = hats.row(b);
+      step.jacobian.block<3, 3>(3 * a, 3 * b) =
+        half * stretching(F, other) + 0.5 * area * (g * S).dot(other) * Eigen::Matrix3d::Identity();
+    }
+  }
+  return step;
+}
+
 TriangleStep triangle_step(const RestTriangle &rest, const Eigen::Matrix3d &old_corners,
                            const Eigen::Matrix3d &corners, const Eigen::Matrix3d &D,
                            const StrainWeights &weights)
@@ -88,22 +108,7 @@ TriangleStep triangle_step(const RestTriangle &rest, const Eigen::Matrix3d &old_
   const Eigen::Matrix3d by_U = 2. * weights.now * D * Eigen::Vector3d(1., 1., 2.).asDiagonal(),
                         dS   = to_S * (by_U - 0.5 * anticommutator(S)) * inverse_anticommutator(U) *
                              Eigen::Vector3d(2., 2., 1.).asDiagonal();
-  TriangleStep step;
-  const Eigen::Matrix2d stress = matrix_of(S);
-  step.gradient                = rest.area * rest.shape_gradients * stress * mean.transpose();
-  for (int a = 0; a < 3; ++a)
-  {
-    const Eigen::RowVector2d g = rest.shape_gradients.row(a);
-    const Eigen::Matrix3d half = rest.area * stretching(mean, g).transpose() * dS;
-    for (int b = 0; b < 3; ++b)
-    {
-      const Eigen::RowVector2d other = rest.shape_gradients.row(b);
-      step.jacobian.block<3, 3>(3 * a, 3 * b) =
-        half * stretching(F, other) +
-        0.5 * rest.area * (g * stress).dot(other) * Eigen::Matrix3d::Identity();
-    }
-  }
-  return step;
+  return step_of_stress(rest.area, rest.shape_gradients, mean, F, matrix_of(S), dS);
 }
 
 void add_step(const TriangleStep &step, const Eigen::RowVector3i &vertices, Vectors &gradient,

@@ -38,6 +38,16 @@ struct TriangleStep
   Eigen::Matrix<double, 9, 9> jacobian; ///< of gradient by the new corners, unknown 3 k + i [N/m]
 };
 
+/// The forces A F̄ S g and their derivative, with S and its derivative by the metric at the end:
+/// what every law of a triangle ends in.
+/// @param hats gradients g, row k: of corner k, along the two directions that F maps [1/m]
+/// @param mean,F columns of the deformation gradient: means over the step, and at its end
+/// @param S (2,2) [N/m]
+/// @param dS of S11, S22, S12 by C11/2, C22/2, C12 at the end of the step [N/m]
+TriangleStep step_of_stress(double area, const Eigen::Matrix<double, 3, 2> &hats,
+                            const DeformationGradient<3> &mean, const DeformationGradient<3> &F,
+                            const Eigen::Matrix2d &S, const Eigen::Matrix3d &dS);
+
 /// Forces over a step and their derivative, which is not symmetric. Where both ends of the step are
 /// collapsed to the same line, S across it is zero: no force depends on it.
 /// @param old_corners,corners (3,3) at the beginning and at the end [m]

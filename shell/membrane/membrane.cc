@@ -292,12 +292,11 @@ Eigen::Matrix<double, 3 * dim, 3 * dim> membrane_hessian(const Membrane &membran
   return triangle_hessian<dim>(rest, corners, law.stiffness, kind, law.initial_stress);
 }
 
-template <int dim>
-void add_membrane_hessian(const Membrane &membrane, const Positions<dim> &positions,
-                          const Hessian kind, FreeVertexMatrix<dim> &matrix)
+void add_membrane_hessian(const Membrane &membrane, const Positions<2> &positions,
+                          const Hessian kind, PlaneMatrix &matrix)
 {
   for (int t = 0; t < static_cast<int>(membrane.triangles.rows()); ++t)
-    matrix.add(t, membrane_hessian<dim>(membrane, t, positions, kind));
+    matrix.add(t, membrane_hessian<2>(membrane, t, positions, kind));
 }
 
 template <int dim>
@@ -316,8 +315,6 @@ int first_not_finite(const Positions<dim> &positions)
   template MembraneGradient<dim> membrane_gradient<dim>(const Membrane &, const Positions<dim> &); \
   template Eigen::Matrix<double, 3 * dim, 3 * dim> membrane_hessian<dim>(                          \
     const Membrane &, int, const Positions<dim> &, Hessian);                                       \
-  template void add_membrane_hessian<dim>(const Membrane &, const Positions<dim> &, Hessian,       \
-                                          FreeVertexMatrix<dim> &);                                \
   template int first_not_finite<dim>(const Positions<dim> &);
 HOMESPUN_INSTANTIATE(2)
 HOMESPUN_INSTANTIATE(3)

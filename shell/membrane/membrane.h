@@ -8,7 +8,7 @@
 #include "meshes/cloth/cloth_mesh.h"
 #include "meshes/plain/triangle_mesh.h"
 #include "meshes/plain/yarn_axes.h"
-#include "shell/algebra/free_vertex_matrix.h"
+#include "shell/algebra/plane_matrix.h"
 #include "shell/membrane/corotational_energy.h"
 #include "shell/membrane/guarded_cubic.h"
 
@@ -97,9 +97,8 @@ Eigen::Matrix<double, 3 * dim, 3 * dim> membrane_hessian(const Membrane &membran
 
 /// Adds the Hessian of membrane_energy() to a matrix over the free vertices.
 /// @param matrix whose elements are the membrane's triangles
-template <int dim>
-void add_membrane_hessian(const Membrane &membrane, const Positions<dim> &positions, Hessian kind,
-                          FreeVertexMatrix<dim> &matrix);
+void add_membrane_hessian(const Membrane &membrane, const Positions<2> &positions, Hessian kind,
+                          PlaneMatrix &matrix);
 
 /// Index of the first vertex with a component that is not finite, −1 where there is none.
 template <int dim>

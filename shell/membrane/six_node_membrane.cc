@@ -3,7 +3,6 @@
 
 #include "meshes/plain/errors.h"
 
-#include <array>
 #include <cmath>
 #include <string>
 
@@ -11,44 +10,6 @@ namespace homespun::shell
 {
 namespace
 {
-/// Triples of the six nodes that hold each pair of them.
-constexpr std::array<std::array<int, 3>, 7> triples = {
-  {{0, 1, 2}, {0, 3, 4}, {1, 3, 5}, {2, 4, 5}, {0, 5, 1}, {1, 4, 2}, {2, 3, 0}}};
-
-/// The triple in which the block of a pair is put, and its corners there.
-struct Place
-{
-  int triple, row, column;
-};
-
-constexpr Place place_of(const int a, const int b)
-{
-  for (int t = 0; t < static_cast<int>(triples.size()); ++t)
-  {
-    int row = -1, column = -1;
-    for (int k = 0; k < 3; ++k)
-    {
-      if (triples[static_cast<std::size_t>(t)][static_cast<std::size_t>(k)] == a)
-        row = k;
-      if (triples[static_cast<std::size_t>(t)][static_cast<std::size_t>(k)] == b)
-        column = k;
-    }
-    if (row >= 0 && column >= 0)
-      return {t, row, column};
-  }
-  return {-1, -1, -1};
-}
-
-constexpr bool has_every_pair()
-{
-  for (int a = 0; a < 6; ++a)
-    for (int b = 0; b < 6; ++b)
-      if (place_of(a, b).triple < 0)
-        return false;
-  return true;
-}
-static_assert(has_every_pair());
-
 /// Derivatives of the six functions by the barycentric coordinates, (6,3).
 Eigen::Matrix<double, 6, 3> barycentric_gradients(const Eigen::RowVector3d &at)
 {
@@ -77,11 +38,11 @@ template <typename Weights, typename Rows>
 void add_to_nodes(const SixNodeMembrane &membrane, const Rows &of_corners, const Weights &weights,
                   Rows &of_nodes)
 {
-  for (int t = 0; t < static_cast<int>(membrane.nodes.rows()); ++t)
+  for (int t = 0; t < static_cast<int>(membrane.triangles.rows()); ++t)
   {
     const auto here = (weights(t).transpose() * of_corners.template middleRows<9>(9 * t)).eval();
     for (int k = 0; k < 6; ++k)
-      of_nodes.row(membrane.nodes(t, k)) += here.row(k);
+      of_nodes.row(membrane.triangles(t, k)) += here.row(k);
   }
 }
 } // namespace
@@ -89,13 +50,13 @@ void add_to_nodes(const SixNodeMembrane &membrane, const Rows &of_corners, const
 template <int dim>
 Positions<dim> corners_of_points(const SixNodeMembrane &membrane, const Positions<dim> &positions)
 {
-  const int n = static_cast<int>(membrane.nodes.rows());
+  const int n = static_cast<int>(membrane.triangles.rows());
   Positions<dim> corners(9 * n, dim);
   for (int t = 0; t < n; ++t)
   {
     Eigen::Matrix<double, 6, dim> nodes;
     for (int k = 0; k < 6; ++k)
-      nodes.row(k) = positions.row(membrane.nodes(t, k));
+      nodes.row(k) = positions.row(membrane.triangles(t, k));
     corners.template middleRows<9>(9 * t) = membrane.corners[static_cast<std::size_t>(t)] * nodes;
   }
   return corners;
@@ -127,18 +88,13 @@ SixNodeMembrane six_node_membrane(const SixNodeMesh &mesh, const Eigen::Matrix3d
 {
   const int n = static_cast<int>(mesh.triangles.rows());
   SixNodeMembrane result;
-  result.vertices = mesh.nodes;
-  result.nodes    = mesh.triangles;
-  result.triangles.resize(static_cast<int>(triples.size()) * n, 3);
+  result.vertices  = mesh.nodes;
+  result.triangles = mesh.triangles;
   meshes::TriangleMesh points;
   points.triangles.resize(3 * n, 3);
   points.material = Eigen::VectorXi::Zero(3 * n);
   for (int t = 0; t < n; ++t)
   {
-    for (int k = 0; k < static_cast<int>(triples.size()); ++k)
-      for (int c = 0; c < 3; ++c)
-        result.triangles(static_cast<int>(triples.size()) * t + k, c) =
-          mesh.triangles(t, triples[static_cast<std::size_t>(k)][static_cast<std::size_t>(c)]);
     Eigen::Matrix<double, 3, 2> vertices;
     for (int k = 0; k < 3; ++k)
       vertices.row(k) = mesh.nodes.row(mesh.triangles(t, k));
@@ -206,37 +162,24 @@ Positions<2> linear_membrane_gradient(const SixNodeMembrane &membrane,
   return gradient;
 }
 
-template <int dim>
-void add_membrane_hessian(const SixNodeMembrane &membrane, const Positions<dim> &positions,
-                          const Hessian kind, FreeVertexMatrix<dim> &matrix)
+void add_membrane_hessian(const SixNodeMembrane &membrane, const Positions<2> &positions,
+                          const Hessian kind, PlaneMatrix &matrix)
 {
-  const Positions<dim> corners = corners_of_points<dim>(membrane, positions);
-  for (int t = 0; t < static_cast<int>(membrane.nodes.rows()); ++t)
+  const Positions<2> corners = corners_of_points<2>(membrane, positions);
+  for (int t = 0; t < static_cast<int>(membrane.triangles.rows()); ++t)
   {
-    Eigen::Matrix<double, 6 * dim, 6 *dim> whole = Eigen::Matrix<double, 6 * dim, 6 * dim>::Zero();
+    Eigen::Matrix<double, 12, 12> whole = Eigen::Matrix<double, 12, 12>::Zero();
     for (int q = 0; q < 3; ++q)
     {
-      Eigen::Matrix<double, 3 * dim, 6 *dim> map = Eigen::Matrix<double, 3 * dim, 6 * dim>::Zero();
+      Eigen::Matrix<double, 6, 12> map = Eigen::Matrix<double, 6, 12>::Zero();
       for (int c = 0; c < 3; ++c)
         for (int k = 0; k < 6; ++k)
-          for (int i = 0; i < dim; ++i)
-            map(c * dim + i, k * dim + i) =
-              membrane.corners[static_cast<std::size_t>(t)](3 * q + c, k);
+          for (int i = 0; i < 2; ++i)
+            map(2 * c + i, 2 * k + i) = membrane.corners[static_cast<std::size_t>(t)](3 * q + c, k);
       whole.noalias() +=
-        map.transpose() * membrane_hessian<dim>(membrane.points, 3 * t + q, corners, kind) * map;
+        map.transpose() * membrane_hessian<2>(membrane.points, 3 * t + q, corners, kind) * map;
     }
-    std::array<typename FreeVertexMatrix<dim>::Element, triples.size()> parts;
-    for (auto &part : parts)
-      part.setZero();
-    for (int a = 0; a < 6; ++a)
-      for (int b = 0; b < 6; ++b)
-      {
-        const Place place = place_of(a, b);
-        parts[static_cast<std::size_t>(place.triple)].template block<dim, dim>(
-          place.row * dim, place.column * dim) = whole.template block<dim, dim>(a * dim, b * dim);
-      }
-    for (int k = 0; k < static_cast<int>(triples.size()); ++k)
-      matrix.add(static_cast<int>(triples.size()) * t + k, parts[static_cast<std::size_t>(k)]);
+    matrix.add(t, whole);
   }
 }
 
@@ -255,6 +198,4 @@ template Positions<3> corners_of_points<3>(const SixNodeMembrane &, const Positi
 template Positions<2> corners_of_points<2>(const SixNodeMembrane &, const Positions<2> &);
 template double membrane_energy<2>(const SixNodeMembrane &, const Positions<2> &);
 template MembraneGradient<2> membrane_gradient<2>(const SixNodeMembrane &, const Positions<2> &);
-template void add_membrane_hessian<2>(const SixNodeMembrane &, const Positions<2> &, Hessian,
-                                      FreeVertexMatrix<2> &);
 } // namespace homespun::shell

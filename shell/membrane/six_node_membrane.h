@@ -31,11 +31,8 @@ SixNodeMesh six_node_mesh(const meshes::TriangleMesh &coarse, int n1, int n2);
 /// A membrane of six-node triangles at rest, of one phase.
 struct SixNodeMembrane
 {
-  meshes::Points vertices; ///< the nodes at rest (n,2) [m]
-  /// (7 m,3) triples of nodes that hold every pair of a triangle's nodes: the elements of a
-  /// FreeVertexMatrix
-  meshes::Triangles triangles;
-  Eigen::Matrix<int, Eigen::Dynamic, 6, Eigen::RowMajor> nodes; ///< (m,6)
+  meshes::Points vertices;                                          ///< the nodes at rest (n,2) [m]
+  Eigen::Matrix<int, Eigen::Dynamic, 6, Eigen::RowMajor> triangles; ///< (m,6) their nodes
   Membrane points; ///< a triangle per point, three per six-node triangle
   /// (m) corners of a triangle's three points from its nodes, three rows per point
   std::vector<Eigen::Matrix<double, 9, 6>> corners;
@@ -63,9 +60,8 @@ MembraneGradient<dim> membrane_gradient(const SixNodeMembrane &membrane,
 Positions<2> linear_membrane_gradient(const SixNodeMembrane &membrane,
                                       const Positions<2> &displacement);
 
-template <int dim>
-void add_membrane_hessian(const SixNodeMembrane &membrane, const Positions<dim> &positions,
-                          Hessian kind, FreeVertexMatrix<dim> &matrix);
+void add_membrane_hessian(const SixNodeMembrane &membrane, const Positions<2> &positions,
+                          Hessian kind, PlaneMatrix &matrix);
 
 /// Values of the six functions at a point of a triangle.
 /// @param barycentric of the corners 0, 1, 2

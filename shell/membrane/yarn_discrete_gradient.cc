@@ -73,17 +73,6 @@ Slope angle_per_sine(const double old, const Slope &gamma)
   return {value, derivative * gamma.by_end};
 }
 
-/// E moves by stretching() times a displacement of the corner whose hat has the slopes g along the
-/// yarns.
-Eigen::Matrix3d stretching(const DeformationGradient<3> &f, const Eigen::RowVector2d &g)
-{
-  Eigen::Matrix3d rows;
-  rows.row(0) = g(0) * f.col(0).transpose();
-  rows.row(1) = g(1) * f.col(1).transpose();
-  rows.row(2) = (g(1) * f.col(0) + g(0) * f.col(1)).transpose();
-  return rows;
-}
-
 /// M, entry by entry, those that are not zero.
 struct StrainOfMetric
 {
@@ -145,21 +134,6 @@ TriangleStep yarn_triangle_step(const RestTriangle &rest, const Eigen::Matrix3d 
   Eigen::Matrix2d stress;
   stress << S(0), S(2), S(2), S(1);
   const Eigen::Matrix<double, 3, 2> hats = rest.shape_gradients * yarns.axes; // along the yarns
-  const DeformationGradient<3> middle    = 0.5 * (old.f + now.f);
-  TriangleStep step;
-  step.gradient = rest.area * hats * stress * middle.transpose();
-  for (int a = 0; a < 3; ++a)
-  {
-    const Eigen::RowVector2d g = hats.row(a);
-    const Eigen::Matrix3d half = rest.area * stretching(middle, g).transpose() * dS;
-    for (int b = 0; b < 3; ++b)
-    {
-      const Eigen::RowVector2d other = hats.row(b);
-      step.jacobian.block<3, 3>(3 * a, 3 * b) =
-        half * stretching(now.f, other) +
-        0.5 * rest.area * (g * stress).dot(other) * Eigen::Matrix3d::Identity();
-    }
-  }
-  return step;
+  return step_of_stress(rest.area, hats, 0.5 * (old.f + now.f), now.f, stress, dS);
 }
 } // namespace homespun::shell

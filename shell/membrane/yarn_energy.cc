@@ -236,14 +236,6 @@ TriangleDerivatives<dim> yarn_triangle_derivatives(const RestTriangle &rest,
   return result;
 }
 
-template <int dim>
-Eigen::Matrix<double, 3 * dim, 3 * dim>
-yarn_triangle_hessian(const RestTriangle &rest, const Eigen::Matrix<double, 3, dim> &corners,
-                      const YarnAxes &yarns, const Hessian kind)
-{
-  return hessian_of_blocks<dim>(yarn_triangle_derivatives<dim>(rest, corners, yarns, kind).blocks);
-}
-
 // In the plane and in space.
 #define HOMESPUN_INSTANTIATE(dim)                                                                \
   template Eigen::Vector3d yarn_strain<dim>(const DeformationGradient<dim> &, const YarnAxes &); \
@@ -256,8 +248,6 @@ yarn_triangle_hessian(const RestTriangle &rest, const Eigen::Matrix<double, 3, d
   template Eigen::Matrix<double, 3, dim> yarn_triangle_gradient<dim>(                            \
     const RestTriangle &, const Eigen::Matrix<double, 3, dim> &, const YarnAxes &);              \
   template TriangleDerivatives<dim> yarn_triangle_derivatives<dim>(                              \
-    const RestTriangle &, const Eigen::Matrix<double, 3, dim> &, const YarnAxes &, Hessian);     \
-  template Eigen::Matrix<double, 3 * dim, 3 * dim> yarn_triangle_hessian<dim>(                   \
     const RestTriangle &, const Eigen::Matrix<double, 3, dim> &, const YarnAxes &, Hessian);
 HOMESPUN_INSTANTIATE(2)
 HOMESPUN_INSTANTIATE(3)

@@ -19,7 +19,7 @@
 // Of a yarn without length the energy is infinite, which makes a line search step back, and the
 // derivatives are zero. All functions are stateless. Not-a-number in gives not-a-number out.
 //
-// Written apart from verification/yarns/yarn_law.h, which it must equal.
+// Written apart from verification/law/laws.h, which it must equal.
 #pragma once
 
 #include "meshes/plain/yarn_axes.h"
@@ -73,12 +73,4 @@ template <int dim>
 TriangleDerivatives<dim>
 yarn_triangle_derivatives(const RestTriangle &rest, const Eigen::Matrix<double, 3, dim> &corners,
                           const meshes::YarnAxes &yarns, Hessian kind = Hessian::exact);
-
-/// Hessian of a triangle's energy; component i of corner k is unknown k dim + i.
-/// @param corners (3,dim) current positions [m]
-/// @return (3 dim, 3 dim) [N/m]
-template <int dim>
-Eigen::Matrix<double, 3 * dim, 3 * dim>
-yarn_triangle_hessian(const RestTriangle &rest, const Eigen::Matrix<double, 3, dim> &corners,
-                      const meshes::YarnAxes &yarns, Hessian kind = Hessian::exact);
 } // namespace homespun::shell

@@ -2,11 +2,10 @@
 #include "shell/terms/membrane_term.h"
 
 #include "meshes/plain/errors.h"
-#include "shell/algebra/index.h"
-#include "shell/algebra/triangle_slots.h"
 #include "shell/algebra/vertex_matrix.h"
 #include "shell/membrane/discrete_gradient.h"
 #include "shell/membrane/triangle_packs.h"
+#include "shell/terms/triangle_term.h"
 
 #include <cmath>
 #include <sstream>
@@ -15,37 +14,27 @@ namespace homespun::shell
 {
 namespace
 {
-class MembraneTerm : public Term
+class MembraneTerm final : public TriangleTerm
 {
 public:
   /// @param is_elastic false: the viscous part alone
-  MembraneTerm(Membrane &&membrane, const double viscosity, const bool is_elastic)
-      : membrane(std::move(membrane))
+  MembraneTerm(Membrane &&given, const double viscosity, const bool is_elastic)
+      : TriangleTerm(std::move(given))
       , viscosity(viscosity)
       , is_elastic(is_elastic)
-      , effective(this->membrane.stiffness)
-      , packs(this->membrane)
+      , effective(membrane.stiffness)
+      , packs(membrane)
   {
-    if (!this->membrane.cubic.empty())
+    if (!membrane.cubic.empty())
     {
-      tangent = std::make_unique<Tangent>(this->membrane);
-      tangent->stiffness.reserve(this->membrane.rest.size());
+      tangent = std::make_unique<Tangent>(membrane);
+      tangent->stiffness.reserve(membrane.rest.size());
     }
   }
 
   std::string name() const override
   {
     return !membrane.cubic.empty() ? "cubic membrane" : is_elastic ? "membrane" : "viscosity";
-  }
-
-  void couple(std::vector<std::array<int, 2>> &pairs) const override
-  {
-    couple_corners(membrane.triangles, pairs);
-  }
-
-  void attach(const BlockMatrix &matrix) override
-  {
-    places = places_of(membrane.triangles, matrix);
   }
 
   void begin_step(const StepStart &start) override
@@ -102,8 +91,7 @@ public:
       const Eigen::Matrix3d forces =
         rest.shape_gradients *
         (rest.area * energy_gradient<3>(F, effective[phase_of(t)].D, stress)).transpose();
-      for (int k = 0; k < 3; ++k)
-        gradient.row(membrane.triangles(t, k)) += forces.row(k);
+      add_forces(t, forces, gradient);
     }
   }
 
@@ -113,12 +101,7 @@ public:
     if (!acts())
       return;
     const auto take = [&](const int t, const TriangleDerivatives<3> &local)
-    {
-      for (int k = 0; k < 3; ++k)
-        gradient.row(membrane.triangles(t, k)) += local.gradient.row(k);
-      for (std::size_t b = 0; b < 6; ++b)
-        matrix.add(places[index(t)][b], local.blocks[b]);
-    };
+    { add(t, local, gradient, matrix); };
     if (membrane.cubic.empty())
       packs.derivatives(positions, kind, take);
     else
@@ -163,21 +146,6 @@ private:
   {
     return is_elastic || factor > 0.;
   }
-  int n_triangles() const
-  {
-    return static_cast<int>(membrane.triangles.rows());
-  }
-  std::size_t phase_of(const int t) const
-  {
-    return index(membrane.phase[index(t)]);
-  }
-  Eigen::Matrix3d corners_of(const Vectors &positions, const int t) const
-  {
-    Eigen::Matrix3d corners;
-    for (int k = 0; k < 3; ++k)
-      corners.row(k) = positions.row(membrane.triangles(t, k));
-    return corners;
-  }
   /// With a cubic energy: the packs with the law of each triangle at its strain.
   const TrianglePacks &tangent_at(const Vectors &positions) const
   {
@@ -202,7 +170,6 @@ private:
     return old_stress[index(t)];
   }
 
-  const Membrane membrane;
   const double viscosity; ///< [s]
   const bool is_elastic;
   double factor = 0.;                       ///< β/h
@@ -221,7 +188,6 @@ private:
     std::vector<Eigen::Vector3d> stress, strains;
   };
   std::unique_ptr<Tangent> tangent;
-  std::vector<TriangleSlots> places; ///< (m)
 };
 } // namespace
 

@@ -58,7 +58,7 @@ public:
     for (int t = 0; t < n_triangles(); ++t)
       for (int a = 0; a < n_nodes; ++a)
         for (int b = a + 1; b < n_nodes; ++b)
-          pairs.push_back({membrane.nodes(t, a), membrane.nodes(t, b)});
+          pairs.push_back({membrane.triangles(t, a), membrane.triangles(t, b)});
   }
 
   void attach(const BlockMatrix &matrix) override
@@ -67,7 +67,8 @@ public:
     for (int t = 0; t < n_triangles(); ++t)
       for (int a = 0, k = 0; a < n_nodes; ++a)
         for (int b = a; b < n_nodes; ++b, ++k)
-          places[index(t)][index(k)] = matrix.slot(membrane.nodes(t, a), membrane.nodes(t, b));
+          places[index(t)][index(k)] =
+            matrix.slot(membrane.triangles(t, a), membrane.triangles(t, b));
   }
 
   void begin_step(const StepStart &start) override
@@ -121,7 +122,7 @@ public:
 private:
   int n_triangles() const
   {
-    return static_cast<int>(membrane.nodes.rows());
+    return static_cast<int>(membrane.triangles.rows());
   }
 
   Vectors corners(const Vectors &positions) const
@@ -136,7 +137,7 @@ private:
       const Eigen::Matrix<double, n_nodes, 3> here =
         membrane.corners[index(t)].transpose() * of_corners.middleRows<9>(9 * t);
       for (int k = 0; k < n_nodes; ++k)
-        of_nodes.row(membrane.nodes(t, k)) += here.row(k);
+        of_nodes.row(membrane.triangles(t, k)) += here.row(k);
     }
   }
 

@@ -2,9 +2,7 @@
 #include "shell/terms/warping.h"
 
 #include "meshes/plain/errors.h"
-#include "shell/algebra/index.h"
-#include "shell/algebra/triangle_slots.h"
-#include "shell/membrane/membrane.h"
+#include "shell/terms/triangle_term.h"
 
 #include <Eigen/Geometry>
 #include <Eigen/LU>
@@ -31,176 +29,29 @@ Eigen::Matrix<double, 9, 9> flat_stiffness(const RestTriangle &rest, const Eigen
   return rest.area * strain.transpose() * D * strain;
 }
 
-/// What both variants share: linear elements with rotations that are frozen over a step.
-class WarpedTerm : public Term
+class NodalWarping final : public TriangleTerm
 {
 public:
-  WarpedTerm(const meshes::ClothMesh &cloth, const std::vector<Eigen::Matrix3d> &stiffness_of_phase)
-      : membrane(shell::membrane(cloth, stiffness_of_phase))
-      , rest(cloth.rest)
-  {
-    for (int t = 0; t < n_triangles(); ++t)
-      stiffness.push_back(flat_stiffness(membrane.rest[index(t)],
-                                         membrane.stiffness[index(membrane.phase[index(t)])].D));
-  }
-
-  void couple(std::vector<std::array<int, 2>> &pairs) const override
-  {
-    couple_corners(membrane.triangles, pairs);
-  }
-
-  void attach(const BlockMatrix &matrix) override
-  {
-    places = places_of(membrane.triangles, matrix);
-  }
-
-  std::size_t bytes() const override
-  {
-    return index(n_triangles()) * (sizeof(stiffness[0]) + sizeof(places[0]) + sizeof(RestTriangle));
-  }
-
-protected:
-  int n_triangles() const
-  {
-    return static_cast<int>(membrane.triangles.rows());
-  }
-
-  /// Adds R_k K_kl R_l^T of all triangles, R_k = rotation_of(t, k).
-  template <typename RotationOf>
-  void add_turned(const RotationOf &rotation_of, BlockMatrix &matrix) const
-  {
-    for (int t = 0; t < n_triangles(); ++t)
-      for (int k = 0, b = 0; k < 3; ++k)
-        for (int l = k; l < 3; ++l, ++b)
-          matrix.add(places[index(t)][index(b)], rotation_of(t, k) *
-                                                   stiffness[index(t)].block<3, 3>(3 * k, 3 * l) *
-                                                   rotation_of(t, l).transpose());
-  }
-
-  /// Rest position of corner k, in space.
-  Eigen::Vector3d rest_corner(const int t, const int k) const
-  {
-    const int v = rest.triangles(t, k);
-    return {rest.vertices(v, 0), rest.vertices(v, 1), 0.};
-  }
-
-  const Membrane membrane;
-  const meshes::TriangleMesh rest;
-  std::vector<Eigen::Matrix<double, 9, 9>> stiffness;
-  std::vector<TriangleSlots> places; ///< (m)
-};
-
-class TriangleWarping : public WarpedTerm
-{
-public:
-  using WarpedTerm::WarpedTerm;
-
-  std::string name() const override
-  {
-    return "triangle warping";
-  }
-
-  void begin_step(const StepStart &start) override
-  {
-    rotations.resize(index(n_triangles()));
-    for (int t = 0; t < n_triangles(); ++t)
-      rotations[index(t)] = rotation_at(start.positions, t);
-  }
-
-  double energy(const Vectors &positions) const override
-  {
-    double sum = 0.;
-    for (int t = 0; t < n_triangles(); ++t)
-      sum += energy_of(positions, t, rotations[index(t)]);
-    return sum;
-  }
-
-  /// With the rotations of these positions, not those that a step has frozen.
-  double stored_energy(const Vectors &positions) const override
-  {
-    double sum = 0.;
-    for (int t = 0; t < n_triangles(); ++t)
-      sum += energy_of(positions, t, rotation_at(positions, t));
-    return sum;
-  }
-
-  void add_gradient(const Vectors &positions, Vectors &gradient) const override
-  {
-    for (int t = 0; t < n_triangles(); ++t)
-    {
-      const Eigen::Matrix<double, 9, 1> f =
-        stiffness[index(t)] * unrotated(positions, t, rotations[index(t)]);
-      for (int k = 0; k < 3; ++k)
-        gradient.row(membrane.triangles(t, k)) +=
-          (rotations[index(t)] * f.segment<3>(3 * k)).transpose();
-    }
-  }
-
-  void add_derivatives(const Vectors &positions, Hessian, Vectors &gradient,
-                       BlockMatrix &matrix) const override
-  {
-    add_gradient(positions, gradient);
-    add_turned(
-      [&](const int t, int) -> const auto & { return rotations[index(t)]; }, matrix);
-  }
-
-private:
-  /// The rotation nearest to F with its normal as third column.
-  Eigen::Matrix3d rotation_at(const Vectors &positions, const int t) const
-  {
-    Eigen::Matrix3d corners;
-    for (int k = 0; k < 3; ++k)
-      corners.row(k) = positions.row(membrane.triangles(t, k));
-    const DeformationGradient<3> F = deformation_gradient<3>(membrane.rest[index(t)], corners);
-    Eigen::Matrix3d A;
-    A << F, F.col(0).cross(F.col(1)).normalized();
-    const Eigen::JacobiSVD<Eigen::Matrix3d> svd(A, Eigen::ComputeFullU | Eigen::ComputeFullV);
-    Eigen::Matrix3d turn = svd.matrixU() * svd.matrixV().transpose();
-    if (turn.determinant() < 0.)
-      turn = svd.matrixU() * Eigen::Vector3d(1., 1., -1.).asDiagonal() * svd.matrixV().transpose();
-    return turn;
-  }
-
-  /// R^T x − X up to a translation, which the stiffness does not see.
-  Eigen::Matrix<double, 9, 1> unrotated(const Vectors &positions, const int t,
-                                        const Eigen::Matrix3d &rotation) const
-  {
-    Eigen::Matrix<double, 9, 1> u;
-    const Eigen::RowVector3d first = positions.row(membrane.triangles(t, 0));
-    for (int k = 0; k < 3; ++k)
-      u.segment<3>(3 * k) =
-        rotation.transpose() * (positions.row(membrane.triangles(t, k)) - first).transpose() -
-        (rest_corner(t, k) - rest_corner(t, 0));
-    return u;
-  }
-
-  double energy_of(const Vectors &positions, const int t, const Eigen::Matrix3d &rotation) const
-  {
-    const Eigen::Matrix<double, 9, 1> u = unrotated(positions, t, rotation);
-    return 0.5 * u.dot(stiffness[index(t)] * u);
-  }
-
-  std::vector<Eigen::Matrix3d> rotations;
-};
-
-class NodalWarping : public WarpedTerm
-{
-public:
-  NodalWarping(const meshes::ClothMesh &cloth, const std::vector<Eigen::Matrix3d> &stiffness,
+  NodalWarping(const meshes::ClothMesh &cloth,
+               const std::vector<Eigen::Matrix3d> &stiffness_of_phase,
                const Eigen::VectorXd &masses)
-      : WarpedTerm(cloth, stiffness)
+      : TriangleTerm(shell::membrane(cloth, stiffness_of_phase))
+      , rest(cloth.rest)
       , masses(masses)
       , rotations(index(cloth.n_vertices()), Eigen::Matrix3d::Identity())
       , ring(index(cloth.n_vertices()))
   {
+    for (int t = 0; t < n_triangles(); ++t)
+      stiffness.push_back(
+        flat_stiffness(membrane.rest[index(t)], membrane.stiffness[phase_of(t)].D));
     std::vector<std::string> faults;
     for (int t = 0; t < n_triangles(); ++t)
       for (int k = 0; k < 3; ++k)
       {
         if (rest.triangles(t, k) != membrane.triangles(t, k) && faults.empty())
           faults.push_back("nodal warping: triangle " + std::to_string(t) +
-                           " lies at a seam, where a vertex has two rest positions; choose the "
-                           "membrane model `corotational`");
+                           " lies at a seam, where a vertex has two rest positions; expected "
+                           "another membrane, such as that of the law biot");
         for (int l = 0; l < 3; ++l)
           ring[index(membrane.triangles(t, k))].push_back(membrane.triangles(t, l));
       }
@@ -216,6 +67,11 @@ public:
   std::string name() const override
   {
     return "nodal warping";
+  }
+
+  std::size_t bytes() const override
+  {
+    return index(n_triangles()) * (sizeof(stiffness[0]) + sizeof(places[0]) + sizeof(RestTriangle));
   }
 
   void begin_step(const StepStart &start) override
@@ -295,14 +151,23 @@ public:
                        BlockMatrix &matrix) const override
   {
     add_gradient(positions, gradient);
-    add_turned(
-      [&](const int t, const int k) -> const auto & {
-        return rotations[index(membrane.triangles(t, k))];
-      },
-      matrix);
+    for (int t = 0; t < n_triangles(); ++t)
+      for (int k = 0, b = 0; k < 3; ++k)
+        for (int l = k; l < 3; ++l, ++b)
+          matrix.add(places[index(t)][index(b)],
+                     rotations[index(membrane.triangles(t, k))] *
+                       stiffness[index(t)].block<3, 3>(3 * k, 3 * l) *
+                       rotations[index(membrane.triangles(t, l))].transpose());
   }
 
 private:
+  /// Rest position of corner k, in space.
+  Eigen::Vector3d rest_corner(const int t, const int k) const
+  {
+    const int v = rest.triangles(t, k);
+    return {rest.vertices(v, 0), rest.vertices(v, 1), 0.};
+  }
+
   Vectors vertex_normals(const Vectors &positions) const
   {
     Vectors normals = Vectors::Zero(positions.rows(), 3);
@@ -318,18 +183,14 @@ private:
     return normals.rowwise().normalized();
   }
 
+  const meshes::TriangleMesh rest;
+  std::vector<Eigen::Matrix<double, 9, 9>> stiffness;
   const Eigen::VectorXd masses;
   std::vector<Eigen::Matrix3d> rotations;
   bool is_first = true;
   std::vector<std::vector<int>> ring; ///< vertices around each, itself included
 };
 } // namespace
-
-std::unique_ptr<Term> triangle_warping_term(const meshes::ClothMesh &cloth,
-                                            const std::vector<Eigen::Matrix3d> &stiffness)
-{
-  return std::make_unique<TriangleWarping>(cloth, stiffness);
-}
 
 std::unique_ptr<Term> nodal_warping_term(const meshes::ClothMesh &cloth,
                                          const std::vector<Eigen::Matrix3d> &stiffness,

@@ -1,16 +1,13 @@
 // SPDX-License-Identifier: MIT
-// Warped stiffness in place of the exact membrane, so that a report can show what it costs: named
-// variants, not recommended.
-//
-// Triangle warping: f_e = −R_e K_e (R_e^T x − X) with the rotation R_e of the triangle frozen over
-//   a step (Müller et al. 2002 per element).
-// Nodal warping: paper Eqs. 5-8 with the misprints repaired (shell/README.md lists them),
+// The paper's nodal warping in place of the exact membrane, so that a report can show what it
+// costs: a named variant, not recommended. Paper Eqs. 5-8 with the misprints repaired
+// (shell/README.md lists them),
 //   f_i = −R_i Σ_j k_ij (R_i^T x_j − X_j), j = i included, R_i = U diag(1, 1, det(U W^T)) W^T of
 //   A_i = (Σ_j m_j (x_j − c)(X_j − C)^T + Σ_j A_j + w z Z^T) A_qq^-1,
 //   A_j = (m_j/4) R_j diag(a², b², 0), w = ½ trace of the in-plane rest moment.
-//   Its forces have no energy, do not sum to zero, and have no component along a node's normal: a
-//   sheet clamped on four sides falls freely. As the matrix of a step serves R_i k_ij R_j^T, which
-//   is symmetric and positive semi-definite; the true Jacobian is neither.
+// Its forces have no energy, do not sum to zero, and have no component along a node's normal: a
+// sheet clamped on four sides falls freely. As the matrix of a step serves R_i k_ij R_j^T, which is
+// symmetric and positive semi-definite; the true Jacobian is neither.
 #pragma once
 
 #include "meshes/cloth/cloth_mesh.h"
@@ -21,9 +18,6 @@
 namespace homespun::shell
 {
 /// @param stiffness one symmetric positive definite matrix (3,3) per phase [N/m]
-std::unique_ptr<Term> triangle_warping_term(const meshes::ClothMesh &cloth,
-                                            const std::vector<Eigen::Matrix3d> &stiffness);
-
 /// @param masses (n) [kg]
 /// @throws BadInput as membrane() does, and for a cloth with seams, whose vertices have no single
 ///   rest position

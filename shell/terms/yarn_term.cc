@@ -2,11 +2,10 @@
 #include "shell/terms/yarn_term.h"
 
 #include "meshes/plain/errors.h"
-#include "shell/algebra/index.h"
-#include "shell/algebra/triangle_slots.h"
 #include "shell/algebra/vertex_matrix.h"
 #include "shell/membrane/yarn_discrete_gradient.h"
 #include "shell/membrane/yarn_energy.h"
+#include "shell/terms/triangle_term.h"
 
 #include <utility>
 
@@ -14,27 +13,14 @@ namespace homespun::shell
 {
 namespace
 {
-class YarnTerm final : public Term
+class YarnTerm final : public TriangleTerm
 {
 public:
-  explicit YarnTerm(Membrane &&membrane)
-      : membrane(std::move(membrane))
-  {
-  }
+  using TriangleTerm::TriangleTerm;
 
   std::string name() const override
   {
     return "yarn membrane";
-  }
-
-  void couple(std::vector<std::array<int, 2>> &pairs) const override
-  {
-    couple_corners(membrane.triangles, pairs);
-  }
-
-  void attach(const BlockMatrix &matrix) override
-  {
-    places = places_of(membrane.triangles, matrix);
   }
 
   double energy(const Vectors &positions) const override
@@ -45,7 +31,7 @@ public:
   std::string why_infinite(const Vectors &positions) const override
   {
     for (int t = 0; t < n_triangles(); ++t)
-      if (const meshes::YarnAxes &yarns = membrane.yarns[index(membrane.phase[index(t)])];
+      if (const meshes::YarnAxes &yarns = membrane.yarns[phase_of(t)];
           yarns.are_there &&
           !has_length<3>(deformation_gradient<3>(membrane.rest[index(t)], corners_of(positions, t)),
                          yarns))
@@ -57,11 +43,11 @@ public:
   {
     for (int t = 0; t < n_triangles(); ++t)
     {
-      const Eigen::Matrix3d forces =
+      add_forces(
+        t,
         membrane_triangle_derivatives<3>(membrane, t, corners_of(positions, t), Hessian::exact)
-          .gradient;
-      for (int k = 0; k < 3; ++k)
-        gradient.row(membrane.triangles(t, k)) += forces.row(k);
+          .gradient,
+        gradient);
     }
   }
 
@@ -70,12 +56,8 @@ public:
   {
     for (int t = 0; t < n_triangles(); ++t)
     {
-      const TriangleDerivatives<3> local =
-        membrane_triangle_derivatives<3>(membrane, t, corners_of(positions, t), kind);
-      for (int k = 0; k < 3; ++k)
-        gradient.row(membrane.triangles(t, k)) += local.gradient.row(k);
-      for (std::size_t b = 0; b < 6; ++b)
-        matrix.add(places[index(t)][b], local.blocks[b]);
+      add(t, membrane_triangle_derivatives<3>(membrane, t, corners_of(positions, t), kind),
+          gradient, matrix);
     }
   }
 
@@ -90,7 +72,7 @@ public:
     for (int t = 0; t < n_triangles(); ++t)
     {
       const RestTriangle &rest    = membrane.rest[index(t)];
-      const std::size_t phase     = index(membrane.phase[index(t)]);
+      const std::size_t phase     = phase_of(t);
       const Eigen::Matrix3d begin = corners_of(old, t), end = corners_of(positions, t);
       const TriangleStep step =
         membrane.yarns[phase].are_there
@@ -105,22 +87,6 @@ public:
     return index(n_triangles()) *
            (3 * sizeof(int) + sizeof(RestTriangle) + sizeof(int) + sizeof(places[0]));
   }
-
-private:
-  int n_triangles() const
-  {
-    return static_cast<int>(membrane.triangles.rows());
-  }
-  Eigen::Matrix3d corners_of(const Vectors &positions, const int t) const
-  {
-    Eigen::Matrix3d corners;
-    for (int k = 0; k < 3; ++k)
-      corners.row(k) = positions.row(membrane.triangles(t, k));
-    return corners;
-  }
-
-  const Membrane membrane;
-  std::vector<TriangleSlots> places; ///< (m)
 };
 } // namespace
 

@@ -8,7 +8,6 @@
 // written if nothing is moved twice; of_copy: of a copy of as many bytes, in the same cache.
 // factorisations: per step.
 #include "meshes/cloth/cloth_mesh.h"
-#include "shell/algebra/free_vertex_matrix.h"
 #include "shell/solver/cloth.h"
 #include "shell/terms/inertial_terms.h"
 #include "shell/terms/membrane_term.h"
@@ -253,29 +252,6 @@ void factorise(benchmark::State &state)
   state.counters["factor_bytes"] = static_cast<double>(cholesky.bytes());
 }
 
-/// Eigen's SimplicialLDLT of the same matrix.
-void factorise_by_scalars(benchmark::State &state)
-{
-  const Hanging sheet(static_cast<int>(state.range(0)));
-  const Membrane rest = membrane(sheet.mesh, {stiffness()});
-  FreeVertexMatrix<3> matrix(sheet.mesh.triangles, sheet.is_held);
-  matrix.clear();
-  for (int t = 0; t < sheet.mesh.n_triangles(); ++t)
-  {
-    Eigen::Matrix3d corners;
-    for (int k = 0; k < 3; ++k)
-      corners.row(k) = sheet.mesh.positions.row(sheet.mesh.triangles(t, k));
-    Eigen::Matrix<double, 9, 9> own = triangle_hessian<3>(
-      rest.rest[static_cast<std::size_t>(t)], corners, rest.stiffness[0], Hessian::projected);
-    own.diagonal().array() +=
-      rest.rest[static_cast<std::size_t>(t)].area * density / 3. / (time_step * time_step);
-    matrix.add(t, own);
-  }
-  for (auto _ : state)
-    benchmark::DoNotOptimize(matrix.factorize());
-  state.counters["factor_bytes"] = 12. * static_cast<double>(matrix.n_factor_entries());
-}
-
 void solve(benchmark::State &state)
 {
   StepMatrix step(static_cast<int>(state.range(0)));
@@ -359,7 +335,6 @@ BENCHMARK_TEMPLATE(assemble_membrane, Hessian::projected) HOMESPUN_SIZES;
 BENCHMARK(assemble_bending) HOMESPUN_SIZES;
 BENCHMARK(lay_out) HOMESPUN_SIZES;
 BENCHMARK(factorise) HOMESPUN_SIZES;
-BENCHMARK(factorise_by_scalars) HOMESPUN_SIZES;
 BENCHMARK(solve) HOMESPUN_SIZES;
 #define HOMESPUN_STEP(name, plate) BENCHMARK_CAPTURE(step, name, plate)
 HOMESPUN_STEP(direct, std::nullopt) HOMESPUN_SIZES;

@@ -2,7 +2,7 @@
 // Up-sampling at the paper's size, 20 x 20 cells of 18 x 20 x 2 triangles (144,761 vertices), one
 // thread, beside a copy of the same output. Counters: bytes that must be written, flops, and the
 // part of the copy's bandwidth that the writing alone reaches.
-#include "localization/upsampler.h"
+#include "localization/garment/placed_garment.h"
 #include "tests/benchmarks/machine.h"
 #include "tests/meshes/plain/shapes.h"
 
@@ -150,7 +150,7 @@ void upsample_garment(benchmark::State &state)
   meshes::FineClothOptions options;
   options.grains[0].angle       = M_PI / 9.;
   const meshes::FineCloth cloth = meshes::fine_cloth(cell.mesh, cell.lattice, coarse, options);
-  const Upsampler<3, float> upsampler(cell, coarse, cloth);
+  const Upsampler<3, float> upsampler(placed_garment(cell, coarse, cloth));
   run_frames(state, upsampler, bent<3>(rest));
 }
 BENCHMARK(upsample_garment)->Name("upsample/garment/3d_float")->Unit(benchmark::kMicrosecond);

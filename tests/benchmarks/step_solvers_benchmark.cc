@@ -212,7 +212,7 @@ public:
   Scene(const std::string &cell_file, const std::string &scene_file)
       : cell(homogenization::read_unit_cell(cell_file, MPI_COMM_WORLD))
       , scene(verification::read_scene(scene_file))
-      , draped(scene, cell, homogenized())
+      , draped(scene, cell, homogenized(), meshes::Law::biot)
       , time_step(verification::DrapeSchedule(scene).step)
       , membrane(shell::membrane_term(draped.coarse, draped.effective.stiffness))
   {

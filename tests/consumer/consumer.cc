@@ -2,7 +2,7 @@
 // homespun in another program: a cloth that hangs at its highest vertices moves under gravity, and
 // is up-sampled after every step.
 //   consumer CELL.h5 CLOTH.obj OUTPUT.ply
-#include "localization/upsampler.h"
+#include "localization/garment/placed_garment.h"
 #include "meshes/files/cell_file.h"
 #include "meshes/files/obj_file.h"
 #include "meshes/files/surface_files.h"
@@ -22,7 +22,7 @@ try
   const meshes::HomogenizedCell cell = meshes::read_cell(argv[1]);
   const meshes::ClothMesh garment    = meshes::read_cloth(argv[2]);
   const meshes::FineCloth fine       = meshes::fine_cloth(cell.mesh, cell.lattice, garment);
-  const localization::Upsampler<3> upsampler(cell, garment, fine);
+  const localization::Upsampler<3> upsampler(localization::placed_garment(cell, garment, fine));
   const double top = garment.positions.col(2).maxCoeff();
   std::vector<int> held;
   for (int v = 0; v < garment.n_vertices(); ++v)

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Bytes as the .prm of a scene: keys, terms, places, motions, and all that they may hold.
 #include "tests/fuzz/input_file.h"
-#include "verification/scene/scene.h"
+#include "verification/drape/scene/scene.h"
 
 #include <cmath>
 

@@ -2,6 +2,7 @@
 #include "localization/coarse_frames.h"
 #include "meshes/plain/errors.h"
 #include "meshes/plain/point_location.h"
+#include "tests/localization/fine_position.h"
 #include "tests/localization/localization_cases.h"
 
 #include <gtest/gtest.h>
@@ -28,7 +29,7 @@ void frames_match_the_singular_values()
     const Frame<dim> single = frames.of_triangle(5, current);
     EXPECT_LT((single.strain - expected.strain).norm(), 1e-12);
     EXPECT_LT((single.lift - expected.lift).norm(), 1e-12);
-    const Frame<dim> blended = frames.at(5, {0.2, 0.5, 0.3}, current);
+    const Frame<dim> blended = tests::frame_at<dim>(frames, 5, {0.2, 0.5, 0.3}, current);
     EXPECT_LT((blended.strain - expected.strain).norm(), 1e-12);
     EXPECT_LT((blended.lift - expected.lift).norm(), 1e-12);
     UpsamplerOptions affine;
@@ -65,8 +66,8 @@ double largest_jump(const Blend blend, const Lift lift)
               Eigen::Vector3d from = Eigen::Vector3d::Zero(), to = from;
               from(k) = to((l + 1) % 3) = 1. - part;
               from((k + 1) % 3) = to(l) = part;
-              jump = std::max(jump, (fine_position<dim>(frames, s, from, chi, current) -
-                                     fine_position<dim>(frames, t, to, chi, current))
+              jump = std::max(jump, (tests::fine_position<dim>(frames, s, from, chi, current) -
+                                     tests::fine_position<dim>(frames, t, to, chi, current))
                                       .norm());
             }
           }

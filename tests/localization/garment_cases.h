@@ -2,7 +2,7 @@
 // Garments that the localization tests share, their motions and chi at their fine vertices.
 #pragma once
 
-#include "localization/upsampler.h"
+#include "localization/garment/placed_garment.h"
 #include "meshes/files/obj_file.h"
 #include "tests/localization/localization_cases.h"
 #include "tests/meshes/garment/garments.h"
@@ -29,7 +29,8 @@ struct Garment
 
   Space upsampled(const Space &current, const localization::UpsamplerOptions &options = {}) const
   {
-    const localization::Upsampler<3, double> upsampler(cell, coarse, fine, options);
+    const localization::Upsampler<3, double> upsampler(
+      localization::placed_garment(cell, coarse, fine, options));
     Space result;
     upsampler.upsample(current, result);
     return result;

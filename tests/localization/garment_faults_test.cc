@@ -17,8 +17,8 @@ TEST(tripwire_garment, faults_are_named)
   const Garment good = tests::two_panels();
   const auto refusal = [](const Garment &garment, const UpsamplerOptions &options = {})
   {
-    return tests::refusal([&]
-                          { Upsampler<3>(garment.cell, garment.coarse, garment.fine, options); });
+    return tests::refusal(
+      [&] { Upsampler<3>(placed_garment(garment.cell, garment.coarse, garment.fine, options)); });
   };
   const auto expect = [](const std::string &text, const std::string &part)
   { EXPECT_NE(text.find(part), std::string::npos) << text; };
@@ -47,7 +47,7 @@ TEST(tripwire_garment, faults_are_named)
   options.seam_fade = std::nan("");
   expect(refusal(good, options), "expected 0 to 4");
 
-  const Upsampler<3> upsampler(good.cell, good.coarse, good.fine);
+  const Upsampler<3> upsampler(placed_garment(good.cell, good.coarse, good.fine));
   Upsampler<3>::Fine fine;
   Space current      = good.coarse.positions;
   current(7, 1)      = std::numeric_limits<double>::infinity();

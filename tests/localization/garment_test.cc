@@ -80,7 +80,8 @@ TEST(exact_garment, a_flat_sheet_without_seams_gives_the_positions_of_the_sheet)
     const Space current = tests::wavy_motion<3>(cloth.coarse.vertices);
     const Space sheet   = tests::upsampled<3>(cloth, current, choices);
     Space garment;
-    Upsampler<3, double>(cloth.cell, placed, fine, choices).upsample(current, garment);
+    Upsampler<3, double>(placed_garment(cloth.cell, placed, fine, choices))
+      .upsample(current, garment);
     for (int v = 0; v < fine.n_vertices(); ++v)
     {
       int twin = 0;
@@ -106,7 +107,7 @@ TEST(invariant_garment, a_rigid_motion_moves_the_fine_cloth_rigidly)
     EXPECT_LT((moved - ((fine * R.transpose()).rowwise() + shift)).cwiseAbs().maxCoeff(), 1e-14);
   }
   // From rest, where nothing is strained, the fine cloth is the coarse cloth.
-  const Upsampler<3, double> upsampler(garment.cell, garment.coarse, garment.fine);
+  const Upsampler<3, double> upsampler(placed_garment(garment.cell, garment.coarse, garment.fine));
   UpsamplerOptions affine;
   affine.microscopic = false;
   EXPECT_LT((garment.upsampled(garment.coarse.positions) -
@@ -141,7 +142,7 @@ TEST(bound_garment, float_and_double_agree_to_the_digits_of_a_float)
 {
   const Garment garment = tests::skirt();
   const Space current   = tests::random_motion(garment.coarse, 4);
-  const Upsampler<3> upsampler(garment.cell, garment.coarse, garment.fine);
+  const Upsampler<3> upsampler(placed_garment(garment.cell, garment.coarse, garment.fine));
   EXPECT_EQ(upsampler.n_fine(), garment.fine.n_vertices());
   EXPECT_EQ(upsampler.n_coarse(), 440);
   EXPECT_FALSE(upsampler.is_aligned());

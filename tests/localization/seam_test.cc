@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "meshes/cloth/seams.h"
+#include "tests/localization/fine_position.h"
 #include "tests/localization/garment_cases.h"
 
 #include <gtest/gtest.h>
@@ -110,7 +111,7 @@ TEST(invariant_garment, positions_do_not_jump_across_coarse_edges)
           weights(where.second)                 = 1. - s;
           weights((where.second + 1) % 3)       = s;
           const Eigen::Matrix<double, 1, 6> chi = garment.cell.chi.row(17);
-          return fine_position<3>(frames, where.first, weights, chi, at_rest_vertices);
+          return tests::fine_position<3>(frames, where.first, weights, chi, at_rest_vertices);
         };
         EXPECT_LT((position(side, part) - position(other->second, 1. - part)).norm(), 1e-16);
         ++n_compared;
@@ -123,7 +124,7 @@ TEST(invariant_garment, positions_do_not_jump_across_coarse_edges)
   {
     if (garment.fine.seam_distance(v) < garment.fade() || garment.fine.panel(v) != 0)
       continue;
-    const Eigen::Vector3d expected = fine_position<3>(
+    const Eigen::Vector3d expected = tests::fine_position<3>(
       frames, garment.fine.coarse_triangle(v), garment.fine.coarse_weights.row(v).transpose(),
       tests::chi_at(garment, v), at_rest_vertices);
     EXPECT_LT((fine.row(v).transpose() - expected).norm(), 1e-16);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Up-sampling with quadratic modes.
-#include "localization/upsampler.h"
+#include "tests/localization/fine_position.h"
 #include "tests/localization/garment_cases.h"
 #include "tests/localization/localization_cases.h"
 #include "tests/refusal.h"
@@ -67,9 +67,9 @@ void expect_the_definition(const UpsamplerOptions &options)
       if (weights.minCoeff() < 1e-6)
         continue;
       ++n_compared;
-      const int image = cloth.sheet.cell_vertex(v);
-      const Eigen::Matrix<double, dim, 1> expected =
-        fine_position<dim>(frames, t, weights, chi.row(image), current, quadratic.row(image));
+      const int image                              = cloth.sheet.cell_vertex(v);
+      const Eigen::Matrix<double, dim, 1> expected = tests::fine_position<dim>(
+        frames, t, weights, chi.row(image), current, quadratic.row(image));
       EXPECT_LT((fine.row(v).transpose() - expected).norm(), 1e-15) << "vertex " << v;
     }
   }
@@ -235,8 +235,9 @@ TEST(invariant_upsampler_fitted, what_does_not_go_together_is_refused_by_name)
   options.fitted = &of_another_cell;
   EXPECT_NE(text(options).find("has 3 rows of fitted modes"), std::string::npos);
   const tests::Garment garment = tests::two_panels();
-  const std::string of_garment =
-    refusal([&]() { Upsampler<3>(garment.cell, garment.coarse, garment.fine, with.options); });
+  const std::string of_garment = refusal(
+    [&]()
+    { Upsampler<3>(placed_garment(garment.cell, garment.coarse, garment.fine, with.options)); });
   EXPECT_NE(of_garment.find("of a garment"), std::string::npos);
 }
 
@@ -266,7 +267,9 @@ TEST(invariant_upsampler_second_order, what_is_asked_for_and_not_there_is_refuse
     refusal([&]() { Upsampler<2>(with.cell, with.coarse, with.sheet, options); });
   EXPECT_NE(of_linear.find("asked for with the linear strain"), std::string::npos) << of_linear;
   const tests::Garment garment = tests::two_panels();
-  const std::string of_garment =
-    refusal([&]() { Upsampler<3>(garment.cell, garment.coarse, garment.fine, of_second_order()); });
+  const std::string of_garment = refusal(
+    [&]() {
+      Upsampler<3>(placed_garment(garment.cell, garment.coarse, garment.fine, of_second_order()));
+    });
   EXPECT_NE(of_garment.find("of a garment"), std::string::npos) << of_garment;
 }

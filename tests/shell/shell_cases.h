@@ -63,6 +63,24 @@ shell::Positions<dim> embedded(const meshes::TriangleMesh &mesh)
   return x;
 }
 
+/// The Hessian of the energy of a membrane times a vector, triangle by triangle.
+template <int dim>
+shell::Positions<dim> hessian_times(const shell::Membrane &membrane, const shell::Positions<dim> &x,
+                                    const shell::Positions<dim> &direction)
+{
+  shell::Positions<dim> result = shell::Positions<dim>::Zero(x.rows(), dim);
+  for (int t = 0; t < static_cast<int>(membrane.triangles.rows()); ++t)
+  {
+    const auto H = shell::membrane_hessian<dim>(membrane, t, x, shell::Hessian::exact);
+    for (int k = 0; k < 3; ++k)
+      for (int l = 0; l < 3; ++l)
+        result.row(membrane.triangles(t, k)) +=
+          direction.row(membrane.triangles(t, l)) *
+          H.template block<dim, dim>(dim * k, dim * l).transpose();
+  }
+  return result;
+}
+
 /// An irregular sheet of 2 n^2 triangles with sides of 1 cm.
 inline meshes::TriangleMesh irregular_sheet(const int n, const double side = 0.01)
 {

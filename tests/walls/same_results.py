@@ -42,7 +42,7 @@ PARTS.update({
     "strain-chevron": ["strain", "--quick", WOVEN[1]],
     "converge": ["converge", "--quick", *TWO],
     "load": ["load", WOVEN[1], "--strain", "11=2%"],
-    "stability": ["stability", WOVEN[1], "--quick"],
+    "stability": ["stability", WOVEN[1], "--strains=-5%", "--refine", "0"],
     "drape-hang": ["drape", "--quick", str(SCENES / "hang.prm")],
     "drape-pull": ["drape", "--quick", str(SCENES / "pull.prm")],
     "drape-skirt": ["drape", "--quick", str(SCENES / "skirt.prm")],

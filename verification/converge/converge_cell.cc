@@ -4,7 +4,7 @@
 #include "meshes/plain/errors.h"
 #include "verification/converge/cell_refinement.h"
 #include "verification/converge/converge_cases.h"
-#include "verification/laws/default_law.h"
+#include "verification/ellipticity/default_law.h"
 #include "verification/method/coarse_model.h"
 #include "verification/record/number_text.h"
 #include "verification/reference/fine_reference.h"

@@ -76,9 +76,9 @@ ConvergenceResult with_corners(const EdgedCell &of, const Load &load)
     const ReferenceStep fine = reference.advance(strain);
     if (!fine.reached)
       throw meshes::NotConverged(load.name + ": " + fine.why, {});
-    const int quads_per_cell = 2 * std::max(1, n_nodes / (2 * n));
+    const int n_quads = 2 * std::max(1, n_nodes / (2 * n));
     const CoarseModel model({of.homogenized, &*of.known.edges}, sheet, load, Method("full"),
-                            Law::linear, quads_per_cell);
+                            Law::linear, quads_per_cell(sheet, n_quads));
     const meshes::Points positions = model.upsample(model.solve(strain));
     full.levels.push_back({1. / n, reference.n_dofs(), std::nullopt,
                            (positions - fine.positions).rowwise().norm().mean() /

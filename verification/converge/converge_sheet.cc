@@ -113,8 +113,8 @@ CoarseSolution solve_coarse(const meshes::HomogenizedCell &homogenized, const me
   result.mesh                     = meshes::coarse_sheet(sheet.origin, sheet.sides() / n, n, n);
   const meshes::Points &rest      = result.mesh.vertices;
   const shell::Positions<2> start = moved_affinely(load, sheet, rest, strain);
-  const shell::MembraneSolver<2> solver(result.mesh, {homogenized.stiffness},
-                                        held_vertices(load, sheet, rest));
+  const shell::MembraneSolver solver(shell::membrane(result.mesh, {homogenized.stiffness}),
+                                     held_vertices(load, sheet, rest));
   result.linear = solver.solve_linear(start);
   result.energy = solver.solve_equilibrium(result.linear).energy;
   return result;

@@ -3,8 +3,7 @@
 // triangles is the grid of coarse_space.h, on which they are evaluated every frame.
 #pragma once
 
-#include "localization/upsampler.h"
-#include "meshes/garment/fine_cloth.h"
+#include "localization/garment/placed_garment.h"
 #include "verification/method/coarse_space.h"
 
 #include <optional>
@@ -30,7 +29,7 @@ public:
 
   ClothUpsampler(const meshes::HomogenizedCell &cell, const meshes::ClothMesh &coarse,
                  const meshes::FineCloth &fine, const localization::UpsamplerOptions &options)
-      : of_grid(cell, coarse, fine, options)
+      : of_grid(localization::placed_garment(cell, coarse, fine, options))
   {
   }
 

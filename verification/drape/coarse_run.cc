@@ -38,8 +38,7 @@ class TimedCloth
 public:
   TimedCloth(const DrapedCell &draped, const std::set<std::string> &forced)
       : step_length(draped.scene.time_step)
-      , moving(draped.scene, draped.coarse, draped.effective, draped.coarse_motion(), draped.model,
-               forced)
+      , moving(draped.scene, draped.coarse, draped.effective, draped.coarse_motion(), forced)
   {
   }
 
@@ -129,27 +128,41 @@ void move_to(const int frame, const DrapeSchedule &schedule, SceneCloth &moving,
 
 bool belongs(const CoarseRun &run, const DrapedCell &draped, const std::string &method)
 {
-  return run.is_of_method ? run.variant == method : !has_own_cloth(draped.used(Method(method)));
+  return run.cloth.is_of_method ? run.cloth.variant == method
+                                : !has_own_cloth(draped.used(Method(method)));
 }
 
-CoarseRun run_coarse(const DrapedCell &draped, const std::string &variant,
+std::vector<CoarseCloth> cloths_of(const DrapeOptions &options, const Law main,
+                                   const std::function<Method(const Method &)> &used)
+{
+  std::vector<CoarseCloth> cloths;
+  const Method plain("localized");
+  for (const std::string &name : options.variants)
+    cloths.push_back({name, membrane_of(name), plain, false});
+  if (cloths.empty())
+    cloths.push_back({name_of(main), main, plain, false});
+  for (const std::string &name : options.methods)
+    if (has_own_cloth(used(Method(name))))
+      cloths.push_back({name, main, Method(name), true});
+  return cloths;
+}
+
+CoarseRun run_coarse(const DrapedCell &draped, const CoarseCloth &cloth,
                      const DrapeSchedule &schedule, DrapeOutput &output, Progress &progress)
 {
-  CoarseRun run;
-  run.variant                 = variant;
-  run.is_of_method            = !is_membrane_model(variant);
-  run.is_main                 = variant == name_of(draped.model);
-  const Method method         = Method(run.is_of_method ? variant : "localized");
-  const std::string name      = draped.cell.name + "-" + variant;
+  const std::string &variant = cloth.variant, name = draped.cell.name + "-" + variant;
+  CoarseRun run               = {cloth, variant == name_of(draped.law)};
+  const MovingCloth of_rows   = {draped.cell.name, MovingCloth::coarse, variant};
   const std::string folder    = output.folder + "/" + name;
-  const Upsampler3f upsampler = draped.upsampler<float>(method);
+  const Upsampler3f upsampler = draped.upsampler<float>(cloth.method);
   std::filesystem::create_directories(folder);
   meshes::FrameCollection coarse_list(folder + "/coarse.pvd"), fine_list(folder + "/fine.pvd");
   StepCosts costs;
   Upsampler3f::Fine fine;
-  const HeldMotion held = draped.coarse_motion();
-  SceneCloth moving(draped.scene, draped.coarse, draped.effective_of(method), held,
-                    run.is_of_method ? draped.model : membrane_model_of(variant));
+  const HeldMotion held  = draped.coarse_motion();
+  ClothMaterial material = draped.effective_of(cloth.method);
+  material.law           = cloth.law;
+  SceneCloth moving(draped.scene, draped.coarse, material, held);
   const auto upsample = [&]() { upsampler.upsample(moving.cloth().positions(), fine); };
   for (int frame = 0; frame <= schedule.n_frames; ++frame)
   {
@@ -170,20 +183,19 @@ CoarseRun run_coarse(const DrapedCell &draped, const std::string &variant,
     run.frames.push_back(moving.cloth().positions());
     if (frame > 0)
       output.write_held_forces(
-        draped.cell.name, variant, frame,
+        of_rows, frame,
         held_forces(held, {draped.coarse, moving.cloth().masses(), moving.cloth().gradient(),
                            schedule.time_of(frame), schedule.step_of_forces()}));
-    MotionRow row    = output.motion_row(draped.cell.name, variant, frame,
-                                         run.frames.back().row(draped.centre_vertex));
-    row.kinetic      = moving.cloth().kinetic_energy();
-    row.elastic      = moving.elastic_energy();
-    row.gravity      = gravity_energy(draped.scene, moving.cloth().masses(), run.frames.back());
-    row.stretch      = largest_stretch(draped.coarse, run.frames.back());
-    row.step_seconds = median(costs.steps);
+    MotionRow row = output.motion_row(of_rows, frame, run.frames.back().row(draped.centre_vertex));
+    row.kinetic   = moving.cloth().kinetic_energy();
+    row.elastic   = moving.elastic_energy();
+    row.gravity   = gravity_energy(draped.scene, moving.cloth().masses(), run.frames.back());
+    row.stretch   = largest_stretch(draped.coarse, run.frames.back());
+    row.step_seconds       = median(costs.steps);
     row.upsampling_seconds = median(costs.upsampling);
     output.write(row);
     // Of the variants one picture is enough: the report shows their curves.
-    if (run.is_main || run.is_of_method || frame == schedule.n_frames)
+    if (run.is_main || cloth.is_of_method || frame == schedule.n_frames)
     {
       output.write_frame({name, "coarse", frame}, run.frames.back(), draped.coarse.triangles, {},
                          &coarse_list);

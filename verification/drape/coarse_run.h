@@ -3,6 +3,7 @@
 // the scene leaves out would have cost.
 #pragma once
 
+#include "verification/drape/drape_options.h"
 #include "verification/drape/drape_output.h"
 #include "verification/drape/drape_schedule.h"
 #include "verification/drape/draped_cell.h"
@@ -10,22 +11,38 @@
 #include "verification/record/progress.h"
 #include "verification/record/timing.h"
 
-
+#include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
 namespace homespun::verification
 {
-/// The coarse cloth of one variant at every frame.
+/// A coarse cloth that is run.
+struct CoarseCloth
+{
+  std::string variant;      ///< the name of its membrane, or that of the method
+  std::optional<Law> law;   ///< none: nodal warping
+  Method method;            ///< whose cloth it is
+  bool is_of_method = true; ///< else a variant of the membrane, which goes with many
+};
+
+/// The coarse cloths of a cell: variants of the membrane, the main one first, and the methods that
+/// have cloths of their own.
+/// @param used a method as the scene, or a cell in it, has it
+/// @param main where no variants are asked for
+std::vector<CoarseCloth> cloths_of(const DrapeOptions &options, Law main,
+                                   const std::function<Method(const Method &)> &used);
+
+/// A coarse cloth at every frame.
 struct CoarseRun
 {
-  std::string variant;       ///< of the membrane, or the method whose own cloth it is
-  bool is_of_method = false; ///< the latter
-  bool is_main      = false; ///< the variant that is the method, against which others are held
-  std::string failure;
-  std::vector<shell::Vectors> frames;                        ///< (n_coarse,3) [m]
+  CoarseCloth cloth;
+  bool is_main        = false; ///< the variant that is the method, against which others are held
+  std::string failure = {};
+  std::vector<shell::Vectors> frames = {};                   ///< (n_coarse,3) [m]
   double seconds_per_step = 0., seconds_per_upsampling = 0.; ///< medians [s]
-  nlohmann::ordered_json description;                        ///< for drape.json
+  nlohmann::ordered_json description = {};                   ///< for drape.json
 };
 
 /// Whether a run is up-sampled by a method: one with a cloth of its own goes with that cloth alone.
@@ -34,7 +51,7 @@ bool belongs(const CoarseRun &run, const DrapedCell &draped, const std::string &
 /// Runs it and writes its frames and its rows of motion.csv. Takes seconds, and is computed again
 /// when a study is resumed. A cloth that does not converge ends the run, with the reason in
 /// `failure`.
-CoarseRun run_coarse(const DrapedCell &draped, const std::string &variant,
+CoarseRun run_coarse(const DrapedCell &draped, const CoarseCloth &cloth,
                      const DrapeSchedule &schedule, DrapeOutput &output, Progress &progress);
 
 /// Writes terms.csv: median time per step with its spread, and memory, as the scene is and with

@@ -96,7 +96,7 @@ Verdict verdict_of_upsampling(const DrapedCell &draped, const TurnedSheet &sheet
   const Method method("localized");
   localization::Upsampler<2, double>::Fine in_plane;
   localization::Upsampler<2, double>(draped.homogenized, draped.coarse.rest, *draped.sheet,
-                                     method.options(draped.law()))
+                                     method.options(draped.law))
     .upsample(sheet.plane, in_plane);
   localization::Upsampler<3, double>::Fine in_space;
   draped.upsampler<double>(method).upsample(sheet.space, in_space);

@@ -28,7 +28,7 @@ public:
   Runs(const Scene &scene, const DrapedCell &sheet, const double step, const int n_steps)
       : step(step)
       , n_steps(n_steps)
-      , coarse(scene, sheet.coarse, sheet.effective, sheet.coarse_motion(), sheet.model)
+      , coarse(scene, sheet.coarse, sheet.effective, sheet.coarse_motion())
   {
   }
 
@@ -87,7 +87,7 @@ DrapeErrorBar drape_error_bar(const DrapedCell &draped, const Law law, const int
                               const std::function<void(int frame)> &tell)
 {
   const Scene scene = scaled(draped.scene, n_cells);
-  const DrapedCell sheet(scene, draped.cell, draped.homogenized, {}, draped.model);
+  const DrapedCell sheet(scene, draped.cell, draped.homogenized, draped.law);
   const double order       = order_of_p2(draped.cell, order_of_p2_sheet);
   const Upsampler3d affine = sheet.upsampler<double>(Method("affine")),
                     method = sheet.upsampler<double>(Method("localized"));

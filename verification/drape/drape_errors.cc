@@ -67,10 +67,11 @@ std::vector<meshes::VertexData> DrapeComparison::compare(const std::string &refe
       const SpacePoints up = method == "affine" ? affine : upsampled(method, run.frames[at]);
       const Eigen::VectorXd distance = (up - positions).rowwise().norm();
       if (!distance.allFinite())
-        throw meshes::NotConverged(draped.cell.name + ", " + run.variant + ", " + method +
+        throw meshes::NotConverged(draped.cell.name + ", " + run.cloth.variant + ", " + method +
                                      ": positions that are not finite",
                                    {});
-      DrapeRow row = output.error_row(draped.cell.name, run.variant, reference, method, frame);
+      DrapeRow row =
+        output.error_row(draped.cell.name, run.cloth.variant, reference, method, frame);
       const ErrorNorms norms   = error_norms(distance);
       row.mean                 = norms.mean;
       row.rms                  = norms.rms;
@@ -92,16 +93,17 @@ bool DrapeComparison::has_rows(const std::string &reference, const int frame,
                                const DrapeOutput &output) const
 {
   const std::string &cell = draped.cell.name;
-  if (!output.has(output.motion_row(cell, reference, frame, Eigen::RowVector3d::Zero())))
+  const MovingCloth cloth = {cell, MovingCloth::reference, reference};
+  if (!output.has(output.motion_row(cloth, frame, Eigen::RowVector3d::Zero())))
     return false;
   for (const std::string &place : places)
-    if (frame > 0 && !output.has_held_force(cell, reference, frame, place))
+    if (frame > 0 && !output.has_held_force(cloth, frame, place))
       return false;
   for (const CoarseRun &run : runs)
     if (run.frames.size() > static_cast<std::size_t>(frame))
       for (const std::string &method : methods)
         if (belongs(run, draped, method) &&
-            !output.has(output.error_row(cell, run.variant, reference, method, frame)))
+            !output.has(output.error_row(cell, run.cloth.variant, reference, method, frame)))
           return false;
   return true;
 }

@@ -2,14 +2,14 @@
 #include "verification/drape/drape_inputs.h"
 
 #include "meshes/plain/errors.h"
-#include "meshes/plain/yarn_axes.h"
 #include "verification/cell/study_inputs.h"
 #include "verification/drape/draped_cell.h"
-#include "verification/laws/default_law.h"
+#include "verification/ellipticity/default_law.h"
 
 #include <algorithm>
 #include <fstream>
 #include <iterator>
+#include <set>
 
 namespace homespun::verification
 {
@@ -31,40 +31,24 @@ bool is_dealii(const std::string &reference)
   return reference != "shell";
 }
 
-MembraneModel default_model(const UnitCell &cell, const Eigen::Matrix3d &stiffness)
+Law law_of_cloth(const UnitCell &cell, const Eigen::Matrix3d &stiffness)
 {
-  return default_law(cell) == Law::yarn && meshes::yarn_axes(stiffness).are_there
-           ? MembraneModel::woven
-           : MembraneModel::corotational;
-}
-
-std::string note_on_default_model(const UnitCell &cell, const MembraneModel model)
-{
-  return note_on_default_law(cell) + "; the moving cloth is " + name_of(model);
-}
-
-std::vector<std::string> cloths_of(const DrapeOptions &options, const MembraneModel main,
-                                   const std::function<Method(const Method &)> &used)
-{
-  std::vector<std::string> names = options.variants;
-  if (names.empty())
-    names.push_back(name_of(main));
-  for (const std::string &name : options.methods)
-    if (has_own_cloth(used(Method(name))))
-      names.push_back(name);
-  return names;
+  return homogenized_law(default_law(cell), stiffness);
 }
 
 CellNeeds needs_of(const DrapeOptions &options, const Scene &scene)
 {
   CellNeeds needs;
+  std::set<Law> laws;
   for (const std::string &name : options.methods)
   {
-    const Method method = used_in(scene, Method(name), MembraneModel::corotational);
+    const Method method = used_in(scene, Method(name));
     needs.edges         = needs.edges || method.has(Term::edges);
-    if (method.is_of_second_order(Law::biot))
-      needs.second_order = {Law::biot};
+    for (const Law law : meshes::laws_with(&meshes::LawProperties::is_of_coarse_cloth))
+      if (method.is_of_second_order(law))
+        laws.insert(law);
   }
+  needs.second_order.assign(laws.begin(), laws.end());
   return needs;
 }
 
@@ -80,8 +64,7 @@ void check_methods(const DrapeOptions &options, const Scene &scene,
                                   "a scene without the term");
   for (const std::string &name : options.methods)
     for (const Term term : {Term::p2, Term::edges, Term::cubic, Term::modes})
-      if (const std::string why = why_not(term, scene, MembraneModel::corotational);
-          Method(name).asks_for(term) && !why.empty())
+      if (const std::string why = why_not(term, scene); Method(name).asks_for(term) && !why.empty())
         faults.push_back("--methods " + name + ": scene `" + scene.name + why);
 }
 } // namespace
@@ -142,11 +125,10 @@ void check_references(const DrapeOptions &options, const Scene &scene)
                          "`; expected `implicit` or `linearly implicit`");
   if (scene.integration == TimeIntegration::conserving)
     for (const std::string &variant : options.variants)
-      if (const MembraneModel model = membrane_model_of(variant); !has_energy(model))
+      if (!membrane_of(variant))
         faults.push_back("--variants " + variant + ": scene `" + scene.name +
                          "` has the key `Integrator` = conserving, which asks for a membrane whose "
-                         "forces over a step are known; expected corotational or woven, or another "
-                         "integrator");
+                         "forces over a step are known; expected a law, or another integrator");
   if (!faults.empty())
     throw meshes::BadInput(faults);
 }
@@ -159,7 +141,7 @@ void check_cloth(const DrapeOptions &options, const Scene &scene,
   std::vector<std::string> faults;
   for (const UnitCell &cell : cells)
   {
-    const CoarseCloth cloth(scene, cell);
+    const CoarseStart cloth(scene, cell);
     for (const HeldPlace &held : scene.held)
       for (const int v : held.vertices)
         if (v >= cloth.mesh.n_vertices())
@@ -179,7 +161,7 @@ void check_cloth(const DrapeOptions &options, const Scene &scene,
     if (fine_too && !scene.is_sheet() &&
         std::any_of(scene.held.begin(), scene.held.end(),
                     [](const HeldPlace &held) { return held.place == "vertices"; }))
-      DrapedCell(scene, cell, {}).fine_motion();
+      DrapedCell(scene, cell, {}, Law::biot).fine_motion();
   }
 }
 

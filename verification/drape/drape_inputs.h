@@ -13,7 +13,6 @@
 #include "verification/method/method.h"
 #include "verification/record/json_files.h"
 
-#include <functional>
 #include <string>
 #include <vector>
 
@@ -22,22 +21,11 @@ namespace homespun::verification
 /// Whether a reference is solved by finite elements, else by the shell's own code.
 bool is_dealii(const std::string &reference);
 
-/// The membrane that the moving cloth of a cell has where none is asked for: woven where the law of
-/// the cell is `yarn` (laws/default_law.h) and C^H has axes, else corotational.
-/// @param stiffness C^H (3,3) [N/m]
-MembraneModel default_model(const homogenization::UnitCell &cell, const Eigen::Matrix3d &stiffness);
+/// The law that the moving cloth of a cell has where none is asked for: that of the cell
+/// (laws/default_law.h), where a stiffness C^H (3,3) [N/m] can have it.
+Law law_of_cloth(const homogenization::UnitCell &cell, const Eigen::Matrix3d &stiffness);
 
-/// A sentence on the default model: which law it has, and why.
-std::string note_on_default_model(const homogenization::UnitCell &cell, MembraneModel model);
-
-/// Names of the coarse cloths that are run: variants of the membrane, the main one first, and the
-/// methods that have cloths of their own.
-/// @param used a method as the scene, or a cell in it, has it
-/// @param main where no variants are asked for
-std::vector<std::string> cloths_of(const DrapeOptions &options, MembraneModel main,
-                                   const std::function<Method(const Method &)> &used);
-
-/// What the methods ask of a cell: edges, and the second order of the law biot.
+/// What the methods ask of a cell: edges, and the second order of laws that move.
 CellNeeds needs_of(const DrapeOptions &options, const Scene &scene);
 
 /// The scene file with what the options replace.

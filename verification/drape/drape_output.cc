@@ -51,13 +51,14 @@ DrapeRow DrapeOutput::error_row(const std::string &cell, const std::string &vari
   return row;
 }
 
-MotionRow DrapeOutput::motion_row(const std::string &cell, const std::string &variant,
-                                  const int frame, const Eigen::RowVector3d &centre) const
+MotionRow DrapeOutput::motion_row(const MovingCloth &cloth, const int frame,
+                                  const Eigen::RowVector3d &centre) const
 {
   MotionRow row;
   row.scene    = scene;
-  row.cell     = cell;
-  row.variant  = variant;
+  row.cell     = cloth.cell;
+  row.cloth    = cloth.kind;
+  row.variant  = cloth.variant;
   row.frame    = frame;
   row.time     = frame * interval;
   row.centre_x = centre(0);
@@ -66,12 +67,12 @@ MotionRow DrapeOutput::motion_row(const std::string &cell, const std::string &va
   return row;
 }
 
-void DrapeOutput::write_held_forces(const std::string &cell, const std::string &variant,
-                                    const int frame, const std::vector<HeldForce> &forces)
+void DrapeOutput::write_held_forces(const MovingCloth &cloth, const int frame,
+                                    const std::vector<HeldForce> &forces)
 {
   for (const HeldForce &its : forces)
-    held.append_if_missing({scene, cell, variant, its.place, frame, frame * interval, its.force(0),
-                            its.force(1), its.force(2)});
+    held.append_if_missing({scene, cloth.cell, cloth.kind, cloth.variant, its.place, frame,
+                            frame * interval, its.force(0), its.force(1), its.force(2)});
 }
 
 TermRow DrapeOutput::term_row(const std::string &cell, const std::string &term) const

@@ -34,8 +34,7 @@ public:
   DrapeRow error_row(const std::string &cell, const std::string &variant,
                      const std::string &reference, const std::string &method, int frame) const;
   /// @param centre of the vertex in the middle [m]
-  MotionRow motion_row(const std::string &cell, const std::string &variant, int frame,
-                       const Eigen::RowVector3d &centre) const;
+  MotionRow motion_row(const MovingCloth &cloth, int frame, const Eigen::RowVector3d &centre) const;
   TermRow term_row(const std::string &cell, const std::string &term) const;
 
   void write(const DrapeRow &row)
@@ -47,9 +46,7 @@ public:
     motion.append_if_missing(row);
   }
   /// The forces of what is held at a frame.
-  /// @param variant or the name of a reference
-  void write_held_forces(const std::string &cell, const std::string &variant, int frame,
-                         const std::vector<HeldForce> &forces);
+  void write_held_forces(const MovingCloth &cloth, int frame, const std::vector<HeldForce> &forces);
   void write(const TermRow &row)
   {
     terms->append_if_missing(row);
@@ -69,10 +66,9 @@ public:
   {
     return motion.contains(row);
   }
-  bool has_held_force(const std::string &cell, const std::string &variant, const int frame,
-                      const std::string &place) const
+  bool has_held_force(const MovingCloth &cloth, const int frame, const std::string &place) const
   {
-    return held.contains({scene, cell, variant, place, frame});
+    return held.contains({scene, cloth.cell, cloth.kind, cloth.variant, place, frame});
   }
   bool has(const TermRow &row) const
   {

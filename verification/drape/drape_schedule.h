@@ -3,7 +3,7 @@
 // number of steps and a run a whole number of frames; what a duration has beyond that is not run.
 #pragma once
 
-#include "verification/scene/scene.h"
+#include "verification/drape/scene/scene.h"
 
 #include <limits>
 

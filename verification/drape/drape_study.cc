@@ -9,8 +9,8 @@
 #include "verification/drape/drape_verdicts.h"
 #include "verification/drape/obstacle_surface.h"
 #include "verification/drape/reference_run.h"
-#include "verification/laws/default_law.h"
-#include "verification/laws/yarn_cells.h"
+#include "verification/ellipticity/default_law.h"
+#include "verification/ellipticity/yarn_cells.h"
 #include "verification/record/number_text.h"
 #include "verification/record/on_root.h"
 #include "verification/record/provenance.h"
@@ -18,6 +18,7 @@
 #include <algorithm>
 #include <map>
 #include <memory>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -47,7 +48,7 @@ public:
                        static_cast<int>(scene.cell_files.size()) * DrapeSchedule(scene).n_frames *
                          static_cast<int>(cloths_of(options, {},
                                                     [&](const Method &method)
-                                                    { return used_in(scene, method, {}); })
+                                                    { return used_in(scene, method); })
                                             .size() +
                                           options.references.size())),
               verdicts}
@@ -92,16 +93,15 @@ private:
     needs.bending                = scene.has("bending") && !scene.bending;
     const AssessedCell &assessed = homogenize(cell, needs, verdicts);
     const Eigen::Matrix3d &C     = assessed.result.stiffness;
-    const MembraneModel chosen   = options.variants.empty()
-                                     ? default_model(cell, C)
-                                     : membrane_model_of(options.variants.front());
-    const DrapedCell draped(scene, cell, homogenized_cell(cell, assessed, provenance_line()),
-                            needs.edges ? assessed.edges->edges : std::nullopt, chosen);
-    main_variants[cell.name] = name_of(draped.model);
+    const Law law =
+      options.variants.empty() ? law_of_cloth(cell, C) : law_of(options.variants.front());
+    const DrapedCell draped(scene, cell, homogenized_cell(cell, assessed, provenance_line()), law,
+                            needs.edges ? assessed.edges->edges : std::nullopt);
+    main_variants[cell.name] = name_of(law);
     write_notes_on_laws(draped);
     write_notes_on_methods(draped, needs.edges ? assessed.edges->why_not : "");
     if (draped.edges)
-      drape.note(cell.name + ": " + draped.moving_edges(Method("localized+edges")).sentence());
+      drape.note(cell.name + ": " + sentence_of_edges(draped.kinds_of_edges()));
     nlohmann::ordered_json description = description_of(draped);
 
     CoarseRuns coarse;
@@ -111,10 +111,10 @@ private:
               write_obstacles(draped);
               for (const Verdict &check : checks_of_scene(draped))
                 verdicts.push_back(check);
-              for (const std::string &variant : cloths_of_cell(draped))
+              for (const CoarseCloth &cloth : cloths_of_cell(draped))
               {
                 coarse.all.push_back(
-                  run_coarse(draped, variant, drape.schedule, *drape.output, drape.progress));
+                  run_coarse(draped, cloth, drape.schedule, *drape.output, drape.progress));
                 judge(draped, coarse.all.back());
                 description["runs"].push_back(coarse.all.back().description);
               }
@@ -136,33 +136,32 @@ private:
     {
       const Method method(name), used = draped.used(method);
       for (const Term term : {Term::p2, Term::edges, Term::cubic, Term::modes})
-        if (const std::string why = why_not(term, scene, draped.model);
+        if (const std::string why = why_not(term, scene, draped.law);
             method.has(term) && !used.has(term))
           drape.note(draped.cell.name + ": method " + name + " without " + name_of(term) +
                      (why.empty() ? ": " + why_no_edges : ": scene `" + scene.name + why));
     }
   }
 
-  std::vector<std::string> cloths_of_cell(const DrapedCell &draped) const
+  std::vector<CoarseCloth> cloths_of_cell(const DrapedCell &draped) const
   {
-    return cloths_of(options, draped.model,
+    return cloths_of(options, draped.law,
                      [&](const Method &method) { return draped.used(method); });
   }
 
   void write_notes_on_laws(const DrapedCell &draped)
   {
-    const std::vector<std::string> cloths = cloths_of_cell(draped);
     if (options.variants.empty())
-      drape.note(note_on_default_model(draped.cell, draped.model));
+      drape.note(note_on_default_law(draped.cell) + "; the moving cloth has the law " +
+                 name_of(draped.law));
     for (const std::string &note : notes_on_yarns(draped.cell, options.references))
       drape.note(note);
-    const Eigen::Matrix3d &C = draped.homogenized.stiffness;
-    const bool is_corotational =
-      std::find(cloths.begin(), cloths.end(), name_of(MembraneModel::corotational)) != cloths.end();
-    if (const std::string loss = note_on_corotational_cloth(C); is_corotational && !loss.empty())
-      drape.note(draped.cell.name + ": " + loss);
-    if (draped.model == MembraneModel::woven)
-      drape.note(draped.cell.name + ": " + note_on_coarse_yarns(Law::yarn, C));
+    std::set<Law> laws;
+    for (const CoarseCloth &cloth : cloths_of_cell(draped))
+      if (cloth.law && laws.insert(*cloth.law).second)
+        if (const std::string note = note_on_coarse_cloth(*cloth.law, draped.homogenized.stiffness);
+            !note.empty())
+          drape.note(draped.cell.name + ": " + note);
   }
 
   nlohmann::ordered_json description_of(const DrapedCell &draped)
@@ -183,7 +182,7 @@ private:
       {"phase_stiffness", stiffness}, // trace [N/m]: pictures are darker with it
       {"C", rows_of(draped.homogenized.stiffness)},
       {"areal_density", draped.homogenized.areal_density},
-      {"model", name_of(draped.model)},
+      {"law", name_of(draped.law)},
       {"runs", nlohmann::ordered_json::array()},
       {"references", nlohmann::ordered_json::array()}};
     if (scene.has("bending"))
@@ -207,14 +206,14 @@ private:
                         bodies.triangles);
   }
 
-  void judge(const DrapedCell &draped, const CoarseRun &cloth)
+  void judge(const DrapedCell &draped, const CoarseRun &run)
   {
-    const std::string title = draped.cell.name + ", " + cloth.variant;
-    verdicts.push_back(verdict_of_cloth(title, cloth.is_main || cloth.is_of_method,
-                                        static_cast<int>(cloth.frames.size()),
+    const std::string title = draped.cell.name + ", " + run.cloth.variant;
+    verdicts.push_back(verdict_of_cloth(title, run.is_main || run.cloth.is_of_method,
+                                        static_cast<int>(run.frames.size()),
                                         drape.schedule.n_frames + 1));
-    if (!cloth.failure.empty())
-      drape.notes.push_back(title + ": " + cloth.failure);
+    if (!run.failure.empty())
+      drape.notes.push_back(title + ": " + run.failure);
   }
 
   StudyDescription conclude() override

@@ -49,14 +49,23 @@ struct DrapeRow
   }
 };
 
-/// A cloth at a frame, coarse or a reference. What does not apply is not a number.
+/// A cloth in motion: of the coarse ones the variant, that is its law, `nodal-warping` or the
+/// method that it belongs to; of the references `shell` or its law.
+struct MovingCloth
+{
+  static constexpr const char *coarse = "coarse", *reference = "reference";
+
+  std::string cell, kind, variant;
+};
+
+/// A cloth at a frame. What does not apply is not a number.
 struct MotionRow
 {
   static constexpr const char *file    = "motion.csv";
-  static constexpr std::size_t n_keys  = 4;
+  static constexpr std::size_t n_keys  = 5;
   static constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 
-  std::string scene, cell, variant; ///< the name of a reference stands in place of a variant
+  std::string scene, cell, cloth, variant; ///< as MovingCloth has them
   int frame       = 0;
   double time     = 0.; ///< [s]
   double centre_x = not_a_number, centre_y = not_a_number,
@@ -72,6 +81,7 @@ struct MotionRow
   {
     column("scene", &MotionRow::scene, Domain::name);
     column("cell", &MotionRow::cell, Domain::name);
+    column("cloth", &MotionRow::cloth, Domain::name);
     column("variant", &MotionRow::variant, Domain::name);
     column("frame", &MotionRow::frame, Domain::needed_not_negative);
     column("time_s", &MotionRow::time, Domain::needed_not_negative);
@@ -91,10 +101,10 @@ struct MotionRow
 struct HeldForceRow
 {
   static constexpr const char *file   = "held-forces.csv";
-  static constexpr std::size_t n_keys = 5;
+  static constexpr std::size_t n_keys = 6;
 
-  std::string scene, cell, variant; ///< the name of a reference stands in place of a variant
-  std::string place;                ///< as the scene calls it
+  std::string scene, cell, cloth, variant; ///< as MovingCloth has them
+  std::string place;                       ///< as the scene calls it
   int frame      = 0;
   double time    = 0.;                             ///< [s]
   double force_x = 0., force_y = 0., force_z = 0.; ///< [N]
@@ -104,6 +114,7 @@ struct HeldForceRow
   {
     column("scene", &HeldForceRow::scene, Domain::name);
     column("cell", &HeldForceRow::cell, Domain::name);
+    column("cloth", &HeldForceRow::cloth, Domain::name);
     column("variant", &HeldForceRow::variant, Domain::name);
     column("place", &HeldForceRow::place, Domain::name);
     column("frame", &HeldForceRow::frame, Domain::needed_not_negative);

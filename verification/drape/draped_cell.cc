@@ -3,7 +3,6 @@
 
 #include "meshes/files/obj_file.h"
 #include "meshes/plain/errors.h"
-#include "meshes/plain/yarn_axes.h"
 
 #include <algorithm>
 #include <cmath>
@@ -13,11 +12,6 @@ namespace homespun::verification
 {
 namespace
 {
-Law law_of_model(const MembraneModel model)
-{
-  return model == MembraneModel::woven ? Law::yarn : Law::biot;
-}
-
 int nearest_to_middle(const meshes::SpacePoints &positions)
 {
   const Eigen::RowVector3d middle = positions.colwise().mean();
@@ -65,7 +59,7 @@ std::vector<int> at_same_places(const std::vector<int> &vertices, const Scene &f
 }
 } // namespace
 
-std::string why_not(const Term term, const Scene &scene, const MembraneModel model)
+std::string why_not(const Term term, const Scene &scene, const std::optional<Law> law)
 {
   if (term == Term::micro)
     return {};
@@ -75,10 +69,10 @@ std::string why_not(const Term term, const Scene &scene, const MembraneModel mod
                        : term == Term::p2  ? "whose panels six-node triangles do not fill"
                                            : "of which up-sampling has no second order") +
            "; expected a sheet: leave the term out";
-  if ((term == Term::cubic || term == Term::modes) && model == MembraneModel::woven)
-    return "` has a woven cloth, of which a scene has no second order, and whose modes are fitted "
-           "by "
-           "`homespun strain` alone; expected --variants corotational, or leave the term out";
+  if ((term == Term::cubic || term == Term::modes) && law && !properties_of(*law).has_second_order)
+    return "` has a cloth of the law " + name_of(*law) +
+           ", which has no second order, and whose modes are fitted by `homespun strain` alone; "
+           "expected another law by --variants, or leave the term out";
   const bool has_forces_of_steps = term == Term::p2 || term == Term::cubic;
   if (has_forces_of_steps && scene.integration == TimeIntegration::conserving)
     return "` has the key `Integrator` = conserving, whose forces over a step are not known of it; "
@@ -93,11 +87,11 @@ std::string why_not(const Term term, const Scene &scene, const MembraneModel mod
   return {};
 }
 
-Method used_in(const Scene &scene, const Method &method, const MembraneModel model)
+Method used_in(const Scene &scene, const Method &method, const std::optional<Law> law)
 {
   Method left = method;
   for (const Term term : {Term::p2, Term::edges, Term::cubic, Term::modes})
-    if (!why_not(term, scene, model).empty())
+    if (!why_not(term, scene, law).empty())
       left = left.without(term);
   return left;
 }
@@ -128,7 +122,7 @@ Scene scaled(const Scene &scene, const int n_cells)
   return result;
 }
 
-CoarseCloth::CoarseCloth(const Scene &scene, const homogenization::UnitCell &cell)
+CoarseStart::CoarseStart(const Scene &scene, const homogenization::UnitCell &cell)
 {
   if (!scene.is_sheet())
   {
@@ -146,7 +140,7 @@ CoarseCloth::CoarseCloth(const Scene &scene, const homogenization::UnitCell &cel
   mesh          = placed(rest, *placement);
 }
 
-HeldMotion CoarseCloth::motion(const Scene &scene) const
+HeldMotion CoarseStart::motion(const Scene &scene) const
 {
   if (placement)
     return {scene, *placement, origin, sides};
@@ -154,22 +148,27 @@ HeldMotion CoarseCloth::motion(const Scene &scene) const
 }
 
 DrapedCell::DrapedCell(const Scene &given, const homogenization::UnitCell &cell,
-                       const meshes::HomogenizedCell &homogenized,
-                       const std::optional<meshes::CellEdges> &edges, const MembraneModel model)
+                       const meshes::HomogenizedCell &homogenized, const Law law,
+                       const std::optional<meshes::CellEdges> &edges)
     : scene(given)
     , cell(cell)
     , homogenized(homogenized)
     , edges(edges)
-    , model(model)
+    , law(law)
     , side(std::sqrt(cell.lattice.area()))
 {
-  if (model == MembraneModel::woven && !meshes::yarn_axes(homogenized.stiffness).are_there)
-    throw meshes::BadInput("--variants " + name_of(model) + ": C^H of " + cell.file +
+  const Law of_effective = homogenized_law(law, homogenized.stiffness);
+  if (of_effective != law)
+    throw meshes::BadInput("--variants " + name_of(law) + ": C^H of " + cell.file +
                            " is alike in all directions and has no yarns; expected a cell whose "
-                           "C^H has axes, or corotational");
-  effective        = {{homogenized.stiffness}, {homogenized.areal_density}};
+                           "C^H has axes, or the law " +
+                           name_of(of_effective));
+  effective        = {law, {homogenized.stiffness}, {homogenized.areal_density}};
   phases.stiffness = cell.stiffness_of_phase();
-  phases.plate     = shell::PlateModel::edge_angles; // order two, whatever mesh and phases
+  for (const Eigen::Matrix3d &C : phases.stiffness) // biot where no phase has yarns
+    if (phases.law != law)
+      phases.law = homogenized_law(law, C);
+  phases.plate = shell::PlateModel::edge_angles; // order two, whatever mesh and phases
   for (const homogenization::Phase &phase : cell.phases)
     phases.areal_density.push_back(phase.thickness * phase.density);
   if (scene.has("bending") && !scene.bending)
@@ -182,7 +181,7 @@ DrapedCell::DrapedCell(const Scene &given, const homogenization::UnitCell &cell,
     for (const Eigen::Matrix3d &D : cell.bending_stiffness_of_phase())
       phases.bending.push_back(shell::PlateStiffness::from(D));
   }
-  CoarseCloth begin(scene, cell);
+  CoarseStart begin(scene, cell);
   coarse    = std::move(begin.mesh);
   placement = begin.placement;
   if (scene.is_sheet())
@@ -234,76 +233,33 @@ DrapedCell::DrapedCell(const Scene &given, const homogenization::UnitCell &cell,
   data.on_triangles = {{"material", material}};
 }
 
-Law DrapedCell::law() const
-{
-  return law_of_model(model);
-}
-
 Method DrapedCell::used(const Method &method) const
 {
-  Method left = used_in(scene, method, model);
+  Method left = used_in(scene, method, law);
   if (!edges)
     left = left.without(Term::edges);
   for (const Term term : {Term::edges, Term::cubic, Term::modes})
     if (method.asks_for(term) && !left.has(term))
       throw meshes::BadInput("--methods " + method.name + ": scene `" + scene.name +
-                             (why_not(term, scene, model).empty()
+                             (why_not(term, scene, law).empty()
                                 ? "`: the cell " + cell.name +
                                     " has no terms of edges; expected "
                                     "one that has: leave them out"
-                                : why_not(term, scene, model)));
+                                : why_not(term, scene, law)));
   return left;
 }
 
-CoarseSpace DrapedCell::coarse_space(const Method &method) const
+CoarseParts<3> DrapedCell::parts_of(const Method &method) const
 {
-  if (!sheet)
-    throw meshes::BadInput(scene.file + ": method " + method.name +
-                           " is one of sheets, and the cloth is a garment; expected a sheet of "
-                           "whole cells: leave out the method");
-  return {*sheet, element_of(method)};
+  return {{homogenized, edges ? &*edges : nullptr}, *sheet, used(method), law, kinds_of_edges()};
 }
 
-MovingEdges DrapedCell::moving_edges(const Method &method) const
+ClothMaterial DrapedCell::effective_of(const Method &method) const
 {
-  if (!edges)
-    throw meshes::BadInput(scene.file + ": terms of edges are asked for, and the cell " +
-                           cell.name + " has none; expected a sheet of whole cells: leave out `" +
-                           method.name + "`");
-  const CoarseSpace space = coarse_space(method);
-  return {homogenized, *edges, *sheet, space, coarse_motion().vertices(coarse)};
-}
-
-ClothMaterial DrapedCell::effective_of(const Method &asked) const
-{
-  const Method method    = used(asked);
   ClothMaterial material = effective;
-  if (method.has(Term::cubic))
-  {
-    const auto found = homogenized.second_order.find(name_of(law()));
-    if (found == homogenized.second_order.end())
-      throw meshes::BadInput("method " + method.name + ": the cell " + cell.name +
-                             " has no cubic energy under the law " + name_of(law()) +
-                             "; expected one: leave the method out");
-    material.cubic = {found->second.energy};
-  }
-  if (method.has(Term::edges))
-    material.edges = std::make_shared<const MovingEdges>(moving_edges(method));
-  if (method.has(Term::p2))
-  {
-    const CoarseSpace space = coarse_space(method);
-    material.six_nodes      = std::make_shared<const shell::SixNodeMesh>(
-      shell::six_node_mesh(space.nodes.mesh, space.nodes.n1, space.nodes.n2));
-  }
+  if (sheet)
+    material.parts = std::make_shared<const CoarseParts<3>>(parts_of(method));
   return material;
-}
-
-MembraneModel DrapedCell::fine_model() const
-{
-  const bool has_yarns = std::any_of(phases.stiffness.begin(), phases.stiffness.end(),
-                                     [](const Eigen::Matrix3d &stiffness)
-                                     { return meshes::yarn_axes(stiffness).are_there; });
-  return model == MembraneModel::woven && has_yarns ? model : MembraneModel::corotational;
 }
 
 HeldMotion DrapedCell::coarse_motion() const
@@ -316,7 +272,7 @@ HeldMotion DrapedCell::coarse_motion() const
 HeldMotion DrapedCell::fine_motion() const
 {
   if (sheet)
-    return {scene, *placement, sheet->origin, sheet->sides()};
+    return coarse_motion();
   return {scene, coarse, fine_of_coarse};
 }
 

@@ -9,9 +9,8 @@
 #include "meshes/plain/sheet.h"
 #include "verification/drape/cloth_upsampler.h"
 #include "verification/drape/scene_cloth.h"
-#include "verification/method/coarse_model.h"
-#include "verification/method/moving_edges.h"
-#include "verification/reference/laws.h"
+#include "verification/law/laws.h"
+#include "verification/method/coarse_parts.h"
 
 #include <optional>
 #include <string>
@@ -22,12 +21,12 @@ namespace homespun::verification
 using Upsampler3f = ClothUpsampler<float>;
 using Upsampler3d = ClothUpsampler<double>;
 
-/// Why a scene has no use for a term under a model of the coarse cloth, a clause behind its name;
-/// empty where it has.
-std::string why_not(Term term, const Scene &scene, MembraneModel model);
+/// Why a scene has no use for a term under a law of the coarse cloth, a clause behind its name;
+/// empty where it has. Without a law, under any.
+std::string why_not(Term term, const Scene &scene, std::optional<Law> law = {});
 
 /// A method as a scene has it: without the terms that it has no use for.
-Method used_in(const Scene &scene, const Method &method, MembraneModel model);
+Method used_in(const Scene &scene, const Method &method, std::optional<Law> law = {});
 
 /// Whether a method, as it is used, moves a coarse cloth of its own: one with terms of edges, a
 /// cubic energy or six-node triangles. The cloth has the name of the method, beside the variants of
@@ -40,10 +39,10 @@ bool has_own_cloth(const Method &used);
 Scene scaled(const Scene &scene, int n_cells);
 
 /// The coarse cloth of a scene where it begins, and where it is held.
-struct CoarseCloth
+struct CoarseStart
 {
   /// @throws BadInput where the mesh of the scene or the cell cannot be used
-  CoarseCloth(const Scene &scene, const homogenization::UnitCell &cell);
+  CoarseStart(const Scene &scene, const homogenization::UnitCell &cell);
 
   HeldMotion motion(const Scene &scene) const;
 
@@ -56,13 +55,12 @@ struct CoarseCloth
 class DrapedCell
 {
 public:
-  /// @param model of the coarse cloth that is the method
+  /// @param law of the coarse cloth that is the method
   /// @throws BadInput where the cloth of the scene or the cell cannot be used, the scene bends by
-  ///   the cell's D^H and there is none, or the model is woven and C^H has no axes
+  ///   the cell's D^H and there is none, or the law is one of yarns and C^H has no axes
   DrapedCell(const Scene &scene, const homogenization::UnitCell &cell,
-             const meshes::HomogenizedCell &homogenized,
-             const std::optional<meshes::CellEdges> &edges = {},
-             MembraneModel model                           = MembraneModel::corotational);
+             const meshes::HomogenizedCell &homogenized, Law law,
+             const std::optional<meshes::CellEdges> &edges = {});
 
   /// A method as it is used here: used_in() the scene, and without edges where the cell has none.
   /// @throws BadInput where a term that was asked for by name is not used
@@ -72,9 +70,6 @@ public:
   /// @throws BadInput where the cell lacks what it asks for
   ClothMaterial effective_of(const Method &method) const;
 
-  /// The same model with a stiffness per triangle; corotational where no phase has yarns.
-  MembraneModel fine_model() const;
-
   HeldMotion coarse_motion() const;
   /// @throws BadInput where a held vertex of the coarse cloth is none of the fine one
   HeldMotion fine_motion() const;
@@ -82,17 +77,11 @@ public:
   template <typename Scalar>
   ClothUpsampler<Scalar> upsampler(const Method &asked) const
   {
-    const Method method                    = used(asked);
-    localization::UpsamplerOptions options = method.options(law());
-    if (method.has(Term::edges) && method.has(Term::micro))
-      moving_edges(method).give_edges(*edges, options);
-    if (sheet)
-      return {homogenized, coarse_space(method), *sheet, options};
-    return {homogenized, coarse, *garment, options};
+    if (!sheet)
+      return {homogenized, coarse, *garment, used(asked).options(law)};
+    const CoarseParts<3> parts = parts_of(asked);
+    return {homogenized, parts.space, *sheet, parts.options};
   }
-
-  /// That of the model's energy: of second order the cell has that of the law.
-  Law law() const;
 
   /// Vertices that up-sampling gives.
   int n_fine() const;
@@ -113,7 +102,7 @@ public:
   const homogenization::UnitCell cell;
   const meshes::HomogenizedCell homogenized;
   const std::optional<meshes::CellEdges> edges; ///< where a method asks for them
-  const MembraneModel model;
+  const Law law;
   const double side; ///< sqrt(|Y|) [m]
   std::optional<meshes::Sheet> sheet;
   std::optional<meshes::FineCloth> garment;
@@ -122,14 +111,15 @@ public:
   int centre_vertex = 0, fine_centre_vertex = 0; ///< nearest to the middle of the cloth
   std::optional<SheetPlacement> placement;
 
-  /// @param method with terms of edges
-  /// @throws BadInput where the cell has no edges, or the cloth is no sheet
-  MovingEdges moving_edges(const Method &method) const;
+  /// What the edges of the sheet are.
+  EdgeKinds kinds_of_edges() const
+  {
+    return edge_kinds({scene.n1, scene.n2}, coarse_motion().vertices(coarse));
+  }
 
 private:
-  /// In which the coarse cloth of a method moves.
-  /// @throws BadInput where the cloth is no sheet, or six-node triangles do not fill it
-  CoarseSpace coarse_space(const Method &method) const;
+  /// Of a sheet.
+  CoarseParts<3> parts_of(const Method &method) const;
 
   meshes::SurfaceData data;
   std::vector<int> space_vertex; ///< of a garment's fine vertex

@@ -113,7 +113,7 @@ public:
             [&]()
             {
               run = std::make_unique<SceneCloth>(draped.scene, draped.fine, draped.phases,
-                                                 draped.fine_motion(), draped.fine_model());
+                                                 draped.fine_motion());
             });
   }
   FineStep advance(const bool to_equilibrium, const double step, const double time) override

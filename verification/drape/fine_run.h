@@ -49,7 +49,7 @@ struct Discretization
 std::unique_ptr<FineRun> dealii_run(const DrapedCell &draped, Law law,
                                     Discretization discretization, MPI_Comm communicator);
 
-/// By the shell's own code, the method's model with a stiffness per triangle; on the first rank,
+/// By the shell's own code, the method's law with a stiffness per triangle; on the first rank,
 /// one thread.
 std::unique_ptr<FineRun> shell_run(const DrapedCell &draped, MPI_Comm communicator);
 } // namespace homespun::verification

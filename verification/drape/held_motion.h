@@ -4,7 +4,7 @@
 #pragma once
 
 #include "meshes/cloth/cloth_mesh.h"
-#include "verification/scene/scene.h"
+#include "verification/drape/scene/scene.h"
 
 #include <Eigen/Core>
 

@@ -4,7 +4,7 @@
 #pragma once
 
 #include "meshes/files/obj_file.h"
-#include "verification/scene/scene.h"
+#include "verification/drape/scene/scene.h"
 
 #include <Eigen/Core>
 

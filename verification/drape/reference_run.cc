@@ -31,9 +31,10 @@ public:
       , draped(draped)
       , reference(reference)
       , coarse(coarse)
-      , name(draped.cell.name + "-" + reference)
+      , name(draped.cell.name + "-reference-" + reference)
       , place(run.options.output + "/" + name)
       , title(draped.cell.name + ", " + reference)
+      , cloth{draped.cell.name, MovingCloth::reference, reference}
       , masses(shell::lumped_masses(draped.fine, draped.phases.areal_density))
       , held(draped.fine_motion())
   {
@@ -143,15 +144,15 @@ private:
             [&]()
             {
               DrapeOutput &output = *run.output;
-              MotionRow motion    = output.motion_row(draped.cell.name, reference, frame,
-                                                      positions.row(draped.fine_centre_vertex));
+              MotionRow motion =
+                output.motion_row(cloth, frame, positions.row(draped.fine_centre_vertex));
               motion.kinetic      = kinetic;
               motion.elastic      = elastic;
               motion.gravity      = gravity_energy(draped.scene, masses, fine->positions());
               motion.step_seconds = median(seconds);
               if (frame > 0)
                 output.write_held_forces(
-                  draped.cell.name, reference, frame,
+                  cloth, frame,
                   held_forces(held, {draped.fine, masses, gradient, run.schedule.time_of(frame),
                                      run.schedule.step_of_forces()}));
               // The error belongs to method and reference, and stands with the frame that comes
@@ -178,7 +179,7 @@ private:
               {
                 for (const Verdict &verdict : verdicts_of_accuracy(
                        run.output->error_rows(),
-                       {draped.cell.name, name_of(draped.model), draped.side}, reference))
+                       {draped.cell.name, name_of(draped.law), draped.side}, reference))
                   run.verdicts.push_back(verdict);
               });
   }
@@ -217,6 +218,7 @@ private:
   const std::string reference;
   const CoarseRuns &coarse;
   const std::string name, place, title;
+  const MovingCloth cloth;
   const Eigen::VectorXd masses;
   const HeldMotion held;
   std::unique_ptr<FineRun> fine;

@@ -7,20 +7,17 @@
 #include "shell/contact/obstacles.h"
 #include "shell/terms/inertial_terms.h"
 #include "shell/terms/lagged_load.h"
+#include "shell/terms/law_terms.h"
 #include "shell/terms/membrane_term.h"
 #include "shell/terms/six_node_term.h"
 #include "shell/terms/warping.h"
 #include "shell/terms/wind.h"
-#include "shell/terms/yarn_term.h"
-#include "verification/reference/laws.h"
 
 #include <Eigen/LU>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
-#include <stdexcept>
 
 namespace homespun::verification
 {
@@ -61,46 +58,34 @@ shell::Integrator integrator_of(const TimeIntegration integration)
   }
 }
 
-constexpr std::array<MembraneModel, 4> all_models = {
-  MembraneModel::corotational, MembraneModel::woven, MembraneModel::triangle_warping,
-  MembraneModel::nodal_warping};
+constexpr const char *nodal_warping = "nodal-warping";
+
+const shell::SixNodeMesh *six_nodes_of(const ClothMaterial &material)
+{
+  return material.parts && material.parts->space.six_nodes ? &*material.parts->space.six_nodes
+                                                           : nullptr;
+}
 } // namespace
 
-std::string name_of(const MembraneModel model)
+std::string name_of_membrane(const std::optional<Law> law)
 {
-  switch (model)
-  {
-  case MembraneModel::corotational:
-    return "corotational";
-  case MembraneModel::woven:
-    return "woven";
-  case MembraneModel::triangle_warping:
-    return "triangle-warping";
-  case MembraneModel::nodal_warping:
-    return "nodal-warping";
-  }
-  throw std::logic_error("a model without a name");
+  return law ? name_of(*law) : nodal_warping;
 }
 
-bool has_energy(const MembraneModel model)
+std::optional<Law> membrane_of(const std::string &name)
 {
-  return model == MembraneModel::corotational || model == MembraneModel::woven;
-}
-
-bool is_membrane_model(const std::string &name)
-{
-  return std::any_of(all_models.begin(), all_models.end(),
-                     [&](const MembraneModel model) { return name_of(model) == name; });
-}
-
-MembraneModel membrane_model_of(const std::string &name)
-{
-  for (const MembraneModel model : all_models)
-    if (name_of(model) == name)
-      return model;
+  std::vector<std::string> names = shell::names_of_cloth_laws();
+  if (std::find(names.begin(), names.end(), name) != names.end())
+    return law_of(name);
+  if (name == nodal_warping)
+    return {};
   meshes::refuse_removed_law(name);
-  throw meshes::BadInput("found `" + name +
-                         "`; expected corotational, woven, triangle-warping or nodal-warping");
+  if (name == "triangle-warping")
+    throw meshes::BadInput("`" + name +
+                           "` was removed in 0.2.0: its rotations, frozen over a step, do not "
+                           "survive steps of a scene; use nodal-warping, the paper's, or a law");
+  names.emplace_back(nodal_warping);
+  throw meshes::BadInput("found `" + name + "`; expected " + meshes::one_of(names));
 }
 
 std::vector<std::string> terms_with_a_cost(const Scene &scene)
@@ -123,15 +108,17 @@ double gravity_energy(const Scene &scene, const Eigen::VectorXd &masses,
 
 SceneCloth::SceneCloth(const Scene &scene, const meshes::ClothMesh &mesh,
                        const ClothMaterial &material, HeldMotion given_motion,
-                       const MembraneModel model, const std::set<std::string> &forced)
+                       const std::set<std::string> &forced)
     : mesh(mesh)
     , motion(std::move(given_motion))
-    , edges(material.edges)
+    , parts(material.parts)
+    , edges(parts && parts->edges ? &*parts->edges : nullptr)
     , held(motion.vertices(mesh))
 {
+  const shell::SixNodeMesh *const six_nodes = six_nodes_of(material);
   const Eigen::VectorXd masses =
-    material.six_nodes ? shell::six_node_masses(*material.six_nodes, material.areal_density.front())
-                       : shell::lumped_masses(mesh, material.areal_density);
+    six_nodes != nullptr ? shell::six_node_masses(*six_nodes, material.areal_density.front())
+                         : shell::lumped_masses(mesh, material.areal_density);
   shell::ClothOptions options;
   options.integrator = integrator_of(scene.integration);
   moving             = std::make_unique<shell::Cloth>(mesh.positions, masses, held, options);
@@ -139,8 +126,8 @@ SceneCloth::SceneCloth(const Scene &scene, const meshes::ClothMesh &mesh,
 
   const bool damped      = scene.has("damping");
   const double viscosity = damped ? scene.viscosity : forces("damping") ? 1e-300 : 0.;
-  add_membrane(material, model, viscosity);
-  if (edges)
+  add_membrane(material, viscosity);
+  if (edges != nullptr)
     add_edges();
   if (scene.has("bending") || forces("bending"))
   {
@@ -189,36 +176,19 @@ SceneCloth::SceneCloth(const Scene &scene, const meshes::ClothMesh &mesh,
   }
 }
 
-void SceneCloth::add_membrane(const ClothMaterial &material, const MembraneModel model,
-                              const double viscosity)
+void SceneCloth::add_membrane(const ClothMaterial &material, const double viscosity)
 {
-  /// Of the triangles of the mesh, or at the points of those with six nodes.
-  const auto add = [&](const auto &term)
+  if (material.law)
   {
-    moving->add(material.six_nodes
-                  ? shell::six_node_term(*material.six_nodes, material.stiffness.front(), term)
-                  : term(mesh));
-  };
-  switch (model)
-  {
-  case MembraneModel::corotational:
-    add([&](const meshes::ClothMesh &of)
-        { return shell::membrane_term(of, material.stiffness, viscosity, material.cubic); });
-    break;
-  case MembraneModel::woven:
-    add([&](const meshes::ClothMesh &of) { return shell::yarn_term(of, material.stiffness); });
-    break;
-  case MembraneModel::triangle_warping:
-    moving->add(shell::triangle_warping_term(mesh, material.stiffness));
-    break;
-  case MembraneModel::nodal_warping:
-    moving->add(shell::nodal_warping_term(mesh, material.stiffness, moving->masses()));
-    break;
+    for (auto &term :
+         shell::law_terms(*material.law, mesh, six_nodes_of(material), material.stiffness,
+                          viscosity, parts ? parts->cubic : std::vector<meshes::CubicForm>()))
+      moving->add(std::move(term));
+    return;
   }
-  // The scene is the same for every model of the elasticity.
-  if (model != MembraneModel::corotational && viscosity > 0.)
-    add([&](const meshes::ClothMesh &of)
-        { return shell::viscosity_term(of, material.stiffness, viscosity); });
+  moving->add(shell::nodal_warping_term(mesh, material.stiffness, moving->masses()));
+  if (viscosity > 0.)
+    moving->add(shell::viscosity_term(mesh, material.stiffness, viscosity));
 }
 
 void SceneCloth::add_edges()
@@ -228,12 +198,12 @@ void SceneCloth::add_edges()
   if (edges->has_bulk_forces())
     moving->add(shell::lagged_load_term("strain gradient",
                                         [of = edges](const shell::Vectors &positions)
-                                        { return shell::Vectors(of->bulk_forces(positions)); }));
+                                        { return shell::Vectors(of->forces(positions)); }));
 }
 
 void SceneCloth::prescribe(const double time)
 {
-  if (!edges)
+  if (edges == nullptr)
   {
     for (const int v : held)
       moving->prescribe(v, motion.position(v, mesh, time));
@@ -246,7 +216,7 @@ void SceneCloth::prescribe(const double time)
 
 shell::StepReport SceneCloth::step(const double h)
 {
-  if (edges || motion.moves_after(moving->time()))
+  if (edges != nullptr || motion.moves_after(moving->time()))
     prescribe(moving->time() + h);
   return moving->step(h);
 }
@@ -266,7 +236,7 @@ void SceneCloth::solve_equilibrium(const double time)
     moving->solve_equilibrium();
     moving->set_state(moving->positions(), moving->velocities(), time);
     change = (moving->positions() - before).cwiseAbs().maxCoeff();
-    if (!edges || change <= 1e-9 * size)
+    if (edges == nullptr || change <= 1e-9 * size)
       return;
   }
   throw meshes::NotConverged("terms of edges: after " + std::to_string(most) +

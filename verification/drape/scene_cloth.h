@@ -3,54 +3,38 @@
 // that the scene lists and no others.
 #pragma once
 
-#include "shell/membrane/six_node_membrane.h"
 #include "shell/solver/cloth.h"
 #include "shell/terms/plate_term.h"
 #include "verification/drape/held_motion.h"
-#include "verification/method/moving_edges.h"
-#include "verification/scene/scene.h"
+#include "verification/drape/scene/scene.h"
+#include "verification/method/coarse_parts.h"
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 namespace homespun::verification
 {
-/// How the membrane is modelled: by an energy, corotational or of yarns, or by what the paper has
-/// in its place, without one.
-enum class MembraneModel
-{
-  corotational, ///< law biot
-  woven,        ///< law yarn, shell/terms/yarn_term.h
-  triangle_warping,
-  nodal_warping
-};
+/// The name of a membrane: that of its law, or, without one, `nodal-warping`, what the paper has in
+/// the place of an energy.
+std::string name_of_membrane(std::optional<Law> law);
 
-/// Whether a model has an energy, and so may be the method, against which variants are held.
-bool has_energy(MembraneModel model);
-
-std::string name_of(MembraneModel model);
-
-bool is_membrane_model(const std::string &name);
-
+/// @return none for `nodal-warping`
 /// @throws BadInput listing the names
-MembraneModel membrane_model_of(const std::string &name);
+std::optional<Law> membrane_of(const std::string &name);
 
 /// One entry per phase of the mesh, and what a method adds.
 struct ClothMaterial
 {
+  std::optional<Law> law;                 ///< none: nodal warping
   std::vector<Eigen::Matrix3d> stiffness; ///< [N/m]
   std::vector<double> areal_density;      ///< [kg/m^2]
   /// [N m], where the scene takes its bending from the cell; a stiffness of the scene's own is that
   /// of all phases.
   std::vector<shell::PlateStiffness> bending = {};
-  /// Cubic energies of the corotational membrane (membrane_term.h); empty: none.
-  std::vector<meshes::CubicForm> cubic = {};
-  /// What edges of a sheet add; none: null.
-  std::shared_ptr<const MovingEdges> edges = {};
-  /// Triangles of the membrane on the same vertices, whose mass they have then; none: null, and the
-  /// membrane has those of the mesh. All other terms keep those.
-  std::shared_ptr<const shell::SixNodeMesh> six_nodes = {};
+  /// Of the coarse cloth of a sheet; its six-node triangles carry the membrane alone, and the mass.
+  std::shared_ptr<const CoarseParts<3>> parts = {};
   /// Conserving steps take hinges whatever it says.
   shell::PlateModel plate = shell::PlateModel::by_mesh;
 };
@@ -61,8 +45,7 @@ public:
   /// @param forced terms that the scene does not list, added at zero strength: what they would cost
   /// @throws BadInput where the parts do not fit together
   SceneCloth(const Scene &scene, const meshes::ClothMesh &mesh, const ClothMaterial &material,
-             HeldMotion motion, MembraneModel model = MembraneModel::corotational,
-             const std::set<std::string> &forced = {});
+             HeldMotion motion, const std::set<std::string> &forced = {});
 
   /// Moves the handles to their places at the end of the step, and steps.
   shell::StepReport step(double h);
@@ -85,13 +68,14 @@ public:
   }
 
 private:
-  void add_membrane(const ClothMaterial &material, MembraneModel model, double viscosity);
+  void add_membrane(const ClothMaterial &material, double viscosity);
   void prescribe(double time);
   void add_edges();
 
   const meshes::ClothMesh mesh;
   const HeldMotion motion;
-  const std::shared_ptr<const MovingEdges> edges;
+  const std::shared_ptr<const CoarseParts<3>> parts;
+  const EdgeTerms<3> *const edges; ///< of the parts; null: none
   std::vector<int> held;
   std::unique_ptr<shell::Cloth> moving;
 };

@@ -5,7 +5,7 @@
 
 #include "meshes/plain/homogenized_cell.h"
 #include "meshes/plain/sheet.h"
-#include "verification/reference/laws.h"
+#include "verification/law/laws.h"
 
 #include <string>
 

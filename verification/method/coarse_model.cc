@@ -21,54 +21,30 @@ Response response_with(const shell::GuardedCubic &cubic, const Eigen::Matrix3d &
   result.stress << P(0, 0), P(0, 1), P(1, 0), P(1, 1);
   return result;
 }
-
-std::vector<meshes::CubicForm> cubic_of(const meshes::HomogenizedCell &cell, const Method &method,
-                                        const Law law)
-{
-  if (!method.is_of_second_order(law))
-    return {};
-  const auto found = cell.second_order.find(name_of(law));
-  if (found == cell.second_order.end())
-    throw meshes::BadInput("method " + method.name +
-                           ": the cell has no second order under the law `" + name_of(law) +
-                           "`: make its cell.h5 again with `homespun homogenize`, or leave the "
-                           "method out");
-  if (!method.has(Term::cubic))
-    return {};
-  return {found->second.energy};
-}
 } // namespace
 
 Method CoarseModel::used(const Method &method, const Law law, const Load &load,
                          const meshes::Sheet &sheet, const CellModel &cell,
-                         const int quads_per_cell)
+                         const std::optional<Quads> &quads)
 {
   Method left = method.under(law, load);
-  if (!CoarseSpace::fits(sheet, element_of(left), quads_per_cell))
+  if (!CoarseSpace::fits(sheet, element_of(left), quads))
     left = left.without(Term::p2);
   return cell.edges == nullptr ? left.without(Term::edges) : left;
 }
 
 CoarseModel::CoarseModel(const CellModel &cell, const meshes::Sheet &sheet, const Load &given,
-                         const Method &asked, const Law law, const int quads_per_cell)
+                         const Method &asked, const Law law, const std::optional<Quads> &quads)
     : law(law)
-    , method(used(asked, law, given, sheet, cell, quads_per_cell))
+    , method(used(asked, law, given, sheet, cell, quads))
     , cell(cell)
     , sheet(sheet)
-    , space(sheet, element_of(method), quads_per_cell)
+    , parts(cell, sheet, method, law, method.has(Term::edges) ? edge_kinds(given) : EdgeKinds(),
+            quads)
     , load(with_own_sides(given))
     , held(held_vertices(load, sheet, mesh().vertices))
-    , solver(space.solver(cell.cell.stiffness, held, cubic_of(cell.cell, method, law)))
-    , options(method.options(law))
+    , solver(parts.space.solver(cell.cell.stiffness, law, held, parts.cubic))
 {
-  if (method.has(Term::edges))
-    edges.emplace(cell, sheet, load, space.grid, law);
-  if (!method.has(Term::micro))
-    return;
-  if (method.has_fitted_modes(law))
-    options.fitted = cell.fitted;
-  if (edges)
-    edges->give_edges(options);
 }
 
 /// A load with free sides, whose strains are those of the coarse cloth's own energy.
@@ -76,13 +52,12 @@ Load CoarseModel::with_own_sides(const Load &given) const
 {
   if (!given.has_free_sides())
     return given;
-  const Eigen::Matrix3d C                     = cell.cell.stiffness;
-  const Law own_law                           = homogenized_law(law, C);
-  const std::vector<meshes::CubicForm> energy = cubic_of(cell.cell, method, law);
-  if (energy.empty())
+  const Eigen::Matrix3d C = cell.cell.stiffness;
+  const Law own_law       = homogenized_law(law, C);
+  if (parts.cubic.empty())
     return given.with_free_strains([=](const double strain)
                                    { return free_strains_of(given, own_law, C, strain); });
-  const shell::GuardedCubic cubic(energy.front(), C);
+  const shell::GuardedCubic cubic(parts.cubic.front(), C);
   return given.with_free_strains(
     [=](const double strain)
     {
@@ -91,23 +66,8 @@ Load CoarseModel::with_own_sides(const Load &given) const
     });
 }
 
-void CoarseModel::put_held(const Positions &prescribed, Positions &positions) const
-{
-  for (const int v : held)
-    positions.row(v) = prescribed.row(v);
-}
-
-shell::Equilibrium<2> CoarseModel::equilibrium(const Positions &start) const
-{
-  if (law != Law::linear)
-    return solver->solve_equilibrium(law, start);
-  shell::Equilibrium<2> result;
-  result.positions  = solver->solve_linear(start);
-  result.iterations = 1;
-  return result;
-}
-
-CoarseState CoarseModel::solve(const double strain, const CoarseState *const earlier) const
+CoarseState CoarseModel::solve(const double strain, const CoarseState *const earlier,
+                               const shell::EquilibriumOptions &options) const
 {
   CoarseState state;
   state.strain    = strain;
@@ -121,25 +81,31 @@ CoarseState CoarseModel::solve(const double strain, const CoarseState *const ear
       // The prescribed motion is proportional to strain, so held vertices end where they should.
       const Positions displacement = earlier->without_edges - mesh().vertices;
       start                        = mesh().vertices + strain / earlier->strain * displacement;
-      put_held(state.positions, start);
+      for (const int v : held)
+        start.row(v) = state.positions.row(v);
     }
-    const shell::Equilibrium<2> found = equilibrium(start);
+    const shell::Equilibrium found = solver->solve(start, {}, options);
     state.positions                   = found.positions;
     state.iterations                  = found.iterations;
   }
   state.without_edges = state.positions;
-  if (edges)
-  {
-    const shell::Equilibrium<2> moved = with_edges(*edges, space, *solver, state.without_edges);
-    state.positions                   = moved.positions;
-    state.iterations += moved.iterations;
-  }
+  return parts.edges ? with_edges(*parts.edges, state) : state;
+}
+
+CoarseState CoarseModel::with_edges(const EdgeTerms<2> &terms, CoarseState state) const
+{
+  const Positions &before = state.without_edges, &rest = mesh().vertices;
+  const Positions slip = terms.slip(before), forces = terms.forces(before);
+  const bool is_linear              = law == Law::linear;
+  const shell::Equilibrium moved = solver->solve((is_linear ? rest : before) + slip, forces);
+  state.positions = is_linear ? before + (moved.positions - rest) : moved.positions;
+  state.iterations += moved.iterations;
   return state;
 }
 
 LoadForces CoarseModel::forces(const CoarseState &state) const
 {
-  return load_forces(load, sheet, mesh().vertices, solver->gradient(law, state.without_edges));
+  return load_forces(load, sheet, mesh().vertices, solver->gradient(state.without_edges));
 }
 
 meshes::Points CoarseModel::upsample(const CoarseState &state) const

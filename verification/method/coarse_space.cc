@@ -1,71 +1,85 @@
 // SPDX-License-Identifier: MIT
 #include "verification/method/coarse_space.h"
 
-#include "shell/membrane/six_node_membrane.h"
+#include "meshes/plain/yarn_axes.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace homespun::verification
 {
 namespace
 {
-CoarseGrid grid_of(const meshes::Sheet &sheet, const int quads_per_cell)
+CoarseGrid grid_of(const meshes::Sheet &sheet, const Quads quads)
 {
-  const int n1 = quads_per_cell * sheet.n1, n2 = quads_per_cell * sheet.n2;
-  return {meshes::coarse_sheet(sheet.origin, sheet.lattice.vectors / quads_per_cell, n1, n2), n1,
-          n2};
+  const Eigen::Vector2d widths(static_cast<double>(sheet.n1) / quads.n1,
+                               static_cast<double>(sheet.n2) / quads.n2);
+  return {meshes::coarse_sheet(sheet.origin, widths.asDiagonal() * sheet.lattice.vectors, quads.n1,
+                               quads.n2),
+          quads};
 }
 
 template <typename Sheet>
 class SolverOf : public CoarseSolver
 {
 public:
-  SolverOf(Sheet sheet, const std::vector<int> &held)
-      : solvers(std::move(sheet), held)
+  /// @param own_law of the sheet, which has it
+  SolverOf(Sheet of_sheet, const Law own_law, const std::vector<int> &held)
+      : law(own_law)
+      , sheet(std::move(of_sheet))
   {
+    if (!held.empty())
+      solver = std::make_unique<shell::MembraneSolver<Sheet>>(sheet, held);
   }
 
-  Positions solve_linear(const Positions &prescribed, const Positions &loads) const override
+  shell::Equilibrium solve(const Positions &start, const Positions &loads,
+                              const shell::EquilibriumOptions &options) const override
   {
-    return solvers.solver(Law::linear).solve_linear(prescribed, loads);
+    if (law != Law::linear)
+      return solver->solve_equilibrium(start, options, loads);
+    shell::Equilibrium result;
+    result.positions  = solver->solve_linear(start, loads);
+    result.iterations = 1;
+    return result;
   }
 
-  shell::Equilibrium<2> solve_equilibrium(const Law law, const Positions &start,
-                                          const Positions &loads) const override
+  Positions gradient(const Positions &positions) const override
   {
-    return solvers.solver(law).solve_equilibrium(start, {}, loads);
-  }
-
-  Positions gradient(const Law law, const Positions &positions) const override
-  {
-    const Sheet &sheet = solvers.membrane(law);
     return law == Law::linear ? shell::linear_membrane_gradient(sheet, positions - sheet.vertices)
                               : shell::membrane_gradient<2>(sheet, positions).gradient;
   }
 
 private:
-  const SheetSolvers<Sheet> solvers;
+  const Law law;
+  const Sheet sheet;
+  std::unique_ptr<shell::MembraneSolver<Sheet>> solver; ///< none where nothing is held
 };
+
+void give_law(shell::Membrane &membrane, const Law law)
+{
+  if (properties_of(law).has_yarns)
+    shell::take_yarn_law(membrane);
+}
 
 /// The quadratic functions at the vertices of a grid half as wide as the nodes.
 Eigen::SparseMatrix<double, Eigen::RowMajor>
 values_on(const CoarseGrid &grid, const CoarseGrid &nodes, const shell::SixNodeMesh &mesh)
 {
   std::vector<Eigen::Triplet<double>> entries;
-  for (int j = 0; j <= grid.n2; ++j)
-    for (int i = 0; i <= grid.n1; ++i)
+  for (int j = 0; j <= grid.quads.n2; ++j)
+    for (int i = 0; i <= grid.quads.n1; ++i)
     {
       // In which pair of triangles, and where in it; on a side either neighbour says the same.
-      const int pair1 = std::min(i / 4, nodes.n1 / 2 - 1),
-                pair2 = std::min(j / 4, nodes.n2 / 2 - 1);
+      const int pair1 = std::min(i / 4, nodes.quads.n1 / 2 - 1),
+                pair2 = std::min(j / 4, nodes.quads.n2 / 2 - 1);
       const double x = 0.25 * (i - 4 * pair1), y = 0.25 * (j - 4 * pair2);
-      const int triangle = 2 * (pair2 * (nodes.n1 / 2) + pair1) + (y > x);
+      const int triangle = 2 * (pair2 * (nodes.quads.n1 / 2) + pair1) + (y > x);
       const Eigen::RowVector3d at =
         y > x ? Eigen::RowVector3d(1. - y, x, y - x) : Eigen::RowVector3d(1. - x, x - y, y);
       const Eigen::Matrix<double, 1, 6> values = shell::six_node_values(at);
       for (int k = 0; k < 6; ++k)
         if (values(k) != 0.)
-          entries.emplace_back(j * (grid.n1 + 1) + i, mesh.triangles(triangle, k), values(k));
+          entries.emplace_back(j * (grid.quads.n1 + 1) + i, mesh.triangles(triangle, k), values(k));
     }
   Eigen::SparseMatrix<double, Eigen::RowMajor> matrix(grid.mesh.n_vertices(),
                                                       nodes.mesh.n_vertices());
@@ -74,22 +88,41 @@ values_on(const CoarseGrid &grid, const CoarseGrid &nodes, const shell::SixNodeM
 }
 } // namespace
 
-bool CoarseSpace::fits(const meshes::Sheet &sheet, const CoarseElement element,
-                       const int quads_per_cell)
+Law homogenized_law(const Law of_reference, const Eigen::Matrix3d &stiffness)
 {
-  return element == CoarseElement::three_nodes ||
-         (quads_per_cell * sheet.n1 % 2 == 0 && quads_per_cell * sheet.n2 % 2 == 0);
+  const meshes::LawProperties &its = properties_of(of_reference);
+  const bool is_its_own =
+    of_reference == Law::linear ||
+    (its.is_of_coarse_cloth && (!its.has_yarns || meshes::yarn_axes(stiffness).are_there));
+  return is_its_own ? of_reference : Law::biot;
+}
+
+shell::Membrane homogenized_membrane(const meshes::TriangleMesh &rest,
+                                     const Eigen::Matrix3d &stiffness, const Law of_reference)
+{
+  shell::Membrane membrane = shell::membrane(rest, {stiffness});
+  give_law(membrane, homogenized_law(of_reference, stiffness));
+  return membrane;
+}
+
+bool CoarseSpace::fits(const meshes::Sheet &sheet, const CoarseElement element,
+                       const std::optional<Quads> &quads)
+{
+  const Quads in = quads.value_or(quads_per_cell(sheet, 1));
+  return element == CoarseElement::three_nodes || (in.n1 % 2 == 0 && in.n2 % 2 == 0);
 }
 
 CoarseSpace::CoarseSpace(const meshes::Sheet &sheet, const CoarseElement element,
-                         const int quads_per_cell)
+                         const std::optional<Quads> &quads)
     : element(element)
-    , nodes(grid_of(sheet, quads_per_cell))
-    , grid(
-        grid_of(sheet, element == CoarseElement::six_nodes ? 2 * quads_per_cell : quads_per_cell))
+    , nodes(grid_of(sheet, quads.value_or(quads_per_cell(sheet, 1))))
+    , six_nodes(element == CoarseElement::six_nodes
+                  ? std::optional(shell::six_node_mesh(nodes.mesh, nodes.quads.n1, nodes.quads.n2))
+                  : std::nullopt)
+    , grid(grid_of(sheet, six_nodes ? Quads{2 * nodes.quads.n1, 2 * nodes.quads.n2} : nodes.quads))
 {
-  if (element == CoarseElement::six_nodes)
-    from_nodes = values_on(grid, nodes, shell::six_node_mesh(nodes.mesh, nodes.n1, nodes.n2));
+  if (six_nodes)
+    from_nodes = values_on(grid, nodes, *six_nodes);
 }
 
 template <int dim>
@@ -101,16 +134,9 @@ shell::Positions<dim> CoarseSpace::on_grid(const shell::Positions<dim> &of_nodes
 
 int CoarseSpace::grid_vertex(const int node) const
 {
-  const int r = grid.n1 / nodes.n1, i = node % (nodes.n1 + 1), j = node / (nodes.n1 + 1);
-  return r * j * (grid.n1 + 1) + r * i;
-}
-
-CoarseSpace::Positions CoarseSpace::at_nodes(const Positions &of_grid) const
-{
-  Positions of_nodes(nodes.mesh.n_vertices(), 2);
-  for (int node = 0; node < nodes.mesh.n_vertices(); ++node)
-    of_nodes.row(node) = of_grid.row(grid_vertex(node));
-  return of_nodes;
+  const int r = grid.quads.n1 / nodes.quads.n1, i = node % (nodes.quads.n1 + 1),
+            j = node / (nodes.quads.n1 + 1);
+  return r * j * (grid.quads.n1 + 1) + r * i;
 }
 
 template <int dim>
@@ -126,19 +152,20 @@ template shell::Positions<3> CoarseSpace::on_grid<3>(const shell::Positions<3> &
 template shell::Positions<2> CoarseSpace::loads_of_nodes<2>(const shell::Positions<2> &) const;
 template shell::Positions<3> CoarseSpace::loads_of_nodes<3>(const shell::Positions<3> &) const;
 
-std::unique_ptr<CoarseSolver> CoarseSpace::solver(const Eigen::Matrix3d &stiffness,
+std::unique_ptr<CoarseSolver> CoarseSpace::solver(const Eigen::Matrix3d &stiffness, const Law law,
                                                   const std::vector<int> &held,
                                                   const std::vector<meshes::CubicForm> &cubic) const
 {
-  if (element == CoarseElement::three_nodes)
+  const Law own_law = homogenized_law(law, stiffness);
+  if (!six_nodes)
   {
-    shell::Membrane membrane = shell::membrane(nodes.mesh, {stiffness});
+    shell::Membrane membrane = homogenized_membrane(nodes.mesh, stiffness, law);
     shell::add_cubic_energy(membrane, cubic);
-    return std::make_unique<SolverOf<shell::Membrane>>(std::move(membrane), held);
+    return std::make_unique<SolverOf<shell::Membrane>>(std::move(membrane), own_law, held);
   }
-  shell::SixNodeMembrane membrane =
-    shell::six_node_membrane(shell::six_node_mesh(nodes.mesh, nodes.n1, nodes.n2), stiffness);
+  shell::SixNodeMembrane membrane = shell::six_node_membrane(*six_nodes, stiffness);
+  give_law(membrane.points, own_law);
   shell::add_cubic_energy(membrane.points, cubic);
-  return std::make_unique<SolverOf<shell::SixNodeMembrane>>(std::move(membrane), held);
+  return std::make_unique<SolverOf<shell::SixNodeMembrane>>(std::move(membrane), own_law, held);
 }
 } // namespace homespun::verification

@@ -1,15 +1,18 @@
 // SPDX-License-Identifier: MIT
-// What edges add to a homogenized sheet of whole cells, to first order in the cell: slip of its
-// clamped edges, tension of its free ones, the force of strain gradients within, and the modes that
-// decay from an edge inwards (homogenization/edges/edge_layers.h has the equations).
+// What edges add to a homogenized sheet of whole cells, at rest and in motion, to first order in
+// the cell: slip of its clamped edges, tension of its free ones, the force of strain gradients
+// within, and the modes that decay from an edge inwards (homogenization/edges/edge_layers.h has the
+// equations). At rest tension is a load on the coarse vertices; in motion it is a term of the cloth
+// (shell/terms/selvedge.h), and slip and gradients are those where a step begins, so that they lag
+// by a step.
 #pragma once
 
 #include "localization/coarse_frames.h"
 #include "meshes/plain/cell_edges.h"
 #include "meshes/plain/homogenized_cell.h"
 #include "meshes/plain/sheet.h"
+#include "shell/terms/selvedge.h"
 #include "verification/method/coarse_space.h"
-#include "verification/reference/laws.h"
 #include "verification/reference/loads.h"
 
 #include <Eigen/Core>
@@ -31,54 +34,72 @@ struct CellModel
   const meshes::FittedModes *fitted = nullptr;
 };
 
+/// What each of the four edges of a sheet is.
+using EdgeKinds = std::array<localization::EdgeKind, meshes::CellEdges::n_sides>;
+
+/// Edges that a load holds are clamped, the others free.
+/// @throws BadInput where the load is one of an infinite cloth
+EdgeKinds edge_kinds(const Load &load);
+
+/// An edge all of whose nodes are held is clamped, one with none held between its ends is free,
+/// another has no terms.
+/// @param quads between the nodes
+EdgeKinds edge_kinds(Quads quads, const std::vector<int> &held);
+
+/// @tparam dim 2 of a sheet at rest in its plane, 3 of one that moves in space
+template <int dim>
 class EdgeTerms
 {
 public:
-  using Positions = localization::Positions<2>;
+  using Positions = localization::Positions<dim>;
 
   /// @param cell with edges, whose fields stand at the vertices of its mesh
   /// @param sheet of that cell; all are to be kept by the caller
-  /// @param load of a sheet: edges that it holds are clamped, the others free
-  /// @throws BadInput where the load is one of an infinite cloth
-  EdgeTerms(const CellModel &cell, const meshes::Sheet &sheet, const Load &load, CoarseGrid grid,
-            Law law);
+  /// @param space in which its coarse cloth moves
+  /// @throws BadInput where, in motion, a free edge pushes harder than the triangles behind it bear
+  EdgeTerms(const CellModel &cell, const meshes::Sheet &sheet, const CoarseSpace &space,
+            const EdgeKinds &kinds, Law law);
 
-  /// The right-hand side of the macro problem of the order of the cell.
-  struct MacroLoads
+  /// d_a E_a, lifted, of the nodes on clamped edges, elsewhere zero.
+  /// @param positions of the nodes (n,dim) [m]
+  /// @return (n,dim) [m]
+  Positions slip(const Positions &positions) const;
+
+  /// Forces of strain gradients on the nodes, and at rest those of tension (n,dim) [N].
+  Positions forces(const Positions &positions) const;
+
+  /// Whether strain gradients have forces: not where the cell has a centre of symmetry.
+  bool has_bulk_forces() const;
+
+  /// In motion, cables on the free edges.
+  const std::vector<shell::SelvedgeSegment> &selvedges() const
   {
-    Positions slip;   ///< d_a E_a at the vertices of clamped edges, elsewhere zero (n,2) [m]
-    Positions forces; ///< on the vertices (n,2) [N]
-  };
-
-  /// @param positions of the coarse vertices without the terms (n,2) [m]
-  MacroLoads macro_loads(const Positions &positions) const;
+    return segments;
+  }
 
   /// Gives up-sampling the edges of the cell, with what each is.
   void give_edges(localization::UpsamplerOptions &options) const;
 
-  const CoarseGrid grid;
   const Law law;
 
 private:
-  void add_side(int side, const Eigen::Matrix<double, Eigen::Dynamic, 7, Eigen::RowMajor> &frames,
-                MacroLoads &loads) const;
+  using Values = typename localization::CoarseFrames<dim>::Values;
+  template <typename Function>
+  void for_each(localization::EdgeKind kind, const Function &function) const;
+  void add_tension(int side, const meshes::CellEdge &edge, const Values &frames,
+                   Positions &forces_of_grid) const;
+  void add_cables(int side, const meshes::CellEdge &edge);
 
+  const meshes::HomogenizedCell &cell;
   const meshes::CellEdges &edges;
   const meshes::FittedModes *const fitted;
   const meshes::Sheet &sheet;
-  const localization::CoarseFrames<2> frames;
-  std::array<bool, meshes::CellEdges::n_sides> is_clamped;
+  const CoarseSpace space;
+  const localization::CoarseFrames<dim> frames; ///< of its grid
+  const EdgeKinds kinds;
+  std::vector<shell::SelvedgeSegment> segments;
 };
 
-/// The coarse cloth with the terms of edges: u0 + u1. In linear theory one more substitution with
-/// the factored stiffness; under other laws the equilibrium under the same forces, from u0.
-/// @param terms on the grid of the space
-/// @param solver of the nodes of the space, the held ones on clamped edges
-/// @param positions of the nodes in equilibrium without the terms (n,2) [m]
-/// @throws NotConverged
-shell::Equilibrium<2> with_edges(const EdgeTerms &terms, const CoarseSpace &space,
-                                 const CoarseSolver &solver, const EdgeTerms::Positions &positions);
-
 /// Which of the four edges of a sheet have which terms.
-std::string sentence_of_edges(const meshes::CellEdges &edges, const Load &load);
+std::string sentence_of_edges(const EdgeKinds &kinds);
 } // namespace homespun::verification

@@ -3,7 +3,7 @@
 // is what up-sampling has to restore, and by its size an error of up-sampling is judged.
 #pragma once
 
-#include "verification/method/homogenized_sheet.h"
+#include "verification/method/coarse_model.h"
 
 #include <Eigen/Core>
 
@@ -25,9 +25,8 @@ struct Fluctuation
 class FluctuationMeasure
 {
 public:
-  /// @param stiffness C^H (3,3) [N/m]
-  /// @param sheet to be kept by the caller
-  FluctuationMeasure(const Eigen::Matrix3d &stiffness, const meshes::Sheet &sheet,
+  /// @param cell, sheet to be kept by the caller
+  FluctuationMeasure(const meshes::HomogenizedCell &cell, const meshes::Sheet &sheet,
                      const Load &load);
 
   /// @param law of the reference
@@ -38,17 +37,14 @@ public:
 private:
   struct Sheet
   {
-    HomogenizedSheet sheet;
-    shell::Positions<2> displacement; ///< of the last level [m]
-    double strain = 0.;
+    CoarseModel model;
+    std::optional<CoarseState> last; ///< level
   };
-  double distance(Sheet &of, Law law, double strain, const meshes::Points &reference) const;
-  double distance_of_pulled(Law law, double strain, const meshes::Points &reference) const;
+  static double distance(Sheet &of, double strain, const meshes::Points &reference);
 
-  const Eigen::Matrix3d stiffness;
-  const Load load;
-  const meshes::Sheet &cells;
-  Sheet fine, half_as_fine;
-  Law last_law = Law::linear;
+  const meshes::HomogenizedCell *cell;
+  const meshes::Sheet *sheet;
+  Load load;
+  std::unique_ptr<Sheet> fine, half_as_fine; ///< under the law of the last level
 };
 } // namespace homespun::verification

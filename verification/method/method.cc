@@ -120,8 +120,10 @@ Method::Method(const std::string &text)
 
 const std::vector<std::string> &Method::defaults()
 {
-  static const std::vector<std::string> all = {
-    "affine", "localized", "localized+p2", "localized+edges", "localized+cubic+modes", "full"};
+  static const std::vector<std::string> all = {"affine",          "affine+p2",
+                                               "localized",       "localized+p2",
+                                               "localized+edges", "localized+cubic+modes",
+                                               "full-micro",      "full"};
   return all;
 }
 
@@ -152,7 +154,9 @@ Method Method::under(const Law law) const
 
 Method Method::under(const Law law, const Load &load) const
 {
-  const Method left = under(law);
+  Method left = under(law);
+  if (load.is_periodic() && !left.has(Term::micro))
+    left.terms.clear();
   return load.is_periodic() ? left.without(Term::p2).without(Term::edges) : left;
 }
 

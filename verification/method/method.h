@@ -39,7 +39,8 @@ public:
   ///   taken away
   explicit Method(const std::string &text);
 
-  /// Those of a study that asks for none: each preset, and each term beside `localized`.
+  /// Those of a study that asks for none: each preset, each term beside `localized`, and the coarse
+  /// cloths of `full`, against which up-sampling is judged (strain/gains.h).
   static const std::vector<std::string> &defaults();
 
   /// What a name of version 0.1 is called now; empty of any other.
@@ -63,7 +64,8 @@ public:
   /// no cubic energy, in linear theory there are no modes.
   Method under(Law law) const;
 
-  /// In an infinite cloth there are no edges, and the motion of the coarse cloth is given.
+  /// In an infinite cloth there are no edges, and the motion of the coarse cloth is given: without
+  /// micro nothing but `affine` is left.
   Method under(Law law, const Load &load) const;
 
   Method without(Term term) const;

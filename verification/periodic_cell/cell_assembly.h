@@ -5,8 +5,8 @@
 #pragma once
 
 #include "meshes/plain/homogenized_cell.h"
+#include "verification/law/laws.h"
 #include "verification/newton/tangent.h"
-#include "verification/reference/laws.h"
 
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
@@ -19,9 +19,9 @@ namespace homespun::verification
 class CellAssembly
 {
 public:
-  /// @param cell whose mesh, lattice and anchor are used; lives as long as this
+  /// @param cell whose mesh, lattice and anchor are used
   /// @param stiffness_of_phase (3,3) [N/m]
-  CellAssembly(const meshes::HomogenizedCell &cell, std::vector<Eigen::Matrix3d> stiffness_of_phase,
+  CellAssembly(meshes::HomogenizedCell cell, std::vector<Eigen::Matrix3d> stiffness_of_phase,
                Law law);
 
   using Sparse = Eigen::SparseMatrix<double>;
@@ -56,11 +56,11 @@ public:
     return n_unknowns;
   }
 
-  const meshes::HomogenizedCell &cell;
-
-private:
+  const meshes::HomogenizedCell cell;
   const std::vector<Eigen::Matrix3d> stiffness_of_phase;
   const Law law;
+
+private:
   std::vector<int> unknown; ///< (n) first unknown of a vertex, −1 at the anchor
   std::vector<Eigen::Matrix<double, 3, 2>> hats; ///< gradients of the hats of each triangle [1/m]
   Eigen::VectorXd areas;                         ///< [m^2]

@@ -25,6 +25,18 @@ Eigen::Matrix2d gradient_of(const Eigen::Vector4d &entries)
   return F;
 }
 
+/// The solution of a matrix, factored; nothing where it is not positive definite.
+std::optional<Eigen::MatrixXd> solved(const CellAssembly::Sparse &matrix,
+                                      const Eigen::MatrixXd &right)
+{
+  if (right.rows() == 0)
+    return right;
+  const Eigen::SimplicialLDLT<CellAssembly::Sparse> factor(matrix);
+  if (factor.info() != Eigen::Success || !(factor.vectorD().minCoeff() > 0.))
+    return {};
+  return factor.solve(right);
+}
+
 struct NewtonStep
 {
   Eigen::VectorXd unknowns; ///< of w
@@ -39,27 +51,22 @@ std::optional<NewtonStep> newton_step(Sums sums, const DeadLoads &loads, const d
   const auto &G = loads.directions;
   Eigen::MatrixXd right(sums.residual.size(), 1 + G.cols());
   right << sums.residual, sums.coupling * G;
-  Eigen::MatrixXd answer = right;
-  if (right.rows() > 0)
-  {
-    sums.matrix.diagonal() *= 1. + shift;
-    const Eigen::SimplicialLDLT<CellAssembly::Sparse> factor(sums.matrix);
-    if (factor.info() != Eigen::Success || !(factor.vectorD().minCoeff() > 0.))
-      return {};
-    answer = factor.solve(right);
-  }
-  NewtonStep step{-answer.col(0), Eigen::VectorXd(G.cols())};
+  sums.matrix.diagonal() *= 1. + shift;
+  const std::optional<Eigen::MatrixXd> answer = solved(sums.matrix, right);
+  if (!answer)
+    return {};
+  NewtonStep step{-answer->col(0), Eigen::VectorXd(G.cols())};
   if (G.cols() == 0)
     return step;
   Eigen::MatrixXd schur = G.transpose() * sums.macro_tangent * G;
   schur.diagonal() *= 1. + shift;
-  schur -= right.rightCols(G.cols()).transpose() * answer.rightCols(G.cols());
+  schur -= right.rightCols(G.cols()).transpose() * answer->rightCols(G.cols());
   const Eigen::LLT<Eigen::MatrixXd> factor(schur);
   if (factor.info() != Eigen::Success)
     return {};
   step.along = factor.solve(loads.stresses - G.transpose() * sums.force +
-                            right.rightCols(G.cols()).transpose() * answer.col(0));
-  step.unknowns -= answer.rightCols(G.cols()) * step.along;
+                            right.rightCols(G.cols()).transpose() * answer->col(0));
+  step.unknowns -= answer->rightCols(G.cols()) * step.along;
   return step;
 }
 
@@ -177,16 +184,18 @@ private:
 };
 } // namespace
 
+CellEquilibrium at_rest(const CellAssembly &assembly)
+{
+  return {Eigen::Matrix2d::Identity(), meshes::Points::Zero(assembly.cell.mesh.n_vertices(), 2)};
+}
+
 Eigen::Matrix4d macro_tangent(const CellAssembly &assembly, const CellEquilibrium &state)
 {
   const Sums sums = assembly.sums(state.gradient, state.fluctuation, Tangent::exact);
-  if (assembly.size() == 0)
-    return sums.macro_tangent;
-  const Eigen::SimplicialLDLT<CellAssembly::Sparse> factor(sums.matrix);
-  if (factor.info() != Eigen::Success || !(factor.vectorD().minCoeff() > 0.))
+  const std::optional<Eigen::MatrixXd> answer = solved(sums.matrix, sums.coupling);
+  if (!answer)
     return Eigen::Matrix4d::Constant(std::numeric_limits<double>::quiet_NaN());
-  const Eigen::MatrixXd answer = factor.solve(Eigen::MatrixXd(sums.coupling));
-  return sums.macro_tangent - sums.coupling.transpose() * answer;
+  return sums.macro_tangent - sums.coupling.transpose() * *answer;
 }
 
 void find_equilibrium(const CellAssembly &assembly, const DeadLoads &loads, CellEquilibrium &state)

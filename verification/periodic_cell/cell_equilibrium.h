@@ -29,6 +29,9 @@ struct CellEquilibrium
   Eigen::Vector4d stress = Eigen::Vector4d::Zero(); ///< P11, P12, P21, P22, mean [N/m]
 };
 
+/// The state without strain, energy and stress.
+CellEquilibrium at_rest(const CellAssembly &assembly);
+
 /// Newton's method with a line search on the potential, from `state`; down to round-off, because
 /// what is asked of a cell is often a small difference.
 /// @throws NotConverged with the residual history

@@ -11,9 +11,9 @@
 #pragma once
 
 #include "meshes/plain/homogenized_cell.h"
+#include "verification/law/laws.h"
 #include "verification/periodic_cell/cell_assembly.h"
 #include "verification/periodic_cell/cell_equilibrium.h"
-#include "verification/reference/laws.h"
 
 #include <Eigen/Core>
 

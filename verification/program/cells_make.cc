@@ -8,7 +8,7 @@
 #include "meshes/files/temporary_folder.h"
 #include "meshes/files/write_whole.h"
 #include "meshes/plain/errors.h"
-#include "verification/program/data_folder.h"
+#include "verification/command/data_folder.h"
 
 #include <cmath>
 #include <filesystem>

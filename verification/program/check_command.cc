@@ -5,9 +5,10 @@
 #include "homogenization/cell/cell_keys.h"
 #include "meshes/files/hdf5_writer.h"
 #include "meshes/plain/errors.h"
-#include "verification/laws/default_law.h"
-#include "verification/program/commands.h"
-#include "verification/program/report_script.h"
+#include "verification/command/command.h"
+#include "verification/command/report_script.h"
+#include "verification/ellipticity/default_law.h"
+#include "verification/program/program_commands.h"
 #include "verification/record/json_files.h"
 #include "verification/record/number_text.h"
 #include "verification/record/on_root.h"
@@ -234,7 +235,7 @@ CellReading tell_findings(const std::string &file)
   return reading;
 }
 
-void add_check_command(CommandLine &line)
+void CheckCommand::add(CommandLine &line)
 {
   CLI::App *command = line.app.add_subcommand(
     "check",

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "homogenization/lint/cell_reading.h"
-#include "verification/program/commands.h"
+#include "verification/command/command.h"
 
 #include <string>
 #include <vector>

@@ -2,8 +2,9 @@
 #include "verification/program/command_line.h"
 
 #include "meshes/plain/errors.h"
+#include "verification/command/study_arguments.h"
+#include "verification/program/all_commands.h"
 #include "verification/program/command_faults.h"
-#include "verification/program/study_arguments.h"
 #include "verification/record/on_root.h"
 #include "verification/record/verdict.h"
 
@@ -28,18 +29,7 @@ void add_commands(CommandLine &line)
     "it had to; 1 a claim failed;\n4 a claim is open; 0 all claims hold. Claims are of "
     "the program, of the input, or of the method.\n`homespun COMMAND --help` teaches a "
     "command; `mpirun -n N homespun ...` works for every command that solves.");
-  add_check_command(line);
-  add_homogenize_command(line);
-  add_strain_command(line);
-  add_drape_command(line);
-  add_upsample_command(line);
-  add_stress_command(line);
-  add_converge_command(line);
-  add_verify_command(line);
-  add_report_command(line);
-  add_cells_command(line);
-  add_load_command(line);
-  add_stability_command(line);
+  AllCommands::add_to(line);
 }
 
 /// What was chosen, when all that it needs is there.

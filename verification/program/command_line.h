@@ -3,8 +3,7 @@
 // the one that solves.
 #pragma once
 
-#include "verification/program/commands.h"
-#include "verification/program/studies.h"
+#include "verification/command/command.h"
 
 #include <functional>
 #include <string>

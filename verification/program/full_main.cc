@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The whole program with deal.II and MPI, `homespun-full`, which `homespun` hands over to.
+#include "verification/program/all_commands.h"
 #include "verification/program/command_line.h"
 #include "verification/program/mpi_start.h"
 #include "verification/record/blas.h"
@@ -19,8 +20,7 @@ int run(int argc, char **argv, homespun::verification::AfterMpi &afterwards)
   if (is_launched())
     mpi.start(argv[0]);
   Program program;
-  program.studies = {homogenize_cell,       run_strain_study, run_drape_study,     run_stress_study,
-                     run_convergence_study, run_load_study,   run_stability_study, verify};
+  program.studies        = AllCommands::studies();
   program.before_solving = [&]() { mpi.start(argv[0]); };
   program.version        = []() { return version_text("/proc/self/exe"); };
   return run_command_line({argv + 1, argv + argc}, program, afterwards);

@@ -4,8 +4,8 @@
 // becomes `homespun-full`, with the same arguments: deal.II brings two hundred libraries, which
 // take a quarter of a second to load.
 #include "meshes/plain/errors.h"
+#include "verification/command/data_folder.h"
 #include "verification/program/command_line.h"
-#include "verification/program/data_folder.h"
 #include "verification/record/blas.h"
 #include "verification/record/provenance.h"
 #include "verification/record/verdict.h"

@@ -1,11 +1,7 @@
 // SPDX-License-Identifier: MIT
 // homespun report: the pages of stored results, made by Debian's Python.
-#include "meshes/files/child_process.h"
-#include "meshes/plain/errors.h"
-#include "verification/build_info.h"
-#include "verification/program/commands.h"
-#include "verification/program/data_folder.h"
-#include "verification/program/report_script.h"
+#include "verification/command/report_script.h"
+#include "verification/program/program_commands.h"
 #include "verification/record/on_root.h"
 #include "verification/record/run_folder.h"
 
@@ -13,54 +9,11 @@
 #include <CLI/Formatter.hpp>
 #include <CLI/Option.hpp>
 
-#include <cstdio>
-#include <filesystem>
 #include <memory>
 
 namespace homespun::verification
 {
-int run_report_script(const std::string &name, const std::vector<std::string> &arguments)
-{
-  const std::string folder = data_folder("report", "verification/report"),
-                    script = folder + "/" + name, installed = folder + "/schema.json";
-  // The sources have no schema: the build keeps it.
-  const std::string schema = std::filesystem::exists(installed)
-                               ? installed
-                               : std::string(HOMESPUN_BUILD_DIR) + "/schema.json";
-  // -B: no __pycache__ in a folder that a package manager keeps.
-  std::vector<std::string> words = {HOMESPUN_PYTHON, "-B", script};
-  words.insert(words.end(), arguments.begin(), arguments.end());
-  const int status = meshes::run_child(words, "", {"HOMESPUN_SCHEMA=" + schema});
-  if (status == 127)
-    throw meshes::BadInput(
-      std::string(HOMESPUN_PYTHON) + " " + script +
-      ": cannot be run; expected Debian's Python with numpy, h5py, matplotlib and jinja2: "
-      "./bootstrap installs them");
-  if (const std::string killed = meshes::text_of_signal(status); !killed.empty())
-    throw meshes::BadInput(name + " did not end: " + killed);
-  return status;
-}
-
-void make_report(const std::vector<std::string> &folders, const std::string &output,
-                 const bool quiet, const FigureFiles files)
-{
-  std::vector<std::string> arguments = folders;
-  arguments.insert(arguments.end(), {"--output", output});
-  if (files == FigureFiles::with_pdf)
-    arguments.push_back("--pdf");
-  if (quiet)
-    arguments.push_back("--quiet");
-  else
-    std::fprintf(stderr, "Making the page %s/report.html: drawing takes a minute or more\n",
-                 output.c_str());
-  if (run_report_script("report.py", arguments) != 0)
-    throw meshes::BadInput("the report could not be made, see above; the results are in " +
-                           folders[0] + ": mend them, then `homespun report " + folders[0] + "`");
-  if (!quiet)
-    std::printf("Report: %s/report.html\n", output.c_str());
-}
-
-void add_report_command(CommandLine &line)
+void ReportCommand::add(CommandLine &line)
 {
   CLI::App *command =
     line.app.add_subcommand("report", "Make report.html and the figures again from stored results");

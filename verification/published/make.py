@@ -20,7 +20,9 @@ COMPARED = [
     "--no-runtime",
     "--no-report",
 ]
-METHODS = "affine,localized,localized+edges,localized+p2,full,full-cubic-modes"
+METHODS = (
+    "affine,affine+p2,localized,localized+edges,localized+p2,full,full-micro,full-cubic-modes"
+)
 SECOND_ORDER = {"biot": ",localized+cubic+modes", "yarn": ""}  # of which weaves have none
 ENDED = (0, 1, 4)  # a claim that failed or is open is a result
 

@@ -208,8 +208,8 @@ def pull(results):
     """Mean errors of the scene `pull` at its last compared frame, in 1/1000 of a cell side, ± the
     reference's error bar.
 
-    The paper's nodal warping may not get as far: it stands with its own last frame, and with the
-    exact membrane there.
+    The cloth has the law of the reference. The paper's nodal warping may not get as far: it stands
+    with its own last frame, and with the exact membrane there.
     """
     rows = [
         row
@@ -236,15 +236,15 @@ def pull(results):
                 (row["time_s"] for row in rows if (row["cell"], row["variant"]) == (cell, variant)),
                 default=math.nan,
             )
-            for variant in ("corotational", "nodal-warping")
+            for variant in (REFERENCE, "nodal-warping")
         }
-        end, early = last["corotational"], last["nodal-warping"]
+        end, early = last[REFERENCE], last["nodal-warping"]
         row = next(
             (
                 row
                 for row in rows
                 if (row["cell"], row["variant"], row["method"], row["time_s"])
-                == (cell, "corotational", "localized", end)
+                == (cell, REFERENCE, "localized", end)
             ),
             None,
         )
@@ -253,16 +253,16 @@ def pull(results):
         yield {
             "cell": cell,
             "time_s": end,
-            "affine": at(cell, "corotational", "affine", end),
-            "localized": at(cell, "corotational", "localized", end),
+            "affine": at(cell, REFERENCE, "affine", end),
+            "localized": at(cell, REFERENCE, "localized", end),
             "reference_bar": (
-                at(cell, "corotational", "localized", end)
+                at(cell, REFERENCE, "localized", end)
                 * row["reference_uncertainty_m"]
                 / row["error_mean_m"]
             ),
             "nodal_time_s": early,
             "nodal_localized": at(cell, "nodal-warping", "localized", early),
-            "exact_there": at(cell, "corotational", "localized", early),
+            "exact_there": at(cell, REFERENCE, "localized", early),
         }
 
 

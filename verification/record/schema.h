@@ -19,4 +19,14 @@ void add_to_schema(nlohmann::ordered_json &schema)
     columns.push_back({{"name", column.name}, {"domain", name_of(column.domain)}});
   schema[Row::file] = {{"keys", Row::n_keys}, {"columns", columns}};
 }
+
+/// The tables that a command leaves, by their rows.
+template <typename... Row>
+struct TablesOf
+{
+  static void add_to(nlohmann::ordered_json &schema)
+  {
+    (add_to_schema<Row>(schema), ...);
+  }
+};
 } // namespace homespun::verification

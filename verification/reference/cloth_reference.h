@@ -14,9 +14,9 @@
 #pragma once
 
 #include "meshes/cloth/cloth_mesh.h"
+#include "verification/law/space_laws.h"
 #include "verification/reference/cloth_reference_options.h"
 #include "verification/reference/known_field.h"
-#include "verification/reference/space_laws.h"
 
 #include <mpi.h>
 

@@ -2,7 +2,7 @@
 // By which elements a resolved cloth is solved.
 #pragma once
 
-#include "verification/reference/laws.h"
+#include "verification/law/laws.h"
 
 namespace homespun::verification
 {

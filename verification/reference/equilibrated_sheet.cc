@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "verification/reference/equilibrated_sheet.h"
 
-#include "homogenization/algebra/cholesky_solver.h"
+#include "homogenization/algebra/refined_solution.h"
 #include "meshes/plain/epsilon.h"
 #include "meshes/plain/index.h"
 #include "verification/reference/displacement_energy.h"
@@ -222,7 +222,7 @@ void EquilibratedSheet::assemble_and_solve()
   Eigen::SparseMatrix<double> matrix(n_dofs, n_dofs);
   matrix.setFromTriplets(entries.begin(), entries.end());
   unknowns =
-    homogenization::CholeskySolver(matrix, "complementary energy of the sheet").solve(load).values;
+    homogenization::refined_solution(matrix, load, "complementary energy of the sheet").values;
 }
 
 /// The degrees of freedom of a triangle without their affine part, which has no stress: second

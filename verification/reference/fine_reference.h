@@ -5,9 +5,9 @@
 #pragma once
 
 #include "meshes/plain/sheet.h"
+#include "verification/law/laws.h"
 #include "verification/newton/arc_length.h"
 #include "verification/reference/known_field.h"
-#include "verification/reference/laws.h"
 #include "verification/reference/load_forces.h"
 #include "verification/reference/loads.h"
 

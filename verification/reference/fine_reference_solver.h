@@ -4,9 +4,9 @@
 
 #include "homogenization/fem/elastic_solver.h"
 #include "homogenization/fem/kept_preconditioner.h"
+#include "verification/law/laws.h"
 #include "verification/newton/newton.h"
 #include "verification/reference/fine_reference.h"
-#include "verification/reference/laws.h"
 
 #include <algorithm>
 #include <map>

@@ -2,7 +2,7 @@
 // The strains of the sides of a cloth without a microstructure that is pulled along one axis.
 #pragma once
 
-#include "verification/reference/laws.h"
+#include "verification/law/laws.h"
 #include "verification/reference/loads.h"
 
 #include <Eigen/Core>

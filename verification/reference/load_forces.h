@@ -8,7 +8,7 @@
 #pragma once
 
 #include "meshes/plain/sheet.h"
-#include "verification/reference/laws.h"
+#include "verification/law/laws.h"
 #include "verification/reference/loads.h"
 
 #include <Eigen/Core>

@@ -4,7 +4,7 @@
 #pragma once
 
 #include "meshes/cloth/cloth_mesh.h"
-#include "verification/reference/space_laws.h"
+#include "verification/law/space_laws.h"
 
 #include <vector>
 

@@ -29,6 +29,7 @@ from page.contents import page_contents  # noqa: E402
 from page.gallery import Gallery  # noqa: E402
 from page.page import render  # noqa: E402
 from page.page_size import fitted  # noqa: E402
+from page.terminal import answer_text  # noqa: E402
 from read.results import BadResults, read_results  # noqa: E402
 
 
@@ -38,7 +39,7 @@ def write_report(folders, output, tells=False, with_pdf=False):
     @param tells whether a terminal shows what is drawn
     @param with_pdf whether figures are saved as PDF as well
 
-    @return the path of report.html
+    @return the path of report.html, and its answer as text
     @throws BadResults naming every file, line or key that is wrong
     """
     # What is imported by now stays, and drawing makes few cycles of much that does not: looking for
@@ -84,7 +85,7 @@ def write_report(folders, output, tells=False, with_pdf=False):
                 os.rmdir(output)
             except OSError:
                 pass
-    return os.path.join(output, "report.html")
+    return os.path.join(output, "report.html"), answer_text(contents)
 
 
 def comes_of_a_full_disk(error):
@@ -125,7 +126,7 @@ def main(arguments=None):
             # Pages are drawn by processes that are forked where nothing else runs: the threads that
             # Python 3.12 and later warn of are those of BLAS, which wait.
             warnings.filterwarnings("ignore", message=".*use of fork", category=DeprecationWarning)
-            path = write_report(options.folders, options.output, tells, options.pdf)
+            path, answer = write_report(options.folders, options.output, tells, options.pdf)
         if tells:
             print("\r\033[K", end="", file=sys.stderr)
     except BadResults as error:
@@ -141,6 +142,8 @@ def main(arguments=None):
         )
         return 2
     if not options.quiet:
+        if answer:
+            print(answer)
         print(f"{path} ({os.path.getsize(path) / 1e6:.1f} MB)")
     return 0
 

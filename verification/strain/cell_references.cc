@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "verification/strain/cell_references.h"
 
-#include "verification/laws/default_law.h"
+#include "verification/ellipticity/default_law.h"
 
 #include <algorithm>
 

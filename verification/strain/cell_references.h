@@ -4,7 +4,7 @@
 #pragma once
 
 #include "homogenization/cell/unit_cell.h"
-#include "verification/reference/laws.h"
+#include "verification/law/laws.h"
 #include "verification/strain/strain_options.h"
 
 #include <string>

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "verification/strain/level_ellipticity.h"
 
-#include "verification/laws/ellipticity.h"
-#include "verification/laws/end_of_path.h"
-#include "verification/laws/worst_triangle.h"
+#include "verification/ellipticity/ellipticity.h"
+#include "verification/ellipticity/end_of_path.h"
+#include "verification/ellipticity/worst_triangle.h"
 #include "verification/record/number_text.h"
-#include "verification/strain/ellipticity_rows.h"
+#include "verification/strain/validity.h"
 
 #include <algorithm>
 #include <optional>

@@ -5,7 +5,7 @@
 
 #include "homogenization/cell/unit_cell.h"
 #include "verification/cell/discretization_distance.h"
-#include "verification/reference/laws.h"
+#include "verification/law/laws.h"
 #include "verification/reference/loads.h"
 #include "verification/strain/strain_tables.h"
 

@@ -4,7 +4,6 @@
 #include "localization/upsampler.h"
 #include "meshes/plain/errors.h"
 #include "verification/method/coarse_model.h"
-#include "verification/method/homogenized_sheet.h"
 #include "verification/method/warped_rest.h"
 #include "verification/record/number_text.h"
 #include "verification/record/on_root.h"
@@ -172,8 +171,8 @@ private:
       moved_affinely(load, sheet, sheet.mesh.vertices, options.strain);
     Timed outcome;
     outcome.n_triangles = sheet.mesh.n_triangles();
-    const shell::MembraneSolver<2> solver(sheet.mesh, cell.stiffness_of_phase(),
-                                          held_vertices(load, sheet, sheet.mesh.vertices));
+    const shell::MembraneSolver solver(shell::membrane(sheet.mesh, cell.stiffness_of_phase()),
+                                       held_vertices(load, sheet, sheet.mesh.vertices));
     attempt("fine-corotational", outcome,
             [&]() {
               repeat(outcome,
@@ -204,27 +203,23 @@ private:
 
   void nodal_warping()
   {
-    const HomogenizedSheet coarse(homogenized.stiffness, sheet, load, sheet.n1, sheet.n2);
-    const shell::Positions<2> start = coarse.prescribed(options.strain);
-    const std::vector<int> held     = held_vertices(load, sheet, coarse.mesh.vertices);
-    upsampled("nodal-warping", "localized", coarse,
-              [&]() { return Moved{warped_rest(coarse.mesh, homogenized, start, held)}; });
+    const CoarseModel coarse({homogenized}, sheet, load, Method("localized"), options.law);
+    const Points &rest          = coarse.mesh().vertices;
+    const Points start          = moved_affinely(load, sheet, rest, options.strain);
+    const std::vector<int> held = held_vertices(load, sheet, rest);
+    upsampled("nodal-warping", coarse,
+              [&]() { return Moved{warped_rest(coarse.mesh(), homogenized, start, held)}; });
   }
 
   void coarse_cloth(const std::string &way, const std::string &method, const int quads,
                     const Eigen::Matrix3d &stiffness)
   {
+    meshes::HomogenizedCell of = homogenized;
+    of.stiffness               = stiffness;
     // As many quads along the other side as there are per cell along the first.
-    const int across = std::max(1, quads * sheet.n2 / sheet.n1);
-    const HomogenizedSheet coarse(stiffness, sheet, load, quads, across);
-    const shell::Positions<2> start = coarse.prescribed(options.strain);
-    upsampled(way, method, coarse,
-              [&]()
-              {
-                Moved moved;
-                moved.positions = coarse.solve(options.law, start, {}, &moved.steps);
-                return moved;
-              });
+    const Quads along = {quads, std::max(1, quads * sheet.n2 / sheet.n1)};
+    const CoarseModel model({of}, sheet, load, Method(method), options.law, along);
+    upsampled(way, model, [&]() { return solved(model); });
   }
 
   void own_cloth(const Method &asked)
@@ -240,13 +235,7 @@ private:
     if (method.has_fitted_modes(options.law))
       of.fitted = options.fitted;
     const CoarseModel model(of, sheet, load, method, options.law);
-    upsampled(way, 2L * sheet.n1 * sheet.n2 / (method.has(Term::p2) ? 4 : 1),
-              model.upsampler<float>(), model.upsampler<double>(),
-              [&]()
-              {
-                const CoarseState state = model.solve(options.strain);
-                return Moved{model.on_grid(state), state.iterations};
-              });
+    upsampled(way, model, [&]() { return solved(model); });
   }
 
   /// A coarse cloth in equilibrium, as up-sampling reads it.
@@ -256,28 +245,23 @@ private:
     int steps = 0; ///< Newton steps; 0 where there are none
   };
 
-  /// The same of a homogenized sheet.
-  template <typename Solve>
-  void upsampled(const std::string &way, const std::string &method, const HomogenizedSheet &coarse,
-                 const Solve &solve)
+  Moved solved(const CoarseModel &model) const
   {
-    const localization::UpsamplerOptions choices = Method(method).options(options.law);
-    upsampled(way, coarse.mesh.n_triangles(),
-              localization::Upsampler<2, float>(homogenized, coarse.mesh, sheet, choices),
-              localization::Upsampler<2, double>(homogenized, coarse.mesh, sheet, choices), solve);
+    const CoarseState state = model.solve(options.strain);
+    return {model.on_grid(state), state.iterations};
   }
 
   /// Solves a coarse cloth and up-samples it: timed in single precision, held against the best in
   /// double.
   template <typename Solve>
-  void upsampled(const std::string &way, const long n_triangles,
-                 const localization::Upsampler<2, float> &in_float,
-                 const localization::Upsampler<2, double> &in_double, const Solve &solve)
+  void upsampled(const std::string &way, const CoarseModel &model, const Solve &solve)
   {
+    const auto in_float  = model.upsampler<float>();
+    const auto in_double = model.upsampler<double>();
     tell(way);
     localization::Upsampler<2, float>::Fine fine;
     Timed outcome;
-    outcome.n_triangles = n_triangles;
+    outcome.n_triangles = model.mesh().n_triangles() / (model.method.has(Term::p2) ? 4 : 1);
     attempt(way, outcome,
             [&]()
             {

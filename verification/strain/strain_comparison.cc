@@ -2,7 +2,7 @@
 #include "verification/strain/strain_comparison.h"
 
 #include "meshes/plain/errors.h"
-#include "verification/laws/yarn_cells.h"
+#include "verification/ellipticity/yarn_cells.h"
 #include "verification/method/anchor_choice.h"
 #include "verification/method/mode_fit.h"
 #include "verification/record/main_reference.h"
@@ -44,7 +44,7 @@ MethodsOnSheet methods_on_sheet(const homogenization::UnitCell &cell,
   MethodsOnSheet methods = {{homogenized, edges.edges ? &*edges.edges : nullptr},
                             sheet,
                             load,
-                            FluctuationMeasure(homogenized.stiffness, sheet, load),
+                            FluctuationMeasure(homogenized, sheet, load),
                             cell.stiffness_of_phase()};
   for (const homogenization::Phase &phase : cell.phases)
     methods.phases.push_back(phase.name);
@@ -208,7 +208,7 @@ void write_notes_of_methods(const StrainLevel &level, const std::vector<Upsample
       continue;
     output.write_note(level, "method " + of.name + ": " +
                                (methods.cell.edges != nullptr
-                                  ? sentence_of_edges(*methods.cell.edges, methods.load)
+                                  ? sentence_of_edges(edge_kinds(methods.load))
                                   : "without the terms of edges here; " + methods.why_no_edges));
   }
 }

@@ -5,8 +5,8 @@
 
 #include "homogenization/cell/quadratic_strain.h"
 #include "homogenization/cell/unit_cell.h"
-#include "verification/budget/budget_study.h"
 #include "verification/cell/cell_edges.h"
+#include "verification/strain/budget/budget_study.h"
 #include "verification/strain/compared_level.h"
 
 #include <string>

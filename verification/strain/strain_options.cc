@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "verification/strain/strain_options.h"
 
+#include "verification/law/laws.h"
 #include "verification/method/method.h"
 #include "verification/record/main_reference.h"
-#include "verification/reference/laws.h"
 
 #include <algorithm>
 

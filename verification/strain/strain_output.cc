@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "verification/strain/strain_output.h"
 
-#include "verification/budget/budget_tables.h"
 #include "verification/method/method.h"
 #include "verification/record/error_norms.h"
 #include "verification/record/number_text.h"
+#include "verification/strain/budget/budget_tables.h"
+#include "verification/strain/gains.h"
 #include "verification/strain/validity.h"
 
 #include <algorithm>
@@ -119,8 +120,9 @@ void StrainOutput::write_note(const StrainLevel &level, std::string text)
        short_text(row.strain) + ": " + text);
 }
 
-void StrainOutput::write_validity() const
+void StrainOutput::write_gains() const
 {
+  Table<GainRow>(folder).replace(gain_rows(strain.rows()));
   Table<ValidityRow>(folder).replace(validity_rows(strain.rows(), ellipticity.rows()));
 }
 

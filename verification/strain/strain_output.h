@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 // What a strain study leaves on the disk as it goes on: the tables strain.csv (errors), forces.csv,
 // steps.csv (times), uncertainty.csv, ellipticity.csv, notes.csv, budget.csv, second-code.csv,
-// energies.csv and runtime.csv, and at its end validity.csv. First rank alone.
+// energies.csv and runtime.csv, and at its end gains.csv and validity.csv. First rank alone.
 #pragma once
 
 #include "meshes/plain/sheet.h"
-#include "verification/budget/budget_tables.h"
-#include "verification/budget/energy_tables.h"
-#include "verification/reference/laws.h"
+#include "verification/law/laws.h"
+#include "verification/strain/budget/budget_tables.h"
+#include "verification/strain/budget/energy_tables.h"
 #include "verification/strain/reference_uncertainty.h"
 #include "verification/strain/strain_options.h"
 #include "verification/strain/strain_tables.h"
@@ -78,8 +78,8 @@ public:
   /// A remark on a level, for the report and the terminal.
   void write_note(const StrainLevel &level, std::string text);
 
-  /// validity.csv, from all rows of strain.csv and ellipticity.csv.
-  void write_validity() const;
+  /// gains.csv and validity.csv, from all rows of strain.csv and ellipticity.csv.
+  void write_gains() const;
 
   /// Every note of the study, those of earlier runs too. Ready sentences.
   std::vector<std::string> notes() const;

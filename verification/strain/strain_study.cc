@@ -2,11 +2,8 @@
 #include "verification/strain/strain_study.h"
 
 #include "meshes/plain/errors.h"
-#include "verification/budget/budget_study.h"
-#include "verification/budget/budget_tables.h"
-#include "verification/budget/energy_sides.h"
 #include "verification/cell/cell_file_verdicts.h"
-#include "verification/laws/yarn_cells.h"
+#include "verification/ellipticity/yarn_cells.h"
 #include "verification/record/main_reference.h"
 #include "verification/record/number_text.h"
 #include "verification/record/on_root.h"
@@ -15,17 +12,20 @@
 #include "verification/record/provenance.h"
 #include "verification/record/timing.h"
 #include "verification/reference/fine_reference.h"
-#include "verification/strain/budget_verdicts.h"
+#include "verification/strain/budget/budget_study.h"
+#include "verification/strain/budget/budget_tables.h"
+#include "verification/strain/budget/energy_sides.h"
 #include "verification/strain/cell_references.h"
+#include "verification/strain/claims/budget_verdicts.h"
+#include "verification/strain/claims/self_checks.h"
+#include "verification/strain/claims/study_verdicts.h"
 #include "verification/strain/level_ellipticity.h"
 #include "verification/strain/reference_uncertainty.h"
 #include "verification/strain/run_time.h"
-#include "verification/strain/self_checks.h"
 #include "verification/strain/strain_comparison.h"
 #include "verification/strain/strain_output.h"
 #include "verification/strain/study_description.h"
 #include "verification/strain/study_modes.h"
-#include "verification/strain/study_verdicts.h"
 
 #include <algorithm>
 #include <cmath>
@@ -366,7 +366,7 @@ private:
   {
     const std::vector<Verdict> of_tables = study_verdicts(*output, options);
     verdicts.insert(verdicts.end(), of_tables.begin(), of_tables.end());
-    output->write_validity();
+    output->write_gains();
     std::vector<std::string> notes = notes_on_references(asked, cells());
     for (const UnitCell &cell : cells())
       for (const std::string &note : notes_on_yarns(cell, options_of(asked, cell).references))

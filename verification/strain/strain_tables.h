@@ -10,6 +10,9 @@
 
 namespace homespun::verification
 {
+/// Below this, in strain x cell side, an error is zero: the tolerance of the references' solver.
+constexpr double solved_to = 1e-9;
+
 /// In place of a method's name: a level of which no equilibrium was found.
 constexpr const char *unreached = "unreached";
 
@@ -63,6 +66,37 @@ struct StrainRow
     column("reference_to_refined_m", &StrainRow::to_refined, Domain::not_negative);
     column("seconds_method", &StrainRow::seconds, Domain::not_negative);
     column("seconds_reference", &StrainRow::seconds_reference, Domain::not_negative);
+  }
+};
+
+/// gains.csv: what is left of the error of `affine`, in two factors: what a method's coarse cloth
+/// is worth, and what up-sampling is worth on it. The base tells them apart (strain/gains.h). A
+/// gain is not a number where an error is zero to what the solvers leave.
+struct GainRow
+{
+  static constexpr const char *file   = "gains.csv";
+  static constexpr std::size_t n_keys = 5;
+  static constexpr double none        = std::numeric_limits<double>::quiet_NaN();
+
+  std::string cell, load;
+  double strain = 0.;
+  std::string reference, method, base;
+  double of_coarse_cloth = none; ///< error of `affine` over that of the base
+  double of_upsampling   = none; ///< error of the base over that of the method
+  double total           = none; ///< error of `affine` over that of the method
+
+  template <typename Column>
+  static void columns(Column &&column)
+  {
+    column("cell", &GainRow::cell, Domain::name);
+    column("load", &GainRow::load, Domain::name);
+    column("strain", &GainRow::strain, Domain::positive);
+    column("reference", &GainRow::reference, Domain::name);
+    column("method", &GainRow::method, Domain::name);
+    column("base", &GainRow::base, Domain::name);
+    column("gain_of_coarse_cloth", &GainRow::of_coarse_cloth, Domain::not_negative);
+    column("gain_of_upsampling", &GainRow::of_upsampling, Domain::not_negative);
+    column("gain_total", &GainRow::total, Domain::not_negative);
   }
 };
 

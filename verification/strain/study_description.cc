@@ -2,9 +2,9 @@
 #include "verification/strain/study_description.h"
 
 #include "verification/cell/study_inputs.h"
+#include "verification/law/laws.h"
 #include "verification/method/method.h"
 #include "verification/record/provenance.h"
-#include "verification/reference/laws.h"
 #include "verification/reference/loads.h"
 #include "verification/strain/cell_references.h"
 

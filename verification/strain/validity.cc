@@ -3,7 +3,7 @@
 
 #include "verification/method/method.h"
 #include "verification/record/number_text.h"
-#include "verification/strain/ellipticity_rows.h"
+#include "verification/strain/gains.h"
 
 #include <algorithm>
 #include <cmath>
@@ -11,6 +11,41 @@
 
 namespace homespun::verification
 {
+double strain_of_loss(const std::vector<EllipticityRow> &rows)
+{
+  std::vector<EllipticityRow> sorted = rows;
+  std::sort(sorted.begin(), sorted.end(),
+            [](const EllipticityRow &a, const EllipticityRow &b) { return a.strain < b.strain; });
+  double strain = 0., least = 1.;
+  for (const EllipticityRow &row : sorted)
+  {
+    if (row.lost > 0)
+      return strain + (row.strain - strain) * least / (least - row.least);
+    strain = row.strain;
+    least  = row.least;
+  }
+  return std::numeric_limits<double>::quiet_NaN();
+}
+
+double elliptic_up_to(const std::vector<EllipticityRow> &all, const std::string &cell,
+                      const std::string &load, const std::string &reference)
+{
+  std::vector<std::string> parts;
+  for (const EllipticityRow &row : all)
+    if (std::find(parts.begin(), parts.end(), row.part) == parts.end())
+      parts.push_back(row.part);
+  double first = std::numeric_limits<double>::quiet_NaN();
+  for (const std::string &part : parts)
+  {
+    std::vector<EllipticityRow> rows;
+    for (const EllipticityRow &row : all)
+      if (row.cell == cell && row.load == load && row.reference == reference && row.part == part)
+        rows.push_back(row);
+    first = std::fmin(first, strain_of_loss(rows));
+  }
+  return first;
+}
+
 Crossing crossing(const std::vector<double> &strains, const std::vector<double> &errors,
                   const double limit)
 {
@@ -49,6 +84,21 @@ void end_at_loss(ValidityRow &row)
   row.relation = "=";
   for (double *const strain : {&row.largest, &row.lower, &row.upper})
     *strain = std::fmin(*strain, row.elliptic_up_to);
+}
+
+/// The rows, and as those of `base` the ones that are the base of the method that their case speaks
+/// of.
+std::vector<StrainRow> with_bases(const std::vector<StrainRow> &rows)
+{
+  std::vector<StrainRow> all = rows;
+  for (const StrainRow &row : rows)
+    if (row.is_reached() && row.method == main_method(rows, row))
+      if (const StrainRow *const base = base_of(rows, row); base != nullptr)
+      {
+        all.push_back(*base);
+        all.back().method = base_method;
+      }
+  return all;
 }
 
 ValidityRow row_of(const StrainRow &one, const std::string &measure, const double limit,
@@ -96,13 +146,17 @@ ValidityRow row_of(const StrainRow &one, const std::string &measure, const doubl
 }
 } // namespace
 
-std::vector<ValidityRow> validity_rows(const std::vector<StrainRow> &all,
+std::vector<ValidityRow> validity_rows(const std::vector<StrainRow> &given,
                                        const std::vector<EllipticityRow> &ellipticity)
 {
-  const auto same_case = [](const StrainRow &a, const StrainRow &b)
+  const std::vector<StrainRow> all = with_bases(given);
+  const auto same_case             = [](const StrainRow &a, const StrainRow &b)
   { return a.cell == b.cell && a.load == b.load && a.reference == b.reference; };
   const auto is_judged = [&](const StrainRow &row)
-  { return row.method == "localized" || row.method == main_method(all, row); };
+  {
+    return row.method == "localized" || row.method == base_method ||
+           row.method == main_method(given, row);
+  };
   std::vector<StrainRow> cases; // and their methods
   for (const StrainRow &row : all)
     if (is_judged(row) && std::none_of(cases.begin(), cases.end(),

@@ -23,11 +23,25 @@ struct Crossing
 Crossing crossing(const std::vector<double> &strains, const std::vector<double> &errors,
                   double limit);
 
-/// Rows of validity.csv from those of strain.csv: `localized` and the main method of each case
-/// (method/method.h), every reference, limits of 1, 5 and 10 % of the mean fluctuation of the
-/// reference and 1 and 5 % of the cell side. Levels that were not reached end the ladder, and the
-/// first loss of ellipticity, of the worst triangle of reference or coarse cloth, ends the range:
-/// beyond it the reference is one equilibrium of its mesh.
+/// The strain at which the first triangle is lost, with `least` linear in strain between the levels
+/// and 1 at rest.
+/// @param rows of one cell, load, reference and part, in any order
+/// @return not a number where every level is elliptic
+double strain_of_loss(const std::vector<EllipticityRow> &rows);
+
+/// The same, of the part that is lost first.
+/// @param all rows of ellipticity.csv
+double elliptic_up_to(const std::vector<EllipticityRow> &all, const std::string &cell,
+                      const std::string &load, const std::string &reference);
+
+/// In place of a method's name: at each level the base of the main method (gains.h).
+constexpr const char *base_method = "base";
+
+/// Rows of validity.csv from those of strain.csv: `localized`, the main method of each case
+/// (method/method.h) and its base, every reference, limits of 1, 5 and 10 % of the mean fluctuation
+/// of the reference and 1 and 5 % of the cell side. Levels that were not reached end the ladder,
+/// and the first loss of ellipticity, of the worst triangle of reference or coarse cloth, ends the
+/// range: beyond it the reference is one equilibrium of its mesh.
 /// @param ellipticity rows of ellipticity.csv, for the strain of the first loss
 std::vector<ValidityRow> validity_rows(const std::vector<StrainRow> &rows,
                                        const std::vector<EllipticityRow> &ellipticity = {});

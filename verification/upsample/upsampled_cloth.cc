@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "verification/upsample/upsampled_cloth.h"
 
+#include "localization/garment/placed_garment.h"
 #include "meshes/cloth/seams.h"
-#include "meshes/garment/fine_cloth.h"
 #include "meshes/plain/point_location.h"
 #include "meshes/plain/sheet.h"
 
@@ -90,6 +90,6 @@ UpsampledCloth::UpsampledCloth(const HomogenizedCell &cell, const ClothMesh &res
   triangles       = fine.sewn_triangles();
   material        = fine.rest.material;
   coarse_triangle = fine.coarse_triangle;
-  upsampler       = std::make_unique<Upsampler>(cell, coarse, fine);
+  upsampler       = std::make_unique<Upsampler>(localization::placed_garment(cell, coarse, fine));
 }
 } // namespace homespun::verification

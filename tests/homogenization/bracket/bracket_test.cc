@@ -2,6 +2,7 @@
 #include "homogenization/bracket/bracket.h"
 #include "tests/homogenization/bracket/bracket_cells.h"
 #include "tests/homogenization/cell/cells.h"
+#include "tests/homogenization/cell/unfolded.h"
 
 #include <Eigen/Eigenvalues>
 #include <gtest/gtest.h>
@@ -109,7 +110,7 @@ TEST(exact_bracket, both_solvers_agree_on_an_adaptively_refined_mesh)
       cell.mesh, cell.lattice, cell.stiffness_of_phase(), options, [](const Bracket &) {});
     EXPECT_EQ(adaptive.ending, AdaptiveEnd::max_dofs);
     UnitCell fine              = cell;
-    fine.mesh                  = unfolded(adaptive.mesh);
+    fine.mesh                  = tests::unfolded(adaptive.mesh);
     const Homogenization by_cg = tests::solved(fine, order);
     EXPECT_LT(relative_difference(adaptive.bracket.stiffness, by_cg.stiffness), 1e-10);
     EXPECT_LT(relative_difference(adaptive.bracket.stiffness_by_flux, by_cg.stiffness), 1e-9);

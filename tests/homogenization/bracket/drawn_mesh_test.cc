@@ -5,6 +5,7 @@
 #include "homogenization/bracket/drawn_mesh.h"
 #include "homogenization/bracket/loewner.h"
 #include "tests/homogenization/bracket/bracket_cells.h"
+#include "tests/homogenization/cell/unfolded.h"
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
@@ -180,7 +181,7 @@ TEST(exact_drawn_mesh, refined_vertices_lie_on_the_parabolas_of_the_drawing)
               64. * (drawn_area(fine, 1) - area_of(fine, 1)), 1e-12);
   EXPECT_NEAR(area_of(fine, 0) + area_of(fine, 1), 1., 1e-14);
   // Every vertex of the interface on one of them, at a whole eighth of its parameter.
-  const meshes::TriangleMesh plane = unfolded(fine), given = drawing.cell.mesh;
+  const meshes::TriangleMesh plane = tests::unfolded(fine), given = drawing.cell.mesh;
   int n_on = 0;
   for (int v = 0; v < plane.n_vertices(); ++v)
   {

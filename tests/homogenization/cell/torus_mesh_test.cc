@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "homogenization/cell/torus_mesh.h"
 #include "tests/homogenization/bracket/bracket_cells.h"
+#include "tests/homogenization/cell/unfolded.h"
 
 #include <gtest/gtest.h>
 
@@ -61,7 +62,7 @@ TEST(invariant_torus_mesh, bisection_keeps_the_mesh_conforming_periodic_and_its_
   // Euler's formula for the torus: a hanging node or an edge without its partner would break it.
   EXPECT_EQ(fine.n_vertices - fine.n_edges() + fine.n_triangles(), 0);
   EXPECT_TRUE(rim_edges(fine).empty());
-  const meshes::TriangleMesh plane = unfolded(fine);
+  const meshes::TriangleMesh plane = tests::unfolded(fine);
   EXPECT_TRUE(meshes::faults_of(plane, "fine").empty());
   for (const std::string &fault : meshes::periodicity_faults(plane, cell.lattice, "fine"))
     ADD_FAILURE() << fault;
@@ -83,7 +84,8 @@ TEST(invariant_torus_mesh, children_inherit_the_material_of_the_place)
   const auto material_at = [](double f1, double f2) { return f1 + f2 < 0.9 ? 1 : 0; };
   const tests::BracketCell cell =
     tests::bracket_cell(tests::square_lattice(1.), 8, 8, tests::contrasting(10.), material_at);
-  const meshes::TriangleMesh plane = unfolded(randomly_bisected(glued(cell.mesh, cell.lattice), 4));
+  const meshes::TriangleMesh plane =
+    tests::unfolded(randomly_bisected(glued(cell.mesh, cell.lattice), 4));
   double area = 0., coarse_area = 0.;
   const Eigen::VectorXd areas = meshes::signed_areas(plane);
   for (int t = 0; t < plane.n_triangles(); ++t)

@@ -54,8 +54,8 @@ double error_at_nodes(const int n, const Field &field)
   Positions<2> exact              = mesh.vertices;
   for (int v = 0; v < mesh.n_vertices(); ++v)
     exact.row(v) += field(mesh.vertices(v, 0), mesh.vertices(v, 1));
-  const MembraneSolver<2, SixNodeMembrane> solver(
-    six_node_membrane(six_node_mesh(mesh, n, n), isotropic()), edges_of(n));
+  const MembraneSolver solver(six_node_membrane(six_node_mesh(mesh, n, n), isotropic()),
+                              edges_of(n));
   return (solver.solve_linear(exact) - exact).rowwise().norm().maxCoeff();
 }
 
@@ -136,8 +136,8 @@ TEST(derivative_six_node_membrane, gradient_and_hessian_are_those_of_the_energy)
     EXPECT_NEAR(gradient.cwiseProduct(along).sum(), slope, 1e-8 * std::abs(slope));
     std::vector<bool> is_held(9, false);
     is_held[4] = true;
-    FreeVertexMatrix<2> matrix(six.triangles, is_held);
-    add_membrane_hessian<2>(six, at, Hessian::exact, matrix);
+    PlaneMatrix matrix(six.triangles, is_held);
+    add_membrane_hessian(six, at, Hessian::exact, matrix);
     Positions<2> change =
       (membrane_gradient<2>(six, forward).gradient - membrane_gradient<2>(six, back).gradient) /
       (2. * step);
@@ -163,12 +163,12 @@ TEST(exact_six_node_membrane, the_equilibrium_at_finite_strain_has_no_forces_and
 {
   const int n                     = 6;
   const meshes::TriangleMesh mesh = coarse(n);
-  const MembraneSolver<2, SixNodeMembrane> solver(
-    six_node_membrane(six_node_mesh(mesh, n, n), isotropic()), edges_of(n));
+  const MembraneSolver solver(six_node_membrane(six_node_mesh(mesh, n, n), isotropic()),
+                              edges_of(n));
   Positions<2> start = mesh.vertices;
   for (int v = 0; v < mesh.n_vertices(); ++v)
     start.row(v) += 0.2 * bent(mesh.vertices(v, 0), mesh.vertices(v, 1));
-  const Equilibrium<2> found = solver.solve_equilibrium(start);
+  const Equilibrium found = solver.solve_equilibrium(start);
   EXPECT_GE(found.iterations, 2);
   EXPECT_EQ(found.inverted_triangles, 0);
   const SixNodeMembrane &six         = solver.rest_membrane();

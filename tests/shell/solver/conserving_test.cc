@@ -287,7 +287,6 @@ TEST(bound_conserving, terms_without_a_discrete_gradient_are_refused_by_name)
   refused(wind_term(mesh, {}));
   refused(pressure_term(mesh, [](double) { return 1.; }));
   refused(obstacle_term({"floor", plane({0., 0., -1.}, {0., 0., 1.}), 0.3, {}}, masses, {}));
-  refused(triangle_warping_term(mesh, {isotropic(100., 0.3)}));
   refused(nodal_warping_term(mesh, {isotropic(100., 0.3)}, masses));
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // A moving cloth of yarns: what it must keep, and where it comes to rest.
 #include "meshes/plain/errors.h"
+#include "shell/terms/law_terms.h"
 #include "shell/terms/yarn_term.h"
 #include "tests/refusal.h"
 #include "tests/shell/solver/cloth_cases.h"
@@ -90,7 +91,7 @@ TEST(exact_yarn_term, a_sheet_pulled_in_space_is_the_one_in_its_plane)
   Membrane flat = membrane(mesh.rest, {anisotropic()});
   take_yarn_law(flat);
   const auto in_plane =
-    MembraneSolver<2>(flat, held).solve_equilibrium(Positions<2>(moved.leftCols<2>()), {1e-12, 50});
+    MembraneSolver(flat, held).solve_equilibrium(Positions<2>(moved.leftCols<2>()), {1e-12, 50});
   EXPECT_LT((fabric.cloth.positions().leftCols<2>() - in_plane.positions).cwiseAbs().maxCoeff(),
             1e-7 * 0.2);
   EXPECT_LT(fabric.cloth.positions().col(2).cwiseAbs().maxCoeff(), 1e-7 * 0.2);
@@ -153,4 +154,20 @@ TEST(tripwire_yarn_term, a_sheet_that_is_a_point_but_for_its_handles_moves_or_na
           << text;
       EXPECT_TRUE(fabric.cloth.positions().allFinite());
     }
+}
+
+TEST(tripwire_law_terms, only_a_law_of_coarse_cloths_has_terms_and_each_of_them_has_some)
+{
+  const meshes::ClothMesh mesh = lying_sheet(2);
+  for (const meshes::Law law : meshes::all_laws())
+  {
+    const auto text =
+      refusal([&] { EXPECT_FALSE(law_terms(law, mesh, nullptr, {anisotropic()}, 0.).empty()); });
+    if (properties_of(law).is_of_coarse_cloth)
+      EXPECT_EQ(text, "") << name_of(law);
+    else
+      EXPECT_NE(text.find("law `" + name_of(law) + "`: a moving cloth does not have it"),
+                std::string::npos)
+        << text;
+  }
 }

@@ -3,8 +3,8 @@
 #include "verification/cell/assessed_cell.h"
 #include "verification/cell/cell_summary.h"
 #include "verification/cell/energy_order.h"
-#include "verification/extremes/stress_cells.h"
 #include "verification/record/number_text.h"
+#include "verification/stress/stress_cells.h"
 
 #include <gtest/gtest.h>
 

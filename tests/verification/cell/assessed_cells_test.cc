@@ -2,7 +2,7 @@
 // Cells that studies hand on to one another, in memory and through their files.
 #include "verification/cell/assessed_cells.h"
 #include "verification/cell/cell_files.h"
-#include "verification/extremes/stress_cells.h"
+#include "verification/stress/stress_cells.h"
 
 #include <gtest/gtest.h>
 

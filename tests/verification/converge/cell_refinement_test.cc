@@ -3,7 +3,7 @@
 // do not.
 #include "homogenization/cell/laminate.h"
 #include "verification/converge/cell_refinement.h"
-#include "verification/extremes/stress_cells.h"
+#include "verification/stress/stress_cells.h"
 
 #include <gtest/gtest.h>
 

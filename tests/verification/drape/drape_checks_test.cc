@@ -21,7 +21,8 @@ std::vector<Verdict> checks_of(const std::string &scene_name)
     homogenization::read_unit_cell(std::string(CELLS) + "chevron.prm");
   const DrapedCell draped(scene, cell,
                           homogenization::homogenized_cell(
-                            cell, homogenization::homogenize(cell, {}, MPI_COMM_WORLD), ""));
+                            cell, homogenization::homogenize(cell, {}, MPI_COMM_WORLD), ""),
+                          Law::biot);
   return checks_of_scene(draped);
 }
 } // namespace

@@ -25,7 +25,8 @@ DrapeErrorBar bar_of(const double time_step, const TimeIntegration integration)
     homogenization::read_unit_cell(std::string(CELLS) + "layered.prm");
   const homogenization::Homogenization result =
     homogenization::homogenize(cell, {}, MPI_COMM_WORLD);
-  const DrapedCell draped(scene, cell, homogenization::homogenized_cell(cell, result, ""));
+  const DrapedCell draped(scene, cell, homogenization::homogenized_cell(cell, result, ""),
+                          Law::biot);
   return drape_error_bar(draped, Law::biot, 1, DrapeSchedule(scene), MPI_COMM_WORLD,
                          [](const int) {});
 }

@@ -31,7 +31,8 @@ DrapedCell draped(const std::string &file, const TimeIntegration integration)
   meshes::HomogenizedCell coarse;
   coarse.stiffness << 1500., 330., 120., 330., 600., -90., 120., -90., 270.;
   coarse.areal_density = 0.3;
-  return {scene, homogenization::read_unit_cell(std::string(CELLS) + "layered.prm"), coarse};
+  return {scene, homogenization::read_unit_cell(std::string(CELLS) + "layered.prm"), coarse,
+          Law::biot};
 }
 
 Eigen::RowVector3d sum_of(const std::vector<HeldForce> &forces)

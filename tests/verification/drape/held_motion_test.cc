@@ -29,7 +29,7 @@ DrapedCell draped(const Scene &scene)
   meshes::HomogenizedCell unused;
   unused.stiffness     = Eigen::Matrix3d::Identity();
   unused.areal_density = 1.;
-  return {scene, homogenization::read_unit_cell(CELLS "layered.prm"), unused};
+  return {scene, homogenization::read_unit_cell(CELLS "layered.prm"), unused, Law::biot};
 }
 
 HeldPlace turned(const std::string &place, const std::vector<int> &vertices = {})

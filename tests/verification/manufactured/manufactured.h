@@ -11,7 +11,7 @@
 // with the laws that the solvers use, neither stress nor tangent.
 #pragma once
 
-#include "verification/reference/laws.h"
+#include "verification/law/laws.h"
 
 #include <Eigen/Core>
 

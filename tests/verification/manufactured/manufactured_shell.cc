@@ -57,7 +57,7 @@ ManufacturedCase plane_case(const Law law, const NamedStiffness &stiffness)
         clamped.push_back(v);
         start(v, 1) *= 1. + strain;
       }
-    const shell::MembraneSolver<2> solver(sheet.rest, sheet.stiffness, clamped);
+    const shell::MembraneSolver solver(shell::membrane(sheet.rest, sheet.stiffness), clamped);
     shell::EquilibriumOptions options;
     options.relative_tolerance = solver_tolerance;
     meshes::SpacePoints found  = meshes::SpacePoints::Zero(sheet.rest.n_vertices(), 3);

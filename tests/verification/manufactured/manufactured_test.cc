@@ -5,9 +5,9 @@
 #include "tests/verification/manufactured/manufactured.h"
 #include "tests/verification/manufactured/manufactured_cases.h"
 #include "tests/verification/manufactured/nodal_fields.h"
-#include "verification/extremes/stress_sheet.h"
+#include "verification/law/space_laws.h"
 #include "verification/reference/fine_reference.h"
-#include "verification/reference/space_laws.h"
+#include "verification/stress/stress_sheet.h"
 
 #include <gtest/gtest.h>
 

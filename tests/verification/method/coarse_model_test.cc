@@ -96,10 +96,10 @@ TEST(exact_coarse_model, six_nodes_ask_for_an_even_number_of_quads_and_not_of_ce
   const WholeCell of("three-stiffness", Law::linear);
   const meshes::Sheet sheet = meshes::tile(of.cell.mesh, of.cell.lattice, 3, 3);
   const Load load("strip-1");
-  const auto has_p2 = [&](const int quads_per_cell)
+  const auto has_p2 = [&](const int per_cell)
   {
     return CoarseModel(of.model(Law::linear), sheet, load, Method("full"), Law::linear,
-                       quads_per_cell)
+                       quads_per_cell(sheet, per_cell))
       .method.has(Term::p2);
   };
   EXPECT_FALSE(has_p2(1));

@@ -7,7 +7,6 @@
 #include "tests/homogenization/cell/cells.h"
 #include "tests/refusal.h"
 #include "tests/verification/method/models.h"
-#include "verification/method/homogenized_sheet.h"
 #include "verification/reference/fine_reference.h"
 
 #include <gtest/gtest.h>
@@ -108,7 +107,8 @@ TEST(order_edge_terms, the_error_falls_with_the_cell_where_the_macro_problem_is_
       const meshes::Points fine = reference.advance(strain).positions;
       constexpr int n_quads     = 160;
       const CoarseModel with({edged.homogenized, &edged.edges}, edged.sheet, load,
-                             Method("localized+edges"), Law::linear, n_quads / n);
+                             Method("localized+edges"), Law::linear,
+                             quads_per_cell(edged.sheet, n_quads / n));
       errors.push_back(1e3 * (with.upsample(with.solve(strain)) - fine).rowwise().norm().mean() /
                        (strain * edged.side));
       const double known = ladder.known[errors.size() - 1];
@@ -148,7 +148,8 @@ TEST(tripwire_edge_terms, a_bulk_term_of_the_wrong_sign_is_noticed)
     for (std::size_t b = 0; b < 2; ++b)
       edged.edges.bulk[b] = factor * as_is[b];
     const CoarseModel with({edged.homogenized, &edged.edges}, edged.sheet, load,
-                           Method("localized+edges"), Law::linear, n_quads / 10);
+                           Method("localized+edges"), Law::linear,
+                           quads_per_cell(edged.sheet, n_quads / 10));
     return (with.upsample(with.solve(strain)) - fine).rowwise().norm().mean();
   };
   EXPECT_LT(error(1.), error(0.));
@@ -208,20 +209,22 @@ TEST(exact_edge_terms, beside_fitted_modes_clamped_edges_slip_by_the_effective_s
   const CoarseSpace space(edged.sheet, CoarseElement::three_nodes);
   const auto loads = [&](const meshes::FittedModes *const fitted)
   {
-    const EdgeTerms terms({edged.homogenized, &edged.edges, fitted}, edged.sheet, Load("strip-1"),
-                          space.grid, Law::yarn);
+    const EdgeTerms<2> terms({edged.homogenized, &edged.edges, fitted}, edged.sheet, space,
+                             edge_kinds(Load("strip-1")), Law::yarn);
     Eigen::Matrix2d F; // without rotation
     F << 1.02, 0.015, 0.015, 0.99;
-    return terms.macro_loads(space.grid.mesh.vertices * F);
+    const meshes::Points moved = space.grid.mesh.vertices * F;
+    return std::pair<meshes::Points, meshes::Points>(terms.slip(moved), terms.forces(moved));
   };
-  const EdgeTerms::MacroLoads with = loads(&modes), without = loads(nullptr);
-  EXPECT_EQ(with.forces, without.forces);
+  const auto [slip, forces]               = loads(&modes);
+  const auto [plain_slip, forces_without] = loads(nullptr);
+  EXPECT_EQ(forces, forces_without);
   const Eigen::Vector3d effective =
     meshes::FittedResponse(modes).at(Eigen::Vector3d(0.02, -0.01, 0.03)).head<3>();
   const Eigen::RowVector2d expected =
     (edged.edges.sides[0].slip * effective).transpose(); // the near end of axis 1
-  EXPECT_LT((with.slip.row(0) - expected).norm(), 1e-12 * edged.side);
-  EXPECT_GT((with.slip.row(0) - without.slip.row(0)).norm(), 1e-6 * edged.side);
+  EXPECT_LT((slip.row(0) - expected).norm(), 1e-12 * edged.side);
+  EXPECT_GT((slip.row(0) - plain_slip.row(0)).norm(), 1e-6 * edged.side);
 }
 
 TEST(tripwire_edge_terms, an_infinite_cloth_has_no_edges)
@@ -229,12 +232,7 @@ TEST(tripwire_edge_terms, an_infinite_cloth_has_no_edges)
   const Edged edged(layers(4), 1);
   const Load load("periodic-11");
   const CellModel cell      = {edged.homogenized, &edged.edges};
-  const std::string refusal = tests::refusal(
-    [&]()
-    {
-      EdgeTerms(cell, edged.sheet, load, CoarseSpace(edged.sheet, CoarseElement::three_nodes).grid,
-                Law::linear);
-    });
+  const std::string refusal = tests::refusal([&]() { edge_kinds(load); });
   EXPECT_NE(refusal.find("infinite cloth"), std::string::npos);
   EXPECT_FALSE(
     CoarseModel::used(Method("full"), Law::biot, load, edged.sheet, cell).has(Term::edges));

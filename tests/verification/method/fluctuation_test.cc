@@ -4,6 +4,7 @@
 #include "homogenization/lint/cell_reading.h"
 #include "verification/method/anchor_choice.h"
 #include "verification/method/fluctuation.h"
+#include "verification/method/sheet_reading.h"
 
 #include <gtest/gtest.h>
 
@@ -35,7 +36,7 @@ TEST(exact_fluctuation, in_an_infinite_cloth_it_is_the_distance_from_the_affine_
   const Load load("periodic-22");
   meshes::Points positions = one.mesh.vertices * load.gradient(0.01).transpose();
   positions.col(1).array() += 2e-6;
-  FluctuationMeasure measure(striped.homogenized.stiffness, one, load);
+  FluctuationMeasure measure(striped.homogenized, one, load);
   const Fluctuation found = measure.at(Law::biot, 0.01, positions);
   EXPECT_NEAR(found.mean, 2e-6, 1e-15);
   EXPECT_NEAR(found.bar, 0., 1e-15);
@@ -49,11 +50,14 @@ TEST(bound_fluctuation, a_homogeneous_sheet_has_none_beyond_its_bar)
   for (const char *name : {"strip-1", "strip-2", "shear-frame"})
   {
     const Load load(name);
-    const HomogenizedSheet resolved(striped.homogenized.stiffness, striped.sheet, load, 32, 32);
-    const shell::Positions<2> solved = resolved.solve(Law::biot, resolved.prescribed(0.05));
-    FluctuationMeasure measure(striped.homogenized.stiffness, striped.sheet, load);
+    const Quads quads = quads_per_cell(striped.sheet, 8);
+    const CoarseModel resolved({striped.homogenized}, striped.sheet, load, Method("affine"),
+                               Law::biot, quads);
+    const shell::Positions<2> solved = resolved.solve(0.05).positions;
+    const SheetReading reading(striped.sheet, quads);
+    FluctuationMeasure measure(striped.homogenized, striped.sheet, load);
     const Fluctuation found =
-      measure.at(Law::biot, 0.05, resolved.at_fine_vertices(Law::biot, solved).positions);
+      measure.at(Law::biot, 0.05, reading.at_fine_vertices(Law::biot, solved).positions);
     EXPECT_GT(found.mean, 0.);
     EXPECT_LE(found.mean, found.bar) << name;
     EXPECT_LE(found.mean, 1e-2 * 0.05 * 0.01) << name; // a hundredth of strain x cell side
@@ -66,13 +70,15 @@ TEST(tripwire_fluctuation, another_place_of_the_cut_changes_the_error_and_is_tol
 {
   const Striped striped;
   const Load load("strip-2");
-  const HomogenizedSheet coarse(striped.homogenized.stiffness, striped.sheet, load, 4, 4);
-  const shell::Positions<2> solved     = coarse.solve(Law::biot, coarse.prescribed(0.01));
-  const LocalState state               = coarse.at_fine_vertices(Law::biot, solved);
+  const CoarseModel coarse({striped.homogenized}, striped.sheet, load, Method("localized"),
+                           Law::biot);
+  const shell::Positions<2> solved = coarse.solve(0.01).positions;
+  const LocalState state           = SheetReading(striped.sheet, quads_per_cell(striped.sheet, 1))
+                             .at_fine_vertices(Law::biot, solved);
   const meshes::Points reference       = localized(state, striped.homogenized, striped.sheet);
   const meshes::HomogenizedCell &whole = striped.homogenized;
   const AnchorChoice choice =
-    errors_of_other_anchors(whole, coarse.mesh, striped.sheet, Law::biot, solved, reference);
+    errors_of_other_anchors(whole, coarse.mesh(), striped.sheet, Law::biot, solved, reference);
   EXPECT_LT(choice.smallest, 0.05 * choice.largest);
   EXPECT_GT(choice.largest, 0.1 * 0.01 * 0.01); // a tenth of strain x cell side
   EXPECT_NE(note_of_anchor(choice, 1e-6, 2e-5, 1e-7).find("where the cell is cut"),

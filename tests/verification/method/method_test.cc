@@ -104,6 +104,8 @@ TEST(exact_method, of_methods_with_the_same_terms_one_has_rows_presets_first)
   EXPECT_EQ(distinct_methods(all, Law::biot, Load("periodic-11")), infinite);
   EXPECT_EQ(distinct_methods(all, Law::linear, Load("periodic-11")),
             (std::vector<std::string>{"affine", "localized"}));
+  EXPECT_EQ(distinct_methods({"affine", "full-micro"}, Law::yarn, Load("periodic-11")),
+            std::vector<std::string>{"affine"}); // whose coarse motion is given
   EXPECT_EQ(distinct_methods({"affine", "full", "localized"}, Law::linear, Load("periodic-11")),
             (std::vector<std::string>{"affine", "localized"}));
   EXPECT_EQ(distinct_methods({"localized+p2", "localized+edges"}, Law::biot, Load("periodic-11")),

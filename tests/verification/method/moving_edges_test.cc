@@ -47,7 +47,8 @@ struct Pulled
   Pulled(const homogenization::UnitCell &cell, const int n, const double strain, const int axis = 1)
       : homogenized(homogenization::homogenized_cell(cell, tests::solved(cell), "test"))
       , edges(homogenization::edges_of(cell, {}))
-      , draped(pulled(n, strain, std::sqrt(cell.lattice.area()), axis), cell, homogenized, edges)
+      , draped(pulled(n, strain, std::sqrt(cell.lattice.area()), axis), cell, homogenized,
+               Law::biot, edges)
   {
   }
 
@@ -99,28 +100,23 @@ struct BothWays
            const int n = 6, const Method &method = Method("localized+edges"))
       : homogenized(of_second_order(cell))
       , strain_side(strain * std::sqrt(cell.lattice.area()))
-      , draped(pulled(n, strain, std::sqrt(cell.lattice.area()), axis), cell, homogenized, edges)
+      , draped(pulled(n, strain, std::sqrt(cell.lattice.area()), axis), cell, homogenized,
+               Law::biot, edges)
       , moving(draped.scene, draped.coarse, draped.effective_of(method), draped.coarse_motion())
   {
     const Load load(axis == 0 ? "strip-1" : "strip-2");
     without =
       CoarseModel({homogenized}, *draped.sheet, load, method, Law::biot).solve(strain).positions;
-    const CoarseSpace space(*draped.sheet, element_of(method));
-    const EdgeTerms terms({homogenized, &edges}, *draped.sheet, load, space.grid, Law::biot);
-    std::vector<meshes::CubicForm> cubic;
-    if (method.has(Term::cubic))
-      cubic = {homogenized.second_order.at("biot").energy};
+    const CoarseParts<2> parts({homogenized, &edges}, *draped.sheet, method, Law::biot,
+                               edge_kinds(load));
     const auto solver =
-      space.solver(homogenized.stiffness, draped.coarse_motion().vertices(draped.coarse), cubic);
+      parts.space.solver(homogenized.stiffness, Law::biot,
+                         draped.coarse_motion().vertices(draped.coarse), parts.cubic);
     fixed_point = without;
     for (int k = 0; k < 15; ++k)
-    {
-      const EdgeTerms::MacroLoads loads = terms.macro_loads(space.on_grid<2>(fixed_point));
-      fixed_point                       = solver
-                      ->solve_equilibrium(Law::biot, without + space.at_nodes(loads.slip),
-                                          space.loads_of_nodes<2>(loads.forces))
-                      .positions;
-    }
+      fixed_point =
+        solver->solve(without + parts.edges->slip(fixed_point), parts.edges->forces(fixed_point))
+          .positions;
   }
 
   /// The scene begins with its sheet around the origin.
@@ -191,8 +187,8 @@ TEST(exact_moving_edges, full_comes_to_rest_where_the_static_method_does)
 
     localization::UpsamplerOptions options = full.options(Law::biot);
     const CoarseSpace space(*ways.draped.sheet, CoarseElement::six_nodes);
-    EdgeTerms({ways.homogenized, &edges}, *ways.draped.sheet,
-              Load(axis == 0 ? "strip-1" : "strip-2"), space.grid, Law::biot)
+    EdgeTerms<2>({ways.homogenized, &edges}, *ways.draped.sheet, space,
+                 edge_kinds(Load(axis == 0 ? "strip-1" : "strip-2")), Law::biot)
       .give_edges(options);
     localization::Upsampler<2, double>::Fine in_plane;
     localization::Upsampler<2, double>(ways.homogenized, space.grid.mesh, *ways.draped.sheet,
@@ -279,11 +275,12 @@ TEST(invariant_moving_edges, edges_of_a_scene_are_clamped_free_or_neither)
   const auto homogenized = homogenization::homogenized_cell(cell, tests::solved(cell), "test");
   const auto sheet       = meshes::tile(cell.mesh, cell.lattice, 3, 3);
   // The lower edge and one vertex within the upper one.
-  const MovingEdges moving(homogenized, edges, sheet,
-                           CoarseSpace(sheet, CoarseElement::three_nodes), {0, 1, 2, 3, 13});
-  EXPECT_EQ(moving.sentence(),
+  const CoarseSpace space(sheet, CoarseElement::three_nodes);
+  const EdgeKinds kinds = edge_kinds(space.nodes.quads, {0, 1, 2, 3, 13});
+  EXPECT_EQ(sentence_of_edges(kinds),
             "terms of edges: clamped, with slip and modes: axis 2, near end; free, with tension "
             "and modes: axis 1, near end and axis 1, far end; held in part, without terms: axis 2, "
             "far end");
-  EXPECT_EQ(moving.selvedges().size(), 6u);
+  EXPECT_EQ(EdgeTerms<3>({homogenized, &edges}, sheet, space, kinds, Law::biot).selvedges().size(),
+            6u);
 }

@@ -4,6 +4,7 @@
 #include "tests/homogenization/cell/cells.h"
 #include "verification/method/coarse_model.h"
 #include "verification/method/fluctuation.h"
+#include "verification/method/sheet_reading.h"
 #include "verification/reference/fine_reference.h"
 
 #include <gtest/gtest.h>
@@ -104,15 +105,16 @@ TEST(derivative_yarn_cloth, its_forces_are_those_of_its_energy)
 // law; what is found is the discretization of the measure, which its bar covers.
 TEST(bound_yarn_cloth, beside_it_a_homogeneous_sheet_does_not_fluctuate)
 {
-  const homogenization::UnitCell cell = one_yarn(0.);
-  const Eigen::Matrix3d C             = cell.stiffness_of_phase().front();
+  const homogenization::UnitCell cell  = one_yarn(0.);
+  const meshes::HomogenizedCell as_one = homogenized(cell);
   const Load load("strip-1");
   const meshes::Sheet sheet = meshes::tile(cell.mesh, cell.lattice, 4, 4);
-  const HomogenizedSheet resolved(C, sheet, load, 32, 32);
-  const shell::Positions<2> solved = resolved.solve(Law::yarn, resolved.prescribed(0.05));
-  FluctuationMeasure measure(C, sheet, load);
-  const Fluctuation found =
-    measure.at(Law::yarn, 0.05, resolved.at_fine_vertices(Law::yarn, solved).positions);
+  const Quads quads         = quads_per_cell(sheet, 8);
+  const CoarseModel resolved({as_one}, sheet, load, Method("affine"), Law::yarn, quads);
+  const shell::Positions<2> solved = resolved.solve(0.05).positions;
+  FluctuationMeasure measure(as_one, sheet, load);
+  const Fluctuation found = measure.at(
+    Law::yarn, 0.05, SheetReading(sheet, quads).at_fine_vertices(Law::yarn, solved).positions);
   EXPECT_GT(found.mean, 0.);
   EXPECT_LE(found.mean, found.bar);
   EXPECT_LE(found.mean, 1e-2 * 0.05 * side); // a hundredth of strain x cell side

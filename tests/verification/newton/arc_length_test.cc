@@ -2,7 +2,7 @@
 #include "verification/newton/arc_length.h"
 
 #include "meshes/plain/errors.h"
-#include "verification/reference/laws.h"
+#include "verification/law/laws.h"
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>

@@ -14,9 +14,12 @@ NORMS = ("mean_m", "rms_m", "max_m", "mean_per_cell", "share")
 
 class Budget(InFolder):
     def test_a_study_writes_budget_run_times_and_validity_and_judges_the_budget(self):
-        result = run(*STUDY, "--output", self.folder)
+        result = run(*STUDY, "--verbose", "--output", self.folder)
         self.assertEqual(result.returncode, 0, result.stderr)
         self.assertIn("what the parts leave", result.stdout)
+        n = len(json.loads((self.folder / "verdicts.json").read_text())["verdicts"])
+        self.assertEqual(result.stdout.splitlines()[-1],
+                         f"{n} of {n} claims hold (--verbose lists those that hold)")
 
         budget = rows_of(self.folder / "budget.csv")
         whole = [row for row in budget if row["region"] == "all"]

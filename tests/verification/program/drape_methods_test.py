@@ -27,7 +27,7 @@ class MethodsOfTheirOwn(SceneCase):
         result = run("drape", self.scene({}, "pull"), *self.COMMON, "--methods",
                      "affine,localized", "--output", without)
         self.assertEqual(result.returncode, 0, result.stdout + result.stderr)
-        folder = "three-stiffness-corotational"
+        folder = "three-stiffness-biot"
         frames = sorted(path.name for path in (without / folder).glob("*.obj"))
         self.assertGreater(len(frames), 3)
         for frame in frames:
@@ -37,11 +37,13 @@ class MethodsOfTheirOwn(SceneCase):
             self.assertNotEqual((with_them / f"three-stiffness-{method}" / frames[-1]).read_bytes(),
                                 (without / folder / frames[-1]).read_bytes())
         rows = {(row["variant"], row["method"]) for row in rows_of(with_them / "drape.csv")}
-        self.assertEqual(rows, {("corotational", "affine"), ("corotational", "localized"),
-                                ("corotational", "localized+modes"),
+        self.assertEqual(rows, {("biot", "affine"), ("biot", "localized"),
+                                ("biot", "localized+modes"),
                                 *((method, method) for method in self.OWN)})
-        self.assertEqual({row["variant"] for row in rows_of(with_them / "motion.csv")},
-                         {"corotational", "shell", *self.OWN})
+        self.assertEqual({(row["cloth"], row["variant"])
+                          for row in rows_of(with_them / "motion.csv")},
+                         {("reference", "shell"),
+                          *(("coarse", name) for name in ("biot", *self.OWN))})
 
     def refused(self, changes, methods, cells=4, **scene):
         result = run("drape", self.scene(changes, **{"name": "pull", **scene}), "--quick",
@@ -77,19 +79,19 @@ class MethodsOfTheirOwn(SceneCase):
         self.assertIn(("full", "full"), {(row["variant"], row["method"])
                                          for row in rows_of(self.folder / "odd" / "drape.csv")})
 
-    def test_a_woven_cloth_and_a_garment_have_no_second_order(self):
+    def test_a_cloth_of_yarns_and_a_garment_have_no_second_order(self):
         weave = ["--quick", "--duration", 0.1, "--no-report", "--no-frames", "--unit-cells",
                  CELLS / "twill.prm"]
         for term in ("cubic", "modes"):
             result = run("drape", self.scene({}, "pull"), *weave, "--methods",
                          f"localized,localized+{term}", "--output", self.folder / term)
             self.assertEqual(result.returncode, 2, result.stdout)
-            self.assertIn(f"--methods localized+{term}: scene `scene` has a woven cloth",
+            self.assertIn(f"--methods localized+{term}: scene `scene` has a cloth of the law yarn",
                           result.stderr)
         result = run("drape", self.scene({}, "pull"), *weave, "--methods", "localized,full",
                      "--output", self.folder / "woven")
         self.assertEqual(result.returncode, 0, result.stderr)
-        self.assertIn("method full without cubic: scene `scene` has a woven cloth",
+        self.assertIn("method full without cubic: scene `scene` has a cloth of the law yarn",
                       result.stdout + result.stderr)
         held = {"Terms": "membrane, gravity, damping, pins", "Pins": "vertices 0 1"}
         result = run("drape", self.scene(held, "hang", garment=TRIANGLE), "--quick", "--duration",

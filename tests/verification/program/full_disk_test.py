@@ -50,7 +50,7 @@ class FullDisk(InFolder):
             self.refused(result)
             if not options:
                 self.assertGreater(len(rows_of(place / "out" / "motion.csv")), 1)
-                self.assertTrue((place / "out" / "layered-corotational" / "fine_0000.vtu").exists())
+                self.assertTrue((place / "out" / "layered-biot" / "fine_0000.vtu").exists())
 
     def test_stress_keeps_its_rows(self):
         place = self.disk(20)

@@ -322,7 +322,7 @@ class Frames(InFolder):
         self.assertIn("held at single points (`top left`)", result.stderr)
         study = json.loads((self.folder / "drape.json").read_text())
         self.assertTrue(any("logarithm of the mesh width" in note for note in study["notes"]))
-        frame = sorted((self.folder / "layered-corotational").glob("fine_*.vtu"))[-1]
+        frame = sorted((self.folder / "layered-biot").glob("fine_*.vtu"))[-1]
         surface = read_vtu(frame)
         self.assertNotIn("material", surface.point_data)
         material = surface.cell_data["material"].astype(int).reshape(-1)

@@ -27,7 +27,8 @@ class OneRun(InFolder):
                      "--output", self.folder / "run")
         self.assertEqual(result.returncode, 4, result.stderr)
         self.assertRegex(result.stdout, "INCONCLUSIVE +program +layered, shear-frame, green: .*"
-                                        "each of 2 levels up to where the law is lost")
+                                        "each of 2 levels .levels without; none from strain "
+                                        "0.6 on; the law is lost at .*: 2 ")
         self.assertIn("no equilibrium found", result.stderr)
 
     def test_on_two_ranks_the_page_is_made_also_where_a_claim_is_open(self):

@@ -3,7 +3,7 @@
 #include "tests/homogenization/cell/cells.h"
 #include "tests/verification/method/models.h"
 #include "verification/reference/fine_reference.h"
-#include "verification/strain/strain_verdicts.h"
+#include "verification/strain/claims/strain_verdicts.h"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "tests/homogenization/cell/cells.h"
 #include "verification/reference/fine_reference.h"
-#include "verification/strain/strain_verdicts.h"
+#include "verification/strain/claims/strain_verdicts.h"
 
 #include <gtest/gtest.h>
 

@@ -61,6 +61,26 @@ def strain_rows():
     return rows
 
 
+def gain_rows():
+    """Rows of gains.csv beside strain_rows(): the coarse cloth of `localized` is the coarse mesh."""
+    return [
+        {
+            "cell": "stripes",
+            "load": load,
+            "strain": strain,
+            "reference": "biot",
+            "method": "localized",
+            "base": "affine",
+            "gain_of_coarse_cloth": 1.0,
+            "gain_of_upsampling": gain,
+            "gain_total": gain,
+        }
+        for load in ("periodic-22", "shear-frame")
+        for strain in (0.001, 0.01, 0.1)
+        for gain in (None if load == "periodic-22" else 0.25 / strain,)
+    ]
+
+
 def force_rows():
     """Rows of forces.csv: of an infinite cloth the coarse force is the resolved one, of a sheet it
     is 2 % more than 1000 N/m times strain, whose bar is 0.5 %; the affine motion takes threefold.
@@ -96,6 +116,7 @@ def write_results(folder):
 
     level = {"cell": "stripes", "load": "shear-frame", "reference": "biot", "strain": 0.01}
     write_table(folder, "strain.csv", strain_rows())
+    write_table(folder, "gains.csv", gain_rows())
     write_table(folder, "forces.csv", force_rows())
     write_table(
         folder,

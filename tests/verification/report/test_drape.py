@@ -85,7 +85,7 @@ class DrapePageTest(PageTest):
         def cell_of(moved, error=2e-3):
             row = {
                 **dict.fromkeys(("reference_uncertainty_m", "time_step_uncertainty_m"), 1e-5),
-                "variant": "corotational",
+                "variant": "biot",
                 "reference": "biot",
                 "method": drape_tables.METHOD,
                 "time_s": 1.0,
@@ -96,7 +96,7 @@ class DrapePageTest(PageTest):
             return SimpleNamespace(errors=[row])
 
         def sentence(moved, error=2e-3):
-            return drape_tables.error_sentence(cell_of(moved, error), "corotational", "biot")
+            return drape_tables.error_sentence(cell_of(moved, error), "biot", "biot")
 
         # Whether the motion is larger than the error or smaller: the same words.
         self.assertIn("<b>10.0 % of the mean displacement</b>, <b>2.00 mm</b>", sentence(0.02))
@@ -110,7 +110,7 @@ class DrapePageTest(PageTest):
         self,
     ):
         write_drape(self.folder, variants=VARIANTS[:1], references=())
-        shutil.rmtree(os.path.join(self.folder, "layered-corotational"))
+        shutil.rmtree(os.path.join(self.folder, "layered-biot"))
         self.remove("terms.csv")
         self.assertEqual(self.run_report(), (0, ""))
         page = self.page()
@@ -149,7 +149,7 @@ class DrapePageTest(PageTest):
 
     def test_frames_without_material_error_or_reference_are_drawn(self):
         write_drape(self.folder, variants=VARIANTS[:1], references=())
-        path = os.path.join(self.folder, "layered-corotational", "fine")
+        path = os.path.join(self.folder, "layered-biot", "fine")
         for name in os.listdir(path):
             frame = vtu.read_vtu(os.path.join(path, name))
             write_vtu(os.path.join(path, name), frame.points, frame.triangles)
@@ -180,14 +180,14 @@ class DrapePageTest(PageTest):
 
     def test_truncated_frame_is_refused_by_name(self):
         write_drape(self.folder, variants=VARIANTS[:1], references=REFERENCES[:1])
-        path = os.path.join(self.folder, "layered-shell", "fine", "0003.vtu")
+        path = os.path.join(self.folder, "layered-reference-shell", "fine", "0003.vtu")
         os.truncate(path, os.path.getsize(path) - 600)
         list_again(self.folder)
-        self.assert_refused("layered-shell/fine/0003.vtu", "is truncated")
+        self.assert_refused("layered-reference-shell/fine/0003.vtu", "is truncated")
 
     def test_frame_with_a_vertex_that_is_not_a_number_is_refused(self):
         write_drape(self.folder, variants=VARIANTS[:1], references=())
-        path = os.path.join(self.folder, "layered-corotational", "fine", "0003.vtu")
+        path = os.path.join(self.folder, "layered-biot", "fine", "0003.vtu")
         frame = vtu.read_vtu(path)
         points = frame.points.copy()
         points[5, 1] = numpy.nan
@@ -198,15 +198,15 @@ class DrapePageTest(PageTest):
     def test_files_outside_of_the_folder_are_not_opened(self):
         for path, old, new, message in (
             (
-                "layered-corotational/fine.pvd",
+                "layered-biot/fine.pvd",
                 'file="fine/0003.vtu"',
                 'file="../../secret.vtu"',
                 "names `../../secret.vtu`",
             ),
-            ("drape.json", '"folder": "layered-corotational"', '"folder": "/etc"', "folder `/etc`"),
+            ("drape.json", '"folder": "layered-biot"', '"folder": "/etc"', "folder `/etc`"),
             (
                 "drape.json",
-                '"folder": "layered-corotational"',
+                '"folder": "layered-biot"',
                 '"folder": "../elsewhere"',
                 "folder `../elsewhere`",
             ),
@@ -222,7 +222,7 @@ class DrapePageTest(PageTest):
         self.edit("drape.csv", lambda text: text.replace("localized,0,", "localized,", 1))
         self.edit_table("motion.csv", lambda rows: rows[1].update(frame="one"))
         self.edit_table("terms.csv", lambda rows: rows[1].update(present="perhaps"))
-        self.edit("layered-shell/fine.pvd", lambda text: text[:100])
+        self.edit("layered-reference-shell/fine.pvd", lambda text: text[:100])
         self.assert_refused(
             "drape.csv, line 3: found 14 fields, expected 15",
             "`frame` is `one`",
@@ -236,7 +236,7 @@ class DrapePageTest(PageTest):
             ('"present": true', '"present": 1', "term `membrane` has `present` = `1`"),
             ('"time_step_s": 0.001', '"time_step_s": "1 ms"', "key `time_step_s` is `1 ms`"),
             ('[2839.91, 299.7, 0.0]', '[2839.91]', "key `C` is not a 3 x 3 matrix"),
-            ('"variant": "corotational", ', '', "runs[0] has `variant` = `None`"),
+            ('"variant": "biot", ', '', "runs[0] has `variant` = `None`"),
             (
                 '"seconds_per_step": 1.3',
                 '"seconds_per_step": "long"',
@@ -256,7 +256,7 @@ class DrapePageTest(PageTest):
 
     def test_a_frame_that_was_changed_is_left_out_and_named(self):
         write_drape(self.folder, variants=VARIANTS[:1], references=())
-        path = os.path.join(self.folder, "layered-corotational", "fine", "0003.vtu")
+        path = os.path.join(self.folder, "layered-biot", "fine", "0003.vtu")
         os.truncate(path, os.path.getsize(path) - 600)
         self.assertEqual(self.run_report(), (0, ""))
         self.assertIn("fine/0003.vtu was changed after the run ended", self.page())

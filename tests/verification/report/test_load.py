@@ -50,19 +50,20 @@ ROWS = [
 ]
 
 
+MEASURED = [
+    {"cell": "lab", "law": "measured", "method": "measured", "stable": False, **point}
+    for point in (
+        {"step": 1, "strain_11": 0.03, "stress_11_N_per_m": 31.0},
+        {"step": 2, "strain_11": 0.06, "strain_22": -0.02},
+    )
+]
+
+
 class LoadPage(PageTest):
     def setUp(self):
         super().setUp()
         os.makedirs(self.folder)
-        write_table(self.folder, "load.csv", ROWS)
-        write_table(
-            self.folder,
-            "measured.csv",
-            [
-                {"curve": "lab", "point": 1, "strain_11": 0.03, "stress_11_N_per_m": 31.0},
-                {"curve": "lab", "point": 2, "strain_11": 0.06, "strain_22": -0.02},
-            ],
-        )
+        write_table(self.folder, "load.csv", MEASURED + ROWS)
         with open(os.path.join(self.folder, "study.json"), "w", encoding="utf-8") as file:
             json.dump({"command": "homespun load x.prm", "control": "strain 11 = 0.1"}, file)
         write_verdicts(self.folder, [verdict("stripes: every level has an equilibrium", "PASS")])
@@ -101,7 +102,7 @@ class LoadPage(PageTest):
         self.edit("load.csv", lambda text: text.replace("linear,resolved,2,", "linear,resolved,x,"))
         status, errors = self.run_report()
         self.assertEqual(status, 2)
-        self.assertIn("load.csv, line 3", errors)
+        self.assertIn("load.csv, line 5", errors)
 
 
 if __name__ == "__main__":

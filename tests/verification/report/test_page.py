@@ -21,10 +21,11 @@ from figures import plot_data, view_data
 from figures.decimation import area_of, decimate
 from made_up_drape import write_drape
 from made_up_study import square_mesh, write_results
-from page import gallery, page_size, scripts
+from page import gallery, page_size
+from page import page as whole_page
 from page_case import PageTest, draw_small_cloth
 
-HAS_CHART = os.path.isfile(scripts.CHART)
+HAS_CHART = os.path.isfile(whole_page.CHART)
 ACTIONS = os.path.join(os.path.dirname(os.path.abspath(__file__)), "page_actions.js")
 
 
@@ -272,7 +273,7 @@ class WithoutLibraryTest(PageTest):
     def test_page_without_the_plotting_library_says_so_once_and_keeps_its_pictures(self):
         write_results(self.folder)
         self.remove("stripes/fields-shear-frame.h5")
-        with mock.patch.object(scripts, "CHART", os.path.join(self.place, "nowhere.js")):
+        with mock.patch.object(whole_page, "CHART", os.path.join(self.place, "nowhere.js")):
             self.assertEqual(self.run_report(), (0, ""))
         page = self.page()
         self.assertEqual(page.count("Plots are pictures only"), 1)

@@ -20,7 +20,7 @@ from figures.drape import energy_figure
 from figures.sheet import hole_edges
 from figures.stiffness import RIM, polar_figure
 from made_up_study import LAMINATE, square_mesh
-from page import scripts
+from page import page
 from read.cell_results import Cell
 from read.vtu import Surface
 
@@ -77,7 +77,7 @@ class CurveTest(unittest.TestCase):
     def motion(self, **energies):
         return [
             {
-                "variant": "corotational",
+                "member": "biot",
                 "time_s": time,
                 "kinetic_J": 1e-3 * time,
                 "elastic_J": math.nan,
@@ -134,7 +134,7 @@ class TickTest(unittest.TestCase):
         folder = tempfile.mkdtemp()
         self.addCleanup(shutil.rmtree, folder)
         with open(os.path.join(folder, "page.html"), "w", encoding="utf-8") as file:
-            file.write(f"<h1>a</h1><script>{scripts.own('plot_style.js')}</script>")
+            file.write(f"<h1>a</h1><script>{page.own('plot_style.js')}</script>")
         script = """when((page) => page.querySelector("h1"), (page, their) => send(their.eval(`
           [[1, 1.0000001, 1.0000002], [0, 0.5, 1], [100000, 100001, 100002], [-0.02, 0, 0.02]].map(
             (ticks) => ticks.map((tick) => plot_style.linear_tick(tick, ticks))).concat([

@@ -134,7 +134,7 @@ class ReportTest(PageTest):
             for words in (
                 "The program computes what it says (program)",
                 "d holds",
-                "Up-sampling is good enough for this cell, load and strain (method)",
+                "The method does what it is for, at this cell, load and strain (method)",
                 "c fails",
                 "twice the bar &lt;of&gt; the reference",
                 "b is open",

@@ -75,11 +75,11 @@ class SceneTest(unittest.TestCase):
         cell = drape_results.DrapedCell(
             "c",
             frames={
-                ("corotational", "fine"): [(0.0, "a"), (0.5, "b"), (1.0, "c")],
-                ("shell", "fine"): [(0.0, "d"), (0.6, "e"), (1.0001, "f")],
+                ("biot", "fine"): [(0.0, "a"), (0.5, "b"), (1.0, "c")],
+                ("reference shell", "fine"): [(0.0, "d"), (0.6, "e"), (1.0001, "f")],
             },
         )
-        film = cloth.film_of(cell, ["corotational"], ["shell"], 1.0)
+        film = cloth.film_of(cell, ["biot"], ["shell"], 1.0)
         self.assertEqual(
             [(shot["fine"], shot["reference"]) for shot in film.shots],
             [("a", "d"), ("b", None), ("c", "f")],

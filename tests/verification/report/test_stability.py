@@ -18,26 +18,28 @@ NAMES = {"cell": "stripes", "law": "biot", "load": "uniaxial-1"}
 FINITE = {"waves": "finite", "k1": 0.5, "k2": 0.0, "scale": "micro", "cells_1": 2, "cells_2": 1}
 
 
+def row(kind, mesh, number, **more):
+    return {"kind": kind, **NAMES, "way": "pressed", "mesh": mesh, "number": number, "cells_1": 0,
+            "cells_2": 0, **more}
+
+
 def level(mesh, strain, beta):
     return {
-        **NAMES,
+        **row("level", mesh, round(-100 * strain)),
         **FINITE,
-        "mesh": mesh,
         "strain": strain,
         "beta": beta,
         "beta_lower": beta - 1e-9,
-        "state": "unstable-proved" if beta < 0 else "stable-up-to-mesh",
-        "long_waves_stable": True,
+        "outcome": "unstable-proved" if beta < 0 else "stable-up-to-mesh",
+        "long_waves": "stable",
         "acoustic": 0.5,
     }
 
 
 def loss(mesh, strain):
     return {
-        **NAMES,
+        **row("loss", mesh, 0),
         **FINITE,
-        "way": "pressed",
-        "mesh": mesh,
         "outcome": "lost",
         "held_to": strain + 5e-5,
         "lost_at": strain - 5e-5,
@@ -53,14 +55,16 @@ LEVELS = [
 ]
 LOSSES = [loss("given", -0.11), loss("refined", -0.098)]
 ZONE = [
-    {**NAMES, "way": "pressed", "waves": "finite", "k1": i / 8, "k2": j / 8, "angle_deg": 0.0,
-     "strain": -0.11, "beta": math.cos(math.pi * i / 8) ** 2 + 0.1 * j / 8}
+    row("wave", "given", 10 * i + j, waves="finite", k1=i / 8, k2=j / 8, strain=-0.11,
+        beta=math.cos(math.pi * i / 8) ** 2 + 0.1 * j / 8)
     for i in range(5) for j in range(8) if (i, j) != (0, 0) and not (i in (0, 4) and j > 4)
 ] + [
-    {**NAMES, "way": "pressed", "waves": "long", "k1": 0.0, "k2": 0.0, "angle_deg": 15.0 * a,
-     "strain": -0.11, "beta": 0.8}
+    row("wave", "given", 100 + a, waves="long", angle_deg=15.0 * a, strain=-0.11, beta=0.8)
     for a in range(12)
 ]
+PATTERN = row("pattern", "given", 15, strain=-0.15, outcome="found", wave="k = (1/2, 0)", beta=-0.2,
+              energy_periodic_N_per_m=1.0, energy_N_per_m=0.976, less_energy=0.024,
+              largest_per_cell=0.11) | {"cells_1": 2, "cells_2": 1}
 
 
 def mode(vertices):
@@ -84,17 +88,8 @@ class StabilityPage(PageTest):
                 os.remove(os.path.join(self.folder, "stripes", name))
         with h5py.File(os.path.join(self.folder, "stripes", "cell.h5")) as file:
             self.vertices = file["vertices"][()]
-        write_table(self.folder, "stability.csv", LEVELS)
-        write_table(self.folder, "loss.csv", LOSSES)
-        write_table(self.folder, "zone.csv", ZONE)
+        write_table(self.folder, "stability.csv", LEVELS + ZONE + [PATTERN] + LOSSES)
         write_table(self.folder, "mode.csv", mode(self.vertices))
-        write_table(
-            self.folder,
-            "pattern.csv",
-            [{**NAMES, "strain": -0.15, "cells_1": 2, "cells_2": 1, "outcome": "found",
-              "wave": "k = (1/2, 0)", "beta": -0.2, "energy_periodic_N_per_m": 1.0,
-              "energy_N_per_m": 0.976, "lower": 0.024, "largest_per_cell": 0.11}],
-        )
         with open(os.path.join(self.folder, "study.json"), "w", encoding="utf-8") as file:
             json.dump({"command": "homespun stability x.prm"}, file)
         write_verdicts(self.folder, [verdict("stripes: beta at rest is 1", "PASS")])
@@ -117,10 +112,12 @@ class StabilityPage(PageTest):
 
     def test_a_path_without_loss_holds_up_to_the_mesh(self):
         def held(rows):
-            for row in rows:
-                row.update(outcome="held", held_to="-0.15", lost_at="", strain="", strain_bar="")
+            for one in rows:
+                if one["kind"] == "loss":
+                    one.update(outcome="held", held_to="-0.15", lost_at="", strain="",
+                               strain_bar="")
 
-        self.edit_table("loss.csv", held)
+        self.edit_table("stability.csv", held)
         status, errors = self.run_report()
         self.assertEqual(status, 0, errors)
         self.assertIn("stable up to −15.0 %, the last strain; that holds up to the mesh",
@@ -141,6 +138,12 @@ class StabilityPage(PageTest):
         status, errors = self.run_report()
         self.assertEqual(status, 2)
         self.assertIn("stability.csv, line 2", errors)
+
+    def test_a_kind_that_there_is_not_is_refused_by_line(self):
+        self.edit("stability.csv", lambda text: text.replace("wave,stripes", "ripple,stripes", 1))
+        status, errors = self.run_report()
+        self.assertEqual(status, 2)
+        self.assertIn("stability.csv, line 8: `kind` is `ripple`, expected level, loss", errors)
 
 
 if __name__ == "__main__":

@@ -74,7 +74,7 @@ class MarginTest(unittest.TestCase):
             "verdict": verdict,
         }
 
-    def test_a_margin_is_figure_over_limit_and_a_refusal_has_none(self):
+    def test_a_margin_is_figure_over_limit_and_a_case_without_a_number_has_none(self):
         self.assertEqual(margin(self.row(2e-10, "1e-10 relative difference [-]")), 2.0)
         self.assertEqual(margin(self.row(0.0, "1e-10 [-]")), 0.0)
         for row in (
@@ -91,7 +91,7 @@ class MarginTest(unittest.TestCase):
                 self.row(2e-10, "1e-10 [-]", "FAIL", "contrast 1e12"),
                 self.row(0.0, "1 [-]"),
                 self.row(0.5, "1 [-]", case="holds"),
-                self.row(math.nan, "names `x`"),
+                self.row(math.nan, "1 [-]", "FAIL", "gave up"),
             ]
         )
         self.addCleanup(pyplot.close, figure)
@@ -99,7 +99,7 @@ class MarginTest(unittest.TestCase):
         self.assertIn("contrast 1e12", texts)
         self.assertNotIn("holds", texts)
         counts = [text.get_text() for text in figure.axes[0].child_axes[0].get_yticklabels()]
-        self.assertEqual(counts, ["3/4, 1 refused"])
+        self.assertEqual(counts, ["2/4, 1 without a number"])
         crosses = [line for line in figure.axes[0].lines if line.get_marker() == "X"]
         self.assertEqual(
             [list(line.get_xdata()) for line in crosses if len(line.get_xdata())], [[2.0]]

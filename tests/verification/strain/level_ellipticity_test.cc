@@ -3,7 +3,6 @@
 // validity.csv.
 #include "meshes/files/temporary_folder.h"
 #include "tests/homogenization/cell/cells.h"
-#include "verification/strain/ellipticity_rows.h"
 #include "verification/strain/level_ellipticity.h"
 #include "verification/strain/validity.h"
 

@@ -14,6 +14,7 @@ from matplotlib.patheffects import withStroke
 from figures import style
 from figures.rendering import best_axes, bounds, camera_around, close_up, coloured, visible
 from figures.sheet import unit_of
+from read.drape_results import reference_member
 from read.vtu import read_vtu
 
 KINDS = ("coarse", "fine", "reference")
@@ -50,11 +51,11 @@ def film_of(cell, variants, references, duration):
     )
     if variant is None:
         return None
-    reference = next((r for r in references if (r, "fine") in cell.frames), None)
+    reference = next((r for r in references if (reference_member(r), "fine") in cell.frames), None)
     lists = {
         "coarse": cell.frames.get((variant, "coarse"), []),
         "fine": cell.frames.get((variant, "fine"), []),
-        "reference": cell.frames.get((reference, "fine"), []) if reference else [],
+        "reference": cell.frames.get((reference_member(reference), "fine"), []) if reference else [],
     }
     times = [time for time, _ in lists["fine"] or lists["coarse"]]
     tolerance = 1e-3 * (duration or (times[-1] - times[0]))

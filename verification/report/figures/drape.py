@@ -11,14 +11,12 @@ from figures import style
 from figures.plot_data import band, name_unseen
 from figures.sheet import unit_of
 from read import schema
+from read.drape_results import reference_member
 
 ENERGY_ROUND_OFF = 1e-14  # of the largest energy: sums of squares of positions carry 16 digits
 BLOWN = 1e3  # times the largest value of the first cloth
-# woven: in the place of the corotational one where that is no law for the cell.
-VARIANTS = ("corotational", "woven", "triangle-warping", "nodal-warping")
-VARIANT_COLOURS = dict(zip(VARIANTS, (style.BLUE, "#332288", style.GREEN, style.ORANGE)))
-# Methods may have coarse cloths of their own.
-VARIANT_COLOURS |= style.METHOD_COLOURS
+LAW_COLOURS = (style.BLUE, "#332288", style.GREEN)  # of the laws of coarse cloths, as the schema has them
+NODAL_WARPING = "nodal-warping"  # the paper's membrane, which has no law
 SHELL_LINE = "--"
 LAW_LINES = (":", "-.", (0, (5, 1)))  # of the laws of a sheet in space, in the order of the schema
 FALL = 3.0  # a height that ranges over so many times that of the others gets a panel of its own
@@ -30,21 +28,33 @@ def ordered(names, known):
     return [name for name in known if name in names] + [name for name in names if name not in known]
 
 
+def known_variants():
+    """Membranes of coarse cloths, in their order."""
+    return (*schema.laws("is_of_coarse_cloth"), NODAL_WARPING)
+
+
 def ordered_variants(names):
-    return ordered(names, VARIANTS)
+    return ordered(names, known_variants())
+
+
+def known_references():
+    """References, in their order."""
+    return ("shell", *schema.laws("is_of_space"))
 
 
 def reference_lines():
-    """{reference: line style}, in their order."""
-    return {"shell": SHELL_LINE, **dict(zip(schema.laws("is_of_space"), LAW_LINES))}
+    """{member: line style} of the references, in their order."""
+    return dict(zip(map(reference_member, known_references()), (SHELL_LINE, *LAW_LINES)))
 
 
 def ordered_references(names):
-    return ordered(names, reference_lines())
+    return ordered(names, known_references())
 
 
 def variant_colour(name):
-    return VARIANT_COLOURS.get(name, style.PURPLE)
+    """Methods may have coarse cloths of their own."""
+    known = dict(zip(schema.laws("is_of_coarse_cloth"), LAW_COLOURS))
+    return {NODAL_WARPING: style.ORANGE, **style.METHOD_COLOURS, **known}.get(name, style.PURPLE)
 
 
 def curve(rows, key, factor=1.0):
@@ -131,7 +141,7 @@ def error_time_curves(rows):
 def plot_members(axes, rows, key, factor=1.0, positive=False):
     """A curve for each variant in colour and for each reference in black."""
     for name in members(rows):
-        time, value = curve([row for row in rows if row["variant"] == name], key, factor)
+        time, value = curve([row for row in rows if row["member"] == name], key, factor)
         if positive:
             time, value = time[value > 0.0], value[value > 0.0]
         if name in reference_lines():
@@ -142,20 +152,20 @@ def plot_members(axes, rows, key, factor=1.0, positive=False):
                 ls=reference_lines()[name],
                 lw=1.6,
                 zorder=4,
-                label=f"reference {name}",
+                label=name,
             )
         else:
             axes.plot(
                 time,
                 value,
                 color=variant_colour(name),
-                lw=2.2 if name == VARIANTS[0] else 1.5,
+                lw=2.2 if name == known_variants()[0] else 1.5,
                 label=name,
             )
 
 
 def members(rows):
-    return ordered([row["variant"] for row in rows], (*VARIANTS, *reference_lines()))
+    return ordered([row["member"] for row in rows], (*known_variants(), *reference_lines()))
 
 
 def member_handles(rows):
@@ -167,7 +177,7 @@ def member_handles(rows):
                 color=style.BLACK,
                 ls=reference_lines()[name],
                 lw=1.6,
-                label=f"reference {name}",
+                label=name,
             )
             if name in reference_lines()
             else Line2D([], [], color=variant_colour(name), lw=2.0, label=name)
@@ -210,13 +220,13 @@ def height_figure(rows, up, gravity):
         return None
     span = {}
     for name in members(rows):
-        heights = [row["height"] for row in rows if row["variant"] == name]
+        heights = [row["height"] for row in rows if row["member"] == name]
         span[name] = max(heights) - min(heights)
     usual = max(span[name] for name in span if name in reference_lines() or name == members(rows)[0])
     falling = [
         name for name in span if name not in reference_lines() and span[name] > FALL * max(usual, 1e-12)
     ]
-    staying = [row for row in rows if row["variant"] not in falling]
+    staying = [row for row in rows if row["member"] not in falling]
     figure, grid = pyplot.subplots(
         1,
         2 if falling else 1,
@@ -279,7 +289,7 @@ def energy_figure(rows):
     figure, grid = pyplot.subplots(
         1, len(panels), squeeze=False, figsize=(0.4 + 3.2 * len(panels), 3.0), layout="constrained"
     )
-    first = ordered_variants({row["variant"] for row in rows})[0]
+    first = ordered_variants({row["member"] for row in rows})[0]
     for axes, (key, label) in zip(grid[0], panels):
         log = key not in ("max_stretch", "gravity_J") and not any(row[key] < 0.0 for row in rows)
         plot_members(axes, rows, key, positive=log)
@@ -287,7 +297,7 @@ def energy_figure(rows):
         # A variant that blows up must not flatten the others: it leaves the panel.
         every = [row[key] for row in rows if not math.isnan(row[key])]
         calm = [
-            row[key] for row in rows if row["variant"] == first and not math.isnan(row[key])
+            row[key] for row in rows if row["member"] == first and not math.isnan(row[key])
         ] or every
         largest = max(map(abs, calm))
         blown = max(map(abs, every)) > BLOWN * largest > 0.0

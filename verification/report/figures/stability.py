@@ -250,7 +250,7 @@ def stability_figure(path, cell):
     @param cell Cell, or None where its picture cannot be drawn
     """
     way = shown_way(path)
-    rows = [row for row in path.zone if row["way"] == way]
+    rows = [row for row in path.waves if row["way"] == way]
     mode = [row for row in path.mode if row["way"] == way]
     has_cell = cell is not None and cell.vertices is not None
     has_zone = bool(rows) and has_cell

@@ -38,7 +38,7 @@ def limit_of(row):
 
 
 def margin(row):
-    """Figure over limit; nan where a refusal was expected or the case gave no number."""
+    """Figure over limit; nan where the case gave no number."""
     figure, limit = row["figure"], limit_of(row)
     if not limit > 0.0 or not math.isfinite(figure):
         return math.nan
@@ -67,8 +67,8 @@ def margin_figure(rows):
     """One line per group, a mark per case at its figure over its limit; right of 1 a case fails.
 
     Places of marks are drawing, not data (cases of a line stand apart, zero at the edge): the
-    numbers are `margin_table`'s. Of the cases of a group that fail the worst is named. Refusals
-    have no figure: they are counted beside the line, and so is a failure without a number.
+    numbers are `margin_table`'s. Of the cases of a group that fail the worst is named. Those without
+    a number are counted beside the line.
     @return figure, or None where no case has a figure and a limit
     """
     groups = list(dict.fromkeys(row["group"] for row in rows))
@@ -110,12 +110,9 @@ def margin_figure(rows):
                 more = f" (and {len(shown) - 1} more)" if len(shown) > 1 else ""
                 failed.append((x[worst], y[worst], shown[worst][1]["case"], more))
         words = [f"{sum(row['verdict'] == 'PASS' for row in some)}/{len(some)}"]
-        unplaced = [row for row in some if margin(row) != margin(row)]
-        refused = sum(row["verdict"] == "PASS" for row in unplaced)
-        if refused:
-            words.append(f"{refused} refused")
-        if len(unplaced) > refused:
-            words.append(f"{len(unplaced) - refused} without a number")
+        unplaced = sum(margin(row) != margin(row) for row in some)
+        if unplaced:
+            words.append(f"{unplaced} without a number")
         counts.append(", ".join(words))
     for u, v, name, more in failed:
         label = axes.annotate(

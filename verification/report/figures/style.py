@@ -31,10 +31,12 @@ METHOD_COLOURS = {
     "localized+p2": "#999933",
     "localized+edges": "#882255",
     "localized+cubic+modes": SKY,
+    "base": GREEN,
     "full": BLACK,
 }
-METHOD_LABELS = {"localized": "localized (the paper's method)"}
-SPARE_COLOURS = ("#332288", "#44AA99", GREEN, ORANGE, PURPLE)
+METHOD_LABELS = {"localized": "localized (the paper's method)",
+                 "base": "base: the coarse cloth of full, not up-sampled"}
+SPARE_COLOURS = ("#332288", "#44AA99", ORANGE, PURPLE)
 COLOUR_NAMES = {VERMILLION: "orange", BLUE: "blue", "#999933": "olive", "#882255": "wine",
                 SKY: "light blue", BLACK: "black", "#332288": "indigo", "#44AA99": "teal",
                 GREEN: "green", ORANGE: "yellow", PURPLE: "pink"}

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""The answer of the page: what up-sampling does to the error under each load, and why, in
+"""The answer of the page: what up-sampling does to the error of its own coarse cloth under each
+load, what that cloth does to the error of the coarse mesh alone, and why error is left, in
 sentences that need no other part of the page.
 """
 import math
@@ -11,7 +12,7 @@ from figures.style import percent, three
 from page import tables
 from page.budget_contents import validity_text
 from read import schema
-from read.budget_results import levels
+from read.budget_results import base_rows, levels
 from read.results import cell_side
 from read.schema import main_method
 
@@ -32,6 +33,7 @@ CAUSES = {
 TAKEN_AWAY = {"edges": ("slip", "selvedge", "bulk", "layer"), "cubic": ("macro-law",),
               "modes": ("modes",)}
 PAPER = "localized"
+UNTOLD = "≈ 0"  # a change that the bar of the reference cannot tell
 SECOND_CAUSE = 0.25  # share of the error from which a second cause is named
 VALIDITY_LIMIT = 0.01  # of a cell side
 PANEL = (1.78, 1.32)  # inches of a panel of the small Figure 3
@@ -41,24 +43,34 @@ def answer_of(results, name, gallery):
     """What stands on the first screen of one cell, or None where no error is known.
 
     @return {"name", "strain", "reference", "lines", "figure", "ratio", "side", "quick"}; a line is
-            {"load", "title", "change", "mark", "sentence", "valid"}
+            {"load", "title", "change", "mark", "coarse", "total", "sentence", "valid"}; "law" is
+            law_sentence() at the largest chosen strain
     """
     rows = results.reached(name)
     reference = tables.main_reference(rows)
+    of_laws = rows
     rows = [row for row in rows if row["reference"] == reference]
     strains = tables.nearest_strains(rows)
     if not strains:
         return None
     here = [row for row in rows if row["strain"] == strains[0]]
     budget = levels([row for row in results.budget if row["cell"] == name])
+    gains = [g for g in results.gains if (g["cell"], g["reference"]) == (name, reference)]
+    bases = {
+        (gain["load"], gain["method"]): gain["base"]
+        for gain in gains
+        if gain["strain"] == strains[0]
+    }
     lines = []
     for load in sheets_first(row["load"] for row in here):
         some = {row["method"]: row for row in here if row["load"] == load}
         method = main_method(some)
         if method in some and "affine" in some:
             parts = budget.get((load, strains[0]), {}).get("all")
-            line = line_of(load, some["affine"], some[method], parts)
-            line["sentence"] += beside_the_paper(some[method], some.get(PAPER))
+            base = some.get(bases.get((load, method)))
+            line = line_of(load, some["affine"], base, some[method], parts)
+            if method != PAPER and PAPER in some:
+                line["sentence"] += of_the_paper(some["affine"], some[PAPER])
             if line["mark"] != "open":  # where the bar is named already
                 line["sentence"] += beside_the_bar(some[method])
             lines.append({**line, "valid": valid_up_to(results, name, load, reference, method)})
@@ -73,7 +85,9 @@ def answer_of(results, name, gallery):
             for load in {r["load"] for r in here}
         }
     )
-    figure, _ = error_figure(rows, methods, [reference], side, panel=PANEL)
+    of_base = base_rows(rows, gains)
+    methods = style.ordered_methods([*methods, *{row["method"] for row in of_base}])
+    figure, _ = error_figure(rows + of_base, methods, [reference], side, panel=PANEL)
     return {
         "name": name,
         "strain": percent(strains[0]),
@@ -81,6 +95,8 @@ def answer_of(results, name, gallery):
         "side": tables.length(side) if side else None,
         "ratio": None if ratio is None else three(ratio),
         "lines": lines,
+        "law": law_sentence(of_laws, [f for f in results.forces if f["cell"] == name], reference,
+                            strains[-1]),
         "figure": gallery.add(
             figure,
             f"{name}-answer",
@@ -99,38 +115,76 @@ def sheets_first(loads):
     return sorted(style.ordered_loads(loads), key=lambda load: style.is_infinite(load))
 
 
-def line_of(load, affine, best, parts):
-    """One load: the change of the error in percent, and its sentence.
+def line_of(load, affine, base, best, parts):
+    """One load: the change of the error by up-sampling in percent, that by its coarse cloth, both
+    together, and its sentence.
 
+    @param base row of the coarse cloth of the method, not up-sampled, or None
     @param best row of the method that the page speaks of
     """
     title = schema.loads().get(load, {}).get("label", load)
-    before, after = (row["error_mean_per_cell"] for row in (affine, best))
+    after, left = best["error_mean_per_cell"], best["error_mean_m"]
     bar = best["reference_uncertainty_m"]
-    if before < style.ROUND_OFF and after < style.ROUND_OFF:
-        change, mark = "0", "none"
-        words = "nothing is to be added: the coarse mesh alone is exact to round-off."
-    elif after < style.ROUND_OFF:
-        change, mark = "−100 %", "better"
-        words = "up-sampling takes away all of the error, to round-off."
+    reason = why(parts, best.get("method", PAPER), left, best.get("reference"))
+    size = f"{tables.length(left)} ({three(100.0 * after)} % of a cell side) are left {reason}"
+    line = {"load": load, "title": title, "change": "–", "mark": "open", "coarse": "", "total": ""}
+    if base is None:
+        method = best.get("method", PAPER)
+        words = (
+            f"what up-sampling takes away is not known, because no base was among the methods"
+            f" ({method}-micro, affine+p2); {size}."
+        )
     else:
-        gain = 1.0 - after / before if before > 0.0 else -math.inf
-        change, mark = change_of(gain), "better" if gain > 0.0 else "worse"
-        left = best["error_mean_m"]
-        words = sentence_of(gain, after, left, why(parts, best.get("method", PAPER), left, best.get("reference")))
-        if abs(affine["error_mean_m"] - best["error_mean_m"]) <= bar:
-            mark = "open"
-            words = (
-                "up-sampling makes no difference that the error bar of the reference"
-                f" ({tables.length(bar)}) could tell."
+        line["change"], line["mark"], words = of_upsampling(base, best, bar, size)
+        if base["method"] != "affine":
+            line["coarse"] = change_between(affine, base, bar)
+            line["total"] = change_between(affine, best, bar)
+            words += (
+                f" That coarse cloth itself changes the error of the coarse mesh alone by"
+                f" {in_words(line['coarse'])}, both together by {in_words(line['total'])}."
             )
-    return {
-        "load": load,
-        "title": title,
-        "change": change,
-        "mark": mark,
-        "sentence": capital(words),
-    }
+    return {**line, "sentence": capital(words)}
+
+
+def of_upsampling(base, best, bar, size):
+    """(change, mark, words) from the coarse cloth of a method to the method."""
+    before, after = base["error_mean_per_cell"], best["error_mean_per_cell"]
+    of_what = (
+        "the error of the coarse mesh alone"
+        if base["method"] == "affine"
+        else f"what its coarse cloth, {base['method']}, leaves"
+    )
+    if before < style.ROUND_OFF and after < style.ROUND_OFF:
+        return "0", "none", "nothing is to be added: the coarse cloth is exact to round-off."
+    if after < style.ROUND_OFF:
+        return "−100 %", "better", f"up-sampling takes away all of {of_what}, to round-off."
+    if abs(base["error_mean_m"] - best["error_mean_m"]) <= bar:
+        return UNTOLD, "open", (
+            f"up-sampling makes no difference to {of_what} that the error bar of the reference"
+            f" ({tables.length(bar)}) could tell; {size}."
+        )
+    gain = 1.0 - after / before if before >= style.ROUND_OFF else -math.inf
+    if math.isinf(gain):
+        return change_of(gain), "worse", f"up-sampling adds error to none: {size}."
+    if gain > 0.0:
+        return change_of(gain), "better", (
+            f"up-sampling takes away {share(gain)} % of {of_what}; {size}."
+        )
+    return change_of(gain), "worse", (
+        f"up-sampling adds {share(-gain)} % to {of_what}; {size}."
+    )
+
+
+def change_between(one, other, bar):
+    """How the error changes from one row to another: −74 %, +58 %, or what the bar cannot tell."""
+    before, after = one["error_mean_per_cell"], other["error_mean_per_cell"]
+    if max(before, after) < style.ROUND_OFF or abs(other["error_mean_m"] - one["error_mean_m"]) <= bar:
+        return UNTOLD
+    return change_of(1.0 - after / before if before >= style.ROUND_OFF else -math.inf)
+
+
+def in_words(change):
+    return "less than the bar" if change == UNTOLD else change
 
 
 def change_of(gain):
@@ -149,23 +203,10 @@ def share(value):
     return whole
 
 
-def beside_the_paper(best, paper):
-    """How far another method than the paper's takes its error."""
-    if paper is None or best["method"] == PAPER:
-        return ""
-    error, of_paper = best["error_mean_per_cell"], paper["error_mean_per_cell"]
-    if not of_paper > style.ROUND_OFF:
-        return ""
-    if abs(paper["error_mean_m"] - best["error_mean_m"]) <= best["reference_uncertainty_m"]:
-        return f" The paper's method, {PAPER}, differs from {best['method']} by less than the bar."
-    more = of_paper / error if error > 0.0 else math.inf
-    return (
-        f" The paper's method, {PAPER}, leaves {three(float(more))} times as much as"
-        f" {best['method']}."
-        if more >= 1.0
-        else f" The paper's method, {PAPER}, leaves less: {three(float(more))} times as much as"
-        f" {best['method']}."
-    )
+def of_the_paper(affine, paper):
+    """What the paper's method does to the coarse mesh alone, which is its coarse cloth."""
+    change = change_between(affine, paper, paper["reference_uncertainty_m"])
+    return f" The paper's method, {PAPER}, changes the error of the coarse mesh alone by {in_words(change)}."
 
 
 def beside_the_bar(best):
@@ -185,15 +226,45 @@ def beside_the_bar(best):
     )
 
 
-def sentence_of(gain, left_per_cell, left, reason):
-    if math.isinf(gain):
-        return f"up-sampling adds {tables.length(left)} of error to none {reason}."
-    size = f"{tables.length(left)}, {three(100.0 * left_per_cell)} % of a cell side"
-    if gain > 0.0:
-        size = size.replace(", ", " (") + ")"
-    if gain > 0.0:
-        return f"up-sampling takes away {share(gain)} % of the error; {size} are left {reason}."
-    return f"up-sampling makes the error {share(-gain)} % worse ({size}) {reason}."
+def law_sentence(rows, forces, reference, strain):
+    """What another law of the reference changes on sheets at a strain: the force of the resolved
+    sheet, and the error that the method of the page leaves against it; empty where there is none.
+
+    @param rows of one cell with an error, forces rows of forces.csv of it
+    """
+    here = [r for r in rows if r["strain"] == strain and not style.is_infinite(r["load"])]
+    error, force = {}, {}
+    for load in {row["load"] for row in here}:
+        method = main_method(
+            [r["method"] for r in here if (r["load"], r["reference"]) == (load, reference)]
+        )
+        for row in here:
+            if (row["load"], row["method"]) == (load, method):
+                error[row["reference"], load] = row["error_mean_per_cell"]
+    for row in forces:
+        if row["method"] == "resolved" and row["strain"] == strain:
+            force[row["reference"], row["load"]] = row["force_per_width_N_per_m"]
+    parts = []
+    for law in schema.laws():
+        if law in (reference, "linear"):
+            continue
+        ratios = [
+            [of[law, load] / of[reference, load] for (one, load) in error
+             if one == law and of.get((reference, load), 0.0) > style.ROUND_OFF and (law, load) in of]
+            for of in (force, error)
+        ]
+        if all(ratios):
+            parts.append(
+                f"against {law} in place of {reference} sheets take {span(ratios[0])} times the"
+                f" force, and what is left of the error is {span(ratios[1])} times as much"
+            )
+    return f"What the law is worth, at {percent(strain)}: {'; '.join(parts)}." if parts else ""
+
+
+def span(values):
+    """The smallest and largest of some numbers, or one where they print alike."""
+    ends = [three(float(end(values))) for end in (min, max)]
+    return " to ".join(dict.fromkeys(ends))
 
 
 def taken_away(method, reference):

@@ -19,6 +19,7 @@ from page.bending_contents import bending_contents
 from page.budget_contents import budget_contents
 from page.force_contents import force_contents
 from page.gallery import file_name
+from read.budget_results import base_rows
 from read.cell_results import grouped, read_fields
 from read.results import BadResults, cell_side
 from read.schema import main_method
@@ -49,6 +50,7 @@ def cell_contents(results, name, gallery):
     cell = results.cells[name]
     rows, side = results.reached(name), cell_side(results, name)
     steps = [row for row in results.steps if row["cell"] == name]
+    gains = [row for row in results.gains if row["cell"] == name]
     contents = {
         "name": name,
         "file": cell.file,
@@ -68,7 +70,7 @@ def cell_contents(results, name, gallery):
     methods = style.ordered_methods(row["method"] for row in rows)
     reference = tables.main_reference(rows)
     if rows:
-        draw_strain(contents, rows, methods, reference, side, gallery)
+        draw_strain(contents, (rows, base_rows(rows, gains)), methods, reference, side, gallery)
     if figure := run_time_figure(rows, reference):
         contents["run_time"] = gallery.add(
             figure,
@@ -154,7 +156,7 @@ def cell_contents(results, name, gallery):
     contents.update(bending_contents(cell, gallery))
     contents.update(budget_contents(results, name, side, strains, gallery))
     contents["round_off"] = tables.round_off_sentences(rows)
-    contents["error_tables"] = tables.error_tables(rows, methods)
+    contents["error_tables"] = tables.error_tables(rows, methods, gains)
     contents["stiffness"] = tables.stiffness_table(cell)
     contents["phases"] = tables.phase_rows(cell)
     contents["checks"] = [
@@ -178,8 +180,9 @@ def check_contents(check):
     }
 
 
-def draw_strain(contents, rows, methods, reference, side, gallery):
+def draw_strain(contents, rows_and_bases, methods, reference, side, gallery):
     """The three error figures of one cell."""
+    rows, of_base = rows_and_bases
     name = contents["name"]
     of_load = {}
     for row in rows:
@@ -189,9 +192,10 @@ def draw_strain(contents, rows, methods, reference, side, gallery):
         main_method(some) for some in of_load.values()
     }
     main = [method for method in methods if method in spoken_of] or methods
+    main = style.ordered_methods([*main, *{row["method"] for row in of_base}])
     references = style.ordered_references(row["reference"] for row in rows)
     floor = f" Triangles at the lower edge: below {style.ROUND_OFF_TEXT}, zero to round-off."
-    figure, at_floor = error_figure(rows, main, references, side)
+    figure, at_floor = error_figure(rows + of_base, main, references, side)
     contents["error"] = gallery.add(
         figure,
         f"{name}-error-strain",
@@ -199,7 +203,9 @@ def draw_strain(contents, rows, methods, reference, side, gallery):
         " is not larger than the reference's own uncertainty (the largest of the laws shown)."
         + (floor if at_floor else ""),
     )
-    figure, at_floor = error_figure(rows, main, references, side, "error_mean_per_fluctuation")
+    figure, at_floor = error_figure(
+        rows + of_base, main, references, side, "error_mean_per_fluctuation"
+    )
     contents["error_share"] = gallery.add(
         figure,
         f"{name}-error-strain-fluctuation",

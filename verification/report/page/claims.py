@@ -17,6 +17,11 @@ ADVICE = (
         " strain.",
     ),
     (
+        "than its base at strain",
+        "Under this load take the coarse cloth that the limit names, without up-sampling: nothing that"
+        " up-sampling adds to it pays here.",
+    ),
+    (
         "than localized at strain",
         "Under this load take the paper's method (`localized`): the terms that the other one adds"
         " do not pay on this cell.",
@@ -80,7 +85,7 @@ OF_KIND = {
     " page.",
     "input": "Mend cell, mesh or scene: `homespun check CELL.prm --output out/check` shows the"
     " places.",
-    "method": "Up-sampling is not good enough here: do not use it under this load and strain.",
+    "method": "What the claim says of the method does not hold here: do not rest on it in this case.",
 }
 OPEN = {
     "program": "Not decided, and nothing says that the program is wrong: let it run further, without"
@@ -90,7 +95,7 @@ OPEN = {
     " solved finer.",
 }
 LEVEL = re.compile(r"([\w.-]+), (periodic-\d\d|uniaxial-\d|strip-\d|shear-frame)\b")
-METHOD = re.compile(r": ([\w-]+) is closer to ")
+METHOD = re.compile(r": ([\w+-]+) is closer to ")
 STRAIN = re.compile(r"at (?:strain )?([\d.e-]+)( %)?")
 
 

@@ -83,8 +83,8 @@ def measure_groups(results, subjects):
             (
                 (
                     f"Mean error at {percent(strain)} strain [1/1000 of the cell side], in brackets of"
-                    " the paper's method where another one stands here, and of the coarse mesh"
-                    " alone"
+                    " its coarse cloth, not up-sampled, and of the paper's method where another one"
+                    " stands here, and of the coarse mesh alone"
                 ),
                 error_rows(results, subjects, strain),
             )
@@ -170,7 +170,21 @@ def error_rows(results, subjects, strain):
                 and math.isclose(row["strain"], strain, rel_tol=1e-6)
             }
             best = main_method(here)
-            beside = "" if best == METHOD else f"{thousandths(here.get(METHOD))}; "
+            base = next(
+                (
+                    gain["base"]
+                    for gain in results.gains
+                    if (gain["cell"], gain["load"], gain["reference"], gain["method"])
+                    == (s.name, load, reference, best)
+                    and math.isclose(gain["strain"], strain, rel_tol=1e-6)
+                ),
+                None,
+            )
+            beside = (
+                ""
+                if best == METHOD
+                else f"{thousandths(here.get(base))}; {thousandths(here.get(METHOD))}; "
+            )
             texts.append(
                 f"{thousandths(here[best])} ({beside}{thousandths(here.get('affine'))})"
                 if best in here

@@ -116,8 +116,12 @@ def page_contents(results, gallery, output):
         reasons["short"] = [
             {
                 "what": "what up-sampling does to the error",
-                "why": "it needs rows of `affine` and `localized` in strain.csv: `homespun strain`"
-                " makes them",
+                "why": (
+                    "no level was reached, so that no error is known: smaller `--strains` may be"
+                    if results.unreached()
+                    else "it needs rows of `affine` and `localized` in strain.csv: `homespun strain`"
+                    " makes them"
+                ),
             }
         ]
     commands = list(dict.fromkeys(c for c in map(command_of, results.studies) if c))

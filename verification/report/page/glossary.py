@@ -18,9 +18,13 @@ GLOSSARY = (
     ("affine", "the coarse mesh alone: fine vertices follow their coarse triangle; the baseline"),
     ("localized", "up-sampling as the paper has it: affine plus χ times the strain of the coarse"
      " triangle, blended between triangles"),
-    ("full", "up-sampling with all terms that have a meaning under the law and load: p2, edges,"
+    ("full", "the default: all terms that have a meaning under the law and load: p2, edges,"
      " cubic, modes and micro. Other methods are named by what is added or taken away:"
      " `localized+p2`, `full-micro`"),
+    ("base", "the coarse cloth of a method, not up-sampled: of `full` the better of `full-micro` and"
+     " `affine+p2`, load by load and strain by strain; of `localized` it is `affine`"),
+    ("gain", "an error over a smaller one, in two factors: of the coarse cloth, `affine` over the base,"
+     " and of up-sampling, the base over the method. A cell of one material has the first alone"),
     ("cubic", "a term: the coarse cloth has the cubic energy of the cell beside C^H"),
     ("modes", "a term: χ is joined by six modes for the products of macro strains; in cloths of"
      " yarns by modes that are fitted over the strains of the study, and the box is among the notes"),
@@ -37,7 +41,6 @@ GLOSSARY = (
     ("linear, biot, green, yarn", "laws of the reference: small strain;"
      " ½ (U−I):C:(U−I), which is also the law of the coarse cloth; St. Venant-Kirchhoff; stretches"
      " and angle of two yarns, which the coarse cloth then has too"),
-    ("woven", "a moving cloth under the law yarn"),
     ("fluctuation", "what the cloth does beside an even sheet of stiffness C^H: the part that"
      " up-sampling is to restore"),
     ("cell side", "square root of the area of the cell; errors are given in it"),
@@ -51,7 +54,7 @@ GLOSSARY = (
      " axis, or sheared in a frame; they have edges"),
     ("claim", "a sentence that may fail, with a limit that was known before the figure: of the"
      " program (it computes what it says), of the input (cell, mesh, scene are fit) or of the"
-     " method (up-sampling is good enough here). Open: it could not be decided"),
+     " method (it does here what it is for). Open: it could not be decided"),
     ("order", "by which power an error falls with mesh width, strain or time step"),
     ("degrees of freedom (DoFs)", "unknowns of a solve"),
 )

@@ -55,7 +55,7 @@ def level_rows(path):
     for row in path.levels:
         if row["mesh"] != "given":
             continue
-        if row["state"] == "not-reached":
+        if row["outcome"] == "not-reached":
             rows.append([path.law, path.load, f"{three(100.0 * row['strain'])} %", "–", "–", "–",
                          "not reached"])
             continue
@@ -65,7 +65,7 @@ def level_rows(path):
             if row["waves"] == "long"
             else f"({three(row['k1'])}, {three(row['k2'])})"
         )
-        states = {one["state"] for one in (row, other) if one}
+        states = {one["outcome"] for one in (row, other) if one}
         if states == {"unstable-proved"}:
             words = "lost, proved"
         elif states == {"stable-up-to-mesh"}:
@@ -90,7 +90,7 @@ def pattern_sentences(path):
         if row["outcome"] == "found":
             sentences.append(
                 f"{subject}: the pattern of the lowest wave was followed to an equilibrium with"
-                f" {three(100.0 * row['lower'])} % less energy than the periodic state;"
+                f" {three(100.0 * row['less_energy'])} % less energy than the periodic state;"
                 f" {three(row['largest_per_cell'])} cell sides away from it at most."
             )
         elif row["outcome"] == "no-wave":
@@ -105,7 +105,7 @@ def pattern_sentences(path):
 def caption_of(path):
     way = shown_way(path)
     loss = path.loss(way) if way else None
-    zone = [row for row in path.zone if row["way"] == way]
+    zone = [row for row in path.waves if row["way"] == way]
     rest = ""
     if loss and zone:
         rest = ZONE.format(

@@ -59,7 +59,7 @@ def draw(stress, gallery):
             (
                 f"{name}how far each case is from its limit: its figure over its limit, a line for"
                 " each group, cases from top to bottom in their order. Right of 1 a case fails. At"
-                " the right: cases that hold of all, and refusals, which have no figure."
+                " the right: cases that hold of all, and those without a number."
             ),
             margin_table(stress.rows),
         )

@@ -12,7 +12,6 @@ from figures.style import percent, seconds, three
 from page.entries import ENTRIES, entry_texts, other_stiffnesses, source_of
 from read import schema
 from read.cell_results import relative_width
-from read.results import cell_side
 
 CHOSEN_STRAINS = (0.01, 0.1)
 
@@ -43,11 +42,11 @@ def length(value):
     return f"{three(float(value))} m"
 
 
-def error_tables(rows, methods):
-    """Errors at the chosen strains.
+def error_tables(rows, methods, gains):
+    """Errors and gains at the chosen strains.
 
-    @return list of {"strain", "methods", "rows": [{"load", "reference", "uncertainty", "errors"}]};
-            an error is {"text", "share", "resolved"}
+    @return list of {"strain", "methods", "rows": [{"load", "reference", "uncertainty", "errors"}],
+            "gains": gain_rows()}; an error is {"text", "share", "resolved"}
     """
     tables = []
     for strain in nearest_strains(rows):
@@ -71,8 +70,27 @@ def error_tables(rows, methods):
                         "errors": [error_entry(some.get(method), bar) for method in methods],
                     }
                 )
-        tables.append({"strain": percent(strain), "methods": methods, "rows": lines})
+        tables.append(
+            {
+                "strain": percent(strain),
+                "methods": methods,
+                "rows": lines,
+                "gains": gain_rows([row for row in gains if row["strain"] == strain]),
+            }
+        )
     return tables
+
+
+def gain_rows(gains):
+    """gains.csv as text, by load: what a coarse cloth is worth, and what up-sampling is on it."""
+    loads = style.ordered_loads(row["load"] for row in gains)
+    return [
+        [row["load"], row["reference"], row["method"], row["base"]]
+        + [three(row[f"gain_{key}"]) for key in ("of_coarse_cloth", "of_upsampling", "total")]
+        for load in loads
+        for row in gains
+        if row["load"] == load
+    ]
 
 
 def error_entry(row, bar):

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""Reads budget.csv, runtime.csv and validity.csv of a strain study, and what follows from their
-rows alone.
+"""Reads budget.csv, runtime.csv, validity.csv and gains.csv of a strain study, and what follows from
+their rows alone.
 """
 import math
 
@@ -30,14 +30,36 @@ REGIONS = ("interior", "boundary", "corner")
 
 
 def read_budget(path_of, results, faults):
-    """Adds the three tables to the results; one that was left out is noted as such."""
+    """Adds the four tables to the results; one that was left out is noted as such."""
     for name, rows, consequence in (
         ("budget.csv", results.budget, "the error budget"),
         ("runtime.csv", results.run_time, "error against run time of every way"),
         ("validity.csv", results.validity, "the range of validity"),
+        ("gains.csv", results.gains, "gains of the coarse cloth and of up-sampling"),
     ):
         if path := path_of(name, consequence):
             rows += read_csv(path, faults, results.missing)
+
+
+def base_rows(rows, gains, base="base"):
+    """Rows of strain.csv once more, as those of `base`: of each level the one that is the base of the
+    method that the page speaks of, where it is not the coarse mesh alone.
+    """
+    known = {level_of(row) + (row["method"],): row for row in rows}
+    methods = {}
+    for row in rows:
+        methods.setdefault(level_of(row), []).append(row["method"])
+    found = [
+        known.get(level_of(gain) + (gain["base"],))
+        for gain in gains
+        if gain["base"] != "affine"
+        and gain["method"] == schema.main_method(methods.get(level_of(gain), ()))
+    ]
+    return [{**row, "method": base} for row in found if row]
+
+
+def level_of(row):
+    return row["cell"], row["load"], row["reference"], row["strain"]
 
 
 def levels(rows):

@@ -31,10 +31,16 @@ NUMBERS = {
 }
 
 
+def reference_member(name):
+    """What a reference is called among the cloths of a cell, since a coarse cloth may have its law."""
+    return f"reference {name}"
+
+
 @dataclass
 class DrapedCell:
     """One cell in a scene. `runs` and `references` are objects of drape.json; rows are those of
-    this cell.
+    this cell, those of motion and held with the `member` whose cloth it is: the variant, or
+    reference_member().
     """
 
     name: str
@@ -45,7 +51,7 @@ class DrapedCell:
     motion: list = field(default_factory=list)
     held: list = field(default_factory=list)
     terms: list = field(default_factory=list)
-    # (variant or reference, "coarse" or "fine") -> [(time, path)].
+    # (member, "coarse" or "fine") -> [(time, path)].
     frames: dict = field(default_factory=dict)
     lists: list = field(default_factory=list)  # paths of the .pvd files that exist
 
@@ -204,6 +210,9 @@ def read_drape(run, path_of, faults, missing):
     ):
         if file := path_of(name, f"{drape.scene}: {consequence}"):
             for row in read_csv(file, faults, missing, AGAIN):
+                if "cloth" in row:
+                    is_coarse = row["cloth"] == "coarse"
+                    row["member"] = row["variant"] if is_coarse else reference_member(row["variant"])
                 getattr(cells.setdefault(row["cell"], DrapedCell(row["cell"])), target).append(row)
     drape.cells = list(cells.values())
     for cell in drape.cells:
@@ -217,7 +226,7 @@ def read_frame_lists(run, drape, cell, path_of, faults):
         (one["variant"], one["folder"], kind) for one in cell.runs for kind in ("coarse", "fine")
     ]
     wanted += [
-        (reference["reference"], reference["folder"], "fine") for reference in cell.references
+        (reference_member(one["reference"]), one["folder"], "fine") for one in cell.references
     ]
     for name, folder, kind in wanted:
         what = f"{drape.scene}, {cell.name}: {kind} frames of {name}"

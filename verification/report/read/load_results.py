@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""Reads load.csv and measured.csv of `homespun load`: paths of an infinite cloth under given
-stresses and strains, and curves that somebody measured.
+"""Reads load.csv of `homespun load`: paths of an infinite cloth under given stresses and strains,
+and curves that somebody measured.
 """
 from dataclasses import dataclass, field
 
@@ -31,7 +31,7 @@ class LoadRun:
     name: str
     control: str  # what is prescribed, in words
     paths: list = field(default_factory=list)
-    measured: dict = field(default_factory=dict)  # curve -> rows of measured.csv
+    measured: dict = field(default_factory=dict)  # curve -> rows
 
     def cells(self):
         return list(dict.fromkeys(path.cell for path in self.paths))
@@ -48,12 +48,12 @@ def read_load(run, name, path_of, info, faults, missing):
     found = {}
     if path := path_of("load.csv", f"curves of {name}"):
         for row in read_csv(path, faults, missing, AGAIN):
+            if row["method"] == "measured":
+                result.measured.setdefault(row["cell"], []).append(row)
+                continue
             key = (row["cell"], row["law"], row["method"])
             found.setdefault(key, Path(*key)).rows.append(row)
     for one in found.values():
         one.rows.sort(key=lambda row: row["step"])
     result.paths = list(found.values())
-    if run.holds("measured.csv") and (path := path_of("measured.csv", "measured curves")):
-        for row in read_csv(path, faults, missing, AGAIN):
-            result.measured.setdefault(row["curve"], []).append(row)
     return result

@@ -53,6 +53,7 @@ OF_STRAIN = (
     "the error budget",
     "error against run time of every way",
     "the range of validity",
+    "gains of the coarse cloth and of up-sampling",
     "forces of the loads",
 )
 
@@ -71,6 +72,7 @@ class Results:
     budget: list = field(default_factory=list)
     run_time: list = field(default_factory=list)
     validity: list = field(default_factory=list)
+    gains: list = field(default_factory=list)
     drapes: list = field(default_factory=list)  # Drape, one per scene
     stress: list = field(default_factory=list)  # Stress, one per folder
     convergence: list = field(default_factory=list)  # Convergence, one per folder

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""Reads stability.csv, loss.csv, zone.csv, mode.csv and pattern.csv of `homespun stability`: Bloch margins along
-loads of an infinite cloth, where they are lost, and by which wave.
+"""Reads stability.csv and mode.csv of `homespun stability`: Bloch margins along loads of an infinite
+cloth, where they are lost, and by which wave.
 """
 from dataclasses import dataclass, field
 
@@ -8,23 +8,32 @@ from read.cell_results import read_cell
 from read.stored import read_csv
 
 AGAIN = "Run `homespun stability` again."
+ROWS_OF_KIND = {
+    "level": "levels",
+    "loss": "losses",
+    "wave": "waves",
+    "pattern": "patterns",
+    "mode": "mode",  # of mode.csv
+}
 
 
 @dataclass
 class StabilityPath:
-    """One load of one cell under one law; rows of the tables, pressed and pulled."""
+    """One load of one cell under one law; rows of the tables, pressed and pulled: those of
+    stability.csv by their kind.
+    """
 
     cell: str
     law: str
     load: str
     levels: list = field(default_factory=list)  # ascending strains
     losses: list = field(default_factory=list)
-    zone: list = field(default_factory=list)
+    waves: list = field(default_factory=list)
     mode: list = field(default_factory=list)
     patterns: list = field(default_factory=list)
 
     def of_mesh(self, mesh):
-        return [row for row in self.levels if row["mesh"] == mesh and row["state"] != "not-reached"]
+        return [row for row in self.levels if row["mesh"] == mesh and row["outcome"] != "not-reached"]
 
     def loss(self, way, mesh="given"):
         for row in self.losses:
@@ -58,17 +67,18 @@ def read_stability(run, name, path_of, faults, missing, cell_folders):
     """
     result = StabilityRun(run.folder, name)
     found = {}
-    for file, key, what in (
-        ("stability.csv", "levels", "margins"),
-        ("loss.csv", "losses", "strains of first loss"),
-        ("zone.csv", "zone", "zones"),
-        ("mode.csv", "mode", "modes"),
-        ("pattern.csv", "patterns", "patterns"),
-    ):
+    for file, what in (("stability.csv", "margins"), ("mode.csv", "modes")):
         if path := path_of(file, f"{what} of {name}"):
             for row in read_csv(path, faults, missing, AGAIN):
                 names = (row["cell"], row["law"], row["load"])
-                getattr(found.setdefault(names, StabilityPath(*names)), key).append(row)
+                of_path = found.setdefault(names, StabilityPath(*names))
+                if kept := ROWS_OF_KIND.get(row.get("kind", "mode")):
+                    getattr(of_path, kept).append(row)
+                else:
+                    faults.append(
+                        f"{path}, line {row['line']}: `kind` is `{row['kind']}`, expected"
+                        f" {', '.join(ROWS_OF_KIND)}. {AGAIN}"
+                    )
     for path in found.values():
         path.levels.sort(key=lambda row: row["strain"])
     result.paths = list(found.values())

@@ -101,8 +101,9 @@ def read_csv(path, faults, missing, advice=AGAIN):
     if not lines or lines[0].strip().split(",") != table.names:
         found = (lines or [cut])[0][:80] or "an empty file"
         faults.append(
-            f"{path}, line 1: found `{found}`, expected the header `{','.join(table.names)}`."
-            f" {advice}"
+            f"{path}, line 1: found `{found}`, expected the header `{','.join(table.names)}`: a"
+            " homespun of another version wrote it, whose revision run.json says; read it with that"
+            f" one. {advice}"
         )
         return []
     if cut:

@@ -3,7 +3,7 @@
 KINDS = {
     "program": "The program computes what it says",
     "input": "Cell, mesh and scene are fit for the question",
-    "method": "Up-sampling is good enough for this cell, load and strain",
+    "method": "The method does what it is for, at this cell, load and strain",
 }
 MARKS = {"PASS": "✓", "FAIL": "✗", "INCONCLUSIVE": "?"}
 WORDS = {"PASS": "PASS", "FAIL": "FAIL", "INCONCLUSIVE": "open"}

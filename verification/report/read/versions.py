@@ -11,7 +11,7 @@ import os
 import numpy
 
 TABLES = (
-    "strain", "forces", "uncertainty", "energies", "steps", "budget", "run_time", "validity"
+    "strain", "forces", "uncertainty", "energies", "steps", "budget", "run_time", "validity", "gains"
 )
 
 

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: MIT
+#include "localization/garment/garment_faults.h"
+
+#include "localization/upsampler_faults.h"
+#include "meshes/cloth/cloth_faults.h"
+#include "meshes/cloth/seams.h"
+
+#include <cmath>
+#include <sstream>
+
+namespace homespun::localization
+{
+std::vector<std::string> garment_faults(const meshes::HomogenizedCell &cell,
+                                        const meshes::ClothMesh &coarse,
+                                        const meshes::FineCloth &fine,
+                                        const UpsamplerOptions &options)
+{
+  std::vector<std::string> faults = meshes::cloth_faults(coarse, "coarse cloth");
+  if (!(options.seam_fade >= 0.) || !(options.seam_fade <= meshes::seam_reach))
+  {
+    std::ostringstream text;
+    text << "up-sampling: the fluctuation fades over " << options.seam_fade
+         << " cell sides at seams; expected 0 to " << meshes::seam_reach;
+    faults.push_back(text.str());
+  }
+  if (!options.second_order.empty() || options.fitted != nullptr)
+    faults.push_back("up-sampling: " +
+                     (options.second_order.empty()
+                        ? std::string("fitted modes")
+                        : "quadratic modes of the law " + options.second_order) +
+                     " are asked for; of a garment, whose modes turn with the grain and fade at "
+                     "seams, those of first order are all there is so far: leave second_order "
+                     "and fitted empty");
+  if (options.edges != nullptr)
+    faults.emplace_back("up-sampling: modes of edges are asked for of a garment; its outlines and "
+                        "seams are no lattice lines and have none: leave edges empty");
+  check_lattice(cell, fine.lattice, "fine cloth", faults);
+  const auto n        = static_cast<Eigen::Index>(fine.n_vertices());
+  const bool has_size = fine.panel.size() == n && fine.cell_vertex.size() == n &&
+                        fine.cell_triangle.size() == n && fine.cell_weights.rows() == n &&
+                        fine.coarse_triangle.size() == n && fine.coarse_weights.rows() == n &&
+                        fine.seam_distance.size() == n;
+  if (!has_size || n == 0)
+    faults.push_back("fine cloth: its arrays do not all have one entry for each of its " +
+                     std::to_string(n) + " vertices; make it by meshes::fine_cloth()");
+  if (!faults.empty())
+    return faults;
+
+  for (int v = 0; v < n && faults.size() < 3; ++v)
+  {
+    const int image = fine.cell_vertex(v), inside = fine.cell_triangle(v),
+              triangle = fine.coarse_triangle(v), panel = fine.panel(v);
+    const std::string name = "fine cloth: vertex " + std::to_string(v) + " ";
+    if (image >= cell.mesh.n_vertices() || inside >= cell.mesh.n_triangles() ||
+        (image < 0 && inside < 0))
+      faults.push_back(name + "names vertex " + std::to_string(image) + " and triangle " +
+                       std::to_string(inside) + " of the cell, which has " +
+                       std::to_string(cell.mesh.n_vertices()) + " and " +
+                       std::to_string(cell.mesh.n_triangles()) +
+                       "; expected one of them: it was tiled from another cell");
+    else if (triangle < 0 || triangle >= coarse.n_triangles() || panel < 0 ||
+             panel >= static_cast<int>(fine.grains.size()))
+      faults.push_back(name + "lies in triangle " + std::to_string(triangle) + " of panel " +
+                       std::to_string(panel) + "; expected one of " +
+                       std::to_string(coarse.n_triangles()) +
+                       " triangles: it was made from another coarse cloth");
+    else
+    {
+      Eigen::RowVector2d point = Eigen::RowVector2d::Zero();
+      for (int k = 0; k < 3; ++k)
+        point +=
+          fine.coarse_weights(v, k) * coarse.rest.vertices.row(coarse.rest.triangles(triangle, k));
+      const double distance = (point - fine.rest.vertices.row(v)).norm();
+      if (!(distance <= 1e-6 * std::sqrt(fine.lattice.area()) + 1e-14 * point.norm()))
+      {
+        std::ostringstream text;
+        text << name << "lies " << distance << " m from its place in coarse triangle " << triangle
+             << " at rest; expected none: it was made from another coarse cloth";
+        faults.push_back(text.str());
+      }
+    }
+  }
+  return faults;
+}
+} // namespace homespun::localization

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: MIT
+#include "shell/algebra/plane_matrix.h"
+
+#include "shell/algebra/index.h"
+
+namespace homespun::shell
+{
+namespace
+{
+std::vector<std::array<int, 2>> couplings_of(const PlaneMatrix::Elements &elements)
+{
+  std::vector<std::array<int, 2>> pairs;
+  for (Eigen::Index e = 0; e < elements.rows(); ++e)
+    for (Eigen::Index a = 0; a < elements.cols(); ++a)
+      for (Eigen::Index b = a + 1; b < elements.cols(); ++b)
+        pairs.push_back({elements(e, a), elements(e, b)});
+  return pairs;
+}
+
+Vectors in_space(const PlaneMatrix::Rows &rows)
+{
+  Vectors result       = Vectors::Zero(rows.rows(), 3);
+  result.leftCols<2>() = rows;
+  return result;
+}
+} // namespace
+
+PlaneMatrix::PlaneMatrix(const Elements &elements, const std::vector<bool> &is_held)
+    : n_vertices(static_cast<int>(elements.cols()))
+    , matrix(couplings_of(elements), is_held)
+    , cholesky(matrix)
+{
+  for (Eigen::Index e = 0; e < elements.rows(); ++e)
+    for (int a = 0; a < n_vertices; ++a)
+      for (int b = a; b < n_vertices; ++b)
+        places.push_back(matrix.slot(elements(e, a), elements(e, b)));
+  clear();
+}
+
+void PlaneMatrix::clear()
+{
+  matrix.clear();
+  for (int c = 0; c < matrix.n_free(); ++c)
+    matrix.blocks[index(matrix.first[index(c)])](2, 2) = 1.;
+  shifted = 0.;
+}
+
+bool PlaneMatrix::factorize(const double shift)
+{
+  for (int c = 0; c < matrix.n_free(); ++c)
+    matrix.blocks[index(matrix.first[index(c)])].diagonal().array() += shift - shifted;
+  shifted = shift;
+  return cholesky.factorize(matrix);
+}
+
+PlaneMatrix::Rows PlaneMatrix::solve(const Rows &right_side) const
+{
+  Vectors result;
+  cholesky.solve(in_space(right_side), result);
+  return result.leftCols<2>();
+}
+
+PlaneMatrix::Rows PlaneMatrix::multiply(const Rows &rows) const
+{
+  Vectors result;
+  matrix.multiply(in_space(rows), result);
+  return result.leftCols<2>();
+}
+
+double PlaneMatrix::mean_diagonal() const
+{
+  double sum = 0.;
+  for (int c = 0; c < matrix.n_free(); ++c)
+    sum += matrix.blocks[index(matrix.first[index(c)])].topLeftCorner<2, 2>().trace();
+  return matrix.n_free() > 0 ? sum / (2 * matrix.n_free()) : 0.;
+}
+} // namespace homespun::shell

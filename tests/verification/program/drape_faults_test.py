@@ -1,0 +1,93 @@
+# SPDX-License-Identifier: MIT
+"""Scenes say all that is wrong with them."""
+import unittest
+
+from cli import run
+from scene_case import SCENES, TRIANGLE, SceneCase
+
+
+class BadScenes(SceneCase):
+    def refused(self, path, *says, options=()):
+        output = self.folder / "out"
+        result = run("drape", path, *options, "--no-report", "--output", output)
+        self.assertEqual(result.returncode, 2, result.stdout + result.stderr)
+        for part in says:
+            self.assertIn(part, result.stderr)
+        self.assertFalse(output.exists(), "nothing is written")
+        return result.stderr
+
+    def test_terms(self):
+        self.refused(self.scene({"Terms": "membrane, gravity, pins, damping, magic"}),
+                     "unknown term `magic`", "wind")
+        self.refused(self.scene({"Terms": "gravity, pins, damping"}), "`membrane` is missing")
+        self.refused(self.scene({"Wind velocity": "1 0 0"}),
+                     "`Wind velocity` belongs to the term `wind`")
+        self.refused(self.scene({"Terms": "membrane, friction, gravity, pins, damping"}),
+                     "`friction` without `obstacles`")
+
+    def test_places(self):
+        self.refused(self.scene({"Pins": None}), "key `Pins` is missing")
+        self.refused(self.scene({"Pins": "north"}), "found `north`", "`top left`")
+        self.refused(self.scene({"Pins": "vertices 0 99999"}), "held vertex 99999 does not exist")
+        self.refused(self.scene({"Pins": "waist"}), "found `waist`", "a sheet has no waist")
+        self.refused(self.scene({"Pins": "left; left"}), "the place `left` holds no vertex")
+        # The last one for its error bar.
+        for options, n in ((["--quick"], 4), (["--cells", 4], 4), (["--references", "biot"], 2)):
+            self.refused(self.scene({"Pins": "vertices 0 1"}),
+                         "held vertex 1, at (1, 0) of 20 x 20 cells", f"{n} x {n} cells",
+                         options=options)
+        self.refused(self.scene({"Pins": "vertices 0 99999"}), "held vertex 99999 does not exist",
+                     options=["--quick"])
+        self.refused(self.scene({"Terms": "membrane, handles, damping",
+                                 "Handles": "right: translate 1 during 2", "Pins": None,
+                                 "Gravity": None}), "place: translate dx dy dz during s")
+
+    def test_time(self):
+        for value in ("0", "-0.01", "nan", "soon"):
+            self.refused(self.scene({"Time step": value}), "key `Time step`", f"`{value}`",
+                         "positive")
+        self.refused(self.scene({"Frame interval": "0.015"}), "multiple of the time step")
+        self.refused(self.scene({"Duration": "0.004", "Frame interval": "0.01"}), "`Duration`",
+                     "0.004 s", "0.01 s")
+        self.refused(SCENES / "hang.prm", "--duration", "0.004 s", "0.01 s",
+                     options=["--duration", "0.004"])
+
+    def test_all_faults_at_once(self):
+        text = self.refused(self.scene({"Time step": "0", "Pins": "north",
+                                        "Terms": "membrane, pins, damping, magic"}))
+        self.assertGreaterEqual(text.count("scene.prm"), 3)
+
+    def test_files(self):
+        self.refused(self.folder / "none.prm", "no such file")
+        self.refused(self.scene({"Cells": "gone.prm"}), "gone.prm does not exist")
+        self.refused(self.scene({"Terms": "membrane, gravity, obstacles",
+                                 "Obstacles": "mesh gone.obj 0 0 0", "Pins": None,
+                                 "Damping rate": None}), "gone.obj does not exist")
+        cell = self.cell_with("set Lattice vectors = auto", "set Lattice vectors = 1 0; 0 1.1")
+        self.refused(self.scene({"Cells": cell}), "layered")
+
+    def test_cloths(self):
+        waist = {"Pins": "waist", "Placement": None}
+        shift = "v 0.1 0.1 0\nvt 0.1 0.1\n"
+        for says, text in {
+                "without": "v 0 0 1\nv 0.1 0 0\nv 0 0.1 0\nf 1 2 3\n",
+                "triangle 0": "v 0 0 1\nv 0.1 0 0\nv 0 0.1 0\nvt 0 0\nvt 0.1 0\nvt 0.2 0\n"
+                              "f 1/1 2/2 3/3\n",
+                "belongs to 3 triangles": TRIANGLE + shift + "v 0 0 -1\nvt 0.2 0.1\n"
+                                          "f 2/2 4/4 3/3\nf 2/2 5/5 3/3\n",
+                "inside": TRIANGLE + "v 0.05 0.05 0\nv 0.1 0.1 0\nvt 0.05 0.05\nvt 0.1 0.1\n"
+                          "f 2/2 5/5 4/4\nf 4/4 5/5 3/3\n"}.items():
+            with self.subTest(says):
+                self.assertIn(says, self.refused(self.scene(waist, garment=text), "cloth.obj"))
+
+    def test_references_that_lack_a_term(self):
+        self.refused(SCENES / "flag.prm", "has the term `wind`", "expected the reference `shell`",
+                     options=["--references", "biot"])
+        self.refused(SCENES / "skirt.prm", "is a garment", options=["--references", "green"])
+        self.refused(SCENES / "hang.prm", "found `oracle`", options=["--references", "oracle"])
+        self.refused(SCENES / "hang.prm", "found `knitted`",
+                     options=["--variants", "biot,knitted"])
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,69 @@
+# SPDX-License-Identifier: MIT
+"""What a study says of up-sampling where there is nothing to gain by it, and of levels that it does
+not reach.
+"""
+import json
+import re
+import shutil
+import unittest
+
+from cli import CELLS, InFolder, rows_of, run
+
+SMALL = ["--cells", "4", "--loads", "strip-1", "--no-budget", "--no-runtime"]
+
+
+class Gains(InFolder):
+    def study(self, cell, *options):
+        """(exit status, {claim of kind method, and of levels: its verdict})"""
+        output = self.folder / "run"
+        result = run("strain", cell, *SMALL, *options, "--output", output)
+        verdicts = json.loads((output / "verdicts.json").read_text())["verdicts"]
+        return result.returncode, {
+            verdict["claim"].split(": ", 1)[1]: verdict for verdict in verdicts
+            if verdict["kind"] == "method" or "levels without" in verdict["claim"]}
+
+    def page(self):
+        text = (self.folder / "run" / "report.html").read_text(encoding="utf-8")
+        return re.sub("<[^>]*>", " ", text[text.index("<h1>"):text.index("<nav")])
+
+    def test_of_one_material_nothing_is_claimed_of_up_sampling(self):
+        text = (CELLS / "layered.prm").read_text().replace("hard: 1e7", "hard: 1e6")
+        (self.folder / "one.prm").write_text(text)
+        shutil.copy(CELLS / "layered.msh", self.folder)
+        status, claims = self.study(self.folder / "one.prm", "--references", "biot", "--strains",
+                                    "0.01,0.1")
+        self.assertEqual(status, 4)
+        for strain in ("0.01", "0.1"):
+            for pair in ("full is closer to biot than its base", "localized is closer to biot than "
+                                                                 "affine"):
+                claim = claims[f"{pair} at strain {strain} (ratio of errors)"]
+                self.assertEqual(claim["verdict"], "INCONCLUSIVE", claim)
+                self.assertAlmostEqual(claim["value"], 1., delta=1e-6)
+        for gain in rows_of(self.folder / "run" / "gains.csv"):
+            if gain["method"] == "full":
+                self.assertAlmostEqual(float(gain["gain_of_upsampling"]), 1., delta=1e-6)
+                self.assertGreater(float(gain["gain_of_coarse_cloth"]), 1.5)
+        page = self.page()
+        self.assertIn("Up-sampling makes no difference", page)
+        self.assertNotRegex(page, "[Uu]p-sampling (takes|adds)")
+        self.assertIn("strip-1   ≈ 0", re.sub(" +", lambda gap: " " * min(3, len(gap[0])), page))
+
+    def test_a_run_at_ten_per_cent_alone_has_method_claims(self):
+        _, claims = self.study(CELLS / "layered.prm", "--references", "biot", "--strains", "0.1",
+                               "--no-report")
+        for pair in ("full is closer to biot than its base",
+                     "full is closer to biot than localized",
+                     "localized is closer to biot than affine"):
+            self.assertEqual(claims[f"{pair} at strain 0.1 (ratio of errors)"]["kind"], "method")
+
+    def test_a_run_that_reaches_nothing_says_so(self):
+        status, claims = self.study(CELLS / "layered.prm", "--loads", "shear-frame", "--references",
+                                    "green", "--strains", "60%")
+        self.assertEqual(status, 4)
+        for claim in claims.values():
+            self.assertEqual((claim["verdict"], claim["value"]), ("INCONCLUSIVE", 1.0), claim)
+        self.assertIn("no level was reached", self.page())
+
+
+if __name__ == "__main__":
+    unittest.main()

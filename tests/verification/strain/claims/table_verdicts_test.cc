@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: MIT
+// The claims on tables, on rows by hand: what must hold passes, and each planted fault fails.
+#include "verification/strain/claims/table_verdicts.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <limits>
+
+using namespace homespun::verification;
+
+namespace
+{
+constexpr double none = std::numeric_limits<double>::quiet_NaN();
+
+StrainRow row_of(const double mean, const double rms, const double max)
+{
+  StrainRow row = {"cell", "strip-1", 0.01, "biot", "localized", 20, 800, 288000};
+  row.mean = mean, row.rms = rms, row.max = max;
+  return row;
+}
+
+UncertaintyRow ladder_of(const double p1, const double p2, const double refined)
+{
+  UncertaintyRow row      = {"cell", "strip-1", "linear", 0.01, 4};
+  row.force_p1_to_p2      = std::abs(p1 - p2) / p1;
+  row.force_p1_to_refined = std::abs(p1 - refined) / p1;
+  row.force_p2_to_refined = std::abs(p2 - refined) / p1;
+  return row;
+}
+
+std::vector<ForceRow> forces_of(const double resolved, const double affine)
+{
+  std::vector<ForceRow> rows;
+  for (const auto &[method, force] : {std::pair("resolved", resolved), std::pair("affine", affine)})
+  {
+    rows.push_back({"cell", "strip-1", 0.01, "linear", method});
+    rows.back().per_width = force;
+  }
+  return rows;
+}
+
+/// A folder that goes with the test.
+struct Folder
+{
+  Folder()
+      : path(std::filesystem::temp_directory_path() /
+             ("table-verdicts-" + std::to_string(::getpid())))
+  {
+    std::filesystem::create_directories(path);
+  }
+  ~Folder()
+  {
+    std::filesystem::remove_all(path);
+  }
+  const std::filesystem::path path;
+};
+} // namespace
+
+TEST(bound_table_verdicts, norms_stand_in_their_order)
+{
+  // Distances 1, 2, 3.
+  const StrainRow sound = row_of(2., std::sqrt(14. / 3.), 3.), unreached = row_of(none, none, none);
+  EXPECT_EQ(verdict_of_norms({sound, unreached, row_of(1., 1., 1.)}).outcome, Outcome::pass);
+  // A mean square told as its root, in metres: squares of small numbers are smaller.
+  const Verdict squared = verdict_of_norms({sound, row_of(2e-3, 14e-6 / 3., 3e-3)});
+  EXPECT_EQ(squared.outcome, Outcome::fail);
+  EXPECT_EQ(squared.value, 1.);
+  EXPECT_EQ(verdict_of_norms({row_of(2., 4., 3.)}).outcome, Outcome::fail);
+  EXPECT_EQ(verdict_of_norms({row_of(2., none, 3.)}).outcome, Outcome::fail);
+}
+
+TEST(bound_table_verdicts, forces_of_nested_spaces_fall)
+{
+  const auto verdict = [](const UncertaintyRow &row)
+  {
+    const std::vector<Verdict> all = verdicts_of_nested_forces({row});
+    EXPECT_EQ(all.size(), 1u);
+    return all.at(0);
+  };
+  EXPECT_EQ(verdict(ladder_of(10., 9., 8.9)).outcome, Outcome::pass);
+  EXPECT_NEAR(verdict(ladder_of(10., 9., 8.9)).value, 0.01, 1e-12);
+  EXPECT_EQ(verdict(ladder_of(10., 9., 9.)).outcome, Outcome::fail);  // P2 was not refined
+  EXPECT_EQ(verdict(ladder_of(10., 9., 9.1)).outcome, Outcome::fail); // it rises
+  EXPECT_EQ(verdict(ladder_of(10., 11., 9.)).outcome, Outcome::fail);
+  // Where P1 is exact there is nothing to fall, and a nonlinear law or an infinite cloth has no
+  // such theorem.
+  EXPECT_TRUE(verdicts_of_nested_forces({ladder_of(10., 10., 10.)}).empty());
+  UncertaintyRow other = ladder_of(10., 9., 9.);
+  other.reference      = "biot";
+  EXPECT_TRUE(verdicts_of_nested_forces({other}).empty());
+  other.reference = "linear", other.load = "periodic-11";
+  EXPECT_TRUE(verdicts_of_nested_forces({other}).empty());
+}
+
+TEST(bound_table_verdicts, a_sheet_pulls_back_no_harder_than_the_affine_motion)
+{
+  const auto outcome = [](const double resolved, const double affine)
+  { return verdicts_of_forces(forces_of(resolved, affine)).at(0).outcome; };
+  EXPECT_EQ(outcome(8., 10.), Outcome::pass);
+  EXPECT_EQ(outcome(10., 10.), Outcome::pass);
+  EXPECT_EQ(outcome(-8., 10.), Outcome::fail); // the clamps are exchanged
+  EXPECT_EQ(outcome(10.1, 10.), Outcome::fail);
+  EXPECT_TRUE(verdicts_of_forces(forces_of(8., none)).empty());
+}
+
+TEST(exact_table_verdicts, a_file_gives_back_its_numbers_and_a_changed_digit_is_noticed)
+{
+  const Folder folder;
+  const std::vector<StrainRow> rows = {row_of(1. / 3., 0.4, 0.5), row_of(none, none, none)};
+  {
+    StrainRow second = rows[1];
+    second.method    = "affine";
+    Table<StrainRow> table(folder.path);
+    table.append(rows[0]);
+    table.append(second);
+    EXPECT_EQ(verdict_of_reading(table.rows(), folder.path).outcome, Outcome::pass);
+  }
+  const auto file = folder.path / StrainRow::file;
+  std::ifstream input(file);
+  std::string text((std::istreambuf_iterator<char>(input)), std::istreambuf_iterator<char>());
+  const std::size_t digits = text.find("0.3333333333333333");
+  ASSERT_NE(digits, std::string::npos);
+  std::ofstream(file) << text.replace(digits, 18, "0.333333");
+  const Verdict changed = verdict_of_reading({rows[0]}, folder.path);
+  EXPECT_EQ(changed.outcome, Outcome::fail);
+  EXPECT_EQ(changed.value, 1.);
+  StrainRow lost = rows[0];
+  lost.load      = "strip-2";
+  EXPECT_EQ(verdict_of_reading({lost}, folder.path).outcome, Outcome::fail);
+}

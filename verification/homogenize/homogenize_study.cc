@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: MIT
+#include "verification/homogenize/homogenize_study.h"
+
+#include "homogenization/fem/solution_pieces.h"
+#include "homogenization/lint/cell_reading.h"
+#include "verification/cell/cell_files.h"
+#include "verification/cell/cell_summary.h"
+#include "verification/cell/study_inputs.h"
+#include "verification/record/on_root.h"
+#include "verification/record/peak_memory.h"
+#include "verification/record/progress.h"
+#include "verification/record/run_folder.h"
+
+#include <iostream>
+#include <memory>
+
+namespace homespun::verification
+{
+namespace
+{
+/// DoFs up to which the finer problem of the error bar is solved where there is no bracket.
+constexpr unsigned long largest_error_bar = 4000000;
+
+constexpr const char *name_of_pieces = "characteristic-displacements-refined";
+
+nlohmann::ordered_json inputs_of(const homogenization::UnitCell &cell,
+                                 const CellStudyOptions &options)
+{
+  nlohmann::ordered_json inputs = {{"cell", cell.name},
+                                   {"cell " + cell.name, fingerprint(cell)},
+                                   {"order", options.solve.order},
+                                   {"refine", options.solve.refine},
+                                   {"bars", options.bars},
+                                   {"pieces", options.pieces},
+                                   {"max_dofs", options.bracket.max_dofs},
+                                   {"solver", homogenization::name_of(options.solve.solver)}};
+  for (const UncertainInput &input : options.uncertain)
+    inputs["uncertain " + input.group + "." + homogenization::name_of(input.constant)] =
+      input.range;
+  if (options.bracket.tolerance)
+    inputs["tolerance"] = *options.bracket.tolerance;
+  return inputs;
+}
+} // namespace
+
+AssessedCell run_cell_study(const homogenization::UnitCell &cell, const CellStudyOptions &options,
+                            const MPI_Comm communicator)
+{
+  homogenization::HomogenizationOptions solve = options.solve;
+  if (too_dear_second_order(cell, solve).empty())
+    solve.second_order = meshes::laws_with(&meshes::LawProperties::has_second_order);
+  if (options.pieces)
+    solve.pieces = options.output + "/" + name_of_pieces;
+  std::unique_ptr<RunFolder> folder; // on the first rank
+  on_root(communicator,
+          [&]()
+          {
+            folder = open_run_folder(options.output, {"homogenize", inputs_of(cell, options)},
+                                     options.earlier, options.quiet);
+            homogenization::remove_pieces(options.output + "/" + name_of_pieces);
+          });
+  AssessedCell assessed = [&]()
+  {
+    Progress progress(is_root(communicator) && !options.quiet, options.bars ? 3 : 1);
+    progress.begin(cell.name + ": three cell problems");
+    AssessedCell its = assess(cell, solve, communicator);
+    progress.done();
+    if (!options.bars)
+      return its;
+    progress.begin(cell.name + ": bracket on C^H");
+    BracketOptions bracket = options.bracket;
+    bracket.order          = options.solve.order;
+    bracket.refine         = options.solve.refine;
+    on_root(communicator,
+            [&]()
+            {
+              add_bracket(
+                cell, bracket,
+                [&](const std::string &step)
+                { bracket.tolerance ? progress.note(step) : progress.begin(step); },
+                its);
+            });
+    add_estimate(cell, largest_error_bar, communicator, its);
+    progress.done();
+    progress.begin(cell.name + ": bracket on D^H");
+    on_root(communicator,
+            [&]()
+            {
+              add_bending(
+                cell, bracket,
+                [&](const std::string &step)
+                { bracket.tolerance ? progress.note(step) : progress.begin(step); },
+                its);
+            });
+    return its;
+  }();
+  share_failure(assessed.checks, communicator);
+  assessed.peak_memory_of_rank = peak_memory_of_ranks(communicator);
+  on_root(communicator,
+          [&]()
+          {
+            write_cell_results(cell, assessed, options.uncertain, n_ranks_of(communicator),
+                               options.output);
+            folder->finish();
+          });
+  return assessed;
+}
+
+int homogenize_cell(const HomogenizeOptions &options, const MPI_Comm communicator)
+{
+  const homogenization::UnitCell cell = homogenization::read_unit_cell(
+    options.file, communicator, is_root(communicator) ? &std::cerr : nullptr);
+  CellStudyOptions study = options.study;
+  study.uncertain        = uncertain_inputs(cell, options.uncertain);
+  if (study.output.empty())
+    study.output = default_folder("homogenize", {cell.name});
+  const AssessedCell assessed = run_cell_study(cell, study, communicator);
+  if (is_root(communicator) && !study.quiet)
+    std::cout << summary(cell, assessed, study.uncertain) << "Written to " << study.output
+              << ": homogenize.json, cell.h5, cell.json, characteristic-displacements.vtu"
+              << (assessed.bending && assessed.bending->bracket
+                    ? ", shell-section-abaqus.inp, shell-section-code_aster.comm"
+                    : "")
+              << (study.pieces ? ", characteristic-displacements-refined.pvtu\n" : "\n");
+  return status_of(assessed.checks);
+}
+} // namespace homespun::verification

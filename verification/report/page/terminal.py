@@ -1,0 +1,50 @@
+# SPDX-License-Identifier: MIT
+"""The answer of the page as plain text: what a terminal says at the end of a run."""
+import textwrap
+
+from markupsafe import Markup
+
+COLUMNS = 96
+
+
+def answer_text(contents):
+    """The sentences of the first screen, cell by cell, each subject with its lines below.
+
+    @param contents of page_contents()
+    @return text without a newline at its end; empty where the page has no sentence
+    """
+    blocks = [
+        (
+            f"{cell['name']}, at {cell['strain']} strain",
+            [f"{line['title']} ({line['load']}): {line['sentence']}" for line in cell["lines"]]
+            + ([cell["law"]] if cell.get("law") else []),
+        )
+        for cell in contents["in_short"]
+        if cell["lines"]
+    ]
+    for runs in (contents["drapes"], contents["loads"], contents["stability"]):
+        blocks += [
+            (f"{run['name']}, {cell['name']}" if run["name"] != cell["name"] else cell["name"],
+             cell["sentences"])
+            for run in runs
+            for cell in run["cells"]
+        ]
+    blocks += [
+        (run["name"], [run["sentence"]])
+        for runs in (contents["convergence"], contents["stress"])
+        for run in runs
+        if run.get("sentence")
+    ]
+    lines = []
+    for subject, sentences in blocks:
+        if sentences:
+            lines.append(plain(subject) + ":")
+            for sentence in sentences:
+                lines += textwrap.wrap(plain(sentence), COLUMNS, initial_indent="  ",
+                                       subsequent_indent="    ")
+    return "\n".join(lines)
+
+
+def plain(html):
+    """A sentence without tags and entities."""
+    return Markup(html).striptags()

@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: MIT
+#include "verification/strain/budget/budget_study.h"
+
+#include "homogenization/fem/homogenize.h"
+#include "meshes/plain/errors.h"
+#include "verification/cell/cell_edges.h"
+#include "verification/cell/energy_order.h"
+#include "verification/record/main_reference.h"
+#include "verification/record/number_text.h"
+#include "verification/record/on_root.h"
+#include "verification/strain/budget/second_code.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+namespace homespun::verification
+{
+BudgetStudy::BudgetStudy(const std::vector<std::string> &references,
+                         const std::vector<double> &strains, Table<BudgetRow> *const table,
+                         Table<SecondCodeRow> *const second, const MPI_Comm communicator)
+    : law_of_budget(law_of(main_reference(references)))
+    , table(table)
+    , second(second)
+    , judged(judged_strains(strains))
+    , communicator(communicator)
+{
+}
+
+bool BudgetStudy::row_is_missing(const std::string &cell_name, const std::string &load,
+                                 const Law law, const double strain) const
+{
+  return table != nullptr && law == law_of_budget &&
+         !table->contains({cell_name, load, strain, name_of(law), "total", "all"});
+}
+
+bool BudgetStudy::is_missing(const std::string &cell_name, const std::string &load, const Law law,
+                             const double strain) const
+{
+  int answer = row_is_missing(cell_name, load, law, strain);
+  MPI_Bcast(&answer, 1, MPI_INT, 0, communicator);
+  return answer == 1;
+}
+
+bool BudgetStudy::is_missing(const std::string &cell_name, const std::string &load,
+                             const std::vector<double> &strains) const
+{
+  int answer = std::any_of(strains.begin(), strains.end(),
+                           [&](const double strain)
+                           { return row_is_missing(cell_name, load, law_of_budget, strain); });
+  MPI_Bcast(&answer, 1, MPI_INT, 0, communicator);
+  return answer == 1;
+}
+
+void BudgetStudy::begin_cell(const homogenization::UnitCell &new_cell,
+                             const meshes::HomogenizedCell &given)
+{
+  cells.given              = given;
+  cells.stiffness_of_phase = new_cell.stiffness_of_phase();
+  const auto homogenized   = [&](const unsigned int order, const double tolerance)
+  {
+    homogenization::HomogenizationOptions options;
+    options.order     = order;
+    options.tolerance = tolerance;
+    return homogenization::homogenized_cell(
+      new_cell, homogenization::homogenize(new_cell, options, communicator), given.provenance);
+  };
+  cells.best  = homogenized(2, homogenization::HomogenizationOptions().tolerance);
+  cells.tight = homogenized(1, 1e-13);
+  of_load.reset();
+  load_name.clear();
+  cell = &new_cell;
+  on_root(communicator,
+          [&]()
+          {
+            const KnownEdges known = known_edges(*cell, 1); // P1, as the method has it
+            cells.edges            = known.edges;
+            why_no_edges           = known.why_not;
+            SecondCodeRow row      = {cell->name, "-", 1., "linear", "p2-cell"};
+            const Eigen::Matrix3d other =
+              second_p2_stiffness(cells.given, cells.stiffness_of_phase);
+            row.distance = energy_difference(cells.best.stiffness, other);
+            second->append_if_missing(row);
+          });
+}
+
+void BudgetStudy::begin_load(const homogenization::UnitCell &new_cell,
+                             const meshes::HomogenizedCell &given, const meshes::Sheet &new_sheet,
+                             const Load &load)
+{
+  if (cell != &new_cell)
+    begin_cell(new_cell, given);
+  sheet = &new_sheet;
+  ReferenceOptions with_p2;
+  with_p2.order = 2;
+  p2 = std::make_unique<FineReference>(*sheet, cells.stiffness_of_phase, with_p2, communicator);
+  p2->start(load, law_of_budget);
+  constexpr double strain = 0.01; // any: the law is linear
+  on_root(communicator,
+          [&]()
+          {
+            regions = regions_of(*sheet, load.is_periodic());
+            of_load = std::make_unique<LoadBudget>(
+              cells, *sheet, load,
+              second_linear_sheet(cells.given, cells.stiffness_of_phase, *sheet, load, strain),
+              strain, budget_refinement(*sheet));
+          });
+  load_name   = load.name;
+  is_periodic = load.is_periodic();
+}
+
+std::string BudgetStudy::measure(const Law law, const double strain,
+                                 const meshes::Points &positions, FineReference &reference,
+                                 const UpsampledLevel &solved)
+{
+  const ReferenceStep tight = reference.tighten(1e-11);
+  const bool is_judged      = std::find(judged.begin(), judged.end(), strain) != judged.end();
+  const ReferenceStep of_p2 = is_judged ? p2->advance(strain) : ReferenceStep();
+  std::string fault;
+  on_root(communicator,
+          [&]()
+          {
+            // A solver that gets no further leaves the part of its tolerance without an answer.
+            if (!tight.reached)
+              fault = "the reference does not converge to 1e-11; " + tight.why;
+            else
+            {
+              std::optional<meshes::Points> second_sheet;
+              if (is_judged)
+                second_sheet = solve_by_second_code(law, strain, tight.positions, fault);
+              const std::string of_parts =
+                measure_on_root(law, {strain, solved.coarse, solved.upsampled, positions,
+                                      tight.positions, of_p2.reached ? &of_p2.positions : nullptr,
+                                      second_sheet ? &*second_sheet : nullptr});
+              fault += (fault.empty() || of_parts.empty() ? "" : "; ") + of_parts;
+            }
+            if (fault.empty() && !why_no_edges.empty() && !is_periodic)
+            {
+              fault =
+                "the terms of edges are not known, and stand in the part `rest`; " + why_no_edges;
+              why_no_edges.clear(); // once per cell
+            }
+            if (fault.empty() && is_judged && !of_p2.reached)
+              fault = "the part `reference` is not known: P2 is not reached; " + of_p2.why;
+            if (fault.empty() && !note_of_round_off(tight).empty())
+              fault =
+                "the part `solver` lacks what the reference's solver leaves, which is at round-off";
+          });
+  return fault;
+}
+
+/// The sheet by the second code, and its distance from the reference into the table; nothing where
+/// it has not that law, or does not converge.
+std::optional<meshes::Points> BudgetStudy::solve_by_second_code(const Law law, const double strain,
+                                                                const meshes::Points &tight,
+                                                                std::string &fault)
+{
+  if (!second_code_has(law))
+    return std::nullopt;
+  SecondCodeRow row = {cell->name, load_name, strain, name_of(law), "sheet"};
+  std::optional<meshes::Points> positions;
+  try
+  {
+    const Load load(load_name);
+    if (law == Law::linear)
+      positions = second_linear_sheet(cells.given, cells.stiffness_of_phase, *sheet, load, strain);
+    else
+      positions =
+        second_nonlinear_sheet(law, cells.given, cells.stiffness_of_phase, *sheet, load, strain);
+    row.distance =
+      (tight - *positions).rowwise().norm().mean() / (strain * std::sqrt(cell->lattice.area()));
+  }
+  catch (const meshes::NotConverged &failure)
+  {
+    row.fault = failure.what();
+    fault     = std::string("the second code: ") + failure.what();
+  }
+  second->append_if_missing(row);
+  return positions;
+}
+
+std::string BudgetStudy::measure_on_root(const Law law, const SolvedLevel &level)
+{
+  try
+  {
+    const ErrorBudget budget = of_load->measure(law, level);
+    for (const BudgetRow &row : budget_rows({cell->name, load_name, level.strain, name_of(law)},
+                                            budget, regions, std::sqrt(cell->lattice.area())))
+      table->append_if_missing(row);
+    return budget.misfit_of_localization <= 0.02
+             ? std::string()
+             : "the table of cell problems at finite strain misses checked ones by " +
+                 short_text(100. * budget.misfit_of_localization) + " % of what it adds";
+  }
+  catch (const meshes::NotConverged &failure)
+  {
+    return failure.what();
+  }
+}
+} // namespace homespun::verification

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: MIT
+// The error budget of a strain study: what it solves beside the study, and its table.
+#pragma once
+
+#include "homogenization/cell/unit_cell.h"
+#include "verification/reference/fine_reference.h"
+#include "verification/strain/budget/budget_rows.h"
+#include "verification/strain/budget/error_budget.h"
+
+#include <mpi.h>
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace homespun::verification
+{
+/// The method at one strain.
+struct UpsampledLevel
+{
+  shell::Positions<2> coarse; ///< (n_coarse,2) [m]
+  meshes::Points upsampled;   ///< by `localized`, (n_fine,2), double precision [m]
+};
+
+/// Goes along with a strain study: begin_load(), then measure() at each strain of one law, `biot`
+/// or the study's first. Solves with deal.II on all ranks, measures on the first.
+class BudgetStudy
+{
+public:
+  /// @param references, strains of the study
+  /// @param table, second budget.csv and second-code.csv on the first rank, elsewhere null
+  BudgetStudy(const std::vector<std::string> &references, const std::vector<double> &strains,
+              Table<BudgetRow> *table, Table<SecondCodeRow> *second, MPI_Comm communicator);
+
+  /// Whether the budget of a level is asked for and not yet in the table, as the first rank sees
+  /// it.
+  bool row_is_missing(const std::string &cell, const std::string &load, Law law,
+                      double strain) const;
+
+  /// The same, told to every rank.
+  bool is_missing(const std::string &cell, const std::string &load, Law law, double strain) const;
+
+  /// Whether the budget of any level of a load is asked for and not yet in the table, told to every
+  /// rank.
+  bool is_missing(const std::string &cell, const std::string &load,
+                  const std::vector<double> &strains) const;
+
+  /// Solves the sheet in linear theory by the second code, lays out the P2 reference, and at the
+  /// first load of a cell homogenizes it in the further ways that the budget compares.
+  /// @param cell, sheet to be kept by the caller while its loads last
+  /// @throws NotConverged on every rank
+  void begin_load(const homogenization::UnitCell &cell, const meshes::HomogenizedCell &given,
+                  const meshes::Sheet &sheet, const Load &load);
+
+  /// Measures the parts at a level that `reference` has just reached, and writes their rows.
+  /// @param positions of that level
+  /// @param solved what the method made of it, on the first rank
+  /// @return what was not found, empty where all was; the first rank alone knows
+  std::string measure(Law law, double strain, const meshes::Points &positions,
+                      FineReference &reference, const UpsampledLevel &solved);
+
+  const Law law_of_budget;
+
+private:
+  void begin_cell(const homogenization::UnitCell &cell, const meshes::HomogenizedCell &given);
+  std::string measure_on_root(Law law, const SolvedLevel &level);
+  std::optional<meshes::Points>
+  solve_by_second_code(Law law, double strain, const meshes::Points &tight, std::string &fault);
+
+  Table<BudgetRow> *const table;
+  Table<SecondCodeRow> *const second;
+  const std::vector<double> judged; ///< strains
+  const MPI_Comm communicator;
+  const homogenization::UnitCell *cell = nullptr;
+  BudgetCells cells;
+  std::unique_ptr<LoadBudget> of_load; ///< first rank
+  std::unique_ptr<FineReference> p2;   ///< every rank
+  const meshes::Sheet *sheet = nullptr;
+  std::vector<int> regions;
+  std::string load_name;
+  bool is_periodic = false;
+  std::string why_no_edges; ///< told once per cell; first rank
+};
+} // namespace homespun::verification

@@ -1,0 +1,361 @@
+// SPDX-License-Identifier: MIT
+#include "verification/strain/claims/budget_verdicts.h"
+
+#include "verification/law/laws.h"
+#include "verification/record/main_reference.h"
+#include "verification/record/number_text.h"
+#include "verification/reference/loads.h"
+#include "verification/strain/budget/second_code.h"
+#include "verification/strain/claims/strain_verdicts.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+#include <map>
+
+namespace homespun::verification
+{
+namespace
+{
+/// A level of a budget, without a part.
+BudgetRow level_of(const StrainRow &row)
+{
+  return {row.cell, row.load, row.strain, row.reference};
+}
+
+/// Mean of a part over the whole sheet, per cell side; NaN where the row is not there.
+double mean_of(const std::vector<BudgetRow> &rows, const BudgetRow &level, const std::string &part)
+{
+  for (const BudgetRow &row : rows)
+    if (row.cell == level.cell && row.load == level.load && row.strain == level.strain &&
+        row.reference == level.reference && row.part == part && row.region == "all")
+      return row.per_cell;
+  return std::numeric_limits<double>::quiet_NaN();
+}
+
+/// The error bar of the reference at a level, per cell side; NaN where there is none.
+double bar_of(const std::vector<StrainRow> &rows, const BudgetRow &level)
+{
+  for (const StrainRow &row : rows)
+    if (row.cell == level.cell && row.load == level.load && row.strain == level.strain &&
+        row.reference == level.reference && row.mean > 0.)
+      return row.uncertainty / row.mean * row.per_cell;
+  return std::numeric_limits<double>::quiet_NaN();
+}
+
+std::string title_of(const BudgetRow &level)
+{
+  return level.cell + ", " + level.load + " at " + short_text(100. * level.strain) + " %: ";
+}
+
+bool is_zero(const double error, const double strain)
+{
+  return error < solved_to * strain;
+}
+
+/// Above it the bar of a sum says too little of the error to decide on it.
+constexpr double widest_bar = 0.2;
+
+/// Whether a sheet of yarns is so far from linear theory, which the part `rest` is of, that the sum
+/// of its parts decides nothing: yarns turn against each other where they are pulled by as much as
+/// the cloth resists that. More left than the bar is a fault under any law.
+bool has_left_linear_theory(const std::vector<BudgetRow> &rows, const BudgetRow &level)
+{
+  if (!is_of_yarns(law_of(level.reference)) || Load(level.load).is_periodic() ||
+      is_zero(mean_of(rows, level, "total"), level.strain))
+    return false;
+  const double bar = mean_of(rows, level, "unexplained-bar");
+  return std::isfinite(bar) && bar > widest_bar * mean_of(rows, level, "total") &&
+         mean_of(rows, level, "unexplained") <= bar;
+}
+
+/// What a reader is told in the place of a claim on the sum.
+std::string note_of_sum(const std::vector<BudgetRow> &rows, const BudgetRow &level)
+{
+  const double total = mean_of(rows, level, "total");
+  const auto percent = [&](const std::string &part)
+  { return short_text(std::round(100. * mean_of(rows, level, part) / total)) + " %"; };
+  return "what the parts leave, " + percent("unexplained") +
+         " of the error, is not judged: under " + level.reference +
+         " the sheet, its cell and the terms of edges have left linear theory, which the "
+         "part `rest` is of, by up to " +
+         percent("unexplained-bar") + " of the error";
+}
+
+/// @param bar_of_reference per cell side; not a number where there is none
+void judge_level(const std::vector<BudgetRow> &rows, const BudgetRow &level,
+                 const double bar_of_reference, std::vector<Verdict> &verdicts)
+{
+  const std::string what = title_of(level);
+  const double total = mean_of(rows, level, "total"), sum = mean_of(rows, level, "sum");
+  if (is_zero(total, level.strain))
+  {
+    verdicts.push_back({what + "the error is zero to what the solvers leave, and so is the sum of "
+                               "its parts (per strain and cell side)",
+                        is_zero(sum, level.strain) ? Outcome::pass : Outcome::fail,
+                        sum / level.strain, "< " + short_text(solved_to), derivation_of_solved_to,
+                        Kind::program});
+    return;
+  }
+  const auto outcome_of = [](const double value, const bool holds) {
+    return !std::isfinite(value) ? Outcome::inconclusive : holds ? Outcome::pass : Outcome::fail;
+  };
+  const double unexplained = mean_of(rows, level, "unexplained") / total,
+               bar         = mean_of(rows, level, "unexplained-bar") / total;
+  const bool is_known      = std::isfinite(unexplained) && std::isfinite(bar);
+  if (!has_left_linear_theory(rows, level))
+    verdicts.push_back(
+      {what + "what the parts leave of the error is within the bar of their sum "
+              "(mean distance over mean error)",
+       !is_known           ? Outcome::inconclusive
+       : unexplained > bar ? Outcome::fail
+       : bar > widest_bar  ? Outcome::inconclusive
+                           : Outcome::pass,
+       unexplained,
+       !is_known ? "no second code was solved at that strain and law"
+                 : "<= " + short_text(bar) +
+                     (bar > widest_bar ? "; a bar above a fifth of the error "
+                                         "decides nothing"
+                                       : ""),
+       "triangle inequality: the part `rest` is of linear theory, which the sheet of the second "
+       "code, the cell and the terms of edges leave by what was measured at that level; part 2 is "
+       "known to the misfit of its table; and what the solvers leave",
+       Kind::program});
+  const double beyond_solvers = mean_of(rows, level, "reference") - solved_to * level.strain,
+               covered        = beyond_solvers / bar_of_reference;
+  if (std::isfinite(bar_of_reference))
+    verdicts.push_back({what + "the error bar of the reference covers its distance from P2 on the "
+                               "same mesh (distance over bar)",
+                        outcome_of(covered, covered <= 1.), covered, "<= 1",
+                        "what an error bar promises; this one is measured on a small sheet and at "
+                        "other strains, and carried to this one",
+                        Kind::program});
+  const double solver = mean_of(rows, level, "solver") / total;
+  verdicts.push_back({what + "what the solvers leave undone, over the measured error",
+                      outcome_of(solver, solver <= 0.01), solver, "<= 0.01",
+                      "requirement: what solvers leave is a hundred times smaller than what is "
+                      "measured with them, so that no part of the error is theirs",
+                      Kind::program});
+}
+
+/// Levels up to 2 %: beyond, the third order shows.
+bool is_small(const double strain)
+{
+  return strain <= 0.0201;
+}
+
+/// A part of second order in strain, and what it is called in a claim.
+struct SecondOrderPart
+{
+  const char *part, *words;
+};
+
+void judge_slope(const SecondOrderPart &of, const std::vector<BudgetRow> &rows,
+                 const BudgetRow &of_case, const std::vector<double> &asked,
+                 std::vector<Verdict> &verdicts)
+{
+  const auto in_window = [](const double strain) { return strain >= 0.99e-4 && is_small(strain); };
+  std::vector<double> strains = asked, x, y, small_x, small_y;
+  std::sort(strains.begin(), strains.end());
+  if (std::count_if(strains.begin(), strains.end(), in_window) < 3)
+    return; // the study was not asked for what would decide it
+  std::size_t n_round_off = 0;
+  for (const double strain : strains)
+  {
+    BudgetRow level   = of_case;
+    level.strain      = strain;
+    const double mean = mean_of(rows, level, of.part);
+    if (!is_small(strain) || !std::isfinite(mean))
+      continue;
+    if (mean > 10. * solved_to * strain)
+    {
+      small_x.push_back(strain);
+      small_y.push_back(mean);
+    }
+    if (!in_window(strain))
+      continue;
+    n_round_off += is_zero(mean, strain);
+    x.push_back(strain);
+    y.push_back(mean);
+  }
+  const bool is_all_zero = !x.empty() && n_round_off == x.size();
+  const bool is_decided  = is_all_zero || (x.size() >= 3 && n_round_off == 0);
+  const double slope =
+    is_decided && !is_all_zero ? log_slope(x, y) : std::numeric_limits<double>::quiet_NaN();
+  const std::string what = of_case.cell + ", " + of_case.load + ": " + of.words +
+                           ", measured apart, grows as strain squared";
+  // 2 % is not small for a weave, and symmetry may leave no quadratic term.
+  if (std::abs(slope - 2.) > 0.1 && small_x.size() >= 3)
+  {
+    verdicts.push_back(verdict_of_smallest(what + " or faster (slope at the three smallest levels)",
+                                           small_x, small_y));
+    return;
+  }
+  verdicts.push_back({what + " up to 2 % (slope" +
+                        (is_all_zero ? "; zero to what the solvers leave at every level)" : ")"),
+                      !is_decided                                  ? Outcome::inconclusive
+                      : is_all_zero || std::abs(slope - 2.) <= 0.1 ? Outcome::pass
+                                                                   : Outcome::fail,
+                      is_all_zero ? 0. : slope, "2 +- 0.1 over at least three levels, or zero",
+                      derivation_of_slope_two, Kind::program});
+}
+
+/// The case of each cell and load, against the main reference of the cell; its strains, ascending.
+std::vector<std::pair<BudgetRow, std::vector<double>>>
+budgeted_cases(const std::vector<StrainRow> &strain_rows)
+{
+  std::map<std::string, std::string> reference_of; // of each cell
+  for (const StrainRow &row : strain_rows)
+    if (reference_of.count(row.cell) == 0)
+      reference_of[row.cell] = main_reference(strain_rows, row.cell);
+  std::vector<std::pair<BudgetRow, std::vector<double>>> cases;
+  for (const StrainRow &row : strain_rows)
+    if (row.reference == reference_of[row.cell])
+    {
+      auto known = std::find_if(
+        cases.begin(), cases.end(),
+        [&](const auto &one) { return one.first.cell == row.cell && one.first.load == row.load; });
+      if (known == cases.end())
+        known = cases.insert(cases.end(), {level_of(row), {}});
+      known->second.push_back(row.strain);
+    }
+  for (auto &[level, strains] : cases)
+  {
+    std::sort(strains.begin(), strains.end());
+    strains.erase(std::unique(strains.begin(), strains.end()), strains.end());
+  }
+  return cases;
+}
+
+/// Calls `judge` with the judged levels of every case.
+template <typename Judge>
+void at_judged_levels(const std::vector<StrainRow> &strain_rows, const Judge &judge)
+{
+  for (const auto &[of_case, strains] : budgeted_cases(strain_rows))
+    for (const double strain : Load(of_case.load).has_free_sides() // no budget speaks of those
+                                 ? std::vector<double>()
+                                 : judged_strains(strains))
+    {
+      BudgetRow level = of_case;
+      level.strain    = strain;
+      judge(level);
+    }
+}
+} // namespace
+
+std::vector<Verdict> budget_verdicts(const std::vector<StrainRow> &strain_rows,
+                                     const std::vector<BudgetRow> &budget_rows,
+                                     const std::vector<double> &strains)
+{
+  std::vector<Verdict> verdicts;
+  at_judged_levels(strain_rows, [&](const BudgetRow &level)
+                   { judge_level(budget_rows, level, bar_of(strain_rows, level), verdicts); });
+  for (const auto &[of_case, its_strains] : budgeted_cases(strain_rows))
+  {
+    if (!Load(of_case.load).is_periodic()) // whose motion no law decides
+      judge_slope({"macro-law", "geometric nonlinearity of the macro law"}, budget_rows, of_case,
+                  strains, verdicts);
+    judge_slope({"modes", "geometric nonlinearity of the modes"}, budget_rows, of_case, strains,
+                verdicts);
+  }
+  return verdicts;
+}
+
+std::vector<Verdict> error_agreement_verdicts(const std::vector<StrainRow> &strain_rows,
+                                              const std::vector<BudgetRow> &budget_rows)
+{
+  std::vector<Verdict> verdicts;
+  at_judged_levels(
+    strain_rows,
+    [&](const BudgetRow &level)
+    {
+      for (const StrainRow &row : strain_rows)
+        for (const BudgetRow &budget : budget_rows)
+          if (row.cell == level.cell && row.load == level.load && row.strain == level.strain &&
+              row.reference == level.reference && row.method == "localized" &&
+              budget.cell == level.cell && budget.load == level.load &&
+              budget.strain == level.strain && budget.reference == level.reference &&
+              budget.part == "total" && budget.region == "all")
+          {
+            const double difference = std::abs(row.per_cell - budget.per_cell) / level.strain;
+            verdicts.push_back(
+              {title_of(level) + "strain.csv has the error that the budget splits (difference per "
+                                 "strain and cell side)",
+               difference <= solved_to ? Outcome::pass : Outcome::fail, difference,
+               "<= " + short_text(solved_to), "the same positions, summed twice", Kind::program});
+          }
+    });
+  return verdicts;
+}
+
+std::vector<Verdict> second_code_verdicts(const std::vector<SecondCodeRow> &rows)
+{
+  std::vector<Verdict> verdicts;
+  for (const SecondCodeRow &row : rows)
+  {
+    const bool is_sheet   = row.what == "sheet";
+    const Outcome answer  = !std::isfinite(row.distance) ? Outcome::inconclusive
+                            : row.distance <= agreement  ? Outcome::pass
+                                                         : Outcome::fail;
+    const std::string why = row.fault.empty() ? "" : "; " + row.fault;
+    if (is_sheet)
+      verdicts.push_back(
+        {row.cell + ", " + row.load + " at " + short_text(100. * row.strain) +
+           " %: a second code finds the positions of the reference (mean distance per strain and "
+           "cell side)",
+         answer, row.distance, "<= 1e-06" + why,
+         "theory 0, one discrete problem; both codes leave 1e-11 of the forces, times 1e5 for the "
+         "condition of a sheet",
+         Kind::program});
+    else
+      verdicts.push_back({row.cell +
+                            ": a second solver finds C^H of P2, which part 4 is measured with "
+                            "(largest relative difference of an energy)",
+                          answer, row.distance, "<= 1e-06" + why,
+                          "theory 0, one discrete problem; images that lie 1e-7 of the cell apart "
+                          "are taken, and on four sides move its area by 4e-7, the energies by up "
+                          "to twice that",
+                          Kind::program});
+  }
+  return verdicts;
+}
+
+std::vector<std::string> budget_notes(const std::vector<StrainRow> &strain_rows,
+                                      const std::vector<BudgetRow> &budget_rows)
+{
+  std::vector<std::string> notes;
+  at_judged_levels(strain_rows,
+                   [&](const BudgetRow &level)
+                   {
+                     if (has_left_linear_theory(budget_rows, level))
+                       notes.push_back(title_of(level) + note_of_sum(budget_rows, level));
+                   });
+  at_judged_levels(
+    strain_rows,
+    [&](const BudgetRow &level)
+    {
+      const double total = mean_of(budget_rows, level, "total");
+      if (is_zero(total, level.strain) || !std::isfinite(total))
+        return;
+      std::string larger_parts;
+      for (const std::string &part : budget_parts())
+        if (const double mean = mean_of(budget_rows, level, part); is_in_sum(part) && mean > total)
+          larger_parts += (larger_parts.empty() ? "" : ", ") + part + " (" +
+                          short_text(std::round(100. * mean / total)) + " %)";
+      if (!larger_parts.empty())
+        notes.push_back(title_of(level) +
+                        "parts larger than the error, which cancel in part: " + larger_parts);
+      const double change = mean_of(budget_rows, level, "resolution") / total;
+      if (Load(level.load).is_periodic()) // whose affine motion is exact on any mesh
+        return;
+      char text[160];
+      std::snprintf(text, sizeof(text),
+                    "the homogenized sheet that counts as resolved changes by %.2g %% of the error "
+                    "from a mesh half as fine",
+                    100. * change);
+      notes.push_back(title_of(level) + text);
+    });
+  return notes;
+}
+} // namespace homespun::verification
