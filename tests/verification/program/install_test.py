@@ -29,7 +29,8 @@ class Install(InFolder):
                      "bash-completion/completions/homespun", "homespun/cells/layered.geo",
                      "homespun/scenes/skirt.obj", "homespun/report/report.py",
                      "homespun/report/read/runs.py",
-                     "homespun/report/figures/style.py", "homespun/report/page/report.html.j2"):
+                     "homespun/report/figures/style.py",
+                     "homespun/report/page/templates/report.html.j2"):
             self.assertTrue((share / name).is_file(), name)
         for folder in ("meshes", "shell", "localization", "homogenization"):
             self.assertTrue(list((self.prefix / "include" / "homespun" / folder).rglob("*.h")),

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """Tests of the comparison of several cells and of several versions of one."""
+import json
 import os
 import unittest
 from types import SimpleNamespace
@@ -10,6 +11,7 @@ from figures.comparison import comparison_figure, drawn
 from made_up_run import verdict, write_run, write_verdicts
 from made_up_study import write_results
 from page.comparison import claims_side_by_side, key_of, time_rows, validity_rows
+from page.entries import entry_texts
 from page_case import PageTest, draw_alone
 from read import results, runs, versions
 from read.results import read_results
@@ -231,7 +233,38 @@ class ComparisonTest(PageTest):
 
         self.assertEqual(lost(top), [])
         self.assertEqual(lost(cell, top), [])
-        self.assertEqual(lost(cell), [f"{os.path.join(cell, 'verdicts.json')} does not exist"])
+        self.assertEqual(lost(cell), [])  # its checks are its claims
+        checks = [v["claim"] for _, v in read_results([cell]).claims()]
+        self.assertTrue(checks and all(claim.startswith("stripes: ") for claim in checks), checks)
+
+    def test_a_homogenized_cell_stands_on_the_page_of_its_study_where_both_are_of_one_cell(self):
+        strained = self.write("stripes", "strain")
+        made = self.write("made", "stripes")
+        beside = os.path.join(self.place, "stripes", "homogenize")
+        os.rename(os.path.join(made, "stripes"), beside)
+        path = os.path.join(beside, "homogenize.json")
+        with open(path, encoding="utf-8") as file:
+            value = json.load(file)
+        value["D"] = [[5e-5, 0.0, 0.0], [0.0, 3e-5, 0.0], [0.0, 0.0, 1e-5]]
+        with open(path, "w", encoding="utf-8") as file:
+            json.dump(value, file)
+        for key, revision, is_joined in (("12ab", "abc1234", True), ("77", "abc1234", False),
+                                         ("12ab", "def5678", False)):
+            write_run(strained, inputs={"cell stripes": "12ab"})
+            write_run(beside, "homogenize", revision, inputs={"cell stripes": key})
+            found = read_results([strained])
+            self.assertEqual(list(found.cells), ["stripes"])
+            D = entry_texts(found.cells["stripes"], "D")["11"][0]
+            self.assertEqual(D, "5.00 × 10⁻⁵" if is_joined else "–", (key, revision))
+            claims = [v["claim"] for s, v in found.claims() if s.run.command == "homogenize"]
+            self.assertEqual(bool(claims), is_joined)
+            # Given by name nothing is lost, in either order, nor compared with itself.
+            for folders in ([strained, beside], [beside, strained]):
+                both = read_results(folders)
+                self.assertEqual(len(both.cells), 1 if is_joined else 2)
+                self.assertEqual(len(both.strain), len(found.strain))
+                if is_joined:
+                    self.assertEqual(entry_texts(both.cells["stripes"], "D")["11"][0], D)
 
     def test_a_part_of_another_revision_is_no_part(self):
         self.write("verify", "strain", revision="def5678")

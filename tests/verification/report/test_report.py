@@ -149,7 +149,7 @@ class ReportTest(PageTest):
             ),
             page,
         )
-        self.assertIn("? open</span>", page)
+        self.assertIn("○ open</span>", page)
         self.assertNotIn("? INCONCLUSIVE", page)
 
     def test_claims_of_another_version_are_refused(self):

@@ -15,9 +15,12 @@ class Terminal(unittest.TestCase):
         self.assertEqual(answer_text({**NOTHING, "in_short": [{"name": "a", "lines": []}]}), "")
 
     def test_each_load_of_each_cell_has_its_sentence(self):
-        line = {"title": "Strip along 1", "load": "strip-1", "sentence": "Half of it is left."}
+        line = {"title": "Strip along 1", "load": "strip-1", "sentence": "Half of it is left.",
+                "beside": ""}
         text = answer_text({**NOTHING, "in_short": [
-            {"name": name, "strain": "1 %", "lines": [line]} for name in ("one", "two")]})
+            {"name": name, "strain": "1 %", "lines": [line], "shown": [line], "infinite": None,
+             "headline": "It pays.", "no_cause": "", "law": ""} for name in ("one", "two")]})
+        self.assertEqual(text.count("  It pays.\n"), 2)
         self.assertEqual(text.count("Strip along 1 (strip-1): Half of it is left."), 2)
         self.assertEqual([t for t in text.split("\n") if t.endswith("strain:")],
                          ["one, at 1 % strain:", "two, at 1 % strain:"])

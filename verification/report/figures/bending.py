@@ -12,7 +12,7 @@ from figures.stiffness import directional_modulus
 MICRO = 1e6  # bending stiffness is drawn in 1e-6 N m
 
 
-def bending_polar_figure(cell):
+def bending_polar_figure(homogenize):
     """Stiffness of narrow strips cut along each direction, 1/(m:S:m) with S = D^-1, between the
     sides of its bracket, and the measured fabrics as a band.
     """
@@ -35,8 +35,10 @@ def bending_polar_figure(cell):
         ("D", "$D^H$", style.BLUE, "-", 2.2),
         ("D_lower", "lower side", style.GREEN, "-.", 1.3),
     ):
-        matrix = cell.stiffness(key)
-        if matrix is None or numpy.linalg.eigvalsh((matrix + matrix.T) / 2).min() <= 0:
+        if homogenize.get(key) is None:
+            continue
+        matrix = numpy.array(homogenize[key], dtype=float)
+        if numpy.linalg.eigvalsh((matrix + matrix.T) / 2).min() <= 0:
             continue
         axes.plot(
             angles,
@@ -47,7 +49,7 @@ def bending_polar_figure(cell):
             label=label,
         )
     # Cells may be softer and stiffer than all fabrics by orders of magnitude.
-    largest = MICRO * float(directional_modulus(cell.stiffness("D"), angles).max())
+    largest = MICRO * float(directional_modulus(numpy.array(homogenize["D"], dtype=float), angles).max())
     axes.set_rlim(0.0, 1.05 * max(largest, MICRO * softest))
     axes.set_rlabel_position(67.5)
     axes.yaxis.set_major_locator(pyplot.MaxNLocator(4, prune="lower"))

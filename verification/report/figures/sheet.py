@@ -107,6 +107,72 @@ def bar(figure, axes, largest, factor, unit, cmap, label):
     )
 
 
+class WholeSheet:
+    """What is drawn of a stored sheet: distances at its vertices [m], and the frame around it."""
+
+    def __init__(self, sheet):
+        self.sheet = sheet
+        coarse = coarse_positions(sheet)
+        self.beyond = {
+            key: numpy.linalg.norm(sheet[key] - coarse, axis=1)
+            for key in ("reference", "upsampled")
+        }
+        self.error = numpy.linalg.norm(sheet["upsampled"] - sheet["reference"], axis=1)
+        everything = numpy.vstack([sheet["reference"], sheet["upsampled"]])
+        low, high = everything.min(axis=0), everything.max(axis=0)
+        pad = 0.02 * (high - low).max()
+        self.extent = (low[0] - pad, high[0] + pad, low[1] - pad, high[1] + pad)
+
+    @property
+    def ratio(self):
+        """Height over width."""
+        left, right, bottom, top = self.extent
+        return (top - bottom) / (right - left)
+
+
+BARS = ("beyond the coarse mesh |x − coarse x|", "|x up-sampled − x reference|")
+SHORT = ("beyond coarse", "distance")  # of narrow panels
+
+
+def draw_whole(figure, line, whole, titles, bars=BARS):
+    """Reference, up-sampled and error over the whole sheet, into three axes.
+
+    Colour of the first two is what the coarse mesh alone lacks, on one scale.
+    """
+    sheet, extent, triangles = whole.sheet, whole.extent, whole.sheet["triangles"]
+    # A high percentile, not the maximum: one vertex in a clamped corner would darken all others.
+    largest = float(numpy.percentile(whole.beyond["reference"], 99.5))
+    factor, unit = unit_of(largest)
+    for axes, key in zip(line, ("reference", "upsampled")):
+        picture = raster(sheet[key], triangles, whole.beyond[key], largest, "viridis", extent)
+        image(axes, picture, extent)
+    for axes in line[:2]:
+        bar(figure, axes, largest, factor, unit, "viridis", bars[0])
+    largest_error = float(numpy.percentile(whole.error, 99.5))
+    error_factor, error_unit = unit_of(largest_error)
+    picture = raster(sheet["upsampled"], triangles, whole.error, largest_error, "magma_r", extent)
+    image(line[2], picture, extent)
+    bar(figure, line[2], largest_error, error_factor, error_unit, "magma_r", bars[1])
+    for axes, title in zip(line, titles):
+        axes.set_title(title, loc="left", fontweight="bold")
+
+
+def small_sheet_figure(sheet):
+    """The three panels of the whole sheet alone, for a first screen.
+
+    @return (figure, mean error [m])
+    """
+    whole = WholeSheet(sheet)
+    figure, grid = pyplot.subplots(
+        1, 3, figsize=(5.2, 1.55 * whole.ratio + 0.95), sharey=True, layout="constrained"
+    )
+    draw_whole(figure, grid, whole, ("reference", "up-sampled", "error"), SHORT)
+    for axes in grid:
+        axes.set_xlabel("axis 1 [cm]")
+    grid[0].set_ylabel("axis 2 [cm]")
+    return figure, float(whole.error.mean())
+
+
 def sheet_figure(cell, sheet, side):
     """Six panels: above reference, up-sampled and error over the whole sheet; below the close-up.
 
@@ -115,15 +181,8 @@ def sheet_figure(cell, sheet, side):
     @return (figure, {"error_mean", "error_max", "affine_mean"} [m])
     """
     triangles = sheet["triangles"]
-    coarse = coarse_positions(sheet)
-    beyond = {
-        key: numpy.linalg.norm(sheet[key] - coarse, axis=1) for key in ("reference", "upsampled")
-    }
-    error = numpy.linalg.norm(sheet["upsampled"] - sheet["reference"], axis=1)
-    everything = numpy.vstack([sheet["reference"], sheet["upsampled"]])
-    low, high = everything.min(axis=0), everything.max(axis=0)
-    pad = 0.02 * (high - low).max()
-    extent = (low[0] - pad, high[0] + pad, low[1] - pad, high[1] + pad)
+    whole = WholeSheet(sheet)
+    extent = whole.extent
 
     close = close_up_triangles(sheet, side)
     near = numpy.vstack(
@@ -147,33 +206,15 @@ def sheet_figure(cell, sheet, side):
         height_ratios=(3.05 * ratio + 0.9, 3.05 * near_ratio + 0.6),
         layout="constrained",
     )
-    # A high percentile, not the maximum: one vertex in a clamped corner would darken all others.
-    largest = float(numpy.percentile(beyond["reference"], 99.5))
-    factor, unit = unit_of(largest)
-    for axes, key, title in zip(
-        grid[0],
-        ("reference", "upsampled"),
-        (f"fine reference ({sheet['reference_law']})", f"up-sampled ({sheet['method']})"),
-    ):
-        image(axes, raster(sheet[key], triangles, beyond[key], largest, "viridis", extent), extent)
-        axes.set_title(title, loc="left", fontweight="bold")
-        bar(figure, axes, largest, factor, unit, "viridis", "beyond the coarse mesh |x − coarse x|")
-    largest_error = float(numpy.percentile(error, 99.5))
-    error_factor, error_unit = unit_of(largest_error)
-    image(
-        grid[0][2],
-        raster(sheet["upsampled"], triangles, error, largest_error, "magma_r", extent),
-        extent,
-    )
-    grid[0][2].set_title("error per vertex", loc="left", fontweight="bold")
-    bar(
+    draw_whole(
         figure,
-        grid[0][2],
-        largest_error,
-        error_factor,
-        error_unit,
-        "magma_r",
-        "|x up-sampled − x reference|",
+        grid[0],
+        whole,
+        (
+            f"fine reference ({sheet['reference_law']})",
+            f"up-sampled ({sheet['method']})",
+            "error per vertex",
+        ),
     )
 
     draw_close_up(figure, grid[1], cell, sheet, close, near_extent)
@@ -192,9 +233,9 @@ def sheet_figure(cell, sheet, side):
             axes.set_xlabel("axis 1 [cm]")
         line[0].set_ylabel("axis 2 [cm]")
     return figure, {
-        "error_mean": float(error.mean()),
-        "error_max": float(error.max()),
-        "affine_mean": float(beyond["reference"].mean()),
+        "error_mean": float(whole.error.mean()),
+        "error_max": float(whole.error.max()),
+        "affine_mean": float(whole.beyond["reference"].mean()),
     }
 
 

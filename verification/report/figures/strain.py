@@ -63,6 +63,13 @@ def slope_triangle(axes, strain, value, slope):
     )
 
 
+def curve_style(method, methods, reference, references):
+    """(line style, marker) of a curve: of its law where there are several, else of its method."""
+    if len(references) > 1:
+        return style.reference_style(reference)
+    return style.method_style(method, methods)
+
+
 def draw_panel(axes, rows, load, methods, references, key, factor, floor, side):
     """One load: all methods and references; returns whether round-off was drawn at the floor."""
     at_floor = False
@@ -83,12 +90,12 @@ def draw_panel(axes, rows, load, methods, references, key, factor, floor, side):
             strain, value, low = floored(some, key, factor)
             if not len(strain):
                 continue
-            line, marker = style.reference_style(reference)
+            line, marker = curve_style(method, methods, reference, references)
             colour = style.method_colour(method, methods)
             axes.plot(
                 100 * strain,
                 numpy.where(low, floor, value),
-                line,
+                ls=line,
                 marker=marker,
                 color=colour,
                 markevery=list(numpy.flatnonzero(~low)),
@@ -143,17 +150,23 @@ def limits(rows, key, factor):
 
 
 def legend(figure, methods, references, uncertainty, at_floor):
-    entries = [
-        Line2D(
-            [],
-            [],
-            color=style.method_colour(m, methods),
-            lw=2.2,
-            label=style.METHOD_LABELS.get(m, m),
+    one_law = len(references) == 1
+    entries = []
+    for m in methods:
+        line, marker = style.method_style(m, methods) if one_law else ("-", None)
+        entries.append(
+            Line2D(
+                [],
+                [],
+                color=style.method_colour(m, methods),
+                ls=line,
+                marker=marker,
+                markerfacecolor="white",
+                lw=1.4 if one_law else 2.2,
+                label=style.METHOD_LABELS.get(m, m),
+            )
         )
-        for m in methods
-    ]
-    for reference in references:
+    for reference in [] if one_law else references:
         line, marker = style.reference_style(reference)
         entries.append(
             Line2D(
@@ -185,7 +198,7 @@ def legend(figure, methods, references, uncertainty, at_floor):
         handles=entries,
         loc="lower center",
         bbox_to_anchor=(0.5, 1.0),
-        ncol=4,
+        ncol=4 if figure.get_figwidth() > 6.0 else 3,
         handlelength=2.8,
         columnspacing=1.6,
     )

@@ -25,7 +25,15 @@ BLACK, ORANGE, SKY, GREEN, YELLOW, BLUE, VERMILLION, PURPLE = (
     "#CC79A7",
 )
 
+# What the curves of a first screen are called: readers need no name of a method for it.
+COARSE, PAPER, CLOTH, HOMESPUN = (
+    "coarse mesh", "paper", "coarse cloth of homespun", "homespun"
+)
 METHOD_COLOURS = {
+    COARSE: VERMILLION,
+    PAPER: BLUE,
+    CLOTH: GREEN,
+    HOMESPUN: BLACK,
     "affine": VERMILLION,
     "localized": BLUE,
     "localized+p2": "#999933",
@@ -40,6 +48,15 @@ SPARE_COLOURS = ("#332288", "#44AA99", ORANGE, PURPLE)
 COLOUR_NAMES = {VERMILLION: "orange", BLUE: "blue", "#999933": "olive", "#882255": "wine",
                 SKY: "light blue", BLACK: "black", "#332288": "indigo", "#44AA99": "teal",
                 GREEN: "green", ORANGE: "yellow", PURPLE: "pink"}
+
+# Line style and marker of the methods where one law is shown: they survive black and white.
+METHOD_STYLES = {
+    COARSE: ("--", "s"), PAPER: (":", "^"), CLOTH: ("-.", "D"), HOMESPUN: ("-", "o"),
+    "affine": ("--", "s"), "localized": (":", "^"), "base": ("-.", "D"), "full": ("-", "o"),
+    "localized+p2": ("-.", "v"), "localized+edges": ("--", "P"),
+    "localized+cubic+modes": (":", "X"),
+}
+SPARE_METHOD_STYLES = (("-.", "<"), ("--", ">"), (":", "*"), ("-", "p"))
 
 # Line style, marker and colour of the reference laws, in the order of the schema.
 LAW_STYLES = ((":", "s", BLACK), ("-", "o", BLUE), ("--", "^", VERMILLION), ("-.", "v", PURPLE))
@@ -94,6 +111,14 @@ def method_colour(method, methods=()):
 def colour_name(method, methods=()):
     """The colour of a method, in a word."""
     return COLOUR_NAMES[method_colour(method, methods)]
+
+
+def method_style(method, methods=()):
+    """(line style, marker) of a method."""
+    if method in METHOD_STYLES:
+        return METHOD_STYLES[method]
+    unknown = [name for name in methods if name not in METHOD_STYLES] or [method]
+    return SPARE_METHOD_STYLES[unknown.index(method) % len(SPARE_METHOD_STYLES)]
 
 
 def reference_style(reference):

@@ -7,13 +7,17 @@ import math
 
 from figures import style
 from figures.run_time import speed_ratio
+from figures.sheet import small_sheet_figure
 from figures.strain import error_figure
 from figures.style import percent, three
 from page import tables
 from page.budget_contents import validity_text
+from page.headline import PAPER, finer_mesh_sentence, headline, infinite_line
+from page.words import capital, change_of, listed, share
 from read import schema
 from read.budget_results import base_rows, levels
-from read.results import cell_side
+from read.cell_results import read_fields
+from read.results import BadResults, cell_side
 from read.schema import main_method
 
 # What each part of the budget is, after "because"; only parts of the sum are causes.
@@ -32,11 +36,10 @@ CAUSES = {
 # What a term of a method takes away of the budget, which is that of `localized`.
 TAKEN_AWAY = {"edges": ("slip", "selvedge", "bulk", "layer"), "cubic": ("macro-law",),
               "modes": ("modes",)}
-PAPER = "localized"
 UNTOLD = "≈ 0"  # a change that the bar of the reference cannot tell
 SECOND_CAUSE = 0.25  # share of the error from which a second cause is named
 VALIDITY_LIMIT = 0.01  # of a cell side
-PANEL = (1.78, 1.32)  # inches of a panel of the small Figure 3
+PANEL = (1.4, 1.5)  # inches of a panel of the small Figure 3
 
 
 def answer_of(results, name, gallery):
@@ -70,44 +73,116 @@ def answer_of(results, name, gallery):
             base = some.get(bases.get((load, method)))
             line = line_of(load, some["affine"], base, some[method], parts)
             if method != PAPER and PAPER in some:
-                line["sentence"] += of_the_paper(some["affine"], some[PAPER])
+                line["paper"] = change_between(
+                    some["affine"], some[PAPER], some[PAPER]["reference_uncertainty_m"]
+                )
+                line["beside"] += of_the_paper(line["paper"])
             if line["mark"] != "open":  # where the bar is named already
                 line["sentence"] += beside_the_bar(some[method])
+            line["short"] += beside_the_bar(some[method])
             lines.append({**line, "valid": valid_up_to(results, name, load, reference, method)})
     if not lines:
         return None
     side = cell_side(results, name)
     ratio = speed_ratio(results.reached(name), reference)
-    methods = style.ordered_methods(
-        {"affine", PAPER}
-        | {
-            main_method({r["method"] for r in here if r["load"] == load})
-            for load in {r["load"] for r in here}
-        }
+    chosen = {load: main_method({r["method"] for r in here if r["load"] == load})
+              for load in {r["load"] for r in here}}
+    spoken_of = style.ordered_methods(chosen.values())
+    figure, _ = error_figure(
+        *as_homespun(rows, base_rows(rows, gains), chosen), [reference], side, panel=PANEL
     )
-    of_base = base_rows(rows, gains)
-    methods = style.ordered_methods([*methods, *{row["method"] for row in of_base}])
-    figure, _ = error_figure(rows + of_base, methods, [reference], side, panel=PANEL)
+    ways = [way for way in results.run_time if way["cell"] == name]
+    finer = finer_mesh_sentence(results.reached(name), ways, reference)
     return {
         "name": name,
         "strain": percent(strains[0]),
         "reference": reference,
         "side": tables.length(side) if side else None,
         "ratio": None if ratio is None else three(ratio),
+        "headline": " ".join(
+            part for part in (headline(lines, percent(strains[0]), listed(spoken_of)), finer) if part
+        ),
         "lines": lines,
+        "shown": [line for line in lines if not style.is_infinite(line["load"])],
+        "infinite": infinite_line(lines),
+        "no_cause": no_cause_sentence(lines, percent(strains[0])),
         "law": law_sentence(of_laws, [f for f in results.forces if f["cell"] == name], reference,
                             strains[-1]),
+        "sheet": sheet_of_answer(results.cells.get(name), lines, gallery),
         "figure": gallery.add(
             figure,
             f"{name}-answer",
-            f"{name}: mean error per vertex, in cell sides, against strain, of the coarse mesh"
-            f" alone (orange), by the paper's method (blue)"
-            + "".join(f", by {m} ({style.colour_name(m, methods)})" for m in methods[2:])
-            + f", against {reference}. Grey: not resolved by the reference. All laws and variants"
-            " stand below.",
+            f"{name}: mean error per vertex, in cell sides, against strain, held against the"
+            f" reference {reference}: the coarse mesh alone (affine), the paper's method"
+            f" ({PAPER})"
+            + (f", homespun ({listed(spoken_of)}) and its coarse cloth, not up-sampled"
+               if spoken_of != [PAPER] else "")
+            + ". Grey: not resolved by the reference. All laws and variants stand below.",
             plotted=False,
         ),
     }
+
+
+def as_homespun(rows, of_base, chosen):
+    """Rows of the sheets, if there are any, whose methods have the names of the first screen, and
+    these names in their order.
+
+    @param of_base rows of the coarse cloths, as those of the method `base`
+    @param chosen load -> the method that the page speaks of
+    """
+    names = {"affine": style.COARSE, PAPER: style.PAPER, "base": style.CLOTH}
+    named, every = [], [*rows, *of_base]
+    for row in [row for row in every if not style.is_infinite(row["load"])] or every:
+        name = names.get(row["method"])
+        if name is None and row["method"] == chosen.get(row["load"]):
+            name = style.HOMESPUN
+        if name:
+            named.append({**row, "method": name})
+    return named, style.ordered_methods(row["method"] for row in named)
+
+
+def sheet_of_answer(cell, lines, gallery):
+    """Reference, up-sampled sheet and its error, of the load that leaves most of it; None where no
+    sheet is stored.
+    """
+    left = {line["load"]: line["left_per_cell"] for line in lines}
+    found = {}
+    for path in cell.field_files if cell else ():
+        faults = []
+        if sheet := read_fields(path, faults):
+            found[sheet["load"]] = sheet
+        if faults:
+            raise BadResults(faults)
+    if not found:
+        return None
+    load = max(found, key=lambda one: left.get(one, 0.0))
+    sheet = found[load]
+    figure, mean = small_sheet_figure(sheet)
+    return gallery.add(
+        figure,
+        f"{cell.name}-answer-sheet",
+        f"{load} at {percent(sheet['strain'])} strain: where the reference ({sheet['reference_law']})"
+        f" and the sheet up-sampled by {by_whom(sheet['method'])} put their vertices, coloured by how far that"
+        f" is from the coarse mesh alone, and the distance of the two, {tables.length(mean)} in the"
+        " mean. True scale.",
+        as_image=True,
+        table=((), []),
+    )
+
+
+def by_whom(method):
+    return f"the paper's method, {method}," if method == PAPER else f"homespun ({method})"
+
+
+def no_cause_sentence(lines, strain):
+    """Once for all loads whose error budget did not run."""
+    some = [line["load"] for line in lines if line["has_cause"] is False]
+    return (
+        f"Why error is left was not measured in {listed(some)}: the error budget did not run there at"
+        f" {strain}."
+        if some
+        else ""
+    )
 
 
 def sheets_first(loads):
@@ -125,25 +200,37 @@ def line_of(load, affine, base, best, parts):
     title = schema.loads().get(load, {}).get("label", load)
     after, left = best["error_mean_per_cell"], best["error_mean_m"]
     bar = best["reference_uncertainty_m"]
-    reason = why(parts, best.get("method", PAPER), left, best.get("reference"))
-    size = f"{tables.length(left)} ({three(100.0 * after)} % of a cell side) are left {reason}"
-    line = {"load": load, "title": title, "change": "–", "mark": "open", "coarse": "", "total": ""}
+    method = best.get("method", PAPER)
+    reason = why(parts, method, left, best.get("reference"))
+    size = f"{tables.length(left)} ({three(100.0 * after)} % of a cell side) are left"
+    size += f" {reason}" if reason else ""
+    short = f"{tables.length(left)}, {three(100.0 * after)} % of a cell side" + (f", {reason}" if reason else "")
+    line = {
+        "load": load, "title": title, "change": "–", "mark": "open", "coarse": "", "total": "",
+        "paper": "", "short": f"{short}.", "beside": "", "gain": math.nan, "left_per_cell": after, "has_cause": None,
+    }
+    if after >= style.ROUND_OFF:
+        line["has_cause"] = bool(reason)
     if base is None:
-        method = best.get("method", PAPER)
         words = (
             f"what up-sampling takes away is not known, because no base was among the methods"
             f" ({method}-micro, affine+p2); {size}."
         )
     else:
         line["change"], line["mark"], words = of_upsampling(base, best, bar, size)
+        before = base["error_mean_per_cell"]
+        if after < style.ROUND_OFF:
+            line["short"] = words
+        if before >= style.ROUND_OFF:
+            line["gain"] = 1.0 if after < style.ROUND_OFF else 1.0 - after / before
         if base["method"] != "affine":
             line["coarse"] = change_between(affine, base, bar)
             line["total"] = change_between(affine, best, bar)
-            words += (
+            line["beside"] = (
                 f" That coarse cloth itself changes the error of the coarse mesh alone by"
                 f" {in_words(line['coarse'])}, both together by {in_words(line['total'])}."
             )
-    return {**line, "sentence": capital(words)}
+    return {**line, "sentence": capital(words), "short": capital(line["short"])}
 
 
 def of_upsampling(base, best, bar, size):
@@ -187,25 +274,8 @@ def in_words(change):
     return "less than the bar" if change == UNTOLD else change
 
 
-def change_of(gain):
-    """−74 % of a gain of 0.74, +58 % of a gain of −0.58."""
-    if math.isinf(gain):
-        return "new"
-    sign = "−" if gain > 0.0 else "+"
-    return f"{sign}{share(abs(gain))} %"
-
-
-def share(value):
-    """A share in percent: whole numbers, and one digit where that would say 0 or 100."""
-    whole = f"{100.0 * value:.0f}"
-    if whole in ("0", "100"):
-        return f"{100.0 * value:.2g}" if value < 0.5 else f"{100.0 * value:.4g}"
-    return whole
-
-
-def of_the_paper(affine, paper):
+def of_the_paper(change):
     """What the paper's method does to the coarse mesh alone, which is its coarse cloth."""
-    change = change_between(affine, paper, paper["reference_uncertainty_m"])
     return f" The paper's method, {PAPER}, changes the error of the coarse mesh alone by {in_words(change)}."
 
 
@@ -279,7 +349,7 @@ def taken_away(method, reference):
 
 
 def why(parts, method=PAPER, left_m=0.0, reference=None):
-    """What the error that is left comes from, in words; from the budget where there is one.
+    """What the error that is left comes from, in words; empty where no budget was made.
 
     The budget is that of the paper's method, whose shares are of its error; another method leaves
     what it does not take away, of which the largest part is named without a share, where it is not
@@ -289,7 +359,7 @@ def why(parts, method=PAPER, left_m=0.0, reference=None):
     @param left_m the error that is left, 0 where it is not known [m]
     """
     if not parts:
-        return "for a reason that was not measured: the error budget did not run at this level"
+        return ""
     if method != PAPER:
         gone = taken_away(method, reference)
         left = [part for part in CAUSES if part in parts and part not in gone]
@@ -306,10 +376,6 @@ def why(parts, method=PAPER, left_m=0.0, reference=None):
         f"{'because ' if i == 0 else ''}{CAUSES[part]} ({share(value)} % of it)"
         for i, (value, part) in enumerate(named)
     )
-
-
-def capital(text):
-    return text[:1].upper() + text[1:]
 
 
 def valid_up_to(results, name, load, reference, method):

@@ -6,7 +6,7 @@ from figures import fabrics
 from figures.bending import bending_polar_figure, deflection_figure
 from figures.style import three
 from figures.vertex_tables import deflection_table
-from page.entries import ENTRIES, MICRO, entry_texts
+from page.entries import ENTRIES, MICRO, best_run, centre_and_bars, entry_texts
 
 SOFTEST, STIFFEST = 1e-7, 1e-3  # of cloth [N m]; outside a unit is wrong, or a thickness
 
@@ -14,14 +14,15 @@ SOFTEST, STIFFEST = 1e-7, 1e-3  # of cloth [N m]; outside a unit is wrong, or a 
 def bending_contents(cell, gallery):
     """Figures and tables; of a cell without D nothing but the reason."""
     contents = {"bending": None, "bending_polar": None, "deflection": None, "worth": None}
-    contents["worth"] = worth_of_inputs(cell.homogenize or {})
-    D = cell.stiffness("D")
-    if D is None:
+    contents["worth"] = worth_of_inputs(best_run(cell, "D") or cell.homogenize or {})
+    known = best_run(cell, "D")
+    if known is None:
         return contents
+    D = centre_and_bars(known, "D")[0]
     contents["bending"] = bending_table(cell, D)
     if numpy.linalg.eigvalsh(D).min() > 0.0:
         contents["bending_polar"] = gallery.add(
-            bending_polar_figure(cell),
+            bending_polar_figure(known),
             f"{cell.name}-bending-stiffness",
             f"{cell.name}: bending stiffness of narrow strips cut along each direction. Grey: from"
             " the softest to the stiffest of ten measured fabrics (Wang et al. 2011).",
@@ -40,9 +41,9 @@ def bending_contents(cell, gallery):
 
 def bending_table(cell, D):
     """D^H with its bars, in N m and in what instruments print."""
-    value = cell.homogenize
+    value = best_run(cell, "D")
     bracket = value.get("bending_bracket") or {}
-    texts = entry_texts(value, "D", MICRO)
+    texts = entry_texts(cell, "D", MICRO)
     rows = [
         # What is zero to its bar is zero in every unit.
         [

@@ -4,7 +4,8 @@ import re
 from collections import Counter
 
 from page import tables
-from page.answer import PAPER, why
+from page.answer import why
+from page.headline import PAPER
 from read.budget_results import levels
 from read.verdicts import KINDS, MARKS, ORDER, WORDS, words_of
 
@@ -139,7 +140,7 @@ def cause_of(verdict, budget):
     near = [key for key in known if key[0] == case[2] and abs(key[1] / value - 1.0) < 1e-6]
     method = METHOD.search(verdict["claim"])
     left = why(known[near[0]]["all"] if near else None, method[1] if method else PAPER)
-    return f"The error is left {left}."
+    return f"The error is left {left}." if left else ""
 
 
 def advice_of(verdict):

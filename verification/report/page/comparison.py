@@ -105,7 +105,7 @@ def kept_of(groups):
 def stiffness_rows(results, subjects):
     """All six entries of C^H with their bars, what they rest on, and the areal density."""
     cells = [results.cells[s.name] for s in subjects]
-    texts = [entry_texts(cell.homogenize, "C") for cell in cells]
+    texts = [entry_texts(cell, "C") for cell in cells]
     rows = [(f"C{name}", [with_bar(text[name]) for text in texts]) for name, _, _ in ENTRIES]
     brackets = [tables.stiffness_table(cell)["bracket"] for cell in cells]
     rows.append(
@@ -123,7 +123,7 @@ def stiffness_rows(results, subjects):
 
 def bending_rows(results, subjects):
     """All six entries of D^H with their bars."""
-    texts = [entry_texts(results.cells[s.name].homogenize, "D", MICRO) for s in subjects]
+    texts = [entry_texts(results.cells[s.name], "D", MICRO) for s in subjects]
     return [(f"D{name}", [with_bar(text[name]) for text in texts]) for name, _, _ in ENTRIES]
 
 

@@ -15,9 +15,10 @@ from page.claims import claim_contents, claim_groups, claim_sentence
 from page.comparison import comparison_contents, short_table
 from page.converge_contents import convergence_contents
 from page.drape_contents import drape_contents
-from page.entries import stiffness_rows
+from page.entries import best_run, bracket_words, stiffness_rows
 from page.glossary import GLOSSARY
 from page.load_contents import load_contents
+from page.plausible import plausible_sentences
 from page.run_contents import run_rows, run_sentences, self_tests, whole_sentence
 from page.stability_contents import stability_contents
 from page.stress_contents import stress_contents
@@ -104,10 +105,12 @@ def page_contents(results, gallery, output):
     short = [answer for answer in (answer_of(results, name, gallery) for name in results.cells)]
     short = [
         {
-            **(answer or {"name": name, "lines": [], "ratio": None, "side": None}),
+            **(answer or {"name": name, "lines": [], "ratio": None, "side": None, "law": ""}),
             "stiffness": stiffness_rows(results.cells[name]) if is_homogenized(results, name) else [],
             "cut": results.cells[name].place_of_cut(),
-            "has_bending": results.cells[name].stiffness("D") is not None,
+            "stiffness_of": bracket_words(results.cells[name]),
+            "plausible": plausible_sentences(results.cells[name]),
+            "has_bending": best_run(results.cells[name], "D") is not None,
             "table": short_table(results, name) if answer and not comparison else [],
         }
         for name, answer in zip(results.cells, short)

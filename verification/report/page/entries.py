@@ -4,7 +4,7 @@ import math
 
 import numpy
 
-from figures.style import bar_beside, beside_bar
+from figures.style import bar_beside, beside_bar, three
 
 # All six of a symmetric matrix in Voigt order 11, 22, 12, for all tables of the report.
 ENTRIES = (("11", 0, 0), ("22", 1, 1), ("12", 0, 1), ("66", 2, 2), ("16", 0, 2), ("26", 1, 2))
@@ -12,34 +12,74 @@ MICRO = 1e6
 ELEMENTS = {1: "linear triangles", 2: "quadratic triangles"}
 
 
-def entry_texts(homogenize, key, factor=1.0):
+BRACKETS = {"C": "bracket", "D": "bending_bracket"}
+
+
+def best_run(cell, key):
+    """The homogenize.json of a cell that knows C or D best: of the drawing rather than of a mesh,
+    then by the narrowest bracket, whichever run of the page made it; None where none has it.
+    """
+    known = [(cell.command, cell.homogenize or {}), *cell.others]
+    known = [value for _, value in known if value.get(key) is not None]
+
+    def rank(value):
+        bracket = value.get(BRACKETS[key]) or {}
+        width = bracket.get("width")
+        of = bracket.get("of") or value.get("bracket_of")
+        return of != "drawing", width if isinstance(width, (int, float)) else math.inf
+
+    return min(known, key=rank, default=None)
+
+
+def centre_and_bars(value, key):
+    """The centre of the guaranteed bracket of C or D and, entry by entry, how far from it the truth
+    may lie; the matrix itself, with the bars that its run told of it, if any, where the sides are not there.
+
+    With lower <= X <= upper and H half of upper - lower, |X - centre|_ij <= sqrt(H_ii H_jj).
+    """
+    sides = [value.get(f"{key}_{side}") for side in ("lower", "upper")]
+    if None in sides:
+        bars = (value.get(BRACKETS[key]) or {}).get("entry_bars")
+        return numpy.array(value[key], dtype=float), None if bars is None else numpy.array(bars)
+    lower, upper = (numpy.array(side, dtype=float) for side in sides)
+    half = numpy.sqrt(numpy.maximum(numpy.diag(upper - lower) / 2.0, 0.0))
+    return (lower + upper) / 2.0, numpy.outer(half, half)
+
+
+def entry_texts(cell, key, factor=1.0):
     """name -> (value, bar) of C or D as text, with as many digits as the bar justifies; "–" where
     there is no matrix, or no bar.
-
-    @param homogenize homogenize.json
     """
-    matrix = (homogenize or {}).get(key)
-    if matrix is None:
+    value = best_run(cell, key)
+    if value is None:
         return {name: ("–", "–") for name, _, _ in ENTRIES}
-    bracket = homogenize.get("bracket" if key == "C" else "bending_bracket") or {}
-    bars = bracket.get("entry_bars")
-    largest = numpy.abs(numpy.array(matrix, dtype=float)).max()
+    matrix, bars = centre_and_bars(value, key)
+    largest = numpy.abs(matrix).max()
     texts = {}
     for name, i, j in ENTRIES:
-        value = matrix[i][j] if abs(matrix[i][j]) > 1e-9 * largest else 0.0
-        bar = bars[i][j] if bars else math.nan
-        text = beside_bar(factor * value, factor * bar)
+        entry = matrix[i, j] if abs(matrix[i, j]) > 1e-9 * largest else 0.0
+        bar = bars[i, j] if bars is not None else math.nan
+        text = beside_bar(factor * entry, factor * bar)
         texts[name] = (
             text,
-            "–" if math.isnan(bar) else bar_beside(text, factor * matrix[i][j], factor * bar),
+            "–" if math.isnan(bar) else bar_beside(text, factor * matrix[i, j], factor * bar),
         )
     return texts
 
 
 def stiffness_rows(cell):
     """[name, C, bar, D, bar] as text: N/m and 1e-6 N m."""
-    C, D = entry_texts(cell.homogenize, "C"), entry_texts(cell.homogenize, "D", MICRO)
+    C, D = entry_texts(cell, "C"), entry_texts(cell, "D", MICRO)
     return [[name, *C[name], *D[name]] for name, _, _ in ENTRIES]
+
+
+def bracket_words(cell):
+    """Of what the bars of C^H are, in a sentence."""
+    value = best_run(cell, "C")
+    if value is None or centre_and_bars(value, "C")[1] is None:
+        return "No bracket was computed: the stiffness is that of the mesh, and has no bar."
+    of = value.get("bracket_of", "mesh")
+    return f"Centre of the guaranteed bracket of the {of} ± half its width."
 
 
 def with_bar(text_and_bar):
@@ -53,15 +93,33 @@ def source_of(homogenize, command):
     return ", ".join([command] + [ELEMENTS[o] for o in [homogenize.get("order")] if o in ELEMENTS])
 
 
-def other_stiffnesses(cell):
-    """{"names", "rows"} where runs of the page used several C^H of one cell; None where there is
-    one.
+def used_stiffnesses(cell):
+    """{"names", "rows"} of the C that the runs of the page computed with, each of its own mesh; of
+    runs that agree the first alone. None where that is the C^H of the page, as it prints.
     """
-    if not cell.others:
+    every = [(cell.command, cell.homogenize or {}), *cell.others]
+    shown, columns = entry_texts(cell, "C"), []
+    for command, value in every:
+        if value.get("C") is None:
+            continue
+        texts = []
+        for name, i, j in ENTRIES:
+            size = abs(value["C"][i][j]) / numpy.abs(value["C"]).max()
+            texts.append(like(shown[name][0], value["C"][i][j] if size > 1e-9 else 0.0))
+        if texts not in [known for _, known in columns]:
+            columns.append((source_of(value, command), texts))
+    if all(texts == [shown[name][0] for name, _, _ in ENTRIES] for _, texts in columns):
         return None
-    every = [(cell.command, cell.homogenize), *cell.others]
-    texts = [entry_texts(value, "C") for _, value in every]
     return {
-        "names": [source_of(value, command) for command, value in every],
-        "rows": [[f"C{name}", *(with_bar(text[name]) for text in texts)] for name, _, _ in ENTRIES],
+        "names": [name for name, _ in columns],
+        "rows": [
+            [f"C{name}", *(texts[k] for _, texts in columns)] for k, (name, _, _) in enumerate(ENTRIES)
+        ],
     }
+
+
+def like(text, value):
+    """A value with as many decimals as another number was printed with."""
+    if "×" in text or text == "–":
+        return three(float(value))
+    return f"{value:.{len(text.partition('.')[2])}f}".replace("-", "−")

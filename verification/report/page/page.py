@@ -54,7 +54,7 @@ def scripts(plots, views):
 def render(contents):
     """The whole page as text: no file, no network address is needed to show it."""
     environment = jinja2.Environment(
-        loader=jinja2.FileSystemLoader(HERE), autoescape=True, undefined=jinja2.StrictUndefined
+        loader=jinja2.FileSystemLoader(os.path.join(HERE, "templates")), autoescape=True, undefined=jinja2.StrictUndefined
     )
     css = Markup(own("report.css"))
     return environment.get_template("report.html.j2").render(css=css, scripts=scripts, **contents)

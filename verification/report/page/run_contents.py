@@ -73,7 +73,7 @@ def self_tests(results, output):
 def whole_sentence(results):
     """Of a page of one `verify`, which run it is and of what parts; else empty."""
     runs = [study.run for study in results.studies]
-    if len(runs) < 2 or len({run.place for run in runs}) > 1:
+    if len(runs) < 2 or len({run.place for run in runs}) > 1 or not any(run.whole for run in runs):
         return ""
     whole = next(run.whole for run in runs if run.whole)
     return (

@@ -9,7 +9,7 @@ from figures import style
 from figures.run_time import METHOD
 from figures.strain import errors_are_round_off
 from figures.style import percent, seconds, three
-from page.entries import ENTRIES, entry_texts, other_stiffnesses, source_of
+from page.entries import ENTRIES, best_run, bracket_words, entry_texts, used_stiffnesses
 from read import schema
 from read.cell_results import relative_width
 
@@ -116,11 +116,14 @@ def matrix_rows(matrix):
 
 def stiffness_table(cell):
     """C^H, its bracket, Voigt, Reuss and the engineering moduli of a cell."""
-    value = cell.homogenize or {}
+    value = best_run(cell, "C") or {}
     engineering = value.get("engineering") or {}
     units = {"E1": "N/m", "E2": "N/m", "G12": "N/m"}
-    texts = entry_texts(value, "C")
-    lower, upper = cell.stiffness("C_lower"), cell.stiffness("C_upper")
+    texts = entry_texts(cell, "C")
+    lower, upper = (
+        None if value.get(key) is None else numpy.array(value[key], dtype=float)
+        for key in ("C_lower", "C_upper")
+    )
     bracket = None
     if (
         lower is not None
@@ -149,8 +152,8 @@ def stiffness_table(cell):
             if rows
         ],
         "entries": [[f"C{name}", *texts[name]] for name, _, _ in ENTRIES],
-        "source": source_of(value, cell.command),
-        "others": other_stiffnesses(cell),
+        "words": bracket_words(cell),
+        "used": used_stiffnesses(cell),
         "bracket": bracket,
         "bracket_of": value.get("bracket_of", "mesh"),
         "bracket_remark": (value.get("bracket") or {}).get("remark"),

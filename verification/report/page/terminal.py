@@ -16,8 +16,12 @@ def answer_text(contents):
     blocks = [
         (
             f"{cell['name']}, at {cell['strain']} strain",
-            [f"{line['title']} ({line['load']}): {line['sentence']}" for line in cell["lines"]]
-            + ([cell["law"]] if cell.get("law") else []),
+            [cell["headline"]]
+            + [
+                f"{line['title']} ({line['load']}): {line['sentence']}{line['beside']}"
+                for line in cell["shown"] + ([cell["infinite"]] if cell["infinite"] else [])
+            ]
+            + [cell[key] for key in ("no_cause", "law") if cell[key]],
         )
         for cell in contents["in_short"]
         if cell["lines"]

@@ -17,7 +17,7 @@ from read.converge_results import read_convergence
 from read.drape_results import read_drape
 from read.load_results import read_load
 from read.runs import COMMANDS, LIST, with_parts
-from read.schema import NoSchema
+from read.schema import OUTCOMES, NoSchema
 from read.stability_results import read_stability
 from read.stored import BadResults, check_verdicts, read_csv, read_json
 from read.stress_results import read_stress
@@ -208,7 +208,9 @@ def read_folder(run, name, results, faults, is_listed=False):
         if path := path_of("study.json", "command, sizes and provenance of the study"):
             if value := read_json(path, faults):
                 study.info = {**study.info, **check_study(value, path, faults)}
-    if (run.holds("verdicts.json") or not is_listed) and (
+    if run.command == "homogenize" and not run.holds("verdicts.json"):
+        study.verdicts = checks_of(run, cell_folders, study.info)
+    elif (run.holds("verdicts.json") or not is_listed) and (
         path := path_of("verdicts.json", "verdicts")
     ):
         if value := read_json(path, faults):
@@ -226,6 +228,28 @@ def read_folder(run, name, results, faults, is_listed=False):
     run.look_for_strays()
     known = {item["why"] for item in results.missing}
     results.missing += [item for item in run.left_out() if item["why"] not in known]
+
+
+def checks_of(run, cell_folders, info):
+    """The checks of homogenize.json as claims: `homespun homogenize` has no other list of them."""
+    found = []
+    for name, inner in cell_folders.items():
+        path, _ = run.take(os.path.join(inner, "homogenize.json"))
+        value = read_json(path, []) if path else None
+        for check in (value or {}).get("checks") or []:
+            if isinstance(check, dict) and check.get("verdict") in OUTCOMES:
+                found.append(
+                    {
+                        "claim": f"{name}: {check.get('name', '?')}",
+                        "kind": check.get("kind", "program"),
+                        "verdict": check["verdict"],
+                        "value": check.get("value"),
+                        "limit": check.get("limit", ""),
+                        "derivation": str(check.get("derivation") or ""),
+                        "command": info.get("command") or f"homespun homogenize {name}.prm",
+                    }
+                )
+    return found
 
 
 def read_strain(run, cell_folders, path_of, results, faults):
@@ -262,7 +286,7 @@ def read_results(folders):
         for run in runs:
             part, name = Results(), run.name
             if len(names) > 1:  # runs of one command have folders of one name
-                name = f"{names[run.place]}/{run.name}" if run.whole else names[run.place]
+                name = f"{names[run.place]}/{run.name}" if run.whole or run.beside else names[run.place]
             read_folder(run, name, part, faults, run.whole is not None)
             parts.append((run, part))
     except NoSchema as error:

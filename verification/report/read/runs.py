@@ -44,7 +44,9 @@ class Run:
     finished: bool
     seconds: float  # of work, over all times it was taken up [s]
     files: dict  # name -> {"bytes", "crc32"}; of a run that did not end name -> None
+    inputs: dict = field(default_factory=dict)  # name -> what the run was made of
     whole: object = None  # the Run of the `verify` that this one is a part of
+    beside: object = None  # of `homogenize` the Run of `strain` on the same cell
     refused: dict = field(default_factory=dict)  # name -> why a file that lies there is not taken
     checked: set = field(default_factory=set)
 
@@ -54,8 +56,16 @@ class Run:
 
     @property
     def place(self):
-        """Folder of the version that it belongs to: that of `verify`, or its own."""
-        return self.whole.place if self.whole else os.path.realpath(self.folder)
+        """Folder of the version that it belongs to: that of `verify`, of the strain study that it
+        stands beside, or its own.
+        """
+        above = self.whole or self.beside
+        return above.place if above else os.path.realpath(self.folder)
+
+    @property
+    def cells(self):
+        """`cell NAME` -> fingerprint of the cell as it was read."""
+        return {key: value for key, value in self.inputs.items() if key.startswith("cell ")}
 
     def path(self, name):
         return os.path.join(self.folder, name)
@@ -211,7 +221,38 @@ def read_run(folder, faults):
         value["finished"],
         float(seconds) if isinstance(seconds, (int, float)) else float("nan"),
         files,
+        value["inputs"] if isinstance(value.get("inputs"), dict) else {},
     )
+
+
+def are_of_one_cell(homogenized, strained):
+    """Whether a run of `homogenize` is of a cell of a run of `strain`, as one revision read it."""
+    one, other = homogenized.cells, strained.cells
+    return (
+        (homogenized.command, strained.command) == ("homogenize", "strain")
+        and homogenized.finished
+        and homogenized.revision == strained.revision
+        and bool(one)
+        and one.items() <= other.items()
+    )
+
+
+def with_homogenized(runs):
+    """The runs, and behind each of `strain` that of `homogenize` in the folder beside it where that
+    is of the same cell; one that was given itself stands beside the study, too.
+    """
+    result = list(runs)
+    for run in [run for run in runs if run.command == "strain" and not run.whole]:
+        known = [one for one in runs if are_of_one_cell(one, run) and not one.whole]
+        for one in known:
+            one.beside = one.beside or run
+        folder = os.path.join(os.path.dirname(os.path.abspath(run.folder)), "homogenize")
+        if not known and os.path.isfile(os.path.join(folder, LIST)):
+            found = read_run(folder, [])
+            if found and are_of_one_cell(found, run):
+                found.beside = run
+                result.insert(result.index(run) + 1, found)
+    return result
 
 
 def with_parts(folders, faults, missing):
@@ -245,4 +286,4 @@ def with_parts(folders, faults, missing):
             }
         )
         result.remove(part)
-    return result
+    return with_homogenized(result)

@@ -5,7 +5,7 @@ KINDS = {
     "input": "Cell, mesh and scene are fit for the question",
     "method": "The method does what it is for, at this cell, load and strain",
 }
-MARKS = {"PASS": "✓", "FAIL": "✗", "INCONCLUSIVE": "?"}
+MARKS = {"PASS": "✓", "FAIL": "✗", "INCONCLUSIVE": "○"}
 WORDS = {"PASS": "PASS", "FAIL": "FAIL", "INCONCLUSIVE": "open"}
 ORDER = {"FAIL": 0, "INCONCLUSIVE": 1, "PASS": 2}
 

@@ -3,12 +3,10 @@
 two versions.
 
 Versions are named after their folders. The C^H of one run never stands beside the errors of
-another, unless both are parts of one verify, which has one list of cells and one revision.
+another, unless both are parts of one verify, or of one cell by one revision (runs.py).
 """
 import dataclasses
 import os
-
-import numpy
 
 TABLES = (
     "strain", "forces", "uncertainty", "energies", "steps", "budget", "run_time", "validity", "gains"
@@ -47,18 +45,11 @@ def tags(places):
     }
 
 
-def differ(one, other):
-    """Whether two homogenize.json say another C^H, by more than round-off."""
-    a, b = (numpy.array(value["C"], dtype=float) for value in (one, other))
-    return numpy.abs(a - b).max() > 1e-9 * numpy.abs(a).max()
-
-
 def joined(one, other):
-    """A cell with what either of two knows, the first first; where both know C^H and differ, that
-    of the second stands among the others.
+    """A cell with what either of two knows, the first first; where both know a stiffness, that of
+    the second stands among the others.
     """
-    both = [cell.homogenize for cell in (one, other)]
-    if all(value and value.get("C") is not None for value in both) and differ(*both):
+    if one.homogenize and other.homogenize:
         one.others.append((other.command, other.homogenize))
     values = {f.name: getattr(one, f.name) for f in dataclasses.fields(one)}
     for name, value in values.items():

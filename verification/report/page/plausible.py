@@ -1,0 +1,83 @@
+# SPDX-License-Identifier: MIT
+"""Whether a cell is as stiff as measured cloth, and what the model of a cell with crossing yarns
+leaves out.
+"""
+import numpy
+
+from figures import fabrics
+from figures.stiffness import directional_modulus
+from figures.style import three
+from page.entries import MICRO, best_run, centre_and_bars
+from page.words import listed
+
+YARN = 5.0  # E1 over E2 from which a phase is one of yarns
+CROSSED = 30.0  # degrees between yarns that cross
+BIAS = numpy.pi / 4.0
+LEFT_OUT = (
+    "Yarns of this cell cross, and the model glues them at every crossing, in one plane.",
+    "It leaves out that yarns slide and turn on each other, lock under shear, and straighten when"
+    " pulled, unless the moduli of the phases have the crimp in them: straight yarns are stiffer by"
+    " 2.5 to over 100 times.",
+    "A glued crossing of two equal yarns bends like eight of them, one that slides like two, so that"
+    " D is an upper limit.",
+)
+
+
+def plausible_sentences(cell):
+    """What is outside of measured cloth, in one sentence, and of woven cells three on the model."""
+    outside, inside = [], []
+    for name, value, unit, (low, high) in measures_of(cell):
+        shown = f"{name} = {three(value)}{unit}"
+        if low <= value <= high:
+            inside.append(name)
+        elif value > high:
+            outside.append(f"{shown}, {three(value / high)} times the largest measured ({three(high)})")
+        else:
+            outside.append(f"{shown}, below the smallest measured ({three(low)})")
+    sentences = []
+    if outside:
+        within = f"; within: {listed(inside)}" if inside else ""
+        sentences.append(f"Outside of measured cloth: {'; '.join(outside)}{within} ({fabrics.SOURCES}).")
+    elif inside:
+        sentences.append(f"Within measured cloth ({fabrics.SOURCES}): {listed(inside)}.")
+    return sentences + (list(LEFT_OUT) if is_woven(cell) else [])
+
+
+def measures_of(cell):
+    """(name, value, unit, (smallest, largest measured)) of all that a cell has."""
+    found = []
+    if value := best_run(cell, "C"):
+        C, _ = centre_and_bars(value, "C")
+        for k, name in enumerate(("C11", "C22", "C66")):
+            low_high = fabrics.stretch_band() if k < 2 else fabrics.shear_band()
+            found.append((name, float(C[k, k]), " N/m", low_high))
+    if value := best_run(cell, "D"):
+        D, _ = centre_and_bars(value, "D")
+        band = tuple(MICRO * end for end in fabrics.bending_band())
+        for k, name in enumerate(("D11", "D22")):
+            found.append((name, MICRO * float(D[k, k]), " × 10⁻⁶ N m", band))
+        if is_woven(cell) and numpy.linalg.eigvalsh(D).min() > 0.0:
+            bias, warp = directional_modulus(D, numpy.array([BIAS, 2.0 * BIAS]))
+            found.append(("bending on the bias over warp", float(bias / warp), "", fabrics.bias_band()))
+    return found
+
+
+def is_woven(cell):
+    """Whether phases are yarns in directions that cross."""
+    angles = [
+        float(phase["angle"])
+        for phase in cell.phases or []
+        if is_number(phase.get("angle")) and is_yarn(phase)
+    ]
+    return any(
+        CROSSED <= abs((one - other + 90.0) % 180.0 - 90.0) for one in angles for other in angles
+    )
+
+
+def is_yarn(phase):
+    E1, E2 = phase.get("E1"), phase.get("E2")
+    return is_number(E1) and is_number(E2) and max(E1, E2) > YARN * min(E1, E2) > 0.0
+
+
+def is_number(value):
+    return isinstance(value, (int, float)) and not isinstance(value, bool)
