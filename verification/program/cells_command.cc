@@ -43,7 +43,9 @@ int list_cells(const std::string &pictures, AfterMpi &afterwards)
     return 0;
   std::vector<std::filesystem::path> files;
   for (const auto &entry : std::filesystem::directory_iterator(cells_folder()))
-    if (entry.path().extension() == ".prm")
+    // With its drawing: without one, a cell has the mesh of another, and cannot be varied.
+    if (entry.path().extension() == ".prm" &&
+        exists(std::filesystem::path(entry.path()).replace_extension(".geo")))
       files.push_back(entry.path());
   std::sort(files.begin(), files.end());
   for (std::filesystem::path file : files)

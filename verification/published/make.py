@@ -2,9 +2,11 @@
 """Makes the runs behind the published results, and their tables: HOMESPUN SOURCES OUTPUT
 [CELL...]
 
-All cells at the paper's size. What is there of the same revision is taken up. Hours on two cores;
-CELL... makes those alone.
+All cells that have a drawing of their own, and two variants of each weave whose yarns are drawn by
+chance (weaves.csv), at the paper's size. What is there of the same revision is taken up. Hours on two
+cores; CELL... makes those alone.
 """
+import csv
 import pathlib
 import subprocess
 import sys
@@ -34,13 +36,39 @@ def run(*words):
         sys.exit(status)
 
 
+def make_weave(homespun, sources, folder, variant):
+    """The cell file of a variant: the drawing with its cover, the materials of meshes/cells/weave.py.
+
+    @param variant row of weaves.csv
+    """
+    name = f"{variant['cell']}-drawn-{variant['seed']}"
+    run(homespun, "cells", "make", variant["cell"], "--set", f"yarn_width={variant['cover']}",
+        "--name", name, "--output", folder)
+    materials = subprocess.run(
+        [sys.executable, "-B", sources / "meshes" / "cells" / "weave.py", variant["cell"], "--seed",
+         variant["seed"]], check=True, capture_output=True, text=True).stdout
+    kept = [line for line in (folder / f"{name}.prm").read_text(encoding="utf-8").splitlines()
+            if line.startswith(("set Mesh", "set Lattice"))]
+    (folder / f"{name}.prm").write_text(
+        f"# {name}: yarns drawn by chance.\n{materials}" + "\n".join(kept) + "\n", encoding="utf-8")
+    return folder / f"{name}.prm"
+
+
+def cells_of(homespun, sources, output, names):
+    """Cell files and their laws."""
+    for cell in sorted((sources / "meshes" / "cells").glob("*.prm")):
+        if cell.with_suffix(".geo").exists() and (not names or cell.stem in names):
+            yield cell, "yarn" if cell.stem in WEAVES else "biot"
+    with open(sources / "verification" / "published" / "weaves.csv", encoding="utf-8") as table:
+        for variant in csv.DictReader(table):
+            if not names or f"{variant['cell']}-drawn-{variant['seed']}" in names:
+                yield make_weave(homespun, sources, output / "weaves", variant), "yarn"
+
+
 def main(homespun, sources, output, *names):
     sources, output = pathlib.Path(sources), pathlib.Path(output)
     folders = []
-    for cell in sorted((sources / "meshes" / "cells").glob("*.prm")):
-        if names and cell.stem not in names:
-            continue
-        law = "yarn" if cell.stem in WEAVES else "biot"
+    for cell, law in cells_of(homespun, sources, output, names):
         for command, options in (
             ("strain", ["--cells", CELLS_PER_SIDE, "--references", law, "--methods",
                         METHODS + SECOND_ORDER[law], *COMPARED]),

@@ -75,7 +75,7 @@ TEST(exact_shipped_cells, floats_stiffen_a_weave_and_friction_alone_shears_it)
   {
     const Eigen::Matrix3d C = tests::solved(shipped(name), 1).stiffness;
     EXPECT_GT(C(0, 0), before) << name;
-    EXPECT_LT(C(2, 2), 2e-3 * C(0, 0)) << name;
+    EXPECT_LT(C(2, 2), 90.) << name; // G x thickness of all phases, the upper bound of Voigt
     before = C(0, 0);
   }
 }

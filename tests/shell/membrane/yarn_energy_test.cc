@@ -17,7 +17,7 @@ using meshes::YarnAxes;
 
 namespace
 {
-/// C^H of the cell plain-weave, rounded: E/G = 1113 [N/m].
+/// C^H of the cell plain-weave-straight, rounded: E/G = 1113 [N/m].
 Eigen::Matrix3d plain_weave()
 {
   Eigen::Matrix3d C;

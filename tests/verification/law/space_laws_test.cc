@@ -59,7 +59,7 @@ TEST(derivative_space_laws, stress_and_tangent_leave_remainders_of_order_two_and
   const Eigen::Matrix3d C = some_stiffness();
   Eigen::Matrix<double, 6, 1> direction;
   direction << 0.7, -0.5, 0.9, 0.4, -0.3, 0.8;
-  for (const Law law : {Law::biot, Law::green, Law::yarn})
+  for (const Law law : meshes::laws_with(&meshes::LawProperties::is_of_space))
     for (const SpaceGradient &F : {gradient_in_space(), squeezed()})
     {
       const SpaceResponse at = space_response(law, C, F, Tangent::exact);
@@ -82,7 +82,7 @@ TEST(derivative_space_laws, stress_and_tangent_leave_remainders_of_order_two_and
 TEST(exact_space_laws, a_sheet_in_the_plane_responds_as_the_laws_in_the_plane)
 {
   // Two derivations: there by the angle of the rotation, here by the square root of the metric.
-  for (const Law law : {Law::biot, Law::green, Law::yarn})
+  for (const Law law : meshes::laws_with(&meshes::LawProperties::is_of_space))
   {
     SpaceGradient F     = gradient_in_space();
     F.row(2)            = Eigen::RowVector2d::Zero();
@@ -119,7 +119,7 @@ TEST(exact_space_laws, biot_in_space_equals_the_element_of_the_coarse_cloth_whic
 
 TEST(invariant_space_laws, rotations_in_space_change_no_energy_and_rigid_motion_has_no_stress)
 {
-  for (const Law law : {Law::biot, Law::green, Law::yarn})
+  for (const Law law : meshes::laws_with(&meshes::LawProperties::is_of_space))
   {
     const auto at = space_response(law, some_stiffness(), gradient_in_space(), Tangent::exact);
     for (const double angle : {0.3, 1.7, 3.1})
@@ -137,7 +137,7 @@ TEST(invariant_space_laws, rotations_in_space_change_no_energy_and_rigid_motion_
 
 TEST(bound_space_laws, the_positive_tangent_is_positive_and_is_the_exact_one_where_that_is_positive)
 {
-  for (const Law law : {Law::biot, Law::green, Law::yarn})
+  for (const Law law : meshes::laws_with(&meshes::LawProperties::is_of_space))
   {
     const auto exact    = space_response(law, some_stiffness(), squeezed(), Tangent::exact);
     const auto positive = space_response(law, some_stiffness(), squeezed(), Tangent::projected);
@@ -163,7 +163,7 @@ TEST(bound_space_laws, the_positive_tangent_is_positive_and_is_the_exact_one_whe
 
 TEST(bound_space_laws, collapsed_triangles_give_finite_answers)
 {
-  for (const Law law : {Law::biot, Law::green, Law::yarn})
+  for (const Law law : meshes::laws_with(&meshes::LawProperties::is_of_space))
     for (const double across : {0., 1e-300, 1e-12})
       for (const double along : {0., 1.})
       {

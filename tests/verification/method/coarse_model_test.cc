@@ -56,7 +56,7 @@ TEST(exact_coarse_model, without_micro_the_coarse_cloth_is_the_same_to_the_bit)
 {
   for (const auto &[name, law] :
        {std::pair("three-stiffness", Law::biot), std::pair("three-stiffness", Law::linear),
-        std::pair("plain-weave", Law::yarn)})
+        std::pair("plain-weave-straight", Law::yarn)})
   {
     const WholeCell of(name, law);
     const meshes::Sheet sheet = meshes::tile(of.cell.mesh, of.cell.lattice, 4, 4);

@@ -85,7 +85,7 @@ TEST(bound_mode_fit, strains_that_were_not_fitted_are_a_tenth_as_far_as_by_chi)
 {
   const FittedCell chevron(homogenization::read_unit_cell(CELLS "chevron.prm"), Law::biot,
                            box_up_to(0.2, Law::biot)),
-    weave(homogenization::read_unit_cell(CELLS "plain-weave.prm"), Law::yarn,
+    weave(homogenization::read_unit_cell(CELLS "plain-weave-straight.prm"), Law::yarn,
           box_up_to(0.05, Law::yarn));
   for (const FittedCell *cell : {&chevron, &weave})
   {
@@ -103,7 +103,7 @@ TEST(bound_mode_fit, strains_that_were_not_fitted_are_a_tenth_as_far_as_by_chi)
 // Sheared far and hardly stretched, which a box that shrinks as a whole never sees.
 TEST(bound_mode_fit, a_weave_that_is_sheared_is_half_as_far_as_by_chi)
 {
-  const FittedCell weave(homogenization::read_unit_cell(CELLS "plain-weave.prm"), Law::yarn,
+  const FittedCell weave(homogenization::read_unit_cell(CELLS "plain-weave-straight.prm"), Law::yarn,
                          box_up_to(0.05, Law::yarn));
   for (const double shear : {0.02, 0.05})
   {

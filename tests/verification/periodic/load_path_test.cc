@@ -167,7 +167,7 @@ TEST(derivative_load, the_work_of_the_stresses_is_the_derivative_of_the_energy)
 // At a small strain gradients are 1 and the strain: what their rounding does is in the bar.
 TEST(bound_load, the_work_is_the_derivative_of_the_energy_at_small_strains_too)
 {
-  for (const char *name : {"layered", "plain-weave"})
+  for (const char *name : {"layered", "plain-weave-straight"})
   {
     const Cell cell(name);
     for (const Law law : {Law::linear, Law::biot})

@@ -1,14 +1,21 @@
 # SPDX-License-Identifier: MIT
 """The library of cells: the list, what `cells make` refuses, what it makes where Gmsh is installed.
 """
+import csv
+import math
 import os
 import re
 import shutil
+import sys
 import unittest
 
 from cli import CELLS, InFolder, run
 
-NAMES = sorted(path.stem for path in CELLS.glob("*.prm"))
+sys.path.insert(0, str(CELLS))
+import weave  # noqa: E402  pylint: disable=wrong-import-position
+
+NAMES = sorted(path.stem for path in CELLS.glob("*.geo"))
+PUBLISHED = CELLS.parents[1] / "verification" / "published"
 
 
 def n_triangles(cell):
@@ -25,6 +32,52 @@ def shape_of(cell):
     is_number = [re.fullmatch(r"-?[\d.]+(e[-+]\d+)?", part) is not None for part in parts]
     return ([part for part, number in zip(parts, is_number) if not number],
             [float(part) for part, number in zip(parts, is_number) if number])
+
+
+def pulled(bending, pitch, height):
+    """The modulus of a plain weave whose two sets of yarns are alike, from the equilibrium of two half
+    beams, inclined and clamped where they cross, one pulled with unit force, the other not."""
+    angle = math.atan2(height, pitch)
+    length = math.hypot(pitch, height)
+    give = (length / 2) ** 3 / (3 * bending)  # of a cantilever's end, across it
+    # Half the force at the crossing, from: what one yarn loses in height the other one gains.
+    contact = math.sin(angle) / (2 * math.cos(angle))
+    across = math.sin(angle) - contact * math.cos(angle)
+    stretch = give * across * math.sin(angle) / (pitch / 2)
+    return 1 / pitch / stretch
+
+
+class Weaves(unittest.TestCase):
+    def test_materials_are_those_of_the_formula(self):
+        for name in weave.DIVES:
+            text = (CELLS / f"{name}.prm").read_text(encoding="utf-8")
+            for line in weave.materials(name, **weave.SHIPPED):
+                self.assertIn(line, text)
+
+    def test_the_formula_is_the_equilibrium_of_two_bent_yarns(self):
+        for seed in range(5):
+            cloth = weave.drawn("plain-weave", seed)
+            _, thickness, pitch = weave.cross_section(**cloth)
+            fibres = cloth["tex"] / 0.17
+            bending = fibres * 0.7 * 5e6 * 0.17e-6 ** 2 / (4 * math.pi * 1520)
+            self.assertAlmostEqual(weave.crimp_modulus(**cloth) / pulled(bending, pitch, thickness),
+                                   1, delta=1e-12)
+
+    def test_drawn_yarns_are_those_of_their_seeds(self):
+        with open(PUBLISHED / "weaves.csv", encoding="utf-8") as table:
+            for row in csv.DictReader(table):
+                drawn = weave.drawn(row["cell"], int(row["seed"]))
+                self.assertEqual({key: float(row[key]) for key in drawn}, drawn)
+
+
+class WovenStiffness(InFolder):
+    def test_a_plain_weave_has_the_modulus_of_its_crimp(self):
+        run("homogenize", CELLS / "plain-weave.prm", "--no-bars", "--quiet", "--output", self.folder)
+        text = (self.folder / "homogenize.json").read_text(encoding="utf-8")
+        found = float(re.search(r'"E1[^"]*": ([\d.e+]+)', text).group(1))
+        # Beside its dives a yarn stretches at its crossings, which makes the cloth softer by a
+        # hundredth; crossings that do not turn make it stiffer.
+        self.assertAlmostEqual(found / weave.crimp_modulus(**weave.SHIPPED), 1, delta=0.1)
 
 
 class List(unittest.TestCase):

@@ -81,7 +81,7 @@ class MethodsOfTheirOwn(SceneCase):
 
     def test_a_cloth_of_yarns_and_a_garment_have_no_second_order(self):
         weave = ["--quick", "--duration", 0.1, "--no-report", "--no-frames", "--unit-cells",
-                 CELLS / "twill.prm"]
+                 CELLS / "twill-straight.prm"]
         for term in ("cubic", "modes"):
             result = run("drape", self.scene({}, "pull"), *weave, "--methods",
                          f"localized,localized+{term}", "--output", self.folder / term)
