@@ -29,7 +29,7 @@ ConvergenceSizes convergence_sizes(const bool quick)
   sizes.refinements_p2  = quick ? std::vector<int>{0, 1, 2, 3} : std::vector<int>{0, 1, 2, 3, 4};
   sizes.adaptive_dofs   = quick ? 60000 : 400000;
   sizes.cells_per_sheet = quick ? std::vector<int>{2, 4, 8, 16} : std::vector<int>{2, 4, 8, 16, 32};
-  sizes.cells_of_edges  = quick ? std::vector<int>{4, 6, 8, 12} : std::vector<int>{5, 10, 20, 40};
+  sizes.cells_of_edges  = quick ? std::vector<int>{4, 6, 10, 16} : std::vector<int>{5, 10, 20, 40};
   sizes.cells_of_coarse_study = quick ? 4 : 16;
   sizes.coarse_per_cell       = {0.5, 1., 2., 4., 8.};
   if (!quick)
