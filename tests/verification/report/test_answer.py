@@ -327,6 +327,11 @@ class ClaimTest(unittest.TestCase):
         made = verdict(text, outcome, 1.58, "< 1", kind)
         return claims.claim_contents(made, [], "", self.BUDGET)
 
+    def test_a_claim_that_names_no_strain_has_no_cause(self):
+        text = ("stripes, biot, uniaxial-1, pulled: every strain has a periodic state on both meshes "
+                "(paths that ended before)")
+        self.assertEqual(self.claim(text, "INCONCLUSIVE", "method")["why"], "")
+
     def test_a_claim_on_the_method_that_fails_says_why_and_what_to_do(self):
         text = "a, strip-2: localized is closer to biot than affine at strain 0.01 (ratio)"
         row = self.claim(text, "FAIL", "method")

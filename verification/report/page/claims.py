@@ -97,7 +97,7 @@ OPEN = {
 }
 LEVEL = re.compile(r"([\w.-]+), (periodic-\d\d|uniaxial-\d|strip-\d|shear-frame)\b")
 METHOD = re.compile(r": ([\w+-]+) is closer to ")
-STRAIN = re.compile(r"at (?:strain )?([\d.e-]+)( %)?")
+STRAIN = re.compile(r"\bat (?:strain )?(\d[\d.e-]*)( %)?")
 
 
 def claim_contents(verdict, commands, study, budget):
