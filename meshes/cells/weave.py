@@ -10,8 +10,8 @@ it stretches. Between two crossings, a pitch p apart, it is a straight beam of l
 held without turning at each crossing and inclined by tan a = t / p; both sets of yarns are alike.
 Pulled along its own direction, with the sides of the cloth free, the cloth then has the modulus
 
-    K = 12 B / (l^3 sin^2 a) * (1 + 1) [N/m],      the last term that of the yarns across, which bend
-                                                   with it (crimp interchange)
+    K = 12 B / (l^3 sin^2 a) * (1 + 1) [N/m],      the last term that of the yarns across,
+                                                   which bend with it (crimp interchange)
 
 (G. A. V. Leaf, K. H. Kandil, The initial load-extension behaviour of plain-woven fabrics, Journal of
 the Textile Institute 71, 1 to 7, 1980). The fibres of a yarn bend each by itself, as if nothing held

@@ -3,7 +3,7 @@
 [CELL...]
 
 All cells that have a drawing of their own, and two variants of each weave whose yarns are drawn by
-chance (weaves.csv), at the paper's size. What is there of the same revision is taken up. Hours on two
+chance (meshes/cells/drawn_weaves.csv), at the paper's size. What is there of the same revision is taken up. Hours on two
 cores; CELL... makes those alone.
 """
 import csv
@@ -39,7 +39,7 @@ def run(*words):
 def make_weave(homespun, sources, folder, variant):
     """The cell file of a variant: the drawing with its cover, the materials of meshes/cells/weave.py.
 
-    @param variant row of weaves.csv
+    @param variant row of drawn_weaves.csv
     """
     name = f"{variant['cell']}-drawn-{variant['seed']}"
     run(homespun, "cells", "make", variant["cell"], "--set", f"yarn_width={variant['cover']}",
@@ -59,7 +59,7 @@ def cells_of(homespun, sources, output, names):
     for cell in sorted((sources / "meshes" / "cells").glob("*.prm")):
         if cell.with_suffix(".geo").exists() and (not names or cell.stem in names):
             yield cell, "yarn" if cell.stem in WEAVES else "biot"
-    with open(sources / "verification" / "published" / "weaves.csv", encoding="utf-8") as table:
+    with open(sources / "meshes" / "cells" / "drawn_weaves.csv", encoding="utf-8") as table:
         for variant in csv.DictReader(table):
             if not names or f"{variant['cell']}-drawn-{variant['seed']}" in names:
                 yield make_weave(homespun, sources, output / "weaves", variant), "yarn"

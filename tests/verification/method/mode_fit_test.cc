@@ -103,8 +103,8 @@ TEST(bound_mode_fit, strains_that_were_not_fitted_are_a_tenth_as_far_as_by_chi)
 // Sheared far and hardly stretched, which a box that shrinks as a whole never sees.
 TEST(bound_mode_fit, a_weave_that_is_sheared_is_half_as_far_as_by_chi)
 {
-  const FittedCell weave(homogenization::read_unit_cell(CELLS "plain-weave-straight.prm"), Law::yarn,
-                         box_up_to(0.05, Law::yarn));
+  const FittedCell weave(homogenization::read_unit_cell(CELLS "plain-weave-straight.prm"),
+                         Law::yarn, box_up_to(0.05, Law::yarn));
   for (const double shear : {0.02, 0.05})
   {
     const Eigen::Vector3d strain(0., 0.25 * shear * shear, shear);

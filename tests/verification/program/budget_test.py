@@ -4,7 +4,7 @@ import json
 import math
 import unittest
 
-from cli import CELLS, InFolder, cut, rows_of, run
+from cli import CELLS, WEAVE, InFolder, cut, rows_of, run
 
 STUDY = ["strain", CELLS / "layered.prm", "--cells", "2", "--strains", "0.01,0.1", "--loads",
          "periodic-12,shear-frame", "--references", "biot", "--methods", "localized", "--no-report"]
@@ -90,7 +90,7 @@ class Budget(InFolder):
                                      float(ways["fine-p1"]["error_mean_m"]), row["method"])
 
     def test_of_a_weave_run_times_are_those_under_its_law(self):
-        result = run("strain", CELLS / "plain-weave-straight.prm", "--cells", "4", "--strains", "0.01",
+        result = run("strain", WEAVE, "--cells", "4", "--strains", "0.01",
                      "--loads", "shear-frame", "--methods", "localized,full-cubic-modes,full",
                      "--no-budget", "--no-report", "--quiet", "--output", self.folder)
         self.assertIn(result.returncode, (0, 1, 4), result.stderr)

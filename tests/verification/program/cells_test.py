@@ -15,7 +15,6 @@ sys.path.insert(0, str(CELLS))
 import weave  # noqa: E402  pylint: disable=wrong-import-position
 
 NAMES = sorted(path.stem for path in CELLS.glob("*.geo"))
-PUBLISHED = CELLS.parents[1] / "verification" / "published"
 
 
 def n_triangles(cell):
@@ -35,8 +34,9 @@ def shape_of(cell):
 
 
 def pulled(bending, pitch, height):
-    """The modulus of a plain weave whose two sets of yarns are alike, from the equilibrium of two half
-    beams, inclined and clamped where they cross, one pulled with unit force, the other not."""
+    """The modulus of a plain weave whose two sets of yarns are alike, from the equilibrium of two
+    half beams, inclined and clamped where they cross, one pulled with unit force, the other not.
+    """
     angle = math.atan2(height, pitch)
     length = math.hypot(pitch, height)
     give = (length / 2) ** 3 / (3 * bending)  # of a cantilever's end, across it
@@ -64,7 +64,7 @@ class Weaves(unittest.TestCase):
                                    1, delta=1e-12)
 
     def test_drawn_yarns_are_those_of_their_seeds(self):
-        with open(PUBLISHED / "weaves.csv", encoding="utf-8") as table:
+        with open(CELLS / "drawn_weaves.csv", encoding="utf-8") as table:
             for row in csv.DictReader(table):
                 drawn = weave.drawn(row["cell"], int(row["seed"]))
                 self.assertEqual({key: float(row[key]) for key in drawn}, drawn)
@@ -72,7 +72,8 @@ class Weaves(unittest.TestCase):
 
 class WovenStiffness(InFolder):
     def test_a_plain_weave_has_the_modulus_of_its_crimp(self):
-        run("homogenize", CELLS / "plain-weave.prm", "--no-bars", "--quiet", "--output", self.folder)
+        run("homogenize", CELLS / "plain-weave.prm", "--no-bars", "--quiet",
+            "--output", self.folder)
         text = (self.folder / "homogenize.json").read_text(encoding="utf-8")
         found = float(re.search(r'"E1[^"]*": ([\d.e+]+)', text).group(1))
         # Beside its dives a yarn stretches at its crossings, which makes the cloth softer by a

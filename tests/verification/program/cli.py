@@ -15,6 +15,7 @@ PROGRAM = os.environ["HOMESPUN"]
 PATIENCE = int(os.environ.get("PATIENCE", "1"))  # more where all assertions are on
 MPIEXEC = os.environ.get("MPIEXEC", "mpiexec")
 CELLS = pathlib.Path(__file__).resolve().parents[3] / "meshes" / "cells"
+WEAVE = CELLS / "plain-weave-straight.prm"  # a thousand times as stiff along a yarn as in shear
 
 
 class Status(int):

@@ -13,7 +13,7 @@ import h5py
 import numpy
 
 from broken_cells_test import Cell, N, vertex
-from cli import CELLS, InFolder, run
+from cli import CELLS, WEAVE, InFolder, run
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[3] / "verification" / "report"))
 from read.vtu import read_vtu  # noqa: E402
@@ -300,7 +300,7 @@ class Options(InFolder):
 
 class Frames(InFolder):
     def test_materials_of_a_cell_file_are_its_groups_with_names_and_axes(self):
-        result = run("homogenize", CELLS / "plain-weave-straight.prm", "--no-bars", "--output", self.folder)
+        result = run("homogenize", WEAVE, "--no-bars", "--output", self.folder)
         self.assertIn(result.returncode, (0, 4), result.stderr)
         path = self.folder / "characteristic-displacements.vtu"
         surface, names = read_vtu(path), words_of(path, "material names")

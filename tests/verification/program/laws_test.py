@@ -3,12 +3,12 @@
 import json
 import unittest
 
-from cli import CELLS, InFolder, rows_of, run
+from cli import CELLS, WEAVE, InFolder, rows_of, run
 
 
 class Ellipticity(InFolder):
     def test_check_warns_of_yarns_and_of_nothing_in_cells_without(self):
-        woven = run("check", CELLS / "plain-weave-straight.prm")
+        woven = run("check", WEAVE)
         self.assertEqual(woven.returncode, 0, woven.stderr)
         # The yarn, E1/G12 = 583, and both crossings, 2333: 4 G/E / (1 - 4 G/E).
         self.assertRegex(woven.stdout, r"phase `warp` pulled along its axis 1 is not elliptic "
@@ -17,7 +17,7 @@ class Ellipticity(InFolder):
         self.assertNotIn("elliptic", run("check", CELLS / "auxetic.prm").stdout)
 
     def test_a_study_tells_from_which_strain_on_its_triangles_are_lost(self):
-        result = run("strain", CELLS / "plain-weave-straight.prm", "--quick", "--loads", "uniaxial-1",
+        result = run("strain", WEAVE, "--quick", "--loads", "uniaxial-1",
                      "--references", "linear,biot,green", "--strains", "0.001,0.003,0.004",
                      "--methods", "affine,localized", "--no-budget", "--no-runtime", "--no-report",
                      "--output", self.folder / "run")
@@ -47,7 +47,7 @@ SMALL = ["--quick", "--loads", "periodic-11", "--strains", "0.001,0.01", "--meth
 
 class Default(InFolder):
     def test_each_cell_has_its_own_law_said_in_every_result(self):
-        result = run("strain", CELLS / "plain-weave-straight.prm", CELLS / "layered.prm", *SMALL,
+        result = run("strain", WEAVE, CELLS / "layered.prm", *SMALL,
                      "--output", self.folder / "run")
         self.assertIn(result.returncode, (0, 1, 4), result.stderr)
         rows = rows_of(self.folder / "run" / "strain.csv")
@@ -57,7 +57,8 @@ class Default(InFolder):
         study = json.loads((self.folder / "run" / "study.json").read_text())
         said = [note for note in study["notes"] if "the law is" in note]
         self.assertEqual(len(said), 2, study["notes"])
-        for text, note in zip(("plain-weave-straight: the law is yarn", "layered: the law is biot"), said):
+        for text, note in zip(("plain-weave-straight: the law is yarn", "layered: the law is biot"),
+                              said):
             self.assertTrue(note.startswith(text), note)
             self.assertIn(note, result.stdout + result.stderr)
         self.assertIn("up to 0.172 % (E/G 2333.33)", said[0])
@@ -69,7 +70,7 @@ class Default(InFolder):
                                ("stability --load periodic-11 --strains 0.1% --refine 0",
                                 "stability.csv")):
             name, *options = command.split()
-            result = run(name, CELLS / "plain-weave-straight.prm", CELLS / "layered.prm", *options,
+            result = run(name, WEAVE, CELLS / "layered.prm", *options,
                          "--no-report", "--output", self.folder / name)
             self.assertIn(result.returncode, (0, 1, 4), result.stderr)
             laws = {(row["cell"], row["law"]) for row in rows_of(self.folder / name / table)}
@@ -80,7 +81,7 @@ class Default(InFolder):
             self.assertEqual(len(said), 2, study["notes"])
 
     def test_a_law_that_is_asked_for_wins(self):
-        result = run("strain", CELLS / "plain-weave-straight.prm", *SMALL, "--references", "biot",
+        result = run("strain", WEAVE, *SMALL, "--references", "biot",
                      "--output", self.folder / "run")
         self.assertIn(result.returncode, (0, 1, 4), result.stderr)
         self.assertEqual({row["reference"] for row in rows_of(self.folder / "run" / "strain.csv")},
@@ -152,7 +153,7 @@ class Yarns(InFolder):
         self.assertFalse(output.exists())
 
     def test_woven_cloth_is_pulled_beyond_the_loss_of_biot_and_stays_elliptic(self):
-        result = run("strain", CELLS / "plain-weave-straight.prm", "--quick", "--loads", "uniaxial-1",
+        result = run("strain", WEAVE, "--quick", "--loads", "uniaxial-1",
                      "--references", "yarn", "--strains", "0.001,0.01,0.05",
                      "--methods", "affine,localized", "--no-budget", "--no-runtime", "--no-report",
                      "--output", self.folder / "run")

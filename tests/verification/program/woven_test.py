@@ -4,16 +4,16 @@ import json
 import shutil
 import unittest
 
-from cli import CELLS, InFolder, rows_of, run
+from cli import CELLS, WEAVE, InFolder, rows_of, run
 from scene_case import SCENES
 
-HANGING = ["drape", SCENES / "hang.prm", "--unit-cells", CELLS / "plain-weave-straight.prm", "--cells", 2,
+HANGING = ["drape", SCENES / "hang.prm", "--unit-cells", WEAVE, "--cells", 2,
            "--duration", 0.1, "--frames", "vtu", "--methods", "affine,localized", "--no-report"]
 
 
 class Moving(InFolder):
     def run_scene(self, *options, cell=None):
-        study = [option if option != CELLS / "plain-weave-straight.prm" or cell is None else CELLS / cell
+        study = [option if option != WEAVE or cell is None else CELLS / cell
                  for option in HANGING]
         result = run(*study, "--quick", *options, "--output", self.folder / "run")
         return result
@@ -81,7 +81,7 @@ class Moving(InFolder):
 
 class RemovedLaw(InFolder):
     def test_it_is_refused_with_what_to_take_in_its_place(self):
-        hang, weave = SCENES / "hang.prm", CELLS / "plain-weave-straight.prm"
+        hang, weave = SCENES / "hang.prm", WEAVE
         for study in (("strain", weave, "--references", "yarn-tension"),
                       ("load", weave, "--strain", "11=1%", "--law", "yarn-tension"),
                       ("stability", weave, "--law", "yarn-tension"),
