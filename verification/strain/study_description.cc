@@ -226,8 +226,7 @@ nlohmann::ordered_json strain_inputs(const StrainStudyOptions &asked,
        {"loads", options.loads},
        {"references", options.references},
        {"methods", options.methods},
-       {"budget", options.budget},
-       {"run time", options.run_time}};
+       {"budget", options.budget}};
   if (has_supercell(options))
     inputs["supercell"] = options.supercell;
   for (const homogenization::UnitCell &cell : cells)

@@ -14,6 +14,8 @@ from cli import CELLS, PATIENCE, PROGRAM, InFolder, cut, rows_of, run
 LAYERED = CELLS / "layered.prm"
 SMALL = ["--cells", "2", "--loads", "periodic-12", "--strains", "0.01", "--references", "biot",
          "--no-budget", "--no-runtime", "--no-report"]
+SMALL_SHEET = ["--cells", "2", "--loads", "shear-frame", "--strains", "0.01", "--references", "biot",
+               "--no-budget", "--no-report"]
 
 
 class OneRun(InFolder):
@@ -147,23 +149,44 @@ class OneRun(InFolder):
 class Figure3(InFolder):
     def test_the_target_ends_well_where_only_the_method_failed_or_claims_are_open(self):
         script = CELLS.parents[1] / "verification" / "figure3.py"
+        # A homespun that writes what it is told, in the place of a study, and a page of it.
+        homespun = self.folder / "homespun"
+        homespun.write_text("""#!/bin/sh
+for folder; do :; done
+if [ "$1" = report ]; then echo page > "$folder/report.html"; exit 0; fi
+mkdir -p "$folder" && cp "$VERDICTS" "$folder/verdicts.json" && exit "$STATUS"
+""", encoding="utf-8")
+        homespun.chmod(0o755)
 
         def ends_with(status, *claims):
             verdicts = [{"claim": "a claim", "kind": kind, "verdict": verdict, "value": 1,
                          "limit": "0"} for kind, verdict in claims]
-            (self.folder / "verdicts.json").write_text(json.dumps({"verdicts": verdicts}))
-            return subprocess.run([sys.executable, "-B", script, self.folder, "sh", "-c",
-                                   f"exit {status}"], capture_output=True,
-                                  text=True, check=False)
+            told = self.folder / "verdicts.json"
+            told.write_text(json.dumps({"verdicts": verdicts}), encoding="utf-8")
+            return subprocess.run(
+                [sys.executable, "-B", script, self.folder / "out", homespun, "a.prm", "b.prm"],
+                env={**os.environ, "VERDICTS": str(told), "STATUS": str(status)},
+                capture_output=True, text=True, check=False)
         self.assertEqual(ends_with(0).returncode, 0)
+        self.assertTrue((self.folder / "out" / "report.html").exists())
         self.assertEqual(ends_with(4, ("program", "INCONCLUSIVE")).returncode, 0)
         of_method = ends_with(1, ("method", "FAIL"), ("program", "PASS"))
         self.assertEqual(of_method.returncode, 0)
-        self.assertIn("a claim: 1 (0)", of_method.stdout)
+        self.assertEqual(of_method.stdout.count("a claim: 1 (0)"), 2)
         self.assertEqual(ends_with(1, ("method", "FAIL"), ("program", "FAIL")).returncode, 1)
         self.assertEqual(ends_with(1).returncode, 1)
         self.assertEqual(ends_with(2).returncode, 2)
         self.assertEqual(ends_with(3).returncode, 3)
+
+    def test_run_times_are_added_to_a_study_that_has_none(self):
+        options = [LAYERED, *SMALL_SHEET, "--output", self.folder / "run"]
+        first = run("strain", *options, "--no-runtime")
+        self.assertFalse((self.folder / "run" / "runtime.csv").exists(), first.stderr)
+        errors = (self.folder / "run" / "strain.csv").read_bytes()
+        again = run("strain", *options)
+        self.assertEqual(again.returncode, first.returncode, again.stderr)
+        self.assertTrue(rows_of(self.folder / "run" / "runtime.csv"))
+        self.assertEqual((self.folder / "run" / "strain.csv").read_bytes(), errors)
 
 
 if __name__ == "__main__":
