@@ -14,8 +14,8 @@ from cli import CELLS, PATIENCE, PROGRAM, InFolder, cut, rows_of, run
 LAYERED = CELLS / "layered.prm"
 SMALL = ["--cells", "2", "--loads", "periodic-12", "--strains", "0.01", "--references", "biot",
          "--no-budget", "--no-runtime", "--no-report"]
-SMALL_SHEET = ["--cells", "2", "--loads", "shear-frame", "--strains", "0.01", "--references", "biot",
-               "--no-budget", "--no-report"]
+SMALL_SHEET = ["--cells", "2", "--loads", "shear-frame", "--strains", "0.01",
+               "--references", "biot", "--no-budget", "--no-report"]
 
 
 class OneRun(InFolder):
