@@ -410,6 +410,9 @@ class AnswerPageTest(PageTest):
         first = page[page.index("<h1>") : page.index("<nav")]
         self.assertIn("C<sup>H</sup> [N/m]", first)
         self.assertIn("`homespun strain` makes them", first)
+        self.assertIn("One period of a cloth, homogenized", first)
+        self.assertNotIn('id="validity"', page)  # nothing of a study is there to be left out
+        self.assertIn('id="stiffness"', page)
 
     def test_a_cell_that_is_not_cut_as_it_is_drawn_says_so_on_the_first_screen(self):
         draw_alone(self.addCleanup)

@@ -7,6 +7,7 @@ import unittest
 import report_path  # noqa: F401
 from figures.load import load_figure, panels
 from made_up_run import verdict, write_run, write_table, write_verdicts
+from page.load_contents import pressed_sentence
 from page_case import PageTest
 from read.load_results import LoadRun, Path
 
@@ -97,6 +98,28 @@ class LoadPage(PageTest):
         self.assertEqual(len(first.lines), 6)  # five paths and the line of zero
         self.assertEqual([line.get_xdata()[0] for line in first.lines[:5]], [0.0] * 5)
         self.assertEqual(len(first.collections), 2)  # bars of the resolved biot and green
+
+    def test_a_cloth_that_is_pressed_in_its_plane_wrinkles_and_the_sentence_says_so(self):
+        def paths(modulus):
+            return [Path("a", "biot", "resolved", [row("biot", "resolved", k, modulus) for k in (1, 2)])]
+
+        self.assertEqual(pressed_sentence(paths(1000.0)), "")
+        self.assertIn("smallest principal stress of −40.0 N/m (biot, resolved): a free sheet wrinkles"
+                      " at once", pressed_sentence(paths(-1000.0)))
+        shear = paths(1000.0)
+        for one in shear[0].rows:
+            one.update(stress_11_N_per_m=0.0, stress_12_N_per_m=30.0)
+        self.assertIn("−30.0 N/m", pressed_sentence(shear))
+        for one in shear[0].rows:  # round-off is no compression
+            one.update(stress_11_N_per_m=1000.0, stress_22_N_per_m=-1e-9, stress_12_N_per_m=0.0)
+        self.assertEqual(pressed_sentence(shear), "")
+
+    def test_a_page_without_up_sampling_does_not_judge_it(self):
+        write_verdicts(self.folder, [verdict("a level has an equilibrium", "PASS", kind="method")])
+        write_run(self.folder, "load")
+        self.assertEqual(self.run_report(), (0, ""))
+        self.assertIn("(nothing is up-sampled here) (method)", self.page())
+        self.assertNotIn("The method does what it is for", self.page())
 
     def test_a_damaged_row_is_refused_by_line_and_column(self):
         self.edit("load.csv", lambda text: text.replace("linear,resolved,2,", "linear,resolved,x,"))

@@ -101,6 +101,9 @@ class StabilityPage(PageTest):
         page = self.page()
         self.assertIn("homespun: stripes", page)
         self.assertIn("Where a periodic state stops being the solution", page)
+        # Compression in the plane names wrinkling in the sentence itself.
+        self.assertIn("proved for the discrete cloth. In the plane alone: a free sheet that is pressed"
+                      " in its plane wrinkles at once", page)
         self.assertIn("first lost at −9.80 ± 1.00 %, to a pattern over 2 × 1 cells (k = (1/2, 0))",
                       page)
         self.assertIn("open: the meshes disagree", page)

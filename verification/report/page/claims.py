@@ -18,6 +18,11 @@ ADVICE = (
         " strain.",
     ),
     (
+        "than affine on the largest sheet",
+        "This is of the paper's method alone (`localized`), in linear theory. It says nothing of"
+        " up-sampling with all terms (`full`), which the page of `homespun strain` judges.",
+    ),
+    (
         "than its base at strain",
         "Under this load take the coarse cloth that the limit names, without up-sampling: nothing that"
         " up-sampling adds to it pays here.",
@@ -81,6 +86,7 @@ ADVICE = (
     ("single element across", "Mesh finer there, or compute with `--order 2`."),
     ("observed order", "Let it refine further: leave out `--quick`."),
 )
+STATES = "The states that were asked for exist, and are stable (nothing is up-sampled here)"
 OF_KIND = {
     "program": "The program, not the cell, is in question here: report it, with the cell and this"
     " page.",
@@ -152,12 +158,12 @@ def advice_of(verdict):
     )
 
 
-def claim_groups(claims):
+def claim_groups(claims, heading_of=KINDS):
     """[{"kind", "heading", "sentence", "count", "open", "held"}], by kind in their order: what does
     not hold, failures first, and what holds.
     """
     groups = []
-    for kind, heading in KINDS.items():
+    for kind, heading in heading_of.items():
         some = sorted((v for v in claims if v["kind"] == kind), key=lambda v: ORDER[v["verdict"]])
         if some:
             groups.append(
@@ -171,6 +177,11 @@ def claim_groups(claims):
                 }
             )
     return groups
+
+
+def headings_of_kinds(up_samples):
+    """kind -> heading; a page on which nothing is up-sampled judges no up-sampling."""
+    return KINDS if up_samples else {**KINDS, "method": STATES}
 
 
 def counted(claims):

@@ -11,7 +11,7 @@ from figures.style import seconds, three
 from page import tables
 from page.answer import answer_of
 from page.cell_contents import contents_of_cells
-from page.claims import claim_contents, claim_groups, claim_sentence
+from page.claims import claim_contents, claim_groups, claim_sentence, headings_of_kinds
 from page.comparison import comparison_contents, short_table
 from page.converge_contents import convergence_contents
 from page.drape_contents import drape_contents
@@ -44,6 +44,8 @@ HEADINGS = {
     "glossary": "Glossary",
     "provenance": "Runs, versions, machine",
 }
+# Sections that a cell without a study has nothing for.
+OF_STUDY = ("strain", "forces", "sheets", "budget", "validity", "time", "errors", "uncertainty")
 # Headings of every page; the others are those of `homespun strain`.
 COMMON = ("verdicts", "notes", "left-out", "glossary", "provenance")
 LAST = ("notes", "left-out", "glossary", "provenance")  # behind all scenes and self-tests
@@ -86,7 +88,8 @@ def page_contents(results, gallery, output):
         for study in results.studies
         for note in study.info.get("notes") or []
     ]
-    sections = Sections(drapes, stress, convergence, loads, stability, strain_shown)
+    has_study = bool(results.strain) or "strain" in {study.run.command for study in results.studies}
+    sections = Sections(drapes, stress, convergence, loads, stability, strain_shown, has_study)
     headings = headings_of(sections, comparison, notes)
     cells = contents_of_cells(results, gallery)
     reasons = {key: [] for key in ("verdicts", "short", "strain", "forces", "uncertainty")}
@@ -165,7 +168,9 @@ def page_contents(results, gallery, output):
         "run_rows": run_rows(results),
         "whole": whole_sentence(results),
         "self_tests": self_tests(results, output) if strain_shown else None,
-        "claim_groups": claim_groups(claims),
+        "claim_groups": claim_groups(
+            claims, headings_of_kinds(bool(results.strain or drapes or stress or convergence))
+        ),
         "claim_sentence": claim_sentence(claims),
         "in_short": short,
         "glossary": GLOSSARY,
@@ -216,6 +221,7 @@ class Sections:
     loads: list
     stability: list
     strain_shown: bool
+    has_study: bool
 
 
 def headings_of(sections, comparison, notes):
@@ -224,6 +230,8 @@ def headings_of(sections, comparison, notes):
     """
     strain_shown, drapes = sections.strain_shown, sections.drapes
     hidden = {key for key, shown in (("comparison", comparison), ("notes", notes)) if not shown}
+    if not sections.has_study:
+        hidden.update(OF_STUDY)
     shown = {
         key: text
         for key, text in HEADINGS.items()
@@ -259,6 +267,11 @@ def headings_of(sections, comparison, notes):
 
 def lead(sections):
     """What the page is about."""
+    if sections.strain_shown and not sections.has_study:
+        return (
+            "One period of a cloth, homogenized: its effective stiffness in the plane and in bending,"
+            " between guaranteed bounds, and what it rests on."
+        )
     if sections.strain_shown:
         return (
             "How far an up-sampled cloth is from the resolved one: a coarse sheet with the effective"

@@ -81,6 +81,27 @@ def coarse_sentence(paths):
     return sentences
 
 
+def pressed_sentence(paths):
+    """What a free cloth does where one of the curves presses it in its plane; empty where none does
+    by more than its bar.
+    """
+    most, where = 0.0, None
+    for path in paths:
+        for row in path.rows:
+            a, b, c = (row[f"stress_{k}_N_per_m"] for k in COMPONENTS)
+            bar = max(row[bar_key(f"stress_{k}_N_per_m")] for k in COMPONENTS)
+            least = (a + b) / 2.0 - math.hypot((a - b) / 2.0, c)
+            if least < most and -least > max(bar, SOLVED * max(abs(a), abs(b), abs(c))):
+                most, where = least, path
+    if where is None:
+        return ""
+    return (
+        f"Pressed in its plane, to a smallest principal stress of {three(most)} N/m ({where.law},"
+        f" {where.method}): a free sheet wrinkles at once, so that the curves are of one that is kept"
+        " flat."
+    )
+
+
 def load_contents(load, gallery):
     """Per cell a figure, sentences, and the ends of its paths."""
     cells = []
@@ -95,7 +116,8 @@ def load_contents(load, gallery):
             {
                 "name": cell,
                 "picture": gallery.add(load_figure(load, cell), f"load-{cell}", Markup(caption)),
-                "sentences": coarse_sentence(paths),
+                "sentences": [one for one in [pressed_sentence(paths)] if one]
+                + coarse_sentence(paths),
                 "rows": [end_row(path) for path in paths],
             }
         )

@@ -19,6 +19,10 @@ ZONE = (
     " Middle: β of the waves k at {strain} %, {what}; the disc in the middle: the limit of long"
     " waves, by their direction; {mark}: the lowest wave."
 )
+FLAT = (
+    " In the plane alone: a free sheet that is pressed in its plane wrinkles at once, so that this is of"
+    " one that is kept flat."
+)
 MODE = " Right: that wave on {cells}, its size chosen to be seen."
 
 
@@ -26,6 +30,7 @@ def first_loss(path, way):
     """One sentence: where it is lost, by what, and how sure that is."""
     given, refined = path.loss(way), path.loss(way, "refined")
     subject = f"{path.law}, {path.load}, {way}"
+    flat = FLAT if way == "pressed" else ""
     if given["outcome"] != "lost":
         held = given["held_to"]
         end = "the last strain" if given["outcome"] == "held" else "where the path ended"
@@ -37,7 +42,7 @@ def first_loss(path, way):
                 f", and the refined one loses it at {three(100.0 * refined['strain'])} %, proved for"
                 " the discrete cloth"
             )
-        return text + "."
+        return text + "." + flat
     where = with_bar((refined or given)["strain"], given["strain_bar"], 100.0)
     if refined is None or refined["outcome"] != "lost":
         where = three(100.0 * given["strain"])
@@ -45,7 +50,10 @@ def first_loss(path, way):
         what = f"a pattern over {int(given['cells_1'])} × {int(given['cells_2'])} cells"
     else:
         what = "localization of the macroscopic law"
-    return f"{subject}: first lost at {where} %, to {what} ({given['wave']}); proved for the discrete cloth."
+    return (
+        f"{subject}: first lost at {where} %, to {what} ({given['wave']}); proved for the discrete"
+        f" cloth.{flat}"
+    )
 
 
 def level_rows(path):
