@@ -20,7 +20,7 @@ void ReportCommand::add(CommandLine &line)
   struct Arguments
   {
     std::vector<std::string> folders;
-    std::string output;
+    std::string output, figure, width = "8.5cm", loads, format = "pdf,svg";
     bool pdf = false, quiet = false;
   };
   const auto arguments = std::make_shared<Arguments>();
@@ -32,6 +32,19 @@ void ReportCommand::add(CommandLine &line)
                       "Folder of the report (default DIR; of several out/report)");
   command->add_flag("--pdf", arguments->pdf,
                     "Save each figure as PDF as well, which takes half as long again");
+  CLI::Option *figure = command->add_option(
+    "--figure", arguments->figure,
+    "One figure for a paper instead of the page: strain, stiffness or cell, with text as text, "
+    "letters of 7 to 9 pt, and curves that survive black and white");
+  command->add_option("--width", arguments->width, "Of the figure: 8.5cm, 180mm or 3.3in")
+    ->needs(figure)
+    ->capture_default_str();
+  command
+    ->add_option("--loads", arguments->loads, "Of the figure, comma-separated (default all sheets)")
+    ->needs(figure);
+  command->add_option("--format", arguments->format, "Files of the figure: pdf, svg, png")
+    ->needs(figure)
+    ->capture_default_str();
   command->add_flag("--quiet", arguments->quiet, "Print nothing but faults");
   command->callback(
     [&line, arguments]()
@@ -45,6 +58,14 @@ void ReportCommand::add(CommandLine &line)
             const std::string output = !arguments->output.empty()       ? arguments->output
                                        : arguments->folders.size() == 1 ? arguments->folders[0]
                                                                         : "out/report";
+            if (!arguments->figure.empty())
+            {
+              std::vector<std::string> words = arguments->folders;
+              words.insert(words.end(), {"--output", output, "--figure", arguments->figure,
+                                         "--width", arguments->width, "--loads", arguments->loads,
+                                         "--format", arguments->format});
+              return run_report_script("report.py", words);
+            }
             make_report(arguments->folders, output, arguments->quiet,
                         arguments->pdf ? FigureFiles::with_pdf : FigureFiles::svg);
             list_report(output);

@@ -4,8 +4,9 @@
 too, from stored results.
 
     report.py DIR [DIR...] --output FOLDER [--pdf]
+    report.py DIR... --output FOLDER --figure strain --width 8.5cm --loads strip-1 --format pdf,svg
 
-Of several cells, or of several versions of one cell, the page compares what they share.
+The second form writes one figure for a paper and no page. Of several cells, or of several versions of one cell, the page compares what they share.
 
 Exit status: 0 the report is written; 2 the results cannot be used, one message per fault on stderr.
 FOLDER/report.html and FOLDER/figures/ appear when all of them are complete, or not at all.
@@ -29,6 +30,7 @@ from page.contents import page_contents  # noqa: E402
 from page.gallery import Gallery  # noqa: E402
 from page.page import render  # noqa: E402
 from page.page_size import fitted  # noqa: E402
+from page.paper_figure import NAMES, write_figures  # noqa: E402
 from page.terminal import answer_text  # noqa: E402
 from read.results import BadResults, read_results  # noqa: E402
 
@@ -117,6 +119,12 @@ def main(arguments=None):
     )
     parser.add_argument("--pdf", action="store_true", help="save each figure as PDF, too")
     parser.add_argument(
+        "--figure", help=f"one figure for a paper instead of the page: {', '.join(NAMES)}"
+    )
+    parser.add_argument("--width", default="8.5cm", help="of the figure")
+    parser.add_argument("--loads", default="", help="of the figure, comma-separated")
+    parser.add_argument("--format", default="pdf,svg", help="of the figure, comma-separated")
+    parser.add_argument(
         "--quiet", action="store_true", help="say nothing unless something is wrong"
     )
     options = parser.parse_args(arguments)
@@ -126,6 +134,17 @@ def main(arguments=None):
             # Pages are drawn by processes that are forked where nothing else runs: the threads that
             # Python 3.12 and later warn of are those of BLAS, which wait.
             warnings.filterwarnings("ignore", message=".*use of fork", category=DeprecationWarning)
+            if options.figure:
+                paths = write_figures(
+                    read_results(options.folders),
+                    options.output,
+                    options.figure,
+                    options.width,
+                    [load for load in options.loads.split(",") if load],
+                    options.format.split(","),
+                )
+                print("" if options.quiet else "\n".join(paths), end="" if options.quiet else "\n")
+                return 0
             path, answer = write_report(options.folders, options.output, tells, options.pdf)
         if tells:
             print("\r\033[K", end="", file=sys.stderr)

@@ -3,12 +3,15 @@
 import numpy
 from matplotlib import pyplot
 from matplotlib.collections import LineCollection, PolyCollection
+from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
 from figures import style
 
 CM = 100.0  # lengths are drawn in centimetres
 LOADS = ("11", "22", "12")
+AXIS_LENGTH = 0.7  # of the axis of a material that is drawn, over the root of the area of its patch
+LONGEST_AXIS = 0.25  # of the cell side
 
 
 def phase_stiffness(phase):
@@ -54,9 +57,60 @@ def cell_axes(axes, points):
     axes.grid(False)
 
 
-def phase_figure(cell):
-    """The cell with its mesh, coloured by phase, and its lattice vectors as arrows."""
-    figure, axes = pyplot.subplots(figsize=(5.6, 4.1), layout="constrained")
+def patches(mesh):
+    """A number (m) of each triangle: those of one material that hang together have the same."""
+    owner = numpy.arange(len(mesh.triangles))
+
+    def root(k):
+        while owner[k] != k:
+            owner[k] = owner[owner[k]]
+            k = owner[k]
+        return k
+
+    edges, of = edge_list(mesh.triangles)
+    for i in numpy.flatnonzero((edges[1:] == edges[:-1]).all(axis=1)):
+        if mesh.material[of[i]] == mesh.material[of[i + 1]]:
+            owner[root(of[i])] = root(of[i + 1])
+    return numpy.array([root(k) for k in range(len(owner))])
+
+
+def axes_of_materials(cell):
+    """Segments (k,2,2) [m] along axis 1 of the materials that have axes, one in each patch."""
+    numbers = [int(k) for k in numpy.unique(cell.material)]
+    if len(numbers) != len(cell.phases or []):
+        return numpy.zeros((0, 2, 2))
+    angles = {
+        number: numpy.radians(float(phase["angle"]))
+        for number, phase in zip(numbers, cell.phases)
+        if phase.get("E1") != phase.get("E2") and isinstance(phase.get("angle"), (int, float))
+    }
+    corners = cell.vertices[cell.triangles]
+    centres = corners.mean(axis=1)
+    sides = corners[:, 1:] - corners[:, :1]
+    areas = 0.5 * numpy.abs(sides[:, 0, 0] * sides[:, 1, 1] - sides[:, 0, 1] * sides[:, 1, 0])
+    patch, segments = patches(cell), []
+    for one in numpy.unique(patch):
+        inside = numpy.flatnonzero(patch == one)
+        angle = angles.get(int(cell.material[inside[0]]))
+        if angle is not None:
+            middle = numpy.average(centres[inside], axis=0, weights=areas[inside])
+            nearest = inside[numpy.argmin(numpy.linalg.norm(centres[inside] - middle, axis=1))]
+            along = numpy.array([numpy.cos(angle), numpy.sin(angle)])
+            half = min(AXIS_LENGTH * areas[inside].sum() ** 0.5, LONGEST_AXIS * cell.side) / 2.0
+            segments.append([centres[nearest] - half * along, centres[nearest] + half * along])
+    return numpy.array(segments).reshape(-1, 2, 2)
+
+
+def draw_axes_of_materials(axes, cell):
+    """Short lines along axis 1 of the materials, dark with a light edge: seen on any phase."""
+    segments = CM * axes_of_materials(cell)
+    for colour, width in (("white", 2.4), (style.BLACK, 0.9)):
+        axes.add_collection(LineCollection(segments, colors=colour, linewidths=width, zorder=4))
+    return len(segments) > 0
+
+
+def draw_phases(axes, cell):
+    """The cell with its mesh, coloured by phase, lattice vectors as arrows, axes of materials."""
     legend = phase_legend(cell)
     colour = {number: value for number, value, _ in legend}
     axes.add_collection(
@@ -68,6 +122,7 @@ def phase_figure(cell):
         )
     )
     cell_axes(axes, cell.vertices)
+    draw_axes_of_materials(axes, cell)
     corner = cell.vertices[numpy.argmin(cell.vertices.sum(axis=1))]
     for name, vector in zip(("$a_1$", "$a_2$"), cell.lattice):
         axes.annotate(
@@ -85,21 +140,27 @@ def phase_figure(cell):
             },
         )
         axes.annotate(
-            name,
+            name.replace("$", "").replace("_1", "₁").replace("_2", "₂"),
             CM * (corner + 1.02 * vector),
             annotation_clip=False,
-            fontsize=10,
+            style="italic",
             zorder=7,
             xytext=(5, 4),
             textcoords="offset points",
         )
-    figure.legend(
-        handles=[
-            Patch(facecolor=value, edgecolor="#555555", label=label) for _, value, label in legend
-        ],
-        loc="upper left",
-        bbox_to_anchor=(1.0, 0.95),
-    )
+
+
+def phase_figure(cell):
+    """draw_phases() with a legend beside it."""
+    figure, axes = pyplot.subplots(figsize=(5.6, 4.1), layout="constrained")
+    draw_phases(axes, cell)
+    handles = [
+        Patch(facecolor=value, edgecolor="#555555", label=label)
+        for _, value, label in phase_legend(cell)
+    ]
+    if len(axes_of_materials(cell)):
+        handles.append(Line2D([], [], color=style.BLACK, lw=0.9, label="axis 1 of the material"))
+    figure.legend(handles=handles, loc="upper left", bbox_to_anchor=(1.0, 0.95))
     return figure
 
 

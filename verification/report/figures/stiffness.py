@@ -33,6 +33,37 @@ def directional_modulus(stiffness, angles):
     )
 
 
+def polar_frame(axes):
+    """Directions and moduli of a polar plot."""
+    axes.set_rlim(bottom=0.0)
+    axes.set_rlabel_position(67.5)
+    axes.yaxis.set_major_locator(pyplot.MaxNLocator(4, prune="lower"))
+    axes.tick_params(axis="y", labelsize=7.5, colors="#444444")
+    axes.set_thetagrids(
+        range(0, 360, 45),
+        ["0° = axis 1", "45°", "90° = axis 2", "135°", "180°", "225°", "270°", "315°"],
+    )
+    axes.tick_params(axis="x", pad=4)
+    axes.spines["polar"].set_color("#BDBDBD")
+    axes.get_xticklabels()[0].set_horizontalalignment("left")
+    axes.get_xticklabels()[4].set_horizontalalignment("right")
+    name_unseen(axes.xaxis, "direction $\\theta$ [rad]")
+    name_unseen(axes.yaxis, "modulus $E(\\theta)$ [N/m]")
+    axes.text(0.5, -0.12 if axes.figure.get_figheight() > 4.0 else -0.26, "modulus $E(\\theta)$ [N/m]", transform=axes.transAxes, ha="center")
+
+
+def draw_moduli(axes, curves):
+    """The moduli of several matrices along each direction.
+
+    @param curves name -> (matrix, colour, line style)
+    """
+    angles = numpy.linspace(0.0, 2.0 * numpy.pi, 721)
+    for name, (matrix, colour, line) in curves.items():
+        modulus = directional_modulus(matrix, angles)
+        axes.plot(angles, modulus, ls=line, color=colour, label=name)
+    polar_frame(axes)
+
+
 def polar_figure(cell):
     """E(theta) of C^H between Voigt and Reuss.
 
@@ -57,21 +88,7 @@ def polar_figure(cell):
             label += f"\nbeyond the rim, up to {style.three(float(modulus.max()))} N/m"
             modulus = numpy.where(modulus > rim, numpy.nan, modulus)
         axes.plot(angles, modulus, line, color=colour, lw=width, label=label)
-    axes.set_rlim(bottom=0.0)
-    axes.set_rlabel_position(67.5)
-    axes.yaxis.set_major_locator(pyplot.MaxNLocator(4, prune="lower"))
-    axes.tick_params(axis="y", labelsize=7.5, colors="#444444")
-    axes.set_thetagrids(
-        range(0, 360, 45),
-        ["0° = axis 1", "45°", "90° = axis 2", "135°", "180°", "225°", "270°", "315°"],
-    )
-    axes.tick_params(axis="x", pad=4)
-    axes.spines["polar"].set_color("#BDBDBD")
-    axes.get_xticklabels()[0].set_horizontalalignment("left")
-    axes.get_xticklabels()[4].set_horizontalalignment("right")
-    name_unseen(axes.xaxis, "direction $\\theta$ [rad]")
-    name_unseen(axes.yaxis, "modulus $E(\\theta)$ [N/m]")
-    axes.text(0.5, -0.12, "modulus $E(\\theta)$ [N/m]", transform=axes.transAxes, ha="center")
+    polar_frame(axes)
     figure.legend(loc="upper left", bbox_to_anchor=(1.0, 0.95))
     return figure
 

@@ -121,6 +121,12 @@ def method_style(method, methods=()):
     return SPARE_METHOD_STYLES[unknown.index(method) % len(SPARE_METHOD_STYLES)]
 
 
+def line_of(number):
+    """(colour, line style) of one of several things that have no colour of their own."""
+    colours = (BLUE, VERMILLION, GREEN, PURPLE, ORANGE, SKY, BLACK)
+    return colours[number % len(colours)], ("-", "--", "-.", ":")[number % 4]
+
+
 def reference_style(reference):
     """(line style, marker) of a reference law."""
     return law_style(reference)[:2]

@@ -29,7 +29,7 @@
     type: is_log ? "logarithmic" : "linear", min: is_log || !description.log ? description.range[0] : 0, max: description.range[1],
     title: { display: true, text: style.lines(description.label), color: style.ink(), font: { size: 12 } },
     grid: { color: style.faint(), borderColor: style.ink() },
-    ticks: { color: style.ink(), font: { size: 11 }, autoSkip: !is_log, maxRotation: 0,
+    ticks: { includeBounds: false, color: style.ink(), font: { size: 11 }, autoSkip: !is_log, maxRotation: 0,
       callback(value) {
         const is_power = (v) => Math.abs(Math.log10(v) - Math.round(Math.log10(v))) < 1e-9;
         const long = (this.min < 2e-3 || this.max > 2e4) && this.ticks.every((tick) => is_power(tick.value));
