@@ -1,7 +1,9 @@
 # SPDX-License-Identifier: MIT
 """Tests of the comparison of several cells and of several versions of one."""
 import json
+import math
 import os
+import re
 import unittest
 from types import SimpleNamespace
 
@@ -11,6 +13,7 @@ from figures.comparison import comparison_figure, drawn
 from made_up_run import verdict, write_run, write_verdicts
 from made_up_study import write_results
 from page.comparison import claims_side_by_side, key_of, time_rows, validity_rows
+from page.differences import difference, differences
 from page.entries import entry_texts
 from page_case import PageTest, draw_alone
 from read import results, runs, versions
@@ -60,23 +63,46 @@ class ComparisonTest(PageTest):
         self.assertEqual(self.run_report(one, two), (0, ""))
         page = self.page()
         start = page.index('<h2 id="comparison">')
-        section = page[start : page.index("<h2", start + 4)]
-        for text in (
-            "stripes (old)",
-            "stripes (new)",
-            "2840",
-            "2900",
-            "…: slope 2",
-            "the verdicts of 1 differ",
-            '<tr class="differs">',
-            "periodic-22",
-            "0 (2.00)",
-            "0.0800 (2.00)",
-        ):
+        claims = page.index('<h2 id="verdicts">')
+        self.assertLess(start, claims)
+        section = page[start:claims]
+        for text in ("stripes (old)", "stripes (new)", "2812", "2842", "periodic-22", "0 (2.00)",
+                     "0.0800 (2.00)"):
             self.assertIn(text, section)
-        self.assertIn('id="comparison-error-strain"', section)
-        self.assertLess(page.index('<h2 id="verdicts">'), start)
+        # What differs stands first, the rest in one sentence.
+        rows = re.findall(r"<tr><td>([^<]*)</td>", section[: section.index("The same, to the bars")])
+        self.assertEqual(rows, [])
+        self.assertIn("C11, C22", section)
+        for name in ("error-strain", "moduli", "cells"):
+            self.assertIn(f'id="comparison-{name}"', section)
+        # Each claim once, a column a run.
+        listed = page[claims : page.index("<h2", claims + 4)]
+        self.assertEqual(listed.count("…: slope 2"), 1)
+        self.assertIn("the verdicts of 1 differ", listed)
+        self.assertIn('<tr class="differs">', listed)
         self.assertIn('href="#comparison"', page)
+
+    def test_what_differs_by_more_than_the_bars_stands_first_with_percent_and_bar(self):
+        one, two = self.write("old", "strain"), self.write("new", "strain")
+        path = os.path.join(two, "stripes", "homogenize.json")
+        with open(path, encoding="utf-8") as file:
+            value = json.load(file)
+        for key in ("C", "C_lower", "C_upper"):
+            value[key][1][1] *= 1.5
+        with open(path, "w", encoding="utf-8") as file:
+            json.dump(value, file)
+        write_run(two)
+        results_of_both = read_results([one, two])
+        told = differences(results_of_both, results_of_both.subjects)
+        # 989 ± 10 and 1484 ± 15 N/m, bars rounded upwards: half as much again, to the two per cent of both bars.
+        self.assertEqual([row[0] for row in told["rows"]], ["C22 [N/m]"])
+        self.assertEqual(told["rows"][0][1:3], ["989.0 ± 11", "1484 ± 16"])
+        self.assertEqual(told["rows"][0][3], "+50.0 ± 3.1 %")
+        self.assertIn("C11", told["same"])
+        self.assertEqual(difference((100.0, 1.0), (101.5, 1.0)), "within the bars")
+        self.assertEqual(difference((100.0, 0.1), (98.0, 0.1)), "−2.00 ± 0.20 %")
+        self.assertEqual(difference((100.0, math.nan), (130.0, math.nan)), "+30.0 %")
+        self.assertEqual(difference((100.0, 1.0), None), "–")
 
     def test_rows_of_two_versions_are_not_mixed(self):
         one, two = self.write("old", "strain"), self.write(
@@ -282,8 +308,9 @@ class ComparisonTest(PageTest):
         one, two = self.write("old", "strain"), self.write("new", "strain", revision="def5678")
         self.assertEqual(self.run_report(one, two), (0, ""))
         page = self.page()
-        for claim in ("old: slope 2", "new: slope 2", "old: a note"):
-            self.assertIn(claim, page)
+        self.assertIn("old: a note", page)
+        listed = page[page.index('<h2 id="verdicts">') :]
+        self.assertIn("<th>old</th><th>new</th>", listed[: listed.index("slope 2")])
         for words in (
             "This page sets 2 runs side by side: old (strain, revision abc1234",
             "new (strain, revision def5678",
@@ -319,6 +346,9 @@ class ComparisonTest(PageTest):
         self.assertEqual(
             [(row["claim"], row["differs"]) for row in block["rows"]], [("…: slope", True)]
         )
+        (alone,) = block["held"]  # of one run alone
+        self.assertEqual((alone["claim"], alone["entries"][1]), ("…: alone", None))
+        self.assertTrue(block["rows"][0]["advice"])
 
     def test_names_of_versions_are_short_and_differ(self):
         self.assertEqual(

@@ -1,11 +1,16 @@
 # SPDX-License-Identifier: MIT
-"""Error against strain of several cells, or versions of one, in the same panels."""
+"""Several cells, or versions of one: their errors in the same panels, their moduli in the same plots,
+their pictures side by side.
+"""
 import numpy
 from matplotlib import pyplot
 from matplotlib.lines import Line2D
+from matplotlib.patches import Patch
 
 from figures import style
+from figures.cell import draw_phases, phase_legend
 from figures.plot_data import ROUND_OFF_NOTE
+from figures.stiffness import draw_moduli
 from figures.strain import MARKED_STRAIN, floored, limits
 from read.schema import main_method
 
@@ -156,4 +161,61 @@ def comparison_figure(rows, references):
     figure.legend(
         handles=handles, loc="lower center", bbox_to_anchor=(0.5, 1.0), ncol=4, handlelength=2.8
     )
+    return figure
+
+
+def moduli_figure(stiffnesses, bendings):
+    """The moduli of all along each direction, in one polar plot of tension and one of bending; None
+    where fewer than two have one.
+
+    @param stiffnesses, bendings name -> (3,3) [N/m, 1e-6 N m]
+    """
+    panels = [
+        (title, matrices)
+        for title, matrices in (
+            ("tension, E(θ) [N/m]", stiffnesses),
+            ("bending of a strip [10⁻⁶ N m]", bendings),
+        )
+        if len(matrices) > 1
+    ]
+    if not panels:
+        return None
+    figure, grid = pyplot.subplots(
+        1, len(panels), squeeze=False, figsize=(4.6 * len(panels), 4.6),
+        subplot_kw={"projection": "polar"}, layout="constrained",
+    )
+    names = list(dict.fromkeys(name for _, matrices in panels for name in matrices))
+    looks = {name: style.line_of(k) for k, name in enumerate(names)}
+    for axes, (title, matrices) in zip(grid[0], panels):
+        draw_moduli(axes, {name: (C, *looks[name]) for name, C in matrices.items()}, title)
+    handles = [
+        Line2D([], [], color=colour, ls=line, lw=1.8, label=name)
+        for name, (colour, line) in looks.items()
+    ]
+    figure.legend(handles=handles, loc="lower center", bbox_to_anchor=(0.5, 1.0), ncol=4)
+    return figure
+
+
+def cells_figure(cells):
+    """Cells side by side, each with its scale, its phases below it; None for fewer than two."""
+    drawn = [cell for cell in cells if cell.vertices is not None]
+    if len(drawn) < 2:
+        return None
+    columns = min(3, len(drawn))
+    lines = -(-len(drawn) // columns)
+    figure, grid = pyplot.subplots(
+        lines, columns, squeeze=False, figsize=(3.7 * columns, 4.1 * lines), layout="constrained"
+    )
+    for axes, cell in zip(grid.flat, drawn):
+        draw_phases(axes, cell)
+        axes.set_title(cell.name, loc="left", fontweight="bold")
+        axes.legend(
+            handles=[
+                Patch(facecolor=colour, edgecolor="#555555", label=label)
+                for _, colour, label in phase_legend(cell)
+            ],
+            loc="upper center", bbox_to_anchor=(0.5, -0.2), ncol=2,
+        )
+    for axes in list(grid.flat)[len(drawn):]:
+        axes.set_visible(False)
     return figure

@@ -166,7 +166,8 @@ def small_sheet_figure(sheet):
     figure, grid = pyplot.subplots(
         1, 3, figsize=(5.2, 1.55 * whole.ratio + 0.95), sharey=True, layout="constrained"
     )
-    draw_whole(figure, grid, whole, ("reference", "up-sampled", "error"), SHORT)
+    method = style.PAPER if sheet["method"] == "localized" else style.HOMESPUN
+    draw_whole(figure, grid, whole, ("reference", method, "error"), SHORT)
     for axes in grid:
         axes.set_xlabel("axis 1 [cm]")
     grid[0].set_ylabel("axis 2 [cm]")

@@ -33,7 +33,10 @@ def directional_modulus(stiffness, angles):
     )
 
 
-def polar_frame(axes):
+MODULUS = "modulus $E(\\theta)$ [N/m]"
+
+
+def polar_frame(axes, quantity=MODULUS):
     """Directions and moduli of a polar plot."""
     axes.set_rlim(bottom=0.0)
     axes.set_rlabel_position(67.5)
@@ -48,11 +51,12 @@ def polar_frame(axes):
     axes.get_xticklabels()[0].set_horizontalalignment("left")
     axes.get_xticklabels()[4].set_horizontalalignment("right")
     name_unseen(axes.xaxis, "direction $\\theta$ [rad]")
-    name_unseen(axes.yaxis, "modulus $E(\\theta)$ [N/m]")
-    axes.text(0.5, -0.12 if axes.figure.get_figheight() > 4.0 else -0.26, "modulus $E(\\theta)$ [N/m]", transform=axes.transAxes, ha="center")
+    name_unseen(axes.yaxis, quantity)
+    low = -0.12 if axes.figure.get_figheight() > 4.0 else -0.26
+    axes.text(0.5, low, quantity, transform=axes.transAxes, ha="center")
 
 
-def draw_moduli(axes, curves):
+def draw_moduli(axes, curves, quantity=MODULUS):
     """The moduli of several matrices along each direction.
 
     @param curves name -> (matrix, colour, line style)
@@ -61,7 +65,7 @@ def draw_moduli(axes, curves):
     for name, (matrix, colour, line) in curves.items():
         modulus = directional_modulus(matrix, angles)
         axes.plot(angles, modulus, ls=line, color=colour, label=name)
-    polar_frame(axes)
+    polar_frame(axes, quantity)
 
 
 def polar_figure(cell):

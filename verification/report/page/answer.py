@@ -79,7 +79,6 @@ def answer_of(results, name, gallery):
                 line["beside"] += of_the_paper(line["paper"])
             if line["mark"] != "open":  # where the bar is named already
                 line["sentence"] += beside_the_bar(some[method])
-            line["short"] += beside_the_bar(some[method])
             lines.append({**line, "valid": valid_up_to(results, name, load, reference, method)})
     if not lines:
         return None
@@ -204,7 +203,8 @@ def line_of(load, affine, base, best, parts):
     reason = why(parts, method, left, best.get("reference"))
     size = f"{tables.length(left)} ({three(100.0 * after)} % of a cell side) are left"
     size += f" {reason}" if reason else ""
-    short = f"{tables.length(left)}, {three(100.0 * after)} % of a cell side" + (f", {reason}" if reason else "")
+    short = f"{tables.length_with_bar(left, bar)}, {three(100.0 * after)} % of a cell side"
+    short += f", {reason}" if reason else ""
     line = {
         "load": load, "title": title, "change": "–", "mark": "open", "coarse": "", "total": "",
         "paper": "", "short": f"{short}.", "beside": "", "gain": math.nan, "left_per_cell": after, "has_cause": None,

@@ -6,15 +6,18 @@ import math
 import re
 from statistics import median
 
+import numpy
 from figures import style
-from figures.comparison import comparison_figure
+from figures.comparison import cells_figure, comparison_figure, moduli_figure
 from figures.run_time import METHOD
 from figures.style import percent, seconds, three
 from page import tables
 from page.budget_contents import validity_text
-from page.entries import ENTRIES, MICRO, entry_texts, with_bar
+from page.claims import advice_of
+from page.differences import differences
+from page.entries import ENTRIES, MICRO, best_run, centre_and_bars, entry_texts, with_bar
 from read.schema import main_method
-from read.verdicts import WORDS
+from read.verdicts import MARKS, ORDER, WORDS
 from read.versions import tags
 
 VALIDITY_LIMIT = 0.01  # of a cell side
@@ -30,25 +33,50 @@ def comparison_contents(results, gallery):
     subjects = [s for s in results.subjects if s.name in results.cells]
     if len(subjects) < 2:
         return None
-    contents = {
-        "names": [s.name for s in subjects],
-        "groups": groups_of(results, subjects),
-        "picture": None,
-        "claims": claims_side_by_side(results, subjects),
+    cells = {s.name: results.cells[s.name] for s in subjects}
+    matrices = {
+        key: {
+            name: factor * centre_and_bars(value, key)[0]
+            for name, cell in cells.items()
+            if (value := best_run(cell, key)) and is_definite(value[key])
+        }
+        for key, factor in (("C", 1.0), ("D", MICRO))
     }
     rows = {s.name: results.reached(s.name) for s in subjects}
     references = {name: tables.main_reference(some) for name, some in rows.items() if some}
-    if figure := comparison_figure(rows, references):
-        contents["picture"] = gallery.add(
-            figure,
+    pictures = (
+        (
+            comparison_figure(rows, references),
             "comparison-error-strain",
             "Mean error per vertex against strain, in sides of each cell, one panel per load: "
             "the method that the page of each cell speaks of (full lines), the paper's where that is"
             " another one (dots) and the coarse mesh alone (dashes), against "
             + ", ".join(sorted(set(references.values())))
             + ".",
-        )
-    return contents
+        ),
+        (
+            moduli_figure(matrices["C"], matrices["D"]),
+            "comparison-moduli",
+            "Moduli along each direction, of Cᴴ in uniaxial tension and of Dᴴ in the bending of"
+            " narrow strips.",
+        ),
+        (
+            cells_figure(list(cells.values())),
+            "comparison-cells",
+            "The cells, each with its own scale; lines along axis 1 of the materials that have axes.",
+        ),
+    )
+    return {
+        "names": [s.name for s in subjects],
+        "differences": differences(results, subjects),
+        "groups": groups_of(results, subjects),
+        "pictures": [gallery.add(*picture) for picture in pictures if picture[0]],
+        "claims": claims_side_by_side(results, subjects),
+    }
+
+
+def is_definite(matrix):
+    return numpy.linalg.eigvalsh(numpy.array(matrix, dtype=float)).min() > 0.0
 
 
 def short_table(results, name):
@@ -241,8 +269,8 @@ def key_of(claim, cell):
 
 
 def claims_side_by_side(results, subjects):
-    """{"names", "rows", "differ"} of the claims that name a cell, and of those of whole studies
-    where there are versions.
+    """Blocks of claims, each once: {"names", "rows", "held", "differ"}. A row is a claim, a column a
+    run: of claims that name a cell each cell, of those of whole studies each version.
     """
     table, general = {}, {}
     names = sorted({s.cell for s in subjects}, key=len, reverse=True)
@@ -253,31 +281,37 @@ def claims_side_by_side(results, subjects):
             continue
         subject = next((s for s in subjects if s.cell == cell and s.place == study.place), None)
         if subject:
-            table.setdefault(key_of(verdict["claim"], cell), {})[subject.name] = verdict
+            known = table.setdefault(key_of(verdict["claim"], cell), {})
+            # What a study and the homogenization beside it both say is said by the worse of them.
+            one = known.get(subject.name)
+            if one is None or ORDER[verdict["verdict"]] < ORDER[one["verdict"]]:
+                known[subject.name] = verdict
     blocks = [block(table, [s.name for s in subjects], [s.name for s in subjects])]
     places = list(dict.fromkeys(place for some in general.values() for place in some))
-    if len(places) > 1:
-        names = tags(places)
-        blocks.append(block(general, places, [names[place] for place in places]))
-    return [one for one in blocks if one["rows"]]
+    of_place = tags(places)
+    blocks.append(block(general, places, [of_place[place] for place in places]))
+    return [one for one in blocks if one["rows"] or one["held"]]
 
 
 def block(table, columns, names):
-    """Claims that at least two columns share; those whose verdicts differ first."""
+    """Claims that do not hold in each column, those whose verdicts differ first; and those that do.
+    """
     rows = []
     for claim, some in table.items():
-        if len(some) < 2:
-            continue
         verdicts = {verdict["verdict"] for verdict in some.values()}
+        worst = min(some.values(), key=lambda verdict: ORDER[verdict["verdict"]])
         rows.append(
             {
                 "claim": claim.replace("CELL", "…"),
                 "differs": len(verdicts) > 1,
+                "holds": verdicts == {"PASS"},
+                "advice": "" if verdicts == {"PASS"} else advice_of(worst),
                 "entries": [
                     (
                         {
                             "verdict": some[c]["verdict"],
                             "word": WORDS[some[c]["verdict"]],
+                            "mark": MARKS[some[c]["verdict"]],
                             "value": tables.shown(some[c].get("value")),
                         }
                         if c in some
@@ -285,8 +319,13 @@ def block(table, columns, names):
                     )
                     for c in columns
                 ],
-                "limit": tables.shown(next(iter(some.values())).get("limit", "")),
+                "limit": tables.shown(worst.get("limit", "")),
             }
         )
     rows.sort(key=lambda row: not row["differs"])
-    return {"names": names, "rows": rows, "differ": sum(row["differs"] for row in rows)}
+    return {
+        "names": names,
+        "rows": [row for row in rows if not row["holds"]],
+        "held": [row for row in rows if row["holds"]],
+        "differ": sum(row["differs"] for row in rows),
+    }

@@ -25,8 +25,8 @@ from page.stress_contents import stress_contents
 
 HEADINGS = {
     "short": "In short",
+    "comparison": "What differs",
     "verdicts": "What holds, and what does not",
-    "comparison": "Comparison",
     "strain": "Error against strain",
     "forces": "Force against strain",
     "stiffness": "Effective stiffness",

@@ -8,7 +8,7 @@ import numpy
 from figures import style
 from figures.run_time import METHOD
 from figures.strain import errors_are_round_off
-from figures.style import percent, seconds, three
+from figures.style import bar_beside, beside_bar, percent, seconds, three
 from page.entries import ENTRIES, best_run, bracket_words, entry_texts, used_stiffnesses
 from read import schema
 from read.cell_results import relative_width
@@ -40,6 +40,17 @@ def length(value):
         if value < limit:
             return f"{three(float(factor * value))} {unit}"
     return f"{three(float(value))} m"
+
+
+def length_with_bar(value, bar):
+    """A length and how far it may be off, in one unit: 3.75 ± 0.50 µm."""
+    text = length(value)
+    if not bar > 0.0 or math.isnan(value) or text == "–":
+        return text
+    unit = text.rpartition(" ")[2]
+    factor = {"nm": 1e9, "µm": 1e6, "mm": 1e3, "m": 1.0}[unit]
+    shown = beside_bar(factor * value, factor * bar)
+    return f"{shown} ± {bar_beside(shown, factor * value, factor * bar)} {unit}"
 
 
 def error_tables(rows, methods, gains):

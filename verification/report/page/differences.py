@@ -1,0 +1,109 @@
+# SPDX-License-Identifier: MIT
+"""In what several cells or versions differ: every quantity they share, in percent of the first of
+them, those that differ by more than their bars before those that do not.
+"""
+import math
+
+from figures import style
+from figures.style import bar_beside, beside_bar, percent, three
+from page import tables
+from page.entries import ENTRIES, MICRO, best_run, centre_and_bars
+from read.schema import main_method
+
+SAME = 1e-6  # relative; what differs by less is the same to round-off
+
+
+def differences(results, subjects):
+    """{"rows": [[quantity, value of each, difference of each from the first]], "same": [names]}."""
+    rows, same = [], []
+    for name, unit, values in quantities(results, subjects):
+        known = [pair for pair in values if pair is not None]
+        if len(known) < 2 or values[0] is None:
+            continue
+        told = [difference(values[0], pair) for pair in values[1:]]
+        if all(pair is None or is_same(values[0], pair) for pair in values[1:]):
+            same.append(name)
+            continue
+        largest = max(
+            abs(pair[0] / values[0][0] - 1.0) if pair and values[0][0] else math.inf
+            for pair in values[1:]
+        )
+        texts = ["–" if pair is None else with_bar(*pair) for pair in values]
+        rows.append((largest, [f"{name} [{unit}]", *texts, *told]))
+    rows.sort(key=lambda row: -row[0])
+    return {"rows": [row for _, row in rows], "same": same}
+
+
+def with_bar(value, bar):
+    if not bar > 0.0:
+        return three(float(value))
+    text = beside_bar(value, bar)
+    return f"{text} ± {bar_beside(text, value, bar)}"
+
+
+def is_same(one, other):
+    """Whether two (value, bar) may be equal."""
+    scale = max(abs(one[0]), abs(other[0]))
+    bars = sum(bar for bar in (one[1], other[1]) if bar > 0.0)
+    return abs(one[0] - other[0]) <= max(bars, SAME * scale)
+
+
+def difference(one, other):
+    """+12 ± 3 %, from the first to another; the bar holds both."""
+    if other is None:
+        return "–"
+    if is_same(one, other):
+        return "within the bars" if max(one[1], other[1]) > 0.0 else "0"
+    if not one[0]:
+        return "–"
+    change = 100.0 * (other[0] / one[0] - 1.0)
+    bars = [
+        bar / abs(value) for value, bar in (one, other) if bar > 0.0 and value
+    ]
+    bar = 100.0 * abs(other[0] / one[0]) * sum(bars)
+    sign = "+" if change > 0.0 else "−"
+    return f"{sign}{with_bar(abs(change), bar)} %"
+
+
+def quantities(results, subjects):
+    """(name, unit, [(value, bar) of each subject or None])"""
+    cells = [results.cells[s.name] for s in subjects]
+    for key, factor, unit in (("C", 1.0, "N/m"), ("D", MICRO, "10⁻⁶ N m")):
+        known = [best_run(cell, key) for cell in cells]
+        pairs = [None if value is None else centre_and_bars(value, key) for value in known]
+        for name, i, j in ENTRIES:
+            yield f"{key}{name}", unit, [entry_of(pair, i, j, factor) for pair in pairs]
+    densities = [(cell.homogenize or {}).get("areal_density") for cell in cells]
+    yield "areal density", "kg/m²", [(float(d), math.nan) if d else None for d in densities]
+    for strain in tables.CHOSEN_STRAINS:
+        every = [errors_of(results, s, strain) for s in subjects]
+        for load in style.ordered_loads(load for some in every for load in some):
+            name = f"mean error, {load} at {percent(strain)}"
+            yield name, "1/1000 of a cell side", [some.get(load) for some in every]
+
+
+def entry_of(pair, i, j, factor):
+    if pair is None:
+        return None
+    matrix, bars = pair
+    return factor * float(matrix[i, j]), math.nan if bars is None else factor * float(bars[i, j])
+
+
+def errors_of(results, subject, strain):
+    """load -> (error, bar) [1/1000 of a cell side] of the method that the page speaks of."""
+    rows = results.reached(subject.name)
+    reference = tables.main_reference(rows)
+    found = {}
+    for load in {row["load"] for row in rows}:
+        here = {
+            row["method"]: row
+            for row in rows
+            if (row["load"], row["reference"]) == (load, reference)
+            and math.isclose(row["strain"], strain, rel_tol=1e-6)
+        }
+        row = here.get(main_method(here))
+        if row and row["error_mean_per_cell"] >= style.ROUND_OFF:
+            side = row["error_mean_m"] / row["error_mean_per_cell"]
+            bar = row["reference_uncertainty_m"] / side
+            found[load] = (1e3 * row["error_mean_per_cell"], 1e3 * bar)
+    return found
