@@ -102,8 +102,8 @@ class StabilityPage(PageTest):
         self.assertIn("homespun: stripes", page)
         self.assertIn("Where a periodic state stops being the solution", page)
         # Compression in the plane names wrinkling in the sentence itself.
-        self.assertIn("proved for the discrete cloth. In the plane alone: a free sheet that is pressed"
-                      " in its plane wrinkles at once", page)
+        self.assertIn("(k = (1/2, 0)) (kept flat: a free sheet that is pressed in its plane wrinkles at"
+                      " once); proved for the discrete cloth", page)
         self.assertIn("first lost at −9.80 ± 1.00 %, to a pattern over 2 × 1 cells (k = (1/2, 0))",
                       page)
         self.assertIn("open: the meshes disagree", page)
@@ -123,7 +123,8 @@ class StabilityPage(PageTest):
         self.edit_table("stability.csv", held)
         status, errors = self.run_report()
         self.assertEqual(status, 0, errors)
-        self.assertIn("stable up to −15.0 %, the last strain; that holds up to the mesh",
+        self.assertIn("stable up to −15.0 %, the last strain (kept flat: a free sheet that is"
+                      " pressed in its plane wrinkles at once); that holds up to the mesh",
                       self.page())
 
     def test_the_zone_is_the_same_at_k_and_at_minus_k(self):

@@ -22,6 +22,7 @@ from page.plausible import plausible_sentences
 from page.run_contents import run_rows, run_sentences, self_tests, whole_sentence
 from page.stability_contents import stability_contents
 from page.stress_contents import stress_contents
+from page.terminal import blocks_of_runs
 
 HEADINGS = {
     "short": "In short",
@@ -173,6 +174,15 @@ def page_contents(results, gallery, output):
         ),
         "claim_sentence": claim_sentence(claims),
         "in_short": short,
+        "answers": (
+            []
+            if strain_shown or drapes
+            else blocks_of_runs(
+                {"loads": loads, "stability": stability, "convergence": convergence,
+                 "stress": stress},
+                ("loads", "stability", "convergence", "stress"),
+            )
+        ),
         "glossary": GLOSSARY,
         "cells": cells,
         "notes": notes,
@@ -261,6 +271,8 @@ def headings_of(sections, comparison, notes):
         (s["id"], "Stress cases" + (f": {s['name']}" if len(sections.stress) > 1 else ""))
         for s in sections.stress
     )
+    if not strain_shown and not drapes:  # what was found stands before what it rests on
+        headings["verdicts"] = headings.pop("verdicts")
     headings.update((key, text) for key, text in shown.items() if key in LAST)
     return headings
 

@@ -19,10 +19,7 @@ ZONE = (
     " Middle: β of the waves k at {strain} %, {what}; the disc in the middle: the limit of long"
     " waves, by their direction; {mark}: the lowest wave."
 )
-FLAT = (
-    " In the plane alone: a free sheet that is pressed in its plane wrinkles at once, so that this is of"
-    " one that is kept flat."
-)
+FLAT = " (kept flat: a free sheet that is pressed in its plane wrinkles at once)"
 MODE = " Right: that wave on {cells}, its size chosen to be seen."
 
 
@@ -36,13 +33,13 @@ def first_loss(path, way):
         end = "the last strain" if given["outcome"] == "held" else "where the path ended"
         if math.isnan(held):
             return f"{subject}: no strain was reached."
-        text = f"{subject}: stable up to {three(100.0 * held)} %, {end}; that holds up to the mesh"
+        text = f"{subject}: stable up to {three(100.0 * held)} %, {end}{flat}; that holds up to the mesh"
         if refined and refined["outcome"] == "lost":
             text += (
                 f", and the refined one loses it at {three(100.0 * refined['strain'])} %, proved for"
                 " the discrete cloth"
             )
-        return text + "." + flat
+        return text + "."
     where = with_bar((refined or given)["strain"], given["strain_bar"], 100.0)
     if refined is None or refined["outcome"] != "lost":
         where = three(100.0 * given["strain"])
@@ -51,8 +48,8 @@ def first_loss(path, way):
     else:
         what = "localization of the macroscopic law"
     return (
-        f"{subject}: first lost at {where} %, to {what} ({given['wave']}); proved for the discrete"
-        f" cloth.{flat}"
+        f"{subject}: first lost at {where} %, to {what} ({given['wave']}){flat}; proved for the"
+        " discrete cloth."
     )
 
 

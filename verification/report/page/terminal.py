@@ -26,19 +26,7 @@ def answer_text(contents):
         for cell in contents["in_short"]
         if cell["lines"]
     ]
-    for runs in (contents["drapes"], contents["loads"], contents["stability"]):
-        blocks += [
-            (f"{run['name']}, {cell['name']}" if run["name"] != cell["name"] else cell["name"],
-             cell["sentences"])
-            for run in runs
-            for cell in run["cells"]
-        ]
-    blocks += [
-        (run["name"], [run["sentence"]])
-        for runs in (contents["convergence"], contents["stress"])
-        for run in runs
-        if run.get("sentence")
-    ]
+    blocks += blocks_of_runs(contents, ("drapes", "loads", "stability", "convergence", "stress"))
     lines = []
     for subject, sentences in blocks:
         if sentences:
@@ -47,6 +35,21 @@ def answer_text(contents):
                 lines += textwrap.wrap(plain(sentence), COLUMNS, initial_indent="  ",
                                        subsequent_indent="    ")
     return "\n".join(lines)
+
+
+def blocks_of_runs(contents, kinds):
+    """(subject, sentences) of runs that are no study of strain: scenes, infinite cloths, orders."""
+    blocks = []
+    for run in (run for kind in kinds for run in contents[kind]):
+        if run.get("sentence"):
+            blocks.append((run["name"], [run["sentence"]]))
+        blocks += [
+            (f"{run['name']}, {cell['name']}" if run["name"] != cell["name"] else cell["name"],
+             cell["sentences"])
+            for cell in run.get("cells") or []
+            if cell["sentences"]
+        ]
+    return blocks
 
 
 def plain(html):
