@@ -2,15 +2,19 @@
 """Tests of what the page answers first: what up-sampling does to the error, why, with which C^H."""
 import json
 import os
+import shutil
 import unittest
 
 import report_path  # noqa: F401
 import browser
+import h5py
 import numpy
 from figures import style
+from matplotlib import pyplot
 from made_up_run import list_again, verdict, write_run, write_verdicts
 from made_up_study import write_results
 from page import answer, claims, entries, plausible
+from page.answer_pictures import as_homespun, sheet_of_answer
 from page.glossary import GLOSSARY
 from page.headline import finer_mesh_sentence, headline, infinite_line
 from page.run_contents import self_tests
@@ -199,13 +203,13 @@ class HeadlineTest(unittest.TestCase):
         )
 
     def test_the_infinite_cloth_has_one_line(self):
-        line = infinite_line(
-            self.lines(strip_1=("better", "−40 %"), periodic_11=("better", "−50 %"),
-                       periodic_12=("worse", "+9 %"))
-        )
+        lines = self.lines(strip_1=("better", "−40 %"), periodic_11=("better", "−50 %"),
+                           periodic_12=("worse", "+9 %"))
+        lines[0]["left_per_cell"], lines[1]["left_per_cell"] = 0.5, 1e-4  # of no account
+        line = infinite_line(lines)
         self.assertEqual(line["load"], "periodic-11, periodic-12")
         self.assertEqual(line["change"], "−50 %")
-        self.assertIn("at most 0.100 % of a cell side is left", line["short"])
+        self.assertIn("at most 0.100 % of a cell side is left (periodic-12)", line["short"])
         self.assertIn("does not pay in periodic-12", line["short"])
         self.assertIsNone(infinite_line(self.lines(strip_1=("better", "−40 %"))))
 
@@ -236,10 +240,10 @@ class HeadlineTest(unittest.TestCase):
                 for method in ("affine", "localized", "full", "localized+p2")]
         base = [{**row(1e-3), **level, "method": "base"}]
         endless = [{**rows[0], "load": "periodic-11"}]
-        shown, names = answer.as_homespun(rows + endless, base, {"strip-1": "full"})
+        shown, names = as_homespun(rows + endless, base, {"strip-1": "full"})
         self.assertEqual(names, ["coarse mesh", "paper", "coarse cloth of homespun", "homespun"])
         self.assertEqual({one["load"] for one in shown}, {"strip-1"})
-        self.assertEqual(answer.as_homespun(rows, [], {"strip-1": "localized"})[1],
+        self.assertEqual(as_homespun(rows, [], {"strip-1": "localized"})[1],
                          ["coarse mesh", "paper"])
         # Each is told from the others in black and white.
         self.assertEqual(len({style.method_style(name) for name in names}), 4)
@@ -399,6 +403,31 @@ class AnswerPageTest(PageTest):
             self.assertTrue(meaning, word)
         for word in ("anchor", "lift", "localized", "linear, biot, green, yarn"):
             self.assertIn(f"<dt>{word}</dt>", page)
+
+    def test_the_picture_is_of_the_load_that_leaves_most_and_says_whose_sheet_it_is(self):
+        made = os.path.join(self.place, "made")
+        write_results(made)
+        one = os.path.join(made, "stripes", "fields-shear-frame.h5")
+        other = os.path.join(made, "stripes", "fields-strip-1.h5")
+        shutil.copy(one, other)
+        with h5py.File(other, "a") as file:
+            file.attrs["load"] = "strip-1"
+        cell = Cell("stripes", field_files=[one, other])
+        added = []
+
+        class Shown:
+            def add(self, figure, name, caption, **others):
+                added.append((caption, [axes.get_title(loc="left") for axes in figure.axes[:3]]))
+                pyplot.close(figure)
+
+        for most in ("strip-1", "shear-frame"):
+            lines = [{"load": load, "left_per_cell": 2.0 if load == most else 1.0}
+                     for load in ("strip-1", "shear-frame")]
+            sheet_of_answer(cell, lines, Shown())
+            self.assertTrue(added[-1][0].startswith(f"{most} at "), added)
+            self.assertIn("by the paper's method, localized,", added[-1][0])
+            self.assertEqual(added[-1][1], ["reference", "paper", "error"])
+        self.assertIsNone(sheet_of_answer(Cell("stripes"), [], Shown()))
 
     def test_a_cell_without_a_study_answers_with_its_stiffness(self):
         draw_alone(self.addCleanup)

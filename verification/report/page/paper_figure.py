@@ -8,7 +8,7 @@ from matplotlib import pyplot
 
 from figures import paper, style
 from page import tables
-from page.answer import as_homespun
+from page.answer_pictures import as_homespun
 from page.entries import best_run, centre_and_bars
 from page.gallery import METADATA, file_name
 from read.budget_results import base_rows
