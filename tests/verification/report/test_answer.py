@@ -440,6 +440,9 @@ class AnswerPageTest(PageTest):
         self.assertIn("C<sup>H</sup> [N/m]", first)
         self.assertIn("`homespun strain` makes them", first)
         self.assertIn("One period of a cloth, homogenized", first)
+        for name in ("cell", "directional-modulus"):
+            self.assertIn(f'id="stripes-{name}"', first)
+            self.assertEqual(page.count(f'id="stripes-{name}"'), 1)
         self.assertNotIn('id="validity"', page)  # nothing of a study is there to be left out
         self.assertIn('id="stiffness"', page)
 

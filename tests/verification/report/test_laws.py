@@ -53,7 +53,8 @@ class LawOnThePage(PageTest):
 
         def stiff(text):
             found = json.loads(text)
-            found["C"] = numpy.diag([100.0, 50.0, 0.1]).tolist()
+            for key in ("C", "C_lower", "C_upper"):
+                found[key] = numpy.diag([100.0, 50.0, 0.1]).tolist()
             return json.dumps(found)
 
         self.edit("stripes/homogenize.json", stiff)

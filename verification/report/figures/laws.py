@@ -19,6 +19,7 @@ from figures import style
 from figures.fabrics import STRETCH
 from figures.plot_data import name_unseen
 from figures.stiffness import directional_modulus
+from read.stiffness import homogenized
 
 LARGEST = 1e3  # of E/G that is drawn, unless a cell lies beyond
 STRAINS = (0.1, 50.0)  # percent
@@ -66,7 +67,7 @@ def marks_of(cell):
     """(name, E/G) of the cell's C^H and of its phases that have axes; what is not positive definite
     has none.
     """
-    matrices = [("$C^H$", cell.stiffness())] + [
+    matrices = [("$C^H$", homogenized(cell))] + [
         (str(phase.get("name", number)), numpy.array(phase["C"], dtype=float))
         for number, phase in enumerate(cell.phases or [])
         if phase.get("C") is not None and phase.get("E1") != phase.get("E2")

@@ -7,6 +7,7 @@ from matplotlib import pyplot
 
 from figures import style
 from figures.plot_data import name_unseen
+from read.stiffness import homogenized
 
 
 RIM = 2.0  # times the largest modulus of C^H: a bound beyond it would flatten what is shown
@@ -78,13 +79,13 @@ def polar_figure(cell):
     figure, axes = pyplot.subplots(
         figsize=(5.2, 4.4), subplot_kw={"projection": "polar"}, layout="constrained"
     )
-    rim = RIM * float(directional_modulus(cell.stiffness(), angles).max())
+    rim = RIM * float(directional_modulus(homogenized(cell), angles).max())
     for key, label, colour, line, width in (
         ("voigt", "Voigt (upper bound)", style.VERMILLION, "--", 1.3),
         ("C", "$C^H$", style.BLUE, "-", 2.2),
         ("reuss", "Reuss (lower bound)", style.GREEN, "-.", 1.3),
     ):
-        matrix = cell.stiffness(key)
+        matrix = homogenized(cell) if key == "C" else cell.stiffness(key)
         if matrix is None or numpy.linalg.eigvalsh((matrix + matrix.T) / 2).min() <= 0:
             continue
         modulus = directional_modulus(matrix, angles)

@@ -255,7 +255,7 @@ def beside_bar(value, bar):
     if abs(value) < 0.5 * 10.0**last:
         return "0"
     first = math.floor(math.log10(abs(value)))
-    if not -4 < first < 6:
+    if not -6 < first < 6:
         return three(value)
     digits = min(6, max(1, first - last + 1))
     return f"{value:.{max(0, digits - 1 - first)}f}".replace("-", "−")

@@ -6,7 +6,8 @@ from figures import fabrics
 from figures.bending import bending_polar_figure, deflection_figure
 from figures.style import three
 from figures.vertex_tables import deflection_table
-from page.entries import ENTRIES, MICRO, best_run, centre_and_bars, entry_texts
+from page.entries import ENTRIES, MICRO, entry_texts
+from read.stiffness import best_run, centre_and_bars
 
 SOFTEST, STIFFEST = 1e-7, 1e-3  # of cloth [N m]; outside a unit is wrong, or a thickness
 

@@ -15,8 +15,9 @@ from page import tables
 from page.budget_contents import validity_text
 from page.claims import advice_of
 from page.differences import differences
-from page.entries import ENTRIES, MICRO, best_run, centre_and_bars, entry_texts, with_bar
+from page.entries import ENTRIES, MICRO, entry_texts, with_bar
 from read.schema import main_method
+from read.stiffness import best_run, centre_and_bars
 from read.verdicts import MARKS, ORDER, WORDS
 from read.versions import tags
 

@@ -15,7 +15,7 @@ from page.claims import claim_contents, claim_groups, claim_sentence, headings_o
 from page.comparison import comparison_contents, short_table
 from page.converge_contents import convergence_contents
 from page.drape_contents import drape_contents
-from page.entries import best_run, bracket_words, stiffness_rows
+from page.entries import bracket_words, stiffness_rows
 from page.glossary import GLOSSARY
 from page.load_contents import load_contents
 from page.plausible import plausible_sentences
@@ -23,6 +23,7 @@ from page.run_contents import run_rows, run_sentences, self_tests, whole_sentenc
 from page.stability_contents import stability_contents
 from page.stress_contents import stress_contents
 from page.terminal import blocks_of_runs
+from read.stiffness import best_run
 
 HEADINGS = {
     "short": "In short",
@@ -174,6 +175,7 @@ def page_contents(results, gallery, output):
         ),
         "claim_sentence": claim_sentence(claims),
         "in_short": short,
+        "pictures_first": strain_shown and not has_study and not comparison,
         "answers": (
             []
             if strain_shown or drapes

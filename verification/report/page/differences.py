@@ -7,8 +7,9 @@ import math
 from figures import style
 from figures.style import bar_beside, beside_bar, percent, three
 from page import tables
-from page.entries import ENTRIES, MICRO, best_run, centre_and_bars
+from page.entries import ENTRIES, MICRO
 from read.schema import main_method
+from read.stiffness import best_run, centre_and_bars
 
 SAME = 1e-6  # relative; what differs by less is the same to round-off
 

@@ -9,11 +9,11 @@ from matplotlib import pyplot
 from figures import paper, style
 from page import tables
 from page.answer_pictures import as_homespun
-from page.entries import best_run, centre_and_bars
 from page.gallery import METADATA, file_name
 from read.budget_results import base_rows
 from read.results import BadResults, cell_side
 from read.schema import main_method
+from read.stiffness import best_run, centre_and_bars
 
 FORMATS = ("pdf", "svg", "png")
 NAMES = ("strain", "stiffness", "cell")

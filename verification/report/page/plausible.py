@@ -7,8 +7,9 @@ import numpy
 from figures import fabrics
 from figures.stiffness import directional_modulus
 from figures.style import three
-from page.entries import MICRO, best_run, centre_and_bars
+from page.entries import MICRO
 from page.words import listed
+from read.stiffness import best_run, centre_and_bars
 
 YARN = 5.0  # E1 over E2 from which a phase is one of yarns
 CROSSED = 30.0  # degrees between yarns that cross

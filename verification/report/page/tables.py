@@ -9,9 +9,10 @@ from figures import style
 from figures.run_time import METHOD
 from figures.strain import errors_are_round_off
 from figures.style import bar_beside, beside_bar, percent, seconds, three
-from page.entries import ENTRIES, best_run, bracket_words, entry_texts, used_stiffnesses
+from page.entries import ENTRIES, bracket_words, entry_texts, used_stiffnesses
 from read import schema
 from read.cell_results import relative_width
+from read.stiffness import best_run, homogenized
 
 CHOSEN_STRAINS = (0.01, 0.1)
 
@@ -156,7 +157,7 @@ def stiffness_table(cell):
         "matrices": [
             (name, rows)
             for name, rows in (
-                ("C^H", matrix_rows(cell.stiffness("C"))),
+                ("C^H", matrix_rows(homogenized(cell))),
                 ("Voigt", matrix_rows(cell.stiffness("voigt"))),
                 ("Reuss", matrix_rows(cell.stiffness("reuss"))),
             )
