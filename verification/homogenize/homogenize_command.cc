@@ -62,8 +62,8 @@ void HomogenizeCommand::add(CommandLine &line)
       ->capture_default_str();
   CLI::Option *uncertain = command->add_option(
     "--uncertain", arguments->uncertain,
-    "`phase.constant=range, ...`, such as soft.E=20%,hard.thickness=1e-5: inputs that "
-    "are known to a range alone, of their value or in Pa, m, deg; constants are E, nu "
+    "`phase.constant=range, ...`, such as soft.E=20%,hard.thickness=1e-5: inputs "
+    "known only to a range, in percent of the value or in Pa, m, deg; constants are E, nu "
     "and thickness, or E1, E2, nu12, G12, thickness and angle of an orthotropic "
     "phase. Their largest effect on C^H and D^H, to first order, stands beside the "
     "brackets");

@@ -83,7 +83,7 @@ void UpsampleCommand::add(CommandLine &line)
   command->add_flag(
     "--accept-strain", study->accepts_strain,
     "Go on where the mean strain is above 50 %, the mean compression above 30 %, or "
-    "a coarse triangle longer than a hundred cells: units that differ look so");
+    "a coarse triangle longer than a hundred cells, which mostly mean units that differ");
   command->add_option("--up", study->up, "Axis that points up, y or z: said in .usda")
     ->capture_default_str();
   command->add_option("--validity", study->validity_file,
