@@ -12,6 +12,7 @@ import subprocess
 import sys
 
 CELLS_PER_SIDE = 20
+MAPPED = ("layered", "twill")  # whose stability map is shipped
 WEAVES = ("plain-weave", "satin", "twill")  # whose default law is yarn
 COMPARED = [
     "--strains",
@@ -76,6 +77,11 @@ def main(homespun, sources, output, *names):
         ):
             folders.append(output / cell.stem / command)
             run(homespun, command, cell, *options, "--output", folders[-1])
+    for name in ("", *MAPPED):  # the first of made cells
+        if not names or name in names:
+            cell = [sources / "meshes" / "cells" / f"{name}.prm"] * bool(name)
+            folders.append(output / (name or "made") / "stress")
+            run(homespun, "stress", *cell, "--no-report", "--quiet", "--output", folders[-1])
     run(
         sys.executable,
         "-B",

@@ -5,7 +5,7 @@
     published.py OUTPUT DIR [DIR...]
 
 Of runs of `homespun strain` errors.csv, ladder.csv, times.csv and budget.csv, of `drape` pull.csv, of
-`homogenize` brackets.csv, of `converge` orders.csv, of all with claims claims.csv. Each row ends
+`homogenize` brackets.csv, of `converge` orders.csv, of `stress` limits.csv, of all with claims claims.csv. Each row ends
 with the run and the revision that its figures are of. A run that did not end, or whose files were
 changed since, is refused. Exit status: 0, or 2 with one message per fault.
 """
@@ -37,6 +37,7 @@ KEYS = {  # columns that name a row of each file
     "brackets.csv": ("cell",),
     "claims.csv": ("command", "of"),
     "orders.csv": ("cell", "study", "case", "quantity", "elements"),
+    "limits.csv": ("axis", "of"),
     "times.csv": ("cell",),
     "budget.csv": ("cell", "load", "strain"),
 }
@@ -311,6 +312,13 @@ def orders(results):
         }
 
 
+def limits(results):
+    """How far each axis of the stability map goes, and why it ends there."""
+    columns = ("axis", "of", "value_is", "reached", "end", "ended_by", "why", "error", "theory")
+    for row in results.table("limits.csv"):
+        yield {column: row[column] for column in columns}
+
+
 def named(run):
     """("strain --quick", "dots") of out/dots/strain-quick; of a folder of another name that name.
     """
@@ -360,6 +368,7 @@ TABLES = {
     "drape": {"pull.csv": pull},
     "homogenize": {"brackets.csv": brackets},
     "converge": {"orders.csv": orders},
+    "stress": {"limits.csv": limits},
 }
 
 

@@ -4,196 +4,263 @@
 #include "verification/stress/stress_axes.h"
 
 #include "homogenization/bracket/compatible_strain.h"
+#include "homogenization/cell/corners.h"
 #include "homogenization/cell/laminate.h"
+#include "meshes/plain/epsilon.h"
 #include "meshes/plain/errors.h"
 #include "verification/cell/energy_order.h"
 #include "verification/record/number_text.h"
-#include "verification/record/timing.h"
+
+#include <Eigen/Geometry>
 
 #include <algorithm>
 #include <cmath>
 
 namespace homespun::verification
 {
-using homogenization::isotropic;
-
 namespace
 {
-const char *const triangles = "triangles"; ///< the axis whose cells have as many
-constexpr int rows_of_cases = 16;          ///< rectangles per side
+constexpr double most_of_linear = 1e-6; ///< relative energy
 
-/// Of a measurement: as many DoFs with P1 as with P2, more than the preconditioner factorizes at
-/// once.
-constexpr int rows_of(const unsigned int order)
+const char *const of_direct_solve = "relative energy of the worst macro strain against a direct "
+                                    "solve of the same discrete problem; Voigt and Reuss";
+const char *const of_laminate = "relative energy of the worst macro strain against the closed form "
+                                "of a laminate; Voigt and Reuss";
+const char *const of_itself =
+  "relative energy of the worst macro strain against the cell as it was";
+
+std::vector<double> decades(const int first, const int last)
 {
-  return order == 1 ? 48 : 24;
+  std::vector<double> ladder;
+  for (int power = first; power <= last; ++power)
+    ladder.push_back(std::pow(10., power));
+  return ladder;
 }
 
-/// E = 1 MPa, half a millimetre thick.
-Phase soft_phase(const double nu = 0.3)
+bool is_laminate(const UnitCell &cell)
 {
-  return isotropic("soft", 1e6, nu, 5e-4, 400.);
+  return homogenization::corners_of(cell.mesh, cell.lattice, cell.stiffness_of_phase()).empty();
 }
 
-Phase stiff_phase(const double contrast, const double nu = 0.3)
+Eigen::Matrix3d expected_stiffness(const UnitCell &cell)
 {
-  return isotropic("stiff", 1e6 * contrast, nu, 5e-4, 400.);
-}
-
-/// @param ratio of Young's moduli along and across @param angle of its axis [deg]
-/// @param E, G across [Pa]
-Phase yarn_phase(const double ratio, const double angle, const double E = 1e6, const double G = 4e5)
-{
-  return {"yarn", E * ratio, E, 0.3, G, angle, 5e-4, 400.};
-}
-
-/// Rows of a square of about so many triangles.
-int rows_for(const double triangles)
-{
-  return 2 * static_cast<int>(std::lround(std::sqrt(triangles / 8.)));
-}
-
-Eigen::Matrix3d expected_stiffness(const UnitCell &cell, const Theory theory)
-{
-  if (theory == Theory::laminate)
-    return homogenization::laminate_stiffness(cell.stiffness_of_phase(), {0.5, 0.5});
+  if (is_laminate(cell))
+    return homogenization::laminate_stiffness(cell.mesh, cell.lattice, cell.stiffness_of_phase());
   const homogenization::TorusMesh torus = homogenization::glued(cell.mesh, cell.lattice);
   return homogenization::CompatibleStrain(torus, cell.stiffness_of_phase(), 1).stiffness;
 }
 
-/// C^H against theory, and against Voigt and Reuss.
-StressAnswer against_theory(const UnitCell &cell, const Theory theory)
+StressAnswer answer(const double error, const homogenization::Homogenization &found)
 {
+  return {error,
+          found.stiffness,
+          {},
+          *std::max_element(found.iterations.begin(), found.iterations.end()),
+          found.n_dofs};
+}
+
+void refuse_unsound(const UnitCell &cell)
+{
+  for (const Phase &phase : cell.phases)
+    for (const std::string &fault : homogenization::faults_of(phase))
+      throw meshes::BadInput(fault);
+}
+
+/// C^H against theory, and against Voigt and Reuss.
+StressAnswer against_theory(const UnitCell &cell)
+{
+  refuse_unsound(cell);
   const homogenization::Homogenization found = solved(cell);
-  double worst = larger(energy_difference(found.stiffness, expected_stiffness(cell, theory)),
+  double worst = larger(energy_difference(found.stiffness, expected_stiffness(cell)),
                         order_violation(found.stiffness, found.voigt));
   if (!found.reuss.isZero()) // as it is where the cell has holes
     worst = larger(worst, order_violation(found.reuss, found.stiffness));
-  return {worst, found.stiffness};
+  return answer(worst, found);
 }
 
-/// Homogenizes a cell some times over and tells iterations and medians of the times.
-SolverRow measured(SolverRow row, const UnitCell &cell, const int repeats)
+/// A cell whose C^H must be that of the cell as it was, moved by T and times a factor.
+StressAnswer against_itself(const UnitCell &cell, const UnitCell &moved,
+                            const Eigen::Matrix3d &T = Eigen::Matrix3d::Identity(),
+                            const double factor      = 1.)
 {
-  std::vector<double> of_solver;
-  row.outcome = "converged";
-  row.repeats = repeats;
-  try
+  const homogenization::Homogenization found = solved(moved);
+  const Eigen::Matrix3d before               = solved(cell).stiffness;
+  return answer(energy_difference(found.stiffness / factor, T * before * T.transpose()), found);
+}
+
+/// Names and criterion of an axis of a cell, with what theory says.
+StressAxis named(const UnitCell &cell, const char *const name, const char *const value_is,
+                 const char *const criterion, const std::vector<double> &ladder,
+                 const TheoryOfEnd theory = TheoryOfEnd::none, const double end = 0.,
+                 const std::string &theory_is = {})
+{
+  StressAxis axis;
+  axis.axis       = name;
+  axis.of         = cell.name;
+  axis.value_is   = value_is;
+  axis.criterion  = criterion;
+  axis.limit      = most_of_linear;
+  axis.ladder     = ladder;
+  axis.theory     = theory;
+  axis.theory_end = end;
+  axis.theory_is  = theory_is;
+  return axis;
+}
+
+/// What makes the phases of a cell hard.
+void add_phases(const UnitCell &cell, std::vector<StressAxis> &axes)
+{
+  const char *const criterion = is_laminate(cell) ? of_laminate : of_direct_solve;
+  const auto add              = [&](StressAxis axis, const std::function<UnitCell(double)> &make)
   {
-    row.seconds_total = median_seconds(
-      [&]()
+    axis.at = [=](const double value) { return against_theory(make(value)); };
+    axes.push_back(axis);
+  };
+  const TheoryOfEnd estimates = TheoryOfEnd::estimates;
+  const double rows           = std::sqrt(0.5 * cell.mesh.n_triangles());
+  // What algebraic_limit() says of a C^H, solved for the contrast and for the anisotropy.
+  const double contrast   = std::sqrt(most_of_linear) / (rows * meshes::epsilon),
+               anisotropy = most_of_linear / (16. * meshes::epsilon);
+  const std::string of_sums =
+                      "round-off of the forces of a stiff part that a soft one holds: (rows "
+                      "of triangles x 2.2e-16 x contrast)^2 is 1e-6",
+                    of_entries = "round-off of the entries of the stiffness of a phase: 16 x "
+                                 "2.2e-16 x ratio of its largest to its smallest one is 1e-6";
+  if (has_contrast(cell))
+  {
+    add(named(cell, "contrast", "largest over smallest E of the phases [-]", criterion,
+              decades(1, 16), estimates, contrast, of_sums),
+        [=](const double value) { return with_contrast(cell, value); });
+    add(named(cell, "contrast exchanged", "E of the softest over that of the stiffest phase [-]",
+              criterion, decades(1, 16), estimates, contrast, of_sums),
+        [=](const double value) { return with_contrast(cell, 1. / value); });
+    add(named(cell, "thickness ratio", "thickness of the stiffest phase times this [-]", criterion,
+              decades(1, 16), estimates, contrast, of_sums),
+        [=](const double value)
+        {
+          return with_phases(cell, [=](Phase &phase, const bool is_stiffest)
+                             { phase.thickness *= is_stiffest ? value : 1.; });
+        });
+  }
+  add(named(cell, "anisotropy", "E along the yarns times this [-]", criterion, decades(1, 16),
+            estimates, anisotropy, of_entries),
+      [=](const double value)
+      { return with_phases(cell, [=](Phase &phase, bool) { phase.E1 *= value; }); });
+  for (const double sign : {1., -1.})
+    add(named(cell, sign > 0. ? "nu towards 1" : "nu towards -1",
+              sign > 0. ? "1/(1 - nu), nu of an orthotropic phase over sqrt(E1/E2) [-]"
+                        : "1/(1 + nu), nu of an orthotropic phase over sqrt(E1/E2) [-]",
+              criterion, decades(1, 16), estimates, anisotropy, of_entries),
+        [=](const double value)
+        {
+          return with_phases(cell, [=](Phase &phase, bool)
+                             { set_poisson(phase, sign * (1. - 1. / value)); });
+        });
+}
+
+/// What makes the mesh of a cell hard.
+void add_meshes(const UnitCell &cell, const int most_triangles, std::vector<StressAxis> &axes)
+{
+  const char *const criterion = is_laminate(cell) ? of_laminate : of_direct_solve;
+  const double flatness       = most_of_linear / meshes::epsilon;
+  const std::string of_areas  = "round-off of the area of a flat triangle: 2.2e-16 x length over "
+                                "height is 1e-6";
+  StressAxis obtuse = named(cell, "obtuse sliver", "longest side over height of one triangle [-]",
+                            criterion, decades(1, 16), TheoryOfEnd::estimates, flatness, of_areas);
+  obtuse.at = [=](const double value) { return against_theory(with_sliver(cell, 1. / value)); };
+  axes.push_back(obtuse);
+
+  StressAxis flat = named(cell, "flat triangles", "factor by which the cell is longer [-]",
+                          criterion, decades(1, 16), TheoryOfEnd::estimates, std::sqrt(flatness),
+                          "stiffness along and across a flat triangle differ by the square of its "
+                          "flatness: times 2.2e-16 "
+                          "it is 1e-6");
+  flat.at         = [=](const double value)
+  { return against_theory(mapped(cell, Eigen::Vector2d(value, 1.).asDiagonal())); };
+  axes.push_back(flat);
+
+  std::vector<double> sizes;
+  for (int n = 2; sizes.empty() || sizes.back() <= 1e6; n *= 2)
+    sizes.push_back(static_cast<double>(n) * n * cell.mesh.n_triangles());
+  StressAxis triangles = named(cell, "triangles", "n x n cells as one [triangles]", of_itself,
+                               sizes, TheoryOfEnd::estimates, most_of_linear / meshes::epsilon,
+                               "round-off of a sum: 2.2e-16 for each triangle is 1e-6");
+  triangles.most       = most_triangles;
+  triangles.why_most   = "not more than " + short_text(most_triangles) + " triangles are tried";
+  triangles.at         = [=](const double value)
+  {
+    const int n = static_cast<int>(std::lround(std::sqrt(value / cell.mesh.n_triangles())));
+    return against_itself(cell, repeated(cell, n, n));
+  };
+  axes.push_back(triangles);
+}
+
+/// What must change nothing.
+void add_invariances(const UnitCell &cell, std::vector<StressAxis> &axes)
+{
+  const TheoryOfEnd promises     = TheoryOfEnd::promises;
+  const std::string is_invariant = "it is the same cloth; round-off and the solver leave 1e-11";
+  StressAxis turned              = named(cell, "turned and mirrored", "angle [degrees]", of_itself,
+                                         {15., 30., 45., 60., 90., 180.}, promises, 180.,
+                                         is_invariant);
+  turned.at                      = [=](const double value)
+  {
+    const double angle      = value * M_PI / 180.;
+    const Eigen::Matrix2d R = Eigen::Rotation2Dd(angle).toRotationMatrix();
+    const Eigen::Matrix3d T = homogenization::stiffness_rotation(angle),
+                          M = Eigen::Vector3d(1., 1., -1.).asDiagonal();
+    StressAnswer plain      = against_itself(cell, mapped(cell, R), T);
+    const StressAnswer mirrored =
+      against_itself(cell, mapped(cell, R * Eigen::Vector2d(-1., 1.).asDiagonal()), T * M);
+    plain.error = larger(plain.error, mirrored.error);
+    return plain;
+  };
+  axes.push_back(turned);
+
+  const double rows = std::sqrt(0.5 * cell.mesh.n_triangles());
+  StressAxis moved =
+    named(cell, "moved", "distance from the origin [cells]", of_itself, decades(1, 16),
+          TheoryOfEnd::estimates, most_of_linear / (rows * meshes::epsilon),
+          "round-off of the coordinates of an edge: rows of triangles x 2.2e-16 x "
+          "distance is 1e-6");
+  moved.at = [=](const double value)
+  {
+    UnitCell away = cell;
+    away.mesh.vertices.rowwise() +=
+      value * Eigen::RowVector2d(1., 0.7) * std::sqrt(cell.lattice.area());
+    return against_itself(cell, away);
+  };
+  axes.push_back(moved);
+
+  for (const bool is_length : {true, false})
+  {
+    StressAxis units = named(cell, is_length ? "unit of length" : "unit of stress",
+                             "numbers larger and smaller by this [-]", of_itself, decades(1, 12),
+                             promises, 1e9, is_invariant);
+    units.at         = [=](const double value)
+    {
+      StressAnswer worst;
+      for (const double factor : {value, 1. / value})
       {
-        const homogenization::Homogenization found = solved(cell, row.order);
-        of_solver.push_back(found.seconds.preconditioner + found.seconds.solve);
-        row.dofs       = found.n_dofs;
-        row.iterations = *std::max_element(found.iterations.begin(), found.iterations.end());
-      },
-      repeats);
-    row.seconds = median(of_solver);
+        const Units to = is_length ? Units{factor, factor, 1.} : Units{1., 1., factor};
+        StressAnswer next =
+          against_itself(cell, in_units(cell, to), Eigen::Matrix3d::Identity(), factor);
+        next.error = larger(worst.error, next.error);
+        worst      = next;
+      }
+      return worst;
+    };
+    axes.push_back(units);
   }
-  catch (const meshes::NotConverged &failure)
-  {
-    const std::string text = failure.what();
-    row.outcome            = text.substr(0, text.find("; residual norms"));
-  }
-  return row;
 }
 } // namespace
 
-std::vector<CellAxis> cell_axes(const std::vector<UnitCell> &given)
+std::vector<StressAxis> cell_axes(const UnitCell &cell, const int most_triangles)
 {
-  std::vector<CellAxis> axes;
-  const auto add = [&](const char *const parameter, const std::string &cell, const Theory theory,
-                       const std::vector<double> &values, const auto &make) {
-    axes.push_back({parameter, cell, theory, values, make});
-  };
-  const auto laminate = Theory::laminate, direct = Theory::direct_solve;
-
-  const std::vector<double> contrasts = {1e-9, 1e-6, 1e-3, 1e0, 1e3, 1e6, 1e9, 1e12};
-  add("contrast", "stripes", laminate, contrasts,
-      [](const double contrast, const int n)
-      { return stripe_cell(n, soft_phase(), stiff_phase(contrast)); });
-  add("contrast", "square inclusion", direct, contrasts,
-      [](const double contrast, const int n)
-      { return inclusion_cell(n, soft_phase(), stiff_phase(contrast)); });
-  for (const UnitCell &cell : given)
-    if (has_contrast(cell))
-      add("contrast", cell.name, direct, contrasts,
-          [=](const double contrast, int) { return with_contrast(cell, contrast); });
-
-  const std::vector<double> ratios = {-0.99, -0.9, -0.5, 0., 0.3, 0.49, 0.4999, 0.499999, 0.5};
-  add("poisson", "stripes of contrast 10", laminate, ratios,
-      [](const double nu, const int n)
-      { return stripe_cell(n, soft_phase(nu), stiff_phase(10., nu)); });
-  add("poisson", "square inclusion", direct, ratios,
-      [](const double nu, const int n)
-      { return inclusion_cell(n, soft_phase(nu), stiff_phase(10., nu)); });
-
-  const std::vector<double> moduli = {1e0, 1e1, 1e2, 1e3, 1e4};
-  add("anisotropy", "stripes of yarns at 30 degrees", laminate, moduli,
-      [](const double ratio, const int n)
-      { return stripe_cell(n, soft_phase(), yarn_phase(ratio, 30., 1e5, 1e5)); });
-  add("anisotropy", "yarns along axis 1", direct, moduli,
-      [](const double ratio, const int n)
-      { return inclusion_cell(n, soft_phase(), yarn_phase(ratio, 0.)); });
-  add("anisotropy", "yarns at 45 degrees", direct, moduli,
-      [](const double ratio, const int n)
-      { return inclusion_cell(n, soft_phase(), yarn_phase(ratio, 45.)); });
-
-  // Where a row of needles of 1e-6 meets the outline its vertices count as one.
-  add("sliver", "row of needles", laminate, {1e0, 1e-1, 1e-2, 1e-3, 1e-4, 1e-5},
-      [](const double height, const int n)
-      { return stripe_cell(n, soft_phase(), stiff_phase(10.), height); });
-  add("sliver", "one obtuse triangle", laminate, {1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6},
-      [](const double height, const int n)
-      { return capped_stripes(n, soft_phase(), stiff_phase(10.), height); });
-
-  add(triangles, "square inclusion", direct, {128., 512., 2048., 8192.},
-      [](const double n, int)
-      { return inclusion_cell(rows_for(n), soft_phase(), stiff_phase(10.)); });
-  add(triangles, "stripes of contrast 10", laminate, {1e4, 1e5, 1e6},
-      [](const double n, int) { return stripe_cell(rows_for(n), soft_phase(), stiff_phase(10.)); });
+  std::vector<StressAxis> axes;
+  add_phases(cell, axes);
+  add_meshes(cell, most_triangles, axes);
+  add_invariances(cell, axes);
   return axes;
-}
-
-std::vector<StressCase> axis_cases(const std::vector<CellAxis> &axes, const int most_triangles)
-{
-  std::vector<StressCase> cases;
-  for (const CellAxis &axis : axes)
-    for (const double value : axis.values)
-      if (axis.parameter != triangles || value <= most_triangles)
-      {
-        const std::string theory =
-          axis.theory == Theory::laminate ? "the closed form" : "a direct solve";
-        const Limit limit = limit_of(axis.make(value, rows_of_cases),
-                                     "largest relative energy difference to " + theory +
-                                       "; or violation of Voigt or Reuss [-]");
-        cases.emplace_back(
-          "cell " + axis.parameter, short_text(value) + "; " + axis.cell,
-          "finite; is that of " + theory, limit,
-          axis.parameter == triangles && value >= 1e5 ? Repeats::once : Repeats::twice,
-          [=](unsigned int)
-          { return against_theory(axis.make(value, rows_of_cases), axis.theory); });
-      }
-  return cases;
-}
-
-std::vector<SolverMeasurement> solver_measurements(const std::vector<CellAxis> &axes)
-{
-  std::vector<SolverMeasurement> all;
-  for (const CellAxis &axis : axes)
-    for (const double value : axis.values)
-      if (axis.parameter != triangles || value <= 1e4)
-        for (const unsigned int order : {1u, 2u})
-        {
-          SolverRow keys;
-          keys.parameter = axis.parameter;
-          keys.value     = value;
-          keys.cell      = axis.cell;
-          keys.order     = order;
-          all.push_back({keys, [=](const int repeats)
-                         { return measured(keys, axis.make(value, rows_of(order)), repeats); }});
-        }
-  return all;
 }
 } // namespace homespun::verification

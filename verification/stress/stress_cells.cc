@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "verification/stress/stress_cells.h"
 
-#include "meshes/plain/epsilon.h"
 #include "meshes/plain/sheet.h"
-#include "verification/cell/algebraic_limit.h"
+
+#include <Eigen/Geometry>
 
 #include <algorithm>
 #include <cmath>
@@ -60,6 +60,10 @@ auto extremes_of(const UnitCell &cell)
   return std::minmax_element(cell.phases.begin(), cell.phases.end(),
                              [](const Phase &a, const Phase &b) { return a.E1 < b.E1; });
 }
+Eigen::Matrix2d turn(const double degrees)
+{
+  return Eigen::Rotation2Dd(degrees * M_PI / 180.).toRotationMatrix();
+}
 } // namespace
 
 UnitCell stripe_cell(const int n, const Phase &lower, const Phase &upper, const double thin)
@@ -77,25 +81,58 @@ UnitCell inclusion_cell(const int n, const Phase &matrix, const Phase &inclusion
                    { return std::abs(x - 0.5) < 0.25 && std::abs(y - 0.5) < 0.25 ? 1 : 0; });
 }
 
-UnitCell capped_stripes(const int n, const Phase &lower, const Phase &upper, const double height)
+std::vector<UnitCell> made_cells()
 {
-  // The lower triangle (a, b, c) of a rectangle in the lower layer becomes three about a point
-  // above the middle of its edge ab, of which one is obtuse.
-  UnitCell cell                    = stripe_cell(n, lower, upper);
-  meshes::TriangleMesh &mesh       = cell.mesh;
-  const int t                      = 2 * (n * (n / 4) + n / 2);
+  const auto phase = [](const char *const name, const double E, const double angle)
+  {
+    Phase made = homogenization::isotropic(name, E, 0.3, 5e-4, 400.);
+    made.angle = angle;
+    return made;
+  };
+  constexpr int rows = 16;
+  UnitCell stripes   = stripe_cell(rows, phase("soft", 1e6, 0.), phase("stiff", 1e7, 30.)),
+           inclusion = inclusion_cell(rows, phase("soft", 1e6, 0.), phase("stiff", 1e7, 45.));
+  stripes.name       = "stripes";
+  inclusion.name     = "square inclusion";
+  return {stripes, inclusion};
+}
+
+UnitCell with_sliver(const UnitCell &cell, const double height)
+{
+  // The triangle (a, b, c) becomes three about a point above the middle of its edge ab, of which
+  // one is obtuse.
+  UnitCell other             = cell;
+  meshes::TriangleMesh &mesh = other.mesh;
+  const int m = mesh.n_triangles(), v = mesh.n_vertices(), t = m / 2;
   const Eigen::RowVector3i corners = mesh.triangles.row(t);
-  const int m = mesh.n_triangles(), v = mesh.n_vertices();
+  const Eigen::RowVector2d a = mesh.vertices.row(corners(0)), b = mesh.vertices.row(corners(1));
   mesh.vertices.conservativeResize(v + 1, 2);
-  mesh.vertices.row(v) = 0.5 * (mesh.vertices.row(corners(0)) + mesh.vertices.row(corners(1)));
-  mesh.vertices(v, 1) += height * cell_side / n;
+  mesh.vertices.row(v) =
+    0.5 * (a + b) + height * Eigen::RowVector2d(a(1) - b(1), b(0) - a(0)); // counter-clockwise
   mesh.triangles.conservativeResize(m + 2, 3);
   mesh.material.conservativeResize(m + 2);
   mesh.triangles.row(t) << corners(0), corners(1), v;
   mesh.triangles.row(m) << corners(1), corners(2), v;
   mesh.triangles.row(m + 1) << corners(2), corners(0), v;
   mesh.material(m) = mesh.material(m + 1) = mesh.material(t);
-  return cell;
+  return other;
+}
+
+UnitCell with_phases(const UnitCell &cell,
+                     const std::function<void(Phase &phase, bool is_stiffest)> &change)
+{
+  UnitCell other    = cell;
+  const double most = extremes_of(cell).second->E1;
+  for (Phase &phase : other.phases)
+    change(phase, phase.E1 == most);
+  return other;
+}
+
+void set_poisson(Phase &phase, const double ratio)
+{
+  const double largest = std::sqrt(phase.E1 / phase.E2);
+  phase.G12 *= (1. + phase.nu12 / largest) / (1. + ratio);
+  phase.nu12 = ratio * largest;
 }
 
 bool has_contrast(const UnitCell &cell)
@@ -119,21 +156,48 @@ UnitCell with_contrast(const UnitCell &cell, const double contrast)
   return other;
 }
 
+UnitCell repeated(const UnitCell &cell, const int n1, const int n2)
+{
+  const meshes::Sheet sheet = meshes::tile(cell.mesh, cell.lattice, n1, n2);
+  UnitCell larger           = cell;
+  larger.mesh               = sheet.mesh;
+  larger.lattice.vectors    = sheet.sides();
+  return larger;
+}
+
+UnitCell mapped(const UnitCell &cell, const Eigen::Matrix2d &A)
+{
+  UnitCell other        = cell;
+  other.mesh.vertices   = cell.mesh.vertices * A.transpose();
+  other.lattice.vectors = cell.lattice.vectors * A.transpose();
+  if (A.determinant() < 0.)
+  {
+    other.mesh.triangles.col(1).swap(other.mesh.triangles.col(2));
+    other.lattice.vectors.row(0).swap(other.lattice.vectors.row(1)); // a1 x a2 > 0 again
+  }
+  for (Phase &phase : other.phases)
+  {
+    const Eigen::Vector2d axis = A * turn(phase.angle).col(0);
+    phase.angle                = std::atan2(axis(1), axis(0)) * 180. / M_PI;
+  }
+  return other;
+}
+
+UnitCell in_units(const UnitCell &cell, const Units &units)
+{
+  UnitCell other = mapped(cell, units.length * Eigen::Matrix2d::Identity());
+  for (Phase &phase : other.phases)
+  {
+    phase.thickness *= units.thickness;
+    for (double *value : {&phase.E1, &phase.E2, &phase.G12})
+      *value *= units.modulus;
+  }
+  return other;
+}
 homogenization::Homogenization solved(const UnitCell &cell, const unsigned int order)
 {
   homogenization::HomogenizationOptions options;
   options.order = order;
   return homogenization::homogenize(cell, options, MPI_COMM_SELF);
-}
-
-Limit limit_of(const UnitCell &cell, const std::string &is)
-{
-  const int n = cell.mesh.n_triangles();
-  // Beyond what algebraic_limit() has: one rounding of the mean for each triangle.
-  const double of_size = n > 100000 ? n * meshes::epsilon : 0.;
-  return {algebraic_limit(cell, std::sqrt(0.5 * n)) + of_size, is,
-          "round-off: 1e-11 for sums over up to 1e5 triangles, 2.2e-16 for each where there are "
-          "more; (rows x 2.2e-16 x contrast)^2 for a stiff part that a soft one holds; 16 x "
-          "2.2e-16 x anisotropy of a phase, whose entries are rounded"};
 }
 } // namespace homespun::verification

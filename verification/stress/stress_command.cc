@@ -19,20 +19,23 @@ void StressCommand::add(CommandLine &line)
               "its limit");
   const auto arguments = std::make_shared<Arguments>();
   command->add_option("CELL.prm", arguments->study.cell_files,
-                      "Cells whose C^H and chi the cases take too (default: made ones alone)");
+                      "Cells whose axes are climbed (default: made ones)");
   command->add_flag("--quick", arguments->study.is_quick,
-                    "Each case twice instead of ten times, cells of at most 1e5 triangles");
+                    "Cells of at most 1e4 triangles, values of at most 2 s");
   add_study<StressCommand>(
     line, *command, arguments,
     {"out/CELLS/stress, --quick stress-quick",
-     "Axes of what is hard: contrast, Poisson's ratio, anisotropy, slivers and size of a cell; "
-     "time step,\n"
-     "stiffness, density and turn per step of a cloth. Of your cells beside that: moved, turned,\n"
-     "mirrored and in other units; up-sampled. stress.csv has a row per case: what was expected, "
-     "the outcome,\n"
-     "one figure, its limit and where that comes from; solver.csv iterations and times of the "
-     "cell problem\n"
-     "along its axes. A case that fails is a row, and exit status 1.\n"
+     "One row per axis in limits.csv: contrast, anisotropy, Poisson's ratio, thickness, slivers, "
+     "size,\nposition and units of a cell, its up-sampling; time step times stiffness, thickness "
+     "and "
+     "density\nratio and turn per step of a cloth, time step of the scenes hang and pull. Each "
+     "axis "
+     "is climbed by\nfactors of 2 to 1000 until an answer is wrong or refused: the largest value "
+     "that "
+     "is right, where and\nwhy it ends, the criterion, and theory beside it. Every value is a row "
+     "of "
+     "stress.csv. Exit status 1\nwhere an axis ends before its published limit, or before theory "
+     "allows.\n"
      "Example:\n  homespun stress --quick\n  homespun stress mycell.prm"},
     [](Arguments &given)
     {

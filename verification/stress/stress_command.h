@@ -11,7 +11,7 @@ namespace homespun::verification
 struct StressCommand
 {
   using Options = StressStudyOptions;
-  using Tables  = TablesOf<StressRow, SolverRow>;
+  using Tables  = TablesOf<LimitRow, StressRow>;
   static void add(CommandLine &line);
   static constexpr auto run = run_stress_study;
 };

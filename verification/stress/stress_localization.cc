@@ -23,34 +23,33 @@ constexpr int n_cells = 4;
 /// Coarse positions of a sheet.
 struct Violence
 {
-  const char *name;
-  Repeats repeats;
-  Positions<3> (*of)(const Positions<3> &rest, unsigned int seed);
+  const char *name, *value_is;
+  double last; ///< of the ladder, by factors of 1000
+  Positions<3> (*of)(const Positions<3> &rest, double value);
 };
 
 const std::vector<Violence> violent_motions = {
-  {"both axes to 0.2", Repeats::same_bits,
-   [](const Positions<3> &rest, unsigned int) -> Positions<3> { return 0.2 * rest; }},
-  {"the whole sheet in a line", Repeats::same_bits,
-   [](const Positions<3> &rest, unsigned int) -> Positions<3>
-   { return rest.rowwise().sum() * Eigen::RowVector3d(1., 2., 3.); }},
-  {"the whole sheet in a point", Repeats::same_bits,
-   [](const Positions<3> &rest, unsigned int) -> Positions<3>
-   { return Positions<3>::Constant(rest.rows(), 3, 0.3); }},
-  {"random coarse vertices", Repeats::with_seeds,
-   [](const Positions<3> &rest, const unsigned int seed) -> Positions<3>
-   { return rest.cwiseAbs().maxCoeff() * meshes::random_vectors(rest.rows(), seed); }},
-  {"one coarse vertex at 1e6 m", Repeats::with_seeds,
-   [](const Positions<3> &rest, const unsigned int seed) -> Positions<3>
+  {"up-sampling, compressed", "factor, both axes [-]", 1e30,
+   [](const Positions<3> &rest, const double value) -> Positions<3> { return rest / value; }},
+  {"up-sampling, stretched", "factor, both axes [-]", 1e30,
+   [](const Positions<3> &rest, const double value) -> Positions<3> { return value * rest; }},
+  {"up-sampling, flattened", "length over width of what it is pressed to [-]", 1e30,
+   [](const Positions<3> &rest, const double value) -> Positions<3>
    {
-     Positions<3> x = rest;
-     x.row(static_cast<int>(7 * seed + 3) % static_cast<int>(x.rows())) << 1e6, -2e5, 3e5;
+     Positions<3> x = rest.rowwise().sum() * Eigen::RowVector3d(1., 2., 3.);
+     x.col(0) += rest.col(0) / value;
      return x;
    }},
-  {"scaled by 1e-30", Repeats::same_bits,
-   [](const Positions<3> &rest, unsigned int) -> Positions<3> { return 1e-30 * rest; }},
-  {"scaled by 1e+30", Repeats::same_bits,
-   [](const Positions<3> &rest, unsigned int) -> Positions<3> { return 1e30 * rest; }}};
+  {"up-sampling, thrown about", "random way of each coarse vertex [sides]", 1e15,
+   [](const Positions<3> &rest, const double value) -> Positions<3>
+   { return rest + value * rest.cwiseAbs().maxCoeff() * meshes::random_vectors(rest.rows(), 0); }},
+  {"up-sampling, one vertex far", "way of one coarse vertex [m]", 1e15,
+   [](const Positions<3> &rest, const double value) -> Positions<3>
+   {
+     Positions<3> x = rest;
+     x.row(3) += value * Eigen::RowVector3d(1., -0.2, 0.3);
+     return x;
+   }}};
 
 /// Sum of the sizes of Biot's strain U - I, 11, 22 and twice 12; U of F = R U by the eigenvectors
 /// of F'F, apart from the code under test.
@@ -64,14 +63,14 @@ double size_of_strain(const Eigen::Matrix<double, 3, 2> &F)
 
 /// Largest microscopic displacement over its bound.
 StressAnswer upsampled(const meshes::HomogenizedCell &cell, const Violence &motion,
-                       const unsigned int seed)
+                       const double value)
 {
   const meshes::Sheet sheet = meshes::tile(cell.mesh, cell.lattice, n_cells, n_cells);
   const meshes::TriangleMesh mesh =
     meshes::coarse_sheet(sheet.origin, sheet.lattice.vectors, n_cells, n_cells);
   Positions<3> rest         = Positions<3>::Zero(mesh.n_vertices(), 3);
   rest.leftCols<2>()        = mesh.vertices;
-  const Positions<3> coarse = motion.of(rest, seed);
+  const Positions<3> coarse = motion.of(rest, value);
 
   UpsamplerOptions without;
   without.microscopic = false;
@@ -95,19 +94,28 @@ StressAnswer upsampled(const meshes::HomogenizedCell &cell, const Violence &moti
 }
 } // namespace
 
-std::vector<StressCase> localization_cases(const meshes::HomogenizedCell &cell,
-                                           const std::string &name)
+std::vector<StressAxis> localization_axes(const meshes::HomogenizedCell &cell,
+                                          const std::string &name)
 {
-  const Limit bound = {1. + 1e-12, "largest microscopic displacement over its bound [-]",
-                       "theory: lift x sum of |strains| x largest mode, and 1e-14 of the largest "
-                       "coordinate, whose digits the difference of two positions loses; round-off "
-                       "of the bound itself: 1e-12 of it"};
-  std::vector<StressCase> cases;
+  std::vector<StressAxis> axes;
   for (const Violence &motion : violent_motions)
-    cases.emplace_back("localization", std::string(motion.name) + "; " + name,
-                       "finite in float and double; within the bound of the method", bound,
-                       motion.repeats,
-                       [=](const unsigned int seed) { return upsampled(cell, motion, seed); });
-  return cases;
+  {
+    StressAxis axis;
+    axis.axis       = motion.name;
+    axis.of         = name;
+    axis.value_is   = motion.value_is;
+    axis.criterion  = "finite in float and double; largest microscopic displacement over its bound";
+    axis.limit      = 1. + 1e-12; // round-off of the bound itself
+    axis.theory     = TheoryOfEnd::promises;
+    axis.theory_end = motion.last;
+    axis.theory_is =
+      "lift x sum of |strains| x largest mode bounds it, whatever the motion: no end "
+      "within the numbers of a computer";
+    for (int power = 0; std::pow(10., power) <= motion.last; power += 3)
+      axis.ladder.push_back(power == 0 ? 5. : std::pow(10., power));
+    axis.at = [=](const double value) { return upsampled(cell, motion, value); };
+    axes.push_back(axis);
+  }
+  return axes;
 }
 } // namespace homespun::verification

@@ -5,7 +5,7 @@
 #pragma once
 
 #include "meshes/plain/homogenized_cell.h"
-#include "verification/stress/stress_case.h"
+#include "verification/stress/stress_axis.h"
 
 #include <string>
 #include <vector>
@@ -14,6 +14,6 @@ namespace homespun::verification
 {
 /// Sheets of 4 x 4 cells.
 /// @param name of the cell
-std::vector<StressCase> localization_cases(const meshes::HomogenizedCell &cell,
-                                           const std::string &name);
+std::vector<StressAxis> localization_axes(const meshes::HomogenizedCell &cell,
+                                          const std::string &name);
 } // namespace homespun::verification

@@ -69,16 +69,19 @@ std::vector<int> upper_corners(const int n)
 shell::Cloth sheet_cloth(const meshes::ClothMesh &mesh, const SheetStiffness &stiffness,
                          const std::vector<int> &held, const SheetPhysics &physics)
 {
-  const Eigen::VectorXd masses = shell::lumped_masses(mesh, {stiffness.areal_density});
+  const std::vector<Eigen::Matrix3d> D = {stiffness.D, stiffness.thicker * stiffness.D};
+  const Eigen::VectorXd masses =
+    shell::lumped_masses(mesh, {stiffness.areal_density,
+                                stiffness.areal_density * stiffness.thicker * stiffness.denser});
   shell::Cloth cloth(mesh.positions, masses, held, physics.options);
   if (stiffness.law == meshes::Law::yarn)
   {
-    cloth.add(shell::yarn_term(mesh, {stiffness.D}));
+    cloth.add(shell::yarn_term(mesh, D));
     if (physics.viscosity > 0.)
-      cloth.add(shell::viscosity_term(mesh, {stiffness.D}, physics.viscosity));
+      cloth.add(shell::viscosity_term(mesh, D, physics.viscosity));
   }
   else
-    cloth.add(shell::membrane_term(mesh, {stiffness.D}, physics.viscosity));
+    cloth.add(shell::membrane_term(mesh, D, physics.viscosity));
   if (physics.damping > 0.)
     cloth.add(shell::mass_damping_term(masses, physics.damping));
   if (!physics.gravity.isZero(0.))

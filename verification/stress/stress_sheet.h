@@ -26,6 +26,8 @@ struct SheetStiffness
   Eigen::Matrix3d D;                        ///< Voigt 11, 22, 12, engineering shear [N/m]
   double areal_density = 0.2;               ///< [kg/m^2]
   meshes::Law law      = meshes::Law::biot; ///< or yarn
+  /// Of the second phase of a mesh that has two, over the first: thickness and density [-].
+  double thicker = 1., denser = 1.;
 };
 
 /// The same, and a twin under the law `yarn`, named so, of each that loses ellipticity under the

@@ -6,6 +6,7 @@
 #include "meshes/plain/sheet.h"
 #include "verification/cell/energy_order.h"
 #include "verification/cell/study_of_cells.h"
+#include "verification/command/data_folder.h"
 #include "verification/record/number_text.h"
 #include "verification/record/on_root.h"
 #include "verification/record/progress.h"
@@ -13,9 +14,10 @@
 #include "verification/record/table.h"
 #include "verification/stress/stress_axes.h"
 #include "verification/stress/stress_localization.h"
-#include "verification/stress/stress_moved_cells.h"
 #include "verification/stress/stress_sheet_axes.h"
 
+#include <algorithm>
+#include <filesystem>
 #include <memory>
 #include <set>
 
@@ -23,43 +25,41 @@ namespace homespun::verification
 {
 namespace
 {
-nlohmann::ordered_json what_was_left_out(const int most_triangles, const int n_ranks,
-                                         const bool has_cells)
+nlohmann::ordered_json what_was_left_out(const int n_ranks)
 {
   nlohmann::ordered_json all;
   const auto left_out = [&](const char *what, const char *why) {
     all.push_back({{"what", what}, {"why", why}});
   };
-  left_out("cloth and up-sampling on many threads and ranks",
-           "the cases run on one thread of one rank");
+  left_out("cloth and up-sampling on many threads and ranks", "one thread of one rank climbs");
   left_out("what tests the program and no limit of a cell or a cloth",
            "the tests of the program hold it");
-  if (!has_cells)
-    left_out("a cell moved, turned, mirrored, in other units; its contrast; its up-sampling",
-             "no cell was given");
-  if (most_triangles < 1000000)
-    left_out("a cell of 1e6 triangles", "1e5 at most, to end in minutes");
   if (n_ranks == 1)
     left_out("C^H by several ranks beside one", "the study ran on one rank");
   return all;
 }
 
 const std::vector<std::string> notes = {
-  "A case is repeated with different seeds where it has random numbers; else every repetition must "
-  "give the same numbers to the last bit. Cells are homogenized twice, those of 100,000 triangles "
-  "and more once.",
-  "C^H of a cell is held against the closed form of a laminate, against a direct solve, or against "
-  "itself moved, by the relative energy of the worst macro strain.",
-  "Of a free sheet that spins each integrator is asked for what its theory gives: both Euler "
-  "methods for their linear momentum and a falling energy, the conserving one for both momenta and "
-  "the energy. That a sheet turns is judged by (x_new − x_old)/h: half of what a rigid body would "
-  "turn by is asked for. The turn per step is doubled until one of these fails; "
-  "it must not end before the spin stretches the sheet by a half.",
+  "An axis drives one thing from harmless to hard by factors of 2, 10 or 1000, and ends at the "
+  "first "
+  "answer that is wrong or refused. Linear problems are right within 1e-6 of theory or of a direct "
+  "solve, a motion within 1e-3 of where ever smaller steps go, momenta and energies to ten digits.",
+  "Where theory promises that an axis does not end before a value, and where a limit is published "
+  "for it, that is a claim. Else an end is a result and no failure.",
+  "The last value that is right is run twice: numbers must be the same to the last bit.",
+  "Of a free sheet that spins each integrator is asked for what its theory gives. That a sheet "
+  "turns is judged by (x_new − x_old)/h: half of what a rigid body would turn by is asked for.",
   "A stiffness that loses ellipticity under the corotational law, pulled along its yarns, before "
-  "20 %, has a twin under the law yarn.",
-  "The figure of a case is the largest of its repetitions; the time is that of all of them.",
-  "Each limit stands in stress.csv with where it comes from: theory, round-off, or a requirement. "
-  "Iterations and times of the solver have none: they are reported."};
+  "20 %, has a twin under the law yarn."};
+
+/// The limits that are shipped with the program.
+std::vector<PublishedLimitRow> published_limits()
+{
+  const std::string path = data_folder("limits.csv", "verification/published/limits.csv");
+  if (!std::filesystem::exists(path))
+    return {};
+  return read_table<PublishedLimitRow>(path);
+}
 
 class StressStudy final : public StudyOfCells
 {
@@ -67,87 +67,91 @@ public:
   StressStudy(const StressStudyOptions &options, const MPI_Comm communicator)
       : StudyOfCells("stress", options, communicator)
       , options(options)
-      , axes(cell_axes(cells()))
   {
   }
 
 private:
   void refuse() const override
   {
-    for (const homogenization::UnitCell &cell : cells())
+    for (const UnitCell &cell : cells())
       meshes::tile(cell.mesh, cell.lattice, 1, 1); // refuses cells that make no sheet
   }
 
   nlohmann::ordered_json inputs() override
   {
-    return {{"repeats", options.repeats},
-            {"most_triangles", options.most_triangles},
-            {"ranks", n_ranks()}};
+    return {{"most_triangles", options.most_triangles}, {"ranks", n_ranks()}};
   }
 
   void open_tables() override
   {
-    table = std::make_unique<Table<StressRow>>(options.output);
+    limits = std::make_unique<Table<LimitRow>>(options.output);
+    rungs  = std::make_unique<Table<StressRow>>(options.output);
   }
 
   void work() override
   {
-    Progress progress(is_root && !options.quiet, static_cast<int>(cells().size()));
-    for (const homogenization::UnitCell &cell : cells())
-    {
-      progress.milestone(cell.name + ": homogenization");
-      take(cell);
-      progress.done();
-    }
+    std::vector<Eigen::Matrix3d> by_all_ranks;
+    homogenization::HomogenizationOptions p1;
+    p1.order = 1;
+    if (n_ranks() > 1)
+      for (const UnitCell &cell : cells())
+        by_all_ranks.push_back(homogenization::homogenize(cell, p1, communicator).stiffness);
     on_root(communicator,
             [&]()
             {
-              collect();
-              run_cases();
-              measure_solver();
+              collect(by_all_ranks);
+              climb_all();
             });
   }
 
-  /// The cases of a given cell. All ranks.
-  void take(const homogenization::UnitCell &cell)
+  void collect(const std::vector<Eigen::Matrix3d> &by_all_ranks)
   {
-    const meshes::HomogenizedCell homogenized = homogenization::homogenized_cell(
-      cell, homogenize(cell, {}, verdicts).result, provenance_line());
-    stiffnesses.push_back({cell.name, homogenized.stiffness, homogenized.areal_density});
-    add(moved_cell_cases(cell));
-    add(localization_cases(homogenized, cell.name));
-    if (n_ranks() == 1)
-      return;
-    homogenization::HomogenizationOptions p1;
-    p1.order                       = 1;
-    const Eigen::Matrix3d parallel = homogenization::homogenize(cell, p1, communicator).stiffness;
-    cases.emplace_back(
-      "cell ranks", std::to_string(n_ranks()) + " beside one; " + cell.name, "finite; the same C^H",
-      limit_of(cell, "largest relative energy difference to one rank [-]"), Repeats::twice,
-      [=](unsigned int) -> StressAnswer {
-        return {energy_difference(parallel, solved(cell).stiffness), parallel};
-      });
+    std::vector<SheetStiffness> sheets;
+    for (const UnitCell &cell : cells().empty() ? made_cells() : cells())
+    {
+      const meshes::HomogenizedCell homogenized =
+        homogenization::homogenized_cell(cell, solved(cell), provenance_line());
+      sheets.push_back({cell.name, homogenized.stiffness, homogenized.areal_density});
+      add(cell_axes(cell, options.most_triangles));
+      add(localization_axes(homogenized, cell.name));
+    }
+    for (std::size_t k = 0; k < by_all_ranks.size(); ++k)
+      add({ranks_axis(cells()[k], by_all_ranks[k])});
+    for (const SheetStiffness &sheet :
+         with_twins_of_yarn(cells().empty() ? built_in_stiffnesses() : sheets))
+    {
+      add(sheet_axes(sheet));
+      add(scene_axes(sheet));
+    }
+    std::set<std::pair<std::string, std::string>> keys;
+    for (const StressAxis &one : axes)
+      if (!keys.insert({one.axis, one.of}).second)
+        throw meshes::BadInput("two axes are called `" + one.axis + " of " + one.of +
+                               "`; two cells have one name: rename a file");
   }
 
-  void collect()
+  void add(const std::vector<StressAxis> &some)
   {
-    add(axis_cases(axes, options.most_triangles));
-    const std::vector<SheetStiffness> sheets =
-      with_twins_of_yarn(cells().empty() ? built_in_stiffnesses() : stiffnesses);
-    add(time_step_cases(sheets));
-    add(stiffness_cases());
-    add(spin_cases(sheets));
-    std::set<std::vector<std::string>> keys;
-    for (const StressCase &one : cases)
-      if (!keys.insert(keys_of_row(one.row)).second)
-        throw meshes::BadInput("two stress cases are called `" + one.row.group + ": " +
-                               one.row.name +
-                               "`; a cell has the name of a built-in one: rename its file");
+    axes.insert(axes.end(), some.begin(), some.end());
   }
 
-  void add(const std::vector<StressCase> &some)
+  /// That several ranks give the C^H of one.
+  StressAxis ranks_axis(const UnitCell &cell, const Eigen::Matrix3d &parallel) const
   {
-    cases.insert(cases.end(), some.begin(), some.end());
+    StressAxis axis;
+    axis.axis       = "ranks";
+    axis.of         = cell.name;
+    axis.value_is   = "ranks";
+    axis.criterion  = "relative energy of the worst macro strain against one rank";
+    axis.limit      = 1e-10;
+    axis.ladder     = {static_cast<double>(n_ranks())};
+    axis.theory     = TheoryOfEnd::promises;
+    axis.theory_end = n_ranks();
+    axis.theory_is  = "it is the same problem";
+    axis.at         = [=](double) -> StressAnswer {
+      return {energy_difference(parallel, solved(cell).stiffness), parallel};
+    };
+    return axis;
   }
 
   int n_ranks() const
@@ -155,59 +159,57 @@ private:
     return static_cast<int>(n_ranks_of(communicator));
   }
 
-  void run_cases()
+  void climb_all()
   {
-    Progress progress(is_root && !options.quiet, static_cast<int>(cases.size()));
-    std::string group;
-    for (const StressCase &one : cases)
+    std::size_t n_rungs = 0;
+    for (const StressAxis &one : axes)
+      n_rungs += one.ladder.size();
+    Progress progress(is_root && !options.quiet, static_cast<int>(n_rungs));
+    for (const StressAxis &one : axes)
     {
-      const std::string what = one.row.group + ": " + one.row.name;
-      one.row.group == group ? progress.begin(what) : progress.milestone(one.row.group);
-      group = one.row.group;
-      if (!table->contains(one.row))
+      const std::string name = one.axis + " of " + one.of;
+      LimitRow row;
+      row.axis = one.axis;
+      row.of   = one.of;
+      progress.milestone(name);
+      std::size_t n_done = 0;
+      if (!limits->contains(row))
       {
-        const StressRow row = run_case(one, options.repeats);
-        table->append(row);
-        if (row.verdict != Outcome::pass)
-          progress.note("FAIL " + what + ": " + row.outcome + ", " + short_text(row.figure) + " (" +
-                        row.limit + ")");
+        row = climb(one, options.longest,
+                    [&](const StressRow &rung)
+                    {
+                      rungs->append_if_missing(rung);
+                      progress.begin(name + ": " + short_text(rung.value) + " " + rung.outcome);
+                      progress.done();
+                      ++n_done;
+                    });
+        limits->append(row);
       }
-      progress.done();
-    }
-  }
-
-  /// Iterations and times, which have no limit.
-  void measure_solver()
-  {
-    Table<SolverRow> rows(options.output);
-    const std::vector<SolverMeasurement> all = solver_measurements(axes);
-    Progress progress(is_root && !options.quiet, static_cast<int>(all.size()));
-    std::string parameter;
-    for (const SolverMeasurement &one : all)
-    {
-      const std::string what = "solver: " + one.keys.parameter + " " + short_text(one.keys.value);
-      one.keys.parameter == parameter ? progress.begin(what) : progress.milestone(what);
-      parameter = one.keys.parameter;
-      if (!rows.contains(one.keys))
-        rows.append(one.run(options.repeats > 2 ? 3 : 1));
-      progress.done();
+      for (; n_done < one.ladder.size(); ++n_done)
+        progress.done();
     }
   }
 
   StudyDescription conclude() override
   {
-    for (const Verdict &verdict : stress_verdicts(table->rows()))
-      verdicts.push_back(verdict);
-    return {{{"cases", cases.size()}, {"repeats", options.repeats}},
-            what_was_left_out(options.most_triangles, n_ranks(), !cells().empty()),
-            notes};
+    const std::vector<PublishedLimitRow> published = published_limits();
+    for (const StressAxis &one : axes)
+    {
+      const auto is_its_own = [&](const auto &row)
+      { return row.axis == one.axis && row.of == one.of; };
+      const auto shipped = std::find_if(published.begin(), published.end(), is_its_own);
+      const auto found   = std::find_if(limits->rows().begin(), limits->rows().end(), is_its_own);
+      if (const auto verdict = verdict_of(one, found == limits->rows().end() ? LimitRow() : *found,
+                                          shipped == published.end() ? nullptr : &*shipped))
+        verdicts.push_back(*verdict);
+    }
+    return {{{"axes", axes.size()}}, what_was_left_out(n_ranks()), notes};
   }
 
   const StressStudyOptions options;
-  const std::vector<CellAxis> axes;
-  std::vector<SheetStiffness> stiffnesses;
-  std::vector<StressCase> cases;
-  std::unique_ptr<Table<StressRow>> table; ///< on the first rank alone
+  std::vector<StressAxis> axes;
+  std::unique_ptr<Table<LimitRow>> limits; ///< both on the first rank alone
+  std::unique_ptr<Table<StressRow>> rungs;
 };
 } // namespace
 

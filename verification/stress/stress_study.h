@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// All stress cases, each repeated, as a table with verdicts.
+// The stability map: every axis climbed until an answer is wrong, as tables with claims.
 #pragma once
 
 #include "verification/cell/study_options.h"
@@ -12,25 +12,24 @@
 
 namespace homespun::verification
 {
-/// Without cells: built-in ones.
+/// Without cells: made ones.
 struct StressStudyOptions : StudyOptions
 {
-  int repeats        = 10;
   int most_triangles = 1000000; ///< of the largest cell
+  double longest     = 10.;     ///< a value that takes longer is the last of its axis [s]
 };
 
-/// Each case twice, cells of at most 1e5 triangles.
+/// Cells of at most 1e4 triangles, values of at most 2 s.
 inline void make_quick(StressStudyOptions &options)
 {
   options.is_quick       = true;
-  options.repeats        = 2;
-  options.most_triangles = 100000;
+  options.most_triangles = 10000;
+  options.longest        = 2.;
 }
 
-/// Runs all cases and writes, into the output folder, stress.csv and solver.csv row by row,
-/// verdicts.json and study.json. Cases and measurements that have a row there are not run again.
-/// Cells are homogenized with P1 by all ranks; the cases run on the first rank, on one thread.
-/// @throws BadInput, NotConverged of the cells, BadInput of the folder; what a case throws is its
-/// outcome
+/// Climbs all axes and writes, into the output folder, stress.csv value by value, limits.csv axis
+/// by axis, verdicts.json and study.json. Axes that have a row there are not climbed again. It runs
+/// on the first rank, on one thread; cells are homogenized by all ranks once more.
+/// @throws BadInput of cells and folder; what a value throws ends its axis
 std::vector<Verdict> run_stress_study(const StressStudyOptions &options, MPI_Comm communicator);
 } // namespace homespun::verification

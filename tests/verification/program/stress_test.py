@@ -1,59 +1,90 @@
 # SPDX-License-Identifier: MIT
-"""homespun stress: its cases, where the axis of turns ends, and its table."""
+"""homespun stress: its axes, its tables, and that no published limit falls unsaid."""
+import csv
 import json
+import re
 import unittest
 
 from cli import CELLS, InFolder, rows_of, run, status_of
 
-# Where the axis of turns per step ends: the largest turn that is right over the one that stretches
-# the sheet by half, up to which theory speaks; 16 is the last that is tried. An end that moves
-# breaks the test, in either direction. Beyond an end a sheet is thrown apart by its spin: it swells
-# to many times its size and turns less than a rigid body, or triangles are crushed to a line, where
-# the law in space has a kink that Newton's method does not get over; cut eight times, then refused.
-ENDS_OF_SPIN = {
-    f"{integrator}; {stiffness}": end
-    for integrator, ends in (("linearly implicit", (16, 16, 16, 16)), ("implicit", (8, 16, 16, 16)),
-                             ("conserving", (2, 2, 8, 8)))
-    for stiffness, end in zip(
-        ("isotropic", "laminate", "anisotropic 1e4", "anisotropic 1e4, yarn"), ends)
-}
+ROOT = CELLS.parents[1]
+PUBLISHED = ROOT / "verification" / "published" / "limits.csv"
+
+
+def fallen(rows, published):
+    """(axis, of) of limits below those that are published."""
+    shipped = {(row["axis"], row["of"]): float(row["reached"] or 0) for row in published}
+    return [(row["axis"], row["of"]) for row in rows
+            if row["end"] and
+            float(row["end"]) <= (1 + 1e-6) * shipped.get((row["axis"], row["of"]), 0)]
+
+
+def unsaid(axes, changelog):
+    """Those that no line of the CHANGELOG above the first release names."""
+    text = re.split(r"(?m)^## \[?\d", changelog)[0]
+    return [axis for axis in axes if not re.search(rf"(?m)^.*limit.*`{re.escape(axis[0])}`", text)]
 
 
 class Stress(InFolder):
-    def test_every_case_is_a_row_and_holds(self):
-        study = ["stress", "--quick", "--quiet", "--no-report", "--output", self.folder]
+    def test_no_limit_falls_and_every_axis_is_a_row(self):
+        study = ["stress", CELLS / "layered.prm", "--quick", "--quiet", "--no-report", "--output",
+                 self.folder]
         result = run(*study)
-        rows = rows_of(self.folder / "stress.csv")
-        self.assertGreater(len(rows), 120)
+        rows = rows_of(self.folder / "limits.csv")
+        self.assertGreater(len(rows), 25)
+        with open(PUBLISHED, encoding="utf-8", newline="") as file:
+            published = list(csv.DictReader(file))
+        self.assertLessEqual({(row["axis"], row["of"]) for row in rows},
+                             {(row["axis"], row["of"]) for row in published})
+        changelog = (ROOT / "CHANGELOG.md").read_text(encoding="utf-8")
+        self.assertEqual(unsaid(fallen(rows, published), changelog), [])
         for row in rows:
-            self.assertEqual(row["verdict"], "PASS", row)
-            self.assertTrue(row["derivation"], row)
-            self.assertEqual(row["outcome"], "finite", row)
-        self.assertEqual({row["case"]: 1. / float(row["figure"]) for row in rows
-                          if row["group"] == "spin"}, ENDS_OF_SPIN)
+            self.assertTrue(row["why"] and row["criterion"] and float(row["limit"]) > 0., row)
+            if row["end"] and row["reached"]:
+                self.assertGreater(float(row["end"]), float(row["reached"]), row)
+        rungs = rows_of(self.folder / "stress.csv")
+        for row in rows:  # the row of an axis is that of its values
+            right = [float(rung["value"]) for rung in rungs if rung["outcome"] == "right"
+                     and (rung["axis"], rung["of"]) == (row["axis"], row["of"])]
+            self.assertEqual(float(row["reached"] or 0), max(right, default=0.), row)
         verdicts = json.loads((self.folder / "verdicts.json").read_text())["verdicts"]
-        self.assertEqual(result.returncode, 0, result.stderr)
+        limited = {(row["axis"], row["of"]) for row in published if row["reached"]}
+        self.assertEqual(len(verdicts), sum((row["axis"], row["of"]) in limited for row in rows))
         self.assertEqual(result.returncode, status_of(verdicts))
-        for verdict in verdicts:
-            self.assertEqual(verdict["kind"], "program")
-            self.assertTrue(verdict["derivation"])
+        self.assertEqual(result.returncode, 1 if fallen(rows, published) else 0, result.stderr)
         study_of = json.loads((self.folder / "study.json").read_text())
-        self.assertEqual((study_of["cases"], study_of["repeats"]), (len(rows), 2))
-        self.assertTrue(study_of["left_out"])
+        self.assertEqual(study_of["axes"], len(rows))
         # The same once more: every row is there.
-        text = (self.folder / "stress.csv").read_text()
+        text = (self.folder / "limits.csv").read_text()
         self.assertEqual(run(*study).returncode, result.returncode)
-        self.assertEqual((self.folder / "stress.csv").read_text(), text)
+        self.assertEqual((self.folder / "limits.csv").read_text(), text)
         self.assertTrue(json.loads((self.folder / "study.json").read_text())["resumed"])
         # Another run is refused, with what differs; so are rows that somebody edited.
-        other = run("stress", CELLS / "layered.prm", "--quick", "--no-report", "--output",
-                    self.folder)
+        other = run("stress", "--quick", "--no-report", "--output", self.folder)
         self.assertEqual(other.returncode, 2)
-        self.assertRegex(other.stderr,
-                         r"holds another run \(cell layered\), .* of work; "
-                         r".*--overwrite removes it")
-        self.assertEqual(text, (self.folder / "stress.csv").read_text())
-        (self.folder / "stress.csv").write_text(text.replace("PASS", "FAIL"))
+        self.assertIn("--overwrite removes it", other.stderr)
+        self.assertEqual(text, (self.folder / "limits.csv").read_text())
+        (self.folder / "limits.csv").write_text(text.replace("ladder", "solver"))
         edited = run(*study)
         self.assertEqual(edited.returncode, 2)
-        self.assertIn("stress.csv: was changed after the run ended", edited.stderr)
+        self.assertIn("limits.csv: was changed after the run ended", edited.stderr)
+
+
+class Limits(unittest.TestCase):
+    row = {"axis": "contrast", "of": "layered", "reached": "1e6", "end": "1e7"}
+
+    def test_a_limit_that_falls_is_found(self):
+        for reached, falls in (("1e6", False), ("1e7", True), ("1e9", True), ("", False)):
+            found = fallen([self.row], [{**self.row, "reached": reached}])
+            self.assertEqual(found, [("contrast", "layered")] * falls, reached)
+        self.assertEqual(fallen([{**self.row, "end": ""}], [{**self.row, "reached": "1e9"}]), [])
+
+    def test_the_changelog_may_say_so(self):
+        axis = [("contrast", "layered")]
+        self.assertEqual(unsaid(axis, "# Changelog\n- Nothing of contrast.\n"), axis)
+        self.assertEqual(unsaid(axis, "- The limit of the axis `contrast` falls to 1e6.\n"), [])
+        self.assertEqual(unsaid(axis, "## 0.1.0\n- The limit of `contrast` falls.\n"), axis)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""Tests of the page of `homespun stress`."""
+"""Tests of the page of `homespun stress`: the stability map."""
 import csv
-import math
 import os
 import unittest
 
@@ -9,141 +8,78 @@ from matplotlib import pyplot
 
 import report_path  # noqa: F401
 import page_checks
-from figures.stress import margin, margin_figure, margin_table
+from figures.stress import limits_figure, power
 from made_up_study import write_stress
 from page_case import PageTest
 
+NONE = float("nan")
+
 
 class StressPageTest(PageTest):
-    def test_stress_cases_that_do_not_hold_come_first(self):
+    def test_every_axis_stands_with_its_end_and_why(self):
         write_stress(self.folder)
         self.assertEqual(self.run_report(), (0, ""))
         page = self.page()
-        self.assertIn("2 of 4 cases hold, 1 fails, 1 is open.", page)
-        self.assertLess(page.index("sliver, 1e-6"), page.index("energy does not grow"))
-        self.assertLess(page.index("energy does not grow"), page.index("contrast 1e12"))
-        self.assertLess(page.rindex("sliver, 1e-6"), page.index("contrast 1e12"))
+        self.assertIn("5 axes: 2 did not end, 2 end where the answer is wrong, 1 where it is refused",
+                      page)
+        for text in ("error 2e-06 above 1e-06", "found no lower potential", "round-off",
+                     "not more than 1e5 triangles", "energy against the closed form"):
+            self.assertIn(text, page)
         self.assertLess(page.index("homespun stress"), page.index('id="verdicts"'))
 
-    def test_stress_case_with_an_unknown_verdict_is_refused(self):
-        write_stress(self.folder)
-        self.edit_table("stress.csv", lambda rows: rows[1].update(verdict="BAD"))
-        self.assert_refused("stress.csv, line 3: `verdict` is `BAD`", "homespun stress")
-
-    def test_margins_and_iterations_are_drawn_and_what_gave_up_is_told(self):
+    def test_the_map_is_drawn_with_its_numbers(self):
         write_stress(self.folder)
         self.assertEqual(self.run_report(), (0, ""))
-        page = self.page()
-        for name in ("stress-margins", "stress-solver-iterations", "stress-solver-seconds"):
-            self.assertIn(f'id="{name}"', page)
-            self.assertTrue(os.path.isfile(os.path.join(self.output, "figures", name + ".svg")))
-            self.assertEqual(
-                page_checks.nameless_numbers(os.path.join(self.output, "figures", name + ".csv")),
-                [],
-            )
-        with open(
-            os.path.join(self.output, "figures", "stress-margins.csv"), encoding="utf-8", newline=""
-        ) as file:
-            self.assertEqual(
-                [row["case"] for row in csv.DictReader(file)][:2], ["contrast 1e12", "sliver, 1e-6"]
-            )
-        self.assertIn("conjugate gradients did not reach 1e-11", page)
-        self.assertIn("−0.990", page)
+        self.assertIn('id="stress-limits"', self.page())
+        table = os.path.join(self.output, "figures", "stress-limits.csv")
+        self.assertEqual(page_checks.nameless_numbers(table), [])
+        with open(table, encoding="utf-8", newline="") as file:
+            rows = list(csv.DictReader(file))
+        self.assertEqual(rows[0]["axis"], "contrast")
+        self.assertEqual((float(rows[0]["reached"]), float(rows[0]["end"])), (1e9, 1e10))
+        self.assertEqual(rows[4]["reached"], "")
 
-    def test_without_a_table_of_the_solver_the_page_says_so(self):
+    def test_without_the_table_of_values_the_page_says_so(self):
         write_stress(self.folder)
-        self.remove("solver.csv")
+        self.remove("stress.csv")
         self.assertEqual(self.run_report(), (0, ""))
-        self.assertIn("iterations of the solver", self.page())
-        self.assertNotIn('id="stress-solver-iterations"', self.page())
+        self.assertIn("values of the stability map", self.page())
 
-    def test_a_broken_table_of_the_solver_is_refused(self):
+    def test_broken_tables_are_refused(self):
         write_stress(self.folder)
-        self.edit_table("solver.csv", lambda rows: rows[2].update(iterations="many"))
-        self.assert_refused("solver.csv, line 4: `iterations` is `many`", "homespun stress")
+        self.edit_table("limits.csv", lambda rows: rows[1].update(reached="-3"))
+        self.assert_refused("limits.csv, line 3: `reached` is `-3`", "homespun stress")
 
 
-class MarginTest(unittest.TestCase):
+class MapTest(unittest.TestCase):
     @staticmethod
-    def row(figure, limit, verdict="PASS", case="a case"):
-        return {
-            "group": "cell contrast",
-            "case": case,
-            "figure": figure,
-            "limit": limit,
-            "verdict": verdict,
-        }
+    def row(axis, reached, end, ended_by="error", theory=NONE, of="stripes"):
+        return {"axis": axis, "of": of, "reached": reached, "end": end, "ended_by": ended_by,
+                "theory": theory}
 
-    def test_a_margin_is_figure_over_limit_and_a_case_without_a_number_has_none(self):
-        self.assertEqual(margin(self.row(2e-10, "1e-10 relative difference [-]")), 2.0)
-        self.assertEqual(margin(self.row(0.0, "1e-10 [-]")), 0.0)
-        for row in (
-            self.row(math.nan, "names `vertex 7`"),
-            self.row(math.nan, "1e-10 [-]"),
-            self.row(math.inf, "1 [-]"),
-            self.row(1.0, ""),
-        ):
-            self.assertTrue(math.isnan(margin(row)), row)
-
-    def test_failed_cases_stand_right_of_the_limit_and_are_named(self):
-        figure = margin_figure(
-            [
-                self.row(2e-10, "1e-10 [-]", "FAIL", "contrast 1e12"),
-                self.row(0.0, "1 [-]"),
-                self.row(0.5, "1 [-]", case="holds"),
-                self.row(math.nan, "1 [-]", "FAIL", "gave up"),
-            ]
-        )
+    def test_bars_reach_what_is_right_and_crosses_stand_where_it_ends(self):
+        figure = limits_figure([
+            self.row("contrast", 1e9, 1e10, theory=1e11),
+            self.row("time step", 0.01, 0.02, "solver", of="scene hang"),
+            self.row("turned", 180.0, NONE, "ladder"),
+            self.row("density", NONE, 10.0),
+        ])
         self.addCleanup(pyplot.close, figure)
-        texts = [text.get_text() for text in figure.axes[0].texts]
-        self.assertIn("contrast 1e12", texts)
-        self.assertNotIn("holds", texts)
-        counts = [text.get_text() for text in figure.axes[0].child_axes[0].get_yticklabels()]
-        self.assertEqual(counts, ["2/4, 1 without a number"])
-        crosses = [line for line in figure.axes[0].lines if line.get_marker() == "X"]
-        self.assertEqual(
-            [list(line.get_xdata()) for line in crosses if len(line.get_xdata())], [[2.0]]
-        )
+        axes = figure.axes[0]
+        ends = [bar.get_x() + bar.get_width() for bar in axes.patches]
+        self.assertEqual([round(end, 6) for end in ends], [1e9, 180.0, 0.01])
+        crosses = [line.get_xdata()[0] for line in axes.lines if line.get_marker() == "X"]
+        self.assertEqual(crosses, [1e10, 10.0, 0.02])
+        self.assertEqual([t.get_text() for t in axes.texts], ["stripes", "scene hang"])
+        self.assertEqual([t.get_text() for t in axes.get_yticklabels()],
+                         ["contrast", "turned", "density", "time step"])
 
-    def test_the_file_of_margins_names_each_case_and_holds_its_own_numbers(self):
-        rows = [
-            self.row(0.0, "1e-10 [-]", case="zero"),
-            self.row(math.nan, "names `x`", case="refused"),
-            self.row(2e-10, "1e-10 [-]", "FAIL"),
-        ]
-        header, table = margin_table(rows)
-        self.assertEqual(
-            [dict(zip(header, row)) for row in table],
-            [
-                {
-                    "group": "cell contrast",
-                    "case": "zero",
-                    "verdict": "PASS",
-                    "figure": 0.0,
-                    "limit": "1e-10 [-]",
-                    "figure_over_limit": 0.0,
-                },
-                {
-                    "group": "cell contrast",
-                    "case": "refused",
-                    "verdict": "PASS",
-                    "figure": "",
-                    "limit": "names `x`",
-                    "figure_over_limit": "",
-                },
-                {
-                    "group": "cell contrast",
-                    "case": "a case",
-                    "verdict": "FAIL",
-                    "figure": 2e-10,
-                    "limit": "1e-10 [-]",
-                    "figure_over_limit": 2.0,
-                },
-            ],
-        )
+    def test_numbers_are_those_of_people(self):
+        self.assertEqual([power(v) for v in (NONE, 0.01, 180.0, 1e9, 2.5e8)],
+                         ["none", "0.01", "180", "$10^{9}$", "$2.5\\cdot10^{8}$"])
 
-    def test_nothing_but_refusals_makes_no_picture(self):
-        self.assertIsNone(margin_figure([self.row(math.nan, "names `x`")]))
+    def test_nothing_makes_no_picture(self):
+        self.assertIsNone(limits_figure([]))
 
 
 if __name__ == "__main__":

@@ -3,24 +3,38 @@
 #pragma once
 
 #include "tests/refusal.h"
-#include "verification/stress/stress_case.h"
+#include "verification/stress/stress_axis.h"
 
 #include <gtest/gtest.h>
 
+#include <functional>
 #include <string>
 #include <vector>
 
 namespace homespun::tests
 {
+enum class Repeats
+{
+  same_bits, ///< the same again gives the same numbers to the last bit
+  with_seeds ///< seeds differ, and so may the numbers
+};
+
 /// Two repetitions end finite and within a limit.
 inline void expect_within(const std::string &name, const double limit,
-                          const verification::StressCase::Run &run,
-                          const verification::Repeats repeats = verification::Repeats::same_bits)
+                          const std::function<verification::StressAnswer(unsigned int seed)> &run,
+                          const Repeats repeats = Repeats::same_bits)
 {
-  const verification::StressRow row = verification::run_case(
-    {"program", name, "finite", {limit, "", "a limit of this test"}, repeats, run}, 2);
-  EXPECT_EQ(row.verdict, verification::Outcome::pass)
-    << name << ": " << row.outcome << ", " << row.figure << " (" << limit << ")";
+  Eigen::MatrixXd first;
+  for (const unsigned int seed : {0u, 1u})
+  {
+    const verification::StressAnswer answer = run(seed);
+    EXPECT_TRUE(answer.values.allFinite()) << name;
+    EXPECT_LE(answer.error, limit) << name;
+    if (seed == 0)
+      first = answer.values;
+    else if (repeats == Repeats::same_bits)
+      EXPECT_TRUE(answer.values == first) << name << ": the same again gave other numbers";
+  }
 }
 
 /// The message of a refusal names the fault.
@@ -31,15 +45,19 @@ void expect_refused(const std::string &name, const std::string &names, const Act
   EXPECT_NE(message.find(names), std::string::npos) << name << ": " << message;
 }
 
-inline void expect_all_pass(const std::vector<verification::StressCase> &cases)
+/// No axis ends before theory allows. @return where each ended
+inline std::vector<verification::LimitRow>
+expect_no_promise_broken(const std::vector<verification::StressAxis> &axes)
 {
-  EXPECT_FALSE(cases.empty());
-  for (const verification::StressCase &one : cases)
+  EXPECT_FALSE(axes.empty());
+  std::vector<verification::LimitRow> rows;
+  for (const verification::StressAxis &axis : axes)
   {
-    const verification::StressRow row = verification::run_case(one, 2);
-    EXPECT_EQ(row.verdict, verification::Outcome::pass)
-      << row.group << ": " << row.name << ": " << row.outcome << ", " << row.figure << ", "
-      << row.limit;
+    rows.push_back(verification::climb(axis, 10., [](const verification::StressRow &) {}));
+    if (const auto verdict = verification::verdict_of(axis, rows.back(), nullptr))
+      EXPECT_EQ(verdict->outcome, verification::Outcome::pass)
+        << verdict->claim << ": " << rows.back().why;
   }
+  return rows;
 }
 } // namespace homespun::tests

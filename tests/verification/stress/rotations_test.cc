@@ -215,7 +215,7 @@ TEST(bound_stress, turned_and_crushed_triangles_end_as_theory_says)
       expect_within(
         (is_mirrored ? "mirrored in space" : "turned by 180 degrees about any axis") + of, 1e-14,
         [&](const unsigned int seed) { return without_force(stiffness, is_mirrored, seed); },
-        Repeats::with_seeds);
+        tests::Repeats::with_seeds);
     // A small step down the gradient lowers the energy to first order; round-off is below 1e-12.
     expect_within("mirrored in the plane" + of, 1. - 1e-12,
                   [&](unsigned int) { return mirrored_in_the_plane(stiffness); });
@@ -225,14 +225,14 @@ TEST(bound_stress, turned_and_crushed_triangles_end_as_theory_says)
       expect_within(
         "deformation gradient of rank " + std::to_string(rank) + of, 1e-13,
         [&](const unsigned int seed) { return of_rank(stiffness, rank, seed); },
-        Repeats::with_seeds);
+        tests::Repeats::with_seeds);
     // The energy does not see a rotation; four roundings times the condition of F, up to a
     // thousand: 4000 x 2.2e-16.
     for (const double scale : {1e-30, 1e-20, 1e-10, 1e10, 1e20, 1e30})
       expect_within(
         "deformation gradient of size " + std::to_string(std::log10(scale)) + of, 1e-12,
         [&](const unsigned int seed) { return scaled(stiffness, scale, seed); },
-        Repeats::with_seeds);
+        tests::Repeats::with_seeds);
     // Half a turn changes signs, which rounds nothing; five roundings of a strain.
     for (const Eigen::Vector3d &signs :
          {Eigen::Vector3d(1., -1., -1.), Eigen::Vector3d(-1., -1., 1.)})

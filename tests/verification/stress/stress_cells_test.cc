@@ -8,9 +8,9 @@
 #include "meshes/plain/errors.h"
 #include "tests/refusal.h"
 #include "tests/verification/stress/checks.h"
+#include "verification/cell/algebraic_limit.h"
 #include "verification/cell/energy_order.h"
 #include "verification/stress/stress_axes.h"
-#include "verification/stress/stress_moved_cells.h"
 
 #include <gtest/gtest.h>
 
@@ -20,7 +20,7 @@
 
 using namespace homespun;
 using namespace homespun::verification;
-using tests::expect_all_pass;
+using tests::expect_no_promise_broken;
 using tests::expect_refused;
 
 namespace
@@ -189,13 +189,18 @@ void refuse_unsound(const UnitCell &cell)
     throw meshes::BadInput(faults);
 }
 
-/// C^H of the program beside another, by the energy of the worst macro strain, within the limit of
-/// the stress cases.
+/// What round-off may do to C^H.
+double round_off(const UnitCell &cell)
+{
+  return algebraic_limit(cell, std::sqrt(0.5 * cell.mesh.n_triangles()));
+}
+
+/// C^H of the program beside another, by the energy of the worst macro strain, within round-off.
 void expect_stiffness(const std::string &name, const UnitCell &cell,
                       const Eigen::Matrix3d &expected, const unsigned int order = 1)
 {
   EXPECT_NO_THROW(refuse_unsound(cell)) << name;
-  EXPECT_LE(energy_difference(solved(cell, order).stiffness, expected), limit_of(cell, "").value)
+  EXPECT_LE(energy_difference(solved(cell, order).stiffness, expected), round_off(cell))
     << name << ", P" << order;
 }
 
@@ -226,17 +231,6 @@ TEST(exact_stress_cells, spread_moduli_have_the_contrast_and_keep_the_softest)
   EXPECT_DOUBLE_EQ(cell.phases[0].E1, stripes().phases[0].E1);
   EXPECT_NEAR(cell.phases[1].E1 / cell.phases[0].E1, 1e4, 1e-8);
   EXPECT_FALSE(has_contrast(stripes(1.)));
-}
-
-TEST(exact_stress_cells, the_cells_of_every_axis_are_sound)
-{
-  for (const CellAxis &axis : cell_axes({yarns()}))
-    for (const double value : axis.values)
-    {
-      const bool is_small = axis.parameter != "triangles" || value <= 1e4;
-      EXPECT_NO_THROW(refuse_unsound(axis.make(is_small ? value : 1e4, rows)))
-        << axis.cell << " " << value;
-    }
 }
 
 TEST(exact_stress_cells, laminates_are_met_by_p2_at_any_contrast_and_angle)
@@ -287,7 +281,7 @@ TEST(invariant_stress_cells, moved_cells_are_sound_and_have_the_moved_stiffness)
     {shifted(turned(mirrored(yarns()), 30.), {0.4375, 0.3125}),
      moved_tensor(C, turn(30.) * mirror)},
     {repeated(yarns(), 2, 1), C},
-    {in_units(yarns(), {"mm and GPa", 1e3, 1e3, 1e-9}), 1e-6 * C}};
+    {in_units(yarns(), {1e3, 1e3, 1e-9}), 1e-6 * C}};
   for (const auto &[cell, expected] : all)
   {
     EXPECT_LT(energy_difference(direct(cell), expected), limit);
@@ -337,7 +331,7 @@ TEST(tripwire_stress_cells, unsound_cells_are_refused_by_name)
     expect_refused("nu", std::string("Poisson's ratio ") + nu,
                    [&]() { refuse_unsound(stripes(10., std::stod(nu))); });
   expect_refused("obtuse triangle of 1e-11", "has area",
-                 [&]() { refuse_unsound(capped_stripes(rows, phase(1e6), phase(1e7), 1e-11)); });
+                 [&]() { refuse_unsound(with_sliver(stripes(), 1e-11)); });
   expect_refused("row of needles of 1e-11", "has area",
                  [&]() { refuse_unsound(stripe_cell(rows, phase(1e6), phase(1e7), 1e-11)); });
   // 6e-8 of the side where they meet the outline, less than the tolerance of images.
@@ -374,12 +368,11 @@ TEST(bound_stress_cells, what_vanishes_does_so_with_the_slope_that_larger_ones_h
   EXPECT_LE(std::abs(energy_difference(solved(inclusion(1e-9)).stiffness,
                                        solved(with_holes(inclusion(1e-9))).stiffness) -
                      of_void * 1e-9),
-            limit_of(inclusion(1e-9), "").value);
+            round_off(inclusion(1e-9)));
   for (UnitCell (*const of)(double) : {inclusion, islands})
   {
     const double slope = difference(of, 1e5, 1e6) / (1e-5 - 1e-6);
-    EXPECT_LE(std::abs(difference(of, 1e9, 1e12) - slope * (1e-9 - 1e-12)),
-              limit_of(of(1e12), "").value);
+    EXPECT_LE(std::abs(difference(of, 1e9, 1e12) - slope * (1e-9 - 1e-12)), round_off(of(1e12)));
     expect_stiffness("two islands", islands(1e6), direct(islands(1e6)));
   }
 }
@@ -404,13 +397,11 @@ TEST(bound_stress_cells, cells_that_are_slivers_and_needles_across_do_not_change
   }
 }
 
-TEST(bound_stress_cells, every_axis_holds_and_says_where_its_limits_come_from)
+TEST(bound_stress_cells, axes_keep_ten_digits_up_to_1e4_and_no_promise_is_broken)
 {
-  expect_all_pass(axis_cases(cell_axes({yarns()}), 10000));
-}
-
-TEST(bound_stress_cells, moved_cells_keep_their_stiffness)
-{
-  for (UnitCell cell : {stripes(), yarns()})
-    expect_all_pass(moved_cell_cases(cell));
+  for (const StressAxis &axis : cell_axes(stripes(), 10000))
+    for (const double value : axis.ladder)
+      if (value <= 1e4)
+        EXPECT_LE(axis.at(value).error, limit) << axis.axis << " " << value;
+  expect_no_promise_broken(cell_axes(yarns(), 10000));
 }

@@ -16,105 +16,147 @@
 
 using namespace homespun;
 using namespace homespun::verification;
-using tests::expect_all_pass;
+using tests::expect_no_promise_broken;
 
 namespace
 {
-const Limit one_at_most = {1., "[-]", "a limit of this test"};
-
-/// A case that ends as told, in memory.
-StressCase planted(const StressCase::Run &run, const Repeats repeats = Repeats::same_bits)
+/// An axis whose error is its value.
+StressAxis planted()
 {
-  return {"planted", "a case", "finite", one_at_most, repeats, run};
+  StressAxis axis;
+  axis.axis      = "planted";
+  axis.of        = "a cell";
+  axis.criterion = "the value itself";
+  axis.limit     = 100.;
+  axis.ladder    = {1., 10., 100., 1000., 10000.};
+  axis.at        = [](const double value) -> StressAnswer {
+    return {value, Eigen::MatrixXd::Constant(1, 1, value)};
+  };
+  return axis;
 }
 
-StressCase planted(const double figure, const double number)
+LimitRow climbed(const StressAxis &axis, const double longest = 10.)
 {
-  return planted(
-    [=](unsigned int) -> StressAnswer {
-      return {figure, Eigen::MatrixXd::Constant(1, 1, number)};
-    });
+  return climb(axis, longest, [](const StressRow &) {});
 }
 
-const double not_a_number = std::numeric_limits<double>::quiet_NaN();
+/// The same but at one value.
+StressAxis planted_at(const double where, const std::function<StressAnswer()> &what)
+{
+  StressAxis axis = planted();
+  axis.at         = [=, before = axis.at](const double value)
+  { return value == where ? what() : before(value); };
+  return axis;
+}
+
+PublishedLimitRow published(const double reached)
+{
+  PublishedLimitRow row;
+  row.reached  = reached;
+  row.revision = "a1b2c3d";
+  return row;
+}
 } // namespace
 
-TEST(tripwire_stress, a_case_beyond_its_limit_fails)
+TEST(exact_stress, an_axis_ends_at_the_first_value_that_is_wrong)
 {
-  EXPECT_EQ(run_case(planted(0.9, 0.), 3).verdict, Outcome::pass);
-  EXPECT_EQ(run_case(planted(1.1, 0.), 3).verdict, Outcome::fail);
+  std::vector<StressRow> rungs;
+  const LimitRow row = climb(planted(), 10., [&](const StressRow &rung) { rungs.push_back(rung); });
+  EXPECT_EQ(row.reached, 100.);
+  EXPECT_EQ(row.end, 1000.);
+  EXPECT_EQ(row.ended_by, "error");
+  EXPECT_EQ(row.why, "error 1000 above 100");
+  EXPECT_EQ(row.error, 1000.);
+  ASSERT_EQ(rungs.size(), 4u);
+  EXPECT_EQ(rungs[2].outcome, "right");
+  EXPECT_EQ(rungs[3].outcome, row.why);
 }
 
-TEST(tripwire_stress, a_number_that_is_not_finite_fails_and_reaches_no_file)
+TEST(exact_stress, an_axis_that_does_not_end_says_whether_more_was_tried)
 {
-  for (const StressCase &one :
-       {planted(0., not_a_number), planted(not_a_number, 0.), planted(0., HUGE_VAL)})
+  StressAxis axis = planted();
+  axis.limit      = 1e6;
+  EXPECT_EQ(climbed(axis).ended_by, "ladder");
+  EXPECT_EQ(climbed(axis).reached, 10000.);
+  axis.most     = 50.;
+  axis.why_most = "not more than 50";
+  EXPECT_EQ(climbed(axis).reached, 10.);
+  EXPECT_EQ(climbed(axis).why, "not more than 50");
+  EXPECT_FALSE(climbed(axis).end);
+  EXPECT_EQ(climbed(planted(), -1.).ended_by, "cap");
+}
+
+TEST(tripwire_stress, refusals_numbers_that_are_not_finite_and_other_bits_end_an_axis)
+{
+  const double not_a_number = std::numeric_limits<double>::quiet_NaN();
+  const auto number         = [](const double error, const double value)
   {
-    const StressRow row = run_case(one, 2);
-    EXPECT_EQ(row.verdict, Outcome::fail);
-    EXPECT_EQ(row.outcome, "not finite");
+    return planted_at(10.,
+                      [=]() -> StressAnswer {
+                        return {error, Eigen::MatrixXd::Constant(1, 1, value)};
+                      });
+  };
+  for (const StressAxis &axis :
+       {number(not_a_number, 0.), number(0., not_a_number), number(0., HUGE_VAL)})
+  {
+    const LimitRow row = climbed(axis);
+    EXPECT_EQ(row.end, 10.);
+    EXPECT_EQ(row.reached, 1.);
+    EXPECT_EQ(row.why, "the answer is not finite");
     for (const std::string &field : fields_of_row(row))
       EXPECT_EQ(field.find("nan"), std::string::npos) << field;
   }
+  const LimitRow refused =
+    climbed(planted_at(10., []() -> StressAnswer { throw meshes::BadInput("triangle 3"); }));
+  EXPECT_EQ(refused.ended_by, "solver");
+  EXPECT_EQ(refused.why, "triangle 3");
+  EXPECT_EQ(climbed(planted_at(10., []() -> StressAnswer { throw std::logic_error("oh"); })).why,
+            "oh");
+  const auto n = std::make_shared<int>(0);
+  const LimitRow other_bits =
+    climbed(planted_at(100.,
+                       [=]() -> StressAnswer {
+                         return {0., Eigen::MatrixXd::Constant(1, 1, ++*n)};
+                       }));
+  EXPECT_EQ(other_bits.ended_by, "repetition");
+  EXPECT_FALSE(other_bits.reached);
 }
 
-TEST(tripwire_stress, a_refusal_and_an_error_are_failures_that_are_told)
+TEST(tripwire_stress, a_limit_that_falls_fails_and_an_end_that_nothing_forbids_does_not)
 {
-  const StressRow refused = run_case(
-    planted([](unsigned int) -> StressAnswer { throw meshes::BadInput("triangle 3"); }), 2);
-  EXPECT_EQ(refused.outcome, "refused: triangle 3");
-  EXPECT_EQ(refused.verdict, Outcome::fail);
-  const StressRow error = run_case(
-    planted([](unsigned int) -> StressAnswer { throw std::logic_error("triangle 3"); }), 2);
-  EXPECT_EQ(error.outcome, "error: triangle 3");
-  EXPECT_EQ(error.verdict, Outcome::fail);
-}
-
-TEST(tripwire_stress, repetitions_without_random_numbers_must_agree_to_the_last_bit)
-{
-  const auto run = [](const unsigned int seed) -> StressAnswer {
-    return {0., Eigen::MatrixXd::Constant(1, 1, 1. + (seed == 2 ? 1e-16 * 4. : 0.))};
-  };
-  EXPECT_EQ(run_case(planted(run), 2).verdict, Outcome::pass);
-  EXPECT_EQ(run_case(planted(run), 3).verdict, Outcome::fail);
-  EXPECT_EQ(run_case(planted(run, Repeats::twice), 3).repeats, 2);
-  EXPECT_EQ(run_case(planted(run, Repeats::once), 3).repeats, 1);
-  EXPECT_EQ(run_case(planted(run, Repeats::with_seeds), 3).verdict, Outcome::pass);
-}
-
-TEST(tripwire_stress, the_largest_figure_of_all_repetitions_counts)
-{
-  const StressRow row = run_case(planted(
-                                   [](const unsigned int seed) -> StressAnswer {
-                                     return {seed == 1 ? 7. : 0.5, Eigen::MatrixXd::Zero(1, 1)};
-                                   },
-                                   Repeats::with_seeds),
-                                 3);
-  EXPECT_EQ(row.figure, 7.);
-  EXPECT_EQ(row.verdict, Outcome::fail);
-}
-
-TEST(tripwire_stress, one_failing_case_fails_its_group_and_no_other)
-{
-  StressCase good                     = planted(0., 0.);
-  good.row.group                      = "sound, with a comma";
-  const StressRow bad                 = run_case(planted(2., 0.), 1);
-  const std::vector<Verdict> verdicts = stress_verdicts({run_case(good, 1), bad, bad});
-  ASSERT_EQ(verdicts.size(), 2u);
-  EXPECT_EQ(verdicts[0].outcome, Outcome::pass);
-  EXPECT_EQ(verdicts[1].outcome, Outcome::fail);
-  EXPECT_EQ(verdicts[1].value, 2.);
-  for (const Verdict &verdict : verdicts)
+  const LimitRow row = climbed(planted()); // right up to 100
+  EXPECT_FALSE(verdict_of(planted(), row, nullptr));
+  for (const auto &[reached, outcome] : {std::pair{10., Outcome::pass},
+                                         {100., Outcome::pass},
+                                         {1000., Outcome::fail},
+                                         {10000., Outcome::fail}})
   {
-    EXPECT_EQ(verdict.kind, Kind::program);
-    EXPECT_FALSE(verdict.derivation.empty());
+    const PublishedLimitRow limit = published(reached);
+    const auto verdict            = verdict_of(planted(), row, &limit);
+    ASSERT_TRUE(verdict);
+    EXPECT_EQ(verdict->outcome, outcome) << reached;
+    EXPECT_EQ(verdict->kind, Kind::program);
+    EXPECT_NE(verdict->derivation.find("a1b2c3d"), std::string::npos);
   }
+  StressAxis promised = planted();
+  promised.theory     = TheoryOfEnd::promises;
+  promised.theory_end = 1000.;
+  EXPECT_EQ(verdict_of(promised, row, nullptr)->outcome, Outcome::fail);
+  promised.theory = TheoryOfEnd::estimates;
+  EXPECT_FALSE(verdict_of(promised, row, nullptr));
+  // Where a cap stops a climb nothing was wrong.
+  const PublishedLimitRow limit = published(1000.);
+  EXPECT_EQ(verdict_of(planted(), climbed(planted(), -1.), &limit)->outcome, Outcome::pass);
 }
 
-TEST(tripwire_stress, a_limit_without_a_derivation_is_no_limit)
+TEST(invariant_stress, ten_repetitions_agree_to_the_last_bit)
 {
-  EXPECT_THROW(StressCase("planted", "a case", "finite", {1., "[-]", ""}, Repeats::once, {}),
-               std::logic_error);
+  for (const StressAxis &axis : sheet_axes(built_in_stiffnesses()[1]))
+  {
+    const Eigen::MatrixXd first = axis.at(axis.ladder[1]).values;
+    for (int k = 0; k < 9; ++k)
+      EXPECT_TRUE(axis.at(axis.ladder[1]).values == first) << axis.axis;
+  }
 }
 
 TEST(tripwire_stress, energy_that_a_handle_brings_in_is_seen)
@@ -221,18 +263,21 @@ TEST(tripwire_stress, energy_that_forces_bring_in_which_are_not_its_gradient_is_
   }
 }
 
-TEST(bound_stress, the_turn_per_step_ends_no_earlier_than_theory_says)
+TEST(bound_stress, no_axis_of_a_sheet_ends_earlier_than_theory_says)
 {
-  expect_all_pass(spin_cases({built_in_stiffnesses()[1]}));
-}
-
-TEST(bound_stress, time_steps_of_ten_microseconds_to_a_second_do_not_raise_the_energy)
-{
-  expect_all_pass(time_step_cases({built_in_stiffnesses()[1]}));
+  expect_no_promise_broken(sheet_axes(built_in_stiffnesses()[1]));
 }
 
 TEST(bound_stress, violent_coarse_motions_are_up_sampled_within_the_bound)
 {
-  expect_all_pass(
-    localization_cases(tests::smooth_cell(tests::square_lattice(0.01), 8, 8), "smooth modes"));
+  for (const LimitRow &row : expect_no_promise_broken(
+         localization_axes(tests::smooth_cell(tests::square_lattice(0.01), 8, 8), "smooth modes")))
+    EXPECT_EQ(row.ended_by, "ladder") << row.axis;
+}
+
+TEST(order_stress, a_pulled_sheet_is_right_to_the_first_order_of_its_step)
+{
+  const StressAxis pull = scene_axes(built_in_stiffnesses()[1])[1];
+  const double coarse = pull.at(pull.ladder[2]).error, fine = pull.at(pull.ladder[1]).error;
+  EXPECT_NEAR(std::log2(coarse / fine), 1., 0.1);
 }

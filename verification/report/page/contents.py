@@ -270,7 +270,7 @@ def headings_of(sections, comparison, notes):
         for c in sections.convergence
     )
     headings.update(
-        (s["id"], "Stress cases" + (f": {s['name']}" if len(sections.stress) > 1 else ""))
+        (s["id"], "Stability map" + (f": {s['name']}" if len(sections.stress) > 1 else ""))
         for s in sections.stress
     )
     if not strain_shown and not drapes:  # what was found stands before what it rests on
@@ -300,8 +300,8 @@ def lead(sections):
         )
     if sections.stress:
         sentences.append(
-            "Numerical stability: stiff, degenerate and extreme cases, each of which must end in a"
-            " finite answer or in a refusal that names the fault."
+            "Stability map: how stiff, thin, fine or fast a cell and its cloth may be until an"
+            " answer is wrong or refused, and why it ends there."
         )
     if sections.convergence:
         sentences.append(

@@ -1,134 +1,70 @@
 # SPDX-License-Identifier: MIT
-"""What the page shows of `homespun stress`: its cases in order, what failed first, and the pictures
-of margins and solver.
-"""
-import math
-from collections import Counter
-
-from figures.stress import margin_figure, margin_table, solver_figure
+"""What the page shows of `homespun stress`: how far each axis goes, and why it ends there."""
+from figures.stress import limits_figure
 from figures.style import seconds, three
-from read.verdicts import MARKS, ORDER, WORDS, words_of
+
+COLUMNS = ("axis", "of", "value_is", "reached", "end", "error", "limit", "theory")
+ENDED = {
+    "error": "the answer is wrong",
+    "solver": "refused",
+    "repetition": "other numbers when repeated",
+    "cap": "not tried further",
+    "ladder": "did not end",
+}
 
 
-def case_of(row):
-    """One case as the template shows it."""
-    repeats = row["repeats"]
+def number(value):
+    return three(value) if value == value else "–"
+
+
+def axis_of(row):
+    """One axis as the template shows it."""
     return {
-        "group": row["group"],
-        "case": row["case"],
-        "expected": row["expected"],
-        "outcome": row["outcome"],
-        "figure": three(row["figure"]),
-        "limit": row["limit"] or "–",
-        "derivation": row["derivation"],
-        "verdict": row["verdict"],
-        "mark": MARKS[row["verdict"]],
-        "word": WORDS[row["verdict"]],
-        "repeats": "–" if repeats != repeats else three(int(repeats)),
+        **{key: row[key] for key in ("axis", "of", "value_is", "criterion", "theory_is")},
+        **{key: number(row[key]) for key in ("reached", "end", "error", "limit", "theory")},
+        "ended": ENDED[row["ended_by"]],
+        "why": row["why"] if row["end"] == row["end"] or row["ended_by"] == "cap" else "",
         "seconds": seconds(row["seconds"]),
     }
 
 
-def solver_rows(rows):
-    """The table of the solver as the template shows it."""
+def rung_of(row):
+    """One value as the template shows it."""
     return [
-        [
-            row["parameter"],
-            three(row["value"]),
-            row["cell"],
-            f"P{row['order']:g}",
-            *(
-                three(int(row[key])) if row[key] == row[key] else "–"
-                for key in ("dofs", "iterations")
-            ),
-            seconds(row["seconds"]),
-            seconds(row["seconds_total"]),
-            row["outcome"],
-        ]
-        for row in rows
-    ]
-
-
-def draw(stress, gallery):
-    """The pictures of the page: margins, iterations, times; those without data are left out."""
-    name = "" if stress.name == "stress" else stress.name + ": "
-    wanted = [
-        (
-            margin_figure(stress.rows),
-            "stress-margins",
-            (
-                f"{name}how far each case is from its limit: its figure over its limit, a line for"
-                " each group, cases from top to bottom in their order. Right of 1 a case fails. At"
-                " the right: cases that hold of all, and those without a number."
-            ),
-            margin_table(stress.rows),
-        )
-    ]
-    if stress.solver:
-        wanted += [
-            (
-                solver_figure(stress.solver, "iterations"),
-                "stress-solver-iterations",
-                (
-                    f"{name}iterations of the conjugate gradients of the cell problem, the most of"
-                    " its three loads, against what makes it hard."
-                ),
-                None,
-            ),
-            (
-                solver_figure(stress.solver, "seconds"),
-                "stress-solver-seconds",
-                f"{name}time of preconditioner and solve of the same.",
-                None,
-            ),
-        ]
-    return [
-        gallery.add(figure, file, caption, table=table)
-        for figure, file, caption, table in wanted
-        if figure
+        row["axis"],
+        row["of"],
+        three(row["value"]),
+        number(row["error"]),
+        *(number(row[key]) for key in ("iterations", "dofs")),
+        seconds(row["seconds"]),
+        row["outcome"],
     ]
 
 
 def stress_contents(stress, gallery):
-    """Pictures, counts, the cases that did not hold, and all cases by group; in each group what
-    failed comes first.
-    """
+    """A sentence, the picture of the map, its axes and their values."""
     rows = stress.rows
-    groups = []
-    for name in dict.fromkeys(row["group"] for row in rows):
-        some = sorted(
-            (row for row in rows if row["group"] == name), key=lambda row: ORDER[row["verdict"]]
-        )
-        count = Counter(row["verdict"] for row in some)
-        groups.append(
-            {
-                "name": name,
-                "cases": [case_of(row) for row in some],
-                "counts": (
-                    [name]
-                    + [
-                        three(int(v))
-                        for v in (len(some), count["PASS"], count["FAIL"], count["INCONCLUSIVE"])
-                    ]
-                    + [
-                        seconds(
-                            sum(row["seconds"] for row in some if row["seconds"] > 0) or math.nan
-                        )
-                    ]
-                ),
-                "worst": min(ORDER[row["verdict"]] for row in some),
-            }
-        )
-    groups.sort(key=lambda group: group["worst"])  # stable: the order of the file among equals
-    not_held = sorted(
-        (row for row in rows if row["verdict"] != "PASS"), key=lambda row: ORDER[row["verdict"]]
-    )
+    count = {name: sum(row["ended_by"] == name for row in rows) for name in ENDED}
+    figure = limits_figure(rows)
     return {
         "name": stress.name,
-        "sentence": words_of(Counter(row["verdict"] for row in rows), "case") + ".",
-        "pictures": draw(stress, gallery),
-        "solver": solver_rows(stress.solver),
-        "groups": groups,
-        "cases": [case for group in groups for case in group["cases"]],
-        "failures": [case_of(row) for row in not_held],
+        "sentence": (
+            f"{len(rows)} axes: {count['ladder'] + count['cap']} did not end,"
+            f" {count['error'] + count['repetition']} end where the answer is wrong,"
+            f" {count['solver']} where it is refused."
+        ),
+        "pictures": [] if figure is None else [gallery.add(
+            figure,
+            "stress-limits",
+            (
+                f"{'' if stress.name == 'stress' else stress.name + ': '}how far each axis goes:"
+                " the bar ends at the largest value that is right, the cross is the first that is"
+                " wrong or refused. Black: where theory estimates the end, or promises that there"
+                " is none before."
+            ),
+            table=(list(COLUMNS), [["" if row[key] != row[key] else row[key] for key in COLUMNS]
+                                   for row in rows]),
+        )],
+        "axes": [axis_of(row) for row in rows],
+        "values": [rung_of(row) for row in stress.values],
     }

@@ -168,7 +168,7 @@ def read_folder(run, name, results, faults, is_listed=False):
         name_of_cell(run, inner): inner for inner in sorted(cells) if os.sep not in inner
     }
     has_drape, has_stress = run.holds("drape.json", "drape.csv", "motion.csv"), run.holds(
-        "stress.csv"
+        "limits.csv"
     )
     has_convergence = run.holds("converge.csv")
     has_load = run.holds("load.csv")
@@ -184,7 +184,7 @@ def read_folder(run, name, results, faults, is_listed=False):
         faults.append(
             f"{run.folder}: holds no results that a page shows: {LIST} says it is of `homespun"
             f" {run.command}`, and lists neither strain.csv nor homogenize.json nor drape.json nor"
-            f" stress.csv nor converge.csv nor load.csv nor stability.csv. Give the"
+            f" limits.csv nor converge.csv nor load.csv nor stability.csv. Give the"
             f" --output folder of {COMMANDS}."
         )
         return
@@ -196,7 +196,7 @@ def read_folder(run, name, results, faults, is_listed=False):
             for key in ("command", "provenance", "notes")
             if drape.info.get(key)
         }
-    if has_stress and (path := path_of("stress.csv", f"stress cases of {study.name}")):
+    if has_stress and (path := path_of("limits.csv", f"stability map of {study.name}")):
         results.stress.append(
             read_stress(run.folder, study.name, path, path_of, faults, results.missing)
         )

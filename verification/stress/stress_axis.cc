@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: MIT
+#include "verification/stress/stress_axis.h"
+
+#include "meshes/plain/errors.h"
+#include "verification/record/number_text.h"
+#include "verification/record/timing.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace homespun::verification
+{
+namespace
+{
+/// No more than a reader takes in: the beginning, and where residuals are told the last of them.
+std::string cut(std::string text)
+{
+  constexpr std::size_t beginning = 260, end = 80;
+  if (text.size() > beginning + end)
+    text = text.substr(0, beginning) + " ... " + text.substr(text.size() - end);
+  return text;
+}
+
+/// What one value came to.
+struct Rung
+{
+  StressAnswer answer;
+  std::string ended_by; ///< empty: it is right
+  std::string why;
+};
+
+Rung rung_at(const StressAxis &axis, const double value)
+{
+  Rung rung;
+  rung.answer.error = std::numeric_limits<double>::quiet_NaN();
+  try
+  {
+    rung.answer = axis.at(value);
+    if (!rung.answer.wrong.empty())
+      rung.why = rung.answer.wrong;
+    else if (!std::isfinite(rung.answer.error) || !rung.answer.values.allFinite())
+      rung.why = "the answer is not finite";
+    else if (!(rung.answer.error <= axis.limit))
+      rung.why = "error " + short_text(rung.answer.error) + " above " + short_text(axis.limit);
+    rung.ended_by = rung.why.empty() ? "" : "error";
+  }
+  catch (const std::exception &refusal)
+  {
+    rung.ended_by = "solver";
+    rung.why      = cut(refusal.what());
+  }
+  return rung;
+}
+
+StressRow row_of(const StressAxis &axis, const double value, const Rung &rung, const double seconds)
+{
+  StressRow row;
+  row.axis       = axis.axis;
+  row.of         = axis.of;
+  row.value      = value;
+  row.error      = rung.answer.error;
+  row.limit      = axis.limit;
+  row.outcome    = rung.ended_by.empty() ? "right" : rung.why;
+  row.iterations = rung.answer.iterations;
+  row.dofs       = rung.answer.dofs;
+  row.seconds    = seconds;
+  return row;
+}
+} // namespace
+
+LimitRow climb(const StressAxis &axis, const double longest,
+               const std::function<void(const StressRow &)> &told)
+{
+  LimitRow row;
+  row.axis      = axis.axis;
+  row.of        = axis.of;
+  row.value_is  = axis.value_is;
+  row.limit     = axis.limit;
+  row.criterion = axis.criterion;
+  if (axis.theory != TheoryOfEnd::none)
+    row.theory = axis.theory_end;
+  row.theory_is = axis.theory_is;
+  row.ended_by  = "ladder";
+  row.why       = "no value on the ladder is wrong";
+  Eigen::MatrixXd last;
+  double last_took = 0.;
+  for (const double value : axis.ladder)
+  {
+    if (value > axis.most || last_took > longest)
+    {
+      row.ended_by = "cap";
+      row.why      = value > axis.most ? axis.why_most : "a value more would take too long";
+      break;
+    }
+    Rung rung;
+    last_took = seconds_of([&]() { rung = rung_at(axis, value); });
+    row.seconds += last_took;
+    told(row_of(axis, value, rung, last_took));
+    row.error = rung.answer.error;
+    if (!rung.ended_by.empty())
+    {
+      row.end      = value;
+      row.ended_by = rung.ended_by;
+      row.why      = rung.why;
+      break;
+    }
+    row.reached = value;
+    last        = std::move(rung.answer.values);
+  }
+  if (row.reached && last_took < 0.2 * longest)
+  {
+    Rung again;
+    row.seconds += seconds_of([&]() { again = rung_at(axis, *row.reached); });
+    if (again.answer.values != last)
+    {
+      row.end      = row.reached;
+      row.reached  = {};
+      row.ended_by = "repetition";
+      row.why      = "the same again gave other numbers";
+    }
+  }
+  return row;
+}
+
+std::optional<Verdict> verdict_of(const StressAxis &axis, const LimitRow &found,
+                                  const PublishedLimitRow *published)
+{
+  double owed = 0.;
+  std::string why;
+  if (axis.theory == TheoryOfEnd::promises)
+  {
+    owed = axis.theory_end;
+    why  = "theory: " + axis.theory_is;
+  }
+  if (published && published->reached.value_or(0.) > owed)
+  {
+    owed = *published->reached;
+    why  = "published/limits.csv, of revision " + published->revision;
+  }
+  if (why.empty())
+    return {};
+  // A ladder of floating-point products: a rung is the published one within its last digits.
+  const bool falls = found.end && *found.end <= owed * (1. + 1e-6);
+  return Verdict{axis.axis + " of " + axis.of + ": no answer is wrong up to " + short_text(owed) +
+                   " (values that are)",
+                 falls ? Outcome::fail : Outcome::pass,
+                 falls ? 1. : 0.,
+                 "0",
+                 why,
+                 Kind::program};
+}
+} // namespace homespun::verification
