@@ -170,7 +170,7 @@ CellCutAnew cut(LatticeTriangles cloth, const std::vector<Rim> &rims,
       "the outline cuts holes, and the cell cannot be cut from the cloth at another "
       "place: " +
       in_the_way +
-      ". No sheet can be cut either; C^H, `load` and `stability` are of the cloth as it is drawn"
+      ". No sheet can be cut either; C^H and `periodic` are of the cloth as it is drawn"
       "; expected a straight line along each lattice vector that meets no hole: "
       "draw the cell along other `Lattice vectors` of the same cloth between whose "
       "lines the holes lie, or fill the holes with a soft phase";

@@ -134,7 +134,7 @@ void require_sheets(const Lattice &lattice)
       "sheets and garments cannot be cut from this cloth: each straight line along one of its "
       "lattice vectors meets a hole; expected a cell whose sides pass between its holes: draw it "
       "along other `Lattice vectors` of the same cloth, or fill the holes with a soft phase. C^H, "
-      "`load` and `stability` need no sheet");
+      "`periodic load` and `periodic stability` need no sheet");
 }
 
 Sides sides_of(const TriangleMesh &mesh, const Lattice &lattice)

@@ -81,7 +81,7 @@ MAY_INCLUDE = {
     "verification/verify": {"meshes/plain", "verification/record", "verification/command",
                             "verification/cell", "verification/homogenize", "verification/strain",
                             "verification/converge", "verification/drape",
-                            "verification/stress"} | CELLS,
+                            "verification/periodic", "verification/stress"} | CELLS,
     "verification/program": {"meshes/plain", "meshes/files", "verification/record",
                              "verification/command", "verification/ellipticity",
                              "verification/method",

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// homespun load: an infinite cloth under prescribed stresses and strains.
+// homespun periodic load: an infinite cloth under prescribed stresses and strains.
 #include "verification/periodic/periodic_command.h"
 
 #include "verification/command/study_arguments.h"
@@ -32,14 +32,25 @@ void check_load_arguments(LoadArguments &arguments)
     for (const std::string &fault : bad.faults())
       faults.add(fault);
   }
-  faults.check_names("--law", study.laws, law_of);
+  faults.check_names("--references", study.laws, law_of);
   faults.throw_if_any();
 }
 } // namespace
 
+CLI::App &periodic(CommandLine &line)
+{
+  const auto is_it = [](const CLI::App *one) { return one->get_name() == "periodic"; };
+  for (CLI::App *there : line.app.get_subcommands(is_it))
+    return *there;
+  CLI::App *command = line.app.add_subcommand(
+    "periodic", "An infinite cloth: under given stresses and strains, and where its cells buckle");
+  command->require_subcommand(1);
+  return *command;
+}
+
 void LoadCommand::add(CommandLine &line)
 {
-  CLI::App *command = line.app.add_subcommand(
+  CLI::App *command = periodic(line).add_subcommand(
     "load", "An infinite cloth under given stresses and strains: its curve (load.csv)");
   const auto arguments    = std::make_shared<LoadArguments>();
   LoadStudyOptions &study = arguments->study;
@@ -57,7 +68,7 @@ void LoadCommand::add(CommandLine &line)
   command->add_option("--steps", study.n_steps, "Even steps from rest")
     ->check(CLI::Range(1, 10000))
     ->capture_default_str();
-  add_list(*command, "--law", study.laws,
+  add_list(*command, "--references", study.laws,
            "Laws of the phases, linear, biot, green or yarn (default: yarn where biot loses a "
            "phase of the "
            "cell before 20 %, else biot); linear is always there");
@@ -70,11 +81,13 @@ void LoadCommand::add(CommandLine &line)
      "A component is given once, its stress or its strain; one that is not given is free of "
      "stress.\n"
      "Examples:\n"
-     "  homespun load dots.prm --strain 11=10%                          uniaxial, sides free\n"
-     "  homespun load dots.prm --strain 11=10%,22=10%                   equibiaxial\n"
-     "  homespun load dots.prm --stress 11=50,22=100                    biaxial 1:2\n"
-     "  homespun load dots.prm --stress 11=50,12=0 --strain 22=0.02 --steps 40 --law biot,green\n"
-     "  homespun load dots.prm --strain 22=-2%                          compression"},
+     "  homespun periodic load dots.prm --strain 11=10%                          uniaxial, sides "
+     "free\n"
+     "  homespun periodic load dots.prm --strain 11=10%,22=10%                   equibiaxial\n"
+     "  homespun periodic load dots.prm --stress 11=50,22=100                    biaxial 1:2\n"
+     "  homespun periodic load dots.prm --stress 11=50,12=0 --strain 22=0.02 --steps 40 "
+     "--references biot,green\n"
+     "  homespun periodic load dots.prm --strain 22=-2%                          compression"},
     check_load_arguments);
 }
 } // namespace homespun::verification

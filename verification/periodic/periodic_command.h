@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// `homespun load` and `homespun stability`: studies of an infinite cloth.
+// `homespun periodic`, studies of an infinite cloth, in its two forms `load` and `stability`.
 #pragma once
 
 #include "verification/command/command.h"
@@ -8,6 +8,9 @@
 
 namespace homespun::verification
 {
+/// The command of both, added where it is not there yet.
+CLI::App &periodic(CommandLine &line);
+
 struct LoadCommand
 {
   using Options = LoadStudyOptions;

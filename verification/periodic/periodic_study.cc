@@ -85,7 +85,7 @@ protected:
 private:
   void refuse() const override
   {
-    check_yarns(cells(), "--law", told.laws);
+    check_yarns(cells(), "--references", told.laws);
   }
 
   void work() override

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// homespun stability: where a periodic solution stops being the solution.
+// homespun periodic stability: where a periodic solution stops being the solution.
 #include "verification/periodic/periodic_command.h"
 
 #include "homogenization/cell/parameter_text.h"
@@ -63,10 +63,10 @@ void check_stability_arguments(StabilityArguments &arguments)
   StabilityStudyOptions &study = arguments.study;
   ArgumentFaults faults;
   read_strains(arguments.strains, study.strains, faults);
-  faults.check_names("--load", study.loads,
+  faults.check_names("--loads", study.loads,
                      std::vector<std::string>{"periodic-11", "periodic-22", "periodic-12",
                                               "uniaxial-1", "uniaxial-2"});
-  faults.check_names("--law", study.laws, law_of);
+  faults.check_names("--references", study.laws, law_of);
   if (const auto n = read_supercell(arguments.supercell, faults))
     study.supercell = Eigen::Vector2i((*n)[0], (*n)[1]);
   faults.throw_if_any();
@@ -75,19 +75,19 @@ void check_stability_arguments(StabilityArguments &arguments)
 
 void StabilityCommand::add(CommandLine &line)
 {
-  CLI::App *command = line.app.add_subcommand(
+  CLI::App *command = periodic(line).add_subcommand(
     "stability", "Where a periodic solution stops being the solution: the Bloch margin against "
                  "strain (stability.csv)");
   const auto arguments         = std::make_shared<StabilityArguments>();
   StabilityStudyOptions &study = arguments->study;
   command->add_option("CELL.prm", study.cell_files, "Cell files")->required();
-  add_list(*command, "--load", study.loads,
+  add_list(*command, "--loads", study.loads,
            "Loads of an infinite cloth: periodic-11, -22 or -12 (all strains given), uniaxial-1 or "
            "-2 (sides free)");
   add_list(*command, "--strains", arguments->strains,
            "Strains, as fractions or percentages, negative where the cloth is pressed");
   add_list(
-    *command, "--law", study.laws,
+    *command, "--references", study.laws,
     "Laws of the phases: linear, biot, green or yarn (default: yarn where biot loses a phase of "
     "the cell before 20 %, else biot)");
   command
@@ -107,9 +107,11 @@ void StabilityCommand::add(CommandLine &line)
      "waves: the macroscopic law localizes; by a wave k of finite length: a pattern over 1/k "
      "cells.\n"
      "Examples:\n"
-     "  homespun stability honeycomb.prm                                  pressed, sides free\n"
-     "  homespun stability layered.prm --load periodic-11 --strains=-1%,-5%,-10%,-20%\n"
-     "  homespun stability mycell.prm --load uniaxial-2 --strains 5%,10%,20% --law biot,green"},
+     "  homespun periodic stability honeycomb.prm                                  pressed, sides "
+     "free\n"
+     "  homespun periodic stability layered.prm --loads periodic-11 --strains=-1%,-5%,-10%,-20%\n"
+     "  homespun periodic stability mycell.prm --loads uniaxial-2 --strains 5%,10%,20% "
+     "--references biot,green"},
     check_stability_arguments);
 }
 } // namespace homespun::verification

@@ -36,7 +36,7 @@ struct Commands
   }
 };
 
-using AllCommands = Commands<CheckCommand, HomogenizeCommand, StrainCommand, DrapeCommand,
-                             UpsampleCommand, StressCommand, ConvergeCommand, VerifyCommand,
-                             ReportCommand, CellsCommand, LoadCommand, StabilityCommand>;
+using AllCommands = Commands<CheckCommand, CellsCommand, HomogenizeCommand, StrainCommand,
+                             DrapeCommand, UpsampleCommand, LoadCommand, StabilityCommand,
+                             ConvergeCommand, StressCommand, ReportCommand, VerifyCommand>;
 } // namespace homespun::verification

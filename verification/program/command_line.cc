@@ -32,6 +32,33 @@ void add_commands(CommandLine &line)
   AllCommands::add_to(line);
 }
 
+/// The words with what had another name in version 0.1 as it is called now.
+/// @param told what was renamed
+std::vector<std::string> with_new_names(std::vector<std::string> words,
+                                        std::vector<std::string> &told)
+{
+  const auto rename = [&](std::string &word, const std::string &old, const std::string &now)
+  {
+    if (word.substr(0, word.find('=')) != old)
+      return;
+    word = now + word.substr(old.size());
+    told.push_back("`" + old + "` is `" + now + "` now; this version still takes the old name");
+  };
+  if (!words.empty() && (words[0] == "load" || words[0] == "stability"))
+  {
+    told.push_back("`homespun " + words[0] + "` is `homespun periodic " + words[0] +
+                   "` now; this version still takes the old name");
+    words.insert(words.begin(), "periodic");
+  }
+  if (!words.empty() && words[0] == "periodic")
+    for (std::string &word : words)
+    {
+      rename(word, "--load", "--loads");
+      rename(word, "--law", "--references");
+    }
+  return words;
+}
+
 /// What was chosen, when all that it needs is there.
 const Action &chosen(const CommandLine &line, const Program &program)
 {
@@ -86,12 +113,14 @@ int guarded(const Action &action, const bool tells)
   }
 }
 
-int run_command_line(const std::vector<std::string> &arguments, const Program &program,
+int run_command_line(const std::vector<std::string> &words_given, const Program &program,
                      AfterMpi &afterwards)
 {
-  const bool is_root         = verification::is_root(MPI_COMM_WORLD);
-  const unsigned int n_ranks = n_ranks_of(MPI_COMM_WORLD);
-  std::string text           = "homespun";
+  std::vector<std::string> told;
+  const std::vector<std::string> arguments = with_new_names(words_given, told);
+  const bool is_root                       = verification::is_root(MPI_COMM_WORLD);
+  const unsigned int n_ranks               = n_ranks_of(MPI_COMM_WORLD);
+  std::string text                         = "homespun";
   for (const std::string &word : arguments)
     text += " " + word;
   if (n_ranks > 1)
@@ -121,6 +150,10 @@ int run_command_line(const std::vector<std::string> &arguments, const Program &p
       app.exit(error, std::cout, std::cerr);
     return is_fault ? exit_status::bad_input : exit_status::good;
   }
+  // Of two programs that read one command line, the one that solves tells.
+  if (is_root && program.before_solving)
+    for (const std::string &text_of_one : told)
+      std::cerr << "homespun: " << text_of_one << "\n";
   const int status = guarded([&]() { return chosen(line, program)(); }, is_root);
   afterwards       = std::move(line.afterwards);
   // A launcher ends all ranks when one of them ends with another status than zero, and the first

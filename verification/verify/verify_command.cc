@@ -25,7 +25,7 @@ void check_verify_arguments(const VerifyOptions &options)
     if (options.cell_files.empty() && part != "stress")
       faults.add("--parts: " + part +
                  " needs a cell, and none is given; expected CELL.prm, or the "
-                 "self-tests stress");
+                 "part stress");
   faults.throw_if_any();
 }
 
@@ -78,17 +78,16 @@ int run_verify(StudyArguments<VerifyOptions> arguments, CommandLine &line)
 
 void VerifyCommand::add(CommandLine &line)
 {
-  CLI::App *command =
-    line.app.add_subcommand("verify", "homogenize, strain, converge and drape, for a list of "
-                                      "cells: one report with all claims; without "
-                                      "a cell the self-tests");
+  CLI::App *command = line.app.add_subcommand(
+    "verify", "Every study of a list of cells: one report with all claims; without a cell the "
+              "stability map of made cells");
   const auto arguments   = std::make_shared<StudyArguments<VerifyOptions>>();
   VerifyOptions &options = arguments->study;
   options.command        = line.text;
-  command->add_option("CELL.prm", options.cell_files, "Cell files; none: the self-tests");
+  command->add_option("CELL.prm", options.cell_files,
+                      "Cell files; none: made cells, part stress alone");
   add_list(*command, "--parts", options.parts,
-           "What to run, comma-separated (default with cells "
-           "homogenize,strain,converge,drape, without stress)");
+           "What to run, comma-separated (default: all with cells, stress without)");
   add_folder_options(*command, options,
                      "out/NAME/verify, without a cell out/verify, with --quick verify-quick");
   command->add_flag("--quick", options.is_quick, "Small sizes everywhere: minutes");
@@ -96,14 +95,15 @@ void VerifyCommand::add(CommandLine &line)
   command->footer(
     "Parts: homogenize (brackets of C^H), strain (error against strain, budget, run time, range of "
     "validity),\n"
-    "converge (observed orders), stress (stability), drape "
-    "(hang and pull in motion against "
-    "biot).\n"
+    "load (pulled by 5 %), stability (pressed), converge (observed orders), stress (stability "
+    "map), drape\n"
+    "(hang and pull in motion against biot).\n"
     "The first line says PASS, or FAIL with the first claim that failed; each part has a folder of "
     "its own.\n"
     "Each cell is homogenized for itself and once for all studies, which hand it on.\n"
-    "Without a cell the self-tests of the program are made, once for each version; pages of cells "
-    "link them.\n"
+    "Without a cell the stability map of made cells is drawn, once for each version; pages of "
+    "cells "
+    "link it.\n"
     "Example:\n  homespun verify mycell.prm --quick\n  homespun verify --quick\n  mpirun -n 2 "
     "homespun verify mycell.prm");
   command->callback(

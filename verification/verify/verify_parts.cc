@@ -9,15 +9,15 @@ namespace homespun::verification
 {
 const std::vector<std::string> &verify_parts()
 {
-  static const std::vector<std::string> parts = {"homogenize", "strain", "converge", "stress",
-                                                 "drape"};
+  static const std::vector<std::string> parts = {"homogenize", "strain", "load", "stability",
+                                                 "converge",   "stress", "drape"};
   return parts;
 }
 
 std::vector<std::string> default_parts(const std::vector<std::string> &cell_files)
 {
   if (!cell_files.empty())
-    return {"homogenize", "strain", "converge", "drape"};
+    return verify_parts();
   return {"stress"};
 }
 

@@ -11,6 +11,7 @@
 #include "verification/converge/converge_study.h"
 #include "verification/drape/drape_study.h"
 #include "verification/homogenize/homogenize_study.h"
+#include "verification/periodic/periodic_study.h"
 #include "verification/record/json_files.h"
 #include "verification/record/on_root.h"
 #include "verification/record/run_folder.h"
@@ -96,6 +97,10 @@ private:
                 [&](const std::string &folder) { return homogenize(cell, folder); });
     else if (part == "strain")
       attempt(part, part, [&](const std::string &folder) { return strain(folder); });
+    else if (part == "load")
+      attempt(part, part, [&](const std::string &folder) { return load(folder); });
+    else if (part == "stability")
+      attempt(part, part, [&](const std::string &folder) { return stability(folder); });
     else if (part == "converge")
       attempt(part, part, [&](const std::string &folder) { return converge(folder); });
     else if (part == "stress")
@@ -151,6 +156,32 @@ private:
       make_quick(study);
     take_run(study, folder);
     return run_strain_study(study, communicator);
+  }
+
+  /// Pulled along axis 1, sides free.
+  std::vector<Verdict> load(const std::string &folder) const
+  {
+    LoadStudyOptions study;
+    study.cell_files = options.cell_files;
+    study.control    = load_control({}, {"11=5%"}, 0);
+    if (options.is_quick)
+      study.n_steps = 5;
+    take_run(study, folder);
+    return run_load_study(study, communicator);
+  }
+
+  /// Pressed along both axes, sides free.
+  std::vector<Verdict> stability(const std::string &folder) const
+  {
+    StabilityStudyOptions study;
+    study.cell_files = options.cell_files;
+    if (options.is_quick)
+    {
+      study.strains       = {-0.05};
+      study.n_refinements = 0;
+    }
+    take_run(study, folder);
+    return run_stability_study(study, communicator);
   }
 
   std::vector<Verdict> converge(const std::string &folder) const

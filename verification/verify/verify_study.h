@@ -26,11 +26,11 @@ struct Verification
   int status = 0; ///< exit status: the worst of the claims and of parts that did not end
 };
 
-/// The parts: homogenize, strain, converge, stress, drape.
+/// The parts: homogenize, strain, load and stability of a periodic cloth, converge, stress, drape.
 const std::vector<std::string> &verify_parts();
 
-/// What runs where nothing was asked for: of cells all that speaks of them; without a cell what
-/// speaks of the program alone, the stress cases.
+/// What runs where nothing was asked for: of cells all parts; without a cell what speaks
+/// of the program alone, the stability map of made cells.
 std::vector<std::string> default_parts(const std::vector<std::string> &cell_files);
 
 /// Runs the parts one after the other, each into a folder of its own below the output, and writes

@@ -13,12 +13,12 @@ from cli import CELLS, PROGRAM, InFolder, run
 FULL = pathlib.Path(PROGRAM).with_name("homespun-full")
 CELL = CELLS / "layered.prm"
 COMMANDS = ("check", "homogenize", "strain", "drape", "upsample", "stress", "converge", "verify",
-            "report", "cells", "load", "stability")
+            "report", "cells", "periodic")
 AT_ONCE = [("--help",), ("--version",), (), ("frobnicate",), ("strain", "--frobnicate"),
            ("check",), ("check", CELL), ("check", "nothere.prm"), ("cells",),
            ("cells", "make", "nothere"), ("report", "nothere"),
-           ("strain", CELL, "--loads", "none"), ("load", CELL, "--law", "none"),
-           ("stability", CELL, "--strains", "0"), ("verify", "--parts", "strain"),
+           ("strain", CELL, "--loads", "none"), ("periodic", "load", CELL, "--references", "none"),
+           ("periodic", "stability", CELL, "--strains", "0"), ("verify", "--parts", "strain"),
            ("upsample", "cell.h5", "f.obj", "--rest", "r.obj", "--format", "none"),
            *((command, "--help") for command in COMMANDS)]
 # What the program is linked with: HDF5, which brings MPI and what the system's MPI needs, the C++

@@ -66,11 +66,11 @@ class Default(InFolder):
         self.assertIn("references of plain-weave-straight", inputs)
 
     def test_load_and_stability_have_it_too(self):
-        for command, table in (("load --strain 11=0.1% --steps 1", "load.csv"),
-                               ("stability --load periodic-11 --strains 0.1% --refine 0",
+        for command, table in (("periodic load --strain 11=0.1% --steps 1", "load.csv"),
+                               ("periodic stability --loads periodic-11 --strains 0.1% --refine 0",
                                 "stability.csv")):
-            name, *options = command.split()
-            result = run(name, WEAVE, CELLS / "layered.prm", *options,
+            periodic, name, *options = command.split()
+            result = run(periodic, name, WEAVE, CELLS / "layered.prm", *options,
                          "--no-report", "--output", self.folder / name)
             self.assertIn(result.returncode, (0, 1, 4), result.stderr)
             laws = {(row["cell"], row["law"]) for row in rows_of(self.folder / name / table)}

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""homespun load: curves of an infinite cloth under given stresses and strains."""
+"""homespun periodic load: curves of an infinite cloth under given stresses and strains."""
 import json
 import unittest
 
@@ -15,14 +15,14 @@ class Load(InFolder):
     def load(self, *options, cell=CHEVRON, **how):
         """The rows of load.csv; numbers as numbers."""
         output = self.folder / "run"
-        result = run("load", cell, *options, "--no-report", "--overwrite", "--output", output,
-                     **how)
+        result = run("periodic", "load", cell, *options, "--no-report", "--overwrite", "--output",
+                     output, **how)
         self.assertIn(result.returncode, (0, 4), result.stderr)
         return [{key: value if key in TEXTS or value == "" else float(value)
                  for key, value in row.items()} for row in rows_of(output / "load.csv")]
 
     def test_uniaxial_stress_at_a_millionth_of_strain_is_that_of_the_compliance(self):
-        rows = self.load("--strain", "11=1e-6", "--steps", "1", "--law", "biot,green")
+        rows = self.load("--strain", "11=1e-6", "--steps", "1", "--references", "biot,green")
         C = numpy.array(json.loads(
             (self.folder / "run/chevron/homogenize.json").read_text())["C"])
         compliance = numpy.linalg.inv(C)
@@ -37,7 +37,7 @@ class Load(InFolder):
             self.assertAlmostEqual(row["strain_22"] / (compliance[1, 0] / compliance[0, 0] * 1e-6),
                                    1., delta=limit, msg=row)
         # The mean of both directions has no such term.
-        back = self.load("--strain", "11=-1e-6", "--steps", "1", "--law", "biot,green")
+        back = self.load("--strain", "11=-1e-6", "--steps", "1", "--references", "biot,green")
         for row, other in zip(rows, back):
             mean = 0.5 * (row["stress_11_N_per_m"] - other["stress_11_N_per_m"])
             self.assertAlmostEqual(mean * compliance[0, 0] / 1e-6, 1., delta=1e-6, msg=row)
@@ -64,8 +64,8 @@ class Load(InFolder):
         self.assertEqual([row["stress_11_N_per_m"] for row in rows if row["method"] == "measured"],
                          [9., 19.])
         lab.write_text("strain_11,stress_11_N_per_m\n0.01,9\n0.02,nineteen\n", encoding="utf-8")
-        result = run("load", CHEVRON, "--strain", "11=2%", "--measured", lab, "--output",
-                     self.folder / "other")
+        result = run("periodic", "load", CHEVRON, "--strain", "11=2%", "--measured", lab,
+                     "--output", self.folder / "other")
         self.assertEqual(result.returncode, 2)
         self.assertIn("lab.csv, line 3, column stress_11_N_per_m: found `nineteen`", result.stderr)
 
@@ -76,18 +76,34 @@ class Load(InFolder):
                 (["--strain", "11=ten"], "component 11: found `ten`"),
                 (["--strain", "11=10"], "if percent was meant, write 11=10%"),
                 (["--strain", "22=-100%"], "expected more than -1"),
-                (["--strain", "11=2%", "--law", "hooke"], "--law: "),
+                (["--strain", "11=2%", "--references", "hooke"], "--references: "),
                 (["--strain", "11=2%", "--axis", "3"], "--axis"),
                 (["--strain", "11=2%", "--steps", "0"], "--steps"),
                 ([], "found nothing but zeros")):
             output = self.folder / "refused"
-            result = run("load", CHEVRON, *options, "--output", output)
+            result = run("periodic", "load", CHEVRON, *options, "--output", output)
             self.assertEqual(result.returncode, 2, options)
             self.assertIn(found, result.stderr)
             self.assertFalse(output.exists())
-        both = run("load", CHEVRON, "--stress", "33=1", "--strain", "11=ten")
+        both = run("periodic", "load", CHEVRON, "--stress", "33=1", "--strain", "11=ten")
         self.assertIn("33=1", both.stderr)
         self.assertIn("ten", both.stderr)
+
+    def test_old_names_go_on_and_say_what_they_are_called_now(self):
+        options = ["--strain", "11=1%", "--steps", 1, "--no-report", "--quiet", "--overwrite",
+                   "--output", self.folder / "run"]
+        new = run("periodic", "load", CHEVRON, "--references", "biot", *options)
+        rows = rows_of(self.folder / "run" / "load.csv")
+        self.assertNotIn("old name", new.stderr)
+        old = run("load", CHEVRON, "--law=biot", *options)
+        self.assertEqual(old.returncode, new.returncode)
+        self.assertEqual(old.stderr.count("is `homespun periodic load` now"), 1, old.stderr)
+        self.assertEqual(old.stderr.count("`--law` is `--references` now"), 1, old.stderr)
+        self.assertEqual([row["strain_22"] for row in rows_of(self.folder / "run" / "load.csv")],
+                         [row["strain_22"] for row in rows])
+        other = run("stability", CHEVRON, "--load", "none")
+        self.assertEqual(other.returncode, 2)
+        self.assertIn("--loads: ", other.stderr)
 
 
 if __name__ == "__main__":

@@ -27,7 +27,8 @@ class Starts(InFolder):
         output = self.folder / f"out{k}"
         arguments, status = [((*SOLVE, "--output", output), 0),
                              (("homogenize", self.folder / "none.prm"), 2),
-                             (("load", CELLS / "layered.prm", "--law", "none"), 2)][k % 3]
+                             (("periodic", "load", CELLS / "layered.prm", "--references", "none"),
+                              2)][k % 3]
         return run(*arguments, env=self.environment).returncode, status
 
     def left(self):
@@ -73,8 +74,10 @@ class Starts(InFolder):
     def test_faults_of_the_command_line_are_answered_before_mpi_starts(self):
         without = {**self.environment, "OMPI_MCA_pml": "absent"}
         cell = CELLS / "layered.prm"
-        for arguments in (("strain", cell, "--loads", "none"), ("load", cell, "--law", "none"),
-                          ("stability", cell, "--strains", "0"), ("verify", "--parts", "strain"),
+        for arguments in (("strain", cell, "--loads", "none"),
+                          ("periodic", "load", cell, "--references", "none"),
+                          ("periodic", "stability", cell, "--strains", "0"),
+                          ("verify", "--parts", "strain"),
                           ("converge", cell, "--studies", "none"),
                           ("drape", CELLS.parent / "scenes" / "hang.prm", "--frames", "none"),
                           ("upsample", "cell.h5", "f.obj", "--rest", "r.obj", "--format", "none")):

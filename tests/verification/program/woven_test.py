@@ -83,8 +83,9 @@ class RemovedLaw(InFolder):
     def test_it_is_refused_with_what_to_take_in_its_place(self):
         hang, weave = SCENES / "hang.prm", WEAVE
         for study in (("strain", weave, "--references", "yarn-tension"),
-                      ("load", weave, "--strain", "11=1%", "--law", "yarn-tension"),
-                      ("stability", weave, "--law", "yarn-tension"),
+                      ("periodic", "load", weave, "--strain", "11=1%", "--references",
+                       "yarn-tension"),
+                      ("periodic", "stability", weave, "--references", "yarn-tension"),
                       ("drape", hang, "--references", "yarn-tension"),
                       ("drape", hang, "--variants", "woven-tension")):
             result = run(*study, "--output", self.folder / "run")

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Tests of the page of `homespun load`, on made-up curves."""
+"""Tests of the page of `homespun periodic load`, on made-up curves."""
 import json
 import os
 import unittest
@@ -66,7 +66,7 @@ class LoadPage(PageTest):
         os.makedirs(self.folder)
         write_table(self.folder, "load.csv", MEASURED + ROWS)
         with open(os.path.join(self.folder, "study.json"), "w", encoding="utf-8") as file:
-            json.dump({"command": "homespun load x.prm", "control": "strain 11 = 0.1"}, file)
+            json.dump({"command": "homespun periodic load x.prm", "control": "strain 11 = 0.1"}, file)
         write_verdicts(self.folder, [verdict("stripes: every level has an equilibrium", "PASS")])
         write_run(self.folder, "load")
 

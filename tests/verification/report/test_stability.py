@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Tests of the page of `homespun stability`, on made-up margins."""
+"""Tests of the page of `homespun periodic stability`, on made-up margins."""
 import json
 import math
 import os
@@ -91,7 +91,7 @@ class StabilityPage(PageTest):
         write_table(self.folder, "stability.csv", LEVELS + ZONE + [PATTERN] + LOSSES)
         write_table(self.folder, "mode.csv", mode(self.vertices))
         with open(os.path.join(self.folder, "study.json"), "w", encoding="utf-8") as file:
-            json.dump({"command": "homespun stability x.prm"}, file)
+            json.dump({"command": "homespun periodic stability x.prm"}, file)
         write_verdicts(self.folder, [verdict("stripes: beta at rest is 1", "PASS")])
         write_run(self.folder, "stability")
 

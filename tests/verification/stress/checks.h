@@ -33,7 +33,9 @@ inline void expect_within(const std::string &name, const double limit,
     if (seed == 0)
       first = answer.values;
     else if (repeats == Repeats::same_bits)
+    {
       EXPECT_TRUE(answer.values == first) << name << ": the same again gave other numbers";
+    }
   }
 }
 
@@ -55,8 +57,10 @@ expect_no_promise_broken(const std::vector<verification::StressAxis> &axes)
   {
     rows.push_back(verification::climb(axis, 10., [](const verification::StressRow &) {}));
     if (const auto verdict = verification::verdict_of(axis, rows.back(), nullptr))
+    {
       EXPECT_EQ(verdict->outcome, verification::Outcome::pass)
         << verdict->claim << ": " << rows.back().why;
+    }
   }
   return rows;
 }

@@ -296,7 +296,7 @@ TEST(tripwire_stress, a_cloth_that_falls_through_the_sphere_is_seen_at_every_tim
 {
   for (const double h : steps_of_scenes)
     for (const bool has_wind : {false, true})
-      EXPECT_GT(draped(h, has_wind, Sphere::missing).figure, deepest_allowed(h, has_wind)) << h;
+      EXPECT_GT(draped(h, has_wind, Sphere::missing).error, deepest_allowed(h, has_wind)) << h;
 }
 
 TEST(bound_stress, a_sheet_hung_by_one_corner_gains_no_energy)

@@ -402,6 +402,8 @@ TEST(bound_stress_cells, axes_keep_ten_digits_up_to_1e4_and_no_promise_is_broken
   for (const StressAxis &axis : cell_axes(stripes(), 10000))
     for (const double value : axis.ladder)
       if (value <= 1e4)
+      {
         EXPECT_LE(axis.at(value).error, limit) << axis.axis << " " << value;
+      }
   expect_no_promise_broken(cell_axes(yarns(), 10000));
 }

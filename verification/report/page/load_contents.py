@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""What the report shows of `homespun load`: curves, where they end, and what the coarse cloth, which
+"""What the report shows of `homespun periodic load`: curves, where they end, and what the coarse cloth, which
 has C^H in place of the cell, makes of the same stresses and strains.
 """
 import math

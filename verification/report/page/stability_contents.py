@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""What the report shows of `homespun stability`: the margin of each load, the strain of first loss,
+"""What the report shows of `homespun periodic stability`: the margin of each load, the strain of first loss,
 the zone of its waves and the wave that is lost.
 """
 import math

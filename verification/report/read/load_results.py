@@ -1,12 +1,12 @@
 # SPDX-License-Identifier: MIT
-"""Reads load.csv of `homespun load`: paths of an infinite cloth under given stresses and strains,
+"""Reads load.csv of `homespun periodic load`: paths of an infinite cloth under given stresses and strains,
 and curves that somebody measured.
 """
 from dataclasses import dataclass, field
 
 from read.stored import read_csv
 
-AGAIN = "Run `homespun load` again."
+AGAIN = "Run `homespun periodic load` again."
 COMPONENTS = ("11", "22", "12")
 
 

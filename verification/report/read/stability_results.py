@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Reads stability.csv and mode.csv of `homespun stability`: Bloch margins along loads of an infinite
+"""Reads stability.csv and mode.csv of `homespun periodic stability`: Bloch margins along loads of an infinite
 cloth, where they are lost, and by which wave.
 """
 from dataclasses import dataclass, field
@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 from read.cell_results import read_cell
 from read.stored import read_csv
 
-AGAIN = "Run `homespun stability` again."
+AGAIN = "Run `homespun periodic stability` again."
 ROWS_OF_KIND = {
     "level": "levels",
     "loss": "losses",
