@@ -10,8 +10,12 @@ namespace homespun::verification
 {
 double DiscretizationDistance::uncertainty(const double order) const
 {
-  const double safety = p2_to_refined < p1_to_p2 ? 1.25 : 3.;
-  return safety * (p1_to_refined + p2_to_refined / (std::pow(2., order) - 1.));
+  return safety() * (p1_to_refined + p2_to_refined / (std::pow(2., order) - 1.));
+}
+
+double DiscretizationDistance::safety() const
+{
+  return p2_to_refined < p1_to_p2 ? 1.25 : safety_unconfirmed;
 }
 
 double order_of_p2(const homogenization::UnitCell &cell, const double highest)

@@ -7,6 +7,9 @@
 
 namespace homespun::verification
 {
+/// F where no convergence is seen.
+constexpr double safety_unconfirmed = 3.;
+
 /// Measured distances between discretizations of one sheet: means over its vertices, in any unit.
 struct DiscretizationDistance
 {
@@ -20,6 +23,8 @@ struct DiscretizationDistance
   /// meshes whose order is not confirmed.
   /// @param order q of P2 on uniformly refined meshes
   double uncertainty(double order) const;
+
+  double safety() const; ///< F
 };
 
 /// The highest order of P2 displacements: of smooth solutions, and of sheets whose clamped and free

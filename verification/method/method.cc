@@ -246,6 +246,17 @@ std::vector<std::string> distinct_methods(const std::vector<std::string> &names,
   return distinct;
 }
 
+std::vector<std::string> distinct_methods(const std::vector<std::string> &names,
+                                          const std::vector<Law> &laws, const Load &load)
+{
+  std::vector<std::string> of_any;
+  for (const Law law : laws)
+    for (const std::string &name : distinct_methods(names, law, load))
+      if (std::find(of_any.begin(), of_any.end(), name) == of_any.end())
+        of_any.push_back(name);
+  return of_any;
+}
+
 std::string main_method(const std::vector<std::string> &names)
 {
   std::string main = "localized";

@@ -111,6 +111,10 @@ private:
 std::vector<std::string> distinct_methods(const std::vector<std::string> &names, Law law,
                                           const Load &load);
 
+/// Those that have a meaning under one of several laws.
+std::vector<std::string> distinct_methods(const std::vector<std::string> &names,
+                                          const std::vector<Law> &laws, const Load &load);
+
 /// The method of a list that claims, range of validity and pages speak of: the highest of rank, of
 /// several the one whose terms come last; `localized` where none has micro.
 std::string main_method(const std::vector<std::string> &names);

@@ -27,19 +27,7 @@ struct ResolvedLevel
   ReferenceBar bar; ///< of its positions [m] and of its force
   Stability stability;
   double seconds_stability;
-};
-
-/// A method, and where its coarse cloth has come to.
-struct MovedMethod
-{
-  MovedMethod(const CellModel &cell, const meshes::Sheet &sheet, const Load &load,
-              const Method &method, const Law law)
-      : model(cell, sheet, load, method, law)
-  {
-  }
-
-  CoarseModel model;
-  std::optional<CoarseState> state = {};
+  std::map<std::string, ErrorBar> error_bars = {}; ///< by method [m]
 };
 
 /// The methods on a sheet, and what their errors are measured by.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "verification/strain/gains.h"
 
+#include "verification/cell/discretization_distance.h"
 #include "verification/law/laws.h"
 #include "verification/method/method.h"
 #include "verification/record/number_text.h"
@@ -77,8 +78,8 @@ struct Pair
     verdict.claim = of_case.cell + ", " + of_case.load + ": " + method + " is closer to " +
                     of_case.reference + " than " + other + " at strain " + short_text(strain) +
                     " (ratio of errors)";
-    verdict.limit      = "< 1 by more than the reference's error bar";
-    verdict.derivation = "the error bar of the reference at this level, of the same run";
+    verdict.limit      = "< 1 by more than the error bars of both";
+    verdict.derivation = "the error bars of both errors at this level, of the same run";
     verdict.kind       = Kind::method;
     if (other == its_base)
       verdict.derivation += "; the base has the coarse cloth of the method and no microscopic "
@@ -105,11 +106,17 @@ struct Pair
     if (other == its_base)
       verdict.limit += "; base: " + than->method;
     const double gain = than->mean - one->mean; // not a number without an equilibrium
+    const double bars = one->bar + than->bar;   // nor is this, where one is not known
     verdict.value     = one->mean / than->mean;
+    if (!std::isfinite(bars))
+      verdict.limit += "; open: an error bar is not known";
+    else if (std::max(one->bar_safety, than->bar_safety) >= safety_unconfirmed)
+      return open(verdict, verdict.value,
+                  "errors of P1, P2 and refined P2 do not come together, and bear no claim");
     if (std::abs(than->per_cell - one->per_cell) > solved_to * strain)
-      verdict.outcome = gain > one->uncertainty    ? Outcome::pass
-                        : gain < -one->uncertainty ? Outcome::fail
-                                                   : Outcome::inconclusive;
+      verdict.outcome = gain > bars    ? Outcome::pass
+                        : gain < -bars ? Outcome::fail
+                                       : Outcome::inconclusive;
     return verdict;
   }
 };

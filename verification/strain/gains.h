@@ -26,8 +26,10 @@ std::vector<GainRow> gain_rows(const std::vector<StrainRow> &rows);
 /// A claim for each level at which methods are judged, the asked one nearest to 1 % (within a
 /// factor 1.5) and the largest up to 10 %, and each of these pairs that the study has: the method
 /// that it speaks of is closer to the reference than its base, `localized` than `affine`, and the
-/// former than `localized`; by more than the reference's error bar. FAIL where it is farther by
-/// more than that. Open within the bar; where the base is not among the methods; and, with the
+/// former than `localized`; by more than the error bars of both, which hold whatever method and
+/// reference share, so that their sum is safe by the triangle inequality. FAIL where it is farther
+/// by more than that. Open within the bars; where one is not known or rests on distances that do
+/// not fall along its ladder; where the base is not among the methods; and, with the
 /// strain of loss or else the last strain that was reached as value, where the law is lost at this
 /// level or the level was not reached.
 /// @param rows of strain.csv, of_case one of them

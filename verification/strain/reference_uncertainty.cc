@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "verification/strain/reference_uncertainty.h"
 
+#include "verification/record/on_root.h"
 #include "verification/reference/fine_reference.h"
 
 #include <algorithm>
@@ -25,12 +26,48 @@ void set_distance(double DiscretizationDistance::*which, const meshes::Points &a
   max.*which                     = distance.maxCoeff();
 }
 
+/// The distance of the last of two or three solutions from those before.
+DiscretizationDistance distance_between(const std::vector<meshes::Points> &of)
+{
+  DiscretizationDistance mean, max;
+  set_distance(&DiscretizationDistance::p1_to_p2, of[0], of[1], mean, max);
+  if (of.size() > 2)
+  {
+    set_distance(&DiscretizationDistance::p1_to_refined, of[0], of[2], mean, max);
+    set_distance(&DiscretizationDistance::p2_to_refined, of[1], of[2], mean, max);
+  }
+  mean.reached = true;
+  return mean;
+}
+
 /// Linear in strain through two measured values, never below `least`.
 double on_line(const std::pair<double, double> &a, const std::pair<double, double> &b,
                const double strain, const double least)
 {
   return std::max(a.second + (b.second - a.second) * (strain - a.first) / (b.first - a.first),
                   least);
+}
+
+/// What was measured at a strain, or lies on the line through the two beside it.
+template <typename Bar>
+double at_strain(const std::map<double, Bar> &bars, const double strain, const double Bar::*which)
+{
+  if (bars.size() == 1)
+    return bars.begin()->second.*which;
+  const auto right = std::find_if(std::next(bars.begin()), std::prev(bars.end()),
+                                  [&](const auto &measured) { return measured.first >= strain; });
+  const auto left  = std::prev(right);
+  double smallest  = left->second.*which;
+  for (const auto &[its_strain, bar] : bars)
+    smallest = std::min(smallest, bar.*which);
+  return on_line({left->first, left->second.*which}, {right->first, right->second.*which}, strain,
+                 0.5 * smallest);
+}
+
+/// |P1 − P2| of a sheet over that of a smaller one.
+double growth(const DiscretizationDistance &at_full, const DiscretizationDistance &of)
+{
+  return at_full.reached && of.p1_to_p2 > 0. ? at_full.p1_to_p2 / of.p1_to_p2 : unknown;
 }
 } // namespace
 
@@ -66,7 +103,7 @@ ReferenceUncertainty::measure(const Measurement &what) const
   for (std::size_t k = 0; k < what.strains.size(); ++k)
   {
     const std::vector<meshes::Points> &of = positions[k];
-    auto &[mean, max, force]              = distances[k];
+    auto &[mean, max, force, errors]      = distances[k];
     if (of.size() < ladder.size())
       continue;
     mean.reached = max.reached = force.reached = true;
@@ -82,7 +119,37 @@ ReferenceUncertainty::measure(const Measurement &what) const
       force.p2_to_refined = between(1, 2);
     }
   }
+  add_errors(what, sheet, positions, distances);
   return distances;
+}
+
+/// Method and reference of the same discretization, and how far their differences are apart.
+void ReferenceUncertainty::add_errors(const Measurement &what, const meshes::Sheet &sheet,
+                                      const std::vector<std::vector<meshes::Points>> &references,
+                                      std::vector<Distances> &distances) const
+{
+  if (methods.names.empty())
+    return;
+  const CellLadder &cells = methods.ladder();
+  on_root(communicator,
+          [&]()
+          {
+            std::vector<DiscretizedMethods> by;
+            for (const DiscretizedCell &of : cells)
+              by.emplace_back(of, sheet, load, *methods.fitted);
+            for (std::size_t k = 0; k < what.strains.size() && distances[k].mean.reached; ++k)
+              for (const std::string &name : methods.names)
+              {
+                std::vector<meshes::Points> errors;
+                for (std::size_t d = 0; d < references[k].size(); ++d)
+                  if (const meshes::Points moved = by[d].at(name, what.law, what.strains[k]);
+                      moved.allFinite() && moved.rows() == references[k][d].rows())
+                    errors.emplace_back(moved - references[k][d]);
+                distances[k].errors[name] = errors.size() == references[k].size()
+                                              ? distance_between(errors)
+                                              : DiscretizationDistance();
+              }
+          });
 }
 
 /// Rank 0 keeps the table; whether a row is there is told to all.
@@ -117,9 +184,41 @@ bool ReferenceUncertainty::look_up(const Measurement &what, const double strain,
   return true;
 }
 
+bool ReferenceUncertainty::look_up_errors(const Measurement &what, const double strain,
+                                          Distances &known) const
+{
+  bool is_known = true;
+  for (const std::string &name : methods.names)
+  {
+    const ErrorBarRow wanted = {cell.name, load.name,    name_of(what.law),
+                                strain,    what.n_cells, name};
+    is_known                 = is_known && methods.table && methods.table->contains(wanted);
+    if (is_known)
+      for (const ErrorBarRow &row : methods.table->rows())
+        if (keys_of_row(row) == keys_of_row(wanted))
+          known.errors[name] = {row.p1_to_p2, row.p1_to_refined, row.p2_to_refined,
+                                std::isfinite(row.p1_to_p2)};
+  }
+  return answer_of_root(is_known, communicator);
+}
+
 void ReferenceUncertainty::keep(const Measurement &what, const double strain,
                                 const Distances &measured) const
 {
+  for (const auto &[name, of] : measured.errors)
+  {
+    ErrorBarRow row = {cell.name, load.name, name_of(what.law), strain, what.n_cells, name};
+    if (of.reached)
+      row.p1_to_p2 = of.p1_to_p2;
+    if (of.reached && what.ladder == Ladder::with_refined_p2)
+    {
+      row.p1_to_refined = of.p1_to_refined;
+      row.p2_to_refined = of.p2_to_refined;
+      row.bar           = of.uncertainty(order) / (strain * side);
+    }
+    if (methods.table)
+      methods.table->append_if_missing(row);
+  }
   if (!table)
     return;
   UncertaintyRow row = {cell.name, load.name, name_of(what.law), strain, what.n_cells};
@@ -142,7 +241,7 @@ void ReferenceUncertainty::keep(const Measurement &what, const double strain,
       row.force_bar           = bar.force;
     }
   }
-  table->append(row);
+  table->append_if_missing(row);
 }
 
 std::vector<ReferenceUncertainty::Distances>
@@ -151,7 +250,8 @@ ReferenceUncertainty::known_or_measured(const Measurement &what) const
   std::vector<Distances> known(what.strains.size());
   std::vector<char> is_known(what.strains.size());
   for (std::size_t k = 0; k < what.strains.size(); ++k)
-    is_known[k] = look_up(what, what.strains[k], known[k]);
+    is_known[k] =
+      look_up(what, what.strains[k], known[k]) && look_up_errors(what, what.strains[k], known[k]);
   if (std::all_of(is_known.begin(), is_known.end(), [](const char is) { return is; }))
     return known;
   tell("error bar of " + name_of(what.law) + ", " + std::to_string(what.n_cells) + " x " +
@@ -173,6 +273,20 @@ ReferenceBar ReferenceUncertainty::bar_of(const Distances &distances, const doub
          (1. / (strain * side));
 }
 
+void ReferenceUncertainty::keep_bars(const Law law, const double strain, const double measured_at,
+                                     const Distances &distances)
+{
+  measured_bars[law][strain] = bar_of(distances, measured_at);
+  for (const auto &[name, of] : distances.errors)
+    if (of.reached)
+    {
+      // Errors that are zero to what solvers leave have converged.
+      const bool is_zero              = of.p2_to_refined < solved_to * measured_at * side;
+      error_bars[{law, name}][strain] = {of.uncertainty(order) / (measured_at * side),
+                                         is_zero ? 0. : of.safety()};
+    }
+}
+
 ReferenceUncertainty::ReferenceUncertainty(const homogenization::UnitCell &cell, const Load &load,
                                            const Scope &scope, Table<UncertaintyRow> *table,
                                            const MPI_Comm communicator,
@@ -182,6 +296,7 @@ ReferenceUncertainty::ReferenceUncertainty(const homogenization::UnitCell &cell,
     , table(table)
     , communicator(communicator)
     , tell(tell)
+    , methods(scope.methods)
     , side(std::sqrt(cell.lattice.area()))
     , order(order_of_p2(cell, load.is_periodic() ? order_of_p2_smooth : order_of_p2_sheet))
     , order_of_force(order_of_p2(cell, load.is_periodic() ? order_of_p2_energy : order_of_p2_sheet))
@@ -190,17 +305,16 @@ ReferenceUncertainty::ReferenceUncertainty(const homogenization::UnitCell &cell,
   const int n_measured = load.is_periodic() ? 1 : std::min(scope.n_small, scope.n_cells);
   const Distances small =
     known_or_measured({n_measured, Law::linear, {small_strain}, Ladder::with_refined_p2})[0];
-  const ReferenceBar linear_bar  = bar_of(small, small_strain);
-  measured_bars[Law::linear][0.] = linear_bar;
+  keep_bars(Law::linear, 0., small_strain, small);
   if (n_full != n_measured)
   {
     const Distances full =
       known_or_measured({n_full, Law::linear, {small_strain}, Ladder::p1_p2})[0];
-    const auto ratio = [](const DiscretizationDistance &at_full, const DiscretizationDistance &of)
-    { return at_full.reached && of.p1_to_p2 > 0. ? at_full.p1_to_p2 / of.p1_to_p2 : unknown; };
-    carry_over.mean = carry_over.to_refined = ratio(full.mean, small.mean);
-    carry_over.max                          = ratio(full.max, small.max);
-    carry_over.force                        = ratio(full.force, small.force);
+    carry_over.mean = carry_over.to_refined = growth(full.mean, small.mean);
+    carry_over.max                          = growth(full.max, small.max);
+    carry_over.force                        = growth(full.force, small.force);
+    for (const auto &[name, of] : small.errors)
+      carry_over_of_errors[name] = growth(full.errors.at(name), of);
   }
   std::vector<double> strains = {large_strain};
   if (scope.largest_strain > large_strain)
@@ -208,12 +322,12 @@ ReferenceUncertainty::ReferenceUncertainty(const homogenization::UnitCell &cell,
   for (const Law law : scope.laws)
     if (law != Law::linear)
     {
-      measured_bars[law][0.] = linear_bar;
+      keep_bars(law, 0., small_strain, small);
       const std::vector<Distances> large =
         known_or_measured({n_measured, law, strains, Ladder::with_refined_p2});
       for (std::size_t k = 0; k < strains.size(); ++k)
         if (large[k].mean.reached)
-          measured_bars[law][strains[k]] = bar_of(large[k], strains[k]);
+          keep_bars(law, strains[k], strains[k], large[k]);
     }
 }
 
@@ -221,22 +335,29 @@ ReferenceBar ReferenceUncertainty::at(const Law law, const double strain) const
 {
   const std::map<double, ReferenceBar> &bars = measured_bars.at(law);
   const auto value                           = [&](const double ReferenceBar::*which)
-  {
-    if (bars.size() == 1)
-      return bars.begin()->second.*which;
-    auto right      = std::find_if(std::next(bars.begin()), std::prev(bars.end()),
-                                   [&](const auto &measured) { return measured.first >= strain; });
-    auto left       = std::prev(right);
-    double smallest = left->second.*which;
-    for (const auto &[its_strain, bar] : bars)
-      smallest = std::min(smallest, bar.*which);
-    return on_line({left->first, left->second.*which}, {right->first, right->second.*which}, strain,
-                   0.5 * smallest);
-  };
+  { return at_strain(bars, strain, which); };
   const double unit = strain * side;
   return {value(&ReferenceBar::mean) * carry_over.mean * unit,
           value(&ReferenceBar::max) * carry_over.max * unit,
           value(&ReferenceBar::to_refined) * carry_over.to_refined * unit,
           value(&ReferenceBar::force) * carry_over.force};
+}
+
+std::map<std::string, ErrorBar> ReferenceUncertainty::of_errors(const Law law,
+                                                                const double strain) const
+{
+  std::map<std::string, ErrorBar> all;
+  for (const std::string &name : methods.names)
+    if (const auto bars = error_bars.find({law, name}); bars != error_bars.end())
+    {
+      const auto carried = carry_over_of_errors.find(name);
+      ErrorBar &bar      = all[name];
+      bar.mean           = at_strain(bars->second, strain, &ErrorBar::mean) * strain * side *
+                 (carried == carry_over_of_errors.end() ? 1. : carried->second);
+      bar.safety = 0.;
+      for (const auto &[measured_at, of] : bars->second)
+        bar.safety = std::max(bar.safety, of.safety);
+    }
+  return all;
 }
 } // namespace homespun::verification

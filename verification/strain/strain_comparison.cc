@@ -285,6 +285,7 @@ UpsampledLevel compare_methods(const StrainStudyOptions &options, const StrainLe
   errors.fluctuation       = fluctuation.mean;
   errors.side              = std::sqrt(resolved.sheet.lattice.area());
   errors.reference_bar     = resolved.bar;
+  errors.has_edges         = !load.is_periodic();
   errors.seconds_reference = fine.seconds;
   // All methods before the first row: a level has a row of each, or is unreached.
   std::vector<UpsampledMethod> missing;
@@ -309,6 +310,8 @@ UpsampledLevel compare_methods(const StrainStudyOptions &options, const StrainLe
     note_strains_outside(of, level, methods, output);
     errors.distance = distance_of(of.positions);
     errors.seconds  = of.seconds_coarse + of.seconds_upsample;
+    const auto bar  = resolved.error_bars.find(of.name);
+    errors.bar      = bar == resolved.error_bars.end() ? ErrorBar() : bar->second;
     // The row comes last: where it is there, so is all that belongs to it.
     if (of.name == "localized")
     {

@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 #include <utility>
 
 namespace homespun::verification
@@ -19,6 +20,23 @@ namespace
 StrainRow row_of(const StrainLevel &level, const std::string &method)
 {
   return {level.cell, level.load, level.strain, name_of(level.law), method};
+}
+
+/// Means over the vertices of no cell at an edge, and over the others.
+std::pair<double, double> apart_from_edges(const Eigen::VectorXd &distance,
+                                           const meshes::Sheet &sheet)
+{
+  Eigen::Vector2d sum = Eigen::Vector2d::Zero(), n = Eigen::Vector2d::Zero();
+  for (int v = 0; v < sheet.mesh.n_vertices(); ++v)
+  {
+    const Eigen::RowVector2d f = sheet.fraction(sheet.mesh.vertices.row(v));
+    const auto is_in           = [](const double fraction, const int n_cells)
+    { return std::min(fraction, 1. - fraction) * n_cells > 1. + 1e-6; };
+    const int region = is_in(f(0), sheet.n1) && is_in(f(1), sheet.n2) ? 0 : 1;
+    sum(region) += distance(v);
+    n(region) += 1.;
+  }
+  return {n(0) > 0. ? sum(0) / n(0) : StrainRow::none, sum(1) / n(1)};
 }
 
 template <typename Row>
@@ -31,6 +49,7 @@ std::unique_ptr<Table<Row>> table_if(const bool is_wanted, const std::string &fo
 StrainOutput::StrainOutput(const StrainStudyOptions &options,
                            std::function<void(const std::string &)> tell)
     : uncertainty(options.output)
+    , error_bars(options.output)
     , ellipticity(options.output)
     , budget(table_if<BudgetRow>(options.budget, options.output))
     , second(table_if<SecondCodeRow>(options.budget, options.output))
@@ -79,9 +98,13 @@ void StrainOutput::write_errors(const StrainLevel &level, const std::string &met
   row.per_cell           = row.mean / errors.side;
   if (errors.fluctuation > 0.)
     row.per_fluctuation = row.mean / errors.fluctuation;
-  row.uncertainty       = errors.reference_bar.mean;
-  row.uncertainty_max   = errors.reference_bar.max;
-  row.to_refined        = errors.reference_bar.to_refined;
+  row.uncertainty     = errors.reference_bar.mean;
+  row.uncertainty_max = errors.reference_bar.max;
+  row.to_refined      = errors.reference_bar.to_refined;
+  row.bar             = errors.bar.mean;
+  row.bar_safety      = errors.bar.safety;
+  if (errors.has_edges)
+    std::tie(row.interior, row.edge) = apart_from_edges(errors.distance, sheet);
   row.seconds           = errors.seconds;
   row.seconds_reference = errors.seconds_reference;
   strain.append(row);

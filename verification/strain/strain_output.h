@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // What a strain study leaves on the disk as it goes on: the tables strain.csv (errors), forces.csv,
-// steps.csv (times), uncertainty.csv, ellipticity.csv, notes.csv, budget.csv, second-code.csv,
-// energies.csv and runtime.csv, and at its end gains.csv and validity.csv. First rank alone.
+// steps.csv (times), uncertainty.csv, error-bars.csv, ellipticity.csv, notes.csv, budget.csv,
+// second-code.csv, energies.csv and runtime.csv, and at its end gains.csv and validity.csv. First
+// rank alone.
 #pragma once
 
 #include "meshes/plain/sheet.h"
@@ -33,9 +34,11 @@ struct StrainLevel
 struct StrainErrors
 {
   Eigen::VectorXd distance;      ///< from the reference, per fine vertex [m]
+  bool has_edges     = false;    ///< of the sheet: not under a periodic load
   double fluctuation = 0.;       ///< of the reference, mean over the vertices [m]
   double side        = 0.;       ///< of the cell [m]
   ReferenceBar reference_bar;    ///< [m]
+  ErrorBar bar;                  ///< of the mean [m]
   double seconds           = 0.; ///< of the method
   double seconds_reference = 0.;
 };
@@ -100,6 +103,7 @@ public:
   }
 
   Table<UncertaintyRow> uncertainty;
+  Table<ErrorBarRow> error_bars;
   Table<EllipticityRow> ellipticity;
   std::unique_ptr<Table<BudgetRow>> budget;     ///< none where it is left out
   std::unique_ptr<Table<SecondCodeRow>> second; ///< with the budget

@@ -13,14 +13,12 @@
 #include "verification/record/timing.h"
 #include "verification/reference/fine_reference.h"
 #include "verification/strain/budget/budget_study.h"
-#include "verification/strain/budget/budget_tables.h"
 #include "verification/strain/budget/energy_sides.h"
 #include "verification/strain/cell_references.h"
 #include "verification/strain/claims/budget_verdicts.h"
 #include "verification/strain/claims/self_checks.h"
 #include "verification/strain/claims/study_verdicts.h"
 #include "verification/strain/level_ellipticity.h"
-#include "verification/strain/reference_uncertainty.h"
 #include "verification/strain/run_time.h"
 #include "verification/strain/strain_comparison.h"
 #include "verification/strain/strain_output.h"
@@ -109,7 +107,8 @@ private:
     const meshes::Sheet repeated =
       meshes::tile(cell.mesh, cell.lattice, options.supercell[0], options.supercell[1]);
     std::unique_ptr<meshes::Sheet> full; // made where a load asks for it
-    edges = needs.edges ? *assessed.edges : KnownEdges();
+    edges  = needs.edges ? *assessed.edges : KnownEdges();
+    ladder = kept_ladder(cell, {homogenized, edges.edges}, communicator);
 
     // One discretization serves all loads of a sheet.
     std::unique_ptr<FineReference> of_cell, of_sheet;
@@ -143,9 +142,10 @@ private:
         of_run.methods = options.methods;
         if (options.is_quick)
           of_run.n_runs = 3;
-        of_run.law    = law_of(main_reference(options.references));
-        of_run.edges  = edges.edges ? &*edges.edges : nullptr;
-        of_run.fitted = fitted_under(of_run.law);
+        of_run.law   = law_of(main_reference(options.references));
+        of_run.edges = edges.edges ? &*edges.edges : nullptr;
+        if (const auto found = fitted.find(of_run.law); found != fitted.end())
+          of_run.fitted = &found->second;
         const std::string fault =
           run_time_study({cell, homogenized, bounds, sheet, load}, of_run,
                          output ? output->uncertainty.rows() : std::vector<UncertaintyRow>(),
@@ -164,13 +164,6 @@ private:
       }
   }
 
-  /// The modes of the cell under a law, if any were fitted; first rank.
-  const meshes::FittedModes *fitted_under(const Law law) const
-  {
-    const auto found = fitted.find(law);
-    return found == fitted.end() ? nullptr : &found->second;
-  }
-
   void study_load(const UnitCell &cell, const meshes::HomogenizedCell &homogenized,
                   const meshes::Sheet &sheet, const Load &load,
                   std::unique_ptr<FineReference> &reference)
@@ -182,13 +175,12 @@ private:
                        communicator);
     }
     const std::vector<Law> laws = laws_of(options);
-    const int n_steps           = 1 + static_cast<int>(laws.size() * options.strains.size());
     // What is missing is told to all ranks, so that they ask for the same laws.
     if (std::all_of(laws.begin(), laws.end(),
                     [&](const Law law) { return missing_strains(cell, load, law).empty(); }))
     {
       progress.milestone(cell.name + ", " + load.name + ": all rows are there");
-      for (int k = 0; k < n_steps; ++k)
+      for (std::size_t k = 0; k < 1 + laws.size() * options.strains.size(); ++k)
         progress.done();
       return;
     }
@@ -196,8 +188,12 @@ private:
     progress.milestone(cell.name + ", " + load.name + ": error bar of the reference");
     const ReferenceUncertainty uncertainty(
       cell, load,
-      {laws, options.n_cells, options.n_cells_of_error_bar,
-       *std::max_element(options.strains.begin(), options.strains.end())},
+      {laws,
+       options.n_cells,
+       options.n_cells_of_error_bar,
+       options.strains.back(),
+       {distinct_methods(options.methods, laws, load), output ? &output->error_bars : nullptr,
+        ladder, &fitted}},
       output ? &output->uncertainty : nullptr, communicator,
       [&](const std::string &what) { progress.begin(cell.name + ", " + load.name + ": " + what); });
     progress.done();
@@ -296,8 +292,7 @@ private:
       for (const double lower : options.strains)
         if (lower < strain && output->is_unreached({cell.name, load.name, law, lower}))
           answer = 1;
-    MPI_Bcast(&answer, 1, MPI_INT, 0, communicator);
-    return answer == 1;
+    return answer_of_root(answer == 1, communicator);
   }
 
   /// @return whether reference and coarse cloth found an equilibrium, so that the next level may
@@ -334,11 +329,15 @@ private:
             {
               try
               {
-                solved =
-                  compare_methods(options, level,
-                                  {of.sheet, fine, of.reference.n_dofs(), n_ranks,
-                                   of.uncertainty.at(law, strain), stability, seconds_stability},
-                                  of.methods, *output);
+                ResolvedLevel resolved = {of.sheet,
+                                          fine,
+                                          of.reference.n_dofs(),
+                                          n_ranks,
+                                          of.uncertainty.at(law, strain),
+                                          stability,
+                                          seconds_stability};
+                resolved.error_bars    = of.uncertainty.of_errors(law, strain);
+                solved    = compare_methods(options, level, resolved, of.methods, *output);
                 is_solved = 1;
               }
               catch (const meshes::NotConverged &failure)
@@ -384,10 +383,11 @@ private:
   StrainStudyOptions options; ///< the same, with the references of the present cell, or of all
   const unsigned int n_ranks;
   Progress progress;
-  std::unique_ptr<StrainOutput> output;      ///< first rank
-  std::unique_ptr<BudgetStudy> budget;       ///< of the present cell; none where it is left out
-  KnownEdges edges;                          ///< of the present cell
-  std::map<Law, meshes::FittedModes> fitted; ///< the same, by law; first rank
+  std::unique_ptr<StrainOutput> output;       ///< first rank
+  std::unique_ptr<BudgetStudy> budget;        ///< of the present cell; none where it is left out
+  KnownEdges edges;                           ///< of the present cell
+  std::function<const CellLadder &()> ladder; ///< the same
+  std::map<Law, meshes::FittedModes> fitted;  ///< the same, by law; first rank
   double largest_residual = 0., peak_memory = 0.;
 };
 } // namespace

@@ -37,6 +37,10 @@ struct StrainRow
   double uncertainty     = none;   ///< of the reference, mean over the vertices [m]
   double uncertainty_max   = none; ///< of the reference, at its worst vertex [m]
   double to_refined        = none; ///< of the reference from refined P2, mean over the vertices [m]
+  double bar               = none; ///< of the mean error itself [m]
+  double bar_safety        = none; ///< F of that bar; above 1.25 no convergence is seen
+  double interior          = none; ///< mean over vertices of no cell at an edge [m]
+  double edge              = none; ///< mean over the others [m]
   double seconds           = none; ///< of the method
   double seconds_reference = none;
 
@@ -64,6 +68,10 @@ struct StrainRow
     column("reference_uncertainty_m", &StrainRow::uncertainty, Domain::not_negative);
     column("reference_uncertainty_max_m", &StrainRow::uncertainty_max, Domain::not_negative);
     column("reference_to_refined_m", &StrainRow::to_refined, Domain::not_negative);
+    column("error_bar_m", &StrainRow::bar, Domain::not_negative);
+    column("error_bar_safety", &StrainRow::bar_safety, Domain::not_negative);
+    column("error_interior_m", &StrainRow::interior, Domain::not_negative);
+    column("error_edge_m", &StrainRow::edge, Domain::not_negative);
     column("seconds_method", &StrainRow::seconds, Domain::not_negative);
     column("seconds_reference", &StrainRow::seconds_reference, Domain::not_negative);
   }
@@ -272,6 +280,40 @@ struct UncertaintyRow
     column("force_p1_minus_refined_p2", &UncertaintyRow::force_p1_to_refined, Domain::not_negative);
     column("force_p2_minus_refined_p2", &UncertaintyRow::force_p2_to_refined, Domain::not_negative);
     column("force_uncertainty", &UncertaintyRow::force_bar, Domain::not_negative);
+  }
+};
+
+/// error-bars.csv: distances between errors of one method, method and reference of the same
+/// discretization, means over the vertices. Not a number where one of them was not reached or not
+/// asked for.
+struct ErrorBarRow
+{
+  static constexpr const char *file   = "error-bars.csv";
+  static constexpr std::size_t n_keys = 6;
+  static constexpr double none        = std::numeric_limits<double>::quiet_NaN();
+
+  std::string cell, load, reference;
+  double strain = 0.;
+  int cells     = 0; ///< per side of the sheet that was measured
+  std::string method;
+  double p1_to_p2      = none; ///< |error of P1 − error of P2| [m]
+  double p1_to_refined = none; ///< |error of P1 − error of refined P2| [m]
+  double p2_to_refined = none; ///< |error of P2 − error of refined P2| [m]
+  double bar           = none; ///< per strain and cell side
+
+  template <typename Column>
+  static void columns(Column &&column)
+  {
+    column("cell", &ErrorBarRow::cell, Domain::name);
+    column("load", &ErrorBarRow::load, Domain::name);
+    column("reference", &ErrorBarRow::reference, Domain::name);
+    column("strain", &ErrorBarRow::strain, Domain::positive);
+    column("cells", &ErrorBarRow::cells, Domain::positive);
+    column("method", &ErrorBarRow::method, Domain::name);
+    column("p1_minus_p2_m", &ErrorBarRow::p1_to_p2, Domain::not_negative);
+    column("p1_minus_refined_p2_m", &ErrorBarRow::p1_to_refined, Domain::not_negative);
+    column("p2_minus_refined_p2_m", &ErrorBarRow::p2_to_refined, Domain::not_negative);
+    column("error_bar_per_strain_and_side", &ErrorBarRow::bar, Domain::not_negative);
   }
 };
 

@@ -51,6 +51,8 @@ def strain_rows():
                         "reference_uncertainty_m": 1e-4 * strain * SIDE,
                         "reference_uncertainty_max_m": 4e-4 * strain * SIDE,
                         "reference_to_refined_m": 7e-5 * strain * SIDE,
+                        "error_bar_m": 1e-4 * strain * SIDE,
+                        "error_bar_safety": 1.25,
                         "seconds_method": 0.001,
                         "seconds_reference": 1.5,
                     }

@@ -24,14 +24,14 @@ from read.results import read_results
 from read.schema import main_method
 from test_budget import write_budget
 
-BAR = 1e-6  # of the reference, cell sides of 1 cm
+BAR = 1e-6  # of an error, cell sides of 1 cm
 
 
 def row(error, bar=BAR):
     return {
         "error_mean_per_cell": error,
         "error_mean_m": 0.01 * error,
-        "reference_uncertainty_m": 0.01 * bar,
+        "error_bar_m": 0.01 * bar,
     }
 
 
@@ -91,11 +91,11 @@ class SentenceTest(unittest.TestCase):
                       line["sentence"])
         self.assertNotIn(" %", line["sentence"].replace("0.100 % of a cell side", ""))
 
-    def test_what_the_reference_cannot_tell_is_not_called_a_gain(self):
-        line = self.line(1e-2, 1e-2 - 0.5 * BAR)
+    def test_what_the_bars_cannot_tell_is_not_called_a_gain(self):
+        line = self.line(1e-2, 1e-2 - 1.5 * BAR)
         self.assertEqual(line["mark"], "open")
-        self.assertIn("that the error bar of the reference", line["sentence"])
-        self.assertEqual(self.line(1e-2, 1e-2 - 2.0 * BAR)["mark"], "better")
+        self.assertIn("that the error bars of both", line["sentence"])
+        self.assertEqual(self.line(1e-2, 1e-2 - 3.0 * BAR)["mark"], "better")
 
     def test_zero_is_said_to_round_off(self):
         self.assertIn("all of the error", self.line(1e-2, 1e-15)["sentence"])
@@ -123,7 +123,7 @@ class SentenceTest(unittest.TestCase):
     def test_the_paper_s_method_stands_beside_with_what_it_does_to_its_own_coarse_cloth(self):
         for paper, change in ((8e-3, "−20 %"), (15e-3, "+50 %"), (1e-2 - 0.5 * BAR, "less than the bar")):
             self.assertEqual(
-                answer.of_the_paper(answer.change_between(row(1e-2), row(paper), 0.01 * BAR)),
+                answer.of_the_paper(answer.change_between(row(1e-2), row(paper))),
                 " The paper's method, localized, changes the error of the coarse mesh alone by"
                 f" {change}.",
             )
@@ -147,12 +147,12 @@ class SentenceTest(unittest.TestCase):
         self.assertEqual(answer.law_sentence(rows, forces, "biot", 0.01), "")
         self.assertEqual(answer.law_sentence(rows, [], "biot", 0.1), "")
 
-    def test_the_bar_of_the_reference_stands_beside_what_is_left(self):
+    def test_the_error_bar_stands_beside_what_is_left(self):
         self.assertEqual(
-            answer.beside_the_bar(row(1e-3)), " The reference's own error bar is 10.0 nm."
+            answer.beside_the_bar(row(1e-3)), " The error bar of that error is 10.0 nm."
         )
         within = answer.beside_the_bar(row(1e-3, bar=2e-3))
-        self.assertIn("error bar, 20.0 µm, is not smaller", within)
+        self.assertIn("Its error bar, 20.0 µm, is not smaller", within)
         self.assertIn("at most 30.0 µm", within)
         self.assertEqual(answer.beside_the_bar(row(1e-3, bar=0.0)), "")
         self.assertEqual(answer.beside_the_bar(row(1e-15)), "")

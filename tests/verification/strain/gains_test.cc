@@ -55,6 +55,9 @@ Rows rows_of(const double contrast, const int n_cells)
     reference.start(load, Law::biot);
     const ReferenceStep fine = reference.advance(of_comparison);
     MethodsOnSheet methods   = methods_on_sheet(cell, homogenized, edges, sheet, load);
+    std::map<std::string, ErrorBar> bars;
+    for (const std::string &method : options.methods)
+      bars[method] = {bar_of_placebo, 1.25};
     compare_methods(options, {cell.name, name, Law::biot, of_comparison},
                     {sheet,
                      fine,
@@ -62,7 +65,8 @@ Rows rows_of(const double contrast, const int n_cells)
                      1,
                      {bar_of_placebo, bar_of_placebo, bar_of_placebo, bar_of_placebo},
                      Stability::every_triangle,
-                     0.},
+                     0.,
+                     bars},
                     methods, output);
   }
   return output.strain_rows();
@@ -128,10 +132,11 @@ namespace
 {
 StrainRow row_of_strip(const double strain, const std::string &method, const double error)
 {
-  StrainRow one   = {"cell", "strip-1", strain, "biot", method, 20, 800, 288000};
-  one.mean        = error;
-  one.per_cell    = error / 0.01;
-  one.uncertainty = 1e-7;
+  StrainRow one  = {"cell", "strip-1", strain, "biot", method, 20, 800, 288000};
+  one.mean       = error;
+  one.per_cell   = error / 0.01;
+  one.bar        = 1e-7;
+  one.bar_safety = 1.25;
   return one;
 }
 
@@ -291,7 +296,28 @@ TEST(tripwire_gains, errors_that_are_zero_to_round_off_are_no_gain)
 {
   Rows rows = level_with(0.01, 1e-14, 2e-14, 2e-14, 2e-14);
   for (StrainRow &one : rows)
-    one.uncertainty = 0.;
+    one.bar = 0.;
   EXPECT_EQ(claim_with(strain_verdicts(rows, {0.01}), over_base).outcome, Outcome::inconclusive);
   EXPECT_TRUE(std::isnan(gains_of_full(rows).at(0).of_upsampling));
+}
+
+// 3e-5 and 1e-5: apart by more than either bar, and by less than both.
+TEST(tripwire_gains, the_bars_of_both_errors_count)
+{
+  const auto with_bars = [](const double of_base, const double of_full, const double safety)
+  {
+    Rows rows                = level_with(0.01, 1e-5);
+    rows[1].bar              = of_base; // affine+p2, the base
+    rows.back().bar          = of_full;
+    rows.back().bar_safety   = safety;
+    rows.front().uncertainty = rows.back().uncertainty = 1.; // the reference's own decides nothing
+    return claim_with(strain_verdicts(rows, {0.01}), over_base);
+  };
+  const double unknown = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(with_bars(0.9e-5, 0.9e-5, 1.25).outcome, Outcome::pass);
+  EXPECT_EQ(with_bars(1.1e-5, 1.1e-5, 1.25).outcome, Outcome::inconclusive);
+  EXPECT_EQ(with_bars(0.9e-5, 0.9e-5, 3.).outcome, Outcome::inconclusive);
+  EXPECT_NE(with_bars(0.9e-5, 0.9e-5, 3.).limit.find("come together"), std::string::npos);
+  EXPECT_EQ(with_bars(unknown, 0.9e-5, 1.25).outcome, Outcome::inconclusive);
+  EXPECT_EQ(with_bars(0.9e-5, unknown, unknown).outcome, Outcome::inconclusive);
 }

@@ -94,8 +94,8 @@ def strain_figure(rows, methods, reference, side, width):
                 Line2D([], [], color=style.method_colour(method, methods), ls=line, marker=marker,
                        markerfacecolor="white", label=style.METHOD_LABELS.get(method, method))
             )
-        if any(row["reference_uncertainty_m"] > 0 for row in rows):
-            handles.append(Patch(color="#BDBDBD", alpha=0.55, label="bar of the reference"))
+        if any(row.get("error_bar_m", 0.0) > 0 for row in rows):
+            handles.append(Patch(color="#BDBDBD", alpha=0.55, label="bar of the smallest error"))
         height = min(0.85 * width / columns + 0.25, 2.4)
         figure, every = with_legend(width, columns, lines, height, handles)
         lower, upper = limits(rows, "error_mean_per_cell", 1.0)

@@ -70,20 +70,38 @@ def curve_style(method, methods, reference, references):
     return style.method_style(method, methods)
 
 
+def bars_of_smallest(rows, methods, references):
+    """strain -> error bar [m] of the method with the smallest error, the largest of the laws."""
+    bars = {}
+    for strain, reference in {(row["strain"], row["reference"]) for row in rows}:
+        some = [
+            row
+            for row in rows
+            if (row["strain"], row["reference"]) == (strain, reference)
+            and reference in references
+            and row["method"] in methods
+            and not math.isnan(row["error_mean_m"])
+        ]
+        if some:
+            bar = min(some, key=lambda row: row["error_mean_m"]).get("error_bar_m", math.nan)
+            if not math.isnan(bar):
+                bars[strain] = max(bar, bars.get(strain, 0.0))
+    return bars
+
+
 def draw_panel(axes, rows, load, methods, references, key, factor, floor, side):
     """One load: all methods and references; returns whether round-off was drawn at the floor."""
     at_floor = False
     rows = [row for row in rows if row["load"] == load]
     if key == "error_mean_per_cell" and side:
-        uncertain = {}
-        for row in rows:
-            if row["reference"] in references and not math.isnan(row["reference_uncertainty_m"]):
-                bar = row["reference_uncertainty_m"] / side
-                uncertain[row["strain"]] = max(bar, uncertain.get(row["strain"], 0.0))
-        uncertain = sorted((s, u) for s, u in uncertain.items() if u > style.ROUND_OFF)
-        if uncertain:
-            strain, bar = numpy.array(uncertain).T
-            band(axes, 100 * strain, bar, floor / 100.0, "uncertainty of the reference")
+        bars = sorted(
+            (strain, bar / side)
+            for strain, bar in bars_of_smallest(rows, methods, references).items()
+            if bar / side > style.ROUND_OFF
+        )
+        if bars:
+            strain, bar = numpy.array(bars).T
+            band(axes, 100 * strain, bar, floor / 100.0, "error bar of the smallest error")
     for method in methods:
         for reference in references:
             some = [r for r in rows if r["method"] == method and r["reference"] == reference]
@@ -180,7 +198,7 @@ def legend(figure, methods, references, uncertainty, at_floor):
             )
         )
     if uncertainty:
-        entries.append(Patch(color="#BDBDBD", alpha=0.55, label="uncertainty of the reference"))
+        entries.append(Patch(color="#BDBDBD", alpha=0.55, label="error bar of the smallest error"))
     if at_floor:
         entries.append(
             Line2D(
@@ -234,7 +252,7 @@ def error_figure(
     at_floor = False
     uncertainty = (
         key == "error_mean_per_cell"
-        and any(row["reference_uncertainty_m"] > 0 for row in rows)
+        and any(row.get("error_bar_m", 0.0) > 0 for row in rows)
         and bool(side)
     )
     for group, line in zip(groups, grid):

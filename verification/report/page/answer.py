@@ -35,7 +35,7 @@ CAUSES = {
 # What a term of a method takes away of the budget, which is that of `localized`.
 TAKEN_AWAY = {"edges": ("slip", "selvedge", "bulk", "layer"), "cubic": ("macro-law",),
               "modes": ("modes",)}
-UNTOLD = "≈ 0"  # a change that the bar of the reference cannot tell
+UNTOLD = "≈ 0"  # a change that the error bars cannot tell
 SECOND_CAUSE = 0.25  # share of the error from which a second cause is named
 VALIDITY_LIMIT = 0.01  # of a cell side
 PANEL = (1.4, 1.5)  # inches of a panel of the small Figure 3
@@ -72,9 +72,7 @@ def answer_of(results, name, gallery):
             base = some.get(bases.get((load, method)))
             line = line_of(load, some["affine"], base, some[method], parts)
             if method != PAPER and PAPER in some:
-                line["paper"] = change_between(
-                    some["affine"], some[PAPER], some[PAPER]["reference_uncertainty_m"]
-                )
+                line["paper"] = change_between(some["affine"], some[PAPER])
                 line["beside"] += of_the_paper(line["paper"])
             if line["mark"] != "open":  # where the bar is named already
                 line["sentence"] += beside_the_bar(some[method])
@@ -146,12 +144,11 @@ def line_of(load, affine, base, best, parts):
     """
     title = schema.loads().get(load, {}).get("label", load)
     after, left = best["error_mean_per_cell"], best["error_mean_m"]
-    bar = best["reference_uncertainty_m"]
     method = best.get("method", PAPER)
     reason = why(parts, method, left, best.get("reference"))
     size = f"{tables.length(left)} ({three(100.0 * after)} % of a cell side) are left"
     size += f" {reason}" if reason else ""
-    short = f"{tables.length_with_bar(left, bar)}, {three(100.0 * after)} % of a cell side"
+    short = f"{tables.length_with_bar(left, tables.bar_of(best))}, {three(100.0 * after)} % of a cell side"
     short += f", {reason}" if reason else ""
     line = {
         "load": load, "title": title, "change": "–", "mark": "open", "coarse": "", "total": "",
@@ -165,15 +162,15 @@ def line_of(load, affine, base, best, parts):
             f" ({method}-micro, affine+p2); {size}."
         )
     else:
-        line["change"], line["mark"], words = of_upsampling(base, best, bar, size)
+        line["change"], line["mark"], words = of_upsampling(base, best, size)
         before = base["error_mean_per_cell"]
         if after < style.ROUND_OFF:
             line["short"] = words
         if before >= style.ROUND_OFF:
             line["gain"] = 1.0 if after < style.ROUND_OFF else 1.0 - after / before
         if base["method"] != "affine":
-            line["coarse"] = change_between(affine, base, bar)
-            line["total"] = change_between(affine, best, bar)
+            line["coarse"] = change_between(affine, base)
+            line["total"] = change_between(affine, best)
             line["beside"] = (
                 f" That coarse cloth itself changes the error of the coarse mesh alone by"
                 f" {in_words(line['coarse'])}, both together by {in_words(line['total'])}."
@@ -181,7 +178,7 @@ def line_of(load, affine, base, best, parts):
     return {**line, "sentence": capital(words), "short": capital(line["short"])}
 
 
-def of_upsampling(base, best, bar, size):
+def of_upsampling(base, best, size):
     """(change, mark, words) from the coarse cloth of a method to the method."""
     before, after = base["error_mean_per_cell"], best["error_mean_per_cell"]
     of_what = (
@@ -193,10 +190,11 @@ def of_upsampling(base, best, bar, size):
         return "0", "none", "nothing is to be added: the coarse cloth is exact to round-off."
     if after < style.ROUND_OFF:
         return "−100 %", "better", f"up-sampling takes away all of {of_what}, to round-off."
-    if abs(base["error_mean_m"] - best["error_mean_m"]) <= bar:
+    bars = tables.bar_of(base) + tables.bar_of(best)
+    if abs(base["error_mean_m"] - best["error_mean_m"]) <= bars:
         return UNTOLD, "open", (
-            f"up-sampling makes no difference to {of_what} that the error bar of the reference"
-            f" ({tables.length(bar)}) could tell; {size}."
+            f"up-sampling makes no difference to {of_what} that the error bars of both"
+            f" ({tables.length(bars)} together) could tell; {size}."
         )
     gain = 1.0 - after / before if before >= style.ROUND_OFF else -math.inf
     if math.isinf(gain):
@@ -210,10 +208,12 @@ def of_upsampling(base, best, bar, size):
     )
 
 
-def change_between(one, other, bar):
-    """How the error changes from one row to another: −74 %, +58 %, or what the bar cannot tell."""
+def change_between(one, other):
+    """How the error changes from one row to another: −74 %, +58 %, or what the bars cannot tell."""
     before, after = one["error_mean_per_cell"], other["error_mean_per_cell"]
-    if max(before, after) < style.ROUND_OFF or abs(other["error_mean_m"] - one["error_mean_m"]) <= bar:
+    if max(before, after) < style.ROUND_OFF or abs(
+        other["error_mean_m"] - one["error_mean_m"]
+    ) <= tables.bar_of(one) + tables.bar_of(other):
         return UNTOLD
     return change_of(1.0 - after / before if before >= style.ROUND_OFF else -math.inf)
 
@@ -228,19 +228,17 @@ def of_the_paper(change):
 
 
 def beside_the_bar(best):
-    """How well the error that is left is known: both sides share a mesh, the truth has none.
-
-    Against the limit of fine meshes the mean error is at most the sum of both (triangle inequality).
+    """How well the error that is left is known: what it may change by in the limit of fine meshes,
+    method and reference together.
     """
-    left, bar = best["error_mean_m"], best["reference_uncertainty_m"]
+    left, bar = best["error_mean_m"], tables.bar_of(best)
     if not bar > 0.0 or best["error_mean_per_cell"] < style.ROUND_OFF:
         return ""
     if left > bar:
-        return f" The reference's own error bar is {tables.length(bar)}."
+        return f" The error bar of that error is {tables.length(bar)}."
     return (
-        f" The reference's own error bar, {tables.length(bar)}, is not smaller than that: both sides"
-        " share its mesh, and of the limit of fine meshes is known only that the error is at most"
-        f" {tables.length(left + bar)}."
+        f" Its error bar, {tables.length(bar)}, is not smaller than that: of the limit of fine meshes"
+        f" is known only that the error is at most {tables.length(left + bar)}."
     )
 
 

@@ -105,6 +105,6 @@ def errors_of(results, subject, strain):
         row = here.get(main_method(here))
         if row and row["error_mean_per_cell"] >= style.ROUND_OFF:
             side = row["error_mean_m"] / row["error_mean_per_cell"]
-            bar = row["reference_uncertainty_m"] / side
+            bar = tables.bar_of(row) / side
             found[load] = (1e3 * row["error_mean_per_cell"], 1e3 * bar)
     return found

@@ -79,7 +79,7 @@ def error_tables(rows, methods, gains):
                         "load": load,
                         "reference": reference,
                         "uncertainty": "not known" if math.isnan(bar) else length(bar),
-                        "errors": [error_entry(some.get(method), bar) for method in methods],
+                        "errors": [error_entry(some.get(method)) for method in methods],
                     }
                 )
         tables.append(
@@ -105,7 +105,12 @@ def gain_rows(gains):
     ]
 
 
-def error_entry(row, bar):
+def bar_of(row):
+    """The bar of an error [m]; nan where none was measured."""
+    return row.get("error_bar_m", math.nan)
+
+
+def error_entry(row):
     if row is None:
         return {"text": "–", "share": "", "resolved": True}
     if row["error_mean_per_cell"] < style.ROUND_OFF:
@@ -114,7 +119,7 @@ def error_entry(row, bar):
     return {
         "text": length(row["error_mean_m"]),
         "share": "" if math.isnan(share) else f"{three(100. * share)} %",
-        "resolved": math.isnan(bar) or row["error_mean_m"] > bar,
+        "resolved": not row["error_mean_m"] <= bar_of(row),
     }
 
 

@@ -20,7 +20,8 @@ StrainRow row(const std::string &load, const double strain, const std::string &m
   StrainRow one   = {"cell", load, strain, "biot", method, 20, 800, 288000};
   one.mean        = error_m;
   one.per_cell    = error_m / 0.01;
-  one.uncertainty = uncertainty_m;
+  one.uncertainty = one.bar = uncertainty_m;
+  one.bar_safety            = 1.25;
   return one;
 }
 
@@ -297,8 +298,8 @@ TEST(tripwire_verdicts, a_small_true_error_at_small_strain_is_not_taken_for_roun
 
 TEST(tripwire_verdicts, without_an_error_bar_a_gain_is_inconclusive)
 {
-  Rows rows           = sheet(2e-5, 1e-5, 1e-7);
-  rows[1].uncertainty = std::numeric_limits<double>::quiet_NaN();
+  Rows rows   = sheet(2e-5, 1e-5, 1e-7);
+  rows[1].bar = std::numeric_limits<double>::quiet_NaN();
   EXPECT_EQ(judged(rows)[0].outcome, Outcome::inconclusive);
 }
 

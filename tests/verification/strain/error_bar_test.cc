@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: MIT
+// The bar of a method's error, where method and reference change their discretization together,
+// against errors that are measured apart from it.
+#include "homogenization/edges/edge_layers.h"
+#include "homogenization/lint/cell_reading.h"
+#include "localization/coarse_frames.h"
+#include "tests/homogenization/cell/cells.h"
+#include "verification/reference/fine_reference.h"
+#include "verification/strain/reference_uncertainty.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+using namespace homespun;
+using namespace homespun::verification;
+
+namespace
+{
+constexpr double strain                  = 1e-3; // any: the law is linear
+const std::vector<std::string> of_sheets = {"affine", "localized", "full-micro", "full"};
+const std::map<Law, meshes::FittedModes> no_modes;
+
+homogenization::UnitCell cell_named(const std::string &name)
+{
+  return homogenization::read_unit_cell(std::string(CELLS) + name + ".prm");
+}
+
+CellLadder ladder_of_cell(const homogenization::UnitCell &cell)
+{
+  return ladder_of(cell, {tests::homogenized(cell), homogenization::edges_of(cell, {})},
+                   MPI_COMM_SELF);
+}
+
+std::map<std::string, ErrorBar> bars(const homogenization::UnitCell &cell, const CellLadder &ladder,
+                                     const std::string &load, const int n_cells, const int n_small)
+{
+  const ReferenceUncertainty uncertainty(
+    cell, Load(load),
+    {{Law::linear},
+     n_cells,
+     n_small,
+     strain,
+     {of_sheets, nullptr, [&]() -> const CellLadder & { return ladder; }, &no_modes}},
+    nullptr, MPI_COMM_SELF, [](const std::string &) {});
+  return uncertainty.of_errors(Law::linear, strain);
+}
+
+/// Mean error of a method, cell and reference by one discretization [m].
+double error_of(const homogenization::UnitCell &cell, const CellLadder &ladder,
+                const std::string &method, const Load &load, const int n_cells,
+                const std::size_t discretization)
+{
+  const meshes::Sheet sheet = meshes::tile(cell.mesh, cell.lattice, n_cells, n_cells);
+  const ReferenceOptions options =
+    std::vector<ReferenceOptions>{{1, 0}, {2, 0}, {2, 1}}[discretization];
+  FineReference reference(sheet, cell.stiffness_of_phase(), options, MPI_COMM_SELF);
+  reference.start(load, Law::linear);
+  const meshes::Points fine = reference.advance(strain).positions;
+  DiscretizedMethods methods(ladder[discretization], sheet, load, no_modes);
+  return (methods.at(method, Law::linear, strain) - fine).rowwise().norm().mean();
+}
+} // namespace
+
+// By the triangle inequality; and a small part of the error, which the reference's own bar is not.
+TEST(bound_error_bar, covers_what_the_error_changes_by_with_the_discretization)
+{
+  const Load load("strip-1");
+  for (const char *name : {"checkerboard", "three-stiffness"})
+  {
+    const homogenization::UnitCell cell = cell_named(name);
+    const CellLadder ladder             = ladder_of_cell(cell);
+    const auto all                      = bars(cell, ladder, load.name, 2, 2);
+    for (const std::string method : {"affine", "localized", "full"})
+    {
+      const double p1      = error_of(cell, ladder, method, load, 2, 0),
+                   refined = error_of(cell, ladder, method, load, 2, 2), bar = all.at(method).mean;
+      EXPECT_LT(std::abs(p1 - refined), bar) << name << " " << method;
+      EXPECT_LT(bar, 0.5 * p1) << name << " " << method;
+    }
+  }
+}
+
+TEST(bound_error_bar, carried_to_a_larger_sheet_is_the_one_measured_there)
+{
+  for (const char *name : {"checkerboard", "three-stiffness", "layered"})
+    for (const char *load : {"strip-1"})
+    {
+      const homogenization::UnitCell cell = cell_named(name);
+      const CellLadder ladder             = ladder_of_cell(cell);
+      const auto carried                  = bars(cell, ladder, load, 4, 2),
+                 measured                 = bars(cell, ladder, load, 4, 4);
+      for (const auto &[method, bar] : measured)
+      {
+        EXPECT_NEAR(carried.at(method).mean / bar.mean, 1., 0.25) << name << load << method;
+      }
+    }
+}
+
+// Of an infinite cloth in linear theory localized is exact by each discretization; with a method
+// that does not follow the reference it is not.
+TEST(tripwire_error_bar, a_method_of_another_discretization_than_its_reference_is_seen)
+{
+  const homogenization::UnitCell cell = cell_named("checkerboard");
+  CellLadder ladder                   = ladder_of_cell(cell);
+  const double zero                   = solved_to * strain * std::sqrt(cell.lattice.area());
+  EXPECT_LT(bars(cell, ladder, "periodic-11", 1, 1).at("localized").mean, 3. * zero);
+  for (const std::size_t k : {1, 2})
+    ladder[k] = ladder[0];
+  EXPECT_GT(bars(cell, ladder, "periodic-11", 1, 1).at("localized").mean, 1e3 * zero);
+}
+
+TEST(exact_error_bar, what_was_not_run_has_none)
+{
+  const homogenization::UnitCell cell = cell_named("layered");
+  const ReferenceUncertainty none(cell, Load("strip-1"), {{Law::linear}, 1, 1, strain}, nullptr,
+                                  MPI_COMM_SELF, [](const std::string &) {});
+  EXPECT_TRUE(none.of_errors(Law::linear, strain).empty());
+  EXPECT_TRUE(std::isnan(ErrorBar().mean));
+}
+
+// Nothing of the cell is there to be wrong: all methods of one coarse cloth have one bar.
+TEST(exact_error_bar, of_one_material_up_sampling_changes_no_bar)
+{
+  const homogenization::UnitCell cell = tests::cell_of(
+    tests::square_lattice(0.01), 6, 6, {homogenization::isotropic("one", 1e6, 0.3, 5e-4, 1.)},
+    tests::everywhere_the_same);
+  const CellLadder ladder = ladder_of_cell(cell);
+  const auto all          = bars(cell, ladder, "strip-1", 4, 4);
+  EXPECT_NEAR(all.at("localized").mean / all.at("affine").mean, 1., 1e-6);
+  EXPECT_NEAR(all.at("full").mean / all.at("full-micro").mean, 1., 1e-6);
+  const double error = error_of(cell, ladder, "full", Load("strip-1"), 4, 0);
+  EXPECT_LT(all.at("full").mean, 0.5 * error);
+}
+
+// Up-sampling centres chi by its mean over triangles of three nodes, P2 by its own: slip makes up
+// for it, so that under each macro strain w + phi is zero at every vertex of a clamped edge. Slip
+// of the opposite edge does not.
+TEST(exact_cell_ladder, a_clamped_edge_stays_where_it_is_by_each_discretization)
+{
+  const homogenization::UnitCell cell = cell_named("three-stiffness");
+  for (const DiscretizedCell &of : ladder_of_cell(cell))
+  {
+    const meshes::Chi chi = localization::anchored(of.cell, localization::Anchor::mean);
+    for (int side = 0; side < meshes::CellEdges::n_sides; ++side)
+    {
+      const auto fraction = [&](const int v)
+      { return cell.lattice.fractional(cell.mesh.vertices.row(v))(meshes::axis_of_side(side)); };
+      double low = 1e9, high = -1e9;
+      for (int v = 0; v < cell.mesh.n_vertices(); ++v)
+      {
+        low  = std::min(low, fraction(v));
+        high = std::max(high, fraction(v));
+      }
+      const auto moved = [&](const meshes::CellEdge &slipping)
+      {
+        double largest = 0.;
+        for (int v = 0; v < cell.mesh.n_vertices(); ++v)
+          if (std::abs(fraction(v) - (meshes::is_far_side(side) ? high : low)) < 1e-9)
+            for (int k = 0; k < 6; ++k)
+              largest = std::max(
+                largest, std::abs(of.edges->sides[static_cast<std::size_t>(side)].clamped(v, k) +
+                                  slipping.slip(k % 2, k / 2) - chi(v, k)));
+        return largest / chi.cwiseAbs().maxCoeff();
+      };
+      // Two solvers, which leave 1e-11 of the forces, times 1e4 for the condition of a cell.
+      EXPECT_LT(moved(of.edges->sides[static_cast<std::size_t>(side)]), 1e-7) << side;
+      EXPECT_GT(moved(of.edges->sides[static_cast<std::size_t>(side ^ 1)]), 1e-3) << side;
+    }
+  }
+}
