@@ -3,6 +3,7 @@
 
 #include "verification/cell/algebraic_limit.h"
 #include "verification/cell/energy_order.h"
+#include "verification/record/claim.h"
 
 #include <Eigen/LU>
 
@@ -26,10 +27,6 @@ double limit_of_bounds(const UnitCell &cell, const Homogenization &result)
          4. * result.audit.largest_gap / std::sqrt(cell.lattice.area());
 }
 
-const std::string source_of_bounds =
-  "theory: 0; beside it round-off at this size and contrast, of the sums over all triangles, and "
-  "the share of the area between lattice images that lie apart, four sides of the largest gap";
-
 /// Whether the two claims on bounds can fail for a fault that matters.
 Verdict check_of_limit(const UnitCell &cell, const double limit)
 {
@@ -41,10 +38,7 @@ Verdict check_of_limit(const UnitCell &cell, const double limit)
     softest  = std::min(softest, c.determinant() / (c.trace() * c.trace()));
     stiffest = std::max(stiffest, c.trace());
   }
-  Verdict check =
-    at_most("Checks of C^H find a fault of a millionth (what they let pass)", limit, that_matters,
-            "requirement; at a contrast of phases and directions above 1e6 round-off "
-            "may take more, and leaves this open");
+  Verdict check = at_most("checks-find-a-millionth", {}, limit, that_matters);
   if (check.outcome == Outcome::fail && stiffest / softest > moderate)
     check.outcome = Outcome::inconclusive;
   return check;
@@ -62,12 +56,7 @@ Verdict check_of_measures(const Eigen::Matrix3d &stiffness)
     deviation = larger(deviation,
                        std::abs(order_violation(other, stiffness) / fault - (sign > 0. ? 1. : 0.)));
   }
-  Verdict check =
-    at_most("Measures of the checks see a C^H that is a millionth too stiff or too soft (relative "
-            "deviation from a millionth)",
-            deviation, 1e-3,
-            "eigenvalues of a multiple of the identity; 1e-16 times the anisotropy of C^H over a "
-            "millionth, which above 1e6 leaves this open");
+  Verdict check = at_most("measures-see-a-millionth", {}, deviation, 1e-3);
   if (check.outcome == Outcome::fail &&
       std::pow(stiffness.trace(), 3) / stiffness.determinant() > 1e6)
     check.outcome = Outcome::inconclusive;
@@ -91,18 +80,10 @@ std::vector<Verdict> checks_of(const UnitCell &cell, const Homogenization &resul
   const double leverage =
     std::sqrt(result.voigt.diagonal().maxCoeff() / result.stiffness.diagonal().maxCoeff());
   const double limit = limit_of_bounds(cell, result);
-  return {
-    at_most(
-      "Hill-Mandel: energy form and mean stress of C^H agree (relative gap)", gap / size,
-      1e-8 * std::max(1., leverage),
-      "the solver leaves 1e-9 of the displacements by its preconditioner, whose root of the "
-      "condition is at most ten; in the mean stress this counts with the root of Voigt's energy "
-      "over that of C^H"),
-    at_most("C^H <= Voigt bound (relative violation)",
-            order_violation(result.stiffness, result.voigt), limit, source_of_bounds),
-    at_most("C^H >= Reuss bound (relative violation)",
-            order_violation(result.reuss, result.stiffness), limit, source_of_bounds),
-    check_of_limit(cell, limit), check_of_measures(result.stiffness)};
+  return {at_most("hill-mandel", {}, gap / size, 1e-8 * std::max(1., leverage)),
+          at_most("below-voigt", {}, order_violation(result.stiffness, result.voigt), limit),
+          at_most("above-reuss", {}, order_violation(result.reuss, result.stiffness), limit),
+          check_of_limit(cell, limit), check_of_measures(result.stiffness)};
 }
 
 /// C of displacements that are linear in each triangle of the given mesh, 1/|Y| integral (e −
@@ -154,24 +135,11 @@ std::vector<Verdict> checks_of_sampled_chi(const UnitCell &cell, const Homogeniz
     }
   const Eigen::Matrix3d energies = energies_of(result.chi, cell);
   const double limit             = limit_of_bounds(cell, result);
-  return {
-    at_most(
-      "chi of the last mesh is zero at the anchor and the same at lattice images (relative to the "
-      "largest)",
-      size > 0. ? fault / size : fault, 1e-12,
-      "by definition 0; values are copied, and the anchor's is subtracted, with a rounding of "
-      "2e-16 of the coordinates' size each"),
-    at_most("chi of the last mesh is admissible on the given one: its energies lie above C_lower "
-            "(relative violation)",
-            order_violation(bracket.lower, energies), limit, source_of_bounds),
-    // No theorem: on a mesh that is much too coarse for them exact displacements may cost more than
-    // none.
-    at_most("chi of the last mesh is better on the given one than no displacements: its energies "
-            "lie below Voigt's (relative violation)",
-            order_violation(energies, result.voigt), limit,
-            "what better means, and round-off; where it fails the given mesh is too coarse for "
-            "--tolerance",
-            Kind::input)};
+  return {at_most("last-mesh-chi-periodic", {}, size > 0. ? fault / size : fault, 1e-12),
+          at_most("last-mesh-chi-admissible", {}, order_violation(bracket.lower, energies), limit),
+          // No theorem: on a mesh that is much too coarse for them exact displacements may cost
+          // more than none.
+          at_most("last-mesh-chi-better", {}, order_violation(energies, result.voigt), limit)};
 }
 } // namespace
 

@@ -84,6 +84,7 @@ std::vector<Verdict> checks_in(const nlohmann::json &list)
   {
     Verdict check{one.at("name"), Outcome::fail, std::nan(""), one.at("limit"),
                   one.at("derivation")};
+    check.id = one.value("id", "");
     if (one.at("value").is_number())
       check.value = one.at("value");
     if (!read_field(one.at("verdict").get<std::string>(), check.outcome) ||
@@ -128,7 +129,8 @@ const AssessedCell &AssessedCells::of(const UnitCell &cell, const CellNeeds &nee
       checks.push_back(check);
   for (Verdict &check : checks)
   {
-    check.claim = cell.name + ": " + check.claim;
+    check.claim      = cell.name + ": " + check.claim;
+    check.of["cell"] = cell.name;
     verdicts.push_back(check);
   }
   return its;

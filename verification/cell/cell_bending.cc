@@ -4,6 +4,7 @@
 #include "meshes/plain/errors.h"
 #include "verification/cell/energy_order.h"
 #include "verification/cell/moduli_bars.h"
+#include "verification/record/claim.h"
 
 #include <Eigen/LU>
 
@@ -74,26 +75,23 @@ CellBending bending_of(const homogenization::UnitCell &cell, const BracketOption
 
 std::vector<Verdict> checks_of(const CellBending &bending, const BracketOptions &options)
 {
-  const std::string asked_for = "--tolerance asks for it";
-  const std::string narrow    = "Bracket of D^H as narrow as --tolerance (relative width)";
   if (!bending.bracket)
   {
+    const Words why   = {{"why", bending.remark}};
     const double none = std::numeric_limits<double>::quiet_NaN();
     if (options.tolerance)
-      return {{narrow, Outcome::fail, none, bending.remark, asked_for, Kind::input}};
+      return {judged("bending-bracket.no-tolerance", why, Outcome::fail, none)};
     if (!bending.is_left_out)
-      return {{"D^H has a bracket", Outcome::inconclusive, none, bending.remark,
-               "a cell whose analogous membrane has one", Kind::input}};
+      return {judged("bending-bracket.exists", why, Outcome::inconclusive, none)};
     return {};
   }
   const BendingBracket &found = *bending.bracket;
-  std::vector<Verdict> checks = {
-    at_most("D_lower <= D <= D_upper (relative violation of the worst energy)",
-            larger(order_violation(found.lower, found.stiffness),
-                   order_violation(found.stiffness, found.upper)),
-            0., "theory; both sides carry their round-off on the outside", Kind::program)};
+  std::vector<Verdict> checks = {at_most("bending-bracket.order", {},
+                                         larger(order_violation(found.lower, found.stiffness),
+                                                order_violation(found.stiffness, found.upper)),
+                                         0.)};
   if (options.tolerance)
-    checks.push_back(at_most(narrow, found.width, *options.tolerance, asked_for, Kind::input));
+    checks.push_back(at_most("bending-bracket.tolerance", {}, found.width, *options.tolerance));
   return checks;
 }
 

@@ -6,6 +6,7 @@
 #include "meshes/plain/errors.h"
 #include "meshes/plain/refine.h"
 #include "verification/cell/energy_order.h"
+#include "verification/record/claim.h"
 
 #include <chrono>
 #include <cmath>
@@ -174,55 +175,40 @@ std::vector<Verdict> checks_of(const CellBracket &bracket, const BracketOptions 
                                const Eigen::Matrix3d &stiffness, const double round_off)
 {
   std::vector<Verdict> checks;
-  const std::string asked_for = "--tolerance asks for it";
   if (!bracket.bracket)
   {
+    const Words why   = {{"why", bracket.remark}};
     const double none = std::numeric_limits<double>::quiet_NaN();
     if (options.tolerance)
-      checks.push_back({"Bracket of C^H as narrow as --tolerance (relative width)", Outcome::fail,
-                        none, bracket.remark, asked_for, Kind::input});
+      checks.push_back(judged("bracket.no-tolerance", why, Outcome::fail, none));
     else if (!bracket.is_left_out)
-      checks.push_back({"C^H has a bracket", Outcome::inconclusive, none, bracket.remark,
-                        "a cell whose stresses have a single-valued stress function", Kind::input});
+      checks.push_back(judged("bracket.exists", why, Outcome::inconclusive, none));
     return checks;
   }
   const Bracket &found = *bracket.bracket;
-  checks.push_back(at_most("C_lower <= C_upper (relative violation of the worst energy)",
-                           order_violation(found.lower, found.upper), 0.,
-                           "theory; both sides carry their round-off on the outside",
-                           Kind::program));
+  checks.push_back(at_most("bracket.order", {}, order_violation(found.lower, found.upper), 0.));
   // Each of these energies is one that the width speaks of.
   double gap = 0.;
   for (const Eigen::Vector3d &strain :
        {Eigen::Vector3d(1., 0., 0.), Eigen::Vector3d(0., 1., 0.), Eigen::Vector3d(0., 0., 1.),
         Eigen::Vector3d(1., 1., 0.), Eigen::Vector3d(1., -1., 0.)})
     gap = larger(gap, 1. - strain.dot(found.lower * strain) / strain.dot(found.upper * strain));
-  checks.push_back(at_most(
-    "No load has a wider gap than the bracket (largest of 11, 22, 12, 11 with 22, 11 against "
-    "22)",
-    gap, found.width + 64. * std::numeric_limits<double>::epsilon(),
-    "the width is the largest relative gap of all loads; 1e-14 is the round-off of two "
-    "energies and of three eigenvalues",
-    Kind::program));
+  checks.push_back(at_most("bracket.widest-load", {}, gap,
+                           found.width + 64. * std::numeric_limits<double>::epsilon()));
   // Images may lie 1e-7 of the cell apart, which the bracket's mesh mends and the other one does
   // not. That C lies above C_lower follows from both.
-  checks.push_back(at_most(
-    "Both codes agree on C^H of the given mesh, by gluing and by constraints (largest relative "
-    "difference of an energy)",
-    energy_difference(*bracket.on_given_mesh, stiffness), 1e-6,
-    "one discrete problem; images that lie 1e-7 of the cell apart are taken, and on four "
-    "sides move its area by 4e-7, the energies by up to twice that",
-    Kind::program));
-  if (checks.back().outcome == Outcome::fail && checks.back().value <= round_off)
-  {
-    std::ostringstream text;
-    text << "<= 1e-06, of which round-off takes up to " << round_off << " at this contrast";
-    checks.back().outcome = Outcome::inconclusive;
-    checks.back().limit   = text.str();
-  }
+  const double difference = energy_difference(*bracket.on_given_mesh, stiffness), most = 1e-6;
+  const bool may_be_round_off = difference > most && difference <= round_off;
+  std::ostringstream remark;
+  if (may_be_round_off)
+    remark << ", of which round-off takes up to " << round_off << " at this contrast";
+  checks.push_back(judged("bracket.second-code", {{"note", remark.str()}},
+                          may_be_round_off     ? Outcome::inconclusive
+                          : difference <= most ? Outcome::pass
+                                               : Outcome::fail,
+                          difference));
   if (options.tolerance)
-    checks.push_back(at_most("Bracket of C^H as narrow as --tolerance (relative width)",
-                             found.width, *options.tolerance, asked_for, Kind::input));
+    checks.push_back(at_most("bracket.tolerance", {}, found.width, *options.tolerance));
   return checks;
 }
 

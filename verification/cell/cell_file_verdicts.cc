@@ -4,7 +4,7 @@
 #include "meshes/files/hdf5_reader.h"
 #include "verification/cell/algebraic_limit.h"
 #include "verification/cell/energy_order.h"
-#include "verification/record/number_text.h"
+#include "verification/record/claim.h"
 
 #include <Eigen/LU>
 
@@ -125,18 +125,9 @@ std::vector<Verdict> cell_file_verdicts(const std::string &file, const UnitCell 
   for (const int v : outermost(stored))
     most = std::max(most, n_images_of(v, stored));
   const int of_anchor = stored.anchor >= 0 ? n_images_of(stored.anchor, stored) : 0;
-  return {{cell.name + ": /C of cell.h5 is the energy of the strains that its /chi leaves, by its "
-                       "own convention (largest relative difference of an energy)",
-           difference <= limit ? Outcome::pass : Outcome::fail, difference,
-           "<= " + short_text(limit),
-           "C = 1/|Y| integral (E - eps(chi)):c:(E - eps(chi)), exact for P1; round-off at this "
-           "size and contrast, of the sums over all triangles",
-           Kind::program},
-          {cell.name + ": the anchor of cell.h5's /chi is a corner of the cell, where lattice "
-                       "points meet (its lattice images in the mesh)",
-           of_anchor >= most ? Outcome::pass : Outcome::fail, static_cast<double>(of_anchor),
-           ">= " + std::to_string(most) + ", the most that an outermost vertex has",
-           "the paper's localization holds lattice points where the affine motion puts them",
-           Kind::program}};
+  return {at_most("cell-file-energy", {{"cell", cell.name}}, difference, limit),
+          judged("cell-file-anchor", {{"cell", cell.name}, {"most", most}},
+                 of_anchor >= most ? Outcome::pass : Outcome::fail,
+                 static_cast<double>(of_anchor))};
 }
 } // namespace homespun::verification

@@ -240,7 +240,8 @@ ordered_json membrane_json(const UnitCell &cell, const AssessedCell &assessed,
   const auto engineering       = homogenization::engineering_constants(result.stiffness);
   ordered_json checks          = ordered_json::array();
   for (const Verdict &check : assessed.checks)
-    checks.push_back({{"name", check.claim},
+    checks.push_back({{"id", check.id},
+                      {"name", check.claim},
                       {"value", json_number(check.value)},
                       {"limit", check.limit},
                       {"verdict", name_of(check.outcome)},

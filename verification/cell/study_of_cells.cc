@@ -26,6 +26,16 @@ double factor_of_bars(const UnitCell &cell)
   return 1.25 / (1. - std::pow(2., -order));
 }
 
+std::vector<OwedClaim> owed_of_cells(const std::vector<UnitCell> &cells)
+{
+  std::vector<OwedClaim> owed;
+  for (const UnitCell &cell : cells)
+    for (const char *id : {"hill-mandel", "below-voigt", "above-reuss", "checks-find-a-millionth",
+                           "measures-see-a-millionth"})
+      owed.push_back({id, {{"cell", cell.name}}});
+  return owed;
+}
+
 StudyOfCells::StudyOfCells(std::string name_of_command, StudyOptions options,
                            const MPI_Comm communicator)
     : communicator(communicator)
@@ -51,9 +61,16 @@ std::vector<Verdict> StudyOfCells::run()
                                           given.quiet);
             is_taken_up = folder->is_taken_up();
             open_tables();
+            owed_claims = owed();
           });
   work();
-  on_root(communicator, [&]() { write(conclude()); });
+  on_root(communicator,
+          [&]()
+          {
+            StudyDescription description = conclude();
+            add(missing_claims(owed_claims, verdicts));
+            write(std::move(description));
+          });
   if (is_mpi_running())
     share_failure(verdicts, communicator);
   return verdicts;
@@ -100,11 +117,15 @@ void StudyOfCells::write(StudyDescription description)
   study["ranks"] = n_ranks;
   study["seconds_total"] =
     std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-  study["resumed"]    = is_taken_up;
-  study["left_out"]   = description.left_out;
-  study["notes"]      = description.notes;
-  study["provenance"] = provenance(n_ranks);
-  write_json(given.output + "/verdicts.json", to_json(verdicts, given.command));
+  study["resumed"]              = is_taken_up;
+  study["left_out"]             = description.left_out;
+  study["notes"]                = description.notes;
+  study["provenance"]           = provenance(n_ranks);
+  nlohmann::ordered_json claims = to_json(verdicts, given.command);
+  claims["owed"]                = nlohmann::ordered_json::array();
+  for (const OwedClaim &one : owed_claims)
+    claims["owed"].push_back({{"id", one.id}, {"of", one.of}});
+  write_json(given.output + "/verdicts.json", claims);
   write_json(given.output + "/" + description.file, study);
   folder->finish();
   folder.reset(); // and with it the lock

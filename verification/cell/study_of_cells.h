@@ -6,6 +6,7 @@
 
 #include "verification/cell/assessed_cells.h"
 #include "verification/cell/study_options.h"
+#include "verification/record/claim.h"
 #include "verification/record/json_files.h"
 #include "verification/record/run_folder.h"
 #include "verification/record/verdict.h"
@@ -30,6 +31,9 @@ struct StudyDescription
 /// energy of P1: by it the distance from the once refined mesh is the error of the given one, with
 /// a margin (grid convergence index).
 double factor_of_bars(const homogenization::UnitCell &cell);
+
+/// The claims that are owed of every cell that is homogenized.
+std::vector<OwedClaim> owed_of_cells(const std::vector<homogenization::UnitCell> &cells);
 
 class StudyOfCells
 {
@@ -56,6 +60,12 @@ protected:
 
   /// What the results depend on, beside the cells. First rank.
   virtual nlohmann::ordered_json inputs() = 0;
+
+  /// The claims that its inputs ask for. First rank, before anything is solved.
+  virtual std::vector<OwedClaim> owed() const
+  {
+    return {};
+  }
 
   /// Opens the tables, in a folder that holds this run alone. First rank.
   virtual void open_tables() = 0;
@@ -84,6 +94,11 @@ protected:
   /// All cells so, in their order; their checks are verdicts. All ranks must call this.
   std::vector<AssessedCell> homogenize_all();
 
+  void add(const std::vector<Verdict> &more)
+  {
+    verdicts.insert(verdicts.end(), more.begin(), more.end());
+  }
+
   /// The folder of a cell, made, with the files of write_cell_results(). First rank.
   std::string write_cell(const homogenization::UnitCell &cell, const AssessedCell &assessed) const;
 
@@ -100,6 +115,7 @@ private:
   const std::shared_ptr<AssessedCells> homogenized;
   const std::chrono::steady_clock::time_point begin;
   std::vector<homogenization::UnitCell> all_cells;
-  std::unique_ptr<RunFolder> folder; ///< first rank
+  std::unique_ptr<RunFolder> folder;  ///< first rank
+  std::vector<OwedClaim> owed_claims; ///< first rank
 };
 } // namespace homespun::verification

@@ -107,23 +107,16 @@ Verdict check_can_fail(std::vector<RefinementLadder> ladders, const RoundOff &ro
   for (RefinementLadder &ladder : ladders)
     std::reverse(ladder.levels.begin(), ladder.levels.end());
   const Difference rise = rise_of(ladders, round_off);
-  return {"the same check finds the rise of the levels taken from fine to coarse (largest relative "
-          "rise of an energy)",
-          rise.value > rise.limit ? Outcome::pass : Outcome::fail, rise.value,
-          "> " + number(rise.limit),
-          "C^H differs from level to level by more than what round-off and solvers leave"};
+  return judged("rise-is-found", {{"limit", number(rise.limit)}},
+                rise.value > rise.limit ? Outcome::pass : Outcome::fail, rise.value);
 }
 
 Verdict nested(const std::vector<RefinementLadder> &ladders, const RoundOff &round_off)
 {
   const Difference violation = rise_of(ladders, round_off);
-  return {
-    "C^H falls from level to level in the Loewner order: P1 and P2 (largest relative rise of an "
-    "energy)",
-    violation.limit > 0. ? outcome_of(violation) : Outcome::inconclusive, violation.value,
-    "<= " + number(violation.limit),
-    "the least energy of a larger space is not larger; the limit is what round-off and solvers "
-    "leave at this size and contrast"};
+  return judged("nested-levels", {{"limit", number(violation.limit)}},
+                violation.limit > 0. ? outcome_of(violation) : Outcome::inconclusive,
+                violation.value);
 }
 
 Verdict is_laminate(const UnitCell &cell, const std::vector<RefinementLadder> &ladders,
@@ -136,12 +129,8 @@ Verdict is_laminate(const UnitCell &cell, const std::vector<RefinementLadder> &l
     for (const RefinedCell &level : ladder.levels)
       distance.add(energy_difference(level.stiffness, exact),
                    round_off.of(level, closed_form_limit));
-  return {
-    "C^H is the closed form of the laminate on every level and for both orders; the cell has no "
-    "corners (largest relative difference of an energy)",
-    outcome_of(distance), distance.value, "<= " + number(distance.limit),
-    "P1 holds the fields of a laminate; the limit is round-off at this size and contrast, and the "
-    "digits of the coordinates"};
+  return judged("mesh-changes.laminate", {{"limit", number(distance.limit)}}, outcome_of(distance),
+                distance.value);
 }
 
 Verdict changes_with_the_mesh(const std::vector<RefinementLadder> &ladders,
@@ -163,11 +152,7 @@ Verdict changes_with_the_mesh(const std::vector<RefinementLadder> &ladders,
                           : noise > stiffness_floor && change > stiffness_floor
                             ? Outcome::inconclusive // round-off may hide it
                             : Outcome::fail;
-  return {
-    "C^H changes with mesh and order as it must at corners (largest relative difference of an "
-    "energy)",
-    outcome, change, "> " + number(noise),
-    "no polynomial holds the fields at a corner; the limit is what round-off and solvers leave"};
+  return judged("mesh-changes.corners", {{"limit", number(noise)}}, outcome, change);
 }
 
 /// P2 contains P1 on the same mesh, and at corners it is not P1: what tells one from the other
@@ -193,21 +178,15 @@ Verdict quadratic_lies_below(const std::vector<RefinementLadder> &ladders,
   Outcome outcome       = outcome_of(violation);
   if (outcome == Outcome::pass && !(least > noise))
     outcome = is_strong && noise <= stiffness_floor ? Outcome::fail : Outcome::inconclusive;
-  return {"on the same mesh the energies of P2 lie below those of P1, by more than round-off "
-          "(smallest relative difference)",
-          violation.limit > 0. ? outcome : Outcome::inconclusive, least, "> " + number(noise),
-          "the space of P2 contains that of P1, and neither holds the fields at a corner"};
+  return judged("quadratic-below-linear", {{"limit", number(noise)}},
+                violation.limit > 0. ? outcome : Outcome::inconclusive, least);
 }
 
 /// Whether the limits of both orders are one value, by their error bars.
 Verdict limits_agree(const Series &p1, const Series &p2)
 {
-  Verdict verdict = {
-    "Richardson limits of P1 and P2 agree (their distance over the sum of both error bars)",
-    Outcome::inconclusive, std::numeric_limits<double>::quiet_NaN(),
-    "<= 1 where both orders have settled",
-    "one C^H has one limit; both bars are the grid convergence indices of this run, safety factor "
-    "1.25"};
+  Verdict verdict =
+    judged("limits-agree", {}, Outcome::inconclusive, std::numeric_limits<double>::quiet_NaN());
   if (p1.has_error_bar() && p2.has_error_bar())
   {
     verdict.value = std::abs(p1.richardson->limit - p2.richardson->limit) /
@@ -277,9 +256,9 @@ void judge_refinements(const UnitCell &cell, const std::vector<RefinementLadder>
     trace.judgement = judge_values(trace.sizes(), trace.values(), limit, floor);
     trace.extrapolate(floor, 2. * ladder.order, *trace.judgement);
     traces.push_back(trace);
-    result.add(trace, {exponents + (ladder.order == 1 ? ", with P1 at most 2; P1" : "; P2"),
-                       "exponents of the corners, from angles and stiffnesses; +- 0.1, the change "
-                       "from level to level that counts as settled"});
+    result.add(trace, "order-of-corners",
+               {{"exponents", exponents},
+                {"order", ladder.order == 1 ? ", with P1 at most 2; P1" : "; P2"}});
     // Entries are no energies each: reported, and with a limit only where they follow a power of h
     // as the trace does.
     for (const auto &[name, function] : entries)

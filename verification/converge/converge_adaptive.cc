@@ -5,7 +5,6 @@
 #include "homogenization/cell/corners.h"
 #include "meshes/plain/refine.h"
 #include "verification/converge/converge_cases.h"
-#include "verification/record/number_text.h"
 #include "verification/record/on_root.h"
 
 #include <chrono>
@@ -50,16 +49,11 @@ Verdict closes_at_once(const UnitCell &cell, const unsigned int order)
                                                   cell.stiffness_of_phase(), order);
   // Two round-offs wider than this would hold brackets that are plainly open.
   constexpr double vacuous = 1e-6;
-  return {"P" + std::to_string(order) +
-            ": the cell is a laminate; its bracket closes to round-off on the given mesh (relative "
-            "width)",
-          !(bracket.width <= 2. * bracket.round_off) ? Outcome::fail
-          : bracket.width <= vacuous                 ? Outcome::pass
-                                                     : Outcome::inconclusive,
-          bracket.width, "<= " + short_text(2. * bracket.round_off),
-          "both spaces hold the fields of a laminate: what is left is the bound of the "
-          "evaluation's round-off, once as it is added on the outside and once as it may have "
-          "been lost"};
+  return judged("adaptive.laminate", {{"order", order}, {"limit", 2. * bracket.round_off}},
+                !(bracket.width <= 2. * bracket.round_off) ? Outcome::fail
+                : bracket.width <= vacuous                 ? Outcome::pass
+                                                           : Outcome::inconclusive,
+                bracket.width);
 }
 
 /// How far an order in DoFs^-1/2 may be from 2p: as asked for, +- 0.2 in DoFs.
@@ -69,12 +63,8 @@ constexpr double adaptive_order_tolerance = 0.4;
 /// meshes or more that allows it.
 Verdict is_narrower(const Series &adaptive, const Series &uniform)
 {
-  Verdict verdict = {
-    "P" + std::to_string(adaptive.order) +
-      ": the adaptive bracket is narrower than the uniform one with at least as many DoFs (ratio)",
-    Outcome::inconclusive, std::nan(""), "< 1",
-    "what narrower means; open as long as the uniform width falls with nearly the order of the "
-    "elements, because corners do not show yet"};
+  Verdict verdict =
+    judged("adaptive.narrower", {{"order", adaptive.order}}, Outcome::inconclusive, std::nan(""));
   const ConvergenceLevel &finest = uniform.levels.back();
   for (const ConvergenceLevel &level : adaptive.levels)
     if (level.n_dofs <= finest.n_dofs)
@@ -129,12 +119,7 @@ void narrow(const UnitCell &cell, const unsigned int order, const ConvergenceSiz
       ending != homogenization::AdaptiveEnd::max_dofs)
     adaptive.judgement = judge_uneven_errors(adaptive.sizes(), adaptive.errors(),
                                              about(2. * order, adaptive_order_tolerance));
-  result.add(
-    adaptive,
-    {"P" + std::to_string(order) + ": the width of the adaptive bracket falls as DoFs^-" +
-       std::to_string(order) + "; order " + std::to_string(2 * order) + " in DoFs^-1/2",
-     "optimal order of adaptive meshes: both sides have the order p of smooth solutions in DoFs, "
-     "whose width is an energy; requirement: to +- 0.2 in DoFs"});
+  result.add(adaptive, "adaptive.order", {{"order", order}, {"twice", 2 * order}});
   result.add(uniform);
   if (uniform.levels.size() >= 2 && !adaptive.levels.empty())
     result.verdicts.push_back(is_narrower(adaptive, uniform));
@@ -161,8 +146,7 @@ ConvergenceResult adapt(const UnitCell &cell, const ConvergenceSizes &sizes,
       catch (const meshes::BadInput &bad) // of a cell that the solvers take and brackets do not
       {
         result.verdicts.push_back(
-          {"C^H has a bracket", Outcome::inconclusive, std::nan(""), bad.what(),
-           "a cell whose stresses have a single-valued stress function", Kind::input});
+          judged("bracket.exists", {{"why", bad.what()}}, Outcome::inconclusive, std::nan("")));
       }
     });
   return result;

@@ -84,8 +84,8 @@ std::vector<MethodOfOrder> methods_under(const Law law)
 }
 
 /// Adds the errors of a method along the ladder, and what they say of its order.
-/// @param what the method is compared with
-void judge_method(const MethodOfOrder &method, const std::string &what, const UnitCell &cell,
+/// @param reference what the method is compared with
+void judge_method(const MethodOfOrder &method, const std::string &reference, const UnitCell &cell,
                   Series errors, ConvergenceResult &result)
 {
   constexpr double floor = 1e-12; // of errors in cell sides: solvers stop at 1e-11 of the strain
@@ -96,22 +96,23 @@ void judge_method(const MethodOfOrder &method, const std::string &what, const Un
   {
     const bool is_laminate =
       homogenization::corners_of(cell.mesh, cell.lattice, cell.stiffness_of_phase()).empty();
-    result.verdicts.push_back({what + ": zero to round-off at every level; only in a laminate "
-                                      "can the law be linear in a load (largest error per "
-                                      "strain and cell side)",
-                               is_laminate ? Outcome::pass : Outcome::fail, largest,
-                               is_laminate ? "< 1e-10" : "not zero: the cell has corners",
-                               "the reference stops where 1e-11 of the element forces are left; "
-                               "positions per strain have ten times that"});
+    result.verdicts.push_back(
+      judged("method-order.zero",
+             {{"method", method.name},
+              {"reference", reference},
+              {"limit", is_laminate ? "< 1e-10" : "not zero: the cell has corners"}},
+             is_laminate ? Outcome::pass : Outcome::fail, largest));
     result.add(errors);
     return;
   }
   errors.judgement =
     judge_errors(errors.sizes(), errors.errors(), about(method.order, method.tolerance), floor);
-  result.add(errors, {what + " errs by " + method.error,
-                      method.theory + " +- " + short_text(method.tolerance) +
-                        ", at least the change from level to level that counts as settled; "
-                        "levels below 1e-12 of a cell side are the solver's"});
+  result.add(errors, "method-order",
+             {{"method", method.name},
+              {"reference", reference},
+              {"error", method.error},
+              {"theory", method.theory},
+              {"tolerance", method.tolerance}});
 }
 
 /// The distance of methods from the default law on one cell, along a ladder of strains.
@@ -160,8 +161,7 @@ ConvergenceResult climb_strains(const UnitCell &cell, const meshes::HomogenizedC
     return result;
   result.outcome_of_unfinished = Outcome::inconclusive; // a limit point, or one that was missed
   for (std::size_t m = 0; m < methods.size(); ++m)
-    judge_method(methods[m], methods[m].name + " against " + name_of(law), cell, std::move(all[m]),
-                 result);
+    judge_method(methods[m], name_of(law), cell, std::move(all[m]), result);
   return result;
 }
 } // namespace

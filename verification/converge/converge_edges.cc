@@ -94,13 +94,7 @@ ConvergenceResult with_corners(const EdgedCell &of, const Load &load)
   const double exponent = corner_exponent(of.homogenized, load);
   full.judgement =
     judge_errors(full.sizes(), full.errors(), {std::min(1., 2. * exponent - 1.) - 0.1, 1.1});
-  result.add(full, {"with all terms and the macro problem resolved the error per cell falls with "
-                    "the cell: order between that of the corners and 1",
-                    "a corner between clamped and free edges, where strains grow as r^(lambda - 1),"
-                    " is felt elsewhere as cell^(2 lambda) of the sheet, which is 2 lambda - 1 per "
-                    "cell side; lambda from angle and C^H; edges without corners leave order 1; +- "
-                    "0.1, the change from level to level that counts as settled",
-                    Kind::method});
+  result.add(full, "edge-order.corners");
   return result;
 }
 
@@ -126,11 +120,7 @@ ConvergenceResult without_corners(const EdgedCell &of)
   if (full.levels.empty())
     return result;
   full.judgement = judge_errors(full.sizes(), full.errors(), about(1.));
-  result.add(full, {"without corners, with all terms and the macro problem resolved, the error per "
-                    "cell falls with the cell: order 1",
-                    "two-scale expansion with boundary layers: what is left is of second order in "
-                    "the cell, in displacement; +- 0.1, the change from level to level that counts "
-                    "as settled"});
+  result.add(full, "edge-order.no-corners");
   result.add(localized);
   return result;
 }

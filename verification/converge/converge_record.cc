@@ -58,12 +58,13 @@ void ConvergenceResult::add(Series one)
   series.push_back(std::move(one));
 }
 
-void ConvergenceResult::add(Series one, const OrderClaim &claim)
+void ConvergenceResult::add(Series one, const std::string &claim, Words words)
 {
   if (one.judgement)
-    verdicts.push_back({claim.text + " (order)", one.judgement->outcome, one.judgement->order,
-                        one.judgement->limit + "; found: " + one.judgement->why, claim.derivation,
-                        claim.kind});
+  {
+    words["limit"] = one.judgement->limit + "; found: " + one.judgement->why;
+    verdicts.push_back(judged(claim, words, one.judgement->outcome, one.judgement->order));
+  }
   add(std::move(one));
 }
 
@@ -121,8 +122,9 @@ void ConvergenceRecord::add(const ConvergenceCase &one, const ConvergenceResult 
       rows.append_if_missing(row);
     }
   for (const Verdict &verdict : result.verdicts)
-    claims.append_if_missing({one.cell, one.study, one.name, verdict.claim, verdict.outcome,
-                              verdict.value, verdict.limit, verdict.kind, verdict.derivation});
+    claims.append_if_missing({one.cell, one.study, one.name, verdict.claim, verdict.id,
+                              verdict.outcome, verdict.value, verdict.limit, verdict.kind,
+                              verdict.derivation});
   // Last: where it is there, so is all that belongs to it.
   if (result.unfinished.empty())
     cases.append({one.cell, one.study, one.name, seconds});
@@ -132,8 +134,14 @@ std::vector<Verdict> ConvergenceRecord::verdicts() const
 {
   std::vector<Verdict> result;
   for (const ClaimRow &row : claims.rows())
-    result.push_back({row.cell + ", " + row.study + ", " + row.name + ": " + row.claim, row.verdict,
-                      row.value, row.limit, row.derivation, row.kind});
+    result.push_back({row.cell + ", " + row.study + ", " + row.name + ": " + row.claim,
+                      row.verdict,
+                      row.value,
+                      row.limit,
+                      row.derivation,
+                      row.kind,
+                      row.id,
+                      {{"cell", row.cell}, {"study", row.study}, {"case", row.name}}});
   return result;
 }
 } // namespace homespun::verification

@@ -6,6 +6,7 @@
 
 #include "meshes/plain/errors.h"
 #include "verification/converge/converge_tables.h"
+#include "verification/record/claim.h"
 #include "verification/record/convergence.h"
 
 #include <functional>
@@ -46,13 +47,6 @@ struct Series
   std::vector<double> errors() const;
 };
 
-/// What a series claims of its order, and where the limits come from.
-struct OrderClaim
-{
-  std::string text, derivation;
-  Kind kind = Kind::program;
-};
-
 /// What a case gives.
 struct ConvergenceResult
 {
@@ -83,8 +77,8 @@ struct ConvergenceResult
   /// Adds a series that is reported, not judged.
   void add(Series one);
 
-  /// Adds a series, and what its judgement claims: "CLAIM (order)".
-  void add(Series one, const OrderClaim &claim);
+  /// Adds a series, and what its judgement claims of its order.
+  void add(Series one, const std::string &claim, Words words = {});
 };
 
 /// A case: one cell, one study, one load or solver.

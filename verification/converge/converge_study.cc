@@ -150,6 +150,32 @@ private:
     return inputs;
   }
 
+  /// Where the levels of a case end early, that is a claim of its own.
+  std::vector<OwedClaim> owed() const override
+  {
+    std::vector<OwedClaim> owed;
+    const auto add = [&](const std::string &study, const std::vector<std::string> &cases,
+                         const std::vector<const char *> &ids)
+    {
+      if (has(options, study))
+        for (const UnitCell &cell : cells())
+          for (const std::string &one : cases)
+            for (const char *id : ids)
+              owed.push_back(
+                {id, {{"cell", cell.name}, {"study", study}, {"case", one}}, "all-levels"});
+    };
+    const std::vector<std::string> sheets = Load::names_of(LoadKind::sheet);
+    add("mesh", {"uniform refinement"}, {"nested-levels", "mesh-changes"});
+    add("scale", sheets, {"sheet-order", "closer-on-the-largest-sheet"});
+    add("coarse", sheets, {"coarse-energy-falls", "coarse-order"});
+    add("edges", sheets, {"edge-order"});
+    add("edges", {"closed along axis 1"}, {"edge-order"});
+    add("strain", Load::names_of(LoadKind::periodic), {"method-order"});
+    add("time", {"linearly implicit Euler", "implicit Euler"}, {"time-order"});
+    add("time", {"damped fall"}, {"damped-fall"});
+    return owed;
+  }
+
   void open_tables() override
   {
     record = std::make_unique<ConvergenceRecord>(options.output);
@@ -223,11 +249,9 @@ private:
     result.solves([&]() { result = one.run(); });
     if (!result.unfinished.empty())
     {
-      result.verdicts.push_back(
-        {"all levels are solved", result.outcome_of_unfinished,
-         std::numeric_limits<double>::quiet_NaN(), result.unfinished,
-         "every solver reaches its tolerance; a load may end at a limit point, which leaves this "
-         "open"});
+      result.verdicts.push_back(judged("all-levels", {{"why", result.unfinished}},
+                                       result.outcome_of_unfinished,
+                                       std::numeric_limits<double>::quiet_NaN()));
       unfinished.push_back(one.cell + ", " + one.study + ", " + one.name + ": " +
                            result.unfinished);
       progress.note(unfinished.back());

@@ -64,6 +64,7 @@ struct ClaimRow
   static constexpr std::size_t n_keys = 4;
 
   std::string cell, study, name, claim;
+  std::string id; ///< in claims.json; nothing where it has none
   Outcome verdict = Outcome::inconclusive;
   double value    = ConvergeRow::none;
   std::string limit;
@@ -82,6 +83,7 @@ struct ClaimRow
     column("limit", &ClaimRow::limit, Domain::name);
     column("kind", &ClaimRow::kind, Domain::name);
     column("derivation", &ClaimRow::derivation, Domain::name);
+    column("id", &ClaimRow::id, Domain::text);
   }
 };
 

@@ -3,7 +3,7 @@
 #include "verification/drape/drape_verdicts.h"
 #include "verification/drape/draped_cell.h"
 
-#include "verification/record/number_text.h"
+#include "verification/record/claim.h"
 
 #include <Eigen/Geometry>
 
@@ -49,13 +49,7 @@ Verdict verdict_of_motion(const DrapedCell &draped, const double seconds)
       fastest = larger(fastest, speed_at_ends(held, draped.coarse, vertex, motion.seconds));
   }
   constexpr double limit = 3e-3 * (1. + 1e-6);
-  return {draped.cell.name + ": what is held starts and ends at rest, moving for " +
-            short_text(seconds) + " s (speed in the first and last thousandth over the mean speed)",
-          fastest <= limit ? Outcome::pass : Outcome::fail,
-          fastest,
-          "<= 0.003",
-          "evenly accelerated, then braked: a part s of the time makes 3 s^2 - 2 s^3 of the way",
-          Kind::program};
+  return at_most("held-motion", {{"cell", draped.cell.name}, {"seconds", seconds}}, fastest, limit);
 }
 
 /// The coarse sheet with strains of some ten per cent that change over it and no reflection, in the
@@ -104,34 +98,17 @@ Verdict verdict_of_upsampling(const DrapedCell &draped, const TurnedSheet &sheet
   for (Eigen::Index v = 0; v < in_plane.rows(); ++v)
     largest = larger(largest, (sheet.turned(in_plane.row(v)) - in_space.row(v)).norm());
   largest /= draped.side;
-  constexpr double limit = 1e-9;
-  return {draped.cell.name +
-            ": a sheet that is turned in space is up-sampled as the one in the plane, turned "
-            "(largest distance over the side of a cell)",
-          largest <= limit ? Outcome::pass : Outcome::fail,
-          largest,
-          "<= 1e-09",
-          "frame indifference: 0; round-off of 2e-16 of a sheet of up to 1e3 cells, a thousand "
-          "times for the edges that strains are taken from",
-          Kind::program};
+  return at_most("turned-upsampling", {{"cell", draped.cell.name}}, largest, 1e-9);
 }
 
 Verdict verdict_of_energy(const DrapedCell &draped, const TurnedSheet &sheet)
 {
   const shell::Membrane membrane =
     shell::membrane(draped.coarse.rest, {draped.homogenized.stiffness});
-  const double in_plane  = shell::membrane_energy<2>(membrane, sheet.plane),
-               in_space  = shell::membrane_energy<3>(membrane, sheet.space),
-               change    = std::abs(in_space / in_plane - 1.);
-  constexpr double limit = 1e-9;
-  return {draped.cell.name + ": a sheet that is turned in space has the energy of the one in the "
-                             "plane (relative difference)",
-          change <= limit ? Outcome::pass : Outcome::fail,
-          change,
-          "<= 1e-09",
-          "frame indifference: 0; round-off of 2e-16 over strains of ten per cent, squared, in the "
-          "softest direction",
-          Kind::program};
+  const double in_plane = shell::membrane_energy<2>(membrane, sheet.plane),
+               in_space = shell::membrane_energy<3>(membrane, sheet.space),
+               change   = std::abs(in_space / in_plane - 1.);
+  return at_most("turned-energy", {{"cell", draped.cell.name}}, change, 1e-9);
 }
 } // namespace
 

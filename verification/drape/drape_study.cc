@@ -67,6 +67,21 @@ private:
     return drape_inputs(options, scene, drape.schedule);
   }
 
+  std::vector<OwedClaim> owed() const override
+  {
+    std::vector<OwedClaim> owed = owed_of_cells(cells());
+    for (const UnitCell &cell : cells())
+    {
+      owed.push_back({"scene-end.cloth", {{"cell", cell.name}}});
+      if (scene.is_sheet())
+        for (const char *id : {"turned-upsampling", "turned-energy"})
+          owed.push_back({id, {{"cell", cell.name}}});
+      for (const std::string &reference : options.references)
+        owed.push_back({"scene-end.reference", {{"cell", cell.name}, {"reference", reference}}});
+    }
+    return owed;
+  }
+
   void open_tables() override
   {
     drape.output = std::make_unique<DrapeOutput>(
@@ -109,8 +124,7 @@ private:
             [&]()
             {
               write_obstacles(draped);
-              for (const Verdict &check : checks_of_scene(draped))
-                verdicts.push_back(check);
+              add(checks_of_scene(draped));
               for (const CoarseCloth &cloth : cloths_of_cell(draped))
               {
                 coarse.all.push_back(
@@ -209,9 +223,9 @@ private:
   void judge(const DrapedCell &draped, const CoarseRun &run)
   {
     const std::string title = draped.cell.name + ", " + run.cloth.variant;
-    verdicts.push_back(verdict_of_cloth(title, run.is_main || run.cloth.is_of_method,
-                                        static_cast<int>(run.frames.size()),
-                                        drape.schedule.n_frames + 1));
+    verdicts.push_back(
+      verdict_of_cloth(draped.cell.name, run.cloth.variant, run.is_main || run.cloth.is_of_method,
+                       static_cast<int>(run.frames.size()), drape.schedule.n_frames + 1));
     if (!run.failure.empty())
       drape.notes.push_back(title + ": " + run.failure);
   }

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "verification/drape/drape_verdicts.h"
 
-#include "verification/record/number_text.h"
-
 #include <cmath>
 
 namespace homespun::verification
@@ -44,8 +42,6 @@ Outcome is_below(const double value, const double bar, const double limit)
                                : Outcome::inconclusive;
 }
 
-const char *const derivation_of_bar =
-  "P1, P2 and refined P2, and half of the time step, on a small sheet of the same run";
 } // namespace
 
 std::vector<Verdict> verdicts_of_accuracy(const std::vector<DrapeRow> &rows,
@@ -56,24 +52,17 @@ std::vector<Verdict> verdicts_of_accuracy(const std::vector<DrapeRow> &rows,
   std::vector<Verdict> verdicts;
   if (localized.n_frames == 0)
     return verdicts;
-  const std::string title = method.cell + " against " + reference + ": ";
-  if (affine.n_frames == localized.n_frames)
-    verdicts.push_back({title + "localized is closer than affine (ratio of mean errors)",
-                        is_below(localized.error, localized.bar, affine.error),
-                        localized.error / affine.error,
-                        "< 1 by more than the bar, " + short_text(localized.bar / affine.error),
-                        derivation_of_bar, Kind::method});
-  const auto require = [&](const std::string &what, const double unit, const double limit)
+  const auto judge = [&](const char *claim, Words words, const double unit, const double limit)
   {
-    verdicts.push_back({title + "mean error over " + what,
-                        is_below(localized.error / unit, localized.bar / unit, limit),
-                        localized.error / unit,
-                        "<= " + short_text(limit) + ", and further away than the bar, " +
-                          short_text(localized.bar / unit),
-                        std::string("requirement: places in the fabric to a twentieth of the way "
-                                    "that they went and to a tenth of a cell. Bar: ") +
-                          derivation_of_bar,
-                        Kind::method});
+    words.insert({{"cell", method.cell}, {"reference", reference}, {"bar", localized.bar / unit}});
+    verdicts.push_back(judged(claim, words,
+                              is_below(localized.error / unit, localized.bar / unit, limit),
+                              localized.error / unit));
+  };
+  if (affine.n_frames == localized.n_frames)
+    judge("closer-in-scene", {}, affine.error, 1.);
+  const auto require = [&](const char *what, const double unit, const double limit) {
+    judge("error-in-scene", {{"unit", what}, {"limit", limit}}, unit, limit);
   };
   require("mean displacement", localized.displacement, most_per_displacement);
   require("side of a cell", method.side, most_per_cell);

@@ -4,7 +4,7 @@
 #pragma once
 
 #include "verification/drape/drape_tables.h"
-#include "verification/record/verdict.h"
+#include "verification/record/claim.h"
 
 #include <string>
 #include <vector>
@@ -13,35 +13,31 @@ namespace homespun::verification
 {
 class DrapedCell;
 
-/// @param n_found frames, with that of the beginning
-/// @param if_not outcome where the cloth did not come to the end
-inline Verdict reaches_the_end(const std::string &claim, const int n_found, const int n_wanted,
-                               const Outcome if_not, const Kind kind)
-{
-  return {claim + " (frames reached)",
-          n_found == n_wanted ? Outcome::pass : if_not,
-          static_cast<double>(n_found),
-          std::to_string(n_wanted),
-          "requirement: the frames of the duration that was asked for",
-          kind};
-}
-
 /// The claim of a coarse cloth. That of a variant that is not the method is open where it stops: it
 /// is there to be compared, and what it would have been is not known.
-inline Verdict verdict_of_cloth(const std::string &title, const bool is_method, const int n_found,
-                                const int n_wanted)
+/// @param n_found frames, with that of the beginning
+inline Verdict verdict_of_cloth(const std::string &cell, const std::string &variant,
+                                const bool is_method, const int n_found, const int n_wanted)
 {
-  return reaches_the_end(title + ": the scene runs to its end", n_found, n_wanted,
-                         is_method ? Outcome::fail : Outcome::inconclusive,
-                         is_method ? Kind::program : Kind::method);
+  return judged(is_method ? "scene-end.cloth" : "scene-end.variant",
+                {{"cell", cell}, {"variant", variant}, {"frames", n_wanted}},
+                n_found == n_wanted ? Outcome::pass
+                : is_method         ? Outcome::fail
+                                    : Outcome::inconclusive,
+                n_found);
 }
 
 /// The claim of a reference. One without a single frame after the beginning says nothing at all; of
 /// one that stops later it is open how far the method is from it then.
-inline Verdict verdict_of_reference(const std::string &title, const int n_found, const int n_wanted)
+inline Verdict verdict_of_reference(const std::string &cell, const std::string &reference,
+                                    const int n_found, const int n_wanted)
 {
-  return reaches_the_end(title + ": the reference runs to its end", n_found, n_wanted,
-                         n_found <= 1 ? Outcome::fail : Outcome::inconclusive, Kind::program);
+  return judged("scene-end.reference",
+                {{"cell", cell}, {"reference", reference}, {"frames", n_wanted}},
+                n_found == n_wanted ? Outcome::pass
+                : n_found <= 1      ? Outcome::fail
+                                    : Outcome::inconclusive,
+                n_found);
 }
 
 /// The coarse cloth of a cell that is judged.

@@ -172,7 +172,8 @@ private:
 
   void judge(const int n_frames)
   {
-    run.verdicts.push_back(verdict_of_reference(title, n_frames, run.schedule.n_frames + 1));
+    run.verdicts.push_back(
+      verdict_of_reference(draped.cell.name, reference, n_frames, run.schedule.n_frames + 1));
     if (has_error_bar())
       on_root(run.communicator,
               [&]()

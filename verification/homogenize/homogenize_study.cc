@@ -6,6 +6,7 @@
 #include "verification/cell/cell_files.h"
 #include "verification/cell/cell_summary.h"
 #include "verification/cell/study_inputs.h"
+#include "verification/cell/study_of_cells.h"
 #include "verification/record/on_root.h"
 #include "verification/record/peak_memory.h"
 #include "verification/record/progress.h"
@@ -41,6 +42,21 @@ nlohmann::ordered_json inputs_of(const homogenization::UnitCell &cell,
     inputs["tolerance"] = *options.bracket.tolerance;
   return inputs;
 }
+
+std::vector<OwedClaim> owed_of(const homogenization::UnitCell &cell,
+                               const CellStudyOptions &options)
+{
+  std::vector<OwedClaim> owed = owed_of_cells({cell});
+  for (OwedClaim &one : owed)
+    one.of.clear(); // its checks speak of one cell, and do not name it
+  BracketOptions bracket = options.bracket;
+  bracket.order          = options.solve.order;
+  bracket.refine         = options.solve.refine;
+  if (options.bars && (bracket.tolerance || too_large_text(cell, bracket).empty()))
+    for (const char *id : {"bracket", "bending-bracket"})
+      owed.push_back({id, {}});
+  return owed;
+}
 } // namespace
 
 AssessedCell run_cell_study(const homogenization::UnitCell &cell, const CellStudyOptions &options,
@@ -59,7 +75,8 @@ AssessedCell run_cell_study(const homogenization::UnitCell &cell, const CellStud
                                      options.earlier, options.quiet);
             homogenization::remove_pieces(options.output + "/" + name_of_pieces);
           });
-  AssessedCell assessed = [&]()
+  const std::vector<OwedClaim> owed = owed_of(cell, options);
+  AssessedCell assessed             = [&]()
   {
     Progress progress(is_root(communicator) && !options.quiet, options.bars ? 3 : 1);
     progress.begin(cell.name + ": three cell problems");
@@ -94,6 +111,12 @@ AssessedCell run_cell_study(const homogenization::UnitCell &cell, const CellStud
             });
     return its;
   }();
+  on_root(communicator,
+          [&]()
+          {
+            for (const Verdict &missing : missing_claims(owed, assessed.checks))
+              assessed.checks.push_back(missing);
+          });
   share_failure(assessed.checks, communicator);
   assessed.peak_memory_of_rank = peak_memory_of_ranks(communicator);
   on_root(communicator,

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
 """Writes docs/reference: commands.md and keys.md from --help, tables.md from schema.json and the
-headers of the tables.
+headers of the tables, claims.md from the claims in schema.json.
 
     reference.py PROGRAM SCHEMA FOLDER
 """
@@ -212,8 +212,45 @@ def tables_page(schema, words):
     return "\n".join(out)
 
 
+def in_words(text, shared):
+    """The text of a claim as Markdown: what it shares with others in its place, and other names in
+    braces in italics.
+    """
+    while re.search("|".join(map(re.escape, (f"{{{name}}}" for name in shared))), text):
+        for name, words in shared.items():
+            text = text.replace(f"{{{name}}}", words)
+    text = re.sub(r"([<>*_|])", r"\\\1", text)
+    text = text.replace("{note}", "")
+    return re.sub(r"\{([\w-]+)\}", r"*\1*", text)
+
+
+def claims_page(claims):
+    """The claims of all studies."""
+    claims = dict(claims)
+    shared = claims.pop("shared")
+    out = [
+        NOTICE,
+        "# Claims\n",
+        "What the studies claim, each with its limit and what that rests on, by kind: `program`, it"
+        " computes what\nit says; `input`, cell, mesh or scene are fit for the question; `method`,"
+        " up-sampling is good enough\nfor this cell, load and strain. Words in italics are filled"
+        " in. `id` names a claim in `verdicts.json`;\nwhat stands before a dot is one question, of"
+        " which a study answers one or several.\n"
+        "[How a claim fails or stays open](../../guides/how-studies-work.md).\n",
+    ]
+    for study, some in claims.items():
+        rows = [
+            [f"`{name}`", one["kind"], in_words(one["claim"], shared),
+             in_words(one.get("limit", "<= {limit}"), shared),
+             in_words(one["derivation"], shared)]
+            for name, one in some.items()
+        ]
+        out += [f"## {study}\n", table(["id", "kind", "claim", "limit", "rests on"], rows)]
+    return "\n".join(out)
+
+
 def main(path, schema, folder):
-    """Asks the program at `path` and writes the three pages into `folder`."""
+    """Asks the program at `path` and writes the four pages into `folder`."""
     program = read(path)
     schema = json.loads(pathlib.Path(schema).read_text(encoding="utf-8"))
     folder = pathlib.Path(folder)
@@ -222,6 +259,7 @@ def main(path, schema, folder):
         ("commands.md", commands_page(program)),
         ("keys.md", keys_page(program)),
         ("tables.md", tables_page(schema, table_words(SOURCES))),
+        ("claims.md", claims_page(schema["claims"])),
     ):
         (folder / name).write_text(text.rstrip("\n") + "\n", encoding="utf-8")
 

@@ -49,11 +49,6 @@ protected:
   /// The claims at rest, and all paths of a cell. First rank.
   virtual void solve(const UnitCell &cell, const AssessedCell &assessed, Progress &progress) = 0;
 
-  void add(const std::vector<Verdict> &more)
-  {
-    verdicts.insert(verdicts.end(), more.begin(), more.end());
-  }
-
   nlohmann::ordered_json with_laws(nlohmann::ordered_json inputs) const
   {
     for (const UnitCell &cell : cells())
@@ -172,6 +167,14 @@ private:
     return with_laws(all);
   }
 
+  std::vector<OwedClaim> owed() const override
+  {
+    std::vector<OwedClaim> owed = owed_of_cells(cells());
+    for (const UnitCell &cell : cells())
+      add_owed_of_paths(cell.name, laws_of(cell), owed);
+    return owed;
+  }
+
   void open_tables() override
   {
     table = std::make_unique<Table<LoadRow>>(options.output);
@@ -227,8 +230,8 @@ private:
     const LoadPath at_finer = load_path(finer, options.control, options.n_steps);
     for (const LoadRow &row : rows_of(path, at_finer, of_path, options.control, factor))
       table->append(row);
-    add(verdicts_on_path(of_path.cell + ", " + of_path.law + ", " + of_path.method + ": ", given,
-                         options.control, path, options.n_steps));
+    add(verdicts_on_path({{"cell", of_path.cell}, {"law", of_path.law}, {"method", of_path.method}},
+                         given, options.control, path, options.n_steps));
   }
 
   StudyDescription conclude() override
@@ -275,6 +278,27 @@ private:
                       {"supercell", cells}});
   }
 
+  std::vector<OwedClaim> owed() const override
+  {
+    std::vector<OwedClaim> owed = owed_of_cells(cells());
+    for (const UnitCell &cell : cells())
+      for (const std::string &law : laws_of(cell))
+      {
+        owed.push_back({"beta-at-rest", {{"cell", cell.name}, {"law", law}}});
+        for (const std::string &load : options.loads)
+          for (const std::vector<double> &strains : ways)
+            add_owed_of_margins(
+              {{"cell", cell.name}, {"law", law}, {"load", load}, {"way", name_of_way(strains)}},
+              options.n_refinements, owed);
+      }
+    return owed;
+  }
+
+  static const char *name_of_way(const std::vector<double> &strains)
+  {
+    return strains.front() < 0. ? "pressed" : "pulled";
+  }
+
   void open_tables() override
   {
     table = std::make_unique<Table<StabilityRow>>(options.output);
@@ -296,7 +320,7 @@ private:
       std::unique_ptr<BlochMargin> refined;
       if (options.n_refinements > 0)
         refined = std::make_unique<BlochMargin>(resolved_cloth(cell, 1, law_of(law)));
-      verdicts.push_back(verdict_on_rest(cell.name + ", " + law, given));
+      verdicts.push_back(verdict_on_rest(cell.name, law, given));
       for (const std::string &load : options.loads)
         for (const std::vector<double> &strains : ways)
         {
@@ -304,7 +328,7 @@ private:
           names.cell = cell.name;
           names.law  = law;
           names.load = load;
-          names.way  = strains.front() < 0. ? "pressed" : "pulled";
+          names.way  = name_of_way(strains);
           progress.milestone(cell.name + ", " + law + ", " + load + ", " + names.way);
           add_path(names, strains, given, refined.get(), factor);
           progress.done();

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "verification/periodic/periodic_verdicts.h"
 
-#include "verification/record/number_text.h"
+#include "verification/record/claim.h"
 
 #include <algorithm>
 #include <cmath>
@@ -12,16 +12,16 @@ namespace homespun::verification
 namespace
 {
 /// The claim that there is none of what is counted.
-Verdict none_of(const std::string &claim, const long n, const Outcome otherwise,
-                const std::string &derivation, const Kind kind)
+Verdict none_of(const char *claim, const Words &words, const long n, const Outcome otherwise)
 {
-  return {claim, n == 0 ? Outcome::pass : otherwise, static_cast<double>(n), "0", derivation, kind};
+  return judged(claim, words, n == 0 ? Outcome::pass : otherwise, static_cast<double>(n));
 }
 
 /// The rows of a path.
 struct PathRows
 {
   std::string name;
+  Words words;
   std::vector<StabilityRow> levels, patterns;
   std::optional<StabilityRow> given, refined; ///< first losses
 };
@@ -36,7 +36,13 @@ std::vector<PathRows> paths_of(const std::vector<StabilityRow> &rows)
     auto path              = std::find_if(paths.begin(), paths.end(),
                                           [&](const PathRows &one) { return one.name == name; });
     if (path == paths.end())
-      path = paths.insert(path, {name, {}, {}, {}, {}});
+      path = paths.insert(
+        path, {name,
+               {{"cell", row.cell}, {"law", row.law}, {"load", row.load}, {"way", row.way}},
+               {},
+               {},
+               {},
+               {}});
     if (row.kind == "level")
       path->levels.push_back(row);
     else if (row.kind == "pattern")
@@ -53,12 +59,7 @@ Verdict verdict_on_sides(const PathRows &path)
   for (const StabilityRow &row : path.levels)
     if (row.outcome != "not-reached")
       widest = larger(widest, (row.beta - row.lower) / (1. + std::abs(row.beta)));
-  return at_most(path.name +
-                   "no wave that was asked is below beta (largest distance of its two sides, "
-                   "relative to 1 + |beta|)",
-                 widest, 3. * MarginSearch::closeness,
-                 "the closeness at which Cholesky factors are asked, once from the zone and once "
-                 "around its lowest wave, with what halving leaves between");
+  return at_most("beta-sides", path.words, widest, 3. * MarginSearch::closeness);
 }
 
 Verdict verdict_on_long_waves(const PathRows &path)
@@ -70,13 +71,7 @@ Verdict verdict_on_long_waves(const PathRows &path)
       ++n_asked;
       n_wrong += (row.acoustic > 0.) != (row.long_waves == "stable");
     }
-  Verdict verdict = none_of(
-    path.name + "long waves are stable where the acoustic tensor of the homogenized tangent is "
-                "positive definite, and not else (levels where the two disagree)",
-    n_wrong, Outcome::fail,
-    "one theorem, two programs: waves after elimination, and the tangent of Newton's "
-    "matrices; levels at which the cell itself is no minimum are not asked",
-    Kind::program);
+  Verdict verdict = none_of("long-waves", path.words, n_wrong, Outcome::fail);
   if (n_asked == 0)
     verdict.outcome = Outcome::inconclusive;
   return verdict;
@@ -84,12 +79,11 @@ Verdict verdict_on_long_waves(const PathRows &path)
 
 Verdict verdict_on_reaching(const PathRows &path)
 {
-  return none_of(
-    path.name + "every strain has a periodic state on both meshes (paths that ended before)",
-    std::count_if(path.levels.begin(), path.levels.end(),
-                  [](const StabilityRow &row) { return row.outcome == "not-reached"; }),
-    Outcome::inconclusive,
-    "a path that ends is open, because the cloth itself may have no state there", Kind::method);
+  return none_of("periodic-states", path.words,
+                 std::count_if(path.levels.begin(), path.levels.end(),
+                               [](const StabilityRow &row)
+                               { return row.outcome == "not-reached"; }),
+                 Outcome::inconclusive);
 }
 
 Verdict verdict_on_meshes(const PathRows &path)
@@ -99,25 +93,15 @@ Verdict verdict_on_meshes(const PathRows &path)
     for (const StabilityRow &finer : path.levels)
       n_differ += row.mesh == "given" && finer.mesh == "refined" && row.strain == finer.strain &&
                   row.outcome != finer.outcome;
-  return none_of(path.name +
-                   "the given mesh and the refined one agree on what is stable (levels where they "
-                   "do not)",
-                 n_differ, Outcome::inconclusive,
-                 "stable holds up to the mesh: where the refined one takes it back the level is "
-                 "open",
-                 Kind::method);
+  return none_of("stable-on-both-meshes", path.words, n_differ, Outcome::inconclusive);
 }
 
 Verdict verdict_on_patterns(const PathRows &path)
 {
-  return none_of(path.name + "where a wave over several cells is below zero, a state with that "
-                             "pattern has less energy (levels without)",
+  return none_of("pattern-has-less-energy", path.words,
                  std::count_if(path.patterns.begin(), path.patterns.end(),
                                [](const StabilityRow &row) { return row.outcome == "not-found"; }),
-                 Outcome::inconclusive,
-                 "the second variation is negative along the wave, and every step from there "
-                 "lowers the energy; open where Newton's method does not come to an end",
-                 Kind::program);
+                 Outcome::inconclusive);
 }
 
 std::string note_on_loss(const StabilityRow &given, const std::optional<StabilityRow> &refined)
@@ -156,59 +140,40 @@ std::string note_on_pattern(const StabilityRow &best)
 
 Verdict verdict_on_slope(const std::string &cell, const double difference, const double limit)
 {
-  return at_most(cell + ": the slope of the path at rest is C^H of the cell problems on the same "
-                        "mesh (largest relative difference of an energy)",
-                 difference, limit,
-                 "two programs for one discrete problem: what round-off and the solver leave of "
-                 "both, by contrast and mesh");
+  return at_most("slope-at-rest", {{"cell", cell}}, difference, limit);
 }
 
-std::vector<Verdict> verdicts_on_path(const std::string &what, const CellAssembly &assembly,
+std::vector<Verdict> verdicts_on_path(const Words &of_path, const CellAssembly &assembly,
                                       const LoadControl &control, const LoadPath &path,
                                       const int n_steps)
 {
   const auto n_reached = static_cast<long>(path.levels.size());
+  Words with_note      = of_path;
+  with_note["note"]    = path.why.empty() ? "" : "; found: " + path.why;
   std::vector<Verdict> verdicts;
-  verdicts.push_back(
-    none_of(what + "every level has an equilibrium (levels that were not reached)",
-            n_steps - n_reached, n_reached == 0 ? Outcome::fail : Outcome::inconclusive,
-            "every step is asked for; one without equilibrium is open, because the cloth itself "
-            "may have none there, and a path without a single level says nothing",
-            Kind::method));
-  if (!path.why.empty())
-    verdicts.back().limit += "; found: " + path.why;
+  verdicts.push_back(none_of("load-levels", with_note, n_steps - n_reached,
+                             n_reached == 0 ? Outcome::fail : Outcome::inconclusive));
   if (!path.levels.empty())
   {
     const WorkCheck check = check_work(assembly, control, path);
-    verdicts.push_back(
-      at_most(what + "the stress is the derivative of the energy at the last level (distance of "
-                     "the work from a central difference along the strains, N/m)",
-              check.difference, check.bar,
-              "central differences of steps h and 2h differ by three times the error of the "
-              "first; and the rounding of the energy and of its gradients over h; open where that "
-              "is more than a thousandth of the work"));
+    verdicts.push_back(at_most("load-work", of_path, check.difference, check.bar));
     // Where the energy jumps from one equilibrium to another, its differences say nothing.
     if (!(check.bar <= 1e-3 * std::abs(check.work)))
       verdicts.back().outcome = Outcome::inconclusive;
   }
-  verdicts.push_back(
-    none_of(what + "every level is a minimum of the energy, against fluctuations of one cell and "
-                   "the free strains (levels that are not)",
-            std::count_if(path.levels.begin(), path.levels.end(),
-                          [](const LoadLevel &level) { return !level.is_stable; }),
-            Outcome::inconclusive, "a cloth leaves a state that is no minimum; where to is open",
-            Kind::method));
+  verdicts.push_back(none_of("load-minimum", of_path,
+                             std::count_if(path.levels.begin(), path.levels.end(),
+                                           [](const LoadLevel &level) { return !level.is_stable; }),
+                             Outcome::inconclusive));
   return verdicts;
 }
 
-Verdict verdict_on_rest(const std::string &what, const BlochMargin &bloch)
+Verdict verdict_on_rest(const std::string &cell, const std::string &law, const BlochMargin &bloch)
 {
   const Margin margin = bloch.of(at_rest(bloch.assembly));
-  return at_most(what + ": beta at rest is 1 (distance of its two sides from it)",
+  return at_most("beta-at-rest", {{"cell", cell}, {"law", law}},
                  std::max(std::abs(margin.beta - 1.), std::abs(margin.lower - 1.)),
-                 6. * MarginSearch::closeness,
-                 "K is K0 there; 3 times the closeness of the two sides, which is relative to 1 + "
-                 "beta");
+                 6. * MarginSearch::closeness);
 }
 
 std::vector<Verdict> verdicts_on_margins(const std::vector<StabilityRow> &rows)
@@ -223,14 +188,33 @@ std::vector<Verdict> verdicts_on_margins(const std::vector<StabilityRow> &rows)
       verdicts.push_back(verdict_on_meshes(path));
     // Without a row of its loss a path would be judged by what a run that was killed left of it.
     if (!path.given && !path.refined)
-      verdicts.push_back(
-        none_of(path.name + "the path has a row of its loss in stability.csv (paths "
-                            "without)",
-                1, Outcome::fail, "every path leaves one when it ends", Kind::program));
+      verdicts.push_back(none_of("row-of-loss", path.words, 1, Outcome::fail));
     if (!path.patterns.empty())
       verdicts.push_back(verdict_on_patterns(path));
   }
   return verdicts;
+}
+
+void add_owed_of_paths(const std::string &cell, const std::vector<std::string> &laws,
+                       std::vector<OwedClaim> &owed)
+{
+  owed.push_back({"slope-at-rest", {{"cell", cell}}});
+  for (const std::string &law : laws)
+    for (const std::string method : {"resolved", "coarse"})
+      if (const Words path = {{"cell", cell}, {"law", law}, {"method", method}};
+          law != "linear" || method == "resolved")
+      {
+        owed.insert(owed.end(), {{"load-levels", path}, {"load-minimum", path}});
+        owed.push_back({"load-work", path, "load-levels"});
+      }
+}
+
+void add_owed_of_margins(const Words &path, const int n_refinements, std::vector<OwedClaim> &owed)
+{
+  for (const char *id : {"beta-sides", "long-waves", "periodic-states"})
+    owed.push_back({id, path});
+  if (n_refinements > 0)
+    owed.push_back({"stable-on-both-meshes", path, "row-of-loss"});
 }
 
 std::vector<std::string> notes_on_margins(const std::vector<StabilityRow> &rows)

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
-// Writes schema.json, the columns of every table and the rank of the methods, for the report: run
-// by the build.
+// Writes schema.json, the columns of every table, the rank of the methods and the claims, for the
+// report: run by the build.
 #include "meshes/plain/law.h"
 #include "verification/method/method.h"
 #include "verification/program/all_commands.h"
+#include "verification/record/claim.h"
 #include "verification/record/json_files.h"
 #include "verification/reference/loads.h"
 
@@ -29,6 +30,7 @@ int main(int argc, char **argv)
       {{"name", load.name}, {"label", load.label}, {"is_infinite", load.kind != LoadKind::sheet}});
   for (const std::string &preset : Method::presets())
     schema["methods"][preset] = Method(preset).term_names();
+  schema["claims"] = nlohmann::ordered_json::parse(claims_text);
   write_json(argv[1], schema);
   return exit_status::good;
 }

@@ -28,7 +28,8 @@ nlohmann::ordered_json to_json(const std::vector<Verdict> &verdicts, const std::
 {
   nlohmann::ordered_json list = nlohmann::ordered_json::array();
   for (const Verdict &verdict : verdicts)
-    list.push_back({{"claim", verdict.claim},
+    list.push_back({{"id", verdict.id},
+                    {"claim", verdict.claim},
                     {"kind", name_of(verdict.kind)},
                     {"verdict", name_of(verdict.outcome)},
                     {"value", json_number(verdict.value)},

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "meshes/plain/errors.h"
-#include "verification/record/verdict.h"
+#include "verification/record/claim.h"
 
 #include <mpi.h>
 
@@ -91,8 +91,8 @@ inline void share_failure(std::vector<Verdict> &verdicts, const MPI_Comm communi
   int status = status_of(verdicts);
   MPI_Bcast(&status, 1, MPI_INT, 0, communicator);
   if (status != exit_status::good && status_of(verdicts) != status)
-    verdicts.push_back({"the first rank saw a failure",
-                        status == exit_status::claim_failed ? Outcome::fail : Outcome::inconclusive,
-                        1., "0", "all ranks end with the status of the first", Kind::program});
+    verdicts.push_back(
+      judged("first-rank", {},
+             status == exit_status::claim_failed ? Outcome::fail : Outcome::inconclusive, 1.));
 }
 } // namespace homespun::verification

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "verification/record/verdict.h"
 
-#include "verification/record/number_text.h"
-
 #include <algorithm>
 
 namespace homespun::verification
@@ -40,14 +38,6 @@ std::string name_of(const Outcome outcome)
 std::string name_of(const Kind kind)
 {
   return kind == Kind::program ? "program" : kind == Kind::input ? "input" : "method";
-}
-
-Verdict at_most(const std::string &claim, const double value, const double limit,
-                const std::string &derivation, const Kind kind)
-{
-  return {claim,      value <= limit ? Outcome::pass : Outcome::fail,
-          value,      "<= " + short_text(limit),
-          derivation, kind};
 }
 
 bool any(const std::vector<Verdict> &verdicts, const Outcome outcome)

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cmath>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -42,6 +43,9 @@ struct Verdict
   std::string limit;
   std::string derivation = {};
   Kind kind              = Kind::program;
+  std::string id         = {}; ///< in claims.json
+  /// What it is about and what its sentence says, by name: cell, load, strain, ...
+  std::map<std::string, std::string> of = {};
 };
 
 /// The larger of a maximum so far and one value more. Once one of them was not a number it stays
@@ -50,10 +54,6 @@ inline double larger(const double so_far, const double next)
 {
   return std::isnan(so_far) || next <= so_far ? so_far : next;
 }
-
-/// The claim that a figure is not larger than a limit.
-Verdict at_most(const std::string &claim, double value, double limit, const std::string &derivation,
-                Kind kind = Kind::program);
 
 /// Whether any claim has this outcome.
 bool any(const std::vector<Verdict> &verdicts, Outcome outcome);

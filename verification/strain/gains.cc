@@ -4,7 +4,7 @@
 #include "verification/cell/discretization_distance.h"
 #include "verification/law/laws.h"
 #include "verification/method/method.h"
-#include "verification/record/number_text.h"
+#include "verification/record/claim.h"
 #include "verification/strain/budget/budget_rows.h"
 
 #include <algorithm>
@@ -40,7 +40,67 @@ double error_ratio(const StrainRow &one, const StrainRow &other)
   return one.per_cell > least && other.per_cell > least ? one.mean / other.mean : GainRow::none;
 }
 
-/// The asked strains at which methods are judged: the one near 1 % and the largest up to 10 %.
+const std::string its_base = "base";
+
+/// A pair of methods under one load and law, and the claim that the first is closer.
+struct Pair
+{
+  std::string method, other;
+
+  /// @param lost as of method_verdicts()
+  Verdict judged(const std::vector<StrainRow> &rows, const StrainRow &of_case, const double strain,
+                 const double lost) const
+  {
+    Words words = {{"cell", of_case.cell},           {"load", of_case.load}, {"method", method},
+                   {"reference", of_case.reference}, {"strain", strain},     {"note", ""}};
+    const auto verdict = [&](const Outcome outcome, const double value)
+    { return verification::judged("closer-than." + other, words, outcome, value); };
+    const auto open = [&](const double value, const std::string &why)
+    {
+      words["note"] = "; open: " + why;
+      return verdict(Outcome::inconclusive, value);
+    };
+    if (strain >= lost)
+      return open(lost,
+                  "from the strain of the value on reference or coarse cloth is not elliptic");
+    double reached = 0.;
+    for (const StrainRow &row : rows)
+      if (is_reached_in(row, of_case) && row.strain <= strain)
+        reached = std::max(reached, row.strain);
+    if (reached < strain)
+      return open(reached,
+                  "the level was not reached; the value is the largest strain below it that was");
+    const StrainRow *const one  = row_of(rows, of_case, strain, method);
+    const StrainRow *const than = other != its_base ? row_of(rows, of_case, strain, other)
+                                  : one != nullptr  ? base_of(rows, *one)
+                                                    : nullptr;
+    if (one == nullptr || than == nullptr)
+      return open(GainRow::none, other == its_base ? "no error of a base is known: have " + method +
+                                                       "-micro and affine+p2 among --methods"
+                                                   : "not among the methods of this level");
+    if (other == its_base)
+      words["note"] = "; base: " + than->method;
+    const double gain  = than->mean - one->mean; // not a number without an equilibrium
+    const double bars  = one->bar + than->bar;   // nor is this, where one is not known
+    const double ratio = one->mean / than->mean;
+    if (!std::isfinite(bars))
+      words["note"] += "; open: an error bar is not known";
+    else if (std::max(one->bar_safety, than->bar_safety) >= safety_unconfirmed)
+    {
+      words["note"] += "; open: errors of P1, P2 and refined P2 do not come together, and bear no "
+                       "claim";
+      return verdict(Outcome::inconclusive, ratio);
+    }
+    return verdict(!(std::abs(than->per_cell - one->per_cell) > solved_to * strain)
+                     ? Outcome::inconclusive
+                   : gain > bars  ? Outcome::pass
+                   : gain < -bars ? Outcome::fail
+                                  : Outcome::inconclusive,
+                   ratio);
+  }
+};
+} // namespace
+
 std::set<double> strains_of_methods(const std::vector<double> &asked)
 {
   std::set<double> judged;
@@ -55,72 +115,6 @@ std::set<double> strains_of_methods(const std::vector<double> &asked)
     judged.insert(largest);
   return judged;
 }
-
-const std::string its_base = "its base";
-
-/// A pair of methods under one load and law, and the claim that the first is closer.
-struct Pair
-{
-  std::string method, other;
-
-  Verdict open(Verdict verdict, const double value, const std::string &why) const
-  {
-    verdict.value = value;
-    verdict.limit += "; open: " + why;
-    return verdict;
-  }
-
-  /// @param lost as of method_verdicts()
-  Verdict judged(const std::vector<StrainRow> &rows, const StrainRow &of_case, const double strain,
-                 const double lost) const
-  {
-    Verdict verdict;
-    verdict.claim = of_case.cell + ", " + of_case.load + ": " + method + " is closer to " +
-                    of_case.reference + " than " + other + " at strain " + short_text(strain) +
-                    " (ratio of errors)";
-    verdict.limit      = "< 1 by more than the error bars of both";
-    verdict.derivation = "the error bars of both errors at this level, of the same run";
-    verdict.kind       = Kind::method;
-    if (other == its_base)
-      verdict.derivation += "; the base has the coarse cloth of the method and no microscopic "
-                            "displacement, so that a cell of one material gains nothing";
-    if (strain >= lost)
-      return open(verdict, lost,
-                  "from the strain of the value on reference or coarse cloth is not elliptic");
-    double reached = 0.;
-    for (const StrainRow &row : rows)
-      if (is_reached_in(row, of_case) && row.strain <= strain)
-        reached = std::max(reached, row.strain);
-    if (reached < strain)
-      return open(verdict, reached,
-                  "the level was not reached; the value is the largest strain below it that was");
-    const StrainRow *const one  = row_of(rows, of_case, strain, method);
-    const StrainRow *const than = other != its_base ? row_of(rows, of_case, strain, other)
-                                  : one != nullptr  ? base_of(rows, *one)
-                                                    : nullptr;
-    if (one == nullptr || than == nullptr)
-      return open(verdict, GainRow::none,
-                  other == its_base ? "no error of a base is known: have " + method +
-                                        "-micro and affine+p2 among --methods"
-                                    : "not among the methods of this level");
-    if (other == its_base)
-      verdict.limit += "; base: " + than->method;
-    const double gain = than->mean - one->mean; // not a number without an equilibrium
-    const double bars = one->bar + than->bar;   // nor is this, where one is not known
-    verdict.value     = one->mean / than->mean;
-    if (!std::isfinite(bars))
-      verdict.limit += "; open: an error bar is not known";
-    else if (std::max(one->bar_safety, than->bar_safety) >= safety_unconfirmed)
-      return open(verdict, verdict.value,
-                  "errors of P1, P2 and refined P2 do not come together, and bear no claim");
-    if (std::abs(than->per_cell - one->per_cell) > solved_to * strain)
-      verdict.outcome = gain > bars    ? Outcome::pass
-                        : gain < -bars ? Outcome::fail
-                                       : Outcome::inconclusive;
-    return verdict;
-  }
-};
-} // namespace
 
 const StrainRow *base_of(const std::vector<StrainRow> &rows, const StrainRow &of)
 {

@@ -7,6 +7,7 @@
 #include "verification/record/verdict.h"
 #include "verification/strain/strain_tables.h"
 
+#include <set>
 #include <string>
 #include <vector>
 
@@ -22,6 +23,9 @@ const StrainRow *base_of(const std::vector<StrainRow> &rows, const StrainRow &of
 
 /// Rows of gains.csv, of every method with a base.
 std::vector<GainRow> gain_rows(const std::vector<StrainRow> &rows);
+
+/// The asked strains at which methods are judged: the one near 1 % and the largest up to 10 %.
+std::set<double> strains_of_methods(const std::vector<double> &asked);
 
 /// A claim for each level at which methods are judged, the asked one nearest to 1 % (within a
 /// factor 1.5) and the largest up to 10 %, and each of these pairs that the study has: the method

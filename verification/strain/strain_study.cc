@@ -16,6 +16,7 @@
 #include "verification/strain/budget/energy_sides.h"
 #include "verification/strain/cell_references.h"
 #include "verification/strain/claims/budget_verdicts.h"
+#include "verification/strain/claims/owed_claims.h"
 #include "verification/strain/claims/self_checks.h"
 #include "verification/strain/claims/study_verdicts.h"
 #include "verification/strain/level_ellipticity.h"
@@ -26,7 +27,6 @@
 #include "verification/strain/study_modes.h"
 
 #include <algorithm>
-#include <cmath>
 #include <memory>
 #include <numeric>
 
@@ -60,6 +60,11 @@ private:
   nlohmann::ordered_json inputs() override
   {
     return strain_inputs(asked, cells());
+  }
+
+  std::vector<OwedClaim> owed() const override
+  {
+    return owed_of_strain(asked, cells());
   }
 
   /// Tables live on the first rank alone.
@@ -96,10 +101,8 @@ private:
     on_root(communicator,
             [&]()
             {
-              const std::string folder = write_cell(cell, assessed);
-              for (const auto &some : {cell_file_verdicts(folder + "/cell.h5", cell),
-                                       self_checks(cell, laws_of(options), options.strains.back())})
-                verdicts.insert(verdicts.end(), some.begin(), some.end());
+              add(cell_file_verdicts(write_cell(cell, assessed) + "/cell.h5", cell));
+              add(self_checks(cell, laws_of(options), options.strains.back()));
             });
     const meshes::HomogenizedCell homogenized =
       homogenization::homogenized_cell(cell, assessed.result, provenance_line());
@@ -140,10 +143,9 @@ private:
         RunTimeOptions of_run;
         of_run.strain  = pictured_strain(options);
         of_run.methods = options.methods;
-        if (options.is_quick)
-          of_run.n_runs = 3;
-        of_run.law   = law_of(main_reference(options.references));
-        of_run.edges = edges.edges ? &*edges.edges : nullptr;
+        of_run.n_runs  = options.is_quick ? 3 : of_run.n_runs;
+        of_run.law     = law_of(main_reference(options.references));
+        of_run.edges   = edges.edges ? &*edges.edges : nullptr;
         if (const auto found = fitted.find(of_run.law); found != fitted.end())
           of_run.fitted = &found->second;
         const std::string fault =
@@ -363,18 +365,16 @@ private:
 
   StudyDescription conclude() override
   {
-    const std::vector<Verdict> of_tables = study_verdicts(*output, options);
-    verdicts.insert(verdicts.end(), of_tables.begin(), of_tables.end());
+    add(study_verdicts(*output, options));
     output->write_gains();
     std::vector<std::string> notes = notes_on_references(asked, cells());
+    const auto note                = [&](const std::vector<std::string> &more)
+    { notes.insert(notes.end(), more.begin(), more.end()); };
     for (const UnitCell &cell : cells())
-      for (const std::string &note : notes_on_yarns(cell, options_of(asked, cell).references))
-        notes.push_back(note);
-    for (const std::string &note : output->notes())
-      notes.push_back(note);
+      note(notes_on_yarns(cell, options_of(asked, cell).references));
+    note(output->notes());
     if (options.budget)
-      for (const std::string &note : budget_notes(output->strain_rows(), output->budget->rows()))
-        notes.push_back(note);
+      note(budget_notes(output->strain_rows(), output->budget->rows()));
     return describe(options, {output->strain_rows(), output->step_rows(), notes},
                     {peak_memory, largest_residual});
   }

@@ -2,6 +2,7 @@
 #include "verification/stress/stress_axis.h"
 
 #include "meshes/plain/errors.h"
+#include "verification/record/claim.h"
 #include "verification/record/number_text.h"
 #include "verification/record/timing.h"
 
@@ -142,12 +143,8 @@ std::optional<Verdict> verdict_of(const StressAxis &axis, const LimitRow &found,
     return {};
   // A ladder of floating-point products: a rung is the published one within its last digits.
   const bool falls = found.end && *found.end <= owed * (1. + 1e-6);
-  return Verdict{axis.axis + " of " + axis.of + ": no answer is wrong up to " + short_text(owed) +
-                   " (values that are)",
-                 falls ? Outcome::fail : Outcome::pass,
-                 falls ? 1. : 0.,
-                 "0",
-                 why,
-                 Kind::program};
+  return judged("stress-limit",
+                {{"axis", axis.axis}, {"of", axis.of}, {"largest", owed}, {"why", why}},
+                falls ? Outcome::fail : Outcome::pass, falls ? 1. : 0.);
 }
 } // namespace homespun::verification

@@ -12,6 +12,7 @@
 #include "verification/drape/drape_study.h"
 #include "verification/homogenize/homogenize_study.h"
 #include "verification/periodic/periodic_study.h"
+#include "verification/record/claim.h"
 #include "verification/record/json_files.h"
 #include "verification/record/on_root.h"
 #include "verification/record/run_folder.h"
@@ -129,9 +130,8 @@ private:
     }
     catch (const meshes::NotConverged &failure)
     {
-      result.verdicts.push_back({title + ": runs to its end; " + failure.what(), Outcome::fail, 0.,
-                                 "every solver converges",
-                                 "a part that does not end has no results", Kind::program});
+      result.verdicts.push_back(
+        judged("part-ends", {{"part", title}, {"why", failure.what()}}, Outcome::fail, 0.));
       result.status = exit_status::not_converged;
     }
   }

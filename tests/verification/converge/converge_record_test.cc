@@ -91,9 +91,9 @@ TEST_F(exact_converge_record, claims_and_levels_are_taken_up_as_they_were)
   }
   series.judgement = judge_errors(h, errors, about(1.));
   ConvergenceResult result;
-  result.add(series, {"order 1, of \"affine\"", "theory, and nothing else", Kind::method});
-  result.verdicts.push_back({"nothing is measured", Outcome::inconclusive, std::nan(""),
-                             "<= 1, at most", "why", Kind::input});
+  result.add(series, "sheet-order.localized");
+  result.verdicts.push_back({"nothing, of \"affine\", is measured", Outcome::inconclusive,
+                             std::nan(""), "<= 1, at most", "why", Kind::input});
   ConvergenceRecord(folder).add(one, result, 0.25);
 
   const ConvergenceRecord again(folder);
@@ -112,10 +112,14 @@ TEST_F(exact_converge_record, claims_and_levels_are_taken_up_as_they_were)
   }
   const std::vector<Verdict> verdicts = again.verdicts();
   ASSERT_EQ(verdicts.size(), 2u);
-  EXPECT_EQ(verdicts[0].claim, "cell, scale, strip-1: order 1, of \"affine\" (order)");
+  EXPECT_EQ(verdicts[0].claim, "cell, scale, strip-1: localized converges at least as fast: order "
+                               "1 to 2 in sheet sides (order)");
+  EXPECT_EQ(verdicts[0].id, "sheet-order.localized");
+  EXPECT_EQ(verdicts[0].of.at("case"), "strip-1");
   EXPECT_EQ(verdicts[0].value, series.judgement->order);
-  EXPECT_EQ(verdicts[0].derivation, "theory, and nothing else");
+  EXPECT_EQ(verdicts[0].derivation, result.verdicts[0].derivation);
   EXPECT_EQ(verdicts[0].kind, Kind::method);
+  EXPECT_EQ(verdicts[1].claim, "cell, scale, strip-1: nothing, of \"affine\", is measured");
   EXPECT_EQ(verdicts[1].outcome, Outcome::inconclusive);
   EXPECT_EQ(verdicts[1].kind, Kind::input);
   EXPECT_EQ(verdicts[1].limit, "<= 1, at most");

@@ -47,21 +47,22 @@ constexpr Outcome pass = Outcome::pass, fail = Outcome::fail, open = Outcome::in
 TEST(exact_drape_verdicts,
      a_reference_that_stops_leaves_its_claim_open_and_one_without_a_frame_fails)
 {
-  EXPECT_EQ(verdict_of_reference("", 5, 5).outcome, Outcome::pass);
+  EXPECT_EQ(verdict_of_reference("", "", 5, 5).outcome, Outcome::pass);
   for (const int n : {2, 3, 4})
-    EXPECT_EQ(status_of({verdict_of_reference("", n, 5)}), exit_status::claim_open);
+    EXPECT_EQ(status_of({verdict_of_reference("", "", n, 5)}), exit_status::claim_open);
   for (const int n : {0, 1}) // the beginning is no answer
-    EXPECT_EQ(status_of({verdict_of_reference("", n, 5)}), exit_status::claim_failed);
-  EXPECT_EQ(verdict_of_reference("", 1, 5).kind, Kind::program);
+    EXPECT_EQ(status_of({verdict_of_reference("", "", n, 5)}), exit_status::claim_failed);
+  EXPECT_EQ(verdict_of_reference("", "", 1, 5).kind, Kind::program);
 }
 
 TEST(exact_drape_verdicts, the_method_fails_where_it_stops_and_a_variant_is_open)
 {
-  EXPECT_EQ(status_of({verdict_of_cloth("", true, 5, 5), verdict_of_cloth("", false, 5, 5)}),
-            exit_status::good);
-  EXPECT_EQ(status_of({verdict_of_cloth("", true, 4, 5)}), exit_status::claim_failed);
-  EXPECT_EQ(status_of({verdict_of_cloth("", false, 4, 5)}), exit_status::claim_open);
-  EXPECT_EQ(verdict_of_cloth("", false, 4, 5).kind, Kind::method);
+  EXPECT_EQ(
+    status_of({verdict_of_cloth("", "", true, 5, 5), verdict_of_cloth("", "", false, 5, 5)}),
+    exit_status::good);
+  EXPECT_EQ(status_of({verdict_of_cloth("", "", true, 4, 5)}), exit_status::claim_failed);
+  EXPECT_EQ(status_of({verdict_of_cloth("", "", false, 4, 5)}), exit_status::claim_open);
+  EXPECT_EQ(verdict_of_cloth("", "", false, 4, 5).kind, Kind::method);
 }
 
 TEST(exact_drape_verdicts, accuracy_is_judged_with_the_bar)

@@ -3,6 +3,7 @@
 are those of this program, and the cell and the Python of the front page do what it says.
 """
 import functools
+import json
 import os
 import pathlib
 import re
@@ -131,6 +132,19 @@ class Commands(unittest.TestCase):
                 self.assertTrue(stored.read_text(encoding="utf-8") ==
                                 path.read_text(encoding="utf-8"),
                                 f"{stored} is not what this program says; {AGAIN}")
+
+    def test_every_claim_of_the_program_is_in_claims_json_and_the_other_way_round(self):
+        here = ROOT / "verification"
+        claims = json.loads((here / "record" / "claims.json").read_text(encoding="utf-8"))
+        known = {name for study, some in claims.items() if study != "shared" for name in some}
+        code = "".join(path.read_text(encoding="utf-8") for ending in ("cc", "h")
+                       for path in sorted(here.rglob(f"*.{ending}")))
+        asked = re.findall(r"\b(?:judged?|at_most|none_of|open_by_loss|verdict_of_smallest)"
+                           r'\(\s*"([\w.-]*\w)"', code)
+        self.assertGreater(len(asked), 50)
+        self.assertEqual(set(asked) - known, set())
+        for name in known:
+            self.assertTrue(f'"{name}"' in code or f'"{name.rpartition(".")[0]}."' in code, name)
 
     def test_a_long_option_with_its_text_beside_it_is_read(self):
         lines = ["  --variants TEXT ...         Models of the cloth: woven (law",

@@ -327,8 +327,8 @@ class ClaimTest(unittest.TestCase):
         for part, value in (("slip", 0.8), ("rest", 0.2), ("total", 1.0))
     ]
 
-    def claim(self, text, outcome, kind):
-        made = verdict(text, outcome, 1.58, "< 1", kind)
+    def claim(self, text, outcome, kind, name=""):
+        made = {**verdict(text, outcome, 1.58, "< 1", kind), "id": name}
         return claims.claim_contents(made, [], "", self.BUDGET)
 
     def test_a_claim_that_names_no_strain_has_no_cause(self):
@@ -338,7 +338,7 @@ class ClaimTest(unittest.TestCase):
 
     def test_a_claim_on_the_method_that_fails_says_why_and_what_to_do(self):
         text = "a, strip-2: localized is closer to biot than affine at strain 0.01 (ratio)"
-        row = self.claim(text, "FAIL", "method")
+        row = self.claim(text, "FAIL", "method", "closer-than.affine")
         self.assertIn("which the anchor leaves out (80 % of it)", row["why"])
         self.assertIn("coarse mesh alone", row["advice"])
         self.assertEqual(self.claim(text, "PASS", "method")["advice"], "")
@@ -346,10 +346,10 @@ class ClaimTest(unittest.TestCase):
         row = self.claim(text.replace("localized", "full"), "FAIL", "method")
         self.assertIn("above all because cells are not small", row["why"])
         row = self.claim(text.replace("localized is", "full is").replace("affine", "its base"),
-                         "FAIL", "method")
+                         "FAIL", "method", "closer-than.base")
         self.assertIn("without up-sampling", row["advice"])
         row = self.claim(text.replace("localized is", "full is").replace("affine", "localized"),
-                         "FAIL", "method")
+                         "FAIL", "method", "closer-than.localized")
         self.assertIn("take the paper's method", row["advice"])
 
     def test_every_kind_says_what_to_do_where_nothing_else_is_known(self):

@@ -6,87 +6,12 @@ from collections import Counter
 from page import tables
 from page.answer import why
 from page.headline import PAPER
+from read import schema
 from read.budget_results import levels
 from read.verdicts import KINDS, MARKS, ORDER, WORDS, words_of
 
-# What to do, by words of the claim; the first that is found counts.
-ADVICE = (
-    (
-        "than affine at strain",
-        "Under this load take the coarse mesh alone (`affine`), or remove the cause: a finer coarse"
-        " mesh, a cell cut at another place (see the notes on the place of the cut), a smaller"
-        " strain.",
-    ),
-    (
-        "than affine on the largest sheet",
-        "This is of the paper's method alone (`localized`), in linear theory. It says nothing of"
-        " up-sampling with all terms (`full`), which the page of `homespun strain` judges.",
-    ),
-    (
-        "than its base at strain",
-        "Under this load take the coarse cloth that the limit names, without up-sampling: nothing that"
-        " up-sampling adds to it pays here.",
-    ),
-    (
-        "than localized at strain",
-        "Under this load take the paper's method (`localized`): the terms that the other one adds"
-        " do not pay on this cell.",
-    ),
-    (
-        "find an equilibrium",
-        "Read the table only up to the last strain that was reached; `--strains` with smaller steps"
-        " may get further. Soft shear beside stiff tension loses its equilibrium early: that is the"
-        " cell, not the solver.",
-    ),
-    (
-        "every level has an equilibrium",
-        "Read the curve up to the last level that was reached; more `--steps` may get further. A"
-        " stress may be more than the cloth bears: prescribe the strain instead.",
-    ),
-    (
-        "every strain has a periodic state",
-        "Read the margin up to the last strain that was reached; smaller strains show where the"
-        " path ends. The cloth itself may have no state beyond.",
-    ),
-    (
-        "agree on what is stable",
-        "Take the levels named as open: a finer mesh of the cell has more waves and a lower margin.",
-    ),
-    (
-        "is a minimum of the energy",
-        "From the first such level on (`stable` of load.csv) the cloth takes another way than this"
-        " curve.",
-    ),
-    (
-        "is a minimum of the reference's energy",
-        "Do not rest a decision on the levels named: the reference may have found one equilibrium"
-        " of several. Smaller strains have one.",
-    ),
-    (
-        "what the parts leave of the error",
-        "Take the causes from the smaller strain. Where the bar is above a fifth of the error, the"
-        " budget cannot say at this strain what the error is made of; the error itself stands.",
-    ),
-    (
-        "error bar of the reference covers",
-        "Take the distance as the error bar: solve the reference finer (`--order 2`), or with more"
-        " cells in its error bar.",
-    ),
-    ("what the solvers leave undone", "Run again: a solve ended early; its row in steps.csv says which."),
-    (
-        "strain squared",
-        "Give `--strains` with three or more small levels, such as 1e-4,1e-3,1e-2; if it stays, the"
-        " cell or the law is at fault at these strains, or the program is.",
-    ),
-    ("second code", "Two programs differ on one problem: report it, with the cell."),
-    ("second solver", "Two programs differ on one problem: report it, with the cell."),
-    ("runs to its end", "Read the message in the claim; other parts are not touched by it."),
-    ("bracket", "Narrow it: `homespun homogenize CELL.prm --tolerance 1e-4`."),
-    ("faceted", "Give the triangles curved sides: `Mesh.ElementOrder = 2` in Gmsh."),
-    ("single element across", "Mesh finer there, or compute with `--order 2`."),
-    ("observed order", "Let it refine further: leave out `--quick`."),
-)
 STATES = "The states that were asked for exist, and are stable (nothing is up-sampled here)"
+# What to do where claims.json has no advice of the claim.
 OF_KIND = {
     "program": "The program, not the cell, is in question here: report it, with the cell and this"
     " page.",
@@ -152,10 +77,8 @@ def cause_of(verdict, budget):
 def advice_of(verdict):
     """What a reader can do about a claim that does not hold."""
     otherwise = OPEN if verdict["verdict"] == "INCONCLUSIVE" else OF_KIND
-    return next(
-        (advice for words, advice in ADVICE if words in verdict["claim"]),
-        otherwise[verdict["kind"]],
-    )
+    known = schema.claims().get(verdict.get("id"), {})
+    return known.get("advice") or otherwise[verdict["kind"]]
 
 
 def claim_groups(claims, heading_of=KINDS):

@@ -240,6 +240,7 @@ def checks_of(run, cell_folders, info):
             if isinstance(check, dict) and check.get("verdict") in OUTCOMES:
                 found.append(
                     {
+                        "id": check.get("id", ""),
                         "claim": f"{name}: {check.get('name', '?')}",
                         "kind": check.get("kind", "program"),
                         "verdict": check["verdict"],

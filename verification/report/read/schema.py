@@ -5,12 +5,13 @@ order, what each may hold, and how many of the first ones name a row.
     {"format_version": 1, "methods": {"affine": [], "localized": ["micro"], "full": ["p2", ...]},
      "laws": [{"name": "linear", "is_of_space": false, ...}, ...],
      "loads": [{"name": "strip-1", "label": "Sheet pulled along axis 1", "is_infinite": false}, ...],
+     "claims": {"strain": {"norms": {"kind": "program", "claim": ..., ...}, ...}, ...},
      FILE: {"keys": 5, "columns": [{"name": "strain", "domain": "positive"}, ...]}, ...}
 
 `format_version` is that of all files that this version of the program writes; `methods` are the
 presets of methods with their terms, of which a name like `localized+p2` has more and `full-micro`
 less; `laws` are those of references and `loads` those of studies, in their order, with what the
-program knows of each.
+program knows of each; `claims` are verification/record/claims.json.
 
 The program hands on where the file lies in HOMESPUN_SCHEMA; an installed report has it beside
 report.py.
@@ -151,6 +152,14 @@ def loads():
     return {load["name"]: load for load in read(place())[4]}
 
 
+def claims():
+    """{id: kind, sentence, limit and what it rests on} of the claims of all studies.
+
+    @throws NoSchema
+    """
+    return read(place())[5]
+
+
 def main_reference(references):
     """The law that claims, budget and pictures speak of: the first that the coarse cloth has too,
     else the first there is; None where there are none.
@@ -182,6 +191,7 @@ def read(path):
         laws_there, loads_there = (
             [dict(one) for one in value.pop(key)] for key in ("laws", "loads")
         )
+        claims_there = value.pop("claims")
         return (
             version,
             {
@@ -197,6 +207,7 @@ def read(path):
             presets,
             laws_there,
             loads_there,
+            {name: one for some in claims_there.values() for name, one in some.items()},
         )
     except OSError as error:
         raise NoSchema(

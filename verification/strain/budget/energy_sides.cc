@@ -2,7 +2,7 @@
 #include "verification/strain/budget/energy_sides.h"
 
 #include "meshes/plain/errors.h"
-#include "verification/record/number_text.h"
+#include "verification/record/claim.h"
 #include "verification/record/on_root.h"
 #include "verification/record/timing.h"
 #include "verification/reference/displacement_energy.h"
@@ -114,38 +114,21 @@ std::vector<Verdict> energy_verdicts(const std::vector<EnergyRow> &rows)
   std::vector<Verdict> verdicts;
   for (const EnergyRow &row : rows)
   {
-    const std::string what = row.cell + ", " + row.load + " in linear theory on " +
-                             std::to_string(row.cells) + " x " + std::to_string(row.cells) +
-                             " cells: ";
     const std::string why = row.fault.empty() ? "" : "; " + row.fault;
     /// Figure and limit relative to the energy.
-    const auto judge = [&](const std::string &claim, const double figure, const double limit,
-                           const std::string &derivation)
+    const auto judge = [&](const char *claim, const double figure, const double limit)
     {
       const double value = figure / row.upper, most = limit / row.upper;
-      verdicts.push_back({what + claim,
-                          !std::isfinite(value) || !std::isfinite(most) ? Outcome::inconclusive
-                          : value <= most                               ? Outcome::pass
-                                                                        : Outcome::fail,
-                          value, "<= " + short_text(most) + why, derivation, Kind::program});
+      verdicts.push_back(at_most(
+        claim, {{"cell", row.cell}, {"load", row.load}, {"cells", row.cells}, {"note", why}}, value,
+        most));
+      if (!std::isfinite(value) || !std::isfinite(most))
+        verdicts.back().outcome = Outcome::inconclusive;
     };
-    judge("the energy of the reference is not below that of a self-equilibrated stress (how far it "
-          "is, over the energy)",
-          row.lower - row.upper, row.round_off,
-          "minimum of potential and of complementary energy: below 0 on any mesh; the limit bounds "
-          "what round-off does to both");
-    judge(
-      "the energy of P2 on the same mesh lies between them (how far it is outside, over the "
-      "energy)",
-      larger(row.lower - row.p2, row.p2 - row.upper), row.round_off + row.largest_misfit,
-      "P2 holds every displacement of P1, and no displacement lies below a stress: below 0; the "
-      "limit is round-off and what the solvers leave");
-    judge("the energy of the reference is half of the work of its stress on the affine motion "
-          "(difference over the energy)",
-          row.misfit, row.largest_misfit,
-          "Clapeyron's theorem, from its positions and the phases of the cell: 0 at a minimum; the "
-          "limit is round-off and the forces that its solver leaves, times its distance from the "
-          "affine motion");
+    judge("energy-above-stress", row.lower - row.upper, row.round_off);
+    judge("energy-of-p2", larger(row.lower - row.p2, row.p2 - row.upper),
+          row.round_off + row.largest_misfit);
+    judge("energy-is-work", row.misfit, row.largest_misfit);
   }
   return verdicts;
 }

@@ -2,6 +2,7 @@
 #include "verification/strain/claims/budget_verdicts.h"
 
 #include "verification/law/laws.h"
+#include "verification/record/claim.h"
 #include "verification/record/main_reference.h"
 #include "verification/record/number_text.h"
 #include "verification/reference/loads.h"
@@ -87,15 +88,20 @@ std::string note_of_sum(const std::vector<BudgetRow> &rows, const BudgetRow &lev
 void judge_level(const std::vector<BudgetRow> &rows, const BudgetRow &level,
                  const double bar_of_reference, std::vector<Verdict> &verdicts)
 {
-  const std::string what = title_of(level);
+  const Words words = {
+    {"cell", level.cell}, {"load", level.load}, {"percent", 100. * level.strain}};
+  const auto with = [&](const char *name, const Word &word)
+  {
+    Words all = words;
+    all.emplace(name, word);
+    return all;
+  };
   const double total = mean_of(rows, level, "total"), sum = mean_of(rows, level, "sum");
   if (is_zero(total, level.strain))
   {
-    verdicts.push_back({what + "the error is zero to what the solvers leave, and so is the sum of "
-                               "its parts (per strain and cell side)",
-                        is_zero(sum, level.strain) ? Outcome::pass : Outcome::fail,
-                        sum / level.strain, "< " + short_text(solved_to), derivation_of_solved_to,
-                        Kind::program});
+    verdicts.push_back(judged("budget.zero", with("limit", solved_to),
+                              is_zero(sum, level.strain) ? Outcome::pass : Outcome::fail,
+                              sum / level.strain));
     return;
   }
   const auto outcome_of = [](const double value, const bool holds) {
@@ -106,37 +112,24 @@ void judge_level(const std::vector<BudgetRow> &rows, const BudgetRow &level,
   const bool is_known      = std::isfinite(unexplained) && std::isfinite(bar);
   if (!has_left_linear_theory(rows, level))
     verdicts.push_back(
-      {what + "what the parts leave of the error is within the bar of their sum "
-              "(mean distance over mean error)",
-       !is_known           ? Outcome::inconclusive
-       : unexplained > bar ? Outcome::fail
-       : bar > widest_bar  ? Outcome::inconclusive
-                           : Outcome::pass,
-       unexplained,
-       !is_known ? "no second code was solved at that strain and law"
-                 : "<= " + short_text(bar) +
-                     (bar > widest_bar ? "; a bar above a fifth of the error "
-                                         "decides nothing"
-                                       : ""),
-       "triangle inequality: the part `rest` is of linear theory, which the sheet of the second "
-       "code, the cell and the terms of edges leave by what was measured at that level; part 2 is "
-       "known to the misfit of its table; and what the solvers leave",
-       Kind::program});
+      judged("budget.unexplained",
+             with("bar", !is_known ? "no second code was solved at that strain and law"
+                                   : "<= " + short_text(bar) +
+                                       (bar > widest_bar ? "; a bar above a fifth of the error "
+                                                           "decides nothing"
+                                                         : "")),
+             !is_known           ? Outcome::inconclusive
+             : unexplained > bar ? Outcome::fail
+             : bar > widest_bar  ? Outcome::inconclusive
+                                 : Outcome::pass,
+             unexplained));
   const double beyond_solvers = mean_of(rows, level, "reference") - solved_to * level.strain,
                covered        = beyond_solvers / bar_of_reference;
   if (std::isfinite(bar_of_reference))
-    verdicts.push_back({what + "the error bar of the reference covers its distance from P2 on the "
-                               "same mesh (distance over bar)",
-                        outcome_of(covered, covered <= 1.), covered, "<= 1",
-                        "what an error bar promises; this one is measured on a small sheet and at "
-                        "other strains, and carried to this one",
-                        Kind::program});
+    verdicts.push_back(
+      judged("budget.error-bar", words, outcome_of(covered, covered <= 1.), covered));
   const double solver = mean_of(rows, level, "solver") / total;
-  verdicts.push_back({what + "what the solvers leave undone, over the measured error",
-                      outcome_of(solver, solver <= 0.01), solver, "<= 0.01",
-                      "requirement: what solvers leave is a hundred times smaller than what is "
-                      "measured with them, so that no part of the error is theirs",
-                      Kind::program});
+  verdicts.push_back(judged("budget.solvers", words, outcome_of(solver, solver <= 0.01), solver));
 }
 
 /// Levels up to 2 %: beyond, the third order shows.
@@ -183,22 +176,20 @@ void judge_slope(const SecondOrderPart &of, const std::vector<BudgetRow> &rows,
   const bool is_decided  = is_all_zero || (x.size() >= 3 && n_round_off == 0);
   const double slope =
     is_decided && !is_all_zero ? log_slope(x, y) : std::numeric_limits<double>::quiet_NaN();
-  const std::string what = of_case.cell + ", " + of_case.load + ": " + of.words +
-                           ", measured apart, grows as strain squared";
+  Words words = {{"cell", of_case.cell}, {"load", of_case.load}, {"part", of.words}, {"note", ""}};
   // 2 % is not small for a weave, and symmetry may leave no quadratic term.
   if (std::abs(slope - 2.) > 0.1 && small_x.size() >= 3)
   {
-    verdicts.push_back(verdict_of_smallest(what + " or faster (slope at the three smallest levels)",
-                                           small_x, small_y));
+    verdicts.push_back(verdict_of_smallest("budget-slope.smallest", words, small_x, small_y));
     return;
   }
-  verdicts.push_back({what + " up to 2 % (slope" +
-                        (is_all_zero ? "; zero to what the solvers leave at every level)" : ")"),
-                      !is_decided                                  ? Outcome::inconclusive
-                      : is_all_zero || std::abs(slope - 2.) <= 0.1 ? Outcome::pass
-                                                                   : Outcome::fail,
-                      is_all_zero ? 0. : slope, "2 +- 0.1 over at least three levels, or zero",
-                      derivation_of_slope_two, Kind::program});
+  if (is_all_zero)
+    words["note"] = "; zero to what the solvers leave at every level";
+  verdicts.push_back(judged("budget-slope.window", words,
+                            !is_decided                                  ? Outcome::inconclusive
+                            : is_all_zero || std::abs(slope - 2.) <= 0.1 ? Outcome::pass
+                                                                         : Outcome::fail,
+                            is_all_zero ? 0. : slope));
 }
 
 /// The case of each cell and load, against the main reference of the cell; its strains, ascending.
@@ -254,10 +245,8 @@ std::vector<Verdict> budget_verdicts(const std::vector<StrainRow> &strain_rows,
   for (const auto &[of_case, its_strains] : budgeted_cases(strain_rows))
   {
     if (!Load(of_case.load).is_periodic()) // whose motion no law decides
-      judge_slope({"macro-law", "geometric nonlinearity of the macro law"}, budget_rows, of_case,
-                  strains, verdicts);
-    judge_slope({"modes", "geometric nonlinearity of the modes"}, budget_rows, of_case, strains,
-                verdicts);
+      judge_slope({"macro-law", "macro law"}, budget_rows, of_case, strains, verdicts);
+    judge_slope({"modes", "modes"}, budget_rows, of_case, strains, verdicts);
   }
   return verdicts;
 }
@@ -279,11 +268,10 @@ std::vector<Verdict> error_agreement_verdicts(const std::vector<StrainRow> &stra
               budget.part == "total" && budget.region == "all")
           {
             const double difference = std::abs(row.per_cell - budget.per_cell) / level.strain;
-            verdicts.push_back(
-              {title_of(level) + "strain.csv has the error that the budget splits (difference per "
-                                 "strain and cell side)",
-               difference <= solved_to ? Outcome::pass : Outcome::fail, difference,
-               "<= " + short_text(solved_to), "the same positions, summed twice", Kind::program});
+            verdicts.push_back(at_most(
+              "budget-of-strain-csv",
+              {{"cell", level.cell}, {"load", level.load}, {"percent", 100. * level.strain}},
+              difference, solved_to));
           }
     });
   return verdicts;
@@ -299,24 +287,13 @@ std::vector<Verdict> second_code_verdicts(const std::vector<SecondCodeRow> &rows
                             : row.distance <= agreement  ? Outcome::pass
                                                          : Outcome::fail;
     const std::string why = row.fault.empty() ? "" : "; " + row.fault;
-    if (is_sheet)
-      verdicts.push_back(
-        {row.cell + ", " + row.load + " at " + short_text(100. * row.strain) +
-           " %: a second code finds the positions of the reference (mean distance per strain and "
-           "cell side)",
-         answer, row.distance, "<= 1e-06" + why,
-         "theory 0, one discrete problem; both codes leave 1e-11 of the forces, times 1e5 for the "
-         "condition of a sheet",
-         Kind::program});
-    else
-      verdicts.push_back({row.cell +
-                            ": a second solver finds C^H of P2, which part 4 is measured with "
-                            "(largest relative difference of an energy)",
-                          answer, row.distance, "<= 1e-06" + why,
-                          "theory 0, one discrete problem; images that lie 1e-7 of the cell apart "
-                          "are taken, and on four sides move its area by 4e-7, the energies by up "
-                          "to twice that",
-                          Kind::program});
+    verdicts.push_back(
+      is_sheet
+        ? judged(
+            "second-code",
+            {{"cell", row.cell}, {"load", row.load}, {"percent", 100. * row.strain}, {"note", why}},
+            answer, row.distance)
+        : judged("second-solver", {{"cell", row.cell}, {"note", why}}, answer, row.distance));
   }
   return verdicts;
 }

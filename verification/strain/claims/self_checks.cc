@@ -3,6 +3,7 @@
 
 #include "homogenization/cell/material.h"
 #include "verification/method/sheet_reading.h"
+#include "verification/record/claim.h"
 
 #include <algorithm>
 #include <cmath>
@@ -42,16 +43,8 @@ Verdict verdict_of_law(const homogenization::UnitCell &cell, const Law law, cons
     for (const Eigen::Matrix2d &path : paths)
       for (const double part : {0.1, 1.})
         worst = larger(worst, misfit_of(law, C, all + part * strain * path));
-  constexpr double limit = 1e-6;
-  return {cell.name + ", " + name_of(law) +
-            ": stress and tangent are the derivatives of the energy, for each phase (largest "
-            "difference over the size of the tangent)",
-          worst <= limit ? Outcome::pass : Outcome::fail,
-          worst,
-          "<= 1e-06",
-          "central differences of step 1e-5 err by the square of the step times a third derivative "
-          "of up to 1e2 tangents, and by 1e-11 of round-off",
-          Kind::program};
+  return at_most("law-derivatives", {{"cell", cell.name}, {"reference", name_of(law)}}, worst,
+                 1e-6);
 }
 
 /// The energies of a strain, a symmetric tensor, in a stiffness.
@@ -80,16 +73,7 @@ Verdict verdict_of_axes(const homogenization::UnitCell &cell)
       worst =
         larger(worst, std::abs(energy_of(Q * e * Q.transpose(), there) / energy_of(e, c) - 1.));
   }
-  constexpr double limit = 1e-8;
-  return {
-    cell.name + ": phases turned with their axes give turned strains the same energy "
-                "(largest relative difference)",
-    worst <= limit ? Outcome::pass : Outcome::fail,
-    worst,
-    "<= 1e-08",
-    "frame indifference: 0; round-off of 1e-15 of the stiffest direction, whose energy may be "
-    "1e7 times that of the softest",
-    Kind::program};
+  return at_most("phases-turned", {{"cell", cell.name}}, worst, 1e-8);
 }
 
 Verdict verdict_of_interpolation(const homogenization::UnitCell &cell)
@@ -104,14 +88,7 @@ Verdict verdict_of_interpolation(const homogenization::UnitCell &cell)
       .norm()
       .maxCoeff() /
     std::sqrt(cell.lattice.area());
-  constexpr double limit = 1e-12;
-  return {cell.name + ": the homogenized sheet at rest puts each vertex of a cell where it is "
-                      "(largest distance over the side of the cell)",
-          largest <= limit ? Outcome::pass : Outcome::fail,
-          largest,
-          "<= 1e-12",
-          "what is linear in a triangle is interpolated exactly; round-off of coordinates",
-          Kind::program};
+  return at_most("sheet-at-rest", {{"cell", cell.name}}, largest, 1e-12);
 }
 } // namespace
 

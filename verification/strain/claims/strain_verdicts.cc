@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "verification/strain/claims/strain_verdicts.h"
 
+#include "verification/record/claim.h"
 #include "verification/record/main_reference.h"
 #include "verification/record/number_text.h"
 #include "verification/reference/fine_reference.h"
@@ -12,23 +13,22 @@
 #include <cmath>
 #include <iterator>
 #include <limits>
+#include <set>
 #include <utility>
 
 namespace homespun::verification
 {
-const char *const derivation_of_solved_to =
-  "the references stop where 1e-9 of their forces is left; less than that says nothing";
-
-const char *const derivation_of_slope_two =
-  "theory: modes of linear theory leave an error of second order in strain; 0.1 tells two from the "
-  "orders one and three that a fault or a missing term would show";
-
 namespace
 {
 /// What rows of one case have in common.
 bool is_of_case(const StrainRow &row, const StrainRow &of_case)
 {
   return row.cell == of_case.cell && row.load == of_case.load && row.reference == of_case.reference;
+}
+
+Words words_of(const StrainRow &of_case)
+{
+  return {{"cell", of_case.cell}, {"load", of_case.load}, {"reference", of_case.reference}};
 }
 
 /// Cells, loads and references in the order of the rows.
@@ -40,12 +40,6 @@ std::vector<StrainRow> cases_of(const std::vector<StrainRow> &rows)
                      [&](const StrainRow &known) { return is_of_case(row, known); }))
       cases.push_back(row);
   return cases;
-}
-
-/// Whether the coarse cloth has the law of the reference, too.
-bool is_shared(const std::string &reference)
-{
-  return reference == name_of(Law::biot) || is_of_yarns(law_of(reference));
 }
 
 /// The rows up to where the law of their case is lost: beyond, no minimum need exist, and what was
@@ -63,8 +57,18 @@ std::vector<StrainRow> rows_of_laws(const std::vector<StrainRow> &rows,
 
 /// @param lost strain from which on the law is lost; not a number where it never is
 Verdict verdict_of_reach(const std::vector<StrainRow> &rows, const StrainRow &of_case,
-                         const std::size_t n_levels, const double lost)
+                         const std::vector<double> &asked, const double lost)
 {
+  for (const double strain : asked)
+    if (std::none_of(rows.begin(), rows.end(),
+                     [&](const StrainRow &row)
+                     { return is_of_case(row, of_case) && row.strain == strain; }))
+    {
+      Words words     = words_of(of_case);
+      words["levels"] = asked.size();
+      words["note"]   = "; strain.csv has no row at strain " + short_text(strain);
+      return judged("equilibria", words, Outcome::fail, 1.);
+    }
   std::size_t n_missing = 0;
   bool any              = false; // level was reached
   double first          = std::numeric_limits<double>::infinity();
@@ -77,20 +81,15 @@ Verdict verdict_of_reach(const std::vector<StrainRow> &rows, const StrainRow &of
       first = std::min(first, row.strain);
     }
   const bool is_lost = first > lost;
-  return {of_case.cell + ", " + of_case.load + ", " + of_case.reference +
-            ": reference and coarse cloth find an equilibrium at each of " +
-            std::to_string(n_levels) + " levels (levels without" +
-            (n_missing == 0 ? "" : "; none from strain " + short_text(first) + " on") +
-            (is_lost ? "; the law is lost at " + percent_text(lost) : std::string()) + ")",
-          n_missing == 0 && any ? Outcome::pass
-          : any || is_lost      ? Outcome::inconclusive
-                                : Outcome::fail,
-          static_cast<double>(n_missing),
-          "0",
-          "every level of --strains is to be compared; one without equilibrium is open, because "
-          "the cloth itself may have none there, as beyond the loss of ellipticity of its law; a "
-          "load without a single level, whose law is not lost, says nothing",
-          Kind::program};
+  Words words        = words_of(of_case);
+  words["levels"]    = asked.size();
+  words["note"]      = (n_missing == 0 ? "" : "; none from strain " + short_text(first) + " on") +
+                  (is_lost ? "; the law is lost at " + percent_text(lost) : std::string());
+  return judged("equilibria", words,
+                n_missing == 0 && any ? Outcome::pass
+                : any || is_lost      ? Outcome::inconclusive
+                                      : Outcome::fail,
+                static_cast<double>(n_missing));
 }
 
 bool is_in_window(const double strain)
@@ -98,12 +97,22 @@ bool is_in_window(const double strain)
   return strain >= 0.99e-4 && strain <= 0.101;
 }
 
+/// What a claim says that a loss leaves no levels for; nothing where the law is lost from rest on,
+/// which no law is.
+std::vector<Verdict> open_by_loss(const char *claim, Words words, const double lost)
+{
+  if (!(lost > 0.))
+    return {};
+  words["note"] = "; the law is lost at " + percent_text(lost);
+  return {judged(claim, words, Outcome::inconclusive, std::numeric_limits<double>::quiet_NaN())};
+}
+
 /// @param method whose rows are judged by what is claimed of `localized`
 std::vector<Verdict> periodic_verdict(const std::vector<StrainRow> &rows, const StrainRow &of_case,
                                       const std::vector<double> &asked,
                                       const std::string &method = "localized")
 {
-  if (std::count_if(asked.begin(), asked.end(), is_in_window) < 3)
+  if (!decides_slope(asked))
     return {};
   std::vector<std::pair<double, double>> levels; // strain and error
   for (const StrainRow &row : rows)
@@ -119,28 +128,28 @@ std::vector<Verdict> periodic_verdict(const std::vector<StrainRow> &rows, const 
       errors.push_back(error);
       largest = larger(largest, error / strain);
     }
-  const std::string what = of_case.cell + ", " + of_case.load + ": localized error against " +
-                           of_case.reference + " ",
-                    claim = what + "falls as strain squared (slope)";
-  const double none       = std::numeric_limits<double>::quiet_NaN();
-  const auto verdict = [&](const std::string &its_claim, const Outcome outcome, const double value,
-                           const std::string &limit) -> std::vector<Verdict> {
-    return {{its_claim, outcome, value, limit, derivation_of_slope_two, Kind::program}};
+  const double none  = std::numeric_limits<double>::quiet_NaN();
+  const auto verdict = [&](const Outcome outcome, const double value,
+                           const std::string &note) -> std::vector<Verdict>
+  {
+    Words words   = words_of(of_case);
+    words["note"] = note;
+    return {judged("strain-squared.slope", words, outcome, value)};
   };
   if (!std::all_of(levels.begin(), levels.end(),
                    [](const auto &level) { return std::isfinite(level.second); }))
-    return verdict(claim, Outcome::fail, none, "2 +- 0.1; an error is not a number");
+    return verdict(Outcome::fail, none, "; an error is not a number");
   if (strains.size() < 3)
-    return verdict(claim, Outcome::inconclusive, none,
-                   "2 +- 0.1 over at least three levels from 1e-4 to 0.1");
+    return verdict(Outcome::inconclusive, none, " over at least three levels from 1e-4 to 0.1");
   if (largest < solved_to)
-    return {{what + "is zero at every level, as where the law is linear in this load (largest, per "
-                    "strain and cell side)",
-             Outcome::pass, largest, "< " + short_text(solved_to), derivation_of_solved_to,
-             Kind::program}};
+  {
+    Words words    = words_of(of_case);
+    words["limit"] = solved_to;
+    return {judged("strain-squared.zero", words, Outcome::pass, largest)};
+  }
   const double slope = log_slope(strains, errors);
   if (std::abs(slope - 2.) <= 0.1)
-    return verdict(claim, Outcome::pass, slope, "2 +- 0.1");
+    return verdict(Outcome::pass, slope, "");
 
   // Theory speaks of strains that are small against what the cell bears, which a weave, soft in
   // shear, does not at 1 %; where its symmetry leaves no quadratic term, the error falls faster.
@@ -153,12 +162,10 @@ std::vector<Verdict> periodic_verdict(const std::vector<StrainRow> &rows, const 
       errors.push_back(error);
     }
   if (strains.size() < 3)
-    return verdict(claim, Outcome::inconclusive, slope,
-                   "2 +- 0.1; fewer than three levels above what the solvers leave: give larger "
+    return verdict(Outcome::inconclusive, slope,
+                   "; fewer than three levels above what the solvers leave: give larger "
                    "--strains");
-  return {verdict_of_smallest(
-    what + "falls as strain squared or faster (slope at the three smallest levels)", strains,
-    errors)};
+  return {verdict_of_smallest("strain-squared.smallest", words_of(of_case), strains, errors)};
 }
 
 /// What `localized` must pass, `affine` must not, wherever it errs by strain as theory says: so it
@@ -176,16 +183,12 @@ std::vector<Verdict> affine_verdict(const std::vector<StrainRow> &rows, const St
     return {};
   const double slope =
     std::log(levels[1].second / levels[0].second) / std::log(levels[1].first / levels[0].first);
-  const std::vector<Verdict> judged = periodic_verdict(rows, of_case, asked, "affine");
-  if (std::abs(slope - 1.) > 0.1 || judged.empty())
+  const std::vector<Verdict> judged_as_squared = periodic_verdict(rows, of_case, asked, "affine");
+  if (std::abs(slope - 1.) > 0.1 || judged_as_squared.empty())
     return {}; // strains at which theory does not hold yet
-  return {{of_case.cell + ", " + of_case.load +
-             ": the affine motion, which errs by strain, does not pass for one that errs by strain "
-             "squared (its slope at the two smallest levels)",
-           judged[0].outcome == Outcome::pass ? Outcome::fail : Outcome::pass, slope, "1 +- 0.1",
-           "theory: what lacks the fluctuation errs by first order in strain; a claim that it "
-           "passed, too, would say nothing",
-           Kind::program}};
+  return {judged("affine-slope", {{"cell", of_case.cell}, {"load", of_case.load}},
+                 judged_as_squared[0].outcome == Outcome::pass ? Outcome::fail : Outcome::pass,
+                 slope)};
 }
 
 /// How much the slopes between three levels differ where errors are a e + b e², a, b >= 0, and have
@@ -201,12 +204,16 @@ double rise_of_slope(const double slope, const double last_over_first)
 }
 } // namespace
 
-Verdict verdict_of_smallest(const std::string &claim, const std::vector<double> &strains,
-                            const std::vector<double> &errors)
+Verdict verdict_of_smallest(const std::string &claim, Words words,
+                            const std::vector<double> &strains, const std::vector<double> &errors)
 {
-  const std::string limit = ">= 1.9";
-  const auto between      = [&](const std::size_t k)
+  const auto between = [&](const std::size_t k)
   { return std::log(errors[k + 1] / errors[k]) / std::log(strains[k + 1] / strains[k]); };
+  const auto verdict = [&](const Outcome outcome, const double value, const std::string &note)
+  {
+    words["note"] = note;
+    return judged(claim, words, outcome, value);
+  };
   const double first = between(0), second = between(1);
   if (std::abs(first - second) <= 0.1)
   {
@@ -214,31 +221,28 @@ Verdict verdict_of_smallest(const std::string &claim, const std::vector<double> 
       log_slope({strains.begin(), strains.begin() + 3}, {errors.begin(), errors.begin() + 3});
     const double rise = rise_of_slope(slope, strains[2] / strains[0]);
     if (rise > 0.1 && second - first < 0.5 * rise)
-      return {
-        claim,
-        Outcome::inconclusive,
-        slope,
-        limit + "; errors of first and second order together would have slopes that rise by " +
-          short_text(rise) + ": the strains are not small for this cell, give smaller --strains",
-        derivation_of_slope_two,
-        Kind::program};
-    return {claim,
-            slope >= 1.9 ? Outcome::pass : Outcome::fail,
-            slope,
-            limit,
-            derivation_of_slope_two,
-            Kind::program};
+      return verdict(Outcome::inconclusive, slope,
+                     "; errors of first and second order together would have slopes that rise by " +
+                       short_text(rise) +
+                       ": the strains are not small for this cell, give smaller --strains");
+    return verdict(slope >= 1.9 ? Outcome::pass : Outcome::fail, slope, "");
   }
   // a e + b e² has slopes that rise from one to two; beyond, other powers are in play, unless the
   // first is near one.
   if (first < 1.9 && first < second && (second <= 2.1 || first < 1.5))
-    return {claim, Outcome::fail, first, limit, derivation_of_slope_two, Kind::program};
-  return {claim,
-          Outcome::inconclusive,
-          first,
-          limit + "; the slopes at the three smallest levels still differ: give smaller --strains",
-          derivation_of_slope_two,
-          Kind::program};
+    return verdict(Outcome::fail, first, "");
+  return verdict(Outcome::inconclusive, first,
+                 "; the slopes at the three smallest levels still differ: give smaller --strains");
+}
+
+bool is_shared(const std::string &reference)
+{
+  return reference == name_of(Law::biot) || is_of_yarns(law_of(reference));
+}
+
+bool decides_slope(const std::vector<double> &strains)
+{
+  return std::count_if(strains.begin(), strains.end(), is_in_window) >= 3;
 }
 
 double log_slope(const std::vector<double> &x, const std::vector<double> &y)
@@ -282,35 +286,32 @@ std::vector<Verdict> strain_verdicts(const std::vector<StrainRow> &all,
       std::vector<double> asked;
       std::copy_if(strains.begin(), strains.end(), std::back_inserter(asked),
                    [=](const double strain) { return !(strain > lost); });
-      add(periodic_verdict(rows, of_case, asked));
+      add(decides_slope(strains) && !decides_slope(asked)
+            ? open_by_loss("strain-squared.slope", words_of(of_case), lost)
+            : periodic_verdict(rows, of_case, asked));
       add(affine_verdict(rows, of_case, asked));
     }
   for (const StrainRow &of_case : cases)
-    verdicts.push_back(verdict_of_reach(all, of_case, strains.size(), lost_of(of_case)));
+    verdicts.push_back(verdict_of_reach(all, of_case, strains, lost_of(of_case)));
   return verdicts;
 }
 
 std::vector<Verdict> stability_verdicts(const std::vector<StepRow> &all,
                                         const std::vector<EllipticityRow> &ellipticity)
 {
-  std::vector<StepRow> steps;
-  for (const StepRow &step : all)
-    if (!(step.strain > elliptic_up_to(ellipticity, step.cell, step.load, step.reference)))
-      steps.push_back(step);
-
   std::vector<Verdict> verdicts;
-  std::vector<std::vector<std::string>> seen;
-  for (const StepRow &of_case : steps)
+  std::set<std::vector<std::string>> seen;
+  for (const StepRow &of_case : all)
   {
     const std::vector<std::string> key = {of_case.cell, of_case.load, of_case.reference};
-    if (of_case.reference == name_of(Law::linear) ||
-        std::find(seen.begin(), seen.end(), key) != seen.end())
+    if (of_case.reference == name_of(Law::linear) || !seen.insert(key).second)
       continue;
-    seen.push_back(key);
+    const double lost = elliptic_up_to(ellipticity, of_case.cell, of_case.load, of_case.reference);
     int n_levels = 0, n_not = 0;
     std::string which;
-    for (const StepRow &step : steps)
-      if (std::vector<std::string>{step.cell, step.load, step.reference} == key)
+    for (const StepRow &step : all)
+      if (std::vector<std::string>{step.cell, step.load, step.reference} == key &&
+          !(step.strain > lost))
       {
         ++n_levels;
         if (step.stability != name_of(Stability::every_triangle) &&
@@ -321,16 +322,17 @@ std::vector<Verdict> stability_verdicts(const std::vector<StepRow> &all,
           which += (which.empty() ? "; " : ", ") + short_text(100. * step.strain) + " %";
         }
       }
-    verdicts.push_back({of_case.cell + ", " + of_case.load + ", " + of_case.reference +
-                          ": each of " + std::to_string(n_levels) +
-                          " equilibria is a minimum of the reference's energy (equilibria that are "
-                          "not, or not known to be" +
-                          which + ")",
-                        n_not == 0 ? Outcome::pass : Outcome::inconclusive,
-                        static_cast<double>(n_not), "0",
-                        "second variation of the energy: positive definite in every triangle, or "
-                        "in the sheet, by conjugate gradients for a random force to 1e-6",
-                        Kind::program});
+    Words words = {{"cell", of_case.cell},
+                   {"load", of_case.load},
+                   {"reference", of_case.reference},
+                   {"levels", n_levels},
+                   {"note", which}};
+    for (const Verdict &verdict :
+         n_levels == 0
+           ? open_by_loss("minimum", words, lost)
+           : std::vector<Verdict>{
+               judged("minimum", words, n_not == 0 ? Outcome::pass : Outcome::inconclusive, n_not)})
+      verdicts.push_back(verdict);
   }
   return verdicts;
 }

@@ -2,7 +2,7 @@
 // The claims of a strain study, judged from its rows.
 #pragma once
 
-#include "verification/record/verdict.h"
+#include "verification/record/claim.h"
 #include "verification/strain/strain_tables.h"
 
 #include <string>
@@ -10,11 +10,11 @@
 
 namespace homespun::verification
 {
-/// Why an error below solved_to is zero.
-extern const char *const derivation_of_solved_to;
+/// Whether the coarse cloth has the law of a reference, too.
+bool is_shared(const std::string &reference);
 
-/// Where the limits of a slope of 2 come from.
-extern const char *const derivation_of_slope_two;
+/// Whether a study was asked for three levels from 1e-4 to 0.1, what decides a slope.
+bool decides_slope(const std::vector<double> &strains);
 
 /// Least-squares slope of log y against log x, for positive values.
 double log_slope(const std::vector<double> &x, const std::vector<double> &y);
@@ -23,9 +23,9 @@ double log_slope(const std::vector<double> &x, const std::vector<double> &y);
 /// by more than the limit of the claim it is open, and so it is where they agree on an order
 /// between one and two; but not where they fall towards one as those of a first order beside a
 /// second do.
-/// @param strains ascending
-Verdict verdict_of_smallest(const std::string &claim, const std::vector<double> &strains,
-                            const std::vector<double> &errors);
+/// @param claim its id, whose limit ends with {note} @param strains ascending
+Verdict verdict_of_smallest(const std::string &claim, Words words,
+                            const std::vector<double> &strains, const std::vector<double> &errors);
 
 /// Judges, for every cell and load among the rows of strain.csv:
 /// - every reference: an equilibrium is found at every level. FAIL where it is found at none and

@@ -2,7 +2,7 @@
 #include "verification/strain/claims/table_verdicts.h"
 
 #include "verification/law/laws.h"
-#include "verification/record/number_text.h"
+#include "verification/record/claim.h"
 #include "verification/reference/loads.h"
 #include "verification/strain/claims/strain_verdicts.h"
 
@@ -43,13 +43,7 @@ Verdict verdict_of_norms(const std::vector<StrainRow> &rows)
       ++n_rows;
       n_wrong += !(row.mean <= (1. + rounding) * row.rms && row.rms <= (1. + rounding) * row.max);
     }
-  return {"strain.csv: mean <= root mean square <= largest error in each of " +
-            std::to_string(n_rows) + " rows (rows where not)",
-          n_wrong == 0 ? Outcome::pass : Outcome::fail,
-          static_cast<double>(n_wrong),
-          "0",
-          "Cauchy and Schwarz",
-          Kind::program};
+  return at_most("norms", {{"rows", n_rows}}, n_wrong, 0.);
 }
 
 std::vector<Verdict> verdicts_of_nested_forces(const std::vector<UncertaintyRow> &rows)
@@ -71,15 +65,9 @@ std::vector<Verdict> verdicts_of_nested_forces(const std::vector<UncertaintyRow>
       continue; // nothing was measured, or P1 is exact
     // Distances of three numbers on a line add up only where the middle one lies between.
     verdicts.push_back(
-      {cell + ", " + load +
-         " in linear theory: the force of the error bar's sheets falls from P1 to "
-         "P2 to refined P2 (smallest fall over the force)",
-       least > solved_to && misfit <= 2. * solved_to ? Outcome::pass : Outcome::fail,
-       misfit <= 2. * solved_to ? least : -misfit, "> " + short_text(solved_to),
-       "the force is twice the energy over the way of the clamp, and the least "
-       "energy of a larger space is smaller unless P1 is exact; the references "
-       "stop where 1e-9 of their forces is left",
-       Kind::program});
+      judged("nested-forces", {{"cell", cell}, {"load", load}, {"least", solved_to}},
+             least > solved_to && misfit <= 2. * solved_to ? Outcome::pass : Outcome::fail,
+             misfit <= 2. * solved_to ? least : -misfit));
   }
   return verdicts;
 }
@@ -110,28 +98,14 @@ std::vector<Verdict> verdicts_of_forces(const std::vector<ForceRow> &rows)
       }
     if (is_known)
       verdicts.push_back(
-        {cell + ", " + load +
-           " in linear theory: the reference pulls back, no harder than the affine motion would "
-           "(ratio of forces, worst level)",
-         worst > 0. && worst <= 1. + 10. * solved_to ? Outcome::pass : Outcome::fail, worst,
-         "> 0 and <= 1",
-         "the force is twice the energy over the way of the clamp: positive, and the affine motion "
-         "is one that the reference may choose; 1e-8 for the derivative of the affine motion's "
-         "energy and what the references leave",
-         Kind::program});
+        judged("force-of-reference", {{"cell", cell}, {"load", load}},
+               worst > 0. && worst <= 1. + 10. * solved_to ? Outcome::pass : Outcome::fail, worst));
   }
   return verdicts;
 }
 
 Verdict verdict_of_reading(const std::vector<StrainRow> &rows, const std::string &folder)
 {
-  const int n_other = n_rows_read_otherwise(rows, folder);
-  return {"strain.csv gives back each of " + std::to_string(rows.size()) +
-            " rows to the last bit (rows that it does not)",
-          n_other == 0 ? Outcome::pass : Outcome::fail,
-          static_cast<double>(n_other),
-          "0",
-          "numbers are written with as many digits as name them uniquely",
-          Kind::program};
+  return at_most("read-back", {{"rows", rows.size()}}, n_rows_read_otherwise(rows, folder), 0.);
 }
 } // namespace homespun::verification
