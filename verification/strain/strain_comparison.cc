@@ -192,6 +192,16 @@ void note_strains_outside(const UpsampledMethod &of, const StrainLevel &level,
                                "fitted over; there they are those at its border");
 }
 
+/// Pictures are of the method that the page speaks of, among those that have an equilibrium.
+std::string pictured_method(std::vector<std::string> names,
+                            const std::vector<UpsampledMethod> &missing)
+{
+  for (const UpsampledMethod &of : missing)
+    if (of.moved == nullptr)
+      names.erase(std::remove(names.begin(), names.end(), of.name), names.end());
+  return main_method(names);
+}
+
 /// Which edges have terms, or why a method is another one here.
 void write_notes_of_methods(const StrainLevel &level, const std::vector<UpsampledMethod> &all,
                             const MethodsOnSheet &methods, StrainOutput &output)
@@ -289,7 +299,8 @@ UpsampledLevel compare_methods(const StrainStudyOptions &options, const StrainLe
   errors.seconds_reference = fine.seconds;
   // All methods before the first row: a level has a row of each, or is unreached.
   std::vector<UpsampledMethod> missing;
-  for (const std::string &name : distinct_methods(options.methods, level.law, load))
+  const std::vector<std::string> distinct = distinct_methods(options.methods, level.law, load);
+  for (const std::string &name : distinct)
     if (!output.has_errors(level, name))
       missing.push_back(name == "affine"      ? affine
                         : name == "localized" ? localized
@@ -299,7 +310,8 @@ UpsampledLevel compare_methods(const StrainStudyOptions &options, const StrainLe
   if (!missing.empty())
     for (const ForceRow &row : force_rows(level, resolved, methods, model, coarse))
       output.write_forces(row);
-  const int n_coarse = model.mesh().n_triangles();
+  const int n_coarse         = model.mesh().n_triangles();
+  const std::string pictured = pictured_method(distinct, missing);
   for (const UpsampledMethod &of : missing)
   {
     if (of.moved == nullptr)
@@ -313,15 +325,13 @@ UpsampledLevel compare_methods(const StrainStudyOptions &options, const StrainLe
     const auto bar  = resolved.error_bars.find(of.name);
     errors.bar      = bar == resolved.error_bars.end() ? ErrorBar() : bar->second;
     // The row comes last: where it is there, so is all that belongs to it.
+    if (of.name == pictured && has_pictures(options, load, level))
+      write_pictures(options, level, resolved.sheet, model.mesh(),
+                     {load.name, level.strain, name_of(level.law), of.name, fine.positions,
+                      of.positions, affine.positions, coarse.positions});
     if (of.name == "localized")
-    {
-      if (has_pictures(options, load, level))
-        write_pictures(options, level, resolved.sheet, model.mesh(),
-                       {load.name, level.strain, name_of(level.law), of.name, fine.positions,
-                        of.positions, affine.positions, coarse.positions});
       output.write_step(
         level, step_of(resolved, of, fluctuation, homogenized_law(level.law, cell.stiffness)));
-    }
     output.write_errors(level, of.name, resolved.sheet, n_coarse, errors);
   }
   if (!load.is_periodic() && name_of(level.law) == main_reference(options.references) &&
