@@ -186,7 +186,7 @@ class Homogenize(InFolder):
         self.assertIsNotNone(found["C_uncertainty"])
         self.assertEqual(len(found["checks"]), 5)
         for check in found["checks"]:
-            self.assertEqual(sorted(check), ["derivation", "kind", "limit", "name", "value",
+            self.assertEqual(sorted(check), ["derivation", "id", "kind", "limit", "name", "value",
                                              "verdict"])
             self.assertEqual(check["kind"], "program")
             self.assertTrue(check["derivation"])
