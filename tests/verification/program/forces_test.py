@@ -74,7 +74,7 @@ class Strain(InFolder):
                 if row["reference"] == "biot"}
         for strain in (0.1, 0.15):
             sheet = read_vtu(folder / f"sheet-strip-2-{strain}.vtu")
-            for method in ("affine", "localized"):
+            for method in ("affine", "full"):
                 error = number(rows[strain, method], "error_mean_m")
                 self.assertAlmostEqual(float(numpy.mean(sheet.point_data[f"error {method} [m]"])),
                                        error, delta=1e-5 * error)
