@@ -9,7 +9,7 @@ import broken_cells_test
 from cli import CELLS, InFolder, cut, rows_of, run, status_of
 
 TEXTS = {"cell", "study", "case", "quantity", "h_unit", "judgement", "claim", "verdict", "limit",
-         "kind", "derivation"}
+         "kind", "derivation", "id"}
 
 
 class Converge(InFolder):
