@@ -103,6 +103,8 @@ class ComparisonTest(PageTest):
         self.assertEqual(difference((100.0, 0.1), (98.0, 0.1)), "−2.00 ± 0.20 %")
         self.assertEqual(difference((100.0, math.nan), (130.0, math.nan)), "+30.0 %")
         self.assertEqual(difference((100.0, 1.0), None), "–")
+        # Of what may be zero nothing is a percentage.
+        self.assertEqual(difference((1e-20, 1e-10), (40.8, 5.2)), "from zero")
 
     def test_rows_of_two_versions_are_not_mixed(self):
         one, two = self.write("old", "strain"), self.write(

@@ -26,7 +26,7 @@ def differences(results, subjects):
             same.append(name)
             continue
         largest = max(
-            abs(pair[0] / values[0][0] - 1.0) if pair and values[0][0] else math.inf
+            math.inf if not pair or is_zero(values[0]) else abs(pair[0] / values[0][0] - 1.0)
             for pair in values[1:]
         )
         texts = ["–" if pair is None else with_bar(*pair) for pair in values]
@@ -49,14 +49,19 @@ def is_same(one, other):
     return abs(one[0] - other[0]) <= max(bars, SAME * scale)
 
 
+def is_zero(pair):
+    """Whether a (value, bar) may be zero, of which nothing is a percentage."""
+    return abs(pair[0]) <= max(pair[1], 0.0) or not pair[0]
+
+
 def difference(one, other):
     """+12 ± 3 %, from the first to another; the bar holds both."""
     if other is None:
         return "–"
     if is_same(one, other):
         return "within the bars" if max(one[1], other[1]) > 0.0 else "0"
-    if not one[0]:
-        return "–"
+    if is_zero(one):
+        return "from zero"
     change = 100.0 * (other[0] / one[0] - 1.0)
     bars = [
         bar / abs(value) for value, bar in (one, other) if bar > 0.0 and value
