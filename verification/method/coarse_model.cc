@@ -85,8 +85,8 @@ CoarseState CoarseModel::solve(const double strain, const CoarseState *const ear
         start.row(v) = state.positions.row(v);
     }
     const shell::Equilibrium found = solver->solve(start, {}, options);
-    state.positions                   = found.positions;
-    state.iterations                  = found.iterations;
+    state.positions                = found.positions;
+    state.iterations               = found.iterations;
   }
   state.without_edges = state.positions;
   return parts.edges ? with_edges(*parts.edges, state) : state;
@@ -96,9 +96,9 @@ CoarseState CoarseModel::with_edges(const EdgeTerms<2> &terms, CoarseState state
 {
   const Positions &before = state.without_edges, &rest = mesh().vertices;
   const Positions slip = terms.slip(before), forces = terms.forces(before);
-  const bool is_linear              = law == Law::linear;
+  const bool is_linear           = law == Law::linear;
   const shell::Equilibrium moved = solver->solve((is_linear ? rest : before) + slip, forces);
-  state.positions = is_linear ? before + (moved.positions - rest) : moved.positions;
+  state.positions                = is_linear ? before + (moved.positions - rest) : moved.positions;
   state.iterations += moved.iterations;
   return state;
 }

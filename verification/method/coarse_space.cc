@@ -33,7 +33,7 @@ public:
   }
 
   shell::Equilibrium solve(const Positions &start, const Positions &loads,
-                              const shell::EquilibriumOptions &options) const override
+                           const shell::EquilibriumOptions &options) const override
   {
     if (law != Law::linear)
       return solver->solve_equilibrium(start, options, loads);

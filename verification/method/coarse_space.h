@@ -65,7 +65,7 @@ public:
 
   /// Where nodes are held. Under `linear` a substitution, which counts as one step.
   virtual shell::Equilibrium solve(const Positions &start, const Positions &loads = {},
-                                      const shell::EquilibriumOptions &options = {}) const = 0;
+                                   const shell::EquilibriumOptions &options = {}) const = 0;
 
   /// Forces that hold the nodes where they are (n,2) [N]; under `linear` of small strains.
   virtual Positions gradient(const Positions &positions) const = 0;

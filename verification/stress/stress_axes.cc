@@ -201,8 +201,7 @@ void add_invariances(const UnitCell &cell, std::vector<StressAxis> &axes)
   const TheoryOfEnd promises     = TheoryOfEnd::promises;
   const std::string is_invariant = "it is the same cloth; round-off and the solver leave 1e-11";
   StressAxis turned              = named(cell, "turned and mirrored", "angle [degrees]", of_itself,
-                                         {15., 30., 45., 60., 90., 180.}, promises, 180.,
-                                         is_invariant);
+                                         {15., 30., 45., 60., 90., 180.}, promises, 180., is_invariant);
   turned.at                      = [=](const double value)
   {
     const double angle      = value * M_PI / 180.;
