@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iomanip>
 #include <limits>
 #include <map>
 #include <sstream>
@@ -220,7 +221,10 @@ void add_area_faults(const TriangleMesh &mesh, const Lattice &lattice, const std
   double enclosed = 0.;
   for (std::size_t k = 0; k < loop.size(); ++k)
   {
-    const auto a = mesh.vertices.row(loop[k]), b = mesh.vertices.row(loop[(k + 1) % loop.size()]);
+    // From a corner of the cell, that a cell far from the origin loses no digits.
+    const Eigen::RowVector2d corner = mesh.vertices.row(loop[0]),
+                             a      = mesh.vertices.row(loop[k]) - corner,
+                             b      = mesh.vertices.row(loop[(k + 1) % loop.size()]) - corner;
     enclosed += 0.5 * (a(0) * b(1) - a(1) * b(0));
   }
   if (std::abs(enclosed - lattice.area()) > 1e-6 * lattice.area())
@@ -237,9 +241,10 @@ void add_area_faults(const TriangleMesh &mesh, const Lattice &lattice, const std
   if (covered > enclosed * (1. + 1e-9))
   {
     std::ostringstream text;
-    text
-      << name << ": the triangles cover " << covered << " m^2 inside an outline of " << enclosed
-      << " m^2; expected at most that: some triangles overlap, remove one of two coinciding parts";
+    text << std::setprecision(10) << name << ": the triangles cover " << covered
+         << " m^2 inside an outline of " << enclosed
+         << " m^2; expected at most that: some triangles overlap, remove one of two coinciding "
+            "parts";
     faults.push_back({text.str(), Place()});
   }
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "verification/stress/stress_cells.h"
 
+#include "meshes/plain/errors.h"
 #include "meshes/plain/sheet.h"
 
 #include <Eigen/Geometry>
@@ -194,8 +195,22 @@ UnitCell in_units(const UnitCell &cell, const Units &units)
   }
   return other;
 }
+
+void refuse_unsound(const UnitCell &cell)
+{
+  std::vector<std::string> faults = meshes::faults_of(cell.mesh, "cell");
+  for (const Phase &phase : cell.phases)
+    for (const std::string &fault : homogenization::faults_of(phase))
+      faults.push_back(fault);
+  if (faults.empty())
+    faults = meshes::periodicity_faults(cell.mesh, cell.lattice, "cell");
+  if (!faults.empty())
+    throw meshes::BadInput(faults);
+}
+
 homogenization::Homogenization solved(const UnitCell &cell, const unsigned int order)
 {
+  refuse_unsound(cell);
   homogenization::HomogenizationOptions options;
   options.order = order;
   return homogenization::homogenize(cell, options, MPI_COMM_SELF);

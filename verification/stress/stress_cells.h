@@ -64,7 +64,10 @@ struct Units
 
 UnitCell in_units(const UnitCell &cell, const Units &units);
 
+/// @throws BadInput with the faults of mesh and phases that end the reading of a cell file
+void refuse_unsound(const UnitCell &cell);
+
 /// Homogenizes a cell on the calling rank alone, with the program's defaults but the order.
-/// @throws NotConverged, BadInput
+/// @throws NotConverged; BadInput as refuse_unsound()
 homogenization::Homogenization solved(const UnitCell &cell, unsigned int order = 1);
 } // namespace homespun::verification
