@@ -60,9 +60,9 @@ class Stress(InFolder):
         self.assertEqual((self.folder / "limits.csv").read_text(), text)
         self.assertTrue(json.loads((self.folder / "study.json").read_text())["resumed"])
         # Another run is refused, with what differs; so are rows that somebody edited.
-        other = run("stress", "--quick", "--no-report", "--output", self.folder)
+        other = run("stress", "--quick", "--no-report", "--resume", "--output", self.folder)
         self.assertEqual(other.returncode, 2)
-        self.assertIn("--overwrite removes it", other.stderr)
+        self.assertIn("expected the same to --resume", other.stderr)
         self.assertEqual(text, (self.folder / "limits.csv").read_text())
         (self.folder / "limits.csv").write_text(text.replace("ladder", "solver"))
         edited = run(*study)
