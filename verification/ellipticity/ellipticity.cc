@@ -226,6 +226,18 @@ std::optional<double> EllipticityOfLaw::at_unless_above(const Eigen::Matrix2d &F
   return least_wave(here.tangent).stiffness / at_rest;
 }
 
+PhaseEllipticity together(const std::vector<PhaseEllipticity> &phases)
+{
+  PhaseEllipticity all;
+  for (const PhaseEllipticity &phase : phases)
+  {
+    all.n_triangles += phase.n_triangles;
+    all.n_lost += phase.n_lost;
+    all.least = std::min(all.least, phase.least);
+  }
+  return all;
+}
+
 std::vector<PhaseEllipticity>
 ellipticity_of_phases(const meshes::TriangleMesh &rest,
                       const std::vector<Eigen::Matrix3d> &stiffness_of_phase, const Law law,

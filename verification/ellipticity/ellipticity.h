@@ -78,6 +78,9 @@ struct PhaseEllipticity
   double least    = 1.; ///< as a part of the value at rest, of the worst triangle
 };
 
+/// Several phases as one.
+PhaseEllipticity together(const std::vector<PhaseEllipticity> &phases);
+
 /// Of each phase of a mesh whose triangles deform evenly.
 /// @param rest rest.material being the phase of each triangle
 /// @param stiffness_of_phase (3,3) [N/m]

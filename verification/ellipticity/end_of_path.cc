@@ -2,7 +2,6 @@
 #include "verification/ellipticity/end_of_path.h"
 
 #include "meshes/plain/refine.h"
-#include "verification/ellipticity/worst_triangle.h"
 #include "verification/record/number_text.h"
 #include "verification/reference/fine_reference.h"
 
@@ -32,7 +31,7 @@ EndOnMesh end_on(const meshes::Sheet &sheet, const std::vector<Eigen::Matrix3d> 
   if (!beyond.path.points.empty())
     found.n_negative = beyond.path.points.back().n_negative;
   if (beyond.positions.rows() > 0)
-    found.least = worst_triangle(sheet.mesh, stiffness, law, beyond.positions).least;
+    found.triangles = together(ellipticity_of_phases(sheet.mesh, stiffness, law, beyond.positions));
   return found;
 }
 
@@ -52,14 +51,15 @@ std::string text_of(const EndOnMesh &mesh)
     text = "is lost at " + percent_text(mesh.farthest);
     break;
   }
-  return mesh.least ? text + " (least wave there " + short_text(*mesh.least) + " of that at rest)"
-                    : text;
+  return mesh.triangles
+           ? text + " (least wave there " + short_text(mesh.triangles->least) + " of that at rest)"
+           : text;
 }
 } // namespace
 
 Ending ending_of(const EndOnMesh &mesh)
 {
-  if (mesh.least && !(*mesh.least > 0.))
+  if (mesh.triangles && mesh.triangles->n_lost > 0)
     return Ending::law;
   switch (mesh.end)
   {
@@ -71,6 +71,12 @@ Ending ending_of(const EndOnMesh &mesh)
     break;
   }
   return Ending::unknown;
+}
+
+std::optional<Ending> ending_of(const EndOfPath &end)
+{
+  const Ending ending = ending_of(end.as_given);
+  return ending_of(end.refined) == ending ? std::optional(ending) : std::nullopt;
 }
 
 EndOfPath end_of_path(const homogenization::UnitCell &cell, const Load &load, const Law law,
@@ -90,10 +96,10 @@ std::string text_of(const EndOfPath &end)
   std::string text    = "by arc length the path of a sheet of " + n + " x " + n + " cells " +
                      text_of(end.as_given) + ", on its mesh refined once it " +
                      text_of(end.refined);
-  const Ending ending = ending_of(end.as_given);
-  if (ending_of(end.refined) != ending)
+  const std::optional<Ending> ending = ending_of(end);
+  if (!ending)
     return text + ": the two meshes end differently, so that the mesh decides";
-  switch (ending)
+  switch (*ending)
   {
   case Ending::limit_point:
     return text + ": a limit point";

@@ -6,6 +6,7 @@
 #pragma once
 
 #include "homogenization/cell/unit_cell.h"
+#include "verification/ellipticity/ellipticity.h"
 #include "verification/law/laws.h"
 #include "verification/newton/arc_length.h"
 #include "verification/reference/loads.h"
@@ -22,9 +23,8 @@ struct EndOnMesh
   PathEnd end     = PathEnd::lost;
   double farthest = 0.; ///< largest strain of an equilibrium
   int n_negative  = 0;  ///< negative eigenvalues of the tangent behind it
-  /// Least wave of its worst triangle there, as a part of that at rest; nothing where no
-  /// equilibrium was found at all.
-  std::optional<double> least;
+  /// Its triangles there; nothing where no equilibrium was found at all.
+  std::optional<PhaseEllipticity> triangles = {};
 };
 
 struct EndOfPath
@@ -45,6 +45,9 @@ enum class Ending
 /// point; else a path that turns has a limit point, and one that goes on was left by the solver.
 /// What ends a path that is lost is not known.
 Ending ending_of(const EndOnMesh &mesh);
+
+/// The same of both meshes, which may end differently: nothing then.
+std::optional<Ending> ending_of(const EndOfPath &end);
 
 /// @param strains that the study asks for, ascending, up to the one that was not reached
 EndOfPath end_of_path(const homogenization::UnitCell &cell, const Load &load, Law law,

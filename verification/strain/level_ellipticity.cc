@@ -72,9 +72,7 @@ by_group(const std::vector<PhaseEllipticity> &found, const std::vector<std::stri
       groups.push_back(phases[p]);
       of_group.emplace_back();
     }
-    of_group[g].n_triangles += found[p].n_triangles;
-    of_group[g].n_lost += found[p].n_lost;
-    of_group[g].least = std::min(of_group[g].least, found[p].least);
+    of_group[g] = together({of_group[g], found[p]});
   }
   return {groups, of_group};
 }
@@ -150,18 +148,19 @@ std::string note_of_stop(const StrainLevel &level, const StoppedReference &stopp
 }
 
 /// What ends the path of a small sheet up to the level.
-std::string note_of_path(const StrainLevel &level, const StoppedReference &stopped,
-                         const std::vector<double> &path)
+EndOfPath end_of(const StrainLevel &level, const StoppedReference &stopped,
+                 const std::vector<double> &path)
 {
   constexpr int most_cells = 2; // a sheet that is resolved twice, by a direct solver
-  return "; " + text_of(end_of_path(
-                  stopped.cell, Load(level.load), level.law,
-                  {path.begin(), std::upper_bound(path.begin(), path.end(), level.strain)},
-                  std::min({stopped.sheet.n1, stopped.sheet.n2, most_cells})));
+  return end_of_path(stopped.cell, Load(level.load), level.law,
+                     {path.begin(), std::upper_bound(path.begin(), path.end(), level.strain)},
+                     std::min({stopped.sheet.n1, stopped.sheet.n2, most_cells}));
 }
 
+/// @param end of the small sheet's path, where the law ends it: on the way there from the last
+///   equilibrium of the study ellipticity is lost
 void write_ellipticity_of(const StrainLevel &level, const StoppedReference &stopped,
-                          StrainOutput &output)
+                          const std::optional<EndOfPath> &end, StrainOutput &output)
 {
   StrainLevel last = level;
   last.strain      = stopped.step.stopped_at;
@@ -174,6 +173,12 @@ void write_ellipticity_of(const StrainLevel &level, const StoppedReference &stop
              names);
   for (std::size_t g = 0; g < groups.size(); ++g)
     output.ellipticity.append_if_missing(row_of(last, groups[g], of_group[g]));
+  if (!end || ending_of(*end) != Ending::law || !(end->as_given.farthest > last.strain))
+    return;
+  const std::string n = std::to_string(end->n_cells), part = "sheet of " + n + " x " + n + " cells";
+  output.ellipticity.append_if_missing(row_of(last, part, together(of_group)));
+  last.strain = end->as_given.farthest;
+  output.ellipticity.append_if_missing(row_of(last, part, *end->as_given.triangles));
 }
 } // namespace
 
@@ -185,11 +190,15 @@ void write_stop(const StrainLevel &level, const StoppedReference &stopped,
     worst = worst_triangle(stopped.sheet.mesh, stopped.cell.stiffness_of_phase(), level.law,
                            stopped.step.positions);
   std::string note = note_of_stop(level, stopped, worst);
+  std::optional<EndOfPath> end;
   if (worst && !worst->is_lost && !path.empty() && !Load(level.load).is_periodic())
-    note += note_of_path(level, stopped, path);
+  {
+    end = end_of(level, stopped, path);
+    note += "; " + text_of(*end);
+  }
   output.write_note(level, note);
   if (worst && stopped.step.stopped_at > 0.)
-    write_ellipticity_of(level, stopped, output);
+    write_ellipticity_of(level, stopped, end, output);
 }
 
 void write_coarse_ellipticity(const StrainLevel &level, const meshes::TriangleMesh &coarse,

@@ -7,9 +7,13 @@ using namespace homespun::verification;
 
 TEST(exact_end_of_path, it_is_a_limit_point_a_law_that_ends_the_solver_or_not_known)
 {
-  const EndOnMesh turned{PathEnd::turned, 0.12, 1, 0.4},
-    lost_on_the_way{PathEnd::turned, 0.12, 1, -0.6}, goes_on{PathEnd::reached, 0.3, 0, 0.4},
-    stopped{PathEnd::lost, 0.1, 0, 0.4};
+  const PhaseEllipticity elliptic{8, 0, 0.4}, lost = together({elliptic, {8, 1, -0.6}});
+  EXPECT_EQ(lost.n_triangles, 16);
+  EXPECT_EQ(lost.n_lost, 1);
+  EXPECT_EQ(lost.least, -0.6);
+  const EndOnMesh turned{PathEnd::turned, 0.12, 1, elliptic},
+    lost_on_the_way{PathEnd::turned, 0.12, 1, lost}, goes_on{PathEnd::reached, 0.3, 0, elliptic},
+    stopped{PathEnd::lost, 0.1, 0, elliptic};
   EXPECT_EQ(ending_of(turned), Ending::limit_point);
   EXPECT_EQ(ending_of(lost_on_the_way), Ending::law);
   EXPECT_EQ(ending_of(goes_on), Ending::solver);
