@@ -152,35 +152,45 @@ void ReferenceUncertainty::add_errors(const Measurement &what, const meshes::She
           });
 }
 
-/// Rank 0 keeps the table; whether a row is there is told to all.
-bool ReferenceUncertainty::look_up(const Measurement &what, const double strain,
-                                   Distances &known) const
+/// The row of a table that rank 0 keeps. One without refined P2 does not answer a request with it,
+/// unless P1 was not reached.
+const UncertaintyRow *ReferenceUncertainty::stored(const Measurement &what, const double strain,
+                                                   const std::string &method) const
 {
-  const UncertaintyRow wanted   = {cell.name, load.name, name_of(what.law), strain, what.n_cells};
-  std::array<double, 10> stored = {};
-  if (table && table->contains(wanted))
+  const UncertaintyRow wanted = {cell.name, load.name,    name_of(what.law),
+                                 strain,    what.n_cells, method};
+  if (table != nullptr)
     for (const UncertaintyRow &row : table->rows())
-      // A row without refined P2 does not answer a request with it, unless P1 was not reached.
       if (keys_of_row(row) == keys_of_row(wanted) &&
           (what.ladder == Ladder::p1_p2 || std::isfinite(row.p1_to_refined) ||
            !std::isfinite(row.p1_to_p2)))
-        stored = {1.,
-                  row.p1_to_p2,
-                  row.p1_to_refined,
-                  row.p2_to_refined,
-                  row.p1_to_p2_max,
-                  row.p1_to_refined_max,
-                  row.p2_to_refined_max,
-                  row.force_p1_to_p2,
-                  row.force_p1_to_refined,
-                  row.force_p2_to_refined};
-  MPI_Bcast(stored.data(), static_cast<int>(stored.size()), MPI_DOUBLE, 0, communicator);
-  if (!(stored[0] > 0.))
+        return &row;
+  return nullptr;
+}
+
+/// Whether a row is there is told to all.
+bool ReferenceUncertainty::look_up(const Measurement &what, const double strain,
+                                   Distances &known) const
+{
+  std::array<double, 10> told = {};
+  if (const UncertaintyRow *const row = stored(what, strain, UncertaintyRow::of_reference))
+    told = {1.,
+            row->p1_to_p2,
+            row->p1_to_refined,
+            row->p2_to_refined,
+            row->p1_to_p2_max,
+            row->p1_to_refined_max,
+            row->p2_to_refined_max,
+            row->force_p1_to_p2,
+            row->force_p1_to_refined,
+            row->force_p2_to_refined};
+  MPI_Bcast(told.data(), static_cast<int>(told.size()), MPI_DOUBLE, 0, communicator);
+  if (!(told[0] > 0.))
     return false;
-  const bool reached = std::isfinite(stored[1]);
-  known.mean         = {stored[1], stored[2], stored[3], reached};
-  known.max          = {stored[4], stored[5], stored[6], reached};
-  known.force        = {stored[7], stored[8], stored[9], reached};
+  const bool reached = std::isfinite(told[1]);
+  known.mean         = {told[1], told[2], told[3], reached};
+  known.max          = {told[4], told[5], told[6], reached};
+  known.force        = {told[7], told[8], told[9], reached};
   return true;
 }
 
@@ -189,25 +199,22 @@ bool ReferenceUncertainty::look_up_errors(const Measurement &what, const double 
 {
   bool is_known = true;
   for (const std::string &name : methods.names)
-  {
-    const ErrorBarRow wanted = {cell.name, load.name,    name_of(what.law),
-                                strain,    what.n_cells, name};
-    is_known                 = is_known && methods.table && methods.table->contains(wanted);
-    if (is_known)
-      for (const ErrorBarRow &row : methods.table->rows())
-        if (keys_of_row(row) == keys_of_row(wanted))
-          known.errors[name] = {row.p1_to_p2, row.p1_to_refined, row.p2_to_refined,
-                                std::isfinite(row.p1_to_p2)};
-  }
+    if (const UncertaintyRow *const row = stored(what, strain, name))
+      known.errors[name] = {row->p1_to_p2, row->p1_to_refined, row->p2_to_refined,
+                            std::isfinite(row->p1_to_p2)};
+    else
+      is_known = false;
   return answer_of_root(is_known, communicator);
 }
 
 void ReferenceUncertainty::keep(const Measurement &what, const double strain,
                                 const Distances &measured) const
 {
-  for (const auto &[name, of] : measured.errors)
+  if (!table)
+    return;
+  const auto row_of = [&](const std::string &method, const DiscretizationDistance &of)
   {
-    ErrorBarRow row = {cell.name, load.name, name_of(what.law), strain, what.n_cells, name};
+    UncertaintyRow row = {cell.name, load.name, name_of(what.law), strain, what.n_cells, method};
     if (of.reached)
       row.p1_to_p2 = of.p1_to_p2;
     if (of.reached && what.ladder == Ladder::with_refined_p2)
@@ -216,27 +223,22 @@ void ReferenceUncertainty::keep(const Measurement &what, const double strain,
       row.p2_to_refined = of.p2_to_refined;
       row.bar           = of.uncertainty(order) / (strain * side);
     }
-    if (methods.table)
-      methods.table->append_if_missing(row);
-  }
-  if (!table)
-    return;
-  UncertaintyRow row = {cell.name, load.name, name_of(what.law), strain, what.n_cells};
+    return row;
+  };
+  for (const auto &[name, of] : measured.errors)
+    table->append_if_missing(row_of(name, of));
+  UncertaintyRow row = row_of(UncertaintyRow::of_reference, measured.mean);
   if (measured.mean.reached)
   {
-    row.p1_to_p2       = measured.mean.p1_to_p2;
     row.p1_to_p2_max   = measured.max.p1_to_p2;
     row.force_p1_to_p2 = measured.force.p1_to_p2;
     if (what.ladder == Ladder::with_refined_p2)
     {
-      row.p1_to_refined       = measured.mean.p1_to_refined;
-      row.p2_to_refined       = measured.mean.p2_to_refined;
       row.p1_to_refined_max   = measured.max.p1_to_refined;
       row.p2_to_refined_max   = measured.max.p2_to_refined;
       row.force_p1_to_refined = measured.force.p1_to_refined;
       row.force_p2_to_refined = measured.force.p2_to_refined;
       const ReferenceBar bar  = bar_of(measured, strain);
-      row.bar                 = bar.mean;
       row.bar_max             = bar.max;
       row.force_bar           = bar.force;
     }

@@ -45,7 +45,6 @@ struct ErrorBar
 struct MethodsOfCell
 {
   std::vector<std::string> names             = {};
-  Table<ErrorBarRow> *table                  = nullptr; ///< as that of the reference
   std::function<const CellLadder &()> ladder = {}; ///< asked by all ranks at once; none: no bars
   const std::map<Law, meshes::FittedModes> *fitted = nullptr; ///< first rank
 };
@@ -127,6 +126,8 @@ private:
                   std::vector<Distances> &distances) const;
   bool look_up(const Measurement &what, double strain, Distances &known) const;
   bool look_up_errors(const Measurement &what, double strain, Distances &known) const;
+  const UncertaintyRow *stored(const Measurement &what, double strain,
+                               const std::string &method) const;
   void keep(const Measurement &what, double strain, const Distances &measured) const;
   ReferenceBar bar_of(const Distances &distances, double strain) const;
   void keep_bars(Law law, double strain, double measured_at, const Distances &distances);

@@ -347,14 +347,16 @@ double bar_of_p2(const std::vector<UncertaintyRow> &rows, const StrainLevel &lev
   double small = unknown, full = unknown, of_p2 = unknown;
   int n_small = 0;
   for (const UncertaintyRow &row : rows)
-    if (row.cell == level.cell && row.load == level.load && std::isfinite(row.p2_to_refined))
+    if (row.cell == level.cell && row.load == level.load && row.is_of_reference() &&
+        std::isfinite(row.p2_to_refined))
     {
       n_small = row.cells;
       if (row.reference == name_of(level.law) || !std::isfinite(of_p2))
         of_p2 = row.p2_to_refined / row.strain;
     }
   for (const UncertaintyRow &row : rows)
-    if (row.cell == level.cell && row.load == level.load && row.reference == name_of(Law::linear))
+    if (row.cell == level.cell && row.load == level.load && row.is_of_reference() &&
+        row.reference == name_of(Law::linear))
     {
       if (row.cells == n_small)
         small = row.p1_to_p2 / row.strain;

@@ -15,7 +15,7 @@ struct StrainCommand
   using Options = StrainStudyOptions;
   using Tables =
     TablesOf<StrainRow, GainRow, StepRow, ForceRow, EllipticityRow, NoteRow, UncertaintyRow,
-             ErrorBarRow, BudgetRow, SecondCodeRow, EnergyRow, RunTimeRow, ValidityRow>;
+             BudgetRow, SecondCodeRow, EnergyRow, RunTimeRow, ValidityRow>;
   static void add(CommandLine &line);
   static constexpr auto run = run_strain_study;
 };

@@ -49,7 +49,6 @@ std::unique_ptr<Table<Row>> table_if(const bool is_wanted, const std::string &fo
 StrainOutput::StrainOutput(const StrainStudyOptions &options,
                            std::function<void(const std::string &)> tell)
     : uncertainty(options.output)
-    , error_bars(options.output)
     , ellipticity(options.output)
     , budget(table_if<BudgetRow>(options.budget, options.output))
     , second(table_if<SecondCodeRow>(options.budget, options.output))

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What a strain study leaves on the disk as it goes on: the tables strain.csv (errors), forces.csv,
-// steps.csv (times), uncertainty.csv, error-bars.csv, ellipticity.csv, notes.csv, budget.csv,
+// steps.csv (times), uncertainty.csv, ellipticity.csv, notes.csv, budget.csv,
 // second-code.csv, energies.csv and runtime.csv, and at its end gains.csv and validity.csv. First
 // rank alone.
 #pragma once
@@ -103,7 +103,6 @@ public:
   }
 
   Table<UncertaintyRow> uncertainty;
-  Table<ErrorBarRow> error_bars;
   Table<EllipticityRow> ellipticity;
   std::unique_ptr<Table<BudgetRow>> budget;     ///< none where it is left out
   std::unique_ptr<Table<SecondCodeRow>> second; ///< with the budget

@@ -194,8 +194,7 @@ private:
        options.n_cells,
        options.n_cells_of_error_bar,
        options.strains.back(),
-       {distinct_methods(options.methods, laws, load), output ? &output->error_bars : nullptr,
-        ladder, &fitted}},
+       {distinct_methods(options.methods, laws, load), ladder, &fitted}},
       output ? &output->uncertainty : nullptr, communicator,
       [&](const std::string &what) { progress.begin(cell.name + ", " + load.name + ": " + what); });
     progress.done();

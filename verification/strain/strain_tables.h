@@ -241,17 +241,20 @@ struct ForceRow
 };
 
 /// uncertainty.csv: distances between discretizations of one reference, means over the vertices and
-/// largest, and those of their forces. Not a number where one of them was not reached or not asked
+/// largest, and those of their forces; or of the errors of one method, method and reference of the
+/// same discretization, means alone. Not a number where one of them was not reached or not asked
 /// for.
 struct UncertaintyRow
 {
-  static constexpr const char *file   = "uncertainty.csv";
-  static constexpr std::size_t n_keys = 5;
-  static constexpr double none        = std::numeric_limits<double>::quiet_NaN();
+  static constexpr const char *file         = "uncertainty.csv";
+  static constexpr const char *of_reference = "reference"; ///< in the place of a method
+  static constexpr std::size_t n_keys       = 6;
+  static constexpr double none              = std::numeric_limits<double>::quiet_NaN();
 
   std::string cell, load, reference;
   double strain        = 0.;
-  int cells            = 0;    ///< per side of the sheet that was measured
+  int cells            = 0; ///< per side of the sheet that was measured
+  std::string method   = of_reference;
   double p1_to_p2      = none; ///< |P1 − P2| [m]
   double p1_to_refined = none; ///< |P1 − refined P2| [m]
   double p2_to_refined = none; ///< |P2 − refined P2| [m]
@@ -259,6 +262,11 @@ struct UncertaintyRow
   double bar = none, bar_max = none; ///< per strain and cell side
   double force_p1_to_p2 = none, force_p1_to_refined = none, force_p2_to_refined = none,
          force_bar = none; ///< of the force along the load, over that of P1 [-]
+
+  bool is_of_reference() const
+  {
+    return method == of_reference;
+  }
 
   template <typename Column>
   static void columns(Column &&column)
@@ -268,6 +276,7 @@ struct UncertaintyRow
     column("reference", &UncertaintyRow::reference, Domain::name);
     column("strain", &UncertaintyRow::strain, Domain::positive);
     column("cells", &UncertaintyRow::cells, Domain::positive);
+    column("method", &UncertaintyRow::method, Domain::name);
     column("p1_minus_p2_m", &UncertaintyRow::p1_to_p2, Domain::not_negative);
     column("p1_minus_refined_p2_m", &UncertaintyRow::p1_to_refined, Domain::not_negative);
     column("p2_minus_refined_p2_m", &UncertaintyRow::p2_to_refined, Domain::not_negative);
@@ -280,40 +289,6 @@ struct UncertaintyRow
     column("force_p1_minus_refined_p2", &UncertaintyRow::force_p1_to_refined, Domain::not_negative);
     column("force_p2_minus_refined_p2", &UncertaintyRow::force_p2_to_refined, Domain::not_negative);
     column("force_uncertainty", &UncertaintyRow::force_bar, Domain::not_negative);
-  }
-};
-
-/// error-bars.csv: distances between errors of one method, method and reference of the same
-/// discretization, means over the vertices. Not a number where one of them was not reached or not
-/// asked for.
-struct ErrorBarRow
-{
-  static constexpr const char *file   = "error-bars.csv";
-  static constexpr std::size_t n_keys = 6;
-  static constexpr double none        = std::numeric_limits<double>::quiet_NaN();
-
-  std::string cell, load, reference;
-  double strain = 0.;
-  int cells     = 0; ///< per side of the sheet that was measured
-  std::string method;
-  double p1_to_p2      = none; ///< |error of P1 − error of P2| [m]
-  double p1_to_refined = none; ///< |error of P1 − error of refined P2| [m]
-  double p2_to_refined = none; ///< |error of P2 − error of refined P2| [m]
-  double bar           = none; ///< per strain and cell side
-
-  template <typename Column>
-  static void columns(Column &&column)
-  {
-    column("cell", &ErrorBarRow::cell, Domain::name);
-    column("load", &ErrorBarRow::load, Domain::name);
-    column("reference", &ErrorBarRow::reference, Domain::name);
-    column("strain", &ErrorBarRow::strain, Domain::positive);
-    column("cells", &ErrorBarRow::cells, Domain::positive);
-    column("method", &ErrorBarRow::method, Domain::name);
-    column("p1_minus_p2_m", &ErrorBarRow::p1_to_p2, Domain::not_negative);
-    column("p1_minus_refined_p2_m", &ErrorBarRow::p1_to_refined, Domain::not_negative);
-    column("p2_minus_refined_p2_m", &ErrorBarRow::p2_to_refined, Domain::not_negative);
-    column("error_bar_per_strain_and_side", &ErrorBarRow::bar, Domain::not_negative);
   }
 };
 

@@ -148,67 +148,68 @@ private:
     return assessed.checks;
   }
 
+  template <typename Options, typename Run>
+  std::vector<Verdict> of_cells(Options study, const Run &run, const std::string &folder) const
+  {
+    study.cell_files  = options.cell_files;
+    study.output      = folder;
+    study.command     = options.command;
+    study.earlier     = Earlier::keep_work; // the whole has been taken up, or begun anew
+    study.quiet       = options.quiet;
+    study.homogenized = homogenized;
+    return run(study, communicator);
+  }
+
   std::vector<Verdict> strain(const std::string &folder) const
   {
     StrainStudyOptions study = default_strain_study();
-    study.cell_files         = options.cell_files;
     if (options.is_quick)
       make_quick(study);
-    take_run(study, folder);
-    return run_strain_study(study, communicator);
+    return of_cells(study, run_strain_study, folder);
   }
 
   /// Pulled along axis 1, sides free.
   std::vector<Verdict> load(const std::string &folder) const
   {
     LoadStudyOptions study;
-    study.cell_files = options.cell_files;
-    study.control    = load_control({}, {"11=5%"}, 0);
+    study.control = load_control({}, {"11=5%"}, 0);
     if (options.is_quick)
       study.n_steps = 5;
-    take_run(study, folder);
-    return run_load_study(study, communicator);
+    return of_cells(study, run_load_study, folder);
   }
 
   /// Pressed along both axes, sides free.
   std::vector<Verdict> stability(const std::string &folder) const
   {
     StabilityStudyOptions study;
-    study.cell_files = options.cell_files;
     if (options.is_quick)
     {
       study.strains       = {-0.05};
       study.n_refinements = 0;
     }
-    take_run(study, folder);
-    return run_stability_study(study, communicator);
+    return of_cells(study, run_stability_study, folder);
   }
 
   std::vector<Verdict> converge(const std::string &folder) const
   {
     ConvergenceStudyOptions study;
-    study.cell_files = options.cell_files;
-    study.studies    = convergence_studies();
-    study.is_quick   = options.is_quick;
-    take_run(study, folder);
-    return run_convergence_study(study, communicator);
+    study.studies  = convergence_studies();
+    study.is_quick = options.is_quick;
+    return of_cells(study, run_convergence_study, folder);
   }
 
   std::vector<Verdict> stress(const std::string &folder) const
   {
     StressStudyOptions study;
-    study.cell_files = options.cell_files;
     if (options.is_quick)
       make_quick(study);
-    take_run(study, folder);
-    return run_stress_study(study, communicator);
+    return of_cells(study, run_stress_study, folder);
   }
 
   std::vector<Verdict> drape(const std::string &scene, const std::string &folder) const
   {
     DrapeOptions study;
     study.scene_file = cells_folder() + "/../scenes/" + scene + ".prm";
-    study.cell_files = options.cell_files;
     study.methods    = {"affine", "localized"};
     study.references = {"biot"};
     // The reference takes seconds per step at the paper's size, and minutes to hours over all
@@ -223,18 +224,7 @@ private:
       study.n_cells              = 8;
       study.n_cells_of_error_bar = 4;
     }
-    take_run(study, folder);
-    return run_drape_study(study, communicator);
-  }
-
-  template <typename Study>
-  void take_run(Study &study, const std::string &folder) const
-  {
-    study.output      = folder;
-    study.command     = options.command;
-    study.earlier     = Earlier::keep_work; // the whole has been taken up, or begun anew
-    study.quiet       = options.quiet;
-    study.homogenized = homogenized;
+    return of_cells(study, run_drape_study, folder);
   }
 
   const VerifyOptions options;

@@ -127,6 +127,7 @@ def write_results(folder):
             {
                 **level,
                 "cells": 2,
+                "method": "reference",
                 "p1_minus_p2_m": 1e-6,
                 "p1_minus_refined_p2_m": 1.2e-6,
                 "p2_minus_refined_p2_m": 2e-7,

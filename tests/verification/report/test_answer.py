@@ -8,31 +8,20 @@ import unittest
 import report_path  # noqa: F401
 import browser
 import h5py
-import numpy
 from figures import style
 from matplotlib import pyplot
-from made_up_run import list_again, verdict, write_run, write_verdicts
+from made_up_error import BAR, row
+from made_up_run import list_again, write_run, write_verdicts
 from made_up_study import write_results
-from page import answer, claims, entries, plausible
-from page.answer_pictures import as_homespun, sheet_of_answer
+from page import answer, entries
+from page.answer_pictures import sheet_of_answer
 from page.glossary import GLOSSARY
-from page.headline import finer_mesh_sentence, headline, infinite_line
 from page.run_contents import self_tests
 from page_case import PageTest, draw_alone
 from read.cell_results import Cell
 from read.results import read_results
 from read.schema import main_method
 from test_budget import write_budget
-
-BAR = 1e-6  # of an error, cell sides of 1 cm
-
-
-def row(error, bar=BAR):
-    return {
-        "error_mean_per_cell": error,
-        "error_mean_m": 0.01 * error,
-        "error_bar_m": 0.01 * bar,
-    }
 
 
 def parts(**shares):
@@ -173,205 +162,6 @@ class SentenceTest(unittest.TestCase):
     def test_shares_keep_a_digit_where_none_would_say_nothing_or_all(self):
         for value, text in ((0.7412, "74"), (0.9989, "99.89"), (0.001, "0.1"), (0.5, "50")):
             self.assertEqual(answer.share(value), text)
-
-
-class HeadlineTest(unittest.TestCase):
-    def lines(self, **marks):
-        """load -> (mark, change), as answer.line_of() has them."""
-        return [
-            {"load": load.replace("_", "-"), "mark": mark, "change": change, "gain": 0.5,
-             "left_per_cell": 1e-3, "valid": "5 %"}
-            for load, (mark, change) in marks.items()
-        ]
-
-    def test_one_sentence_says_in_which_sheets_it_pays_and_in_which_not(self):
-        lines = self.lines(
-            strip_1=("better", "−40 %"), strip_2=("better", "−60 %"), shear_frame=("worse", "+12 %"),
-            periodic_11=("worse", "+99 %"),
-        )
-        self.assertEqual(
-            headline(lines, "1 %", "full"),
-            "At 1 % strain up-sampling (full) pays in strip-1 (−40 %) and strip-2 (−60 % of the error"
-            " of its coarse cloth); it does not pay in shear-frame (+12 % of the error of its coarse"
-            " cloth).",
-        )
-        undecided = self.lines(strip_1=("open", "≈ 0"), strip_2=("open", "–"))
-        self.assertEqual(
-            headline(undecided, "1 %", "full"),
-            "At 1 % strain up-sampling (full) makes no difference that can be told in strip-1; it"
-            " cannot be judged in strip-2, where no base was run.",
-        )
-
-    def test_the_infinite_cloth_has_one_line(self):
-        lines = self.lines(strip_1=("better", "−40 %"), periodic_11=("better", "−50 %"),
-                           periodic_12=("worse", "+9 %"))
-        lines[0]["left_per_cell"], lines[1]["left_per_cell"] = 0.5, 1e-4  # of no account
-        line = infinite_line(lines)
-        self.assertEqual(line["load"], "periodic-11, periodic-12")
-        self.assertEqual(line["change"], "−50 %")
-        self.assertIn("at most 0.100 % of a cell side is left (periodic-12)", line["short"])
-        self.assertIn("does not pay in periodic-12", line["short"])
-        self.assertIsNone(infinite_line(self.lines(strip_1=("better", "−40 %"))))
-
-    def test_a_finer_coarse_mesh_is_spoken_of_as_the_run_measured_it(self):
-        level = {"load": "strip-1", "strain": 0.01, "reference": "biot"}
-        rows = [{**row(1e-2), **level, "method": "localized", "coarse_triangles": 800, "cells": 20}]
-
-        def ways(error):
-            return [
-                {**level, "way": way, "error_mean_per_cell": value}
-                for way, value in (("localized-10", 9e-2), ("localized-40", error),
-                                   ("affine-40", 5e-9), ("localized+p2-40", 5e-9))
-            ]
-
-        self.assertEqual(
-            finer_mesh_sentence(rows, ways(0.5e-2), "biot"),
-            "2 coarse quads per cell side would take away 50 % of what the paper's method leaves"
-            " (strip-1, 1 %).",
-        )
-        self.assertIn("would add 20 %", finer_mesh_sentence(rows, ways(1.2e-2), "biot"))
-        self.assertIn("by less than 5 %", finer_mesh_sentence(rows, ways(0.98e-2), "biot"))
-        self.assertEqual(finer_mesh_sentence(rows, ways(0.5e-2)[:1], "biot"), "")
-        self.assertEqual(finer_mesh_sentence(rows, ways(0.5e-2), "green"), "")
-
-    def test_curves_of_the_first_screen_have_names_that_need_no_glossary(self):
-        level = {"load": "strip-1", "strain": 0.01, "reference": "biot"}
-        rows = [{**row(1e-3), **level, "method": method}
-                for method in ("affine", "localized", "full", "localized+p2")]
-        base = [{**row(1e-3), **level, "method": "base"}]
-        endless = [{**rows[0], "load": "periodic-11"}]
-        shown, names = as_homespun(rows + endless, base, {"strip-1": "full"})
-        self.assertEqual(names, ["coarse mesh", "paper", "coarse cloth of homespun", "homespun"])
-        self.assertEqual({one["load"] for one in shown}, {"strip-1"})
-        self.assertEqual(as_homespun(rows, [], {"strip-1": "localized"})[1],
-                         ["coarse mesh", "paper"])
-        # Each is told from the others in black and white.
-        self.assertEqual(len({style.method_style(name) for name in names}), 4)
-
-
-class OneStiffnessTest(unittest.TestCase):
-    """C^H is the centre of the narrowest bracket, whichever run made it."""
-
-    def made(self, value, half, bracket_of="mesh", **others):
-        C = numpy.diag([value, 900.0, 300.0])
-        return {"C": (C + 0.5 * half).tolist(), "C_lower": (C - half * numpy.eye(3)).tolist(),
-                "C_upper": (C + half * numpy.eye(3)).tolist(), "bracket_of": bracket_of,
-                "bracket": {"width": 2.0 * half / value}, **others}
-
-    def test_the_bar_is_half_of_the_bracket_about_its_centre(self):
-        cell = Cell("a", homogenize=self.made(1115.0, 1.8), command="homogenize")
-        self.assertEqual(entries.entry_texts(cell, "C")["11"], ("1115.0", "1.8"))
-        self.assertEqual(entries.entry_texts(cell, "C")["12"], ("0", "1.8"))
-
-    def test_of_several_runs_the_narrowest_counts_and_that_of_the_drawing_before_it(self):
-        cell = Cell("a", homogenize=self.made(1169.0, 63.0), command="strain",
-                    others=[("homogenize", self.made(1115.0, 1.8))])
-        self.assertEqual(entries.entry_texts(cell, "C")["11"], ("1115.0", "1.8"))
-        cell.others.append(("homogenize", self.made(1113.7, 2.5, "drawing")))
-        self.assertEqual(entries.entry_texts(cell, "C")["11"], ("1113.7", "2.5"))
-        self.assertIn("of the drawing", entries.bracket_words(cell))
-        # What the studies computed with stands apart, and has no bar.
-        used = entries.used_stiffnesses(cell)
-        self.assertEqual(used["rows"][0], ["C11", "1200.5", "1115.9", "1115.0"])
-
-    def test_a_bending_stiffness_comes_of_the_run_that_has_one(self):
-        cell = Cell("a", homogenize=self.made(1000.0, 1.0),
-                    others=[("homogenize", self.made(1000.0, 2.0, D=numpy.eye(3).tolist()))])
-        self.assertEqual(entries.entry_texts(cell, "D", 1.0)["11"], ("1.00", "–"))
-
-
-class PlausibleTest(unittest.TestCase):
-    def cell(self, C11, angles=(0.0, 90.0), D11=5e-5):
-        phases = [{"E1": 1e9, "E2": 1e7, "angle": angle} for angle in angles]
-        D = numpy.diag([D11, 5e-5, 1e-5])
-        return Cell("weave", homogenize={"C": numpy.diag([C11, 1000.0, 50.0]).tolist(),
-                                         "D": D.tolist()}, phases=phases)
-
-    def test_what_is_outside_of_measured_cloth_is_named_with_both_numbers(self):
-        sentence = plausible.plausible_sentences(self.cell(9.0e4))[0]
-        self.assertIn("C11 = 90000 N/m, 44.2 times the largest measured (2035", sentence.replace("2040", "2035"))
-        self.assertIn("within: C22, C66, D11", sentence)
-        self.assertTrue(
-            plausible.plausible_sentences(self.cell(500.0, (0.0,)))[0].startswith("Within measured")
-        )
-        self.assertIn("D11 = 0.500", plausible.plausible_sentences(self.cell(500.0, D11=5e-7))[0])
-
-    def test_of_crossing_yarns_three_sentences_say_what_is_left_out(self):
-        woven = plausible.plausible_sentences(self.cell(500.0))
-        self.assertEqual(len(woven), 4)
-        self.assertIn("glues", woven[1])
-        for angles in ((0.0,), (0.0, 10.0), (0.0, 180.0), (175.0, 5.0)):
-            self.assertEqual(len(plausible.plausible_sentences(self.cell(500.0, angles))), 1, angles)
-
-    def test_the_bias_is_held_against_the_warp(self):
-        cell = self.cell(500.0)
-        measures = {name: value for name, value, _, _ in plausible.measures_of(cell)}
-        D = numpy.diag([5e-5, 5e-5, 1e-5])
-        S = numpy.linalg.inv(D)
-        e = numpy.array([0.5, 0.5, 0.5])
-        self.assertAlmostEqual(measures["bending on the bias over warp"], 1.0 / (e @ S @ e) / 5e-5)
-
-
-class ClaimTest(unittest.TestCase):
-    BUDGET = [
-        {
-            "cell": "a",
-            "load": "strip-2",
-            "strain": 0.01,
-            "reference": "biot",
-            "region": "all",
-            "part": part,
-            "share": value,
-            "mean_m": value,
-        }
-        for part, value in (("slip", 0.8), ("rest", 0.2), ("total", 1.0))
-    ]
-
-    def claim(self, text, outcome, kind, name=""):
-        made = {**verdict(text, outcome, 1.58, "< 1", kind), "id": name}
-        return claims.claim_contents(made, [], "", self.BUDGET)
-
-    def test_a_claim_that_names_no_strain_has_no_cause(self):
-        text = ("stripes, biot, uniaxial-1, pulled: every strain has a periodic state on both meshes "
-                "(paths that ended before)")
-        self.assertEqual(self.claim(text, "INCONCLUSIVE", "method")["why"], "")
-
-    def test_a_claim_on_the_method_that_fails_says_why_and_what_to_do(self):
-        text = "a, strip-2: localized is closer to biot than affine at strain 0.01 (ratio)"
-        row = self.claim(text, "FAIL", "method", "closer-than.affine")
-        self.assertIn("which the anchor leaves out (80 % of it)", row["why"])
-        self.assertIn("coarse mesh alone", row["advice"])
-        self.assertEqual(self.claim(text, "PASS", "method")["advice"], "")
-        # What a method takes away is no reason for what it leaves.
-        row = self.claim(text.replace("localized", "full"), "FAIL", "method")
-        self.assertIn("above all because cells are not small", row["why"])
-        row = self.claim(text.replace("localized is", "full is").replace("affine", "its base"),
-                         "FAIL", "method", "closer-than.base")
-        self.assertIn("without up-sampling", row["advice"])
-        row = self.claim(text.replace("localized is", "full is").replace("affine", "localized"),
-                         "FAIL", "method", "closer-than.localized")
-        self.assertIn("take the paper's method", row["advice"])
-
-    def test_every_kind_says_what_to_do_where_nothing_else_is_known(self):
-        for kind, words in (
-            ("program", "report it"),
-            ("input", "homespun check"),
-            ("method", "do not rest on it"),
-        ):
-            self.assertIn(words, self.claim("something else", "FAIL", kind)["advice"])
-            # What is open condemns nothing.
-            advice = self.claim("something else", "INCONCLUSIVE", kind)["advice"]
-            self.assertTrue(advice.startswith("Not decided"), advice)
-
-    def test_what_does_not_hold_stands_apart_from_what_holds(self):
-        rows = [
-            self.claim(str(i), outcome, "program")
-            for i, outcome in enumerate(("PASS", "INCONCLUSIVE", "FAIL", "PASS"))
-        ]
-        (group,) = claims.claim_groups(rows)
-        self.assertEqual([v["claim"] for v in group["open"]], ["2", "1"])
-        self.assertEqual([v["claim"] for v in group["held"]], ["0", "3"])
-        self.assertEqual(group["worst"]["verdict"], "FAIL")
 
 
 class AnswerPageTest(PageTest):

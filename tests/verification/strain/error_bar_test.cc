@@ -19,7 +19,7 @@ using namespace homespun::verification;
 
 namespace
 {
-constexpr double strain                  = 1e-3; // any: the law is linear
+constexpr double any_strain              = 1e-3; // the law is linear
 const std::vector<std::string> of_sheets = {"affine", "localized", "full-micro", "full"};
 const std::map<Law, meshes::FittedModes> no_modes;
 
@@ -34,18 +34,25 @@ CellLadder ladder_of_cell(const homogenization::UnitCell &cell)
                    MPI_COMM_SELF);
 }
 
+ReferenceUncertainty uncertainty(const homogenization::UnitCell &cell, const CellLadder &ladder,
+                                 const std::string &load, const int n_cells, const int n_small)
+{
+  return {cell,
+          Load(load),
+          {{Law::linear},
+           n_cells,
+           n_small,
+           any_strain,
+           {of_sheets, [&]() -> const CellLadder & { return ladder; }, &no_modes}},
+          nullptr,
+          MPI_COMM_SELF,
+          [](const std::string &) {}};
+}
+
 std::map<std::string, ErrorBar> bars(const homogenization::UnitCell &cell, const CellLadder &ladder,
                                      const std::string &load, const int n_cells, const int n_small)
 {
-  const ReferenceUncertainty uncertainty(
-    cell, Load(load),
-    {{Law::linear},
-     n_cells,
-     n_small,
-     strain,
-     {of_sheets, nullptr, [&]() -> const CellLadder & { return ladder; }, &no_modes}},
-    nullptr, MPI_COMM_SELF, [](const std::string &) {});
-  return uncertainty.of_errors(Law::linear, strain);
+  return uncertainty(cell, ladder, load, n_cells, n_small).of_errors(Law::linear, any_strain);
 }
 
 /// Mean error of a method, cell and reference by one discretization [m].
@@ -58,13 +65,15 @@ double error_of(const homogenization::UnitCell &cell, const CellLadder &ladder,
     std::vector<ReferenceOptions>{{1, 0}, {2, 0}, {2, 1}}[discretization];
   FineReference reference(sheet, cell.stiffness_of_phase(), options, MPI_COMM_SELF);
   reference.start(load, Law::linear);
-  const meshes::Points fine = reference.advance(strain).positions;
+  const meshes::Points fine = reference.advance(any_strain).positions;
   DiscretizedMethods methods(ladder[discretization], sheet, load, no_modes);
-  return (methods.at(method, Law::linear, strain) - fine).rowwise().norm().mean();
+  return (methods.at(method, Law::linear, any_strain) - fine).rowwise().norm().mean();
 }
 } // namespace
 
-// By the triangle inequality; and a small part of the error, which the reference's own bar is not.
+// By the triangle inequality; and where chi and its layers at edges are added, method and reference
+// share what their mesh lacks inside and at the edges, so that the error is known better than the
+// reference.
 TEST(bound_error_bar, covers_what_the_error_changes_by_with_the_discretization)
 {
   const Load load("strip-1");
@@ -72,31 +81,38 @@ TEST(bound_error_bar, covers_what_the_error_changes_by_with_the_discretization)
   {
     const homogenization::UnitCell cell = cell_named(name);
     const CellLadder ladder             = ladder_of_cell(cell);
-    const auto all                      = bars(cell, ladder, load.name, 2, 2);
+    const ReferenceUncertainty of_cell  = uncertainty(cell, ladder, load.name, 2, 2);
+    const auto all                      = of_cell.of_errors(Law::linear, any_strain);
+    const double of_reference           = of_cell.at(Law::linear, any_strain).mean;
     for (const std::string method : {"affine", "localized", "full"})
     {
       const double p1      = error_of(cell, ladder, method, load, 2, 0),
                    refined = error_of(cell, ladder, method, load, 2, 2), bar = all.at(method).mean;
       EXPECT_LT(std::abs(p1 - refined), bar) << name << " " << method;
-      EXPECT_LT(bar, 0.5 * p1) << name << " " << method;
+      if (method == "full")
+      {
+        EXPECT_LT(bar, of_reference) << name;
+      }
     }
   }
 }
 
-TEST(bound_error_bar, carried_to_a_larger_sheet_is_the_one_measured_there)
+// A bar is F times what was measured. One that is carried holds as long as it is no less than what
+// is measured at full size without F, and is F times too long at most.
+TEST(bound_error_bar, carried_to_a_larger_sheet_holds_within_its_safety_factor)
 {
   for (const char *name : {"checkerboard", "three-stiffness", "layered"})
-    for (const char *load : {"strip-1"})
+  {
+    const homogenization::UnitCell cell = cell_named(name);
+    const CellLadder ladder             = ladder_of_cell(cell);
+    const auto carried                  = bars(cell, ladder, "strip-1", 4, 2),
+               measured                 = bars(cell, ladder, "strip-1", 4, 4);
+    for (const auto &[method, bar] : measured)
     {
-      const homogenization::UnitCell cell = cell_named(name);
-      const CellLadder ladder             = ladder_of_cell(cell);
-      const auto carried                  = bars(cell, ladder, load, 4, 2),
-                 measured                 = bars(cell, ladder, load, 4, 4);
-      for (const auto &[method, bar] : measured)
-      {
-        EXPECT_NEAR(carried.at(method).mean / bar.mean, 1., 0.25) << name << load << method;
-      }
+      EXPECT_GE(carried.at(method).mean, bar.mean / bar.safety) << name << " " << method;
+      EXPECT_LE(carried.at(method).mean, bar.mean * bar.safety) << name << " " << method;
     }
+  }
 }
 
 // Of an infinite cloth in linear theory localized is exact by each discretization; with a method
@@ -105,7 +121,7 @@ TEST(tripwire_error_bar, a_method_of_another_discretization_than_its_reference_i
 {
   const homogenization::UnitCell cell = cell_named("checkerboard");
   CellLadder ladder                   = ladder_of_cell(cell);
-  const double zero                   = solved_to * strain * std::sqrt(cell.lattice.area());
+  const double zero                   = solved_to * any_strain * std::sqrt(cell.lattice.area());
   EXPECT_LT(bars(cell, ladder, "periodic-11", 1, 1).at("localized").mean, 3. * zero);
   for (const std::size_t k : {1, 2})
     ladder[k] = ladder[0];
@@ -115,9 +131,9 @@ TEST(tripwire_error_bar, a_method_of_another_discretization_than_its_reference_i
 TEST(exact_error_bar, what_was_not_run_has_none)
 {
   const homogenization::UnitCell cell = cell_named("layered");
-  const ReferenceUncertainty none(cell, Load("strip-1"), {{Law::linear}, 1, 1, strain}, nullptr,
+  const ReferenceUncertainty none(cell, Load("strip-1"), {{Law::linear}, 1, 1, any_strain}, nullptr,
                                   MPI_COMM_SELF, [](const std::string &) {});
-  EXPECT_TRUE(none.of_errors(Law::linear, strain).empty());
+  EXPECT_TRUE(none.of_errors(Law::linear, any_strain).empty());
   EXPECT_TRUE(std::isnan(ErrorBar().mean));
 }
 
@@ -131,8 +147,6 @@ TEST(exact_error_bar, of_one_material_up_sampling_changes_no_bar)
   const auto all          = bars(cell, ladder, "strip-1", 4, 4);
   EXPECT_NEAR(all.at("localized").mean / all.at("affine").mean, 1., 1e-6);
   EXPECT_NEAR(all.at("full").mean / all.at("full-micro").mean, 1., 1e-6);
-  const double error = error_of(cell, ladder, "full", Load("strip-1"), 4, 0);
-  EXPECT_LT(all.at("full").mean, 0.5 * error);
 }
 
 // Up-sampling centres chi by its mean over triangles of three nodes, P2 by its own: slip makes up

@@ -6,8 +6,7 @@ from matplotlib.collections import LineCollection
 
 from figures import fabrics, style
 from figures.cell import CM, LOADS, cell_axes, phase_edges
-from figures.plot_data import name_unseen
-from figures.stiffness import directional_modulus
+from figures.stiffness import directional_modulus, polar_frame
 
 MICRO = 1e6  # bending stiffness is drawn in 1e-6 N m
 
@@ -50,26 +49,8 @@ def bending_polar_figure(homogenize):
         )
     # Cells may be softer and stiffer than all fabrics by orders of magnitude.
     largest = MICRO * float(directional_modulus(numpy.array(homogenize["D"], dtype=float), angles).max())
+    polar_frame(axes, "bending stiffness of a strip [10⁻⁶ N m]")
     axes.set_rlim(0.0, 1.05 * max(largest, MICRO * softest))
-    axes.set_rlabel_position(67.5)
-    axes.yaxis.set_major_locator(pyplot.MaxNLocator(4, prune="lower"))
-    axes.tick_params(axis="y", labelsize=7.5, colors="#444444")
-    axes.set_thetagrids(
-        range(0, 360, 45),
-        ["0° = axis 1", "45°", "90° = axis 2", "135°", "180°", "225°", "270°", "315°"],
-    )
-    axes.get_xticklabels()[0].set_horizontalalignment("left")
-    axes.get_xticklabels()[4].set_horizontalalignment("right")
-    axes.spines["polar"].set_color("#BDBDBD")
-    name_unseen(axes.xaxis, "direction $\\theta$ [rad]")
-    name_unseen(axes.yaxis, "bending stiffness of a strip [10⁻⁶ N m]")
-    axes.text(
-        0.5,
-        -0.12,
-        "bending stiffness of a strip [10⁻⁶ N m]",
-        transform=axes.transAxes,
-        ha="center",
-    )
     figure.legend(loc="upper left", bbox_to_anchor=(1.0, 0.95))
     return figure
 

@@ -244,6 +244,7 @@ def uncertainty_rows(rows):
             in_percent(row["force_uncertainty"]),
         ]
         for row in rows
+        if row["method"] == "reference"
     ]
 
 

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: MIT
+#include "verification/strain/validity.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+using namespace homespun::verification;
+
+TEST(exact_validity, the_limit_of_a_power_law_is_found)
+{
+  std::vector<double> x, y;
+  for (const double strain : {0.001, 0.003, 0.02, 0.1})
+  {
+    x.push_back(strain);
+    y.push_back(7. * strain * strain);
+  }
+  const Crossing found = crossing(x, y, 7. * 0.04 * 0.04);
+  EXPECT_EQ(found.relation, '=');
+  EXPECT_NEAR(found.strain, 0.04, 1e-12);
+  EXPECT_EQ(crossing(x, y, 1.).relation, '>');
+  EXPECT_EQ(crossing(x, y, 1.).strain, 0.1);
+  EXPECT_EQ(crossing(x, y, 1e-9).relation, '-');
+}
+
+TEST(exact_validity, a_curve_that_comes_back_counts_up_to_its_first_crossing)
+{
+  EXPECT_LT(crossing({0.01, 0.02, 0.04}, {1., 3., 1.}, 2.).strain, 0.02);
+}
+
+TEST(exact_validity, rows_carry_the_error_bar_and_the_reason)
+{
+  std::vector<StrainRow> rows;
+  for (const double strain : {0.001, 0.005, 0.01, 0.1})
+  {
+    StrainRow row       = {"cell", "strip-2", strain, "biot", "localized", 20, 800, 288000};
+    row.mean            = 1e-2 * row.strain;
+    row.per_cell        = row.strain;     // 1 % at strain 0.01
+    row.per_fluctuation = 0.5;            // never within 10 %
+    row.uncertainty     = 0.1 * row.mean; // a tenth of the error
+    rows.push_back(row);
+  }
+  const std::vector<ValidityRow> found = validity_rows(rows);
+  ASSERT_EQ(found.size(), 5u);
+  for (int k = 0; k < 3; ++k)
+  {
+    const ValidityRow &row = found[static_cast<std::size_t>(k)];
+    EXPECT_EQ(row.relation, "-");
+    EXPECT_TRUE(std::isnan(row.largest));
+    EXPECT_NE(row.note.find("already 50 %"), std::string::npos);
+  }
+  EXPECT_EQ(found[3].relation, "=");
+  EXPECT_NEAR(found[3].largest, 0.01, 1e-12);
+  EXPECT_NEAR(found[3].lower, 0.01 / 1.1, 1e-12);
+  EXPECT_NEAR(found[3].upper, 0.01 / 0.9, 1e-12);
+  std::vector<StrainRow> both = rows; // and of the method that the study speaks of
+  for (StrainRow row : rows)
+  {
+    row.method   = "full";
+    row.per_cell = 0.1 * row.per_cell;
+    both.push_back(row);
+    row.method = "localized+edges";
+    both.push_back(row);
+  }
+  const std::vector<ValidityRow> of_both = validity_rows(both);
+  ASSERT_EQ(of_both.size(), 10u);
+  EXPECT_EQ(of_both[3].method, "localized");
+  EXPECT_NEAR(of_both[3].largest, 0.01, 1e-12);
+  EXPECT_EQ(of_both[8].method, "full");
+  EXPECT_GT(of_both[8].largest, 0.09);
+  rows.push_back({"cell", "strip-2", 0.05, "biot", unreached});
+  EXPECT_EQ(validity_rows(rows)[4].relation, ">"); // the ladder ends at 0.01
+  EXPECT_NE(validity_rows(rows)[4].note.find("no equilibrium"), std::string::npos);
+}
