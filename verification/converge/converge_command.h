@@ -11,7 +11,7 @@ namespace homespun::verification
 struct ConvergeCommand
 {
   using Options = ConvergenceStudyOptions;
-  using Tables  = TablesOf<ConvergeRow, ClaimRow, CaseRow>;
+  using Tables  = TablesOf<ConvergeRow>;
   static void add(CommandLine &line);
   static constexpr auto run = run_convergence_study;
 };

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "verification/converge/converge_record.h"
 
+#include <array>
 #include <cmath>
 #include <limits>
+#include <set>
+#include <string>
 #include <utility>
 
 namespace homespun::verification
@@ -70,19 +73,19 @@ void ConvergenceResult::add(Series one, const std::string &claim, Words words)
 
 ConvergenceRecord::ConvergenceRecord(const std::string &folder)
     : rows(folder)
-    , claims(folder)
-    , cases(folder)
 {
-  const auto is_of_complete_case = [this](const auto &row) {
-    return cases.contains({row.cell, row.study, row.name});
-  };
-  rows.keep(is_of_complete_case);
-  claims.keep(is_of_complete_case);
+  std::set<std::array<std::string, 3>> complete;
+  for (const ConvergeRow &row : of_kind(ConvergeRow::case_kind))
+    complete.insert({row.cell, row.study, row.name});
+  rows.keep(
+    [&](const ConvergeRow &row) {
+      return complete.count({row.cell, row.study, row.name}) != 0;
+    });
 }
 
 bool ConvergenceRecord::is_complete(const ConvergenceCase &one) const
 {
-  return cases.contains({one.cell, one.study, one.name});
+  return rows.contains({one.cell, one.study, one.name, ConvergeRow::case_kind});
 }
 
 void ConvergenceRecord::add(const ConvergenceCase &one, const ConvergenceResult &result,
@@ -92,19 +95,16 @@ void ConvergenceRecord::add(const ConvergenceCase &one, const ConvergenceResult 
     for (std::size_t k = 0; k < series.levels.size(); ++k)
     {
       const ConvergenceLevel &level = series.levels[k];
-      ConvergeRow row;
-      row.cell     = one.cell;
-      row.study    = one.study;
-      row.name     = one.name;
-      row.quantity = series.quantity;
-      row.order_p  = series.order;
-      row.level    = k;
-      row.h        = level.h;
-      row.h_unit   = series.h_unit;
-      row.dofs     = level.n_dofs;
-      row.value    = level.value.value_or(none);
-      row.error    = level.error.value_or(none);
-      row.seconds  = level.seconds;
+      ConvergeRow row               = {one.cell, one.study, one.name};
+      row.quantity                  = series.quantity;
+      row.order_p                   = series.order;
+      row.level                     = k;
+      row.h                         = level.h;
+      row.h_unit                    = series.h_unit;
+      row.dofs                      = level.n_dofs;
+      row.value                     = level.value.value_or(none);
+      row.error                     = level.error.value_or(none);
+      row.seconds                   = level.seconds;
       if (series.judgement)
       {
         row.observed_order = series.judgement->observed[k];
@@ -121,25 +121,52 @@ void ConvergenceRecord::add(const ConvergenceCase &one, const ConvergenceResult 
       }
       rows.append_if_missing(row);
     }
-  for (const Verdict &verdict : result.verdicts)
-    claims.append_if_missing({one.cell, one.study, one.name, verdict.claim, verdict.id,
-                              verdict.outcome, verdict.value, verdict.limit, verdict.kind,
-                              verdict.derivation});
+  for (std::size_t k = 0; k < result.verdicts.size(); ++k)
+  {
+    const Verdict &verdict = result.verdicts[k];
+    ConvergeRow row        = {one.cell, one.study, one.name, ConvergeRow::claim_kind};
+    row.level              = k;
+    row.claim              = verdict.claim;
+    row.id                 = verdict.id;
+    row.judgement          = verdict.outcome;
+    row.value              = verdict.value;
+    row.limit              = verdict.limit;
+    row.kind_of_claim      = verdict.kind;
+    row.derivation         = verdict.derivation;
+    rows.append(row);
+  }
   // Last: where it is there, so is all that belongs to it.
-  if (result.unfinished.empty())
-    cases.append({one.cell, one.study, one.name, seconds});
+  if (!result.unfinished.empty())
+    return;
+  ConvergeRow complete = {one.cell, one.study, one.name, ConvergeRow::case_kind};
+  complete.seconds     = seconds;
+  rows.append(complete);
+}
+
+std::vector<ConvergeRow> ConvergenceRecord::of_kind(const std::string &kind) const
+{
+  std::vector<ConvergeRow> found;
+  for (const ConvergeRow &row : rows.rows())
+    if (row.kind == kind)
+      found.push_back(row);
+  return found;
+}
+
+std::vector<ConvergeRow> ConvergenceRecord::levels() const
+{
+  return of_kind(ConvergeRow::level_kind);
 }
 
 std::vector<Verdict> ConvergenceRecord::verdicts() const
 {
   std::vector<Verdict> result;
-  for (const ClaimRow &row : claims.rows())
+  for (const ConvergeRow &row : of_kind(ConvergeRow::claim_kind))
     result.push_back({row.cell + ", " + row.study + ", " + row.name + ": " + row.claim,
-                      row.verdict,
+                      row.judgement.value_or(Outcome::inconclusive),
                       row.value,
                       row.limit,
                       row.derivation,
-                      row.kind,
+                      row.kind_of_claim.value_or(Kind::program),
                       row.id,
                       {{"cell", row.cell}, {"study", row.study}, {"case", row.name}}});
   return result;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What a convergence study measures and how it reaches the disk: series of a quantity over levels
-// as rows of converge.csv, the claims about them in claims.csv, and the cases that are complete in
-// cases.csv, so that a study that was cut short is taken up again.
+// as rows of converge.csv, with the claims about them and a row for each case that is complete, so
+// that a study that was cut short is taken up again.
 #pragma once
 
 #include "meshes/plain/errors.h"
@@ -88,11 +88,11 @@ struct ConvergenceCase
   std::function<ConvergenceResult()> run; ///< to be called on every rank. @throws NotConverged
 };
 
-/// The tables of a study, on the first rank alone.
+/// The table of a study, on the first rank alone.
 class ConvergenceRecord
 {
 public:
-  /// Takes up the tables of a folder: rows and claims of complete cases are kept; what others left
+  /// Takes up the table of a folder: rows and claims of complete cases are kept; what others left
   /// is dropped, because they run again.
   explicit ConvergenceRecord(const std::string &folder);
 
@@ -101,18 +101,15 @@ public:
   /// Rows and claims, and where nothing is unfinished that the case is complete.
   void add(const ConvergenceCase &one, const ConvergenceResult &result, double seconds);
 
-  /// Claims of all cases, in the order of the tables.
+  /// Claims of all cases, in the order of the table.
   std::vector<Verdict> verdicts() const;
 
   /// The levels of all series.
-  const std::vector<ConvergeRow> &levels() const
-  {
-    return rows.rows();
-  }
+  std::vector<ConvergeRow> levels() const;
 
 private:
+  std::vector<ConvergeRow> of_kind(const std::string &kind) const;
+
   Table<ConvergeRow> rows;
-  Table<ClaimRow> claims;
-  Table<CaseRow> cases;
 };
 } // namespace homespun::verification

@@ -66,7 +66,8 @@ nlohmann::ordered_json what_was_left_out(const ConvergenceStudyOptions &options,
   std::map<std::tuple<std::string, unsigned int, bool>, std::size_t> n_meshes;
   for (const ConvergeRow &row : levels)
     if (row.study == "adaptive")
-      ++n_meshes[{row.cell, row.order_p, !row.judgement && row.quantity.rfind("adaptive", 0) == 0}];
+      ++n_meshes[{row.cell, *row.order_p,
+                  !row.judgement && row.quantity.rfind("adaptive", 0) == 0}];
   for (const auto &[key, n] : n_meshes)
     if (std::get<2>(key) && n < fewest_uneven_levels)
       left_out(std::get<0>(key) + ", adaptive, P" + std::to_string(std::get<1>(key)) +

@@ -19,10 +19,10 @@ struct ConvergenceStudyOptions : StudyOptions
 };
 
 /// Runs the studies and writes, into the output folder, converge.csv (a row per level of every
-/// series), claims.csv, cases.csv, verdicts.json and study.json. What a case needs is on the disk
-/// when it is complete, and complete cases of the same run are not run again. A case whose solver
-/// does not converge FAILs with the reason (INCONCLUSIVE where its load may have no equilibrium),
-/// keeps the levels that were solved, and is run again.
+/// series, per claim and per complete case), verdicts.json and study.json. What a case needs is on
+/// the disk when it is complete, and complete cases of the same run are not run again. A case whose
+/// solver does not converge FAILs with the reason (INCONCLUSIVE where its load may have no
+/// equilibrium), keeps the levels that were solved, and is run again.
 /// @throws BadInput
 std::vector<Verdict> run_convergence_study(const ConvergenceStudyOptions &options,
                                            MPI_Comm communicator);

@@ -130,7 +130,7 @@ def orders(results):
     """Observed orders of all judged series."""
     series = {}
     for row in results.table("converge.csv"):
-        if row["judgement"]:
+        if row["kind"] == "level" and row["judgement"]:
             series.setdefault(
                 (row["cell"], row["study"], row["case"], row["quantity"], f"P{row['order_p']:g}"),
                 [],

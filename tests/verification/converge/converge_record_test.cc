@@ -101,7 +101,7 @@ TEST_F(exact_converge_record, claims_and_levels_are_taken_up_as_they_were)
   ASSERT_EQ(again.levels().size(), 5u);
   for (std::size_t k = 0; k < 5; ++k)
   {
-    const ConvergeRow &row = again.levels()[k];
+    const ConvergeRow row = again.levels()[k];
     EXPECT_EQ(row.level, k);
     EXPECT_EQ(row.h, h[k]); // to the last bit
     EXPECT_EQ(row.error, errors[k]);

@@ -8,13 +8,14 @@ import unittest.mock
 import broken_cells_test
 from cli import CELLS, InFolder, cut, rows_of, run, status_of
 
-TEXTS = {"cell", "study", "case", "quantity", "h_unit", "judgement", "claim", "verdict", "limit",
-         "kind", "derivation", "id"}
+TEXTS = {"cell", "study", "case", "quantity", "h_unit", "judgement", "claim", "limit", "kind",
+         "kind_of_claim", "derivation", "id"}
 
 
 class Converge(InFolder):
-    def rows(self, name):
-        return rows_of(self.folder / name)
+    def rows(self, kind=None):
+        return [row for row in rows_of(self.folder / "converge.csv")
+                if kind in (None, row["kind"])]
 
     def test_quick_run_leaves_finite_numbers_verdicts_and_a_page(self):
         result = run("converge", CELLS / "layered.prm", "--quick", "--studies",
@@ -26,14 +27,14 @@ class Converge(InFolder):
         for verdict in verdicts:
             self.assertIn(verdict["kind"], ("program", "input", "method"), verdict)
             self.assertTrue(verdict["derivation"], verdict)
-        rows = self.rows("converge.csv")
-        self.assertEqual({row["study"] for row in rows},
-                         {"mesh", "scale", "coarse", "strain", "time"})
-        for table in ("converge.csv", "claims.csv", "cases.csv"):
-            for row in self.rows(table):
+        for kind in ("level", "claim", "case"):
+            self.assertEqual({row["study"] for row in self.rows(kind)},
+                             {"mesh", "scale", "coarse", "strain", "time"})
+            for row in self.rows(kind):
                 for key, text in row.items():
                     if key not in TEXTS and text:
-                        self.assertTrue(math.isfinite(float(text)), (table, key, row))
+                        self.assertTrue(math.isfinite(float(text)), (key, row))
+        rows = self.rows("level")
         for row in rows:
             self.assertGreater(float(row["h"]), 0.)
             self.assertTrue(row["value"] or row["error"] or row["quantity"].startswith("change"),
@@ -59,11 +60,12 @@ class Converge(InFolder):
         first = run(*options)
         self.assertIn(first.returncode, (0, 4), first.stderr)
         numbers = lambda: [{key: text for key, text in row.items() if key != "seconds"}
-                           for row in self.rows("converge.csv")]
+                           for row in self.rows()]
         before = numbers()
-        lines = (self.folder / "cases.csv").read_text().splitlines(keepends=True)
+        path = self.folder / "converge.csv"
+        lines = path.read_text().splitlines(keepends=True)
         # The last case counts as not complete.
-        (self.folder / "cases.csv").write_text("".join(lines[:-1]))
+        path.write_text("".join(lines[:-1]))
         verdicts = (self.folder / "verdicts.json").read_text()
         changed = run(*options, "--resume")  # its tables were changed after it ended
         self.assertEqual(changed.returncode, 2, changed.stdout + changed.stderr)
@@ -71,7 +73,7 @@ class Converge(InFolder):
         self.assertEqual(run(*options).returncode, first.returncode)
         self.assertTrue(json.loads((self.folder / "study.json").read_text())["resumed"])
         self.assertEqual(numbers(), before)
-        self.assertEqual(len(self.rows("cases.csv")), len(lines) - 1)
+        self.assertEqual(len(self.rows()), len(lines) - 1)
         strip = lambda text: [(v["claim"], v["verdict"], v["value"])
                               for v in json.loads(text)["verdicts"]]
         self.assertEqual(strip((self.folder / "verdicts.json").read_text()), strip(verdicts))
@@ -112,7 +114,7 @@ class Converge(InFolder):
         self.assertEqual(result.returncode, status_of(claims), result.stderr)
         left_out = {item["what"]: item["why"]
                     for item in json.loads((output / "study.json").read_text())["left_out"]}
-        rows = rows_of(output / "converge.csv")
+        rows = [row for row in rows_of(output / "converge.csv") if row["kind"] == "level"]
         n_left_out = 0
         for p in (1, 2):
             levels = [row for row in rows if row["order_p"] == str(p)
@@ -132,13 +134,13 @@ class Converge(InFolder):
     def test_brackets_of_laminates_close_and_those_of_corners_fall_faster_on_adaptive_meshes(self):
         result = run("converge", CELLS / "layered.prm", CELLS / "three-stiffness.prm", "--quick",
                      "--studies", "adaptive", "--quiet", "--no-report", "--output", self.folder)
-        claims = self.rows("claims.csv")
+        claims = [{**row, "verdict": row["judgement"]} for row in self.rows("claim")]
         self.assertEqual(result.returncode, status_of(claims), result.stderr)
         self.assertNotEqual(result.returncode, 1, result.stderr)
         self.assertEqual({row["verdict"] for row in claims if row["cell"] == "layered"}, {"PASS"})
         self.assertEqual({row["verdict"] for row in claims
                           if "P2: the adaptive bracket is narrower" in row["claim"]}, {"PASS"})
-        rows = self.rows("converge.csv")
+        rows = self.rows("level")
         self.assertEqual({row["cell"] for row in rows}, {"three-stiffness"})
         for row in rows:
             self.assertAlmostEqual(float(row["h"]), float(row["dofs"]) ** -0.5,

@@ -190,7 +190,7 @@ class PublishTest(unittest.TestCase):
     def test_orders_stand_with_their_limits(self):
         folder = os.path.join(self.place, "converge")
         os.makedirs(folder)
-        row = {"cell": "dots", "study": "mesh", "case": "uniform refinement",
+        row = {"cell": "dots", "study": "mesh", "case": "uniform refinement", "kind": "level",
                "quantity": "C11 [N/m]", "order_p": 2, "h_unit": "side", "dofs": 5,
                "order": 3.01, "order_lowest": 2.9, "order_highest": 3.1, "judgement": "PASS",
                "seconds": 0.1}

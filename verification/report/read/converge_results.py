@@ -85,7 +85,7 @@ def read_convergence(folder, name, path, faults, missing):
     """@return Convergence, whose series are in the order of the file and whose levels run from
     coarse to fine
     """
-    rows = read_csv(path, faults, missing, AGAIN)
+    rows = [row for row in read_csv(path, faults, missing, AGAIN) if row["kind"] == "level"]
     result = {}
     for row in rows:
         if row["study"] not in STUDIES:
@@ -93,8 +93,13 @@ def read_convergence(folder, name, path, faults, missing):
                 f"{path}, line {row['line']}: `study` is `{row['study']}`, expected one of "
                 f"{', '.join(STUDIES)}. {AGAIN}"
             )
-        if any(math.isnan(row[key]) for key in ("order_p", "level")):
-            continue  # a fault already
+        least = {"h": 0, "order_p": 0, "level": -1}
+        if wrong := [key for key in least if not row[key] > least[key]]:
+            faults.append(
+                f"{path}, line {row['line']}: `{wrong[0]}` is `{row[wrong[0]]:g}`, expected that of a"
+                f" level. {AGAIN}"
+            )
+            continue
         key = tuple(row[k] for k in KEYS[:-1])
         result.setdefault(key, Series(*key[:4], int(key[4]))).rows.append(row)
     for series in result.values():
