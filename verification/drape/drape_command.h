@@ -11,7 +11,7 @@ namespace homespun::verification
 struct DrapeCommand
 {
   using Options = DrapeOptions;
-  using Tables  = TablesOf<DrapeRow, MotionRow, HeldForceRow, TermRow>;
+  using Tables  = TablesOf<DrapeRow, MotionRow, TermRow>;
   static void add(CommandLine &line);
   static constexpr auto run = run_drape_study;
 };

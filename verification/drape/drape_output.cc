@@ -31,7 +31,6 @@ DrapeOutput::DrapeOutput(std::string folder, std::string scene, const double int
     , formats(std::move(formats))
     , errors(this->folder)
     , motion(this->folder)
-    , held(this->folder)
     , terms(with_terms ? std::make_unique<Table<TermRow>>(this->folder) : nullptr)
 {
 }
@@ -71,8 +70,14 @@ void DrapeOutput::write_held_forces(const MovingCloth &cloth, const int frame,
                                     const std::vector<HeldForce> &forces)
 {
   for (const HeldForce &its : forces)
-    held.append_if_missing({scene, cloth.cell, cloth.kind, cloth.variant, its.place, frame,
-                            frame * interval, its.force(0), its.force(1), its.force(2)});
+  {
+    MotionRow row = {scene, cloth.cell, cloth.kind, cloth.variant, frame, its.place};
+    row.time      = frame * interval;
+    row.force_x   = its.force(0);
+    row.force_y   = its.force(1);
+    row.force_z   = its.force(2);
+    motion.append_if_missing(row);
+  }
 }
 
 TermRow DrapeOutput::term_row(const std::string &cell, const std::string &term) const

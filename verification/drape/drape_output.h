@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What a scene run leaves on the disk as it goes on: the tables drape.csv (errors), motion.csv
-// (motion and energies), held-forces.csv and terms.csv (what absent terms would cost), and the
-// frames.
+// (motion, energies and forces) and terms.csv (what absent terms would cost), and the frames.
 #pragma once
 
 #include "meshes/cloth/cloth_mesh.h"
@@ -68,7 +67,7 @@ public:
   }
   bool has_held_force(const MovingCloth &cloth, const int frame, const std::string &place) const
   {
-    return held.contains({scene, cloth.cell, cloth.kind, cloth.variant, place, frame});
+    return motion.contains({scene, cloth.cell, cloth.kind, cloth.variant, frame, place});
   }
   bool has(const TermRow &row) const
   {
@@ -106,7 +105,6 @@ private:
   const std::vector<std::string> formats;
   Table<DrapeRow> errors;
   Table<MotionRow> motion;
-  Table<HeldForceRow> held;
   std::unique_ptr<Table<TermRow>> terms; ///< where costs are measured
 };
 } // namespace homespun::verification

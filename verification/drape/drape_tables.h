@@ -58,16 +58,18 @@ struct MovingCloth
   std::string cell, kind, variant;
 };
 
-/// A cloth at a frame. What does not apply is not a number.
+/// A cloth at a frame, or what a pin or a handle exerts on it there, from the first step on. What
+/// does not apply is not a number.
 struct MotionRow
 {
   static constexpr const char *file    = "motion.csv";
-  static constexpr std::size_t n_keys  = 5;
+  static constexpr std::size_t n_keys  = 6;
   static constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 
   std::string scene, cell, cloth, variant; ///< as MovingCloth has them
-  int frame       = 0;
-  double time     = 0.; ///< [s]
+  int frame         = 0;
+  std::string place = {}; ///< that is held, as the scene calls it; empty: the whole cloth
+  double time       = 0.; ///< [s]
   double centre_x = not_a_number, centre_y = not_a_number,
          centre_z     = not_a_number; ///< vertex in the middle [m]
   double kinetic      = not_a_number; ///< [J]
@@ -75,6 +77,7 @@ struct MotionRow
   double gravity      = not_a_number; ///< potential of the weight, zero at the origin [J]
   double stretch      = not_a_number; ///< the largest [-]
   double step_seconds = not_a_number, upsampling_seconds = not_a_number; ///< medians so far [s]
+  double force_x = not_a_number, force_y = not_a_number, force_z = not_a_number; ///< [N]
 
   template <typename Column>
   static void columns(Column &&column)
@@ -84,6 +87,7 @@ struct MotionRow
     column("cloth", &MotionRow::cloth, Domain::name);
     column("variant", &MotionRow::variant, Domain::name);
     column("frame", &MotionRow::frame, Domain::needed_not_negative);
+    column("place", &MotionRow::place, Domain::text);
     column("time_s", &MotionRow::time, Domain::needed_not_negative);
     column("centre_x_m", &MotionRow::centre_x, Domain::real);
     column("centre_y_m", &MotionRow::centre_y, Domain::real);
@@ -94,34 +98,9 @@ struct MotionRow
     column("max_stretch", &MotionRow::stretch, Domain::not_negative);
     column("seconds_coarse_step", &MotionRow::step_seconds, Domain::not_negative);
     column("seconds_upsampling", &MotionRow::upsampling_seconds, Domain::not_negative);
-  }
-};
-
-/// held-forces.csv: what a pin or a handle exerts on a cloth at a frame, from the first step on.
-struct HeldForceRow
-{
-  static constexpr const char *file   = "held-forces.csv";
-  static constexpr std::size_t n_keys = 6;
-
-  std::string scene, cell, cloth, variant; ///< as MovingCloth has them
-  std::string place;                       ///< as the scene calls it
-  int frame      = 0;
-  double time    = 0.;                             ///< [s]
-  double force_x = 0., force_y = 0., force_z = 0.; ///< [N]
-
-  template <typename Column>
-  static void columns(Column &&column)
-  {
-    column("scene", &HeldForceRow::scene, Domain::name);
-    column("cell", &HeldForceRow::cell, Domain::name);
-    column("cloth", &HeldForceRow::cloth, Domain::name);
-    column("variant", &HeldForceRow::variant, Domain::name);
-    column("place", &HeldForceRow::place, Domain::name);
-    column("frame", &HeldForceRow::frame, Domain::needed_not_negative);
-    column("time_s", &HeldForceRow::time, Domain::needed_not_negative);
-    column("force_x_N", &HeldForceRow::force_x, Domain::real);
-    column("force_y_N", &HeldForceRow::force_y, Domain::real);
-    column("force_z_N", &HeldForceRow::force_z, Domain::real);
+    column("force_x_N", &MotionRow::force_x, Domain::real);
+    column("force_y_N", &MotionRow::force_y, Domain::real);
+    column("force_z_N", &MotionRow::force_z, Domain::real);
   }
 };
 

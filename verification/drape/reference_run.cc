@@ -102,9 +102,8 @@ private:
     MPI_Bcast(&first_without_rows, 1, MPI_INT, 0, run.communicator);
     if (!state || first_without_rows > state->frame)
       return state;
-    run.progress.note(
-      name + ": rows of frame " + std::to_string(first_without_rows) +
-      " are missing in drape.csv, motion.csv or held-forces.csv: the reference begins anew");
+    run.progress.note(name + ": rows of frame " + std::to_string(first_without_rows) +
+                      " are missing in drape.csv or motion.csv: the reference begins anew");
     return std::nullopt;
   }
 

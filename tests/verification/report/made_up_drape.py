@@ -298,21 +298,17 @@ def write_drape(
     )
     if references:
         write_table(folder, "drape.csv", errors)
-    write_table(folder, "motion.csv", motion)
-    write_table(
-        folder,
-        "held-forces.csv",
-        [
-            {
-                **{key: row[key] for key in ("scene", "cell", "cloth", "variant", "frame", "time_s")},
-                "place": "top",
-                "force_x_N": 0.3 * row["time_s"],
-                "force_y_N": 0.0,
-                "force_z_N": 0.4 * row["time_s"],
-            }
-            for row in motion
-        ],
-    )
+    held = [
+        {
+            **{key: row[key] for key in ("scene", "cell", "cloth", "variant", "frame", "time_s")},
+            "place": "top",
+            "force_x_N": 0.3 * row["time_s"],
+            "force_y_N": 0.0,
+            "force_z_N": 0.4 * row["time_s"],
+        }
+        for row in motion
+    ]
+    write_table(folder, "motion.csv", motion + held)
     write_table(folder, "terms.csv", terms)
     write_verdicts(
         folder,

@@ -127,9 +127,7 @@ class DrapePageTest(PageTest):
 
     def test_scene_of_which_only_the_description_is_left_is_reported(self):
         write_drape(self.folder, variants=VARIANTS[:1], references=REFERENCES[:1])
-        self.remove(
-            "drape.csv", "motion.csv", "held-forces.csv", "terms.csv", "verdicts.json"
-        )
+        self.remove("drape.csv", "motion.csv", "terms.csv", "verdicts.json")
         self.edit(
             "drape.json",
             lambda text: json.dumps({"scene": "swing", "cells": [{"cell": "<layered>"}]}),

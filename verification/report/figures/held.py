@@ -12,7 +12,7 @@ MOST_PANELS = 6  # of a scene that holds more places the first ones
 def held_figure(rows):
     """Size of the force of each held place against time, a panel per place.
 
-    @param rows of held-forces.csv
+    @param rows of motion.csv with a place
     @return (figure, places that are left out), or None without rows
     """
     rows = [

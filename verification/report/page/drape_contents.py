@@ -173,7 +173,7 @@ def draw_curves(contents, drape, cell, gallery):
             f"{file}-held-forces",
             (
                 f"{title}: size of the force that each held place exerts on the cloth; components"
-                f" are in held-forces.csv.{words}"
+                f" are in motion.csv.{words}"
             ),
         )
     if figure := step_bars(cell):

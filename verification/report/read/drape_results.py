@@ -204,8 +204,7 @@ def read_drape(run, path_of, faults, missing):
         )
     for name, target, consequence in (
         ("drape.csv", "errors", "error against time"),
-        ("motion.csv", "motion", "height and energies"),
-        ("held-forces.csv", "held", "forces of what is held"),
+        ("motion.csv", "motion", "height, energies and forces of what is held"),
         ("terms.csv", "terms", "what absent terms would have cost"),
     ):
         if file := path_of(name, f"{drape.scene}: {consequence}"):
@@ -213,7 +212,8 @@ def read_drape(run, path_of, faults, missing):
                 if "cloth" in row:
                     is_coarse = row["cloth"] == "coarse"
                     row["member"] = row["variant"] if is_coarse else reference_member(row["variant"])
-                getattr(cells.setdefault(row["cell"], DrapedCell(row["cell"])), target).append(row)
+                of = "held" if row.get("place") else target
+                getattr(cells.setdefault(row["cell"], DrapedCell(row["cell"])), of).append(row)
     drape.cells = list(cells.values())
     for cell in drape.cells:
         read_frame_lists(run, drape, cell, path_of, faults)
