@@ -179,10 +179,10 @@ std::vector<StabilityRow> waves_of(const BlochMargin &bloch, const MarginLevel &
   return rows;
 }
 
-std::vector<ModeRow> mode_of(const meshes::TriangleMesh &mesh, const MarginLevel &level,
-                             const StabilityRow &names)
+std::vector<StabilityRow> mode_of(const meshes::TriangleMesh &mesh, const MarginLevel &level,
+                                  const StabilityRow &names)
 {
-  std::vector<ModeRow> rows;
+  std::vector<StabilityRow> rows;
   const Mode &mode = level.margin.mode;
   if (mode.size() != 2 * mesh.n_vertices())
     return rows;
@@ -202,8 +202,13 @@ std::vector<ModeRow> mode_of(const meshes::TriangleMesh &mesh, const MarginLevel
     const Eigen::RowVector2d place =
       mesh.vertices.row(v) * level.state.gradient.transpose() + level.state.fluctuation.row(v);
     const std::complex<double> u = mode(2 * v) / unit, w = mode(2 * v + 1) / unit;
-    rows.push_back({names.cell, names.law, names.load, names.way, v, level.strain, place(0),
-                    place(1), u.real(), u.imag(), w.real(), w.imag()});
+    StabilityRow &row = rows.emplace_back(row_of(names, "mode", v, level.strain));
+    row.x             = place(0);
+    row.y             = place(1);
+    row.u_real        = u.real();
+    row.u_imaginary   = u.imag();
+    row.v_real        = w.real();
+    row.v_imaginary   = w.imag();
   }
   return rows;
 }

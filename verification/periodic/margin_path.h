@@ -44,9 +44,9 @@ MarginPath margin_path(const BlochMargin &bloch, const LoadControl &control,
 std::vector<StabilityRow> waves_of(const BlochMargin &bloch, const MarginLevel &level,
                                    const StabilityRow &names);
 
-/// The field of a level. Empty where none was found.
-std::vector<ModeRow> mode_of(const meshes::TriangleMesh &mesh, const MarginLevel &level,
-                             const StabilityRow &names);
+/// The field of a level, a row per vertex. Empty where none was found.
+std::vector<StabilityRow> mode_of(const meshes::TriangleMesh &mesh, const MarginLevel &level,
+                                  const StabilityRow &names);
 
 /// Follows the lowest wave at each level that is lost; nowhere of a cell whose sides meet holes,
 /// which makes no supercell.

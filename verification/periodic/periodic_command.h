@@ -22,7 +22,7 @@ struct LoadCommand
 struct StabilityCommand
 {
   using Options = StabilityStudyOptions;
-  using Tables  = TablesOf<StabilityRow, ModeRow>;
+  using Tables  = TablesOf<StabilityRow>;
   static void add(CommandLine &line);
   static constexpr auto run = run_stability_study;
 };

@@ -302,7 +302,6 @@ private:
   void open_tables() override
   {
     table = std::make_unique<Table<StabilityRow>>(options.output);
-    modes = std::make_unique<Table<ModeRow>>(options.output);
   }
 
   std::size_t n_paths() const override
@@ -347,8 +346,7 @@ private:
     MarginPath path           = margin_path(given, control, strains, names);
     append(path.rows);
     append(waves_of(given, path.shown, names));
-    for (const ModeRow &row : mode_of(given.assembly.cell.mesh, path.shown, names))
-      modes->append_if_missing(row);
+    append(mode_of(given.assembly.cell.mesh, path.shown, names));
     append(patterns_of(given, control, path.levels, options.supercell, names));
     if (refined)
     {
@@ -379,7 +377,6 @@ private:
   std::vector<std::vector<double>> ways; ///< strains that are pressed, that are pulled
   // On the first rank alone:
   std::unique_ptr<Table<StabilityRow>> table;
-  std::unique_ptr<Table<ModeRow>> modes;
 };
 } // namespace
 

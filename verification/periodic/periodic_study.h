@@ -19,7 +19,7 @@ namespace homespun::verification
 /// @throws BadInput, NotConverged where the cell cannot be homogenized
 std::vector<Verdict> run_load_study(const LoadStudyOptions &options, MPI_Comm communicator);
 
-/// Solves on the first rank; writes stability.csv path by path, mode.csv, study.json and
+/// Solves on the first rank; writes stability.csv path by path, study.json and
 /// verdicts.json. Paths that the same run had finished are taken up.
 /// @throws BadInput, NotConverged where the cell cannot be homogenized
 std::vector<Verdict> run_stability_study(const StabilityStudyOptions &options,

@@ -70,7 +70,7 @@ inline constexpr LoadComponents
   stress_bars_of_row = {&LoadRow::stress_11_bar, &LoadRow::stress_22_bar, &LoadRow::stress_12_bar};
 
 /// A Bloch margin (bloch_margin.h): of a level of a path, of its first loss, of one wave, or beside
-/// a pattern. What a kind does not have is empty.
+/// a pattern; or its lowest field. What a kind does not have is empty.
 struct StabilityRow
 {
   static constexpr const char *file   = "stability.csv";
@@ -80,12 +80,13 @@ struct StabilityRow
   /// `level`: the lowest wave of a periodic state; `loss`: the first loss along the way, or else
   /// the last state, and its lowest wave; `wave`: each wave of the zone just beyond the loss, or
   /// else of the last state, on the given mesh; `pattern`: a state over several cells beside the
-  /// periodic one, where a level is lost on the given mesh.
+  /// periodic one, where a level is lost on the given mesh; `mode`: the lowest field at the strain
+  /// of the waves, at a vertex of the cell.
   std::string kind;
   std::string cell, law, load;
   std::string way;      ///< `pulled` or `pressed`: the sign of the strain
   std::string mesh;     ///< `given` or `refined`, once
-  int number    = 0;    ///< of the level, of the wave, of the level of a pattern
+  int number    = 0;    ///< of the level, of the wave, of the level of a pattern, of the vertex
   double strain = none; ///< [-]; of first loss by the line between held_to and lost_at
   /// Of a level `unstable-proved`: a field of the discrete cloth shows it; `stable-up-to-mesh`: no
   /// wave that was asked does, on this mesh; `not-reached`: Newton's method found no state. Of a
@@ -115,6 +116,9 @@ struct StabilityRow
   double energy          = none; ///< with the pattern [N/m]
   double less_energy     = none; ///< (energy_periodic - energy) / energy_periodic [-]
   double largest         = none; ///< distance between the two states, in sides of the cell [-]
+  double x = none, y = none;     ///< of the vertex in the periodic state [m]
+  double u_real = none, u_imaginary = none; ///< along axis 1, the largest |(u, v)| is 1 [-]
+  double v_real = none, v_imaginary = none; ///< along axis 2
 
   template <typename Column>
   static void columns(Column &&column)
@@ -147,37 +151,12 @@ struct StabilityRow
     column("energy_N_per_m", &StabilityRow::energy, Domain::real);
     column("less_energy", &StabilityRow::less_energy, Domain::real);
     column("largest_per_cell", &StabilityRow::largest, Domain::not_negative);
-  }
-};
-
-/// The lowest field at the strain of the waves of stability.csv, at a vertex of the cell.
-struct ModeRow
-{
-  static constexpr const char *file   = "mode.csv";
-  static constexpr std::size_t n_keys = 5;
-
-  std::string cell, law, load, way;
-  int vertex    = 0;
-  double strain = 0.;                   ///< [-]
-  double x = 0., y = 0.;                ///< of the periodic state [m]
-  double u_real = 0., u_imaginary = 0.; ///< along axis 1, the largest |(u, v)| is 1 [-]
-  double v_real = 0., v_imaginary = 0.; ///< along axis 2
-
-  template <typename Column>
-  static void columns(Column &&column)
-  {
-    column("cell", &ModeRow::cell, Domain::name);
-    column("law", &ModeRow::law, Domain::name);
-    column("load", &ModeRow::load, Domain::name);
-    column("way", &ModeRow::way, Domain::name);
-    column("vertex", &ModeRow::vertex, Domain::needed_not_negative);
-    column("strain", &ModeRow::strain, Domain::real);
-    column("x_m", &ModeRow::x, Domain::real);
-    column("y_m", &ModeRow::y, Domain::real);
-    column("u_real", &ModeRow::u_real, Domain::real);
-    column("u_imaginary", &ModeRow::u_imaginary, Domain::real);
-    column("v_real", &ModeRow::v_real, Domain::real);
-    column("v_imaginary", &ModeRow::v_imaginary, Domain::real);
+    column("x_m", &StabilityRow::x, Domain::real);
+    column("y_m", &StabilityRow::y, Domain::real);
+    column("u_real", &StabilityRow::u_real, Domain::real);
+    column("u_imaginary", &StabilityRow::u_imaginary, Domain::real);
+    column("v_real", &StabilityRow::v_real, Domain::real);
+    column("v_imaginary", &StabilityRow::v_imaginary, Domain::real);
   }
 };
 } // namespace homespun::verification

@@ -69,7 +69,7 @@ PATTERN = row("pattern", "given", 15, strain=-0.15, outcome="found", wave="k = (
 
 def mode(vertices):
     return [
-        {**NAMES, "way": "pressed", "vertex": v, "strain": -0.11, "x_m": 0.89 * x, "y_m": y,
+        {**row("mode", "given", v), "strain": -0.11, "x_m": 0.89 * x, "y_m": y,
          "u_real": math.sin(3.0 * v), "u_imaginary": 0.0, "v_real": math.cos(v),
          "v_imaginary": 0.0}
         for v, (x, y) in enumerate(vertices)
@@ -88,8 +88,8 @@ class StabilityPage(PageTest):
                 os.remove(os.path.join(self.folder, "stripes", name))
         with h5py.File(os.path.join(self.folder, "stripes", "cell.h5")) as file:
             self.vertices = file["vertices"][()]
-        write_table(self.folder, "stability.csv", LEVELS + ZONE + [PATTERN] + LOSSES)
-        write_table(self.folder, "mode.csv", mode(self.vertices))
+        write_table(self.folder, "stability.csv",
+                    LEVELS + ZONE + [PATTERN] + LOSSES + mode(self.vertices))
         with open(os.path.join(self.folder, "study.json"), "w", encoding="utf-8") as file:
             json.dump({"command": "homespun periodic stability x.prm"}, file)
         write_verdicts(self.folder, [verdict("stripes: beta at rest is 1", "PASS")])

@@ -166,7 +166,7 @@ def mode_axes(axes, cell, rows, loss):
     """The wave on the cells over which it repeats, at a size that can be seen; a long one on a few
     cells of its endless period.
     """
-    rows = sorted(rows, key=lambda row: row["vertex"])
+    rows = sorted(rows, key=lambda row: row["number"])
     place = numpy.array([[row["x_m"], row["y_m"]] for row in rows])
     wave = numpy.array(
         [

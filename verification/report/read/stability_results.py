@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Reads stability.csv and mode.csv of `homespun periodic stability`: Bloch margins along loads of an infinite
+"""Reads stability.csv of `homespun periodic stability`: Bloch margins along loads of an infinite
 cloth, where they are lost, and by which wave.
 """
 from dataclasses import dataclass, field
@@ -13,14 +13,14 @@ ROWS_OF_KIND = {
     "loss": "losses",
     "wave": "waves",
     "pattern": "patterns",
-    "mode": "mode",  # of mode.csv
+    "mode": "mode",
 }
 
 
 @dataclass
 class StabilityPath:
-    """One load of one cell under one law; rows of the tables, pressed and pulled: those of
-    stability.csv by their kind.
+    """One load of one cell under one law; rows of the table, pressed and pulled, by their
+    kind.
     """
 
     cell: str
@@ -67,18 +67,17 @@ def read_stability(run, name, path_of, faults, missing, cell_folders):
     """
     result = StabilityRun(run.folder, name)
     found = {}
-    for file, what in (("stability.csv", "margins"), ("mode.csv", "modes")):
-        if path := path_of(file, f"{what} of {name}"):
-            for row in read_csv(path, faults, missing, AGAIN):
-                names = (row["cell"], row["law"], row["load"])
-                of_path = found.setdefault(names, StabilityPath(*names))
-                if kept := ROWS_OF_KIND.get(row.get("kind", "mode")):
-                    getattr(of_path, kept).append(row)
-                else:
-                    faults.append(
-                        f"{path}, line {row['line']}: `kind` is `{row['kind']}`, expected"
-                        f" {', '.join(ROWS_OF_KIND)}. {AGAIN}"
-                    )
+    if path := path_of("stability.csv", f"margins of {name}"):
+        for row in read_csv(path, faults, missing, AGAIN):
+            names = (row["cell"], row["law"], row["load"])
+            of_path = found.setdefault(names, StabilityPath(*names))
+            if kept := ROWS_OF_KIND.get(row["kind"]):
+                getattr(of_path, kept).append(row)
+            else:
+                faults.append(
+                    f"{path}, line {row['line']}: `kind` is `{row['kind']}`, expected"
+                    f" {', '.join(ROWS_OF_KIND)}. {AGAIN}"
+                )
     for path in found.values():
         path.levels.sort(key=lambda row: row["strain"])
     result.paths = list(found.values())
