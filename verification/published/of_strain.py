@@ -119,8 +119,8 @@ def times(results):
     """
     rows = [
         row
-        for row in results.table("steps.csv")
-        if is_sheet(row["load"]) and row["reference"] == REFERENCE
+        for row in results.table("levels.csv")
+        if row["reference_stability"] and is_sheet(row["load"]) and row["reference"] == REFERENCE
     ]
     for cell in dict.fromkeys(row["cell"] for row in rows):
         by_load = {}

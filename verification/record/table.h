@@ -2,9 +2,9 @@
 // A table is a struct with its columns: one writing of names, order and types for the program that
 // writes, the program that reads, and, through the schema, the report.
 //
-//   struct StepRow
+//   struct TimeRow
 //   {
-//     static constexpr const char *file   = "steps.csv";
+//     static constexpr const char *file   = "times.csv";
 //     static constexpr std::size_t n_keys = 2;   // the first columns name a row
 //     std::string cell;
 //     double strain = 0., seconds = 0.;
@@ -12,9 +12,9 @@
 //     template <typename Column>
 //     static void columns(Column &&column)
 //     {
-//       column("cell", &StepRow::cell, Domain::name);
-//       column("strain", &StepRow::strain, Domain::positive);
-//       column("seconds", &StepRow::seconds, Domain::not_negative);
+//       column("cell", &TimeRow::cell, Domain::name);
+//       column("strain", &TimeRow::strain, Domain::positive);
+//       column("seconds", &TimeRow::seconds, Domain::not_negative);
 //     }
 //   };
 #pragma once
@@ -121,6 +121,22 @@ public:
   {
     if (!contains(row))
       append(row);
+  }
+
+  /// The row with the keys of this one, or this one where there is none.
+  Row known(const Row &row) const
+  {
+    const auto place = row_of_keys.find(keys_of_row(row));
+    return place == row_of_keys.end() ? row : all_rows[place->second];
+  }
+
+  /// append(), or in the place of the row with the same keys.
+  void put(const Row &row)
+  {
+    if (!contains(row))
+      return append(row);
+    remember(row);
+    write_all();
   }
 
   /// Drops the other rows, from the file too.

@@ -52,7 +52,7 @@ enum class Stability
   unknown         ///< conjugate gradients gave no answer
 };
 
-/// As in steps.csv: "every triangle", "stable", "left", "unstable", "unknown".
+/// As in levels.csv: "every triangle", "stable", "left", "unstable", "unknown".
 std::string name_of(Stability stability);
 
 /// What a reader has to know of a level that ended at round-off: empty unless it left more than a

@@ -16,21 +16,20 @@ namespace homespun::verification
 namespace
 {
 /// The rows of a part under one reference.
-std::vector<EllipticityRow> rows_of(const std::vector<EllipticityRow> &all, const StrainLevel &of,
-                                    const std::string &part)
+std::vector<LevelRow> rows_of(const std::vector<LevelRow> &all, const StrainLevel &of,
+                              const std::string &part)
 {
-  std::vector<EllipticityRow> rows;
-  for (const EllipticityRow &row : all)
+  std::vector<LevelRow> rows;
+  for (const LevelRow &row : all)
     if (row.cell == of.cell && row.load == of.load && row.reference == name_of(of.law) &&
         row.part == part)
       rows.push_back(row);
   return rows;
 }
 
-EllipticityRow row_of(const StrainLevel &level, const std::string &part,
-                      const PhaseEllipticity &found)
+LevelRow row_of(const StrainLevel &level, const std::string &part, const PhaseEllipticity &found)
 {
-  EllipticityRow row;
+  LevelRow row;
   row.cell      = level.cell;
   row.load      = level.load;
   row.reference = name_of(level.law);
@@ -53,9 +52,9 @@ std::string words_of(const WorstTriangle &worst, const meshes::Sheet &sheet)
          ") of the sides of the sheet, " + stress_text(worst);
 }
 
-std::string lost_of_all(const EllipticityRow &row)
+std::string lost_of_all(const LevelRow &row)
 {
-  return std::to_string(row.lost) + " of " + std::to_string(row.triangles) + " triangles";
+  return std::to_string(*row.lost) + " of " + std::to_string(*row.triangles) + " triangles";
 }
 /// Groups of phases of one name, and their triangles.
 std::pair<std::vector<std::string>, std::vector<PhaseEllipticity>>
@@ -98,17 +97,16 @@ void write_ellipticity(const StrainLevel &level, const ResolvedLevel &resolved,
   }
   for (std::size_t g = 0; g < groups.size(); ++g)
   {
-    const EllipticityRow row = row_of(level, groups[g], of_group[g]);
-    output.ellipticity.append_if_missing(row);
+    const LevelRow row = row_of(level, groups[g], of_group[g]);
+    output.write_ellipticity(row);
     if (row.lost > 0)
       output.write_note(
-        level,
-        lost_of_all(row) + " of phase " + groups[g] + " are not elliptic under " + row.reference +
-          ", the first from a strain of " +
-          percent_text(strain_of_loss(rows_of(output.ellipticity.rows(), level, groups[g]))) +
-          " on: no minimum of the energy need exist, and what is compared is one "
-          "equilibrium of its mesh" +
-          (groups[g] == worst_group ? worst_words : ""));
+        level, lost_of_all(row) + " of phase " + groups[g] + " are not elliptic under " +
+                 row.reference + ", the first from a strain of " +
+                 percent_text(strain_of_loss(rows_of(output.level_rows(), level, groups[g]))) +
+                 " on: no minimum of the energy need exist, and what is compared is one "
+                 "equilibrium of its mesh" +
+                 (groups[g] == worst_group ? worst_words : ""));
   }
 }
 
@@ -172,13 +170,13 @@ void write_ellipticity_of(const StrainLevel &level, const StoppedReference &stop
                                    stopped.step.positions),
              names);
   for (std::size_t g = 0; g < groups.size(); ++g)
-    output.ellipticity.append_if_missing(row_of(last, groups[g], of_group[g]));
+    output.write_ellipticity(row_of(last, groups[g], of_group[g]));
   if (!end || ending_of(*end) != Ending::law || !(end->as_given.farthest > last.strain))
     return;
   const std::string n = std::to_string(end->n_cells), part = "sheet of " + n + " x " + n + " cells";
-  output.ellipticity.append_if_missing(row_of(last, part, together(of_group)));
+  output.write_ellipticity(row_of(last, part, together(of_group)));
   last.strain = end->as_given.farthest;
-  output.ellipticity.append_if_missing(row_of(last, part, *end->as_given.triangles));
+  output.write_ellipticity(row_of(last, part, *end->as_given.triangles));
 }
 } // namespace
 
@@ -210,16 +208,16 @@ void write_coarse_ellipticity(const StrainLevel &level, const meshes::TriangleMe
   const Law law            = homogenized_law(level.law, stiffness);
   meshes::TriangleMesh one = coarse;
   one.material.setZero(one.n_triangles());
-  const EllipticityRow row = row_of(
-    level, coarse_cloth_part, ellipticity_of_phases(one, {stiffness}, law, positions).front());
-  const std::vector<EllipticityRow> &all = output.ellipticity.rows();
-  const bool is_told                     = std::any_of(all.begin(), all.end(),
-                                                       [&](const EllipticityRow &known)
-                                                       {
-                                     return known.cell == level.cell && known.load == level.load &&
-                                            known.part == coarse_cloth_part && known.lost > 0;
-                                   });
-  output.ellipticity.append_if_missing(row);
+  const PhaseEllipticity found = ellipticity_of_phases(one, {stiffness}, law, positions).front();
+  const LevelRow row           = row_of(level, coarse_cloth_part, found);
+  const std::vector<LevelRow> &all = output.level_rows();
+  const auto is_of_loss            = [&](const LevelRow &known)
+  {
+    return known.cell == level.cell && known.load == level.load &&
+           known.part == coarse_cloth_part && known.lost > 0;
+  };
+  const bool is_told = std::any_of(all.begin(), all.end(), is_of_loss);
+  output.write_ellipticity(row);
   if (row.lost > 0 && !is_told)
     output.write_note(
       level, lost_of_all(row) + " of the coarse cloth are not elliptic under its law, " +

@@ -34,7 +34,7 @@ struct StoppedReference
 /// Writes that the reference got no further, and why, as far as its last equilibrium tells: which
 /// triangle is not elliptic there, and what pulls or presses it; or that all are, whether it is a
 /// minimum, and what ends the path of a sheet of 2 x 2 cells, followed by its arc length. Rows of
-/// ellipticity.csv of that equilibrium stand at its own strain, between the levels; where the law
+/// levels.csv of that equilibrium stand at its own strain, between the levels; where the law
 /// ends that path on both meshes, two rows of the small sheet tell between which strains.
 /// @param path strains that the study asks for, ascending; empty where the path is not followed
 void write_stop(const StrainLevel &level, const StoppedReference &stopped,

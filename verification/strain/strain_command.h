@@ -4,7 +4,6 @@
 
 #include "verification/command/command.h"
 #include "verification/strain/budget/budget_tables.h"
-#include "verification/strain/budget/energy_tables.h"
 #include "verification/strain/strain_study.h"
 #include "verification/strain/strain_tables.h"
 
@@ -13,9 +12,8 @@ namespace homespun::verification
 struct StrainCommand
 {
   using Options = StrainStudyOptions;
-  using Tables =
-    TablesOf<StrainRow, GainRow, StepRow, ForceRow, EllipticityRow, NoteRow, UncertaintyRow,
-             BudgetRow, SecondCodeRow, EnergyRow, RunTimeRow, ValidityRow>;
+  using Tables  = TablesOf<StrainRow, GainRow, LevelRow, ForceRow, UncertaintyRow, BudgetRow,
+                          CrossCheckRow, RunTimeRow, ValidityRow>;
   static void add(CommandLine &line);
   static constexpr auto run = run_strain_study;
 };

@@ -235,10 +235,10 @@ void write_first_notes(const StrainStudyOptions &options, const StrainLevel &lev
 }
 
 /// The row of a level but for its keys and the up-sampling.
-StepRow step_of(const ResolvedLevel &resolved, const UpsampledMethod &localized,
-                const Fluctuation &fluctuation, const Law homogenized_law)
+LevelRow step_of(const ResolvedLevel &resolved, const UpsampledMethod &localized,
+                 const Fluctuation &fluctuation, const Law homogenized_law)
 {
-  StepRow step;
+  LevelRow step;
   step.seconds_coarse      = localized.seconds_coarse;
   step.seconds_upsample    = localized.seconds_upsample;
   step.seconds_fine        = resolved.fine.seconds;

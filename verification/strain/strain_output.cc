@@ -39,6 +39,18 @@ std::pair<double, double> apart_from_edges(const Eigen::VectorXd &distance,
   return {n(0) > 0. ? sum(0) / n(0) : StrainRow::none, sum(1) / n(1)};
 }
 
+std::vector<std::string> remarks_of(const LevelRow &row)
+{
+  std::vector<std::string> remarks;
+  const std::string separator = LevelRow::separator;
+  for (std::size_t begin = 0, end = 0; begin < row.note.size(); begin = end + separator.size())
+  {
+    end = std::min(row.note.find(separator, begin), row.note.size());
+    remarks.push_back(row.note.substr(begin, end - begin));
+  }
+  return remarks;
+}
+
 template <typename Row>
 std::unique_ptr<Table<Row>> table_if(const bool is_wanted, const std::string &folder)
 {
@@ -49,18 +61,15 @@ std::unique_ptr<Table<Row>> table_if(const bool is_wanted, const std::string &fo
 StrainOutput::StrainOutput(const StrainStudyOptions &options,
                            std::function<void(const std::string &)> tell)
     : uncertainty(options.output)
-    , ellipticity(options.output)
     , budget(table_if<BudgetRow>(options.budget, options.output))
-    , second(table_if<SecondCodeRow>(options.budget, options.output))
-    , energies(table_if<EnergyRow>(options.budget, options.output))
+    , checks(table_if<CrossCheckRow>(options.budget, options.output))
     , run_time(table_if<RunTimeRow>(options.run_time, options.output))
     , folder(options.output)
     , methods(options.methods)
     , tell(std::move(tell))
     , strain(options.output)
-    , steps(options.output)
+    , levels(options.output)
     , forces(options.output)
-    , note_table(options.output)
 {
 }
 
@@ -109,13 +118,17 @@ void StrainOutput::write_errors(const StrainLevel &level, const std::string &met
   strain.append(row);
 }
 
-void StrainOutput::write_step(const StrainLevel &level, StepRow step)
+void StrainOutput::write_step(const StrainLevel &level, LevelRow step)
 {
-  step.cell      = level.cell;
-  step.load      = level.load;
-  step.reference = name_of(level.law);
-  step.strain    = level.strain;
-  steps.append_if_missing(step);
+  step.cell            = level.cell;
+  step.load            = level.load;
+  step.reference       = name_of(level.law);
+  step.strain          = level.strain;
+  const LevelRow known = levels.known(step);
+  if (levels.contains(step) && known.is_solved())
+    return;
+  step.note = known.note;
+  levels.put(step);
 }
 
 void StrainOutput::write_unreached(const StrainLevel &level, const meshes::Sheet &sheet)
@@ -135,9 +148,14 @@ void StrainOutput::write_without_errors(const StrainLevel &level, const std::str
 
 void StrainOutput::write_note(const StrainLevel &level, std::string text)
 {
-  text              = text.substr(0, text.find("; residual norms"));
-  const NoteRow row = {level.cell, level.load, name_of(level.law), level.strain, text};
-  note_table.append_if_missing(row);
+  text         = text.substr(0, text.find("; residual norms"));
+  LevelRow row = levels.known({level.cell, level.load, name_of(level.law), level.strain});
+  const std::vector<std::string> before = remarks_of(row);
+  if (std::find(before.begin(), before.end(), text) == before.end())
+  {
+    row.note += (before.empty() ? "" : LevelRow::separator) + text;
+    levels.put(row);
+  }
   tell(row.cell + ", " + row.load + ", " + row.reference + " reference at strain " +
        short_text(row.strain) + ": " + text);
 }
@@ -145,15 +163,16 @@ void StrainOutput::write_note(const StrainLevel &level, std::string text)
 void StrainOutput::write_gains() const
 {
   Table<GainRow>(folder).replace(gain_rows(strain.rows()));
-  Table<ValidityRow>(folder).replace(validity_rows(strain.rows(), ellipticity.rows()));
+  Table<ValidityRow>(folder).replace(validity_rows(strain.rows(), levels.rows()));
 }
 
 std::vector<std::string> StrainOutput::notes() const
 {
   std::vector<std::string> sentences;
-  for (const NoteRow &row : note_table.rows())
-    sentences.push_back(row.cell + ", " + row.load + ", " + row.reference + " at strain " +
-                        short_text(row.strain) + ": " + row.note);
+  for (const LevelRow &row : levels.rows())
+    for (const std::string &remark : remarks_of(row))
+      sentences.push_back(row.cell + ", " + row.load + ", " + row.reference + " at strain " +
+                          short_text(row.strain) + ": " + remark);
   return sentences;
 }
 } // namespace homespun::verification

@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: MIT
 // What a strain study leaves on the disk as it goes on: the tables strain.csv (errors), forces.csv,
-// steps.csv (times), uncertainty.csv, ellipticity.csv, notes.csv, budget.csv,
-// second-code.csv, energies.csv and runtime.csv, and at its end gains.csv and validity.csv. First
-// rank alone.
+// levels.csv (times, ellipticity, remarks), uncertainty.csv, budget.csv, cross-checks.csv and
+// runtime.csv, and at its end gains.csv and validity.csv. First rank alone.
 #pragma once
 
 #include "meshes/plain/sheet.h"
 #include "verification/law/laws.h"
 #include "verification/strain/budget/budget_tables.h"
-#include "verification/strain/budget/energy_tables.h"
 #include "verification/strain/reference_uncertainty.h"
 #include "verification/strain/strain_options.h"
 #include "verification/strain/strain_tables.h"
@@ -64,7 +62,13 @@ public:
                     int n_coarse_triangles, const StrainErrors &errors);
 
   /// @param step its keys are those of the level
-  void write_step(const StrainLevel &level, StepRow step);
+  void write_step(const StrainLevel &level, LevelRow step);
+
+  /// Whether the triangles of a part are elliptic at a level.
+  void write_ellipticity(const LevelRow &of_part)
+  {
+    levels.append_if_missing(of_part);
+  }
 
   void write_forces(const ForceRow &row)
   {
@@ -81,7 +85,7 @@ public:
   /// A remark on a level, for the report and the terminal.
   void write_note(const StrainLevel &level, std::string text);
 
-  /// gains.csv and validity.csv, from all rows of strain.csv and ellipticity.csv.
+  /// gains.csv and validity.csv, from all rows of strain.csv and levels.csv.
   void write_gains() const;
 
   /// Every note of the study, those of earlier runs too. Ready sentences.
@@ -92,9 +96,9 @@ public:
     return strain.rows();
   }
 
-  const std::vector<StepRow> &step_rows() const
+  const std::vector<LevelRow> &level_rows() const
   {
-    return steps.rows();
+    return levels.rows();
   }
 
   const std::vector<ForceRow> &force_rows() const
@@ -103,10 +107,8 @@ public:
   }
 
   Table<UncertaintyRow> uncertainty;
-  Table<EllipticityRow> ellipticity;
   std::unique_ptr<Table<BudgetRow>> budget;     ///< none where it is left out
-  std::unique_ptr<Table<SecondCodeRow>> second; ///< with the budget
-  std::unique_ptr<Table<EnergyRow>> energies;   ///< with the budget
+  std::unique_ptr<Table<CrossCheckRow>> checks; ///< with the budget
   std::unique_ptr<Table<RunTimeRow>> run_time;  ///< none where it is left out
 
 private:
@@ -114,8 +116,7 @@ private:
   const std::vector<std::string> methods;
   const std::function<void(const std::string &)> tell;
   Table<StrainRow> strain;
-  Table<StepRow> steps;
+  Table<LevelRow> levels;
   Table<ForceRow> forces;
-  Table<NoteRow> note_table;
 };
 } // namespace homespun::verification

@@ -92,7 +92,7 @@ private:
     if (options.budget)
       budget = std::make_unique<BudgetStudy>(options.references, options.strains,
                                              output ? output->budget.get() : nullptr,
-                                             output ? output->second.get() : nullptr, communicator);
+                                             output ? output->checks.get() : nullptr, communicator);
     progress.milestone(cell.name + ": homogenization");
     CellNeeds needs;
     needs.second_order           = laws_of_second_order(options);
@@ -173,7 +173,7 @@ private:
     if (options.budget && !load.is_periodic())
     {
       progress.begin(cell.name + ", " + load.name + ": energy of the reference between two sides");
-      measure_energies(cell, load, options.n_cells, output ? output->energies.get() : nullptr,
+      measure_energies(cell, load, options.n_cells, output ? output->checks.get() : nullptr,
                        communicator);
     }
     const std::vector<Law> laws = laws_of(options);
@@ -374,7 +374,7 @@ private:
     note(output->notes());
     if (options.budget)
       note(budget_notes(output->strain_rows(), output->budget->rows()));
-    return describe(options, {output->strain_rows(), output->step_rows(), notes},
+    return describe(options, {output->strain_rows(), output->level_rows(), notes},
                     {peak_memory, largest_residual});
   }
 

@@ -13,10 +13,10 @@
 
 namespace homespun::verification
 {
-/// Runs a study and writes, into the output folder, strain.csv, steps.csv, uncertainty.csv,
-/// ellipticity.csv, budget.csv, energies.csv, runtime.csv, validity.csv, verdicts.json, study.json
-/// and per cell what homogenize writes and fields-LOAD.h5. Rows are on the disk as they come; what
-/// the same run left there is not computed again.
+/// Runs a study and writes, into the output folder, strain.csv, levels.csv, uncertainty.csv,
+/// budget.csv, cross-checks.csv, runtime.csv, validity.csv, verdicts.json, study.json and per cell
+/// what homogenize writes and fields-LOAD.h5. Rows are on the disk as they come; what the same run
+/// left there is not computed again.
 ///
 /// The cell is homogenized with P1 on its given mesh, the discretization of the reference, so that
 /// the figure shows the error of the method and not of two different meshes.

@@ -6,6 +6,7 @@
 #include "verification/record/validity_table.h"
 
 #include <limits>
+#include <optional>
 #include <string>
 
 namespace homespun::verification
@@ -108,94 +109,66 @@ struct GainRow
   }
 };
 
-/// steps.csv: what one level cost, and how much the reference fluctuates there.
-struct StepRow
+/// levels.csv: a level of a load against a law: what it cost, how much the reference fluctuates
+/// there, and remarks, `|` between them; and, in rows of their own, whether the triangles of a part
+/// of it are elliptic (ellipticity/ellipticity.h). What a row has not is empty.
+struct LevelRow
 {
-  static constexpr const char *file   = "steps.csv";
-  static constexpr std::size_t n_keys = 4;
+  static constexpr const char *file      = "levels.csv";
+  static constexpr const char *separator = " | "; ///< of remarks
+  static constexpr std::size_t n_keys    = 5;
+  static constexpr double none           = std::numeric_limits<double>::quiet_NaN();
 
   std::string cell, load, reference;
-  double strain = 0., seconds_coarse = 0., seconds_upsample = 0., seconds_fine = 0.;
-  int coarse_iterations        = 0;
-  unsigned int fine_iterations = 0;
-  unsigned long fine_dofs      = 0;
-  unsigned int ranks           = 1;
-  double fluctuation           = 0.; ///< mean |reference − resolved homogenized sheet| [m]
-  double fluctuation_bar       = 0.; ///< its change from a homogenized sheet half as fine [m]
-  std::string homogenized_law;       ///< of that sheet
-  double seconds_homogenized = 0.;
-  std::string stability;         ///< of the reference, see Stability
-  double seconds_stability = 0.; ///< what it cost to find that out
+  double strain                = 0.;
+  std::string part             = {}; ///< a phase, or `coarse cloth`; empty: the level itself
+  std::optional<int> triangles = {}; ///< of that part
+  std::optional<int> lost      = {}; ///< of them not elliptic
+  double least          = none; ///< stiffness of the plane wave that costs least, over that at rest
+  double seconds_coarse = none, seconds_upsample = none, seconds_fine = none;
+  std::optional<int> coarse_iterations        = {};
+  std::optional<unsigned int> fine_iterations = {};
+  std::optional<unsigned long> fine_dofs      = {};
+  std::optional<unsigned int> ranks           = {};
+  double fluctuation          = none; ///< mean |reference − resolved homogenized sheet| [m]
+  double fluctuation_bar      = none; ///< its change from a homogenized sheet half as fine [m]
+  std::string homogenized_law = {};   ///< of that sheet
+  double seconds_homogenized  = none;
+  std::string stability       = {};   ///< of the reference, see Stability
+  double seconds_stability    = none; ///< what it cost to find that out
+  std::string note            = {};   ///< remarks
 
-  template <typename Column>
-  static void columns(Column &&column)
+  /// Whether it has the numbers of a level that was solved.
+  bool is_solved() const
   {
-    column("cell", &StepRow::cell, Domain::name);
-    column("load", &StepRow::load, Domain::name);
-    column("reference", &StepRow::reference, Domain::name);
-    column("strain", &StepRow::strain, Domain::positive);
-    column("seconds_coarse_solve", &StepRow::seconds_coarse, Domain::not_negative);
-    column("seconds_upsample", &StepRow::seconds_upsample, Domain::not_negative);
-    column("seconds_fine_step", &StepRow::seconds_fine, Domain::not_negative);
-    column("coarse_iterations", &StepRow::coarse_iterations, Domain::not_negative);
-    column("fine_iterations", &StepRow::fine_iterations, Domain::not_negative);
-    column("fine_dofs", &StepRow::fine_dofs, Domain::not_negative);
-    column("ranks", &StepRow::ranks, Domain::positive);
-    column("fluctuation_m", &StepRow::fluctuation, Domain::not_negative);
-    column("fluctuation_bar_m", &StepRow::fluctuation_bar, Domain::not_negative);
-    column("homogenized_law", &StepRow::homogenized_law, Domain::text);
-    column("seconds_homogenized_sheet", &StepRow::seconds_homogenized, Domain::not_negative);
-    column("reference_stability", &StepRow::stability, Domain::text);
-    column("seconds_stability", &StepRow::seconds_stability, Domain::not_negative);
+    return !stability.empty();
   }
-};
-
-/// ellipticity.csv: whether the triangles of a phase of the resolved sheet, or of the coarse cloth,
-/// are elliptic at a level (laws/ellipticity.h).
-struct EllipticityRow
-{
-  static constexpr const char *file   = "ellipticity.csv";
-  static constexpr std::size_t n_keys = 5;
-
-  std::string cell, load, reference;
-  double strain = 0.;
-  std::string part;   ///< a phase, or `coarse cloth`
-  int triangles = 0;  ///< of that part
-  int lost      = 0;  ///< of them not elliptic
-  double least  = 1.; ///< stiffness of the plane wave that costs least, over that at rest
 
   template <typename Column>
   static void columns(Column &&column)
   {
-    column("cell", &EllipticityRow::cell, Domain::name);
-    column("load", &EllipticityRow::load, Domain::name);
-    column("reference", &EllipticityRow::reference, Domain::name);
-    column("strain", &EllipticityRow::strain, Domain::positive);
-    column("part", &EllipticityRow::part, Domain::name);
-    column("triangles", &EllipticityRow::triangles, Domain::positive);
-    column("not_elliptic", &EllipticityRow::lost, Domain::not_negative);
-    column("least_wave", &EllipticityRow::least, Domain::real);
-  }
-};
-
-/// notes.csv: a remark on a level.
-struct NoteRow
-{
-  static constexpr const char *file   = "notes.csv";
-  static constexpr std::size_t n_keys = 5;
-
-  std::string cell, load, reference;
-  double strain = 0.;
-  std::string note;
-
-  template <typename Column>
-  static void columns(Column &&column)
-  {
-    column("cell", &NoteRow::cell, Domain::name);
-    column("load", &NoteRow::load, Domain::name);
-    column("reference", &NoteRow::reference, Domain::name);
-    column("strain", &NoteRow::strain, Domain::positive);
-    column("note", &NoteRow::note, Domain::text);
+    column("cell", &LevelRow::cell, Domain::name);
+    column("load", &LevelRow::load, Domain::name);
+    column("reference", &LevelRow::reference, Domain::name);
+    column("strain", &LevelRow::strain, Domain::positive);
+    column("part", &LevelRow::part, Domain::text);
+    column("triangles", &LevelRow::triangles, Domain::not_negative);
+    column("not_elliptic", &LevelRow::lost, Domain::not_negative);
+    column("least_wave", &LevelRow::least, Domain::real);
+    column("seconds_coarse_solve", &LevelRow::seconds_coarse, Domain::not_negative);
+    column("seconds_upsample", &LevelRow::seconds_upsample, Domain::not_negative);
+    column("seconds_fine_step", &LevelRow::seconds_fine, Domain::not_negative);
+    column("coarse_iterations", &LevelRow::coarse_iterations, Domain::not_negative);
+    column("fine_iterations", &LevelRow::fine_iterations, Domain::not_negative);
+    column("fine_dofs", &LevelRow::fine_dofs, Domain::not_negative);
+    column("ranks", &LevelRow::ranks, Domain::not_negative);
+    column("fluctuation_m", &LevelRow::fluctuation, Domain::not_negative);
+    column("fluctuation_bar_m", &LevelRow::fluctuation_bar, Domain::not_negative);
+    column("homogenized_law", &LevelRow::homogenized_law, Domain::text);
+    column("seconds_homogenized_sheet", &LevelRow::seconds_homogenized, Domain::not_negative);
+    column("reference_stability", &LevelRow::stability, Domain::text);
+    column("seconds_stability", &LevelRow::seconds_stability, Domain::not_negative);
+    column("note", &LevelRow::note, Domain::text);
   }
 };
 

@@ -100,10 +100,10 @@ nlohmann::ordered_json what_was_left_out(const StrainStudyOptions &options)
 }
 
 /// Of the levels that were reached.
-std::string note_of_fluctuation(const std::vector<StepRow> &steps)
+std::string note_of_fluctuation(const std::vector<LevelRow> &steps)
 {
   double largest_change = 0., seconds = 0., seconds_fine = 0.;
-  for (const StepRow &step : steps)
+  for (const LevelRow &step : steps)
     if (step.fluctuation > 0. && !Load(step.load).is_periodic())
     {
       largest_change = std::max(largest_change, step.fluctuation_bar / step.fluctuation);

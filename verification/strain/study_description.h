@@ -24,7 +24,7 @@ struct StudyCost
 struct StudyRecord
 {
   const std::vector<StrainRow> &rows;
-  const std::vector<StepRow> &steps;
+  const std::vector<LevelRow> &steps;
   std::vector<std::string> notes; ///< on levels and on the budget
 };
 

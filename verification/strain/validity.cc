@@ -11,13 +11,13 @@
 
 namespace homespun::verification
 {
-double strain_of_loss(const std::vector<EllipticityRow> &rows)
+double strain_of_loss(const std::vector<LevelRow> &rows)
 {
-  std::vector<EllipticityRow> sorted = rows;
+  std::vector<LevelRow> sorted = rows;
   std::sort(sorted.begin(), sorted.end(),
-            [](const EllipticityRow &a, const EllipticityRow &b) { return a.strain < b.strain; });
+            [](const LevelRow &a, const LevelRow &b) { return a.strain < b.strain; });
   double strain = 0., least = 1.;
-  for (const EllipticityRow &row : sorted)
+  for (const LevelRow &row : sorted)
   {
     if (row.lost > 0)
       return strain + (row.strain - strain) * least / (least - row.least);
@@ -27,18 +27,18 @@ double strain_of_loss(const std::vector<EllipticityRow> &rows)
   return std::numeric_limits<double>::quiet_NaN();
 }
 
-double elliptic_up_to(const std::vector<EllipticityRow> &all, const std::string &cell,
+double elliptic_up_to(const std::vector<LevelRow> &all, const std::string &cell,
                       const std::string &load, const std::string &reference)
 {
   std::vector<std::string> parts;
-  for (const EllipticityRow &row : all)
+  for (const LevelRow &row : all)
     if (std::find(parts.begin(), parts.end(), row.part) == parts.end())
       parts.push_back(row.part);
   double first = std::numeric_limits<double>::quiet_NaN();
   for (const std::string &part : parts)
   {
-    std::vector<EllipticityRow> rows;
-    for (const EllipticityRow &row : all)
+    std::vector<LevelRow> rows;
+    for (const LevelRow &row : all)
       if (row.cell == cell && row.load == load && row.reference == reference && row.part == part)
         rows.push_back(row);
     first = std::fmin(first, strain_of_loss(rows));
@@ -147,7 +147,7 @@ ValidityRow row_of(const StrainRow &one, const std::string &measure, const doubl
 } // namespace
 
 std::vector<ValidityRow> validity_rows(const std::vector<StrainRow> &given,
-                                       const std::vector<EllipticityRow> &ellipticity)
+                                       const std::vector<LevelRow> &levels)
 {
   const std::vector<StrainRow> all = with_bases(given);
   const auto same_case             = [](const StrainRow &a, const StrainRow &b)
@@ -188,7 +188,7 @@ std::vector<ValidityRow> validity_rows(const std::vector<StrainRow> &given,
       }
     std::sort(of_case.begin(), of_case.end(),
               [](const StrainRow &a, const StrainRow &b) { return a.strain < b.strain; });
-    const double up_to = elliptic_up_to(ellipticity, one.cell, one.load, one.reference);
+    const double up_to = elliptic_up_to(levels, one.cell, one.load, one.reference);
     for (const Measure &measure : measures)
     {
       std::vector<Level> levels;

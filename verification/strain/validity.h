@@ -27,11 +27,11 @@ Crossing crossing(const std::vector<double> &strains, const std::vector<double> 
 /// and 1 at rest.
 /// @param rows of one cell, load, reference and part, in any order
 /// @return not a number where every level is elliptic
-double strain_of_loss(const std::vector<EllipticityRow> &rows);
+double strain_of_loss(const std::vector<LevelRow> &rows);
 
 /// The same, of the part that is lost first.
-/// @param all rows of ellipticity.csv
-double elliptic_up_to(const std::vector<EllipticityRow> &all, const std::string &cell,
+/// @param all rows of levels.csv
+double elliptic_up_to(const std::vector<LevelRow> &all, const std::string &cell,
                       const std::string &load, const std::string &reference);
 
 /// In place of a method's name: at each level the base of the main method (gains.h).
@@ -42,7 +42,7 @@ constexpr const char *base_method = "base";
 /// of the reference and 1 and 5 % of the cell side. Levels that were not reached end the ladder,
 /// and the first loss of ellipticity, of the worst triangle of reference or coarse cloth, ends the
 /// range: beyond it the reference is one equilibrium of its mesh.
-/// @param ellipticity rows of ellipticity.csv, for the strain of the first loss
+/// @param levels rows of levels.csv, for the strain of the first loss
 std::vector<ValidityRow> validity_rows(const std::vector<StrainRow> &rows,
-                                       const std::vector<EllipticityRow> &ellipticity = {});
+                                       const std::vector<LevelRow> &levels = {});
 } // namespace homespun::verification

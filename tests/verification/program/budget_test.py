@@ -35,7 +35,8 @@ class Budget(InFolder):
             self.assertAlmostEqual(total[row["load"], row["strain"]] / float(row["error_mean_m"]),
                                    1., delta=1e-4)
 
-        energies = rows_of(self.folder / "energies.csv")
+        energies = [row for row in rows_of(self.folder / "cross-checks.csv")
+                    if row["what"] == "energies"]
         self.assertEqual([row["load"] for row in energies], ["shear-frame"])
         for row in energies:
             lower, p2, upper = (float(row[f"energy_{side}_J"]) for side in ("lower", "p2", "upper"))
@@ -144,7 +145,7 @@ class Budget(InFolder):
         result = run(*STUDY, "--no-budget", "--no-runtime", "--quiet", "--output", self.folder)
         self.assertEqual(result.returncode, 0, result.stderr)
         self.assertFalse((self.folder / "budget.csv").exists())
-        self.assertFalse((self.folder / "energies.csv").exists())
+        self.assertFalse((self.folder / "cross-checks.csv").exists())
         self.assertFalse((self.folder / "runtime.csv").exists())
         self.assertTrue((self.folder / "validity.csv").exists())
 

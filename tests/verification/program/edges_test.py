@@ -97,7 +97,7 @@ class Edges(InFolder):
                     self.assertLess(error[load, reference, strain, "full"],
                                     0.9 * error[load, reference, strain, "localized+edges"],
                                     (load, reference, strain))
-        notes = [row["note"] for row in rows_of(output / "notes.csv")]
+        notes = [row["note"] for row in rows_of(output / "levels.csv")]
         self.assertTrue(any("axis 2, near end" in note and "clamped" in note for note in notes))
         left_out = {row["what"]
                     for row in json.loads((output / "study.json").read_text())["left_out"]}
@@ -134,7 +134,7 @@ class Edges(InFolder):
         self.assertIn(result.returncode, (0, 4), result.stderr)
         rows = {row["method"]: row["error_mean_m"] for row in rows_of(output / "strain.csv")}
         self.assertEqual(rows["localized+p2"], rows["localized"])
-        notes = [row["note"] for row in rows_of(output / "notes.csv")]
+        notes = [row["note"] for row in rows_of(output / "levels.csv")]
         self.assertTrue(any("method localized+p2" in note and "odd number of cells" in note
                             for note in notes))
 

@@ -6,6 +6,13 @@ import unittest
 from cli import CELLS, WEAVE, InFolder, rows_of, run
 
 
+def parts_and_notes(folder):
+    """Rows of levels.csv that are of a part, and all remarks."""
+    rows = rows_of(folder / "levels.csv")
+    notes = [note for row in rows for note in row["note"].split(" | ") if note]
+    return [row for row in rows if row["part"]], notes
+
+
 class Ellipticity(InFolder):
     def test_check_warns_of_yarns_and_of_nothing_in_cells_without(self):
         woven = run("check", WEAVE)
@@ -22,7 +29,7 @@ class Ellipticity(InFolder):
                      "--methods", "affine,localized", "--no-budget", "--no-runtime", "--no-report",
                      "--output", self.folder / "run")
         self.assertIn(result.returncode, (0, 1, 4), result.stderr)
-        rows = rows_of(self.folder / "run" / "ellipticity.csv")
+        rows, notes = parts_and_notes(self.folder / "run")
         self.assertEqual({row["reference"] for row in rows}, {"biot", "green"})
         self.assertEqual({row["part"] for row in rows},
                          {"warp", "weft", "warp-over", "weft-over", "coarse cloth"})
@@ -36,7 +43,6 @@ class Ellipticity(InFolder):
             if row["reference"] == "biot":
                 self.assertGreater(float(row["elliptic_up_to"]), 0.0025)
                 self.assertLess(float(row["elliptic_up_to"]), 0.003)
-        notes = [row["note"] for row in rows_of(self.folder / "run" / "notes.csv")]
         self.assertTrue([note for note in notes if "are not elliptic under biot" in note], notes)
         self.assertEqual(len([note for note in notes if "of the coarse cloth are not" in note]), 1)
 
@@ -132,7 +138,7 @@ class Stop(InFolder):
                      "affine,localized", "--no-budget", "--no-runtime", "--no-report",
                      "--output", self.folder / "run")
         self.assertIn(result.returncode, (0, 1, 4), result.stderr)
-        notes = [row for row in rows_of(self.folder / "run" / "notes.csv")
+        notes = [row for row in rows_of(self.folder / "run" / "levels.csv")
                  if "no equilibrium" in row["note"]]
         self.assertEqual([(row["reference"], row["strain"]) for row in notes], [("green", "0.15")])
         # In a corner of the frame, where the soft stripe is pressed.
@@ -161,12 +167,11 @@ class Yarns(InFolder):
         rows = rows_of(self.folder / "run" / "strain.csv")
         self.assertEqual({row["strain"] for row in rows if row["method"] == "localized"},
                          {"0.001", "0.01", "0.05"})
-        found = rows_of(self.folder / "run" / "ellipticity.csv")
+        found, notes = parts_and_notes(self.folder / "run")
         self.assertEqual({row["reference"] for row in found}, {"yarn"})
         # The coarse cloth has the law too, and says along which axes.
         coarse = [row for row in found if row["part"] == "coarse cloth"]
         self.assertEqual([row["not_elliptic"] for row in coarse], ["0", "0", "0"])
-        notes = [row["note"] for row in rows_of(self.folder / "run" / "notes.csv")]
         self.assertEqual(sum("the coarse cloth has the law yarn, too" in note for note in notes), 1)
 
 

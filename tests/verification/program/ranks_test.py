@@ -63,7 +63,7 @@ class Ranks(InFolder):
                      "--references", "biot", "--methods", "localized", "--no-report",
                      "--no-runtime", "--quiet", "--output", output, ranks=2)
         self.assertIn(result.returncode, (0, 1, 4), result.stderr)
-        notes = (output / "notes.csv").read_text()
+        notes = (output / "levels.csv").read_text()
         self.assertIn("error budget: ", notes)
         with open(output / "strain.csv", newline="", encoding="utf-8") as file:
             self.assertEqual([row["strain"] for row in csv.DictReader(file)], ["0.01", "0.1"])

@@ -166,6 +166,20 @@ TEST_F(exact_tables, rows_with_the_same_keys_are_one)
   EXPECT_EQ(Table<Measured>(folder).rows()[0].error, 3.);
 }
 
+TEST_F(exact_tables, a_row_that_is_put_stands_in_the_file_once)
+{
+  Table<Measured> table(folder);
+  table.put({"stripes", 0.1, 1., {}, "one"});
+  table.put({"stripes", 0.2, 2., {}, ""});
+  Measured known = table.known({"stripes", 0.1, 0., {}, ""});
+  EXPECT_EQ(known.note, "one");
+  known.note += " | two";
+  table.put(known);
+  EXPECT_EQ(text(), "cell,strain,error_m,iterations,note\nstripes,0.1,1,,one | two\n"
+                    "stripes,0.2,2,,\n");
+  EXPECT_EQ(table.known({"dots", 0.1, 0., {}, ""}).note, "");
+}
+
 TEST_F(exact_tables, the_schema_has_the_columns_of_the_file)
 {
   nlohmann::ordered_json schema;

@@ -64,14 +64,14 @@ TEST(exact_stability, a_sheet_in_tension_is_stable_triangle_by_triangle)
 
 TEST(exact_stability, an_equilibrium_that_is_no_minimum_leaves_its_claim_open)
 {
-  StepRow step;
-  step.cell                  = "cell";
-  step.load                  = "strip-1";
-  step.reference             = "biot";
-  std::vector<StepRow> steps = {step, step, step};
-  steps[0].stability         = name_of(Stability::every_triangle);
-  steps[1].stability         = name_of(Stability::stable);
-  steps[2].stability         = name_of(Stability::left);
+  LevelRow step;
+  step.cell                   = "cell";
+  step.load                   = "strip-1";
+  step.reference              = "biot";
+  std::vector<LevelRow> steps = {step, step, step};
+  steps[0].stability          = name_of(Stability::every_triangle);
+  steps[1].stability          = name_of(Stability::stable);
+  steps[2].stability          = name_of(Stability::left);
   EXPECT_EQ(stability_verdicts(steps).at(0).outcome, Outcome::pass);
   for (const Stability open : {Stability::unstable, Stability::unknown})
   {
@@ -79,7 +79,7 @@ TEST(exact_stability, an_equilibrium_that_is_no_minimum_leaves_its_claim_open)
     EXPECT_EQ(stability_verdicts(steps).at(0).outcome, Outcome::inconclusive);
     EXPECT_EQ(stability_verdicts(steps).at(0).value, 1.);
   }
-  for (StepRow &one : steps)
+  for (LevelRow &one : steps)
     one.reference = "linear";
   EXPECT_TRUE(stability_verdicts(steps).empty());
 }

@@ -142,7 +142,7 @@ def write_results(folder):
     )
     write_table(
         folder,
-        "steps.csv",
+        "levels.csv",
         [
             {
                 **level,

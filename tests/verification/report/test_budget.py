@@ -74,13 +74,15 @@ def write_budget(folder):
     )
     write_table(
         folder,
-        "energies.csv",
+        "cross-checks.csv",
         [
             {
                 "cell": "stripes",
                 "load": "shear-frame",
                 "cells": 4,
                 "strain": 0.01,
+                "reference": "linear",
+                "what": "energies",
                 "energy_upper_J": 2e-6,
                 "energy_lower_J": 1.98e-6,
                 "energy_round_off_J": 1e-15,
@@ -97,6 +99,8 @@ def write_budget(folder):
                 "load": "strip-1",
                 "cells": 4,
                 "strain": 0.01,
+                "reference": "linear",
+                "what": "energies",
                 "energy_upper_J": 2e-6,
                 "fault": "stresses: the matrix is not positive definite",
             },
@@ -300,7 +304,7 @@ class BudgetReport(PageTest):
         for row in (known, unknown):
             places = [i for i in range(len(cells)) if cells[i : i + len(row)] == row]
             self.assertEqual(len(places), 1, row)
-        self.remove("energies.csv")
+        self.remove("cross-checks.csv")
         self.assertEqual(self.run_report(), (0, ""))
         self.assertIn("Left out: energy of the reference between two sides", self.page())
         self.assertNotIn("Prager and Synge", self.page())

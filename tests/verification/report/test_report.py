@@ -70,7 +70,7 @@ class ReportTest(PageTest):
             "study.json",
             "verdicts.json",
             "uncertainty.csv",
-            "steps.csv",
+            "levels.csv",
             "stripes/cell.h5",
             "stripes/homogenize.json",
             "stripes/fields-shear-frame.h5",
@@ -78,7 +78,7 @@ class ReportTest(PageTest):
         self.edit_table("strain.csv", lambda rows: rows[:1])
         self.assertEqual(self.run_report(), (0, ""))
         page = self.page()
-        for name in ("study.json", "verdicts.json", "uncertainty.csv", "steps.csv"):
+        for name in ("study.json", "verdicts.json", "uncertainty.csv", "levels.csv"):
             self.assertIn(f"{name} does not exist", page)
         for what in (
             "Left out: verdicts",

@@ -63,10 +63,10 @@ class OneRunTest(PageTest):
             self.assertIn(f"{name} is not in run.json", page)
 
     def test_a_table_that_was_changed_after_the_run_is_left_out_and_named(self):
-        self.edit("steps.csv", lambda text: text.replace("6.5", "9.5"), listed=False)
+        self.edit("levels.csv", lambda text: text.replace("6.5", "9.5"), listed=False)
         self.assertEqual(self.run_report(), (0, ""))
         page = self.page()
-        self.assertIn("steps.csv was changed after the run ended", page)
+        self.assertIn("levels.csv was changed after the run ended", page)
         self.assertNotIn("9.50 s", page)
 
     def test_a_file_that_is_listed_and_gone_is_named(self):
@@ -108,6 +108,17 @@ class OneRunTest(PageTest):
         ):
             write_run(self.folder, **others)
             self.assert_refused("run.json", *words.split(" is "))
+
+    def test_a_table_that_this_version_does_not_have_is_refused_by_the_revision_that_wrote_it(self):
+        path = os.path.join(self.folder, "steps.csv")
+        os.rename(os.path.join(self.folder, "levels.csv"), path)
+        for finished in (True, False):
+            write_run(self.folder, revision="0ld1234", finished=finished)
+            self.assert_refused("holds steps.csv", "revision 0ld1234", "--overwrite")
+        os.remove(path)
+        write_run(self.folder)
+        os.rename(os.path.join(self.folder, "strain.csv"), path)  # nobody's, beside a run that ended
+        self.assertNotIn("steps.csv", self.run_report()[1])
 
     def test_a_run_that_says_no_format_is_an_older_one_and_read(self):
         path = os.path.join(self.folder, "run.json")

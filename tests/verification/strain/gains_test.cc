@@ -155,9 +155,9 @@ Rows operator+(Rows one, const Rows &other)
   return one;
 }
 
-EllipticityRow lost_at(const double strain)
+LevelRow lost_at(const double strain)
 {
-  EllipticityRow lost;
+  LevelRow lost;
   lost.cell      = "cell";
   lost.load      = "strip-1";
   lost.reference = "biot";

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a study says of the ellipticity of a level: ellipticity.csv, its notes, the column of
+// What a study says of the ellipticity of a level: levels.csv, its notes, the column of
 // validity.csv.
 #include "meshes/files/temporary_folder.h"
 #include "tests/homogenization/cell/cells.h"
@@ -15,8 +15,8 @@ using namespace homespun::verification;
 
 namespace
 {
-EllipticityRow row(const double strain, const int lost, const double least,
-                   const std::string &part = "yarn")
+LevelRow row(const double strain, const int lost, const double least,
+             const std::string &part = "yarn")
 {
   return {"cell", "strip-1", "biot", strain, part, 10, lost, least};
 }
@@ -36,8 +36,7 @@ TEST(exact_level_ellipticity, the_strain_of_loss_lies_between_the_levels)
   EXPECT_TRUE(std::isnan(strain_of_loss({row(0.01, 0, 0.9), row(0.02, 0, 0.8)})));
   EXPECT_DOUBLE_EQ(strain_of_loss({row(0.04, 3, -1.)}), 0.02);
   EXPECT_DOUBLE_EQ(strain_of_loss({row(0.04, 3, -0.3), row(0.02, 0, 0.1), row(0.1, 0, 2.)}), 0.025);
-  const std::vector<EllipticityRow> both = {row(0.04, 3, -1.),
-                                            row(0.04, 1, -3., coarse_cloth_part)};
+  const std::vector<LevelRow> both = {row(0.04, 3, -1.), row(0.04, 1, -3., coarse_cloth_part)};
   EXPECT_DOUBLE_EQ(elliptic_up_to(both, "cell", "strip-1", "biot"), 0.01);
   EXPECT_TRUE(std::isnan(elliptic_up_to(both, "cell", "strip-1", "green")));
   StrainRow error = {"cell", "strip-1", 0.04, "biot", "localized"};
@@ -58,7 +57,7 @@ TEST(tripwire_level_ellipticity, the_range_of_validity_ends_where_ellipticity_is
     error.uncertainty           = 0.01 * strain;
     errors.push_back(error);
   }
-  const auto of_limit = [&](const double limit, const std::vector<EllipticityRow> &ellipticity)
+  const auto of_limit = [&](const double limit, const std::vector<LevelRow> &ellipticity)
   {
     for (const ValidityRow &valid : validity_rows(errors, ellipticity))
       if (valid.measure == "cell side" && valid.limit == limit)
@@ -67,8 +66,8 @@ TEST(tripwire_level_ellipticity, the_range_of_validity_ends_where_ellipticity_is
   };
   EXPECT_EQ(of_limit(0.05, {}).relation, ">");
   EXPECT_DOUBLE_EQ(of_limit(0.05, {}).largest, 0.04);
-  const std::vector<EllipticityRow> lost = {row(0.02, 0, 0.1), row(0.04, 3, -0.3)}; // at 0.025
-  const ValidityRow found                = of_limit(0.05, lost);
+  const std::vector<LevelRow> lost = {row(0.02, 0, 0.1), row(0.04, 3, -0.3)}; // at 0.025
+  const ValidityRow found          = of_limit(0.05, lost);
   EXPECT_EQ(found.relation, "=");
   for (const double strain : {found.largest, found.lower, found.upper})
     EXPECT_DOUBLE_EQ(strain, 0.025);
@@ -115,10 +114,13 @@ TEST(exact_level_ellipticity, a_pulled_cloth_of_one_phase_is_lost_where_theory_s
     }
   // The numerator of the closed form is linear in strain, its square of stretches is not:
   // 2 % of curvature over 0.002 of strain.
-  const std::vector<EllipticityRow> &rows = output.ellipticity.rows();
+  std::vector<LevelRow> rows; // beside those of the levels, which have the notes
+  for (const LevelRow &row : output.level_rows())
+    if (!row.part.empty())
+      rows.push_back(row);
   EXPECT_EQ(rows.size(), 18u); // linear has none to lose
   EXPECT_NEAR(elliptic_up_to(rows, cell.name, load.name, "biot"), 4. / 36., 2e-6);
-  for (const EllipticityRow &found : rows)
+  for (const LevelRow &found : rows)
   {
     // The coarse cloth has the law of yarns beside them, else the corotational one.
     const bool is_biot =

@@ -249,7 +249,7 @@ def uncertainty_rows(rows):
 
 
 def energy_rows(rows):
-    """energies.csv as text: the lower side and distances in percent of the upper one."""
+    """Energies of cross-checks.csv as text: the lower side and distances in percent of the upper one."""
     return [
         [
             row["cell"],
@@ -266,7 +266,7 @@ def energy_rows(rows):
 
 
 def step_rows(rows):
-    """steps.csv as text, medians over its strains, with the ratio of fine step to the coarse one.
+    """Levels of levels.csv as text, medians over strains, with the ratio of fine step to the coarse one.
     """
     groups = {}
     for row in rows:

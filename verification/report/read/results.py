@@ -263,10 +263,12 @@ def read_strain(run, cell_folders, path_of, results, faults):
             )
     if path := path_of("uncertainty.csv", OF_STRAIN[1]):
         results.uncertainty += read_csv(path, faults, results.missing)
-    if path := path_of("energies.csv", OF_STRAIN[2]):
-        results.energies += read_csv(path, faults, results.missing)
-    if path := path_of("steps.csv", OF_STRAIN[3]):
-        results.steps += read_csv(path, faults, results.missing)
+    if path := path_of("cross-checks.csv", OF_STRAIN[2]):
+        rows = read_csv(path, faults, results.missing)
+        results.energies += [row for row in rows if row["what"] == "energies"]
+    if path := path_of("levels.csv", OF_STRAIN[3]):
+        rows = read_csv(path, faults, results.missing)
+        results.steps += [row for row in rows if row["reference_stability"]]
     if path := path_of("forces.csv", OF_STRAIN[7]):
         results.forces += read_csv(path, faults, results.missing)
     read_budget(path_of, results, faults)

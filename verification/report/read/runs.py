@@ -135,6 +135,11 @@ def is_table(name):
     return name.endswith((".csv", ".json"))
 
 
+def is_unknown_table(name):
+    """Whether a file of a run is a table that this version does not have."""
+    return name.endswith(".csv") and not os.path.dirname(name) and name not in schema.tables()
+
+
 def is_read(name):
     """Whether a file of this name would stand in a page."""
     if os.path.dirname(name) == "figures":
@@ -212,6 +217,13 @@ def read_run(folder, faults):
         )
         return None
     files = value["files"] if value["finished"] else dict.fromkeys(files_below(folder))
+    if unknown := [name for name in sorted(files) if is_unknown_table(name)]:
+        faults.append(
+            f"{folder}: holds {unknown[0]}, which no homespun of this version writes: the one of"
+            f" revision {value['revision']} did; read it with that one, or run the study again with"
+            " --overwrite."
+        )
+        return None
     seconds = value.get("seconds")
     return Run(
         folder,

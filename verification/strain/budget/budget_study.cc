@@ -18,10 +18,10 @@ namespace homespun::verification
 {
 BudgetStudy::BudgetStudy(const std::vector<std::string> &references,
                          const std::vector<double> &strains, Table<BudgetRow> *const table,
-                         Table<SecondCodeRow> *const second, const MPI_Comm communicator)
+                         Table<CrossCheckRow> *const checks, const MPI_Comm communicator)
     : law_of_budget(law_of(main_reference(references)))
     , table(table)
-    , second(second)
+    , checks(checks)
     , judged(judged_strains(strains))
     , communicator(communicator)
 {
@@ -76,11 +76,11 @@ void BudgetStudy::begin_cell(const homogenization::UnitCell &new_cell,
             const KnownEdges known = known_edges(*cell, 1); // P1, as the method has it
             cells.edges            = known.edges;
             why_no_edges           = known.why_not;
-            SecondCodeRow row      = {cell->name, "-", 1., "linear", "p2-cell"};
+            CrossCheckRow row      = {cell->name, "-", 1., "linear", "p2-cell"};
             const Eigen::Matrix3d other =
               second_p2_stiffness(cells.given, cells.stiffness_of_phase);
             row.distance = energy_difference(cells.best.stiffness, other);
-            second->append_if_missing(row);
+            checks->append_if_missing(row);
           });
 }
 
@@ -157,7 +157,7 @@ std::optional<meshes::Points> BudgetStudy::solve_by_second_code(const Law law, c
 {
   if (!second_code_has(law))
     return std::nullopt;
-  SecondCodeRow row = {cell->name, load_name, strain, name_of(law), "sheet"};
+  CrossCheckRow row = {cell->name, load_name, strain, name_of(law), "sheet"};
   std::optional<meshes::Points> positions;
   try
   {
@@ -175,7 +175,7 @@ std::optional<meshes::Points> BudgetStudy::solve_by_second_code(const Law law, c
     row.fault = failure.what();
     fault     = std::string("the second code: ") + failure.what();
   }
-  second->append_if_missing(row);
+  checks->append_if_missing(row);
   return positions;
 }
 

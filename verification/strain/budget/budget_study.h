@@ -29,9 +29,9 @@ class BudgetStudy
 {
 public:
   /// @param references, strains of the study
-  /// @param table, second budget.csv and second-code.csv on the first rank, elsewhere null
+  /// @param table, checks budget.csv and cross-checks.csv on the first rank, elsewhere null
   BudgetStudy(const std::vector<std::string> &references, const std::vector<double> &strains,
-              Table<BudgetRow> *table, Table<SecondCodeRow> *second, MPI_Comm communicator);
+              Table<BudgetRow> *table, Table<CrossCheckRow> *checks, MPI_Comm communicator);
 
   /// Whether the budget of a level is asked for and not yet in the table, as the first rank sees
   /// it.
@@ -69,7 +69,7 @@ private:
   solve_by_second_code(Law law, double strain, const meshes::Points &tight, std::string &fault);
 
   Table<BudgetRow> *const table;
-  Table<SecondCodeRow> *const second;
+  Table<CrossCheckRow> *const checks;
   const std::vector<double> judged; ///< strains
   const MPI_Comm communicator;
   const homogenization::UnitCell *cell = nullptr;

@@ -16,7 +16,13 @@ namespace homespun::verification
 {
 namespace
 {
-constexpr double strain = 0.01; // any: the law is linear
+constexpr double strain        = 0.01; // any: the law is linear
+constexpr const char *energies = "energies";
+
+CrossCheckRow row_of(const homogenization::UnitCell &cell, const Load &load)
+{
+  return {cell.name, load.name, strain, name_of(Law::linear), energies};
+}
 
 ReferenceStep linear_reference(const meshes::Sheet &sheet,
                                const std::vector<Eigen::Matrix3d> &stiffness_of_phase,
@@ -30,7 +36,7 @@ ReferenceStep linear_reference(const meshes::Sheet &sheet,
   return reference.advance(strain);
 }
 
-void add_fault(EnergyRow &row, const std::string &what, const std::string &why)
+void add_fault(CrossCheckRow &row, const std::string &what, const std::string &why)
 {
   row.fault +=
     (row.fault.empty() ? "" : "; ") + what + ": " + why.substr(0, why.find("; residual norms"));
@@ -38,7 +44,7 @@ void add_fault(EnergyRow &row, const std::string &what, const std::string &why)
 
 void measure_stresses(const meshes::Sheet &sheet,
                       const std::vector<Eigen::Matrix3d> &stiffness_of_phase, const Load &load,
-                      EnergyRow &row)
+                      CrossCheckRow &row)
 {
   row.seconds_lower = seconds_of(
     [&]()
@@ -52,18 +58,19 @@ void measure_stresses(const meshes::Sheet &sheet,
       }
       catch (const meshes::NotConverged &failure)
       {
-        row.round_off = EnergyRow::none;
+        row.round_off = CrossCheckRow::none;
         add_fault(row, "stresses", failure.what());
       }
     });
 }
 } // namespace
 
-EnergyRow energy_sides(const homogenization::UnitCell &cell, const Load &load, const int n_cells,
-                       const MPI_Comm communicator)
+CrossCheckRow energy_sides(const homogenization::UnitCell &cell, const Load &load,
+                           const int n_cells, const MPI_Comm communicator)
 {
-  EnergyRow row = {cell.name, load.name, n_cells, strain};
-  row.seconds   = seconds_of(
+  CrossCheckRow row = row_of(cell, load);
+  row.cells         = n_cells;
+  row.seconds       = seconds_of(
     [&]()
     {
       const meshes::Sheet sheet = meshes::tile(cell.mesh, cell.lattice, n_cells, n_cells);
@@ -71,8 +78,8 @@ EnergyRow energy_sides(const homogenization::UnitCell &cell, const Load &load, c
       const ReferenceStep p1    = linear_reference(sheet, stiffness, load, 1, communicator),
                           p2    = linear_reference(sheet, stiffness, load, 2, communicator);
       on_root(communicator,
-                [&]()
-                {
+                    [&]()
+                    {
                 if (!p1.reached)
                 {
                   add_fault(row, "P1", p1.why);
@@ -98,30 +105,32 @@ EnergyRow energy_sides(const homogenization::UnitCell &cell, const Load &load, c
 }
 
 void measure_energies(const homogenization::UnitCell &cell, const Load &load, const int n_cells,
-                      Table<EnergyRow> *const table, const MPI_Comm communicator)
+                      Table<CrossCheckRow> *const table, const MPI_Comm communicator)
 {
   constexpr int most_cells = 4;
-  int is_missing           = table != nullptr && !table->contains({cell.name, load.name});
+  int is_missing           = table != nullptr && !table->contains(row_of(cell, load));
   MPI_Bcast(&is_missing, 1, MPI_INT, 0, communicator);
   if (!is_missing)
     return;
-  const EnergyRow row = energy_sides(cell, load, std::min(n_cells, most_cells), communicator);
+  const CrossCheckRow row = energy_sides(cell, load, std::min(n_cells, most_cells), communicator);
   on_root(communicator, [&]() { table->append(row); });
 }
 
-std::vector<Verdict> energy_verdicts(const std::vector<EnergyRow> &rows)
+std::vector<Verdict> energy_verdicts(const std::vector<CrossCheckRow> &rows)
 {
   std::vector<Verdict> verdicts;
-  for (const EnergyRow &row : rows)
+  for (const CrossCheckRow &row : rows)
   {
+    if (row.what != energies)
+      continue;
     const std::string why = row.fault.empty() ? "" : "; " + row.fault;
     /// Figure and limit relative to the energy.
     const auto judge = [&](const char *claim, const double figure, const double limit)
     {
       const double value = figure / row.upper, most = limit / row.upper;
       verdicts.push_back(at_most(
-        claim, {{"cell", row.cell}, {"load", row.load}, {"cells", row.cells}, {"note", why}}, value,
-        most));
+        claim, {{"cell", row.cell}, {"load", row.load}, {"cells", *row.cells}, {"note", why}},
+        value, most));
       if (!std::isfinite(value) || !std::isfinite(most))
         verdicts.back().outcome = Outcome::inconclusive;
     };

@@ -7,7 +7,7 @@
 #include "homogenization/cell/unit_cell.h"
 #include "verification/record/verdict.h"
 #include "verification/reference/loads.h"
-#include "verification/strain/budget/energy_tables.h"
+#include "verification/strain/budget/budget_tables.h"
 
 #include <mpi.h>
 
@@ -18,17 +18,17 @@ namespace homespun::verification
 /// Solves a sheet of n_cells x n_cells by P1, P2 and stresses, on all ranks but for the stresses.
 /// @param load of a sheet
 /// @return known on the first rank alone
-EnergyRow energy_sides(const homogenization::UnitCell &cell, const Load &load, int n_cells,
-                       MPI_Comm communicator);
+CrossCheckRow energy_sides(const homogenization::UnitCell &cell, const Load &load, int n_cells,
+                           MPI_Comm communicator);
 
 /// Adds the row of a load where it is missing, measured on a sheet that costs little: 4 x 4 cells,
 /// or fewer where the study has fewer.
 /// @param n_cells per side of the study's sheet
-/// @param table energies.csv on the first rank, elsewhere null
+/// @param table cross-checks.csv on the first rank, elsewhere null
 void measure_energies(const homogenization::UnitCell &cell, const Load &load, int n_cells,
-                      Table<EnergyRow> *table, MPI_Comm communicator);
+                      Table<CrossCheckRow> *table, MPI_Comm communicator);
 
-/// Judges each row of energies.csv:
+/// Judges each row of energies:
 /// - the energy of the reference is not below that of the stress: minimum principles, to round-off
 /// - the energy of P2 on the same mesh lies between them: its space holds that of P1
 /// - the energy of the reference, from its positions and the phases of the cell, equals half of the
@@ -37,5 +37,5 @@ void measure_energies(const homogenization::UnitCell &cell, const Load &load, in
 ///   exchanged phases: any displacement lies above
 /// INCONCLUSIVE where a solver did not converge. How far apart the sides are has no limit in
 /// theory: it is a number.
-std::vector<Verdict> energy_verdicts(const std::vector<EnergyRow> &rows);
+std::vector<Verdict> energy_verdicts(const std::vector<CrossCheckRow> &rows);
 } // namespace homespun::verification

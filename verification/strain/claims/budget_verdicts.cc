@@ -277,12 +277,14 @@ std::vector<Verdict> error_agreement_verdicts(const std::vector<StrainRow> &stra
   return verdicts;
 }
 
-std::vector<Verdict> second_code_verdicts(const std::vector<SecondCodeRow> &rows)
+std::vector<Verdict> second_code_verdicts(const std::vector<CrossCheckRow> &rows)
 {
   std::vector<Verdict> verdicts;
-  for (const SecondCodeRow &row : rows)
+  for (const CrossCheckRow &row : rows)
   {
-    const bool is_sheet   = row.what == "sheet";
+    const bool is_sheet = row.what == "sheet";
+    if (!is_sheet && row.what != "p2-cell")
+      continue;
     const Outcome answer  = !std::isfinite(row.distance) ? Outcome::inconclusive
                             : row.distance <= agreement  ? Outcome::pass
                                                          : Outcome::fail;

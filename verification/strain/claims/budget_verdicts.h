@@ -31,8 +31,8 @@ std::vector<Verdict> budget_verdicts(const std::vector<StrainRow> &strain_rows,
 std::vector<Verdict> error_agreement_verdicts(const std::vector<StrainRow> &strain_rows,
                                               const std::vector<BudgetRow> &budget_rows);
 
-/// Judges each row of second-code.csv: two codes that solve one discrete problem agree.
-std::vector<Verdict> second_code_verdicts(const std::vector<SecondCodeRow> &rows);
+/// Judges each row of a second code: two codes that solve one discrete problem agree.
+std::vector<Verdict> second_code_verdicts(const std::vector<CrossCheckRow> &rows);
 
 /// At the judged levels: parts that are larger than the error and cancel, and how far the
 /// homogenized sheet that counts as resolved is so. Ready sentences.

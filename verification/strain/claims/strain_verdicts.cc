@@ -44,13 +44,13 @@ std::vector<StrainRow> cases_of(const std::vector<StrainRow> &rows)
 
 /// The rows up to where the law of their case is lost: beyond, no minimum need exist, and what was
 /// found there, or was not, is no claim of the method or of the solver.
-/// @param ellipticity rows of ellipticity.csv
+/// @param levels rows of levels.csv
 std::vector<StrainRow> rows_of_laws(const std::vector<StrainRow> &rows,
-                                    const std::vector<EllipticityRow> &ellipticity)
+                                    const std::vector<LevelRow> &levels)
 {
   std::vector<StrainRow> kept;
   for (const StrainRow &row : rows)
-    if (!(row.strain > elliptic_up_to(ellipticity, row.cell, row.load, row.reference)))
+    if (!(row.strain > elliptic_up_to(levels, row.cell, row.load, row.reference)))
       kept.push_back(row);
   return kept;
 }
@@ -264,16 +264,16 @@ double log_slope(const std::vector<double> &x, const std::vector<double> &y)
 
 std::vector<Verdict> strain_verdicts(const std::vector<StrainRow> &all,
                                      const std::vector<double> &strains,
-                                     const std::vector<EllipticityRow> &ellipticity,
+                                     const std::vector<LevelRow> &levels,
                                      const std::vector<std::string> &methods)
 {
-  const std::vector<StrainRow> rows = rows_of_laws(all, ellipticity);
+  const std::vector<StrainRow> rows = rows_of_laws(all, levels);
   std::vector<Verdict> verdicts;
   const auto add = [&](const std::vector<Verdict> &some)
   { verdicts.insert(verdicts.end(), some.begin(), some.end()); };
   const std::vector<StrainRow> cases = cases_of(all);
   const auto lost_of                 = [&](const StrainRow &of_case)
-  { return elliptic_up_to(ellipticity, of_case.cell, of_case.load, of_case.reference); };
+  { return elliptic_up_to(levels, of_case.cell, of_case.load, of_case.reference); };
   for (const StrainRow &of_case : cases)
     if (is_shared(of_case.reference) && of_case.reference == main_reference(all, of_case.cell))
     {
@@ -296,22 +296,22 @@ std::vector<Verdict> strain_verdicts(const std::vector<StrainRow> &all,
   return verdicts;
 }
 
-std::vector<Verdict> stability_verdicts(const std::vector<StepRow> &all,
-                                        const std::vector<EllipticityRow> &ellipticity)
+std::vector<Verdict> stability_verdicts(const std::vector<LevelRow> &all)
 {
   std::vector<Verdict> verdicts;
   std::set<std::vector<std::string>> seen;
-  for (const StepRow &of_case : all)
+  for (const LevelRow &of_case : all)
   {
     const std::vector<std::string> key = {of_case.cell, of_case.load, of_case.reference};
-    if (of_case.reference == name_of(Law::linear) || !seen.insert(key).second)
+    if (!of_case.is_solved() || of_case.reference == name_of(Law::linear) ||
+        !seen.insert(key).second)
       continue;
-    const double lost = elliptic_up_to(ellipticity, of_case.cell, of_case.load, of_case.reference);
+    const double lost = elliptic_up_to(all, of_case.cell, of_case.load, of_case.reference);
     int n_levels = 0, n_not = 0;
     std::string which;
-    for (const StepRow &step : all)
-      if (std::vector<std::string>{step.cell, step.load, step.reference} == key &&
-          !(step.strain > lost))
+    for (const LevelRow &step : all)
+      if (step.is_solved() && !(step.strain > lost) &&
+          std::vector<std::string>{step.cell, step.load, step.reference} == key)
       {
         ++n_levels;
         if (step.stability != name_of(Stability::every_triangle) &&

@@ -40,16 +40,15 @@ Verdict verdict_of_smallest(const std::string &claim, Words words,
 /// - sheet loads, the same reference: method_verdicts() of gains.h
 /// Levels beyond the loss decide no slope.
 /// @param strains that the study was asked for: what they cannot decide is no claim
-/// @param ellipticity rows of ellipticity.csv
+/// @param levels rows of levels.csv
 /// @param methods that the study was asked for
 std::vector<Verdict> strain_verdicts(const std::vector<StrainRow> &all,
                                      const std::vector<double> &strains,
-                                     const std::vector<EllipticityRow> &ellipticity = {},
-                                     const std::vector<std::string> &methods        = {});
+                                     const std::vector<LevelRow> &levels     = {},
+                                     const std::vector<std::string> &methods = {});
 
-/// For every cell, load and nonlinear reference among the rows of steps.csv: each equilibrium that
+/// For every cell, load and nonlinear reference among the rows of levels.csv: each equilibrium that
 /// is compared is a minimum of the reference's energy, as long as the law is elliptic. Open where
 /// one is not, or is not known to be: what the cloth does there is not what it is compared with.
-std::vector<Verdict> stability_verdicts(const std::vector<StepRow> &all,
-                                        const std::vector<EllipticityRow> &ellipticity = {});
+std::vector<Verdict> stability_verdicts(const std::vector<LevelRow> &all);
 } // namespace homespun::verification

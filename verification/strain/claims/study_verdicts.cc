@@ -11,11 +11,11 @@ namespace homespun::verification
 {
 std::vector<Verdict> study_verdicts(const StrainOutput &output, const StrainStudyOptions &options)
 {
-  std::vector<Verdict> verdicts = strain_verdicts(output.strain_rows(), options.strains,
-                                                  output.ellipticity.rows(), options.methods);
-  const auto add                = [&](const std::vector<Verdict> &some)
+  std::vector<Verdict> verdicts =
+    strain_verdicts(output.strain_rows(), options.strains, output.level_rows(), options.methods);
+  const auto add = [&](const std::vector<Verdict> &some)
   { verdicts.insert(verdicts.end(), some.begin(), some.end()); };
-  add(stability_verdicts(output.step_rows(), output.ellipticity.rows()));
+  add(stability_verdicts(output.level_rows()));
   if (options.budget)
   {
     const std::vector<BudgetRow> &rows = output.budget->rows();
@@ -25,8 +25,8 @@ std::vector<Verdict> study_verdicts(const StrainOutput &output, const StrainStud
         with_budget.push_back(row);
     add(budget_verdicts(with_budget, rows, options.strains));
     add(error_agreement_verdicts(with_budget, rows));
-    add(second_code_verdicts(output.second->rows()));
-    add(energy_verdicts(output.energies->rows()));
+    add(second_code_verdicts(output.checks->rows()));
+    add(energy_verdicts(output.checks->rows()));
   }
   add(verdicts_of_nested_forces(output.uncertainty.rows()));
   add(verdicts_of_forces(output.force_rows()));

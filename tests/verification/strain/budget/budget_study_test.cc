@@ -26,7 +26,7 @@ TEST(exact_budget_study, the_better_cell_is_p2_as_a_second_solver_finds_it)
   std::filesystem::create_directories(folder);
   {
     Table<BudgetRow> rows(folder);
-    Table<SecondCodeRow> second(folder);
+    Table<CrossCheckRow> second(folder);
     BudgetStudy budget({"linear"}, {0.01}, &rows, &second, MPI_COMM_WORLD);
     budget.begin_load(cell, given, sheet, Load("periodic-11"));
     ASSERT_EQ(second.rows().size(), 1u);

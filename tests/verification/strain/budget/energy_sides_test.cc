@@ -12,9 +12,12 @@ using namespace homespun::verification;
 
 namespace
 {
-EnergyRow sound_row()
+CrossCheckRow sound_row()
 {
-  EnergyRow row      = {"cell", "strip-1", 4, 0.01, 1., 0.98};
+  CrossCheckRow row  = {"cell", "strip-1", 0.01, "linear", "energies"};
+  row.cells          = 4;
+  row.upper          = 1.;
+  row.lower          = 0.98;
   row.round_off      = 1e-10;
   row.p2             = 0.99;
   row.misfit         = 1e-12;
@@ -23,7 +26,7 @@ EnergyRow sound_row()
 }
 
 /// PASS, FAIL or INCONCLUSIVE of: above the stress; P2 between; Clapeyron.
-std::vector<Outcome> outcomes(const EnergyRow &row)
+std::vector<Outcome> outcomes(const CrossCheckRow &row)
 {
   std::vector<Outcome> all;
   for (const Verdict &verdict : energy_verdicts({row}))
@@ -36,7 +39,7 @@ constexpr Outcome pass = Outcome::pass, fail = Outcome::fail, open = Outcome::in
 
 TEST(tripwire_energy_sides, each_claim_fails_where_its_theorem_is_broken)
 {
-  EnergyRow row = sound_row();
+  CrossCheckRow row = sound_row();
   EXPECT_EQ(outcomes(row), (std::vector<Outcome>{pass, pass, pass}));
   row.lower = 1.001;
   EXPECT_EQ(outcomes(row), (std::vector<Outcome>{fail, fail, pass}));
@@ -57,23 +60,23 @@ TEST(tripwire_energy_sides, each_claim_fails_where_its_theorem_is_broken)
 
 TEST(tripwire_energy_sides, what_was_not_solved_is_open)
 {
-  EnergyRow row = sound_row();
-  row.lower = row.round_off = EnergyRow::none;
+  CrossCheckRow row = sound_row();
+  row.lower = row.round_off = CrossCheckRow::none;
   row.fault                 = "stresses: no answer";
   EXPECT_EQ(outcomes(row), (std::vector<Outcome>{open, open, pass}));
   EXPECT_NE(energy_verdicts({row}).at(0).limit.find("stresses: no answer"), std::string::npos);
   row    = sound_row();
-  row.p2 = EnergyRow::none;
+  row.p2 = CrossCheckRow::none;
   EXPECT_EQ(outcomes(row), (std::vector<Outcome>{pass, open, pass}));
   row       = sound_row();
-  row.upper = row.misfit = row.largest_misfit = EnergyRow::none;
+  row.upper = row.misfit = row.largest_misfit = CrossCheckRow::none;
   EXPECT_EQ(outcomes(row), (std::vector<Outcome>{open, open, open}));
 }
 
 TEST(bound_energy_sides, a_shipped_cell_keeps_its_claims)
 {
-  const auto cell     = homespun::homogenization::read_unit_cell(CELLS "layered.prm");
-  const EnergyRow row = energy_sides(cell, Load("shear-frame"), 2, MPI_COMM_SELF);
+  const auto cell         = homespun::homogenization::read_unit_cell(CELLS "layered.prm");
+  const CrossCheckRow row = energy_sides(cell, Load("shear-frame"), 2, MPI_COMM_SELF);
   EXPECT_EQ(outcomes(row), (std::vector<Outcome>{pass, pass, pass}));
   EXPECT_EQ(row.fault, "");
   // By Galerkin orthogonality P2 lies nearer to P1 than the solution does.

@@ -289,7 +289,7 @@ TEST(tripwire_second_code, two_codes_that_differ_are_noticed)
 {
   const auto outcome = [](const char *what, const double distance)
   {
-    SecondCodeRow row = {"cell", "strip-2", 0.01, "biot", what};
+    CrossCheckRow row = {"cell", "strip-2", 0.01, "biot", what};
     row.distance      = distance;
     return second_code_verdicts({row}).at(0).outcome;
   };

@@ -34,22 +34,21 @@ struct MadeUpStudy
           row.uncertainty = 1e-12;
           rows.push_back(row);
         }
-        StepRow step;
+        LevelRow step;
         step.cell      = "cell";
         step.load      = load;
         step.strain    = strain;
         step.reference = "biot";
         step.stability = "every triangle";
-        steps.push_back(step);
+        levels.push_back(step);
       }
   }
 
-  /// The claims that are owed of strain.csv and steps.csv, and were not judged.
+  /// The claims that are owed of strain.csv and levels.csv, and were not judged.
   std::vector<std::string> missing() const
   {
-    std::vector<Verdict> verdicts =
-      strain_verdicts(rows, options.strains, ellipticity, options.methods);
-    for (const Verdict &verdict : stability_verdicts(steps, ellipticity))
+    std::vector<Verdict> verdicts = strain_verdicts(rows, options.strains, levels, options.methods);
+    for (const Verdict &verdict : stability_verdicts(levels))
       verdicts.push_back(verdict);
     std::vector<OwedClaim> owed;
     for (const OwedClaim &one : owed_of_strain(options, {cell}))
@@ -64,8 +63,7 @@ struct MadeUpStudy
   StrainStudyOptions options;
   homespun::homogenization::UnitCell cell;
   std::vector<StrainRow> rows;
-  std::vector<StepRow> steps;
-  std::vector<EllipticityRow> ellipticity;
+  std::vector<LevelRow> levels;
 };
 } // namespace
 
@@ -77,7 +75,7 @@ TEST(exact_owed, a_study_that_is_whole_owes_nothing)
 TEST(tripwire_owed, a_law_that_counts_as_lost_from_rest_on_takes_no_claim_away)
 {
   MadeUpStudy study;
-  EllipticityRow at_rest;
+  LevelRow at_rest;
   at_rest.cell      = "cell";
   at_rest.load      = "periodic-11";
   at_rest.reference = "biot";
@@ -85,13 +83,13 @@ TEST(tripwire_owed, a_law_that_counts_as_lost_from_rest_on_takes_no_claim_away)
   at_rest.part      = "yarn";
   at_rest.lost      = 1;
   at_rest.least     = 0.;
-  study.ellipticity = {at_rest};
+  study.levels.push_back(at_rest);
   EXPECT_EQ(study.missing(),
             (std::vector<std::string>{"minimum of cell, periodic-11, biot",
                                       "strain-squared of cell, periodic-11, biot"}));
   // Lost at a strain, it leaves the claims open that have no levels before.
-  study.ellipticity[0].strain = 5e-3;
-  study.ellipticity[0].least  = -1.;
+  study.levels.back().strain = 5e-3;
+  study.levels.back().least  = -1.;
   EXPECT_EQ(study.missing(), std::vector<std::string>());
 }
 
@@ -101,15 +99,15 @@ TEST(tripwire_owed, a_load_that_is_skipped_is_missed)
   const auto is_of_sheet = [](const auto &row) { return row.load == "strip-1"; };
   study.rows.erase(std::remove_if(study.rows.begin(), study.rows.end(), is_of_sheet),
                    study.rows.end());
-  study.steps.erase(std::remove_if(study.steps.begin(), study.steps.end(), is_of_sheet),
-                    study.steps.end());
+  study.levels.erase(std::remove_if(study.levels.begin(), study.levels.end(), is_of_sheet),
+                     study.levels.end());
   EXPECT_EQ(study.missing().size(), 4u);
 }
 
 TEST(tripwire_owed, a_table_that_is_not_written_is_missed)
 {
   MadeUpStudy study;
-  study.steps.clear();
+  study.levels.clear();
   EXPECT_EQ(study.missing(), (std::vector<std::string>{"minimum of cell, periodic-11, biot",
                                                        "minimum of cell, strip-1, biot"}));
 }

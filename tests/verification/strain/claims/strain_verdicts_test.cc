@@ -204,7 +204,7 @@ TEST(tripwire_verdicts, a_level_that_was_not_reached_is_open_also_beyond_the_los
   // Not reached at 10 %. The last equilibrium, at 5 %, has a triangle that is lost: the law ends.
   Rows rows   = periodic(2.);
   rows.back() = row("periodic-12", 0.1, unreached, 0.);
-  EllipticityRow last;
+  LevelRow last;
   last.cell                         = "cell";
   last.load                         = "periodic-12";
   last.reference                    = "biot";
@@ -214,7 +214,7 @@ TEST(tripwire_verdicts, a_level_that_was_not_reached_is_open_also_beyond_the_los
   last.lost                         = 1;
   last.least                        = -0.25; // from 1 at rest: zero at 4 %
   const std::vector<double> strains = {1e-3, 1e-2, 0.1};
-  const auto claim_of_reach         = [&](const std::vector<EllipticityRow> &ellipticity)
+  const auto claim_of_reach         = [&](const std::vector<LevelRow> &ellipticity)
   {
     const std::vector<Verdict> all = strain_verdicts(rows, strains, ellipticity);
     // Two levels that are left decide no slope.
