@@ -1,172 +1,106 @@
 # SPDX-License-Identifier: MIT
-"""The published tables of runs of `homespun strain`: errors, their ladder of methods, times, budget."""
+"""The published table of runs of `homespun strain`: errors of sheets and their bars, gains, and what
+the claims of the run say of them.
+"""
 import math
-from statistics import median
 
-from read.schema import loads, main_method, main_reference
+from read.schema import claims, loads, main_method, main_reference
+from read.stored import BadResults
 
-STRAIN, LARGE_STRAIN, REFERENCE = 0.01, 0.1, "biot"
-LADDER = ("affine", "localized", "localized+edges", "localized+cubic+modes", "localized+p2", "full",
-          "full-cubic-modes")
+STRAINS = (0.01, 0.1)
+CLAIMS = {  # column, and the claim that stands in it: PASS, FAIL or INCONCLUSIVE
+    "full_against_base": ("closer-than.base", "full"),
+    "localized_against_affine": ("closer-than.affine", "localized"),
+    "full_against_localized": ("closer-than.localized", "full"),
+}
 
 
-def is_sheet(load):
-    return not loads()[load]["is_infinite"]
-
-
-def level(rows, cell, load, strain):
-    """{method: row} of one level against the law that the claims of the cell speak of."""
-    law = main_reference(row["reference"] for row in rows if row["cell"] == cell)
-    return {
-        row["method"]: row
-        for row in rows
-        if (row["cell"], row["load"], row["reference"]) == (cell, load, law)
-        and math.isclose(row["strain"], strain, rel_tol=1e-6)
-        and not math.isnan(row["error_mean_m"])
-    }
+def set_of(cell, law):
+    """Medians of gains are of one set each: what holds for cells of patches does not for weaves."""
+    return "drawn weaves" if "-drawn-" in cell else "weaves" if law == "yarn" else "cells"
 
 
 def errors(results):
-    """Mean errors of the sheets at 1 % strain against biot, in 1/1000 of strain x cell side; shares
-    in percent.
-
-    Share of the affine error left: localized / affine. Share of the fluctuation left: localized /
-    mean |reference − homogenized sheet resolved on a fine mesh|.
+    """Mean errors of the sheets at 1 % and 10 % strain against the law that claims speak of, and
+    their bars, in 1/1000 of strain x cell side; gains as gains.csv has them. What was not reached
+    is not a number.
     """
-    rows = [
-        row
-        for row in results.table("strain.csv")
-        if row["reference"] == REFERENCE
-        and is_sheet(row["load"])
-        and math.isclose(row["strain"], STRAIN, rel_tol=1e-6)
-    ]
-    for cell, load in dict.fromkeys((row["cell"], row["load"]) for row in rows):
-        some = {row["method"]: row for row in rows if (row["cell"], row["load"]) == (cell, load)}
-        if not {"affine", "localized"} <= some.keys():
-            continue
-        affine, localized = some["affine"], some["localized"]
-        per = {
-            name: 1000.0 * row["error_mean_per_cell"] / row["strain"] for name, row in some.items()
-        }
-        side = affine["error_mean_m"] / affine["error_mean_per_cell"]
-        yield {
-            "cell": cell,
-            "load": load,
-            "cells_per_side": affine["cells"],
-            "affine": per["affine"],
-            "localized": per["localized"],
-            "reference_bar": (
-                1000.0 * localized["reference_uncertainty_m"] / side / localized["strain"]
-            ),
-            "share_of_affine_left": 100.0 * per["localized"] / per["affine"],
-            "share_of_fluctuation_left": 100.0 * localized["error_mean_per_fluctuation"],
-        }
-
-
-def ladder(results):
-    """Mean errors of all methods on the sheets at 1 % and 10 % strain against biot, or of weaves
-    against yarn, in 1/1000 of strain x cell side. Columns of 10 % end in `_10`, empty where no
-    equilibrium was reached. Gain: localized / main, the method that pages speak of.
-    """
-    rows = [row for row in results.table("strain.csv") if is_sheet(row["load"])]
-    for cell, load in dict.fromkeys((row["cell"], row["load"]) for row in rows):
-        small, large = (level(rows, cell, load, strain) for strain in (STRAIN, LARGE_STRAIN))
-        if not set(LADDER[:2]) < small.keys() or spoken_of(small) == "localized":
-            continue
-        localized = small["localized"]
-        yield {
-            "cell": cell,
-            "load": load,
-            "reference": localized["reference"],
-            "cells_per_side": localized["cells"],
-            **of_ladder(small, ""),
-            "main_method": spoken_of(small),
-            **of_ladder(large, "_10"),
-        }
-
-
-def spoken_of(some):
-    """The method that pages speak of among the rows of a level, by method."""
-    return main_method(some)
-
-
-def per_strain(some, method):
-    """Mean error of a method at a level [1/1000 of strain x cell side]; nan where it has none."""
-    row = some.get(method)
-    return math.nan if row is None else 1000.0 * row["error_mean_per_cell"] / row["strain"]
-
-
-def of_ladder(some, ending):
-    """Errors of all methods at one level, the bar of the reference, and the gain."""
-    localized = some.get("localized")
-    bar = math.nan
-    if localized:
-        side = localized["error_mean_m"] / localized["error_mean_per_cell"]
-        bar = 1000.0 * localized["reference_uncertainty_m"] / side / localized["strain"]
-    main = per_strain(some, spoken_of(some))
-    values = {
-        **{method: per_strain(some, method) for method in LADDER},
-        "reference_bar": bar,
-        "main": main,
-        "gain": per_strain(some, "localized") / main,
+    rows = [row for row in results.table("strain.csv") if not loads()[row["load"]]["is_infinite"]]
+    law = {
+        cell: main_reference(row["reference"] for row in rows if row["cell"] == cell)
+        for cell in dict.fromkeys(row["cell"] for row in rows)
     }
-    return {name + ending: value for name, value in values.items()}
-
-
-def times(results):
-    """Medians of one load step over strains and sheet loads [ms, s], and their ratio from the
-    smallest to the largest load.
-    """
-    rows = [
-        row
-        for row in results.table("levels.csv")
-        if row["reference_stability"] and is_sheet(row["load"]) and row["reference"] == REFERENCE
-    ]
-    for cell in dict.fromkeys(row["cell"] for row in rows):
-        by_load = {}
-        for row in rows:
-            if row["cell"] == cell:
-                by_load.setdefault(row["load"], []).append(row)
-        middle = [
-            {
-                key: median(row[key] for row in some)
-                for key in ("seconds_coarse_solve", "seconds_upsample", "seconds_fine_step")
-            }
-            for some in by_load.values()
-        ]
-        ratios = [
-            m["seconds_fine_step"] / (m["seconds_coarse_solve"] + m["seconds_upsample"])
-            for m in middle
-        ]
-        fine = [m["seconds_fine_step"] for m in middle]
+    levels = {}  # {(cell, load, strain): {method: row}}
+    for row in rows:
+        if row["reference"] == law[row["cell"]] and (strain := published_strain(row["strain"])):
+            levels.setdefault((row["cell"], row["load"], strain), {})[row["method"]] = row
+    gains = {
+        (row["cell"], row["load"], published_strain(row["strain"])): row
+        for row in results.table("gains.csv")
+        if (row["reference"], row["method"]) == (law.get(row["cell"]), "full")
+    }
+    lost = {
+        (row["cell"], row["load"]): row["elliptic_up_to"]
+        for row in results.table("validity.csv")
+        if row["reference"] == law.get(row["cell"])
+    }
+    said = results.verdicts()
+    for (cell, load, strain), some in levels.items():
+        if main_method(some) != "full" and "unreached" not in some:
+            continue  # a run without this method
+        gain = gains.get((cell, load, strain), {})
+        some["base"] = some.get(gain.get("base"))
+        words = {"cell": cell, "load": load, "strain": f"{strain:g}", "reference": law[cell]}
         yield {
-            "cell": cell,
-            "coarse_ms": 1e3 * median(m["seconds_coarse_solve"] for m in middle),
-            "upsampling_ms": 1e3 * median(m["seconds_upsample"] for m in middle),
-            "fine_s_least": min(fine),
-            "fine_s_most": max(fine),
-            "ratio_least": min(ratios),
-            "ratio_most": max(ratios),
-            "ranks": rows[0]["ranks"],
+            "set": set_of(cell, law[cell]),
+            **words,
+            "cells_per_side": next(row["cells"] for row in some.values() if row),
+            **{
+                name + ending: per_strain(some.get(name), column)
+                for name in ("affine", "base", "localized", "full")
+                for ending, column in (("", "error_mean_m"), ("_bar", "error_bar_m"))
+            },
+            "base_method": gain.get("base", ""),
+            **{
+                name: gain.get(name, math.nan)
+                for name in ("gain_of_coarse_cloth", "gain_of_upsampling", "gain_total")
+            },
+            "gain_over_localized": (
+                per_strain(some.get("localized"), "error_mean_m")
+                / per_strain(some.get("full"), "error_mean_m")
+            ),
+            "bar_safety": max(
+                (some[name]["error_bar_safety"] for name in ("base", "full") if some.get(name)),
+                default=math.nan,
+            ),
+            **{
+                column: outcome_of(said, claim, {**words, "method": method})
+                for column, (claim, method) in CLAIMS.items()
+            },
+            "law_lost_at": lost.get((cell, load), math.nan),
         }
 
 
-def budget(results):
-    """What the parts leave of the measured error of each level, and its bar, in percent."""
-    if not results.run.holds("budget.csv"):
-        return
-    levels = {}
-    for row in results.table("budget.csv"):
-        if row["region"] == "all" and row["reference"] == REFERENCE:
-            levels.setdefault((row["cell"], row["load"], row["strain"]), {})[row["part"]] = row[
-                "mean_m"
-            ]
-    for (cell, load, strain), parts in levels.items():
-        if parts.get("total", 0.0) > 0.0 and {"unexplained", "unexplained-bar"} <= parts.keys():
-            yield {
-                "cell": cell,
-                "load": load,
-                "strain": strain,
-                "unexplained": 100.0 * parts["unexplained"] / parts["total"],
-                "unexplained_bar": 100.0 * parts["unexplained-bar"] / parts["total"],
-            }
+def published_strain(strain):
+    """The published strain that a level is of; None of another level."""
+    return next((one for one in STRAINS if math.isclose(one, strain, rel_tol=1e-6)), None)
+
+
+def per_strain(row, column):
+    """A mean distance of a row [1/1000 of strain x cell side]; nan where there is no row."""
+    if row is None:
+        return math.nan
+    return 1000.0 * row[column] * row["error_mean_per_cell"] / row["error_mean_m"] / row["strain"]
+
+
+def outcome_of(said, claim, words):
+    """What a run says of a claim.
+
+    @param said its verdicts
+    @throws BadResults where it says nothing
+    """
+    sentence = claims()[claim]["claim"].format(**words)
+    for verdict in said:
+        if verdict["claim"] == sentence:
+            return verdict["verdict"]
+    raise BadResults([f"verdicts.json has no claim `{sentence}`: run the study again"])

@@ -4,10 +4,10 @@
 
     published.py OUTPUT DIR [DIR...]
 
-Of runs of `homespun strain` errors.csv, ladder.csv, times.csv and budget.csv, of `drape` pull.csv, of
-`homogenize` brackets.csv, of `converge` orders.csv, of `stress` limits.csv, of all with claims claims.csv. Each row ends
-with the run and the revision that its figures are of. A run that did not end, or whose files were
-changed since, is refused. Exit status: 0, or 2 with one message per fault.
+Of runs of `homespun strain` errors.csv, of `homogenize` brackets.csv, of `stress` limits.csv, of all
+with claims claims.csv. Each row ends with the run and the revision that its figures are of. A run
+that did not end, or whose files were changed since, is refused. Exit status: 0, or 2 with one
+message per fault.
 """
 import csv
 import math
@@ -23,83 +23,15 @@ from read.cell_results import relative_width  # noqa: E402
 from read.runs import read_run  # noqa: E402
 from read.schema import NoSchema  # noqa: E402
 from read.stored import BadResults  # noqa: E402
-from of_strain import REFERENCE, budget, errors, ladder, times  # noqa: E402
+from of_strain import errors  # noqa: E402
 from run_files import Results  # noqa: E402
 
-SCENE = "pull"
 KEYS = {  # columns that name a row of each file
-    "errors.csv": ("cell", "load"),
-    "ladder.csv": ("cell", "load"),
-    "pull.csv": ("cell",),
+    "errors.csv": ("set", "cell", "load", "strain"),
     "brackets.csv": ("cell",),
     "claims.csv": ("command", "of"),
-    "orders.csv": ("cell", "study", "case", "quantity", "elements"),
     "limits.csv": ("axis", "of"),
-    "times.csv": ("cell",),
-    "budget.csv": ("cell", "load", "strain"),
 }
-
-
-def pull(results):
-    """Mean errors of the scene `pull` at its last compared frame, in 1/1000 of a cell side, ± the
-    reference's error bar.
-
-    The cloth has the law of the reference. The paper's nodal warping may not get as far: it stands
-    with its own last frame, and with the exact membrane there.
-    """
-    rows = [
-        row
-        for row in results.table("drape.csv")
-        if row["reference"] == REFERENCE
-        and row["scene"] == SCENE
-        and row["error_mean_per_cell"] >= 0.0
-    ]
-
-    def at(cell, variant, method, time):
-        return next(
-            (
-                1000.0 * row["error_mean_per_cell"]
-                for row in rows
-                if (row["cell"], row["variant"], row["method"], row["time_s"])
-                == (cell, variant, method, time)
-            ),
-            math.nan,
-        )
-
-    for cell in dict.fromkeys(row["cell"] for row in rows):
-        last = {
-            variant: max(
-                (row["time_s"] for row in rows if (row["cell"], row["variant"]) == (cell, variant)),
-                default=math.nan,
-            )
-            for variant in (REFERENCE, "nodal-warping")
-        }
-        end, early = last[REFERENCE], last["nodal-warping"]
-        row = next(
-            (
-                row
-                for row in rows
-                if (row["cell"], row["variant"], row["method"], row["time_s"])
-                == (cell, REFERENCE, "localized", end)
-            ),
-            None,
-        )
-        if row is None:
-            continue
-        yield {
-            "cell": cell,
-            "time_s": end,
-            "affine": at(cell, REFERENCE, "affine", end),
-            "localized": at(cell, REFERENCE, "localized", end),
-            "reference_bar": (
-                at(cell, REFERENCE, "localized", end)
-                * row["reference_uncertainty_m"]
-                / row["error_mean_m"]
-            ),
-            "nodal_time_s": early,
-            "nodal_localized": at(cell, "nodal-warping", "localized", early),
-            "exact_there": at(cell, REFERENCE, "localized", early),
-        }
 
 
 def brackets(results):
@@ -123,27 +55,6 @@ def brackets(results):
             "dofs": bracket.get("dofs", math.nan),
             "stress_dofs": bracket.get("stress_dofs", math.nan),
             "seconds": history[-1]["seconds"] if history else math.nan,
-        }
-
-
-def orders(results):
-    """Observed orders of all judged series."""
-    series = {}
-    for row in results.table("converge.csv"):
-        if row["kind"] == "level" and row["judgement"]:
-            series.setdefault(
-                (row["cell"], row["study"], row["case"], row["quantity"], f"P{row['order_p']:g}"),
-                [],
-            ).append(row)
-    for key, rows in series.items():
-        last = rows[-1]
-        yield {
-            **dict(zip(KEYS["orders.csv"], key)),
-            "order": last["order"],
-            "lowest": last["order_lowest"],
-            "highest": last["order_highest"],
-            "levels": len(rows),
-            "judgement": last["judgement"],
         }
 
 
@@ -199,10 +110,8 @@ def claims(results):
 
 
 TABLES = {
-    "strain": {"errors.csv": errors, "ladder.csv": ladder, "times.csv": times, "budget.csv": budget},
-    "drape": {"pull.csv": pull},
+    "strain": {"errors.csv": errors},
     "homogenize": {"brackets.csv": brackets},
-    "converge": {"orders.csv": orders},
     "stress": {"limits.csv": limits},
 }
 

@@ -7,7 +7,8 @@ A number is marked by a comment just before it, which names table, row and colum
 
 A row is named by its first columns, joined by `/`. With `*` the name stands for several rows, and
 the column ends in `:min`, `:max`, `:median`, `:sum` or `:count`. `A/B` in place of a column is the
-ratio of two, `A>B:count` the number of rows where one is larger. Names with blanks stand in quotes.
+ratio of two, `A>B:count` the number of rows where one is larger, `A=TEXT:count` of those where it
+is a text. Names with blanks stand in quotes.
 Every number that has no mark is a fault, outside of code and of the kinds that are no results
 (ALLOWED).
 """
@@ -80,7 +81,15 @@ def is_printed_as(value, text):
 
 
 def value_of(row, column):
-    """The number in a column, or the ratio A/B of two; None where the row has none."""
+    """The number in a column, or the ratio A/B of two; None where the row has none, or where A of
+    A>B is not larger, or A of A=TEXT another text.
+    """
+    if "=" in column:
+        name, text = column.split("=")
+        return 1.0 if row[name] == text else None
+    if ">" in column:
+        one, other = (value_of(row, name) for name in column.split(">"))
+        return one if None not in (one, other) and one > other else None
     parts = [row[name] for name in column.split("/")]
     if "" in parts:
         return None
@@ -125,7 +134,7 @@ class Checker:
         rows = self.rows_named(line, file, name)
         if not rows:
             return
-        unknown = [part for part in re.split("[/>]", column) if part not in rows[0]]
+        unknown = [part for part in re.split("[/>]", column.split("=")[0]) if part not in rows[0]]
         if unknown:
             self.fault(line, f"{file} has no column `{unknown[0]}`")
         elif len(rows) > 1 and fold not in FOLDS:
@@ -137,12 +146,7 @@ class Checker:
                 ),
             )
         else:
-            larger, _, smaller = column.partition(">")
-            pairs = [
-                (value_of(row, larger), value_of(row, smaller) if smaller else -math.inf)
-                for row in rows
-            ]
-            values = [one for one, other in pairs if None not in (one, other) and one > other]
+            values = [value for row in rows if (value := value_of(row, column)) is not None]
             value = FOLDS[fold](values) if fold else values[0] if values else math.nan
             if not is_printed_as(value, text):
                 self.fault(line, f"says {text}; {file}, {name}, {column} has {value:.8g}")

@@ -1,16 +1,20 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: MIT
-"""Writes docs/results.md from the published tables: results_page.py FOLDER PAGE
+"""Writes docs/results.md from the published tables, and the table of gains in README.md:
+results_page.py FOLDER PAGE README
 
 Errors, gains, where a method loses, widths of brackets, claims, and the runs behind them. What the
 numbers mean is told in guides/findings.md.
 """
 import pathlib
+import re
 import sys
 from statistics import median
 
+from make import names_of
 from readme_numbers import read_tables
 
+SOURCES = pathlib.Path(__file__).resolve().parents[2]
 NOTICE = "<!-- Generated: `cmake --build --preset release --target docs` writes this page. -->\n"
 ABOUT = """\
 Sheets of 20 x 20 cells with the coarse mesh of the paper, two triangles per cell, are pulled
@@ -19,38 +23,60 @@ methods share one fine mesh with the resolved solution, the reference. Its law i
 weaves it is `yarn`. [What was found](../guides/findings.md) discusses these numbers.
 
 An error is the mean distance over all fine vertices, **in 1/1000 of strain x cell side**: an error
-of 50 at 1 % strain is 0.05 % of a cell side. The methods are
+of 50 at 1 % strain is 0.05 % of a cell side. ± is its error bar: how much it may change as meshes
+get finer. The methods are
 
-- *coarse mesh alone* (`affine`): the coarse motion, interpolated;
-- *paper* (`localized`): characteristic displacements added as the paper adds them;
-- *quadratic* (`localized+p2`): the same on a coarse cloth of quadratic triangles with the same
-  vertices;
-- `full`: all terms of homespun, on that quadratic coarse cloth.
+- *coarse mesh alone* (`affine`): the motion of linear coarse triangles, interpolated;
+- *paper* (`localized`): characteristic displacements added to it as the paper adds them;
+- `full`: all terms of homespun, on quadratic coarse triangles with the same vertices;
+- *base*: the coarse cloth of `full` without up-sampling. Of two such cloths, the one with the
+  smaller error is the base of a row: *a* is `full-micro`, with the terms of edges of the coarse
+  cloth, *b* is `affine+p2`, without them.
 
-Two more columns add one term each to the paper's method; weaves have no `cubic+modes`.
+**Gains.** A gain is an error over an error: 2 is half the error, 1 is no gain.
 
-"Reference ±" is how far the mesh of the reference is from the limit of fine meshes. Methods and
-reference share that mesh, so it is not an error bar of the gain.
+- *coarse cloth*: coarse mesh alone over base. It needs no up-sampling: a sheet of one material has
+  it, too.
+- *up-sampling*: base over `full`. It is 1 on a sheet of one material.
+- *both*: coarse mesh alone over `full`, the product of the two.
+- *over paper*: paper over `full`. The better coarse cloth is a part of it.
 
-**Gains.** *Total* is paper over `full`. It is the product of *element*, what the quadratic coarse
-triangles alone bring (paper over quadratic), and of *terms*, what homespun adds to them
-(quadratic over `full`).
+**Decided.** `full` is *nearer* than its base or *farther* if the two errors differ by more than the
+sum of their bars. Otherwise the row is open: *bars*, they differ by less; *bars x 3*, the errors on
+three discretizations do not converge, and the bars, three times as wide, decide nothing; *law*, the
+law of the cloth loses ellipticity at the strain given, beyond which no minimum need exist.
 """
-ERRORS = (  # column of ladder.csv, its heading
-    ("affine", "coarse mesh alone"),
-    ("localized", "paper"),
-    ("localized+edges", "paper + `edges`"),
-    ("localized+cubic+modes", "paper + `cubic+modes`"),
-    ("localized+p2", "quadratic"),
-    ("main", "`full`"),
-    ("reference_bar", "reference ±"),
+SETS = {"cells": "patches, stripes, holes", "weaves": "weaves", "drawn weaves": "weaves drawn by chance"}
+DRAWN = """\
+The method was developed on the cells and weaves above. These six it had not seen: count, sett and
+cover of their yarns were drawn by chance and stored before any of them was run.
+"""
+SHORT = """\
+Medians, in brackets smallest and largest, of the rows in which the law holds; how many rows are
+*nearer*, *farther* or *open*; and in how many the paper's method is farther from the reference than
+the coarse mesh alone.
+"""
+HEADING = "gain of"
+NOT_RUN = "Not run yet at this size:"
+UNBROKEN = "\u00a0"  # a space at which no line ends
+METHODS = (("affine", "coarse mesh alone"), ("base", "base"), ("localized", "paper"),
+           ("full", "`full`"))
+GAINS = {
+    "gain_of_coarse_cloth": "coarse cloth",
+    "gain_of_upsampling": "up-sampling",
+    "gain_total": "both",
+    "gain_over_localized": "over paper",
+}
+LETTERS = {"full-micro": "a", "affine+p2": "b"}
+OUTCOMES = {"PASS": "nearer", "FAIL": "farther", "INCONCLUSIVE": "open"}
+UNCONFIRMED = 3.0  # factor of safety of a bar that no convergence supports
+LOSSES = (  # sentence, method, what it is compared with, the claim on it
+    ("The paper's method is farther from the reference than the coarse mesh alone",
+     "localized", "affine", "localized_against_affine"),
+    ("`full` is farther than its base", "full", "base", "full_against_base"),
+    ("`full` is farther than the paper's method", "full", "localized", "full_against_localized"),
+    ("`full` is farther than the coarse mesh alone", "full", "affine", None),
 )
-GAINS = (  # heading, error before, error after
-    ("total", "localized", "main"),
-    ("element", "localized", "localized+p2"),
-    ("terms", "localized+p2", "main"),
-)
-STRAINS = (("", "1 % strain"), ("_10", "10 % strain"))
 
 
 def three(text):
@@ -62,102 +88,200 @@ def three(text):
     return f"{value:.0f}" if "e+" in digits else digits.rstrip(".")
 
 
-def table(header, rows):
-    """A table in Markdown, its numbers to the right."""
-    lines = [header, ["---", "---", *["---:"] * (len(header) - 2)], *rows]
+def with_bar(row, method):
+    """An error and its bar, which has two digits and no more decimals than the error."""
+    if not row[method]:
+        return "–"
+    error, bar = three(row[method]), row[method + "_bar"]
+    if not bar:
+        return error
+    decimals = len(error.partition(".")[2])
+    short = f"{float(f'{float(bar):.2g}'):.{decimals}f}"
+    return f"{error} ± {short if float(short) else f'{float(bar):.1g}'}".replace(" ", UNBROKEN)
+
+
+def percent(text):
+    return f"{100.0 * float(text):.3g} %"
+
+
+def is_lost(row):
+    return bool(row["law_lost_at"]) and float(row["strain"]) >= float(row["law_lost_at"])
+
+
+def decided(row):
+    """Whether `full` is nearer than its base or farther, or why that is open."""
+    outcome = OUTCOMES[row["full_against_base"]]
+    if outcome != "open":
+        return outcome
+    if is_lost(row):
+        return f"law, {percent(row['law_lost_at'])}"
+    if not row["full"]:
+        return "not reached"
+    return "bars x 3" if float(row["bar_safety"] or 0) >= UNCONFIRMED else "bars"
+
+
+def table(header, rows, texts=2):
+    """A table in Markdown, its numbers to the right.
+
+    @param texts how many columns have none
+    """
+    lines = [header, ["---"] * texts + ["---:"] * (len(header) - texts), *rows]
     return "\n".join("| " + " | ".join(line) + " |" for line in lines) + "\n"
 
 
-def gain(row, before, after, ending):
-    """How many times smaller the second error is, or None."""
-    first, second = row[before + ending], row[after + ending]
-    return float(first) / float(second) if first and second else None
+def sets(rows):
+    """{set: rows} of a table."""
+    found = {name: [row for row in rows if row["set"] == name] for name in SETS}
+    return {name: some for name, some in found.items() if some}
 
 
-def errors(rows, ending):
+def levels(rows):
+    """{strain: rows} of a table."""
+    return {
+        strain: [row for row in rows if row["strain"] == strain]
+        for strain in dict.fromkeys(row["strain"] for row in rows)
+    }
+
+
+def errors(rows):
     """All errors at one strain, with their gains."""
-    lines = []
-    for row in rows:
-        gains = [gain(row, before, after, ending) for _, before, after in GAINS]
-        lines.append(
-            [f"`{row['cell']}`", row["load"], *(three(row[name + ending]) for name, _ in ERRORS),
-             *(three(str(value)) if value else "–" for value in gains)]
-        )
-    return table(["cell", "load", *(title for _, title in ERRORS), *(name for name, *_ in GAINS)],
-                 lines)
+    return table(
+        ["cell", "load", *(title for _, title in METHODS), *GAINS.values(), "decided"],
+        [
+            [f"`{row['cell']}`", row["load"],
+             *(with_bar(row, name)
+               + (f" *{LETTERS[row['base_method']]}*" if name == "base" and row["base"] else "")
+               for name, _ in METHODS),
+             *(three(row[name]) for name in GAINS), decided(row)]
+            for row in rows
+        ],
+    )
 
 
 def summary(rows):
-    """Medians and extremes of the gains."""
+    """Medians and extremes of the gains, how many rows are decided, and in how many the paper's
+    method loses: set by set and strain by strain.
+    """
     lines = []
-    for ending, strain in STRAINS:
-        for name, before, after in GAINS:
-            values = [value for row in rows if (value := gain(row, before, after, ending))]
-            lines.append([strain, name, *(three(str(of(values))) for of in (median, min, max)),
-                          str(len(values))])
-    return table(["strain", "gain", "median", "smallest", "largest", "cases"], lines)
+    for name, its in sets(rows).items():
+        for strain, some in levels(its).items():
+            values = [
+                [float(row[gain]) for row in some if row[gain] and not is_lost(row)] for gain in GAINS
+            ]
+            count = [
+                sum(OUTCOMES[row["full_against_base"]] == word for row in some)
+                for word in OUTCOMES.values()
+            ]
+            lines.append([
+                SETS[name], percent(strain),
+                *(f"**{three(str(median(one)))}** ({three(str(min(one)))} to"
+                  f" {three(str(max(one)))})" if one else "–" for one in values),
+                " / ".join(map(str, count)), str(len(losses(some, "localized", "affine")))])
+    return table([HEADING, "strain", *GAINS.values(), " / ".join(OUTCOMES.values()),
+                  "paper loses"], lines)
 
 
-def lost(rows, worse, better):
-    """The cases in which one method has the larger error, strain by strain, as a list."""
-    items = []
-    for ending, strain in STRAINS:
-        cases = [
-            f"`{row['cell']}` {row['load']}"
-            f" ({three(row[worse + ending])} against {three(row[better + ending])})"
-            for row in rows
-            if row[worse + ending] and row[better + ending]
-            and float(row[worse + ending]) > float(row[better + ending])
-        ]
-        items.append(f"- {strain}, {len(cases)} of {len(rows)}: {', '.join(cases) or 'none'}.")
-    return "\n".join(items) + "\n"
+def gains(rows):
+    """summary(), and behind it the cells that have no row."""
+    there = {row["cell"] for row in rows}
+    missing = [f"`{name}`" for name in names_of(SOURCES) if name not in there]
+    return summary(rows) + f"\n{NOT_RUN} {', '.join(missing)}.\n" * bool(missing)
+
+
+def with_gains(text, rows):
+    """A text, its table of gains made again."""
+    old = rf"(?m)^\| {HEADING} \|(.|\n)*?\n(?=\n)(\n{NOT_RUN} .*\n)?"
+    return re.sub(old, lambda _: gains(rows), text)
+
+
+def losses(rows, method, other):
+    """Those in which a method has the larger error."""
+    return [
+        row for row in rows
+        if row[method] and row[other] and float(row[method]) > float(row[other])
+    ]
+
+
+def lost(rows):
+    """Each row in which a method has the larger error than another, as lists."""
+    out = []
+    for sentence, method, other, claim in LOSSES:
+        out.append(f"{sentence}:\n")
+        items = []
+        for strain, some in levels(rows).items():
+            cases = [
+                f"`{row['cell']}` {row['load']} ({with_bar(row, method)} against"
+                f" {with_bar(row, other)}{', decided' if claim and row[claim] == 'FAIL' else ''})"
+                for row in losses(some, method, other)
+            ]
+            items.append(
+                f"- {percent(strain)} strain, {len(cases)} of {len(some)}:"
+                f" {', '.join(cases) or 'none'}."
+            )
+        out.append("\n".join(items) + "\n")
+    return out
+
+
+def open_weaves(rows):
+    """What is said of the drawn weaves on which up-sampling is not known to be nearer."""
+    names = [
+        f"`{row['cell']}` {row['load']} at {percent(row['strain'])} ({decided(row)})"
+        for row in rows
+        if row["full_against_base"] != "PASS"
+    ]
+    return (
+        f"In {len(names)} of {len(rows)} rows `full` is not shown to be nearer than the coarse cloth"
+        f" alone{': ' + ', '.join(names) if names else ''}.\n"
+    )
 
 
 def page(tables):
     """The whole page."""
-    ladder, brackets, claims = (tables[f"{name}.csv"] for name in ("ladder", "brackets", "claims"))
-    out = [NOTICE, "# Results\n", ABOUT, "## Gains in short\n", summary(ladder)]
-    for ending, strain in STRAINS:
-        out += [f"## Errors at {strain}\n", errors(ladder, ending)]
+    rows, brackets, claims = (tables[f"{name}.csv"] for name in ("errors", "brackets", "claims"))
+    out = [NOTICE, "# Results\n", ABOUT, "## Gains in short\n", SHORT, gains(rows)]
+    for name, its in sets(rows).items():
+        out.append(f"## {SETS[name].capitalize()}\n")
+        if name == "drawn weaves":
+            out += [DRAWN, open_weaves(its)]
+        for strain, some in levels(its).items():
+            out += [f"At {percent(strain)} strain:\n", errors(some)]
     out += [
         "## Where a method loses\n",
-        "The paper's method is farther from the reference than the coarse mesh alone:\n",
-        lost(ladder, "localized", "affine"),
-        "`full` is farther than the coarse mesh alone:\n",
-        lost(ladder, "main", "affine"),
-        "`full` is farther than the quadratic coarse cloth with the paper's displacements:\n",
-        lost(ladder, "main", "localized+p2"),
-        "The reference's own ± is larger than the error of `full`:\n",
-        lost(ladder, "reference_bar", "main"),
+        "*Decided* are the losses that are larger than the sum of both bars.\n",
+        *lost(rows),
         "## Guaranteed brackets on C^H\n",
         "Relative width, on the mesh of the bracket: the shipped one, or where arcs are drawn the one "
         "that resolves them; nothing is refined for a tolerance.\n",
         table(["cell", "triangles", "width"],
               [[f"`{row['cell']}`", row["triangles"], f"{float(row['width']):.2g}"]
-               for row in brackets]),
+               for row in brackets], 1),
         "## Claims\n",
-        "Of the revisions that are named under Runs. Claims that the paper's method is nearer than the "
-        "coarse mesh alone, at 1 % and 10 % strain, are newer than these runs: the rows above where it "
-        "is farther would fail them.\n",
-        table(["command", "cell", "claims", "hold", "open", "fail", "exit status"],
+        "Claims of kind *method* are those that compare methods, as above: where one fails, the method"
+        " does not pay. All others are of the program and of the cell.\n",
+        table(["command", "cell", "claims", "hold", "open", "fail", "open, method", "fail, method",
+               "exit status"],
               [[f"`{row['command']}`", f"`{row['of']}`",
-                *(row[name] for name in ("claims", "hold", "open", "fail", "exit_status"))]
+                *(row[name] for name in ("claims", "hold", "open", "fail", "method_open",
+                                         "method_fail", "exit_status"))]
                for row in claims]),
         "## Runs\n",
         "The fingerprint of inputs, options and revision of each run, and the revision of the"
         " program.\n",
         table(["cell", "run", "revision"],
               [[f"`{row['cell']}`", row["run"], row["revision"]]
-               for row in {row["cell"]: row for row in ladder}.values()]),
+               for row in {row["cell"]: row for row in rows}.values()], 3),
     ]
     return "\n".join(out)
 
 
-def main(folder, path):
-    """Writes the page of the tables in a folder."""
-    path = pathlib.Path(path)
+def main(folder, path, *others):
+    """Writes the page of the tables in a folder, and the table of gains in other texts."""
+    path, tables = pathlib.Path(path), read_tables(folder)
     path.parent.mkdir(parents=True, exist_ok=True)
-    path.write_text(page(read_tables(folder)), encoding="utf-8")
+    path.write_text(page(tables), encoding="utf-8")
+    for other in map(pathlib.Path, others):
+        text = other.read_text(encoding="utf-8")
+        other.write_text(with_gains(text, tables["errors.csv"]), encoding="utf-8")
 
 
 if __name__ == "__main__":

@@ -4,12 +4,12 @@ verification/published, and docs/results.md is the page of these files.
 
 A number without one is a fault.
 """
+import math
 import os
 import pathlib
 import sys
 import tempfile
 import unittest
-from unittest import mock
 
 ROOT = pathlib.Path(__file__).resolve().parents[3]
 PUBLISHED = ROOT / "verification" / "published"
@@ -17,10 +17,11 @@ sys.path[:0] = [str(PUBLISHED), str(ROOT / "tests" / "verification" / "report")]
 
 # pylint: disable=wrong-import-position
 import report_path  # noqa: E402, F401
+import of_strain  # noqa: E402
 import published  # noqa: E402
-from made_up_drape import write_drape  # noqa: E402
-from made_up_run import verdict, write_run, write_table, write_verdicts  # noqa: E402
+from made_up_run import list_again, verdict, write_run, write_table, write_verdicts  # noqa: E402
 from made_up_study import write_results, write_stress  # noqa: E402
+from read import schema  # noqa: E402
 from read.stored import BadResults  # noqa: E402
 import results_page  # noqa: E402
 from readme_numbers import faults_of, is_printed_as, read_tables  # noqa: E402
@@ -37,17 +38,22 @@ class ReadmeTest(unittest.TestCase):
     @unittest.skipUnless(list(PUBLISHED.glob("*.csv")), "nothing is published yet")
     def test_every_number_of_the_front_page_is_that_of_its_file(self):
         for path in MARKED:
-            text = path.read_text(encoding="utf-8")
+            text = results_page.with_gains(path.read_text(encoding="utf-8"), [])
             self.assertEqual(faults_of(text, read_tables(PUBLISHED), published.KEYS), [], path)
 
     def test_no_line_begins_with_a_mark_which_would_end_its_paragraph(self):
         for path in MARKED:
             self.assertNotRegex(path.read_text(encoding="utf-8"), r"(?m)^\s*<!--")
 
-    def test_the_page_of_results_is_that_of_the_tables(self):
-        text = (ROOT / "docs" / "results.md").read_text(encoding="utf-8")
-        self.assertEqual(text, results_page.page(read_tables(PUBLISHED)),
-                         "`cmake --build --preset release --target docs` writes the page again")
+    def test_the_page_of_results_and_the_table_of_the_front_page_are_those_of_the_tables(self):
+        front, tables = MARKED[0].read_text(encoding="utf-8"), read_tables(PUBLISHED)
+        for text, again in (
+                ((ROOT / "docs" / "results.md").read_text(encoding="utf-8"),
+                 results_page.page(tables)),
+                (front, results_page.with_gains(front, tables["errors.csv"]))):
+            self.assertEqual(text, again, "`cmake --build --preset release --target docs` writes"
+                                          " both again")
+        self.assertIn(results_page.gains(tables["errors.csv"]), front)
 
     @unittest.skipUnless(list(PUBLISHED.glob("*.csv")), "nothing is published yet")
     def test_every_published_row_says_of_which_run_and_revision_it_is(self):
@@ -82,7 +88,8 @@ class CheckerTest(unittest.TestCase):
     def test_a_mark_may_ask_for_a_ratio_or_count_the_rows_of_a_comparison(self):
         for column, number in (("affine/localized:max", "23.3"), ("affine/bar:min", "35.6"),
                                ("localized>affine:count", "0"), ("affine>bar:count", "1"),
-                               ("affine>localized:count", "2")):
+                               ("affine>localized:count", "2"),
+                               ("load=strip-1:count", "1"), ("load=strip:count", "0")):
             mark = f'<!-- published: errors.csv "layered/*" {column} -->'
             self.assertEqual(self.faults(mark + number), [], column)
             self.assertEqual(len(self.faults(mark + "77")), 1)
@@ -110,22 +117,104 @@ class CheckerTest(unittest.TestCase):
                 self.assertFalse(is_printed_as(value, text), (value, text))
 
 
+def published_row(cell, strain, **columns):
+    """A row of errors.csv; what is not given is an error of 4 ± 0.1 and a gain of 1."""
+    errors = {name: "4" for name, _ in results_page.METHODS}
+    bars = {f"{name}_bar": "0.1" for name in errors}
+    claims = dict.fromkeys(of_strain.CLAIMS, "INCONCLUSIVE")
+    return {"set": "cells", "cell": cell, "load": "strip-1", "strain": strain, **errors, **bars,
+            "base_method": "full-micro", **dict.fromkeys(results_page.GAINS, "1"), **claims,
+            "bar_safety": "1.25", "law_lost_at": "", "run": "1", "revision": "a", **columns}
+
+
 class ResultsPageTest(unittest.TestCase):
-    def test_the_page_lists_every_case_and_those_where_a_method_loses(self):
-        def row(cell, **errors):
-            text = {"cell": cell, "load": "strip-1", "run": "1", "revision": "a"}
-            for ending in ("", "_10"):
-                text |= {name + ending: str(errors.get(name, 4.)) for name, _ in
-                         results_page.ERRORS}
-            return text
-        rows = [row("good", affine=100., localized=50., main=10., **{"localized+p2": 25.}),
-                row("bad", affine=3., **{"localized+edges": ""})]
-        page = results_page.page({"ladder.csv": rows, "brackets.csv": [], "claims.csv": []})
-        self.assertIn("| `good` | strip-1 | 100 | 50.0 | 4.00 | 4.00 | 25.0 | 10.0 | 4.00 | 5.00 |"
-                      " 2.00 | 2.50 |", page)
-        self.assertIn("| `bad` | strip-1 | 3.00 | 4.00 | – |", page)
-        self.assertIn("- 1 % strain, 1 of 2: `bad` strip-1 (4.00 against 3.00).", page)
-        self.assertIn("| 10 % strain | total | 3.00 | 1.00 | 5.00 | 2 |", page)
+    def page(self, *rows):
+        page = results_page.page({"errors.csv": rows, "brackets.csv": [], "claims.csv": []})
+        return page.replace(results_page.UNBROKEN, " ")
+
+    def test_a_row_has_errors_with_bars_and_gains_and_whether_it_is_decided(self):
+        page = self.page(published_row("good", "0.01", affine="100", affine_bar="1.23", base="25",
+                                       full="10", full_bar="0.0312", gain_of_coarse_cloth="4",
+                                       gain_of_upsampling="2.5", gain_total="10",
+                                       gain_over_localized="0.4", full_against_base="PASS"))
+        self.assertIn("| `good` | strip-1 | 100 ± 1 | 25.0 ± 0.1 *a* | 4.00 ± 0.10 | 10.0 ± 0.03 |"
+                      " 4.00 | 2.50 | 10.0 | 0.400 | nearer |", page)
+
+    def test_an_open_row_says_why(self):
+        empty = dict.fromkeys(("affine", "base", "localized", "full", *results_page.GAINS), "")
+        page = self.page(published_row("within", "0.1"),
+                         published_row("wide", "0.1", bar_safety="3"),
+                         published_row("lost", "0.1", **empty, law_lost_at="0.0625"),
+                         published_row("stalled", "0.1", **empty))
+        for cell, why in (("within", "bars"), ("wide", "bars x 3"), ("lost", "law, 6.25 %"),
+                          ("stalled", "not reached")):
+            self.assertRegex(page, rf"(?m)^\| `{cell}` .*\| {why} \|$")
+
+    def test_cells_that_were_not_run_are_named(self):
+        names = results_page.names_of(ROOT)
+        self.assertIn("twill-drawn-2", names)
+        page = self.page(*(published_row(name, "0.01") for name in names if name != "satin"))
+        self.assertIn("Not run yet at this size: `satin`.", page)
+        self.assertNotIn("Not run", self.page(*(published_row(name, "0.01") for name in names)))
+
+    def test_every_row_in_which_a_method_loses_is_listed(self):
+        page = self.page(published_row("good", "0.01", affine="9", base="8", full="3"),
+                         published_row("bad", "0.01", affine="3", base="2.5", full="9",
+                                       full_against_base="FAIL"))
+        for line in ("- 1 % strain, 1 of 2: `bad` strip-1 (4.00 ± 0.10 against 3.00 ± 0.10).",
+                     "- 1 % strain, 1 of 2: `bad` strip-1 (9.00 ± 0.10 against 2.50 ± 0.10,"
+                     " decided).",
+                     "- 1 % strain, 1 of 2: `bad` strip-1 (9.00 ± 0.10 against 4.00 ± 0.10).",
+                     "- 1 % strain, 1 of 2: `bad` strip-1 (9.00 ± 0.10 against 3.00 ± 0.10)."):
+            self.assertIn(line, page)
+        self.assertNotIn("`good` strip-1 (", page)
+
+    def test_medians_are_of_one_set_and_strain_and_of_rows_in_which_the_law_holds(self):
+        rows = [published_row(cell, strain, set=its, gain_of_upsampling=gain, law_lost_at=lost)
+                for its, cell, strain, gain, lost in (
+                    ("cells", "a", "0.01", "2", ""), ("cells", "b", "0.01", "3", ""),
+                    ("cells", "c", "0.01", "7", "0.02"), ("cells", "a", "0.1", "9", "0.1"),
+                    ("weaves", "d", "0.01", "1.5", ""),
+                    ("drawn weaves", "d-drawn-1", "0.01", "0.5", ""))]
+        page = self.page(*rows)
+        for row in ("patches, stripes, holes | 1 % | 1.00 (1.00 to 1.00) | 3.00 (2.00 to 7.00) |",
+                    "patches, stripes, holes | 10 % | – | – | – | – | 0 / 0 / 1 | 0 |",
+                    "weaves | 1 % | 1.00 (1.00 to 1.00) | 1.50",
+                    "weaves drawn by chance | 1 % | 1.00 (1.00 to 1.00) | 0.500"):
+            self.assertIn(f"| {row}", page.replace("**", ""))
+        self.assertIn("In 1 of 1 rows `full` is not shown to be nearer than the coarse cloth alone:"
+                      " `d-drawn-1` strip-1 at 1 % (bars).", page)
+
+
+def write_strain(folder, cell="dots", law="biot"):
+    """A run of `strain` with one sheet: reached at 1 % strain, not at 10 %, where the law is lost.
+    """
+    os.makedirs(folder)
+    errors = {"affine": 0.2, "full-micro": 0.1, "affine+p2": 0.12, "localized": 0.08, "full": 0.05}
+    of_case = {"cell": cell, "load": "strip-1", "reference": law}
+    level = {**of_case, "cells": 20, "coarse_triangles": 8, "fine_triangles": 32}
+    write_table(folder, "strain.csv", [
+        {**level, "strain": strain, "method": method, "error_mean_m": error * strain * 0.03,
+         "error_mean_per_cell": error * strain, "error_bar_m": 0.01 * strain * 0.03,
+         "error_bar_safety": 3.0 if method == "full-micro" else 1.25}
+        for strain in (0.01, 0.02) for method, error in errors.items()
+    ] + [{**level, "strain": 0.1, "method": "unreached"},
+         {**level, "load": "periodic-11", "strain": 0.01, "method": "affine"}])
+    write_table(folder, "gains.csv", [
+        {**of_case, "strain": 0.01, "method": "full", "base": "full-micro",
+         "gain_of_coarse_cloth": 2.0, "gain_of_upsampling": 2.0, "gain_total": 4.0},
+        {**of_case, "strain": 0.01, "method": "localized", "base": "affine",
+         "gain_of_coarse_cloth": 1.0, "gain_of_upsampling": 2.5, "gain_total": 2.5}])
+    write_table(folder, "validity.csv", [
+        {**of_case, "method": "full", "measure": "cell side", "limit": 0.01, "relation": "-",
+         "elliptic_up_to": 0.0625}])
+    write_verdicts(folder, [
+        verdict(schema.claims()[claim]["claim"].format(**of_case, method=method, strain=strain),
+                outcome if strain == "0.01" else "INCONCLUSIVE", kind="method")
+        for strain in ("0.01", "0.1")
+        for (claim, method), outcome in zip(of_strain.CLAIMS.values(),
+                                            ("PASS", "FAIL", "INCONCLUSIVE"))])
+    write_run(folder)
 
 
 class PublishTest(unittest.TestCase):
@@ -139,29 +228,36 @@ class PublishTest(unittest.TestCase):
         write(path, **options)
         return path
 
-    def test_errors_are_those_of_the_table_in_thousandths_of_strain_and_side(self):
-        (row,) = published.rows_of([self.folder("strain", write_results)])["errors.csv"]
-        expected = {"affine": 200., "localized": 8., "reference_bar": 0.1,
-                    "share_of_affine_left": 4., "share_of_fluctuation_left": 4.}
-        for key, value in expected.items():
-            self.assertAlmostEqual(row[key], value, places=9, msg=key)
-        self.assertEqual((row["cell"], row["load"], row["revision"]),
-                         ("stripes", "shear-frame", "abc1234"))
+    def test_errors_and_bars_are_in_thousandths_of_strain_and_side_and_gains_those_of_the_run(self):
+        small, large = published.rows_of([self.folder("strain", write_strain)])["errors.csv"]
+        for key, value in {"affine": 200., "base": 100., "localized": 80., "full": 50.,
+                           "full_bar": 10., "base_bar": 10., "gain_of_coarse_cloth": 2.,
+                           "gain_of_upsampling": 2., "gain_total": 4., "gain_over_localized": 1.6,
+                           "bar_safety": 3., "law_lost_at": 0.0625}.items():
+            self.assertAlmostEqual(small[key], value, places=9, msg=key)
+        self.assertEqual([small[key] for key in ("set", "cell", "load", "strain", "base_method",
+                                                 "revision", *of_strain.CLAIMS)],
+                         ["cells", "dots", "strip-1", "0.01", "full-micro", "abc1234", "PASS",
+                          "FAIL", "INCONCLUSIVE"])
+        self.assertEqual((large["strain"], large["base_method"], large["full_against_base"],
+                          large["law_lost_at"]), ("0.1", "", "INCONCLUSIVE", 0.0625))
+        for key in ("affine", "base", "full", "full_bar", "gain_total", "bar_safety"):
+            self.assertTrue(math.isnan(large[key]), key)
 
-    def test_times_are_medians_and_ratios_those_of_whole_steps(self):
-        (row,) = published.rows_of([self.folder("strain", write_results)])["times.csv"]
-        self.assertAlmostEqual(row["coarse_ms"], 2.)
-        self.assertAlmostEqual(row["ratio_most"], 6.5 / 0.0021)
+    def test_cells_weaves_and_drawn_weaves_are_sets_of_their_own(self):
+        rows = published.rows_of([
+            self.folder(f"{cell}/strain", write_strain, cell=cell, law=law)
+            for cell, law in (("dots", "biot"), ("twill", "yarn"), ("twill-drawn-2", "yarn"))
+        ])["errors.csv"]
+        self.assertEqual([row["set"] for row in rows if row["strain"] == "0.01"],
+                         ["cells", "weaves", "drawn weaves"])
 
-    def test_a_scene_gives_its_last_frame_with_the_bar_of_its_reference(self):
-        folder = self.folder("drape", write_drape, references=("biot",), frames=2,
-                             variants=("biot", "nodal-warping"))
-        self.assertNotIn("pull.csv", published.rows_of([folder]))  # another scene
-        with mock.patch.object(published, "SCENE", "swing"):
-            (row,) = published.rows_of([folder])["pull.csv"]
-        self.assertEqual((row["cell"], row["time_s"], row["nodal_time_s"]), ("layered", 1., 1.))
-        self.assertLess(row["localized"], row["affine"])
-        self.assertEqual(row["exact_there"], row["localized"])
+    def test_a_run_without_the_claim_on_a_row_is_refused(self):
+        folder = self.folder("strain", write_strain)
+        write_verdicts(folder, [])
+        list_again(folder)
+        with self.assertRaisesRegex(BadResults, "has no claim `dots, strip-1: full is"):
+            published.rows_of([folder])
 
     def test_a_bracket_has_its_width_as_the_report_shows_it(self):
         folder = self.folder("strain", write_results)
@@ -182,31 +278,18 @@ class PublishTest(unittest.TestCase):
         self.assertEqual((row["method_fail"], row["program_open"], row["program_fail"]), (1, 1, 0))
 
     def test_two_runs_of_one_cell_are_refused(self):
-        folders = [self.folder(name, write_results) for name in ("one", "two")]
+        folders = [self.folder(name, write_strain) for name in ("one", "two")]
         with self.assertRaisesRegex(BadResults,
-                                    "errors.csv: two runs have a row stripes/shear-frame"):
+                                    "errors.csv: two runs have a row cells/dots/strip-1/0.01"):
             published.rows_of(folders)
 
-    def test_orders_stand_with_their_limits(self):
-        folder = os.path.join(self.place, "converge")
-        os.makedirs(folder)
-        row = {"cell": "dots", "study": "mesh", "case": "uniform refinement", "kind": "level",
-               "quantity": "C11 [N/m]", "order_p": 2, "h_unit": "side", "dofs": 5,
-               "order": 3.01, "order_lowest": 2.9, "order_highest": 3.1, "judgement": "PASS",
-               "seconds": 0.1}
-        write_table(folder, "converge.csv",
-                    [{**row, "level": level, "h": 0.5 ** level} for level in range(4)])
-        write_run(folder, "converge")
-        (found,) = published.rows_of([folder])["orders.csv"]
-        self.assertEqual((found["elements"], found["order"], found["levels"]), ("P2", 3.01, 4))
-
     def test_what_is_published_reads_back_and_what_was_changed_is_refused(self):
-        folder = self.folder("strain", write_results)
+        folder = self.folder("strain", write_strain)
         output = os.path.join(self.place, "published")
         self.assertEqual(published.publish(output, [folder]),
-                         ["claims.csv", "errors.csv", "times.csv"])
+                         ["claims.csv", "errors.csv"])
         tables = read_tables(output)
-        text = "<!-- published: errors.csv stripes/shear-frame localized -->8.0"
+        text = "<!-- published: errors.csv cells/dots/strip-1/0.01 localized -->80.0"
         self.assertEqual(faults_of(text, tables, published.KEYS), [])
         with open(os.path.join(folder, "strain.csv"), "a", encoding="utf-8") as file:
             file.write("\n")
