@@ -43,8 +43,9 @@ get finer. The methods are
 
 **Decided.** `full` is *nearer* than its base or *farther* if the two errors differ by more than the
 sum of their bars. Otherwise the row is open: *bars*, they differ by less; *bars x 3*, the errors on
-three discretizations do not converge, and the bars, three times as wide, decide nothing; *law*, the
-law of the cloth loses ellipticity at the strain given, beyond which no minimum need exist.
+three discretizations do not converge, and their bars, with a factor of safety of 3 instead of 1.25,
+decide nothing; *law*, the law loses ellipticity at the strain given, beyond which no minimum need
+exist.
 """
 SETS = {"cells": "patches, stripes, holes", "weaves": "weaves", "drawn weaves": "weaves drawn by chance"}
 DRAWN = """\
@@ -150,7 +151,7 @@ def errors(rows):
         [
             [f"`{row['cell']}`", row["load"],
              *(with_bar(row, name)
-               + (f" *{LETTERS[row['base_method']]}*" if name == "base" and row["base"] else "")
+               + (f"{UNBROKEN}*{LETTERS[row['base_method']]}*" if name == "base" and row["base"] else "")
                for name, _ in METHODS),
              *(three(row[name]) for name in GAINS), decided(row)]
             for row in rows
