@@ -95,6 +95,24 @@ void bisect(const std::function<MarginLevel(double, const MarginLevel &)> &level
     (next.margin.beta < 0. ? lost : held) = next;
   }
 }
+
+/// Levels from a strain on have left the path, which ended before them, unless it was lost earlier.
+void mark_left(MarginPath &path, const double from)
+{
+  const auto has_left = [from](const double strain) { return std::abs(strain) >= std::abs(from); };
+  StabilityRow &loss  = path.loss;
+  const bool is_lost_before = loss.outcome == "lost" && !has_left(loss.lost_at);
+  for (StabilityRow &row : path.rows)
+    if (row.outcome != "not-reached" && has_left(row.strain))
+      row.path = "left";
+  if (is_lost_before)
+    return;
+  loss.outcome = "ended";
+  loss.held_to = loss.lost_at = loss.strain = StabilityRow::none;
+  for (const StabilityRow &row : path.rows)
+    if (!has_left(row.strain))
+      loss.held_to = row.strain;
+}
 } // namespace
 
 StabilityRow row_of(const StabilityRow &path, const std::string &kind, const int number,
@@ -162,6 +180,8 @@ MarginPath margin_path(const BlochMargin &bloch, const LoadControl &control,
     last = level;
   }
   describe(path.loss, path.shown.margin.wave);
+  if (const std::optional<double> left = states.left_at(strains.front() < 0. ? -1. : 1.))
+    mark_left(path, *left);
   return path;
 }
 
@@ -174,7 +194,13 @@ std::vector<StabilityRow> waves_of(const BlochMargin &bloch, const MarginLevel &
   {
     rows.push_back(row_of(names, "wave", static_cast<int>(rows.size()) + 1, level.strain));
     describe(rows.back(), wave);
-    rows.back().beta = search.lowered(search.start({wave}), {wave}).beta;
+    try
+    {
+      rows.back().beta = search.lowered(search.start({wave}), {wave}).beta;
+    }
+    catch (const meshes::NotConverged &) // the two sides of its beta do not meet: it has none
+    {
+    }
   }
   return rows;
 }

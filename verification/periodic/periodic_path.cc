@@ -5,6 +5,7 @@
 #include "verification/newton/halved_parts.h"
 
 #include <cmath>
+#include <iterator>
 
 namespace homespun::verification
 {
@@ -45,7 +46,14 @@ CellEquilibrium PeriodicPath::guess(const double factor) const
     state.fluctuation += part * (state.fluctuation - second->second.fluctuation);
     strain += part * (strain - control.strain(second->second.gradient));
   }
-  for (long k = 0; k < 3; ++k) // what is prescribed has its own value
+  return prescribed(std::move(state), strain, factor);
+}
+
+/// The state at strains of which those that are prescribed have their own value.
+CellEquilibrium PeriodicPath::prescribed(CellEquilibrium state, Eigen::Vector3d strain,
+                                         const double factor) const
+{
+  for (long k = 0; k < 3; ++k)
     if (!control.is_stress[static_cast<std::size_t>(k)])
       strain(k) = factor * control.value(k);
   state.gradient = control.gradient(strain);
@@ -73,5 +81,30 @@ const CellEquilibrium &PeriodicPath::at(const double factor)
     if (gone.reached < 1.)
       throw meshes::NotConverged(*gone.failure);
   }
+}
+std::optional<double> PeriodicPath::left_at(const double sign) const
+{
+  // Equilibria are found to round-off; where there are two, they are apart by parts of the cell.
+  const double same = 1e-6 * std::sqrt(assembly.cell.lattice.area());
+  for (auto before = known.find(0.), end = known.end(); before != end;)
+  {
+    auto next = before;
+    if (sign < 0. ? next == known.begin() : std::next(next) == end)
+      break;
+    sign < 0. ? --next : ++next;
+    CellEquilibrium back =
+      prescribed(next->second, control.strain(next->second.gradient), before->first);
+    try
+    {
+      find_equilibrium(assembly, control.dead_loads(before->first), back);
+      if ((back.fluctuation - before->second.fluctuation).cwiseAbs().maxCoeff() > same)
+        return next->first;
+    }
+    catch (const meshes::NotConverged &) // tells nothing
+    {
+    }
+    before = next;
+  }
+  return {};
 }
 } // namespace homespun::verification

@@ -7,6 +7,7 @@
 #include "verification/periodic_cell/cell_equilibrium.h"
 
 #include <map>
+#include <optional>
 #include <utility>
 
 namespace homespun::verification
@@ -31,12 +32,19 @@ public:
   /// @throws NotConverged
   const CellEquilibrium &at(double factor);
 
+  /// The first factor whose state has left the path: Newton's method from there, taken back to the
+  /// state before, comes to another one. Beyond it the states are equilibria, but not those that
+  /// what is prescribed leads to. Nothing where each step can be taken back.
+  /// @param sign of the factors that are asked, 1 or -1
+  std::optional<double> left_at(double sign) const;
+
 private:
   using Known = std::map<double, CellEquilibrium>; ///< by factor
 
   /// The nearest state and the next one, which may be none.
   std::pair<Known::const_iterator, Known::const_iterator> nearest(double factor) const;
   CellEquilibrium guess(double factor) const;
+  CellEquilibrium prescribed(CellEquilibrium state, Eigen::Vector3d strain, double factor) const;
 
   const CellAssembly &assembly;
   const LoadControl control;

@@ -90,10 +90,14 @@ struct StabilityRow
   double strain = none; ///< [-]; of first loss by the line between held_to and lost_at
   /// Of a level `unstable-proved`: a field of the discrete cloth shows it; `stable-up-to-mesh`: no
   /// wave that was asked does, on this mesh; `not-reached`: Newton's method found no state. Of a
-  /// loss `lost`; `held` up to the last strain; `ended`: no state beyond `held_to`. Of a pattern
-  /// `found`: with less energy; `no-wave`: every wave of these cells is stable; `not-found`: where
-  /// the lowest wave leads to, Newton's method did not come to an end.
+  /// loss `lost`; `held` up to the last strain; `ended`: no state of the load beyond `held_to`. Of
+  /// a pattern `found`: with less energy; `no-wave`: every wave of these cells is stable;
+  /// `not-found`: where the lowest wave leads to, Newton's method did not come to an end.
   std::string outcome;
+  /// Of a level `left`: the state is an equilibrium, but not the one that the load leads to from
+  /// rest: on the way there a step back does not lead to the state before. Nothing: no such step
+  /// was seen.
+  std::string path;
   double beta  = none;          ///< [-]
   double lower = none;          ///< no wave that was asked is below, by Cholesky factors
   std::string wave;             ///< in words
@@ -132,6 +136,7 @@ struct StabilityRow
     column("number", &StabilityRow::number, Domain::needed_not_negative);
     column("strain", &StabilityRow::strain, Domain::real);
     column("outcome", &StabilityRow::outcome, Domain::text);
+    column("path", &StabilityRow::path, Domain::text);
     column("beta", &StabilityRow::beta, Domain::real);
     column("beta_lower", &StabilityRow::lower, Domain::real);
     column("wave", &StabilityRow::wave, Domain::text);

@@ -82,7 +82,7 @@ Verdict verdict_on_reaching(const PathRows &path)
   return none_of("periodic-states", path.words,
                  std::count_if(path.levels.begin(), path.levels.end(),
                                [](const StabilityRow &row)
-                               { return row.outcome == "not-reached"; }),
+                               { return row.outcome == "not-reached" || row.path == "left"; }),
                  Outcome::inconclusive);
 }
 
@@ -224,6 +224,14 @@ std::vector<std::string> notes_on_margins(const std::vector<StabilityRow> &rows)
   {
     if (path.given)
       notes.push_back(path.name + note_on_loss(*path.given, path.refined));
+    const auto left = std::find_if(path.levels.begin(), path.levels.end(),
+                                   [](const StabilityRow &row) { return row.path == "left"; });
+    if (left != path.levels.end())
+      notes.push_back(path.name + "at " + short_text(100. * left->strain) +
+                      " % and beyond, on the " + left->mesh +
+                      " mesh, the state is not that of the load any more: on the way Newton's "
+                      "method jumped to another equilibrium, from which a step back does not lead "
+                      "to the state before.");
     const StabilityRow *best = nullptr;
     for (const StabilityRow &row : path.patterns)
       if (row.outcome == "found" && (!best || row.less_energy > best->less_energy))

@@ -5,6 +5,7 @@
 #include "homogenization/lint/cell_reading.h"
 #include "tests/verification/periodic/bloch_cell.h"
 #include "verification/periodic/load_path.h"
+#include "verification/periodic/periodic_cloth.h"
 #include "verification/reference/fine_reference.h"
 #include "verification/reference/free_sides.h"
 
@@ -313,4 +314,28 @@ TEST(tripwire_load, a_state_that_is_no_minimum_is_called_that)
   EXPECT_TRUE(last(assembly, control({}, {"11=-30%"}), 30).is_stable);
   const LoadPath path = load_path(assembly, control({}, {"11=-80%", "22=-30%"}, 2), 80);
   EXPECT_FALSE(path.levels.back().is_stable);
+}
+
+// Straight yarns under biot collapse between 0.3 and 0.4 %, and what is found beyond is another
+// equilibrium: taken back to where the path was, it has less energy than the path had there.
+TEST(exact_periodic_path, a_state_that_has_left_its_path_is_told_by_a_step_back)
+{
+  const auto cloth = [](const std::string &name)
+  { return resolved_cloth(homogenization::read_unit_cell(CELLS + name + ".prm"), 0, Law::biot); };
+  const CellAssembly weave = cloth("plain-weave-straight"), chevron = cloth("chevron");
+  PeriodicPath path = tests::path_along(weave, "uniaxial-1");
+  for (const double strain : {0.001, 0.002, 0.003})
+    path.at(strain);
+  EXPECT_FALSE(path.left_at(1.));
+  path.at(0.004);
+  path.at(0.006);
+  ASSERT_TRUE(path.left_at(1.));
+  EXPECT_EQ(*path.left_at(1.), 0.004);
+  EXPECT_FALSE(path.left_at(-1.));
+
+  PeriodicPath stays = tests::path_along(chevron, "uniaxial-1");
+  for (const double strain : {-0.1, -0.05, 0.05, 0.1})
+    stays.at(strain);
+  EXPECT_FALSE(stays.left_at(1.));
+  EXPECT_FALSE(stays.left_at(-1.));
 }

@@ -127,6 +127,20 @@ class StabilityPage(PageTest):
                       " pressed in its plane wrinkles at once); that holds up to the mesh",
                       self.page())
 
+    def test_a_state_that_has_left_the_path_of_its_load_says_so_in_its_row(self):
+        jumped = "not the state of this load any more: the path jumped to another equilibrium"
+
+        def left(rows):
+            for one in rows:
+                if one["kind"] == "level" and one["strain"] == "-0.15":
+                    one["path"] = "left"
+
+        self.edit_table("stability.csv", left)
+        status, errors = self.run_report()
+        self.assertEqual(status, 0, errors)
+        self.assertEqual(self.page().count(jumped), 1)
+        self.assertIn(f"lost, proved; {jumped}", self.page())
+
     def test_the_zone_is_the_same_at_k_and_at_minus_k(self):
         values = values_of_zone(ZONE)
         self.assertEqual(values[(3, 6)], values[(21, 18)])

@@ -77,6 +77,8 @@ def level_rows(path):
             words = "stable, up to the mesh"
         else:
             words = "open: the meshes disagree"
+        if "left" in {one["path"] for one in (row, other) if one}:
+            words += "; not the state of this load any more: the path jumped to another equilibrium"
         rows.append(
             [path.law, path.load, f"{three(100.0 * row['strain'])} %", three(row["beta"]),
              three(other["beta"]) if other else "–", wave, words]
