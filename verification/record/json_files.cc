@@ -2,8 +2,10 @@
 #include "verification/record/json_files.h"
 
 #include "meshes/files/format_version.h"
+#include "meshes/plain/errors.h"
 
 #include <cmath>
+#include <fstream>
 
 namespace homespun::verification
 {
@@ -22,6 +24,16 @@ void write_json(const std::string &path, const nlohmann::ordered_json &json)
   nlohmann::ordered_json written = {{"format_version", meshes::format_version}};
   written.update(json);
   write_whole(path, json_text(written));
+}
+
+nlohmann::ordered_json read_json(const std::string &path)
+{
+  std::ifstream input(path);
+  nlohmann::ordered_json json = nlohmann::ordered_json::parse(input, nullptr, false);
+  if (!json.is_object())
+    throw meshes::BadInput(path + ": is damaged; expected what homespun writes there: run the "
+                                  "study again");
+  return json;
 }
 
 nlohmann::ordered_json to_json(const std::vector<Verdict> &verdicts, const std::string &command)

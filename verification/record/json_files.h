@@ -24,6 +24,10 @@ std::string json_text(const nlohmann::ordered_json &json);
 /// @throws BadInput where it cannot be written
 void write_json(const std::string &path, const nlohmann::ordered_json &json);
 
+/// Reads one of the program's own.
+/// @throws BadInput where it is damaged
+nlohmann::ordered_json read_json(const std::string &path);
+
 /// {"verdicts": [{id, claim, kind, verdict, value, limit, derivation, command}]}
 nlohmann::ordered_json to_json(const std::vector<Verdict> &verdicts, const std::string &command);
 } // namespace homespun::verification

@@ -295,6 +295,16 @@ std::unique_ptr<RunFolder> open_run_folder(const std::string &path,
   return folder;
 }
 
+ordered_json finished_run(const std::string &path)
+{
+  const std::optional<ordered_json> found = description_in(path);
+  if (!found || !found->value("finished", false))
+    throw BadInput(path + ": " + (found ? "holds a run that did not end" : "holds no run") +
+                   "; expected the --output folder of one that did");
+  check_unchanged(path, *found);
+  return *found;
+}
+
 void check_format(const std::string &folder)
 {
   description_in(folder);

@@ -71,6 +71,10 @@ std::unique_ptr<RunFolder> open_run_folder(const std::string &path,
 /// @throws BadInput naming it; a folder without run.json is as good as one of any version
 void check_format(const std::string &folder);
 
+/// run.json of a run that ended, and whose files are as it wrote them.
+/// @throws BadInput where the folder holds no such run
+nlohmann::ordered_json finished_run(const std::string &path);
+
 /// Lists the page and the figures of a finished run, after they were made; what it listed of its
 /// results stays. Does nothing where the folder holds no run.
 void list_report(const std::string &path);

@@ -85,7 +85,7 @@ struct Pair
     const double ratio = one->mean / than->mean;
     if (!std::isfinite(bars))
       words["note"] += "; open: an error bar is not known";
-    else if (std::max(one->bar_safety, than->bar_safety) >= safety_unconfirmed)
+    else if (std::fmax(one->bar_safety, than->bar_safety) >= safety_unconfirmed)
     {
       words["note"] += "; open: errors of P1, P2 and refined P2 do not come together, and bear no "
                        "claim";
@@ -176,6 +176,20 @@ std::vector<Verdict> method_verdicts(const std::vector<StrainRow> &rows, const S
   for (const double strain : strains_of_methods(asked))
     for (const Pair &pair : pairs)
       verdicts.push_back(pair.judged(rows, of_case, strain, lost));
+  return verdicts;
+}
+
+std::vector<Verdict> verdicts_of_own_method(const std::vector<StrainRow> &rows,
+                                            const StrainRow &of_case, const double lost)
+{
+  std::vector<double> strains;
+  for (const StrainRow &row : rows)
+    if (is_reached_in(row, of_case) && row.method == of_case.method)
+      strains.push_back(row.strain);
+  std::vector<Verdict> verdicts;
+  for (const double strain : strains_of_methods(strains))
+    for (const char *other : {"affine", "localized"})
+      verdicts.push_back(Pair{of_case.method, other}.judged(rows, of_case, strain, lost));
   return verdicts;
 }
 } // namespace homespun::verification

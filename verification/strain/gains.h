@@ -43,4 +43,9 @@ std::set<double> strains_of_methods(const std::vector<double> &asked);
 std::vector<Verdict> method_verdicts(const std::vector<StrainRow> &rows, const StrainRow &of_case,
                                      const std::vector<double> &asked,
                                      const std::vector<std::string> &methods, double lost);
+
+/// The same of a method that is none of the program's, at all its levels: that it is closer than
+/// `affine`, and than `localized`.
+std::vector<Verdict> verdicts_of_own_method(const std::vector<StrainRow> &rows,
+                                            const StrainRow &of_case, double lost);
 } // namespace homespun::verification

@@ -115,6 +115,9 @@ void StrainCommand::add(CommandLine &line)
                     "Leave out the error budget: budget.csv, the error split into its parts");
   command->add_flag("!--no-runtime", study.run_time,
                     "Leave out error against run time: runtime.csv, every way to the positions");
+  command->add_flag("--keep", study.keep,
+                    "Keep meshes and positions of every level in CELL/positions/, for a method of "
+                    "your own: see `homespun judge`");
   add_study<StrainCommand>(
     line, *command, arguments,
     {"out/NAME/strain, with --quick out/NAME/strain-quick",

@@ -9,6 +9,7 @@
 #include "verification/record/number_text.h"
 #include "verification/record/timing.h"
 #include "verification/strain/force_rows.h"
+#include "verification/strain/kept_positions.h"
 #include "verification/strain/level_ellipticity.h"
 #include "verification/strain/sheet_fields.h"
 
@@ -293,9 +294,7 @@ UpsampledLevel compare_methods(const StrainStudyOptions &options, const StrainLe
   const Fluctuation fluctuation =
     fluctuation_of(level, fine.positions, methods.fluctuation, output);
   errors.fluctuation       = fluctuation.mean;
-  errors.side              = std::sqrt(resolved.sheet.lattice.area());
   errors.reference_bar     = resolved.bar;
-  errors.has_edges         = !load.is_periodic();
   errors.seconds_reference = fine.seconds;
   // All methods before the first row: a level has a row of each, or is unreached.
   std::vector<UpsampledMethod> missing;
@@ -310,6 +309,8 @@ UpsampledLevel compare_methods(const StrainStudyOptions &options, const StrainLe
   if (!missing.empty())
     for (const ForceRow &row : force_rows(level, resolved, methods, model, coarse))
       output.write_forces(row);
+  if (options.keep && !missing.empty())
+    keep(options.output, level, resolved.sheet, model.mesh(), {coarse.positions, fine.positions});
   const int n_coarse         = model.mesh().n_triangles();
   const std::string pictured = pictured_method(distinct, missing);
   for (const UpsampledMethod &of : missing)

@@ -19,9 +19,10 @@ struct StrainStudyOptions : StudyOptions
   std::vector<std::string> loads;
   std::vector<std::string> references; ///< empty: those of each cell, default_references()
   std::vector<std::string> methods;
-  int n_cells_of_error_bar = 4;    ///< per side of the small sheet of the references' error bar
-  bool budget              = true; ///< budget.csv, the error split into its parts
-  bool run_time            = true; ///< runtime.csv, every way to the positions at one strain
+  int n_cells_of_error_bar = 4;     ///< per side of the small sheet of the references' error bar
+  bool budget              = true;  ///< budget.csv, the error split into its parts
+  bool run_time            = true;  ///< runtime.csv, every way to the positions at one strain
+  bool keep                = false; ///< positions of all levels, for `homespun judge`
 };
 
 /// Whether more than one cell repeats under periodic loads.

@@ -58,6 +58,20 @@ std::unique_ptr<Table<Row>> table_if(const bool is_wanted, const std::string &fo
 }
 } // namespace
 
+void set_errors(StrainRow &row, const Eigen::VectorXd &distance, const meshes::Sheet &sheet,
+                const double fluctuation)
+{
+  const ErrorNorms norms = error_norms(distance);
+  row.mean               = norms.mean;
+  row.rms                = norms.rms;
+  row.max                = norms.max;
+  row.per_cell           = row.mean / std::sqrt(sheet.lattice.area());
+  if (fluctuation > 0.)
+    row.per_fluctuation = row.mean / fluctuation;
+  if (!Load(row.load).is_periodic())
+    std::tie(row.interior, row.edge) = apart_from_edges(distance, sheet);
+}
+
 StrainOutput::StrainOutput(const StrainStudyOptions &options,
                            std::function<void(const std::string &)> tell)
     : uncertainty(options.output)
@@ -95,24 +109,16 @@ void StrainOutput::write_errors(const StrainLevel &level, const std::string &met
                                 const meshes::Sheet &sheet, const int n_coarse_triangles,
                                 const StrainErrors &errors)
 {
-  const ErrorNorms norms = error_norms(errors.distance);
-  StrainRow row          = row_of(level, method);
-  row.cells              = sheet.n1;
-  row.coarse_triangles   = n_coarse_triangles;
-  row.fine_triangles     = sheet.mesh.n_triangles();
-  row.mean               = norms.mean;
-  row.rms                = norms.rms;
-  row.max                = norms.max;
-  row.per_cell           = row.mean / errors.side;
-  if (errors.fluctuation > 0.)
-    row.per_fluctuation = row.mean / errors.fluctuation;
-  row.uncertainty     = errors.reference_bar.mean;
-  row.uncertainty_max = errors.reference_bar.max;
-  row.to_refined      = errors.reference_bar.to_refined;
-  row.bar             = errors.bar.mean;
-  row.bar_safety      = errors.bar.safety;
-  if (errors.has_edges)
-    std::tie(row.interior, row.edge) = apart_from_edges(errors.distance, sheet);
+  StrainRow row        = row_of(level, method);
+  row.cells            = sheet.n1;
+  row.coarse_triangles = n_coarse_triangles;
+  row.fine_triangles   = sheet.mesh.n_triangles();
+  set_errors(row, errors.distance, sheet, errors.fluctuation);
+  row.uncertainty       = errors.reference_bar.mean;
+  row.uncertainty_max   = errors.reference_bar.max;
+  row.to_refined        = errors.reference_bar.to_refined;
+  row.bar               = errors.bar.mean;
+  row.bar_safety        = errors.bar.safety;
   row.seconds           = errors.seconds;
   row.seconds_reference = errors.seconds_reference;
   strain.append(row);

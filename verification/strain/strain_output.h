@@ -32,14 +32,16 @@ struct StrainLevel
 struct StrainErrors
 {
   Eigen::VectorXd distance;      ///< from the reference, per fine vertex [m]
-  bool has_edges     = false;    ///< of the sheet: not under a periodic load
   double fluctuation = 0.;       ///< of the reference, mean over the vertices [m]
-  double side        = 0.;       ///< of the cell [m]
   ReferenceBar reference_bar;    ///< [m]
   ErrorBar bar;                  ///< of the mean [m]
   double seconds           = 0.; ///< of the method
   double seconds_reference = 0.;
 };
+
+/// The norms of an error in a row that has the keys and sizes of the level.
+void set_errors(StrainRow &row, const Eigen::VectorXd &distance, const meshes::Sheet &sheet,
+                double fluctuation);
 
 /// Tables in a folder. Rows that are there already are not written again.
 class StrainOutput

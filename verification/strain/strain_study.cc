@@ -19,6 +19,7 @@
 #include "verification/strain/claims/owed_claims.h"
 #include "verification/strain/claims/self_checks.h"
 #include "verification/strain/claims/study_verdicts.h"
+#include "verification/strain/kept_positions.h"
 #include "verification/strain/level_ellipticity.h"
 #include "verification/strain/run_time.h"
 #include "verification/strain/strain_comparison.h"
@@ -75,6 +76,8 @@ private:
                                             { progress.note(line); });
     for (const std::string &note : notes_on_references(asked, cells()))
       progress.note(note);
+    if (asked.keep)
+      progress.note(note_on_keeping(asked, cells()));
   }
 
   void work() override
@@ -131,8 +134,7 @@ private:
       study_run_time(cell, homogenized, {assessed.result.voigt, assessed.result.reuss}, *full);
   }
 
-  /// Every way to the positions under one load, in which the coarse mesh matters most, at the
-  /// pictured strain.
+  /// Every way to the positions at the pictured strain, where the coarse mesh matters most.
   void study_run_time(const UnitCell &cell, const meshes::HomogenizedCell &homogenized,
                       const StiffnessBounds &bounds, const meshes::Sheet &sheet)
   {
@@ -296,8 +298,7 @@ private:
     return answer_of_root(answer == 1, communicator);
   }
 
-  /// @return whether reference and coarse cloth found an equilibrium, so that the next level may
-  ///   start from it
+  /// @return whether both found an equilibrium, from which the next level may start
   bool study_level(const LoadedSheet &of, const Law law, const double strain)
   {
     const StrainLevel level = {of.cell.name, of.load.name, law, strain};
@@ -330,14 +331,14 @@ private:
             {
               try
               {
-                ResolvedLevel resolved = {of.sheet,
-                                          fine,
-                                          of.reference.n_dofs(),
-                                          n_ranks,
-                                          of.uncertainty.at(law, strain),
-                                          stability,
-                                          seconds_stability};
-                resolved.error_bars    = of.uncertainty.of_errors(law, strain);
+                const ResolvedLevel resolved = {of.sheet,
+                                                fine,
+                                                of.reference.n_dofs(),
+                                                n_ranks,
+                                                of.uncertainty.at(law, strain),
+                                                stability,
+                                                seconds_stability,
+                                                of.uncertainty.of_errors(law, strain)};
                 solved    = compare_methods(options, level, resolved, of.methods, *output);
                 is_solved = 1;
               }

@@ -229,6 +229,8 @@ nlohmann::ordered_json strain_inputs(const StrainStudyOptions &asked,
        {"budget", options.budget}};
   if (has_supercell(options))
     inputs["supercell"] = options.supercell;
+  if (options.keep)
+    inputs["keep"] = true;
   for (const homogenization::UnitCell &cell : cells)
     inputs["references of " + cell.name] = options_of(asked, cell).references;
   return inputs;

@@ -12,7 +12,13 @@ from figures.style import percent, three
 from page import tables
 from page.answer_pictures import as_homespun, sheet_of_answer
 from page.budget_contents import validity_text
-from page.headline import PAPER, finer_mesh_sentence, headline, infinite_line
+from page.headline import (
+    PAPER,
+    finer_mesh_sentence,
+    headline,
+    infinite_line,
+    own_methods_sentence,
+)
 from page.words import capital, change_of, listed, share
 from read import schema
 from read.budget_results import base_rows, levels
@@ -96,7 +102,8 @@ def answer_of(results, name, gallery):
         "side": tables.length(side) if side else None,
         "ratio": None if ratio is None else three(ratio),
         "headline": " ".join(
-            part for part in (headline(lines, percent(strains[0]), listed(spoken_of)), finer) if part
+            part for part in (headline(lines, percent(strains[0]), listed(spoken_of)), finer,
+                              own_methods_sentence(here)) if part
         ),
         "lines": lines,
         "shown": [line for line in lines if not style.is_infinite(line["load"])],

@@ -9,11 +9,14 @@ from page import tables
 from page.headline import PAPER
 from read.cell_results import read_fields
 from read.results import BadResults
+from read.schema import is_of_homespun
 
 
 def as_homespun(rows, of_base, chosen):
     """Rows of the sheets, if there are any, whose methods have the names of the first screen, and
     these names in their order.
+
+    A method of somebody's own keeps its name.
 
     @param of_base rows of the coarse cloths, as those of the method `base`
     @param chosen load -> the method that the page speaks of
@@ -24,6 +27,8 @@ def as_homespun(rows, of_base, chosen):
         name = names.get(row["method"])
         if name is None and row["method"] == chosen.get(row["load"]):
             name = style.HOMESPUN
+        if row["method"] not in names and not is_of_homespun(row["method"]):
+            name = row["method"]
         if name:
             named.append({**row, "method": name})
     return named, style.ordered_methods(row["method"] for row in named)

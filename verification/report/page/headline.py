@@ -7,7 +7,8 @@ import math
 
 from figures import style
 from figures.style import percent, three
-from page.words import change_of, listed, share
+from page.words import capital, change_of, listed, share
+from read.schema import is_of_homespun, main_method
 
 PAPER = "localized"
 MARKS = ("better", "worse", "open", "none")
@@ -120,3 +121,25 @@ def finer_mesh_sentence(rows, ways, reference):
         return f"{quads} would change what the paper's method leaves by less than 5 % {where}."
     change = "take away" if left < 1.0 else "add"
     return f"{quads} would {change} {share(abs(1.0 - left))} % of what the paper's method leaves {where}."
+
+
+def own_methods_sentence(here):
+    """How methods that are none of homespun's stand beside those of homespun, in the sheets if there
+    are any; empty where none was judged.
+
+    @param here rows of strain.csv of one cell, reference and strain, with an error
+    """
+    parts = []
+    sheets = [row for row in here if not style.is_infinite(row["load"])] or here
+    for row in [row for row in sheets if not is_of_homespun(row["method"])]:
+        others = {one["method"]: one["error_mean_m"] for one in here
+                  if one["load"] == row["load"] and is_of_homespun(one["method"])}
+        spoken_of = [name for name in dict.fromkeys(("affine", PAPER, main_method(others)))
+                     if others.get(name, 0.0) > style.ROUND_OFF * row["error_mean_m"]]
+        beside = listed([f"{three(row['error_mean_m'] / others[name])} times that of {name}"
+                         for name in spoken_of])
+        n = sum(error < row["error_mean_m"] for error in others.values())
+        parts.append(f"{n or 'none'} of {len(others)} methods of homespun"
+                     f" {'is' if n < 2 else 'are'} closer than {row['method']} in {row['load']}"
+                     + (f" (its error is {beside})" if beside else ""))
+    return f"{capital('; '.join(parts))}." if parts else ""

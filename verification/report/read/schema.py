@@ -120,6 +120,14 @@ def terms(method):
     return found
 
 
+def is_of_homespun(method):
+    """Whether a method is the program's, and not one of somebody's own that was judged.
+
+    @throws NoSchema
+    """
+    return re.split("[+-]", method)[0] in read(place())[2]
+
+
 def main_method(methods):
     """The method that a page speaks of among those of a load against a law: the one with most
     terms, of several the one whose terms come last; `localized` where none has micro.

@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: MIT
+#include "verification/strain/judge/given_positions.h"
+
+#include "meshes/files/hdf5_reader.h"
+#include "meshes/files/polygons.h"
+#include "meshes/plain/errors.h"
+
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <limits>
+#include <optional>
+#include <regex>
+
+namespace homespun::verification
+{
+namespace
+{
+using meshes::BadInput;
+using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
+std::string shape_text(const std::string &rows, const std::string &columns)
+{
+  return "(" + rows + ", " + columns + ")";
+}
+
+[[noreturn]] void refuse_shape(const std::string &file, const std::string &found, const int n)
+{
+  throw BadInput(file + ": holds an array of shape " + found + "; expected " +
+                 shape_text(std::to_string(n), "2") + " or " + shape_text(std::to_string(n), "3") +
+                 ", a row for each vertex of the rest mesh in its order");
+}
+
+template <typename Number, int order>
+Rows numbers_of(const std::string &bytes, const std::size_t begin, const Eigen::Index n_rows,
+                const Eigen::Index n_columns)
+{
+  Eigen::Matrix<Number, Eigen::Dynamic, Eigen::Dynamic, order> values(n_rows, n_columns);
+  std::memcpy(values.data(), bytes.data() + begin, sizeof(Number) * values.size());
+  return values.template cast<double>();
+}
+
+/// numpy's own format: "\x93NUMPY", version, length of the header, a dict in Python's words, data.
+Rows read_npy(const std::string &file, const int n_vertices)
+{
+  std::ifstream input(file, std::ios::binary);
+  const std::string bytes{std::istreambuf_iterator<char>(input), {}};
+  const auto byte = [&](const std::size_t k)
+  { return static_cast<std::size_t>(static_cast<unsigned char>(bytes[k])); };
+  if (bytes.size() < 12 || bytes.compare(0, 6, "\x93NUMPY") != 0)
+    throw BadInput(file + ": is no file of numpy.save(); expected an array of float64");
+  const bool is_first      = byte(6) == 1; // later versions have longer headers
+  const std::size_t begin  = is_first ? 10 : 12,
+                    length = byte(8) + 256 * byte(9) +
+                             (is_first ? 0 : 65536 * (byte(10) + 256 * byte(11)));
+  const std::string header = bytes.substr(begin, length);
+  std::smatch type, order, shape;
+  static const std::regex type_of("'descr': *'([^']*)'"),
+    order_of("'fortran_order': *(True|False)"),
+    shape_of("'shape': *\\((\\d*),? *(\\d*),? *(\\d*)[^)]*\\)");
+  if (!std::regex_search(header, type, type_of) || !std::regex_search(header, order, order_of) ||
+      !std::regex_search(header, shape, shape_of))
+    throw BadInput(file + ": has a header that is not numpy's; expected a file of numpy.save()");
+  const bool is_double = type[1] == "<f8";
+  if (!is_double && type[1] != "<f4")
+    throw BadInput(file + ": holds numbers of type " + type[1].str() +
+                   "; expected float64: positions.astype(float)");
+  const std::string columns = shape[2];
+  if (shape[1] != std::to_string(n_vertices) || (columns != "2" && columns != "3") ||
+      shape[3].length() > 0)
+    refuse_shape(file, shape[0].str().substr(shape[0].str().find('(')), n_vertices);
+  const Eigen::Index n_columns = columns == "2" ? 2 : 3;
+  const std::size_t size       = is_double ? sizeof(double) : sizeof(float);
+  if (bytes.size() != begin + length + size * static_cast<std::size_t>(n_vertices * n_columns))
+    throw BadInput(file + ": is cut off, or longer than its header says; write it again");
+  const bool is_by_column = order[1] == "True";
+  if (is_double)
+    return is_by_column
+             ? numbers_of<double, Eigen::ColMajor>(bytes, begin + length, n_vertices, n_columns)
+             : numbers_of<double, Eigen::RowMajor>(bytes, begin + length, n_vertices, n_columns);
+  return is_by_column
+           ? numbers_of<float, Eigen::ColMajor>(bytes, begin + length, n_vertices, n_columns)
+           : numbers_of<float, Eigen::RowMajor>(bytes, begin + length, n_vertices, n_columns);
+}
+
+Rows read_hdf5(const std::string &file, const int n_vertices)
+{
+  const meshes::Hdf5Reader input(file, "a dataset /positions");
+  const auto shape =
+    input.shape_of("/positions", {meshes::Hdf5Reader::any, meshes::Hdf5Reader::any});
+  if (shape[0] != static_cast<unsigned long long>(n_vertices) || shape[1] < 2 || shape[1] > 3)
+    refuse_shape(file, shape_text(std::to_string(shape[0]), std::to_string(shape[1])), n_vertices);
+  const std::vector<double> values = input.numbers("/positions", shape);
+  return Eigen::Map<const Rows>(values.data(), n_vertices, static_cast<Eigen::Index>(shape[1]));
+}
+
+Rows read_surface(const std::string &file, const meshes::TriangleMesh &rest)
+{
+  const meshes::Polygons found = meshes::read_polygons(file);
+  if (found.positions.rows() != rest.n_vertices())
+    refuse_shape(file, shape_text(std::to_string(found.positions.rows()), "3"), rest.n_vertices());
+  bool is_same = static_cast<int>(found.faces.size()) == rest.n_triangles();
+  for (int t = 0; is_same && t < rest.n_triangles(); ++t)
+  {
+    const meshes::Polygon &face = found.faces[static_cast<std::size_t>(t)];
+    is_same = face[3] < 0 && Eigen::RowVector3i(face[0], face[1], face[2]) == rest.triangles.row(t);
+  }
+  if (!is_same)
+    throw BadInput(file + ": its faces are not those of the rest mesh; expected its triangles in "
+                          "their order: the vertices may stand in another order, too");
+  return found.positions;
+}
+
+/// The last decimal that any number needs, as a length; zero where they need all digits.
+double decimals_of(const Rows &values)
+{
+  double unit = 1.;
+  for (int decimals = 0; decimals < 12; ++decimals, unit *= 0.1)
+  {
+    const Eigen::ArrayXXd scaled = values.array() / unit;
+    if ((scaled - scaled.round()).abs().maxCoeff() < 1e-3)
+      return unit;
+  }
+  return 0.;
+}
+} // namespace
+
+GivenPositions read_positions(const std::string &file, const meshes::TriangleMesh &rest)
+{
+  const std::string kind = std::filesystem::path(file).extension();
+  const int n            = rest.n_vertices();
+  Rows values;
+  if (kind == ".npy")
+    values = read_npy(file, n);
+  else if (kind == ".h5" || kind == ".hdf5")
+    values = read_hdf5(file, n);
+  else if (kind == ".obj" || kind == ".ply")
+    values = read_surface(file, rest);
+  else
+    throw BadInput(file + ": is of a kind that is not read; expected .npy, .h5, .obj or .ply");
+  if (!values.allFinite())
+    throw BadInput(file + ": holds NaN or infinite numbers; expected the position of each vertex");
+  const double length = values.cwiseAbs().maxCoeff();
+  if (values.cols() == 3 && values.col(2).cwiseAbs().maxCoeff() > 1e-9 * length)
+    throw BadInput(file + ": its third column is not zero; expected positions in the plane of the "
+                          "sheet");
+  const bool is_single = values.cast<float>().cast<double>() == values;
+  return {values.leftCols<2>(), is_single        ? length * std::numeric_limits<float>::epsilon()
+                                : kind == ".obj" ? decimals_of(values)
+                                                 : 0.};
+}
+} // namespace homespun::verification

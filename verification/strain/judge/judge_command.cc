@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: MIT
+// homespun judge: somebody's own fine positions against the references of a strain study.
+#include "verification/strain/judge/judge_command.h"
+
+#include "verification/command/study_arguments.h"
+#include "verification/method/method.h"
+#include "verification/strain/strain_tables.h"
+
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+
+#include <algorithm>
+#include <cctype>
+#include <memory>
+
+namespace homespun::verification
+{
+namespace
+{
+/// Checks the name, and gives the result its folder where none was told.
+void check_judge(JudgeOptions &study)
+{
+  const bool is_word =
+    !study.method.empty() &&
+    std::all_of(study.method.begin(), study.method.end(),
+                [](const unsigned char c) { return std::isalnum(c) || c == '_'; });
+  const std::vector<std::string> presets = Method::presets();
+  if (!is_word || study.method == unreached ||
+      std::find(presets.begin(), presets.end(), study.method) != presets.end())
+    throw meshes::BadInput("--name: found `" + study.method +
+                           "`; expected letters, digits and _, and no method of homespun");
+  while (study.run.size() > 1 && study.run.back() == '/')
+    study.run.pop_back();
+  if (study.output.empty())
+    study.output = study.run + "-" + study.method;
+}
+} // namespace
+
+void JudgeCommand::add(CommandLine &line)
+{
+  CLI::App *command = line.app.add_subcommand(
+    "judge", "Hold the fine positions of your own method against the references of a study");
+  const auto arguments = std::make_shared<StudyArguments<JudgeOptions>>();
+  JudgeOptions &study  = arguments->study;
+  study.command        = line.text;
+  command->add_option("RUN", study.run, "Folder of a `homespun strain --keep`")->required();
+  command
+    ->add_option("POSITIONS", study.files,
+                 "Files LOAD-LAW-STRAIN.npy (.h5, .obj, .ply), each of one level, or folders of "
+                 "them")
+    ->required();
+  command
+    ->add_option("--name", study.method,
+                 "What the method is called: letters, digits and _, and no method of homespun")
+    ->capture_default_str();
+  command->add_option("--seconds", study.seconds,
+                      "Run time of the method for one level [s] (default: not told)");
+  add_study<JudgeCommand>(
+    line, *command, arguments,
+    {"RUN-NAME",
+
+     "`homespun strain CELL.prm --keep` leaves RUN/CELL/positions/: sheet.h5 with the meshes "
+     "(/rest,\n"
+     "/triangles, /coarse_rest, /coarse_triangles), and for every load, law and strain a file\n"
+     "LOAD-LAW-STRAIN.h5 with /coarse, where the coarse cloth is, and /reference, where the "
+     "resolved\n"
+     "one is. Your method makes of /coarse the positions of all vertices of /rest, in their order "
+     "and\n"
+     "in metres, shape (n,2) or (n,3) with zeros, and writes them to a file of the same name: "
+     ".npy;\n"
+     ".h5 with a dataset /positions; .obj or .ply. Of infinite cloth (periodic.h5) positions count "
+     "but\n"
+     "for a translation.\n"
+     "The folder of the result holds the study with your method as a method more: a row of each "
+     "level\n"
+     "in strain.csv, claims, a curve in Figure 3. The bar of its error is that of the reference.\n"
+     "Example:\n  homespun strain mycell.prm --quick --keep\n"
+     "  homespun judge out/mycell/strain-quick mine/*.npy --name mine"},
+    [](StudyArguments<JudgeOptions> &given) { check_judge(given.study); });
+}
+} // namespace homespun::verification
