@@ -12,7 +12,6 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 
 namespace homespun::verification
 {
@@ -149,8 +148,7 @@ bool AssessedCells::read(const UnitCell &cell, const std::string &folder,
   its.folder        = folder;
   try
   {
-    std::ifstream input(file);
-    const nlohmann::json json                 = nlohmann::json::parse(input);
+    const nlohmann::json json                 = read_json(file);
     const meshes::HomogenizedCell homogenized = meshes::read_cell(folder + "/cell.h5");
     its.result.stiffness                      = homogenized.stiffness;
     its.result.chi                            = homogenized.chi;

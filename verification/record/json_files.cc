@@ -31,8 +31,8 @@ nlohmann::ordered_json read_json(const std::string &path)
   std::ifstream input(path);
   nlohmann::ordered_json json = nlohmann::ordered_json::parse(input, nullptr, false);
   if (!json.is_object())
-    throw meshes::BadInput(path + ": is damaged; expected what homespun writes there: run the "
-                                  "study again");
+    throw meshes::BadInput(path + ": is damaged; expected what homespun writes there: begin anew "
+                                  "with --overwrite");
   return json;
 }
 

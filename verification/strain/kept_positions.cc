@@ -2,42 +2,16 @@
 #include "verification/strain/kept_positions.h"
 
 #include "meshes/files/hdf5_reader.h"
-#include "meshes/files/hdf5_writer.h"
 #include "meshes/plain/errors.h"
 #include "verification/record/number_text.h"
 #include "verification/strain/cell_references.h"
+#include "verification/strain/sheet_fields.h"
 
 #include <cmath>
 #include <filesystem>
 
 namespace homespun::verification
 {
-namespace
-{
-void write_points(meshes::Hdf5Writer &file, const char *name, const meshes::Points &points)
-{
-  file.write(name, {static_cast<unsigned long long>(points.rows()), 2}, points.data(), "m");
-}
-
-void write_triangles(meshes::Hdf5Writer &file, const char *name, const meshes::TriangleMesh &mesh)
-{
-  file.write(name, {static_cast<unsigned long long>(mesh.n_triangles()), 3}, mesh.triangles.data());
-}
-
-void write_meshes(const std::string &path, const meshes::Sheet &sheet,
-                  const meshes::TriangleMesh &coarse_rest)
-{
-  meshes::Hdf5Writer file(path);
-  write_points(file, "/rest", sheet.mesh.vertices);
-  write_triangles(file, "/triangles", sheet.mesh);
-  file.write("/material", {static_cast<unsigned long long>(sheet.mesh.n_triangles())},
-             sheet.mesh.material.data());
-  write_points(file, "/coarse_rest", coarse_rest.vertices);
-  write_triangles(file, "/coarse_triangles", coarse_rest);
-  file.finish();
-}
-} // namespace
-
 std::string file_name_of(const StrainLevel &level)
 {
   return level.load + "-" + name_of(level.law) + "-" + short_text(level.strain);
@@ -56,10 +30,14 @@ void keep(const std::string &run, const StrainLevel &level, const meshes::Sheet 
   const std::string of_meshes =
     folder + (Load(level.load).is_periodic() ? "/periodic.h5" : "/sheet.h5");
   if (!std::filesystem::exists(of_meshes))
-    write_meshes(of_meshes, sheet, coarse_rest);
+  {
+    meshes::Hdf5Writer file(of_meshes);
+    add_meshes(file, sheet, coarse_rest);
+    file.finish();
+  }
   meshes::Hdf5Writer file(folder + "/" + file_name_of(level) + ".h5");
-  write_points(file, "/coarse", positions.coarse);
-  write_points(file, "/reference", positions.reference);
+  add_points(file, "/coarse", positions.coarse);
+  add_points(file, "/reference", positions.reference);
   file.attribute("/", "load", level.load);
   file.attribute("/", "law", name_of(level.law));
   file.attribute("/", "strain", level.strain);

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "verification/strain/sheet_fields.h"
 
-#include "meshes/files/hdf5_writer.h"
 #include "meshes/files/surface_files.h"
 #include "verification/record/number_text.h"
 
@@ -9,28 +8,39 @@
 
 namespace homespun::verification
 {
+namespace
+{
+void add_triangles(meshes::Hdf5Writer &file, const std::string &name,
+                   const meshes::TriangleMesh &mesh)
+{
+  file.write(name, {static_cast<unsigned long long>(mesh.n_triangles()), 3}, mesh.triangles.data());
+}
+} // namespace
+
+void add_points(meshes::Hdf5Writer &file, const std::string &name, const meshes::Points &points)
+{
+  file.write(name, {static_cast<unsigned long long>(points.rows()), 2}, points.data(), "m");
+}
+
+void add_meshes(meshes::Hdf5Writer &file, const meshes::Sheet &sheet,
+                const meshes::TriangleMesh &coarse_rest)
+{
+  add_points(file, "/rest", sheet.mesh.vertices);
+  add_triangles(file, "/triangles", sheet.mesh);
+  file.write("/material", {static_cast<unsigned long long>(sheet.mesh.n_triangles())},
+             sheet.mesh.material.data());
+  add_points(file, "/coarse_rest", coarse_rest.vertices);
+  add_triangles(file, "/coarse_triangles", coarse_rest);
+}
+
 void write_sheet_fields(const std::string &path, const meshes::Sheet &sheet,
                         const meshes::TriangleMesh &coarse_rest, const SheetFields &fields)
 {
   meshes::Hdf5Writer file(path);
-  const auto points = [&](const char *name, const meshes::Points &positions)
-  {
-    file.write(name, {static_cast<unsigned long long>(positions.rows()), 2}, positions.data(), "m");
-  };
-  const auto triangles = [&](const char *name, const meshes::TriangleMesh &mesh)
-  {
-    file.write(name, {static_cast<unsigned long long>(mesh.n_triangles()), 3},
-               mesh.triangles.data());
-  };
-  points("/rest", sheet.mesh.vertices);
-  triangles("/triangles", sheet.mesh);
-  file.write("/material", {static_cast<unsigned long long>(sheet.mesh.n_triangles())},
-             sheet.mesh.material.data());
-  points("/reference", fields.fine);
-  points("/upsampled", fields.upsampled);
-  points("/coarse_rest", coarse_rest.vertices);
-  triangles("/coarse_triangles", coarse_rest);
-  points("/coarse", fields.coarse);
+  add_meshes(file, sheet, coarse_rest);
+  add_points(file, "/reference", fields.fine);
+  add_points(file, "/upsampled", fields.upsampled);
+  add_points(file, "/coarse", fields.coarse);
   file.attribute("/", "load", fields.load);
   file.attribute("/", "strain", fields.strain);
   file.attribute("/", "reference", fields.reference);
