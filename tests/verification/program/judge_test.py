@@ -144,6 +144,7 @@ class Judge(InFolder):
                 ("expected one file for each", self.study, swapped, path),
                 ("no method of homespun", self.study, path, "--name", "affine"),
                 ("--name: found", self.study, path, "--name", "my method"),
+                ("--name: found", self.study, path, "--name", "base"),
                 ("is not there", self.study, self.folder / "nothing.npy"),
                 ("no run", self.folder, path)):
             result = run("judge", *arguments)

@@ -5,6 +5,7 @@
 #include "verification/command/study_arguments.h"
 #include "verification/method/method.h"
 #include "verification/strain/strain_tables.h"
+#include "verification/strain/validity.h"
 
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
@@ -24,9 +25,9 @@ void check_judge(JudgeOptions &study)
     !study.method.empty() &&
     std::all_of(study.method.begin(), study.method.end(),
                 [](const unsigned char c) { return std::isalnum(c) || c == '_'; });
-  const std::vector<std::string> presets = Method::presets();
-  if (!is_word || study.method == unreached ||
-      std::find(presets.begin(), presets.end(), study.method) != presets.end())
+  std::vector<std::string> taken = Method::presets();
+  taken.insert(taken.end(), {unreached, base_method, UncertaintyRow::of_reference});
+  if (!is_word || std::find(taken.begin(), taken.end(), study.method) != taken.end())
     throw meshes::BadInput("--name: found `" + study.method +
                            "`; expected letters, digits and _, and no method of homespun");
   while (study.run.size() > 1 && study.run.back() == '/')
