@@ -230,7 +230,7 @@ void add_area_faults(const TriangleMesh &mesh, const Lattice &lattice, const std
   if (std::abs(enclosed - lattice.area()) > 1e-6 * lattice.area())
   {
     std::ostringstream text;
-    text << name << ": the outline of the mesh encloses " << enclosed
+    text << std::setprecision(10) << name << ": the outline of the mesh encloses " << enclosed
          << " m^2, but the lattice vectors (" << lattice.vectors.row(0) << ") and ("
          << lattice.vectors.row(1) << ") m span " << lattice.area()
          << " m^2; expected equal areas: mend `Lattice vectors`, or mesh exactly one cell; where "

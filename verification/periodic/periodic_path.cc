@@ -82,6 +82,7 @@ const CellEquilibrium &PeriodicPath::at(const double factor)
       throw meshes::NotConverged(*gone.failure);
   }
 }
+
 std::optional<double> PeriodicPath::left_at(const double sign) const
 {
   // Equilibria are found to round-off; where there are two, they are apart by parts of the cell.
