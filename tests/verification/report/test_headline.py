@@ -8,7 +8,7 @@ from figures import style
 from made_up_error import row
 from page import answer, entries, plausible
 from page.answer_pictures import as_homespun
-from page.headline import finer_mesh_sentence, headline, infinite_line
+from page.headline import finer_mesh_sentence, headline, infinite_line, own_methods_sentence
 from read.cell_results import Cell
 
 
@@ -38,6 +38,19 @@ class HeadlineTest(unittest.TestCase):
             "At 1 % strain up-sampling (full) makes no difference that can be told in strip-1; it"
             " cannot be judged in strip-2, where no base was run.",
         )
+
+    def test_a_method_of_ones_own_stands_beside_those_of_homespun(self):
+        here = [{**row(error), "load": load, "method": method}
+                for load, errors in (("strip-1", (4e-3, 3e-3, 1e-3, 2e-3)),
+                                     ("strip-2", (4e-3, 3e-3, 2e-3, 1e-3)),
+                                     ("periodic-11", (4e-3, 1e-3, 1e-3, 9e-3)))
+                for method, error in zip(("affine", "localized", "full", "mine"), errors)]
+        self.assertEqual(
+            own_methods_sentence(here),
+            "1 of 3 (strip-1) and 0 of 3 (strip-2) methods of homespun are closer than mine, whose"
+            " error is 2.00 (strip-1) and 0.500 (strip-2) times that of full.",
+        )
+        self.assertEqual(own_methods_sentence([r for r in here if r["method"] != "mine"]), "")
 
     def test_the_infinite_cloth_has_one_line(self):
         lines = self.lines(strip_1=("better", "−40 %"), periodic_11=("better", "−50 %"),

@@ -7,7 +7,7 @@ import math
 
 from figures import style
 from figures.style import percent, three
-from page.words import capital, change_of, listed, share
+from page.words import change_of, listed, share
 from read.schema import is_of_homespun, main_method
 
 PAPER = "localized"
@@ -129,17 +129,21 @@ def own_methods_sentence(here):
 
     @param here rows of strain.csv of one cell, reference and strain, with an error
     """
-    parts = []
     sheets = [row for row in here if not style.is_infinite(row["load"])] or here
-    for row in [row for row in sheets if not is_of_homespun(row["method"])]:
-        others = {one["method"]: one["error_mean_m"] for one in here
-                  if one["load"] == row["load"] and is_of_homespun(one["method"])}
-        spoken_of = [name for name in dict.fromkeys(("affine", PAPER, main_method(others)))
-                     if others.get(name, 0.0) > style.ROUND_OFF * row["error_mean_m"]]
-        beside = listed([f"{three(row['error_mean_m'] / others[name])} times that of {name}"
-                         for name in spoken_of])
-        n = sum(error < row["error_mean_m"] for error in others.values())
-        parts.append(f"{n or 'none'} of {len(others)} methods of homespun"
-                     f" {'is' if n < 2 else 'are'} closer than {row['method']} in {row['load']}"
-                     + (f" (its error is {beside})" if beside else ""))
-    return f"{capital('; '.join(parts))}." if parts else ""
+    parts = []
+    for own in dict.fromkeys(r["method"] for r in sheets if not is_of_homespun(r["method"])):
+        ratios, names, closer = [], [], []
+        for row in [row for row in sheets if row["method"] == own]:
+            error = row["error_mean_m"]
+            others = {one["method"]: one["error_mean_m"] for one in sheets
+                      if one["load"] == row["load"] and is_of_homespun(one["method"])}
+            n = sum(other < error for other in others.values())
+            closer.append(f"{n} of {len(others)} ({row['load']})")
+            if (best := others.get(main_method(others), 0.0)) > style.ROUND_OFF * error:
+                ratios.append(f"{three(error / best)} ({row['load']})")
+                names.append(main_method(others))
+        said = f"{listed(closer)} methods of homespun are closer than {own}"
+        if ratios:
+            said += f", whose error is {listed(ratios)} times that of {listed(list(dict.fromkeys(names)))}"
+        parts.append(f"{said}.")
+    return " ".join(parts)
