@@ -8,7 +8,9 @@
 #include "python/arrays.h"
 
 #include <mpi.h>
+#include <pybind11/stl/filesystem.h>
 
+#include <filesystem>
 #include <map>
 #include <optional>
 #include <string>
@@ -54,9 +56,19 @@ meshes::HomogenizedCell homogenized(const UnitCell &cell, const unsigned int ord
                           provenance);
 }
 
-meshes::HomogenizedCell homogenize_file(const std::string &file, const unsigned int order)
+meshes::HomogenizedCell homogenize_file(const std::filesystem::path &file, const unsigned int order)
 {
-  return homogenized(homogenization::read_unit_cell(file), order, "homespun for Python, " + file);
+  return homogenized(homogenization::read_unit_cell(file), order,
+                     "homespun for Python, " + file.string());
+}
+
+double number_of(const py::object &number, const std::string &name)
+{
+  const double value = PyFloat_AsDouble(number.ptr());
+  if (!PyErr_Occurred())
+    return value;
+  PyErr_Clear();
+  throw meshes::BadInput(name + ": found " + std::string(py::repr(number)) + "; expected a number");
 }
 
 Phase phase_of(const py::dict &phase, const std::string &name)
@@ -69,7 +81,7 @@ Phase phase_of(const py::dict &phase, const std::string &name)
   std::map<std::string, double> at;
   for (const std::string &key : keys)
     if (phase.contains(key))
-      at[key] = phase[py::str(key)].cast<double>();
+      at[key] = number_of(phase[py::str(key)], name + ": `" + key + "`");
     else
       faults.push_back(name + ": has no `" + key +
                        "`; expected E, nu, thickness, density, or E1, E2, nu12, G12, angle, "
@@ -88,33 +100,38 @@ Phase phase_of(const py::dict &phase, const std::string &name)
 Eigen::VectorXi materials_of(const py::object &groups, const Eigen::Index n_triangles,
                              const std::size_t n_phases)
 {
-  const auto numbers = py::array_t<long, py::array::c_style | py::array::forcecast>::ensure(groups);
-  if (!numbers || numbers.ndim() != 1 || numbers.shape(0) != n_triangles)
-    throw meshes::BadInput("groups: expected one number per triangle, " +
-                           std::to_string(n_triangles));
-  Eigen::VectorXi materials(n_triangles);
+  Eigen::VectorXi materials = *Taken<Eigen::VectorXi>(groups, "groups");
+  if (materials.size() != n_triangles)
+    throw meshes::BadInput("groups: found " + std::to_string(materials.size()) +
+                           "; expected one number per triangle, " + std::to_string(n_triangles));
   for (Eigen::Index t = 0; t < n_triangles; ++t)
-  {
-    const long number = numbers.at(t);
-    if (number < 0 || number >= static_cast<long>(n_phases))
+    if (materials(t) >= static_cast<int>(n_phases))
       throw meshes::BadInput("groups: triangle " + std::to_string(t) + " has " +
-                             std::to_string(number) + "; expected 0 to " +
+                             std::to_string(materials(t)) + "; expected 0 to " +
                              std::to_string(n_phases - 1) + ", the index of a phase");
-    materials(t) = static_cast<int>(number);
-  }
   return materials;
 }
 
 meshes::HomogenizedCell homogenize_arrays(const py::object &vertices, const py::object &triangles,
-                                          const py::object &groups, const py::list &phases,
+                                          const py::object &groups, const py::sequence &phases,
                                           const unsigned int order)
 {
   UnitCell cell;
   cell.name           = "arrays";
-  cell.mesh.vertices  = matrix_of<meshes::Points>(vertices, "vertices");
-  cell.mesh.triangles = matrix_of<meshes::Triangles>(triangles, "triangles");
+  cell.mesh.vertices  = *Taken<meshes::Points>(vertices, "vertices");
+  cell.mesh.triangles = *Taken<meshes::Triangles>(triangles, "triangles");
   for (std::size_t k = 0; k < phases.size(); ++k)
-    cell.phases.push_back(phase_of(phases[k].cast<py::dict>(), "phase " + std::to_string(k)));
+  {
+    const std::string name = "phase " + std::to_string(k);
+    const py::object phase = phases[k];
+    if (!py::isinstance<py::dict>(phase))
+      throw meshes::BadInput(name + ": found " + std::string(py::repr(phase)) +
+                             "; expected a dict, such as dict(E=1e6, nu=0.3, thickness=5e-4, "
+                             "density=400)");
+    cell.phases.push_back(phase_of(phase, name));
+  }
+  if (cell.phases.empty())
+    throw meshes::BadInput("phases: found none; expected a dict for each number in `groups`");
   cell.mesh.material = materials_of(groups, cell.mesh.n_triangles(), cell.phases.size());
   std::vector<std::string> faults = meshes::faults_of(cell.mesh, cell.name);
   if (!faults.empty())

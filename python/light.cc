@@ -8,14 +8,16 @@
 #include "meshes/files/format_version.h"
 #include "python/arrays.h"
 
-#include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
 
+#include <filesystem>
 #include <memory>
 
 namespace homespun::python
 {
 namespace
 {
+namespace fs = std::filesystem;
 using meshes::HomogenizedCell;
 using Upsampler = localization::Upsampler<3, float>;
 using Fine      = Upsampler::Fine;
@@ -45,11 +47,11 @@ py::object upsampled(const Upsampler &upsampler, const py::object &positions, py
 {
   if (out.is_none())
     out = py::array_t<float>({static_cast<py::ssize_t>(upsampler.n_fine()), py::ssize_t(3)});
-  const auto coarse = matrix_of<localization::Positions<3>>(positions, "positions");
-  const auto fine   = room_in<Fine>(out, "out");
+  const Taken<localization::Positions<3>> coarse(positions, "positions");
+  const auto fine = room_in<Fine>(out, "out");
   {
     const py::gil_scoped_release others_run;
-    upsampler.upsample(coarse, fine);
+    upsampler.upsample(*coarse, fine);
   }
   return out;
 }
@@ -59,11 +61,12 @@ void declare_cell(py::module_ &module)
   py::class_<HomogenizedCell>(module, "Cell",
                               "A homogenized unit cell, as `homespun homogenize` leaves it in "
                               "cell.h5. Voigt order 11, 22, 12 with engineering shear; SI units.")
-    .def_static("read", &meshes::read_cell, py::arg("file"),
-                py::call_guard<py::gil_scoped_release>(), "The cell of a file cell.h5.")
+    .def_static(
+      "read", [](const fs::path &file) { return meshes::read_cell(file); }, py::arg("file"),
+      py::call_guard<py::gil_scoped_release>(), "The cell of a file cell.h5.")
     .def(
       "write",
-      [](const HomogenizedCell &cell, const std::string &file) { meshes::write_cell(cell, file); },
+      [](const HomogenizedCell &cell, const fs::path &file) { meshes::write_cell(cell, file); },
       py::arg("file"), py::call_guard<py::gil_scoped_release>(),
       "Writes a file that Cell.read() reads.")
     .def_property_readonly(

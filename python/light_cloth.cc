@@ -9,8 +9,6 @@
 #include "shell/terms/membrane_term.h"
 #include "shell/terms/plate_term.h"
 
-#include <pybind11/stl.h>
-
 #include <memory>
 #include <string>
 #include <vector>
@@ -25,7 +23,7 @@ using meshes::HomogenizedCell;
 struct ClothChoices
 {
   std::vector<int> held;
-  std::array<double, 3> gravity;
+  Eigen::RowVector3d gravity;
   double damping, viscosity;
   bool bends;
   std::string integrator;
@@ -64,9 +62,8 @@ std::unique_ptr<shell::Cloth> make_cloth(const HomogenizedCell &cell, const mesh
   options.integrator = integrator_of(choices.integrator);
   auto cloth = std::make_unique<shell::Cloth>(mesh.positions, masses, choices.held, options);
   cloth->add(shell::membrane_term(mesh, {cell.stiffness}, choices.viscosity));
-  const Eigen::RowVector3d gravity(choices.gravity[0], choices.gravity[1], choices.gravity[2]);
-  if (!gravity.isZero(0.))
-    cloth->add(shell::gravity_term(masses, gravity));
+  if (!choices.gravity.isZero(0.))
+    cloth->add(shell::gravity_term(masses, choices.gravity));
   if (choices.damping != 0.)
     cloth->add(shell::mass_damping_term(masses, choices.damping));
   if (choices.bends)
@@ -78,15 +75,15 @@ meshes::ClothMesh cloth_mesh(const py::object &rest, const py::object &triangles
                              const py::object &positions)
 {
   meshes::ClothMesh mesh;
-  mesh.rest.vertices  = matrix_of<meshes::Points>(rest, "rest");
-  mesh.rest.triangles = matrix_of<meshes::Triangles>(triangles, "triangles");
+  mesh.rest.vertices  = *Taken<meshes::Points>(rest, "rest");
+  mesh.rest.triangles = *Taken<meshes::Triangles>(triangles, "triangles");
   mesh.rest.material  = Eigen::VectorXi::Zero(mesh.rest.n_triangles());
   mesh.triangles      = mesh.rest.triangles;
   mesh.positions      = meshes::SpacePoints::Zero(mesh.rest.n_vertices(), 3);
   if (positions.is_none())
     mesh.positions.leftCols<2>() = mesh.rest.vertices;
   else
-    mesh.positions = matrix_of<meshes::SpacePoints>(positions, "positions");
+    mesh.positions = *Taken<meshes::SpacePoints>(positions, "positions");
   if (mesh.positions.rows() != mesh.rest.n_vertices())
     throw meshes::BadInput("positions: found " + std::to_string(mesh.positions.rows()) +
                            " rows; expected " + std::to_string(mesh.rest.n_vertices()) +
@@ -97,9 +94,16 @@ meshes::ClothMesh cloth_mesh(const py::object &rest, const py::object &triangles
   return mesh;
 }
 
-Eigen::RowVector3d point_of(const std::array<double, 3> &point)
+std::vector<int> indices_in(const py::object &list, const std::string &name)
 {
-  return {point[0], point[1], point[2]};
+  const Taken<Eigen::VectorXi> taken(list, name);
+  const auto indices = *taken;
+  return {indices.begin(), indices.end()};
+}
+
+Eigen::RowVector3d vector_in(const py::object &numbers, const std::string &name)
+{
+  return *Taken<Eigen::RowVector3d>(numbers, name);
 }
 } // namespace
 
@@ -110,23 +114,28 @@ void declare_cloth(py::module_ &module)
                     "A cloth in motion with the effective stiffness of a cell. rest (n, 2) and "
                     "triangles (m, 3) are the flat mesh, positions (n, 3) where it begins (rest, "
                     "with z = 0); held vertices stay or are moved by prescribe().")
-    .def(
-      py::init(
-        [](const HomogenizedCell &cell, const py::object &rest, const py::object &triangles,
-           const py::object &positions, const std::vector<int> &held,
-           const std::array<double, 3> &gravity, const double damping, const double viscosity,
-           const bool bending, const std::string &integrator)
-        {
-          const meshes::ClothMesh mesh = cloth_mesh(rest, triangles, positions);
-          const py::gil_scoped_release others_run;
-          return make_cloth(cell, mesh, {held, gravity, damping, viscosity, bending, integrator});
-        }),
-      py::arg("cell"), py::arg("rest"), py::arg("triangles"), py::kw_only(),
-      py::arg("positions") = py::none(), py::arg("held") = std::vector<int>(),
-      py::arg("gravity") = std::array<double, 3>{0., 0., -9.81}, py::arg("damping") = 0.,
-      py::arg("viscosity") = 0., py::arg("bending") = false,
-      py::arg("integrator") = "linearly implicit",
-      "gravity [m/s^2], damping [1/s], viscosity [s]; bending takes D^H of the cell.")
+    .def(py::init(
+           [](const HomogenizedCell &cell, const py::object &rest, const py::object &triangles,
+              const py::object &positions, const py::object &held, const py::object &gravity,
+              const double damping, const double viscosity, const bool bending,
+              const std::string &integrator)
+           {
+             const meshes::ClothMesh mesh = cloth_mesh(rest, triangles, positions);
+             const ClothChoices choices   = {indices_in(held, "held"),
+                                             vector_in(gravity, "gravity"),
+                                             damping,
+                                             viscosity,
+                                             bending,
+                                             integrator};
+             const py::gil_scoped_release others_run;
+             return make_cloth(cell, mesh, choices);
+           }),
+         py::arg("cell"), py::arg("rest"), py::arg("triangles"), py::kw_only(),
+         py::arg("positions") = py::none(), py::arg("held") = py::tuple(),
+         py::arg("gravity") = py::make_tuple(0., 0., -9.81), py::arg("damping") = 0.,
+         py::arg("viscosity") = 0., py::arg("bending") = false,
+         py::arg("integrator") = "linearly implicit",
+         "gravity [m/s^2], damping [1/s], viscosity [s]; bending takes D^H of the cell.")
     .def(
       "step", [](Cloth &cloth, const double h) { cloth.step(h); }, py::arg("h"),
       py::call_guard<py::gil_scoped_release>(), "One time step of h [s].")
@@ -138,8 +147,8 @@ void declare_cloth(py::module_ &module)
       "their sum.")
     .def(
       "prescribe",
-      [](Cloth &cloth, const int vertex, const std::array<double, 3> &position)
-      { cloth.prescribe(vertex, point_of(position)); },
+      [](Cloth &cloth, const int vertex, const py::object &position)
+      { cloth.prescribe(vertex, vector_in(position, "position")); },
       py::arg("vertex"), py::arg("position"),
       "Where a held vertex is to be at the end of the next step [m].")
     .def_property_readonly(

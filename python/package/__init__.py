@@ -8,8 +8,9 @@
     cloth.step(0.01)
     fine = upsampler.upsample(cloth.positions)     # (n, 3) float32
 
-Arrays are NumPy's and are not copied. What cannot be used raises BadInput, a ValueError, with the
-text of the program; what does not converge raises NotConverged.
+Arrays are not copied where they are float64 (indices int32) and contiguous; other numbers and lists
+are converted. What cannot be used raises BadInput, a ValueError, with the text of the program; what
+does not converge raises NotConverged.
 """
 from ._light import BadInput, Cell, Cloth, NotConverged, Sheet, Upsampler
 from .results import results
@@ -35,7 +36,7 @@ def homogenize(cell=None, *, vertices=None, triangles=None, groups=None, phases=
         if given:
             raise BadInput(f"homogenize: found a file and {', '.join(given)}; expected one or the "
                            "other")
-        return _fem.homogenize_file(str(cell), order)
+        return _fem.homogenize_file(cell, order)
     missing = [name for name, value in arrays.items() if value is None]
     if missing:
         raise BadInput(f"homogenize: {', '.join(missing)} missing; expected a cell file, or all of "

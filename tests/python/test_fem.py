@@ -59,6 +59,9 @@ class Homogenize(unittest.TestCase):
         self.assertAlmostEqual(cell.stiffness[0, 0] * (1 / D).mean(), 1., 9)
         self.assertAlmostEqual(cell.areal_density, 0.2, 12)
         numpy.testing.assert_array_equal(cell.material, groups)
+        again = homespun.homogenize(vertices=vertices.tolist(), triangles=triangles.astype("i8"),
+                                    groups=list(groups), phases=(SOFT, HARD), order=numpy.int64(1))
+        numpy.testing.assert_array_equal(again.stiffness, cell.stiffness)
 
     def test_refusals(self):
         vertices, triangles, groups = striped(4)
@@ -77,7 +80,14 @@ class Homogenize(unittest.TestCase):
         self.refused(call(phases=[SOFT, {"E": 1.}]), "phase 1: has no `nu`", "`thickness`")
         self.refused(call(phases=[SOFT, {**HARD, "E": -1.}]), "phase 1")
         self.refused(call(triangles=triangles[:-1], groups=groups[:-1]), "outline")
-        self.refused(call(vertices=vertices.astype("f4")), "vertices", "float32", "float64")
+        self.refused(call(vertices=vertices[:, :1]), "vertices: found the shape", "(n, 2)")
+        self.refused(call(triangles=triangles + 0.5), "triangles: found 0.5 at [0, 0]")
+        self.refused(call(groups=groups + 0.5), "groups: found 0.5 at [0]")
+        self.refused(call(groups=-groups), "groups: found -1 at")
+        self.refused(call(phases=[]), "phases: found none")
+        self.refused(call(phases=[SOFT, 3]), "phase 1: found 3; expected a dict")
+        self.refused(call(phases=[SOFT, {**HARD, "E": "1e6"}]), "phase 1: `E`: found '1e6'")
+        self.refused(call(phases=[SOFT, {**HARD, "E": numpy.nan}]), "phase 1")
 
     def test_the_example_runs(self):
         with tempfile.TemporaryDirectory(prefix="homespun-python-") as folder:

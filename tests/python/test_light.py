@@ -8,6 +8,7 @@ import sys
 import tempfile
 import threading
 import time
+import tracemalloc
 import unittest
 
 import numpy
@@ -26,6 +27,16 @@ def made_cell(folder):
     path = os.path.join(folder, "cell.h5")
     subprocess.run([os.environ["HOMESPUN_MAKE_CELL"], path], check=True)
     return path
+
+
+class WithPath(os.PathLike):
+    """What is no pathlib.Path and has a path."""
+
+    def __init__(self, path):
+        self.path = path
+
+    def __fspath__(self):
+        return self.path
 
 
 class WithCell(unittest.TestCase):
@@ -70,11 +81,13 @@ class Cells(WithCell):
         self.assertIsNone(self.cell.bending_stiffness)
 
     def test_what_is_written_is_read(self):
-        path = os.path.join(self.folder, "copy.h5")
-        self.cell.write(path)
-        again = homespun.Cell.read(path)
-        numpy.testing.assert_array_equal(again.chi, self.cell.chi)
-        numpy.testing.assert_array_equal(again.stiffness, self.cell.stiffness)
+        name = os.path.join(self.folder, "copy.h5")
+        for path in (name, pathlib.Path(name), WithPath(name)):
+            self.cell.write(path)
+            again = homespun.Cell.read(path)
+            os.remove(name)
+            numpy.testing.assert_array_equal(again.chi, self.cell.chi)
+            numpy.testing.assert_array_equal(again.stiffness, self.cell.stiffness)
 
     def test_refusals_have_the_text_of_the_program(self):
         self.refused(lambda: homespun.Cell.read("nowhere.h5"), "nowhere.h5")
@@ -135,22 +148,51 @@ class Upsampling(WithCell):
         # A copy of either array would be more than a megabyte each time.
         self.assertLess(resource.getrusage(resource.RUSAGE_SELF).ru_maxrss - before, 512)
 
+    def test_positions_that_fit_are_read_where_they_lie(self):
+        out = numpy.empty((self.upsampler.n_fine, 3), dtype=numpy.float32)
+        # NumPy reports its buffers to tracemalloc.
+        for positions, copies in ((self.positions, 0), (self.positions.astype("f4"), 1)):
+            tracemalloc.start()
+            self.upsampler.upsample(positions, out=out)
+            taken = tracemalloc.get_traced_memory()[1]
+            tracemalloc.stop()
+            self.assertEqual(taken >= self.positions.nbytes, bool(copies))
+            self.assertLess(taken, copies * self.positions.nbytes + 1000)
+
+    def test_whatever_numpy_takes_for_numbers_is_taken(self):
+        good = self.stretched(0.02)
+        whole = numpy.round(good / SIDE)
+        upsample = self.upsampler.upsample
+        for given, same in (
+                (good.tolist(), good), (tuple(map(tuple, good)), good),
+                (numpy.asfortranarray(good), good), (good[::-1].copy()[::-1], good),
+                (numpy.repeat(good, 2, axis=0)[::2], good), (good.astype(">f8"), good),
+                (good.astype("f4"), good.astype("f4").astype("f8")), (whole.astype("i8"), whole)):
+            numpy.testing.assert_array_equal(upsample(given), upsample(same))
+
     def test_refusals_name_argument_dtype_and_shape(self):
         good = self.positions
         out = numpy.empty((self.upsampler.n_fine, 3), dtype=numpy.float32)
         upsample = self.upsampler.upsample
-        self.refused(lambda: upsample(good.astype("f4")), "positions", "float32", "float64")
         self.refused(lambda: upsample(good[:, :2].copy()), "positions", "(n, 3)", f"({len(good)}, 2)")
-        self.refused(lambda: upsample(good.tolist()), "positions", "list", "numpy.asarray")
-        self.refused(lambda: upsample(numpy.asfortranarray(good)), "positions", "not contiguous")
         self.refused(lambda: upsample(good[:-1]), f"have {len(good) - 1} rows; expected {len(good)}")
+        self.refused(lambda: upsample(good.astype(str)), "positions: found a ndarray of <U",
+                     "expected numbers of the shape (n, 3)")
+        self.refused(lambda: upsample(good * 1j), "positions", "complex128")
+        self.refused(lambda: upsample([[0, 0], [0]]), "positions: found a list", "(n, 3)")
+        self.refused(lambda: upsample(None), "positions: found a NoneType", "(n, 3)")
+        # What is written into is never converted.
         self.refused(lambda: upsample(good, out=out.astype("f8")), "out", "float64", "float32")
+        self.refused(lambda: upsample(good, out=numpy.asfortranarray(out)), "out", "contiguous")
+        self.refused(lambda: upsample(good, out=out.tolist()), "out: found a list", "(n, 3)")
         self.refused(lambda: upsample(good, out=out[:-1]), f"expected {len(out)}")
         out.flags.writeable = False
         self.refused(lambda: upsample(good, out=out), "out: is read-only")
         bad = good.copy()
         bad[3, 1] = numpy.nan
-        self.refused(lambda: upsample(bad), "coarse vertex 3", "not finite")
+        self.refused(lambda: upsample(bad), "positions: found nan at [3, 1]; expected finite")
+        bad[3, 1] = -numpy.inf
+        self.refused(lambda: upsample(bad.astype("f4")), "positions: found -inf at [3, 1]")
 
     def test_others_run_meanwhile(self):
         # With the interpreter held, the counter of another thread would stand still.
@@ -217,9 +259,44 @@ class Cloths(WithCell):
         self.refused(lambda: make(bending=True), "no D^H")
         self.refused(lambda: make(integrator="leapfrog"), "leapfrog", "linearly implicit")
         self.refused(lambda: make(positions=numpy.zeros((3, 3))), "positions", "found 3 rows")
-        self.refused(lambda: homespun.Cloth(self.cell, rest, triangles.astype("i8")), "triangles",
-                     "int64", "int32")
         self.refused(lambda: make().step(0.), "0")
+        for name, bad, texts in (
+                ("held", [0.5], "held: found 0.5 at [0]; expected indices, whole numbers from 0"),
+                ("held", numpy.array([0, -1]), "held: found -1"),
+                ("held", [True, False], "held: found a list of bool"),
+                ("gravity", [0., 1.], "gravity: found the shape (2,); expected (3,)"),
+                ("gravity", [0., 0., numpy.nan], "gravity: found nan at [2]"),
+                ("positions", numpy.full((9, 3), numpy.nan), "positions: found nan at [0, 0]")):
+            self.refused(lambda: make(**{name: bad}), texts)
+        cloth = make(held=[0])
+        self.refused(lambda: cloth.prescribe(0, [0., 0.]), "position: found the shape (2,)")
+        moved = triangles.astype(float)
+        for value, text in ((0.5, "0.5"), (-1., "-1"), (numpy.nan, "nan"), (2.**31, "2147483648")):
+            moved[1, 2] = value
+            self.refused(lambda: homespun.Cloth(self.cell, rest, moved),
+                         f"triangles: found {text}", "at [1, 2]; expected")
+        wrong = triangles.copy()
+        wrong[1, 2] = -1
+        self.refused(lambda: homespun.Cloth(self.cell, rest, wrong), "triangles: found -1 at [1, 2]")
+        self.refused(lambda: homespun.Cloth(self.cell, rest, triangles[:, :2]),
+                     "triangles: found the shape (8, 2); expected (n, 3)")
+
+    def test_whatever_numpy_takes_for_numbers_makes_the_same_cloth(self):
+        sheet = homespun.Sheet(self.cell, numpy.int64(3), 3)
+        rest, triangles = sheet.coarse_vertices, sheet.coarse_triangles
+        top = numpy.flatnonzero(rest[:, 1] > rest[:, 1].max() - 1e-9)
+        fallen = []
+        for given in ((rest, triangles, top.tolist(), (0., 0., -9.81)),
+                      (rest.tolist(), triangles.astype("i8"), top, numpy.array([0., 0., -9.81])),
+                      (numpy.asfortranarray(rest), triangles.astype("u1"), tuple(top), [0, 0, -9.81]),
+                      (rest, triangles.astype("f4"), top.astype("f8"), (0., 0., -9.81))):
+            cloth = homespun.Cloth(self.cell, *given[:2], held=given[2], gravity=given[3])
+            cloth.prescribe(top[0], rest[top[0]].tolist() + [0.])
+            cloth.step(numpy.float32(0.25))
+            fallen.append(cloth.positions.copy())
+        self.assertLess(fallen[0][:, 2].min(), 0.)
+        for positions in fallen[1:]:
+            numpy.testing.assert_array_equal(positions, fallen[0])
 
 
 class Importing(unittest.TestCase):
