@@ -1,18 +1,22 @@
 // SPDX-License-Identifier: MIT
 // Homogenization for Python, on one rank. MPI starts with the first call and ends with the
 // interpreter.
-#include "homogenization/fem/homogenize.h"
 #include "homogenization/lint/cell_frame.h"
 #include "homogenization/lint/cell_reading.h"
 #include "homogenization/lint/conformity.h"
 #include "python/arrays.h"
+#include "python/bracketed_cell.h"
+#include "verification/cell/assessed_cell.h"
+#include "verification/cell/cell_summary.h"
 
 #include <mpi.h>
+#include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
 #include <filesystem>
 #include <map>
 #include <optional>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -22,6 +26,13 @@ namespace
 {
 using homogenization::Phase;
 using homogenization::UnitCell;
+
+struct Choices
+{
+  unsigned int order                   = 2;
+  bool bars                            = true;
+  std::optional<unsigned int> max_dofs = {}; ///< of brackets; nothing: the default of the program
+};
 
 /// Whoever else uses MPI in this process may have started it.
 void start_mpi()
@@ -42,24 +53,87 @@ void start_mpi()
     }));
 }
 
-meshes::HomogenizedCell homogenized(const UnitCell &cell, const unsigned int order,
-                                    const std::string &provenance)
+/// What the program tells on the terminal, as a warning of Python.
+void warn(const std::string &text)
 {
-  if (order != 1 && order != 2)
-    throw meshes::BadInput("order: found " + std::to_string(order) + "; expected 1 or 2");
-  start_mpi();
-  const py::gil_scoped_release others_run;
-  homogenization::HomogenizationOptions options;
-  options.order  = order;
-  options.solver = homogenization::CellSolver::fastest;
-  return homogenized_cell(cell, homogenization::homogenize(cell, options, MPI_COMM_SELF),
-                          provenance);
+  if (PyErr_WarnEx(PyExc_UserWarning, text.c_str(), 2) != 0)
+    throw py::error_already_set(); // warnings are errors
 }
 
-meshes::HomogenizedCell homogenize_file(const std::filesystem::path &file, const unsigned int order)
+/// A text of the program with its option as an argument.
+std::string in_python(std::string text)
 {
-  return homogenized(homogenization::read_unit_cell(file), order,
-                     "homespun for Python, " + file.string());
+  const std::string option = "--max-dofs";
+  const std::size_t place  = text.find(option);
+  return place == std::string::npos ? text : text.replace(place, option.size(), "max_dofs");
+}
+
+template <typename Found>
+BracketOfStiffness bracket_of(const Found &found)
+{
+  return {found.lower,
+          found.upper,
+          0.5 * (found.lower + found.upper),
+          0.5 * verification::bars_of(found),
+          found.width,
+          found.is_of_drawing};
+}
+
+/// As `homespun homogenize` does it.
+verification::AssessedCell assessed(const UnitCell &cell, const Choices &choices)
+{
+  const auto silent = [](const std::string &) {};
+  homogenization::HomogenizationOptions options;
+  options.order  = choices.order;
+  options.solver = homogenization::CellSolver::fastest;
+  if (verification::too_dear_second_order(cell, options).empty())
+    options.second_order = meshes::laws_with(&meshes::LawProperties::has_second_order);
+  verification::AssessedCell result = verification::assess(cell, options, MPI_COMM_SELF);
+  if (!choices.bars)
+    return result;
+  verification::BracketOptions bracket;
+  bracket.order    = choices.order;
+  bracket.max_dofs = choices.max_dofs.value_or(bracket.max_dofs);
+  verification::add_bracket(cell, bracket, silent, result);
+  verification::add_bending(cell, bracket, silent, result);
+  return result;
+}
+
+BracketedCell homogenized(const UnitCell &cell, const Choices &choices,
+                          const std::string &provenance)
+{
+  if (choices.order != 1 && choices.order != 2)
+    throw meshes::BadInput("order: found " + std::to_string(choices.order) + "; expected 1 or 2");
+  start_mpi();
+  const verification::AssessedCell found = [&]()
+  {
+    const py::gil_scoped_release others_run;
+    return assessed(cell, choices);
+  }();
+  for (const verification::Verdict &check : found.checks)
+    if (check.outcome == verification::Outcome::fail)
+      warn("FAIL " + check.claim + ": found " + std::to_string(check.value) + "; expected " +
+           check.limit);
+  BracketedCell result{verification::homogenized_cell(cell, found, provenance), {}, {}};
+  if (found.bracket && found.bracket->bracket)
+    result.stiffness_bracket = bracket_of(*found.bracket->bracket);
+  else if (choices.bars)
+    warn("bracket on C^H: " + in_python(found.bracket->remark));
+  if (found.bending && found.bending->bracket)
+    result.bending_bracket = bracket_of(*found.bending->bracket);
+  else if (choices.bars)
+    warn("bracket on D^H: " + in_python(found.bending->remark));
+  return result;
+}
+
+BracketedCell homogenize_file(const std::filesystem::path &file, const Choices &choices)
+{
+  std::ostringstream warnings;
+  const UnitCell cell = homogenization::read_unit_cell(file, MPI_COMM_NULL, &warnings);
+  std::istringstream lines(warnings.str());
+  for (std::string line; std::getline(lines, line);)
+    warn(line.substr(line.find(": ") + 2)); // behind `warning`
+  return homogenized(cell, choices, "homespun for Python, " + file.string());
 }
 
 double number_of(const py::object &number, const std::string &name)
@@ -112,9 +186,9 @@ Eigen::VectorXi materials_of(const py::object &groups, const Eigen::Index n_tria
   return materials;
 }
 
-meshes::HomogenizedCell homogenize_arrays(const py::object &vertices, const py::object &triangles,
-                                          const py::object &groups, const py::sequence &phases,
-                                          const unsigned int order)
+BracketedCell homogenize_arrays(const py::object &vertices, const py::object &triangles,
+                                const py::object &groups, const py::sequence &phases,
+                                const Choices &choices)
 {
   UnitCell cell;
   cell.name           = "arrays";
@@ -151,15 +225,18 @@ meshes::HomogenizedCell homogenize_arrays(const py::object &vertices, const py::
     throw meshes::BadInput(faults);
   cell.mesh    = std::move(matched.mesh);
   cell.lattice = matched.lattice;
-  return homogenized(cell, order, "homespun for Python, from arrays");
+  return homogenized(cell, choices, "homespun for Python, from arrays");
 }
 } // namespace
 
 PYBIND11_MODULE(_fem, module)
 {
   py::module_::import("homespun._light"); // which knows Cell and the exceptions
-  module.def("homogenize_file", &homogenize_file, py::arg("file"), py::arg("order"));
+  py::class_<Choices>(module, "Choices")
+    .def(py::init<unsigned int, bool, std::optional<unsigned int>>(), py::arg("order"),
+         py::arg("bars"), py::arg("max_dofs"));
+  module.def("homogenize_file", &homogenize_file, py::arg("file"), py::arg("choices"));
   module.def("homogenize_arrays", &homogenize_arrays, py::arg("vertices"), py::arg("triangles"),
-             py::arg("groups"), py::arg("phases"), py::arg("order"));
+             py::arg("groups"), py::arg("phases"), py::arg("choices"));
 }
 } // namespace homespun::python

@@ -4,29 +4,33 @@
 #include "python/light.h"
 
 #include "localization/upsampler.h"
-#include "meshes/files/cell_file.h"
 #include "meshes/files/format_version.h"
 #include "python/arrays.h"
 
-#include <pybind11/stl/filesystem.h>
-
-#include <filesystem>
 #include <memory>
+#include <sstream>
 
 namespace homespun::python
 {
 namespace
 {
-namespace fs = std::filesystem;
 using meshes::HomogenizedCell;
 using Upsampler = localization::Upsampler<3, float>;
 using Fine      = Upsampler::Fine;
+
+int at_least_one(const int number, const char *const name)
+{
+  if (number < 1)
+    throw meshes::BadInput(std::string(name) + ": found " + std::to_string(number) +
+                           "; expected at least 1 cell");
+  return number;
+}
 
 /// A sheet of cells and the coarse mesh over it: two triangles per cell.
 struct CellSheet
 {
   CellSheet(const HomogenizedCell &cell, const int n1, const int n2)
-      : fine(meshes::tile(cell.mesh, cell.lattice, n1, n2))
+      : fine(meshes::tile(cell.mesh, cell.lattice, at_least_one(n1, "n1"), at_least_one(n2, "n2")))
       , coarse(meshes::coarse_sheet(fine.origin, cell.lattice.vectors, n1, n2))
   {
   }
@@ -56,61 +60,6 @@ py::object upsampled(const Upsampler &upsampler, const py::object &positions, py
   return out;
 }
 
-void declare_cell(py::module_ &module)
-{
-  py::class_<HomogenizedCell>(module, "Cell",
-                              "A homogenized unit cell, as `homespun homogenize` leaves it in "
-                              "cell.h5. Voigt order 11, 22, 12 with engineering shear; SI units.")
-    .def_static(
-      "read", [](const fs::path &file) { return meshes::read_cell(file); }, py::arg("file"),
-      py::call_guard<py::gil_scoped_release>(), "The cell of a file cell.h5.")
-    .def(
-      "write",
-      [](const HomogenizedCell &cell, const fs::path &file) { meshes::write_cell(cell, file); },
-      py::arg("file"), py::call_guard<py::gil_scoped_release>(),
-      "Writes a file that Cell.read() reads.")
-    .def_property_readonly(
-      "vertices",
-      [](const py::object &self)
-      { return view(self.cast<const HomogenizedCell &>().mesh.vertices, self); },
-      "(n, 2) [m], not copied")
-    .def_property_readonly(
-      "triangles",
-      [](const py::object &self)
-      { return view(self.cast<const HomogenizedCell &>().mesh.triangles, self); },
-      "(m, 3), not copied")
-    .def_property_readonly(
-      "material",
-      [](const py::object &self)
-      { return view(self.cast<const HomogenizedCell &>().mesh.material, self); },
-      "(m) phase of each triangle, not copied")
-    .def_property_readonly(
-      "chi",
-      [](const py::object &self) { return view(self.cast<const HomogenizedCell &>().chi, self); },
-      "(n, 6) characteristic displacements [m], columns chi_11, chi_22, chi_12 "
-      "with two components each, not copied")
-    .def_property_readonly(
-      "stiffness", [](const HomogenizedCell &cell) { return copy_of(cell.stiffness); },
-      "C^H (3, 3) [N/m]")
-    .def_property_readonly(
-      "bending_stiffness",
-      [](const HomogenizedCell &cell) -> py::object
-      {
-        if (!cell.bending)
-          return py::none();
-        return copy_of(cell.bending->stiffness);
-      },
-      "D^H (3, 3) [N m], None where the file has none")
-    .def_property_readonly(
-      "lattice", [](const HomogenizedCell &cell) { return copy_of(cell.lattice.vectors); },
-      "rows a1, a2 [m]")
-    .def_readonly("anchor", &HomogenizedCell::anchor, "vertex where chi is zero")
-    .def_readonly("areal_density", &HomogenizedCell::areal_density, "[kg/m^2]")
-    .def_readonly("provenance", &HomogenizedCell::provenance)
-    .def_readonly("place_of_cut", &HomogenizedCell::place_of_cut,
-                  "In words, where the cell is not cut from the cloth as it is drawn; else empty.");
-}
-
 void declare_sheet(py::module_ &module)
 {
   const auto field = [](auto member)
@@ -121,36 +70,58 @@ void declare_sheet(py::module_ &module)
   py::class_<CellSheet>(module, "Sheet",
                         "n1 x n2 cells side by side, flat, and the coarse mesh over them: two "
                         "triangles per cell.")
-    .def(py::init<const HomogenizedCell &, int, int>(), py::arg("cell"), py::arg("n1"),
-         py::arg("n2"), py::call_guard<py::gil_scoped_release>())
+    .def(
+      py::init<const HomogenizedCell &, int, int>(), py::arg("cell"), py::arg("n1"), py::arg("n2"),
+      py::call_guard<py::gil_scoped_release>(),
+      "n1, n2: numbers of cells along the lattice vectors, at least 1. Raises BadInput where the "
+      "cell is no parallelogram.")
     .def_property_readonly("vertices",
                            field([](const CellSheet &sheet) -> const meshes::Points &
                                  { return sheet.fine.mesh.vertices; }),
-                           "(n, 2) of the fine mesh [m], not copied")
+                           "(n, 2) float64 of the fine mesh [m], not copied")
     .def_property_readonly("triangles",
                            field([](const CellSheet &sheet) -> const meshes::Triangles &
                                  { return sheet.fine.mesh.triangles; }),
-                           "(m, 3) of the fine mesh, not copied")
+                           "(m, 3) int32 of the fine mesh, not copied")
     .def_property_readonly("material",
                            field([](const CellSheet &sheet) -> const Eigen::VectorXi &
                                  { return sheet.fine.mesh.material; }),
-                           "(m) phase of each fine triangle, not copied")
+                           "(m,) int32, phase of each fine triangle, not copied")
     .def_property_readonly(
       "coarse_vertices",
       field([](const CellSheet &sheet) -> const meshes::Points & { return sheet.coarse.vertices; }),
-      "(k, 2) [m], not copied")
+      "(k, 2) float64 [m], not copied")
     .def_property_readonly("coarse_triangles",
                            field([](const CellSheet &sheet) -> const meshes::Triangles &
                                  { return sheet.coarse.triangles; }),
-                           "(l, 3), not copied");
+                           "(l, 3) int32, not copied")
+    .def("__repr__",
+         [](const CellSheet &sheet)
+         {
+           std::ostringstream text;
+           text << "<homespun.Sheet of " << sheet.fine.n1 << " x " << sheet.fine.n2
+                << " cells: " << sheet.coarse.n_triangles() << " coarse triangles, "
+                << sheet.fine.mesh.n_triangles() << " fine>";
+           return text.str();
+         });
 }
 } // namespace
 
 PYBIND11_MODULE(_light, module)
 {
-  module.doc() = "Cells, cloths and up-sampling; see the package homespun.";
-  py::register_exception<meshes::BadInput>(module, "BadInput", PyExc_ValueError);
-  py::register_exception<meshes::NotConverged>(module, "NotConverged", PyExc_RuntimeError);
+  module.attr("__version__") = HOMESPUN_VERSION;
+  module.doc()               = "Cells, cloths and up-sampling; see the package homespun.";
+  module.attr("__module__")  = "homespun"; // whose names the classes are
+  auto bad_input = py::register_exception<meshes::BadInput>(module, "BadInput", PyExc_ValueError);
+  bad_input.doc() =
+    "Input that cannot be used: a line per fault, which says the file, key, element or argument, "
+    "what was found, what was expected and what to do.";
+  auto not_converged =
+    py::register_exception<meshes::NotConverged>(module, "NotConverged", PyExc_RuntimeError);
+  not_converged.doc() =
+    "A solver that stopped before its tolerance, with the norms of its residuals.";
+  bad_input.attr("__module__")     = "homespun";
+  not_converged.attr("__module__") = "homespun";
   const char *const why_not = "Why a file of this format_version is not read; empty where it is.";
   module.def("fault_of_format",
              py::overload_cast<const std::string &, int>(&meshes::fault_of_format), py::arg("path"),
@@ -167,10 +138,16 @@ PYBIND11_MODULE(_light, module)
     .def(py::init(&make_upsampler), py::arg("cell"), py::arg("sheet"),
          py::arg("microscopic") = true, py::call_guard<py::gil_scoped_release>(),
          "microscopic=False interpolates the coarse motion alone.")
-    .def_property_readonly("n_fine", &Upsampler::n_fine)
-    .def_property_readonly("n_coarse", &Upsampler::n_coarse)
+    .def_property_readonly("n_fine", &Upsampler::n_fine, "Number of fine vertices.")
+    .def_property_readonly("n_coarse", &Upsampler::n_coarse, "Number of coarse vertices.")
     .def("upsample", &upsampled, py::arg("positions"), py::arg("out") = py::none(),
          "Fine positions (n_fine, 3) float32 of the coarse positions (n_coarse, 3) float64 [m]. "
-         "Neither is copied; with `out` nothing is allocated.");
+         "Neither is copied; with `out` nothing is allocated.")
+    .def("__repr__",
+         [](const Upsampler &upsampler)
+         {
+           return "<homespun.Upsampler of " + std::to_string(upsampler.n_coarse()) +
+                  " coarse vertices to " + std::to_string(upsampler.n_fine()) + " fine>";
+         });
 }
 } // namespace homespun::python

@@ -12,33 +12,42 @@ Arrays are not copied where they are float64 (indices int32) and contiguous; oth
 are converted. What cannot be used raises BadInput, a ValueError, with the text of the program; what
 does not converge raises NotConverged.
 """
-from ._light import BadInput, Cell, Cloth, NotConverged, Sheet, Upsampler
+from ._light import (BadInput, Bracket, BracketedCell, Cell, Cloth, NotConverged, Sheet, Upsampler,
+                     __version__)
 from .results import results
 
-__all__ = ["BadInput", "Cell", "Cloth", "NotConverged", "Sheet", "Upsampler", "homogenize",
-           "results"]
+__all__ = ["BadInput", "Bracket", "BracketedCell", "Cell", "Cloth", "NotConverged", "Sheet",
+           "Upsampler", "__version__", "homogenize", "results"]
 
 
-def homogenize(cell=None, *, vertices=None, triangles=None, groups=None, phases=None, order=2):
-    """The Cell of a cell file, or of arrays, homogenized on one rank.
+def homogenize(cell=None, *, vertices=None, triangles=None, groups=None, phases=None, order=2,
+               bars=True, max_dofs=None):
+    """The BracketedCell of a cell file, or of arrays, homogenized on one rank.
 
     cell: the path of a .prm file; or
     vertices (n, 2) [m], triangles (m, 3), groups (m) numbers of the phases,
     phases: a list of dict(E=, nu=, thickness=, density=) [Pa, -, m, kg/m^3], or for a fabric with
     axes dict(E1=, E2=, nu12=, G12=, angle=, thickness=, density=), angle in degrees.
     order: 1 or 2, of the displacement elements.
+    bars: also D^H [N m] and the guaranteed brackets of C^H and D^H, as `homespun homogenize` gives
+    them; without, the cell problems alone.
+    max_dofs: DoFs up to which brackets are made, None for those of the program.
+
+    Raises BadInput with what `homespun check` says of the file, or naming the array; NotConverged.
+    Warns of what the program warns of, and where there are no bars.
     """
     from . import _fem  # loads deal.II, and starts MPI when it is called
 
+    choices = _fem.Choices(order, bars, max_dofs)
     arrays = {"vertices": vertices, "triangles": triangles, "groups": groups, "phases": phases}
     if cell is not None:
         given = [name for name, value in arrays.items() if value is not None]
         if given:
             raise BadInput(f"homogenize: found a file and {', '.join(given)}; expected one or the "
                            "other")
-        return _fem.homogenize_file(cell, order)
+        return _fem.homogenize_file(cell, choices)
     missing = [name for name, value in arrays.items() if value is None]
     if missing:
         raise BadInput(f"homogenize: {', '.join(missing)} missing; expected a cell file, or all of "
                        "vertices, triangles, groups and phases")
-    return _fem.homogenize_arrays(vertices, triangles, groups, phases, order)
+    return _fem.homogenize_arrays(vertices, triangles, groups, phases, choices)

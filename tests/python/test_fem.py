@@ -1,12 +1,16 @@
 # SPDX-License-Identifier: MIT
 """Homogenization from Python: the program's numbers, cells from arrays, refusals."""
+import json
 import os
 import pathlib
+import shutil
 import subprocess
 import sys
 import tempfile
 import unittest
+import warnings
 
+import h5py
 import numpy
 
 import homespun
@@ -38,16 +42,119 @@ class Homogenize(unittest.TestCase):
         for text in texts:
             self.assertIn(text, str(caught.exception))
 
-    def test_a_file_gives_the_numbers_of_the_program_bit_for_bit(self):
+    def test_a_file_gives_the_cell_and_the_brackets_of_the_program_bit_for_bit(self):
+        # The drawing of hexagonal-dots has curves, whose bracket is another than that of its mesh.
+        for name in ("layered", "hexagonal-dots"):
+            prm = SOURCE / f"meshes/cells/{name}.prm"
+            cell = homespun.homogenize(prm)
+            with tempfile.TemporaryDirectory(prefix="homespun-python-") as folder:
+                subprocess.run([BUILD / "homespun", "homogenize", "--quiet", "--output", folder, prm],
+                               check=True)
+                mine = pathlib.Path(folder, "mine.h5")
+                cell.write(mine)
+                with h5py.File(mine) as a, h5py.File(pathlib.Path(folder, "cell.h5")) as b:
+                    datasets = []
+                    b.visititems(lambda path, item: datasets.append(path)
+                                 if isinstance(item, h5py.Dataset) else None)
+                    self.assertIn("chi", datasets)
+                    self.assertIn("D", datasets)
+                    for dataset in [one for one in datasets if not one.startswith("edges/")]:
+                        numpy.testing.assert_array_equal(a[dataset][()], b[dataset][()], dataset)
+                program = json.loads(pathlib.Path(folder, "homogenize.json").read_text())
+            for bracket, letter in ((cell.stiffness_bracket, "C"), (cell.bending_bracket, "D")):
+                lower = numpy.array(program[letter + "_lower"])
+                upper = numpy.array(program[letter + "_upper"])
+                numpy.testing.assert_array_equal(bracket.lower, lower)
+                numpy.testing.assert_array_equal(bracket.upper, upper)
+                numpy.testing.assert_array_equal(bracket.centre, (lower + upper) / 2)
+                bars = numpy.sqrt(numpy.diag(upper - lower)) / 2
+                numpy.testing.assert_allclose(bracket.half_width, numpy.outer(bars, bars) * 2,
+                                              rtol=1e-12)
+                self.assertEqual(bracket.is_of_drawing, name == "hexagonal-dots")
+                self.assertIn("relative width", repr(bracket))
+
+    def test_without_bars_the_cell_problems_alone(self):
+        cell = homespun.homogenize(CELL, bars=False)
+        numpy.testing.assert_array_equal(cell.stiffness, homespun.homogenize(CELL).stiffness)
+        self.assertIsNone(cell.stiffness_bracket)
+        self.assertIsNone(cell.bending_bracket)
+        self.assertIsNone(cell.bending_stiffness)
+
+    def test_a_mesh_too_large_for_brackets_has_none_and_says_so(self):
+        with warnings.catch_warnings(record=True) as caught:
+            warnings.simplefilter("always")
+            cell = homespun.homogenize(CELL, max_dofs=1000)
+        self.assertIsNone(cell.stiffness_bracket)
+        self.assertIsNone(cell.bending_bracket)
+        for one, name in zip(caught, ("C^H", "D^H")):
+            self.assertIn(f"bracket on {name}: none: it would take 2880 DoFs", str(one.message))
+            self.assertIn(": raise max_dofs, or", str(one.message))
+        self.assertEqual(len(caught), 2)
+
+    def test_brackets_of_a_mesh_hold_what_finer_ones_find(self):
+        def board(n):
+            """A checkerboard: both fields are wrong at its corners on every mesh."""
+            vertices, triangles, _ = striped(n)
+            centres = vertices[triangles].mean(axis=1) * 2 / 0.01
+            groups = numpy.floor(centres).sum(axis=1) % 2
+            return homespun.homogenize(vertices=vertices, triangles=triangles, groups=groups,
+                                       phases=[SOFT, HARD])
+
+        coarse, fine = board(4), board(16)
+        for a, b in ((coarse.stiffness_bracket, fine.stiffness_bracket),
+                     (coarse.bending_bracket, fine.bending_bracket)):
+            self.assertGreater(a.width, 2 * b.width)
+            # C^H lies in both, and what the finer mesh leaves open inside of the coarser bracket.
+            self.assertTrue((abs(a.centre - b.centre) <= a.half_width + b.half_width).all())
+            for larger, smaller in ((b.lower, a.lower), (a.upper, b.upper)):
+                values = numpy.linalg.eigvalsh(larger - smaller)
+                self.assertGreater(values.min(), -1e-9 * values.max())
+        for cell in (coarse, fine):
+            self.assertTrue((abs(cell.stiffness - cell.stiffness_bracket.centre)
+                             <= cell.stiffness_bracket.half_width).all())
+
+    def test_a_broken_file_has_the_text_of_check(self):
+        text = CELL.read_text(encoding="utf-8")
+        for old, new in (("set Thickness ", "set Thicknes "), ("hard: 1e7", "hard: -1e7"),
+                         ("soft: 400, hard", "soft: 400, hart"), ("layered.msh", "nowhere.msh")):
+            with tempfile.TemporaryDirectory(prefix="homespun-python-") as folder:
+                shutil.copy(CELL.with_suffix(".msh"), folder)
+                broken = pathlib.Path(folder, "broken.prm")
+                broken.write_text(text.replace(old, new), encoding="utf-8")
+                check = subprocess.run([BUILD / "homespun", "check", broken], text=True, check=False,
+                                       stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
+                self.assertEqual(check.returncode, 2, new)
+                with self.assertRaises(homespun.BadInput) as caught:
+                    homespun.homogenize(broken)
+                for line in str(caught.exception).splitlines():
+                    self.assertIn(line, check.stdout)
+                self.assertIn(folder, str(caught.exception))
+
+    def test_what_the_program_warns_of_is_a_warning(self):
         with tempfile.TemporaryDirectory(prefix="homespun-python-") as folder:
-            subprocess.run([BUILD / "homespun", "homogenize", "--no-bars", "--quiet",
-                            "--order", "2", "--output", folder, CELL], check=True)
-            program = homespun.Cell.read(str(pathlib.Path(folder, "cell.h5")))
-        cell = homespun.homogenize(CELL)
-        numpy.testing.assert_array_equal(cell.stiffness, program.stiffness)
-        numpy.testing.assert_array_equal(cell.chi, program.chi)
-        numpy.testing.assert_array_equal(cell.vertices, program.vertices)
-        self.assertEqual(cell.areal_density, program.areal_density)
+            for path in (CELL, CELL.with_suffix(".msh")):
+                shutil.copy(path, folder)
+            mesh = pathlib.Path(folder, "layered.msh")
+            # 720 triangles, the last block of which is one shorter.
+            lines = mesh.read_text(encoding="utf-8").splitlines()
+            del lines[lines.index("$EndElements") - 100]
+            head = lines.index("$Elements") + 1
+            self.assertEqual(lines[head], "2 720 1 720")
+            lines[head] = "2 719 1 720"
+            block = max(k for k, line in enumerate(lines) if line.endswith(" 2 360"))
+            lines[block] = lines[block][:-3] + "359"
+            mesh.write_text("\n".join(lines) + "\n", encoding="utf-8")
+            with warnings.catch_warnings(record=True) as caught:
+                warnings.simplefilter("always")
+                homespun.homogenize(CELL)
+                self.assertEqual(caught, [])
+                homespun.homogenize(pathlib.Path(folder, "layered.prm"))
+            self.assertIn("layered.msh: a hole at (0.759259 0.516667)", str(caught[0].message))
+            self.assertEqual(caught[0].filename, __file__)
+            with warnings.catch_warnings():
+                warnings.simplefilter("error")
+                self.assertRaises(UserWarning, homespun.homogenize,
+                                  pathlib.Path(folder, "layered.prm"))
 
     def test_arrays_give_the_laminate(self):
         vertices, triangles, groups = striped(8)

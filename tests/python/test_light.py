@@ -2,6 +2,7 @@
 """Cells, cloths and up-sampling from Python: addresses, refusals, and what a step costs."""
 import os
 import pathlib
+import re
 import resource
 import subprocess
 import sys
@@ -93,6 +94,46 @@ class Cells(WithCell):
         self.refused(lambda: homespun.Cell.read("nowhere.h5"), "nowhere.h5")
         self.refused(lambda: homespun.Cell.read(__file__), "test_light.py",
                      kind=homespun.BadInput)
+        self.refused(lambda: homespun.Sheet(self.cell, 0, 1), "n1: found 0; expected at least 1")
+        self.refused(lambda: homespun.Sheet(self.cell, 1, -2), "n2: found -2; expected at least 1")
+
+
+class Saying(WithCell):
+    """What an interpreter shows."""
+
+    def test_the_version_is_that_of_the_project(self):
+        lists = pathlib.Path(__file__).resolve().parents[2] / "CMakeLists.txt"
+        project = re.search(r"project\(homespun VERSION (\S+)", lists.read_text(encoding="utf-8"))
+        self.assertEqual(homespun.__version__, project[1])
+
+    def test_objects_say_what_they_are(self):
+        sheet = homespun.Sheet(self.cell, 2, 3)
+        cloth = homespun.Cloth(self.cell, sheet.coarse_vertices, sheet.coarse_triangles)
+        cloth.step(0.5)
+        C, density = self.cell.stiffness, self.cell.areal_density
+        cell = repr(self.cell)
+        self.assertRegex(cell, "^<homespun.Cell 10 x 10 mm: [0-9]+ triangles, 2 phases, C11 .* N/m, "
+                               ".* kg/m.2>$")
+        for name, value in (("C11", C[0, 0]), ("C22", C[1, 1]), ("C12", C[0, 1]), ("C66", C[2, 2])):
+            self.assertAlmostEqual(float(re.search(name + " ([^, ]+)", cell)[1]) / value, 1., 2)
+        self.assertIn(f", {density:.3g} kg/m^2", cell)
+        self.assertNotIn("D11", cell)
+        self.assertEqual(repr(sheet), "<homespun.Sheet of 2 x 3 cells: 12 coarse triangles, "
+                                      f"{len(sheet.triangles)} fine>")
+        self.assertRegex(repr(cloth), "^<homespun.Cloth of 12 vertices, .* kg, at 0.5 s: kinetic "
+                                      "energy [^ ]+ J, stored [^ ]+ J>$")
+        upsampler = homespun.Upsampler(self.cell, sheet)
+        self.assertIn("of 12 coarse vertices to %d fine" % len(sheet.vertices), repr(upsampler))
+
+    def test_classes_are_of_the_package_and_explain_themselves(self):
+        for name in set(homespun.__all__) - {"__version__"}:
+            thing = getattr(homespun, name)
+            self.assertTrue(thing.__doc__, name)
+            self.assertEqual(thing.__module__.split(".")[0], "homespun", name)
+            self.assertNotIn("_light", thing.__module__, name)
+            for member, value in vars(thing).items() if isinstance(thing, type) else ():
+                if not member.startswith("_"):
+                    self.assertTrue((value.__doc__ or "").strip(), f"{name}.{member}")
 
 
 class Upsampling(WithCell):
@@ -172,7 +213,7 @@ class Upsampling(WithCell):
 
     def test_refusals_name_argument_dtype_and_shape(self):
         good = self.positions
-        out = numpy.empty((self.upsampler.n_fine, 3), dtype=numpy.float32)
+        out = numpy.zeros((self.upsampler.n_fine, 3), dtype=numpy.float32)
         upsample = self.upsampler.upsample
         self.refused(lambda: upsample(good[:, :2].copy()), "positions", "(n, 3)", f"({len(good)}, 2)")
         self.refused(lambda: upsample(good[:-1]), f"have {len(good) - 1} rows; expected {len(good)}")

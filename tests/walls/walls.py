@@ -38,7 +38,7 @@ MAY_INCLUDE = {
     "localization": {"meshes/plain"},
     "localization/garment": {"meshes/plain", "meshes/cloth", "meshes/garment", "localization"},
     "python": {"meshes/plain", "meshes/files", "meshes/cloth", "localization", "shell/solver",
-               "shell/terms", "homogenization/fem", "homogenization/lint"},
+               "shell/terms", "homogenization/lint", "verification/cell"},
     "verification/record": {"meshes/plain", "meshes/files"},
     "verification/law": {"meshes/plain", "verification/newton"},
     "verification/newton": {"meshes/plain"},
