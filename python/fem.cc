@@ -160,6 +160,10 @@ Phase phase_of(const py::dict &phase, const std::string &name)
       faults.push_back(name + ": has no `" + key +
                        "`; expected E, nu, thickness, density, or E1, E2, nu12, G12, angle, "
                        "thickness, density");
+  for (const auto &[key, value] : phase)
+    if (at.count(py::str(key)) == 0)
+      faults.push_back(name + ": found `" + std::string(py::str(key)) + "`; expected " +
+                       meshes::one_of(keys));
   if (!faults.empty())
     throw meshes::BadInput(faults);
   const Phase result =
@@ -197,11 +201,15 @@ BracketedCell homogenize_arrays(const py::object &vertices, const py::object &tr
   for (std::size_t k = 0; k < phases.size(); ++k)
   {
     const std::string name = "phase " + std::to_string(k);
-    const py::object phase = phases[k];
-    if (!py::isinstance<py::dict>(phase))
-      throw meshes::BadInput(name + ": found " + std::string(py::repr(phase)) +
+    const py::object given = phases[k];
+    py::dict phase;
+    if (PyDict_Update(phase.ptr(), given.ptr()) != 0)
+    {
+      PyErr_Clear();
+      throw meshes::BadInput(name + ": found " + std::string(py::repr(given)) +
                              "; expected a dict, such as dict(E=1e6, nu=0.3, thickness=5e-4, "
                              "density=400)");
+    }
     cell.phases.push_back(phase_of(phase, name));
   }
   if (cell.phases.empty())

@@ -12,20 +12,33 @@ Arrays are not copied where they are float64 (indices int32) and contiguous; oth
 are converted. What cannot be used raises BadInput, a ValueError, with the text of the program; what
 does not converge raises NotConverged.
 """
+from __future__ import annotations
+
+import typing
+
 from ._light import (BadInput, Bracket, BracketedCell, Cell, Cloth, NotConverged, Sheet, Upsampler,
                      __version__)
 from .results import results
+
+if typing.TYPE_CHECKING:
+    import os
+    from collections.abc import Mapping, Sequence
+
+    from numpy.typing import ArrayLike
 
 __all__ = ["BadInput", "Bracket", "BracketedCell", "Cell", "Cloth", "NotConverged", "Sheet",
            "Upsampler", "__version__", "homogenize", "results"]
 
 
-def homogenize(cell=None, *, vertices=None, triangles=None, groups=None, phases=None, order=2,
-               bars=True, max_dofs=None):
+def homogenize(cell: str | os.PathLike[str] | None = None, *,
+               vertices: ArrayLike | None = None, triangles: ArrayLike | None = None,
+               groups: ArrayLike | None = None,
+               phases: Sequence[Mapping[str, float]] | None = None, order: int = 2,
+               bars: bool = True, max_dofs: int | None = None) -> BracketedCell:
     """The BracketedCell of a cell file, or of arrays, homogenized on one rank.
 
     cell: the path of a .prm file; or
-    vertices (n, 2) [m], triangles (m, 3), groups (m) numbers of the phases,
+    vertices (n, 2) [m], triangles (m, 3), groups (m,) numbers of the phases,
     phases: a list of dict(E=, nu=, thickness=, density=) [Pa, -, m, kg/m^3], or for a fabric with
     axes dict(E1=, E2=, nu12=, G12=, angle=, thickness=, density=), angle in degrees.
     order: 1 or 2, of the displacement elements.
@@ -46,8 +59,8 @@ def homogenize(cell=None, *, vertices=None, triangles=None, groups=None, phases=
             raise BadInput(f"homogenize: found a file and {', '.join(given)}; expected one or the "
                            "other")
         return _fem.homogenize_file(cell, choices)
-    missing = [name for name, value in arrays.items() if value is None]
-    if missing:
+    if vertices is None or triangles is None or groups is None or phases is None:
+        missing = [name for name, value in arrays.items() if value is None]
         raise BadInput(f"homogenize: {', '.join(missing)} missing; expected a cell file, or all of "
                        "vertices, triangles, groups and phases")
     return _fem.homogenize_arrays(vertices, triangles, groups, phases, choices)

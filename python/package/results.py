@@ -1,15 +1,23 @@
 # SPDX-License-Identifier: MIT
 """Tables of a run of the program, as NumPy's structured arrays."""
+from __future__ import annotations
+
 import csv
 import json
 import pathlib
+import typing
 
 import numpy
 
 from ._light import BadInput, fault_of_format
 
+if typing.TYPE_CHECKING:
+    import os
 
-def _column(texts):
+    from numpy.typing import NDArray
+
+
+def _column(texts: list[str]) -> NDArray[typing.Any]:
     """Numbers where all entries are some or empty, which is not a number; else text."""
     try:
         return numpy.array([float(text) if text else numpy.nan for text in texts])
@@ -17,7 +25,7 @@ def _column(texts):
         return numpy.array(texts, dtype=str)
 
 
-def _table(path):
+def _table(path: pathlib.Path) -> NDArray[numpy.void]:
     with open(path, newline="", encoding="utf-8") as file:
         header, *rows = list(csv.reader(file))
     columns = {name: _column([row[k] for row in rows]) for k, name in enumerate(header)}
@@ -27,7 +35,7 @@ def _table(path):
     return table
 
 
-def _check_format(path):
+def _check_format(path: pathlib.Path) -> None:
     """Refuses what a newer homespun wrote: the tables of a folder have the format of its run."""
     try:
         version = json.loads(path.read_text(encoding="utf-8")).get("format_version", 0)
@@ -40,7 +48,7 @@ def _check_format(path):
         raise BadInput(fault)
 
 
-def results(folder):
+def results(folder: str | os.PathLike[str]) -> dict[str, NDArray[numpy.void]]:
     """{name: table} of the .csv files of a folder, `results("out/dots/strain")["strain"]`.
 
     Columns are those of the file; numbers read back as they were written. A run of a newer homespun

@@ -193,6 +193,7 @@ class Homogenize(unittest.TestCase):
         self.refused(call(groups=-groups), "groups: found -1 at")
         self.refused(call(phases=[]), "phases: found none")
         self.refused(call(phases=[SOFT, 3]), "phase 1: found 3; expected a dict")
+        self.refused(call(phases=[SOFT, {**HARD, "thick": 1e-4}]), "phase 1: found `thick`; exp")
         self.refused(call(phases=[SOFT, {**HARD, "E": "1e6"}]), "phase 1: `E`: found '1e6'")
         self.refused(call(phases=[SOFT, {**HARD, "E": numpy.nan}]), "phase 1")
 
