@@ -10,12 +10,13 @@
 
 Arrays are not copied where they are float64 (indices int32) and contiguous; other numbers and lists
 are converted. What cannot be used raises BadInput, a ValueError, with the text of the program; what
-does not converge raises NotConverged.
+does not converge raises NotConverged. homespun.plot draws cells, sheets and errors.
 """
 from __future__ import annotations
 
 import typing
 
+from . import plot
 from ._light import (BadInput, Bracket, BracketedCell, Cell, Cloth, NotConverged, Sheet, Upsampler,
                      __version__)
 from .results import results
@@ -27,7 +28,7 @@ if typing.TYPE_CHECKING:
     from numpy.typing import ArrayLike
 
 __all__ = ["BadInput", "Bracket", "BracketedCell", "Cell", "Cloth", "NotConverged", "Sheet",
-           "Upsampler", "__version__", "homogenize", "results"]
+           "Upsampler", "__version__", "homogenize", "plot", "results"]
 
 
 def homogenize(cell: str | os.PathLike[str] | None = None, *,
