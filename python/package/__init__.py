@@ -20,6 +20,7 @@ from . import plot
 from ._light import (BadInput, Bracket, BracketedCell, Cell, Cloth, NotConverged, Sheet, Upsampler,
                      __version__)
 from .results import results
+from .study import Judged, Study, study
 
 if typing.TYPE_CHECKING:
     import os
@@ -27,8 +28,8 @@ if typing.TYPE_CHECKING:
 
     from numpy.typing import ArrayLike
 
-__all__ = ["BadInput", "Bracket", "BracketedCell", "Cell", "Cloth", "NotConverged", "Sheet",
-           "Upsampler", "__version__", "homogenize", "plot", "results"]
+__all__ = ["BadInput", "Bracket", "BracketedCell", "Cell", "Cloth", "Judged", "NotConverged", "Sheet",
+           "Study", "Upsampler", "__version__", "homogenize", "plot", "results", "study"]
 
 
 def homogenize(cell: str | os.PathLike[str] | None = None, *,

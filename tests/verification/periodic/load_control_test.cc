@@ -92,7 +92,7 @@ TEST(tripwire_measured_curve, damaged_files_are_refused_by_line_and_column)
   refused("", "is empty");
   refused("a,b\n1,2\n", "expected strain and stress of one component");
   refused("strain_11,stress_22_N_per_m\n1,2\n", "expected strain and stress of one component");
-  refused("strain_11,stress_11_N_per_m\n", "a point at least");
+  refused("strain_11,stress_11_N_per_m\n", "a row at least");
   refused("strain_11,stress_11_N_per_m\n0.1\n", "line 2: found 1 fields; expected 2");
   refused("strain_11,stress_11_N_per_m\n0.1,x\n", "line 2, column stress_11_N_per_m: found `x`");
   refused("strain_11,stress_11_N_per_m\n0.1,inf\n", "found `inf`");

@@ -96,6 +96,39 @@ class Judge(InFolder):
         self.assertRegex(text, r"\d of \d \(strip-1\) methods of homespun are closer than flat, "
                                r"whose error is [\d.]+ \(strip-1\) times that of full")
 
+    def test_a_table_tells_levels_files_and_seconds(self):
+        shifted = self.reference("strip-1-biot-0.1") + [1e-8, 0.]
+        (self.folder / "some").mkdir()
+        self.write("some/one.npy", shifted)
+        self.write("some/two.npy", shifted)
+        table = self.folder / "table.csv"
+        table.write_text("file, load,law,strain,seconds,remark\r\n"
+                         "some/one.npy,strip-1,biot,0.1,2.5,x\r\n\r\n"
+                         "some/two.npy,strip-1,linear,0.1,,x")
+        rows, _ = self.judged(table)
+        self.assertEqual(set(rows), {"strip-1-biot-0.1", "strip-1-linear-0.1"})
+        # The coarse cloth's time comes to the method's, as in homespun's own.
+        cloth = next(row for row in rows_of(self.study / "levels.csv") if row["part"] == "" and
+                     (row["load"], row["reference"], row["strain"]) == ("strip-1", "biot", "0.1"))
+        self.assertAlmostEqual(float(rows["strip-1-biot-0.1"]["seconds_method"]),
+                               2.5 + float(cloth["seconds_coarse_solve"]), delta=1e-12)
+        self.assertEqual(rows["strip-1-linear-0.1"]["seconds_method"], "")
+        good = "load,law,strain,file\n"
+        for text, *words in (
+                (good + "strip-1,biot,0.1,some/none.npy\nstrip-1,elastic,0.1,some/one.npy\n",
+                 "table.csv, line 2: ", "none.npy is not there", "line 3: unknown reference"),
+                (good + "strip-1,biot,10%,some/one.npy\n", "line 2: expected a load"),
+                (good + "strip-1,biot,0.1\n", "line 2: found 3 fields; expected 4"),
+                ("load,law,strain\nstrip-1,biot,0.1\n", "line 2: expected a load"),
+                (good, "expected a row at least"),
+                (good + 2 * "strip-1,biot,0.1,some/one.npy\n", "expected one file for each"),
+                (good + "strip-1,biot,0.3,some/one.npy\n", "is of no level")):
+            table.write_text(text)
+            result = run("judge", self.study, table, "--output", self.folder / "refused")
+            self.assertEqual(result.returncode, 2)
+            for word in words:
+                self.assertIn(word, result.stderr)
+
     def test_a_shift_is_seen_in_a_sheet_and_means_nothing_in_infinite_cloth(self):
         shift = [1e-8, 0.]  # a millionth of a cell
         files = [self.write(f"{level}.npy", self.reference(level) + shift)

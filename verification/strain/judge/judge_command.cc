@@ -47,15 +47,17 @@ void JudgeCommand::add(CommandLine &line)
   command->add_option("RUN", study.run, "Folder of a `homespun strain --keep`")->required();
   command
     ->add_option("POSITIONS", study.files,
-                 "Files LOAD-LAW-STRAIN.npy (.h5, .obj, .ply), each of one level, or folders of "
-                 "them")
+                 "Files LOAD-LAW-STRAIN.npy (.h5, .obj, .ply), each of one level, folders of "
+                 "them, or tables load,law,strain,file,seconds (.csv)")
     ->required();
   command
     ->add_option("--name", study.method,
                  "What the method is called: letters, digits and _, and no method of homespun")
     ->capture_default_str();
-  command->add_option("--seconds", study.seconds,
-                      "Run time of the method for one level [s] (default: not told)");
+  command->add_option(
+    "--seconds", study.seconds,
+    "Run time of the method from coarse to fine positions of one level [s], to which that "
+    "of the coarse cloth comes (default: not told)");
   add_study<JudgeCommand>(
     line, *command, arguments,
     {"RUN-NAME",

@@ -10,6 +10,7 @@
 #include "verification/record/on_root.h"
 #include "verification/record/run_folder.h"
 #include "verification/strain/gains.h"
+#include "verification/strain/judge/given_files.h"
 #include "verification/strain/judge/given_positions.h"
 #include "verification/strain/kept_positions.h"
 #include "verification/strain/validity.h"
@@ -31,31 +32,6 @@ using nlohmann::ordered_json;
 
 namespace
 {
-/// The files, those of folders too, by their names without ending.
-std::map<std::string, std::string> files_by_level(const std::vector<std::string> &given)
-{
-  std::map<std::string, std::string> files;
-  std::vector<std::string> faults;
-  const auto add = [&](const fs::path &file)
-  {
-    const auto [known, is_new] = files.emplace(file.stem().string(), file.string());
-    if (!is_new)
-      faults.push_back(file.string() + ": is of the same level as " + known->second +
-                       "; expected one file for each");
-  };
-  for (const std::string &path : given)
-    if (fs::is_directory(path))
-      for (const auto &entry : fs::directory_iterator(path))
-        add(entry.path());
-    else if (fs::exists(path))
-      add(path);
-    else
-      faults.push_back(path + ": is not there; expected a file of positions, or a folder of them");
-  if (!faults.empty())
-    throw BadInput(faults);
-  return files;
-}
-
 class Judge
 {
 public:
@@ -118,9 +94,9 @@ private:
         faults.push_back(bad.what());
       }
     }
-    for (const auto &[name, path] : files)
+    for (const auto &[name, its] : files)
       if (known.count(name) == 0)
-        faults.push_back(path + ": is of no level that " + options.run +
+        faults.push_back(its.path + ": is of no level that " + options.run +
                          " has; expected a name like that of its files in " + rows.front().cell +
                          "/positions/, as in " +
                          file_name_of({rows.front().cell, rows.front().load,
@@ -145,11 +121,11 @@ private:
   }
 
   /// @param known a row of another method at the level
-  StrainRow row_of(const StrainLevel &level, const StrainRow &known, const std::string &file)
+  StrainRow row_of(const StrainLevel &level, const StrainRow &known, const GivenFile &file)
   {
     const meshes::Sheet &sheet     = sheet_of(known);
     const meshes::Points reference = kept_reference(options.run, level, sheet.mesh.n_vertices());
-    GivenPositions given           = read_positions(file, sheet.mesh);
+    GivenPositions given           = read_positions(file.path, sheet.mesh);
     if (Load(level.load).is_periodic()) // which the reference leaves in place where chi is zero
     {
       int held = 0;
@@ -159,7 +135,7 @@ private:
       given.points.rowwise() -= translation;
     }
     const Eigen::VectorXd distance = (given.points - reference).rowwise().norm();
-    refuse_misread(file, distance, sheet, reference);
+    refuse_misread(file.path, distance, sheet, reference);
     const auto itself = std::find_if(levels.begin(), levels.end(),
                                      [&](const LevelRow &one)
                                      {
@@ -175,9 +151,11 @@ private:
     // that is.
     row.bar        = row.uncertainty;
     row.bar_safety = StrainRow::none;
-    row.seconds    = options.seconds;
+    // As of homespun's methods: the equilibrium of the coarse cloth and up-sampling.
+    row.seconds = (std::isnan(file.seconds) ? options.seconds : file.seconds) +
+                  (itself == levels.end() ? StrainRow::none : itself->seconds_coarse);
     if (given.resolution > 0.01 * row.mean)
-      notes.push_back(file + ": its numbers tell " + short_text(given.resolution) +
+      notes.push_back(file.path + ": its numbers tell " + short_text(given.resolution) +
                       " m apart; errors of this size, as the " + short_text(row.mean) +
                       " m found here, are of the file and not of the method");
     return row;
@@ -202,8 +180,8 @@ private:
   {
     RunDescription description = {"strain", run["inputs"]};
     ordered_json of_files      = ordered_json::object();
-    for (const auto &[name, path] : files)
-      of_files[name] = checksum_of_file(path);
+    for (const auto &[name, its] : files)
+      of_files[name] = checksum_of_file(its.path);
     description.inputs["judged"] = {
       {"method", options.method}, {"run", run["fingerprint"]}, {"positions", of_files}};
     const auto folder =
@@ -261,7 +239,7 @@ private:
 
   const JudgeOptions &options;
   const ordered_json run;
-  const std::map<std::string, std::string> files;
+  const std::map<std::string, GivenFile> files;
   std::vector<StrainRow> rows, judged;
   std::vector<LevelRow> levels;
   std::vector<std::string> notes;

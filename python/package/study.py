@@ -1,0 +1,284 @@
+# SPDX-License-Identifier: MIT
+"""Strain studies of the program, and methods of one's own held against their references."""
+from __future__ import annotations
+
+import csv
+import json
+import os
+import pathlib
+import re
+import shutil
+import statistics
+import subprocess
+import sys
+import tempfile
+import time
+import typing
+
+import numpy
+
+from ._light import BadInput, Cell, NotConverged
+from .results import results
+
+if typing.TYPE_CHECKING:
+    from collections.abc import Callable, Iterable, Mapping, Sequence
+
+    from numpy.typing import ArrayLike, NDArray
+
+    Key = tuple[str, float, str]
+    Method = Callable[[NDArray[numpy.float64]], typing.Any]
+
+T = typing.TypeVar("T")
+ENDED = (0, 1, 4)  # a claim that failed or is open is a result
+MOST_SECONDS = 10.0  # no further call of a method at a level begins after this long
+
+
+class Mesh(typing.NamedTuple):
+    rest: NDArray[numpy.float64]
+    triangles: NDArray[numpy.int32]
+    phases: NDArray[numpy.int32]
+    coarse_rest: NDArray[numpy.float64]
+    coarse_triangles: NDArray[numpy.int32]
+
+
+class Level(typing.NamedTuple):
+    load: str
+    strain: float
+    law: str
+
+
+def program() -> str:
+    """The program `homespun`: of the same build or installation as this package, else on PATH."""
+    here = pathlib.Path(__file__).resolve().parents
+    beside = [here[2] / "homespun"] + [folder / "bin" / "homespun" for folder in here[4:5]]
+    for path in beside:
+        if path.is_file() and os.access(path, os.X_OK):
+            return str(path)
+    found = shutil.which("homespun")
+    if not found:
+        raise BadInput("the program homespun is not there; expected it on PATH or as "
+                       f"{beside[-1]}: install the package homespun, which studies are made with")
+    return found
+
+
+def _run(words: Sequence[object], shown: typing.TextIO | None) -> None:
+    """Runs a command of the program; its faults are exceptions.
+
+    shown: where its progress goes, or None
+    """
+    faults: list[str] = []
+    with subprocess.Popen([program(), *map(str, words)], stdout=subprocess.DEVNULL,
+                          stderr=subprocess.PIPE, text=True) as process:
+        try:
+            for line in process.stderr or ():
+                is_progress = re.match(r"\[ *\d+%\]", line)
+                if not is_progress:
+                    faults.append(line)
+                if shown and shown.isatty():
+                    line = "\r\033[K" + (line.rstrip("\n") if is_progress else line)
+                if shown:
+                    print(line, end="", file=shown, flush=True)
+        except BaseException:
+            process.terminate()
+            raise
+    if shown and shown.isatty():
+        print("\r\033[K", end="", file=shown, flush=True)
+    if process.returncode not in ENDED:
+        kind = {2: BadInput, 3: NotConverged}.get(process.returncode, RuntimeError)
+        said = re.split(r"(?m)^homespun: ", "".join(faults))  # in front of it stand notes
+        raise kind("\n".join(said[1:]).strip() or
+                   f"homespun {words[0]} ended with status {process.returncode}: {said[0].strip()}")
+
+
+def study(cell: str | os.PathLike[str], *, loads: Iterable[str] | None = None,
+          strains: Iterable[float] | None = None, laws: Iterable[str] | None = None,
+          methods: Iterable[str] | None = None, cells: int = 20,
+          output: str | os.PathLike[str] | None = None,
+          options: Sequence[str] = ("--no-budget", "--no-runtime")) -> Study:
+    """Runs `homespun strain --keep` and returns it as a Study; what is there is not run again.
+
+    cell: the path of a cell file, .prm
+    loads, laws, methods: names, as in ["strip-1", "periodic-11"]; strains: fractions, [0.01, 0.1];
+    None: the program's own (`homespun strain --help`)
+    cells: per side of the sheet
+    output: folder of the results (default out/NAME/strain)
+    options: further words of the command line, such as --overwrite; the default leaves out what
+    takes longest
+    """
+    folder = pathlib.Path(output or pathlib.Path("out") / pathlib.Path(cell).stem / "strain")
+    words = ["--cells", cells, "--keep", "--no-report", "--output", folder, *options]
+    given: dict[str, Iterable[object] | None] = {
+        "--loads": loads, "--strains": strains, "--references": laws, "--methods": methods}
+    for name, values in given.items():
+        if values is not None:
+            words += [name, ",".join(map(str, values))]
+    _run(["strain", cell, *words], sys.stderr)
+    return Study(folder)
+
+
+class Study:
+    """A `homespun strain --keep` of one cell: where the coarse cloth and the resolved one are.
+
+    sheet, periodic: the meshes of sheets and of infinite cloth, each (rest, triangles, phases,
+    coarse_rest, coarse_triangles); rest, triangles, phases: of the sheet, where there is one.
+    levels: each (load, strain, law) that was kept."""
+
+    def __init__(self, folder: str | os.PathLike[str]) -> None:
+        self.folder = pathlib.Path(folder)
+        kept = sorted(self.folder.glob("*/positions"))
+        if len(kept) != 1:
+            raise BadInput(f"{folder}: found positions of {len(kept)} cells; expected the folder "
+                           "of a `homespun strain --keep` of one cell")
+        self._kept = kept[0]
+        has_sheet = (self._kept / "sheet.h5").exists()
+        self.rest, self.triangles, self.phases, *_ = self.sheet if has_sheet else self.periodic
+        self._files: dict[Key, pathlib.Path] = {}
+        for path in sorted(self._kept.glob("*-*.h5")):
+            attributes = self._read(path, lambda file: dict(file.attrs))
+            load, law = (attributes[key].astype(str) for key in ("load", "law"))
+            level = Level(str(load), attributes["strain"].item(), str(law))
+            self._files[level] = path
+        self.levels = sorted(map(Level._make, self._files),
+                             key=lambda level: (level.load, level.law, level.strain))
+
+    @staticmethod
+    def _read(path: pathlib.Path, what: Callable[[typing.Any], T]) -> T:
+        import h5py  # for who studies; the rest of the package needs NumPy alone
+
+        with h5py.File(path) as file:
+            return what(file)
+
+    @property
+    def sheet(self) -> Mesh:
+        """The meshes of the sheets."""
+        return self._mesh("sheet.h5")
+
+    @property
+    def periodic(self) -> Mesh:
+        """The meshes of the cells that repeat in infinite cloth."""
+        return self._mesh("periodic.h5")
+
+    def _mesh(self, name: str) -> Mesh:
+        path = self._kept / name
+        if not path.exists():
+            raise BadInput(f"{path}: is not there; expected a study with loads of "
+                           f"{'sheets' if name == 'sheet.h5' else 'infinite cloth'}")
+        return self._read(path, lambda file: Mesh(*(file[key][...] for key in (
+            "rest", "triangles", "material", "coarse_rest", "coarse_triangles"))))
+
+    def _positions(self, key: str, level: Level) -> NDArray[numpy.float64]:
+        if level not in self._files:
+            raise BadInput(f"{self.folder}: has no level {tuple(level)}; expected (load, strain, "
+                           f"law) of {', '.join(str(tuple(one)) for one in self.levels)}")
+        return self._read(self._files[level], lambda file: numpy.array(file[key]))
+
+    def coarse(self, load: str, strain: float, law: str) -> NDArray[numpy.float64]:
+        """Where the coarse cloth is, (k, 2) [m]: what an up-sampler starts from."""
+        return self._positions("coarse", Level(load, strain, law))
+
+    def reference(self, load: str, strain: float, law: str) -> NDArray[numpy.float64]:
+        """Where the resolved cloth is, (n, 2) [m]: what fine positions are held against."""
+        return self._positions("reference", Level(load, strain, law))
+
+    @property
+    def cell(self) -> Cell:
+        """The homogenized Cell."""
+        return Cell.read(str(self._kept.parent / "cell.h5"))
+
+    def judge(self, positions: Mapping[Key, ArrayLike], name: str, *,
+              seconds: Mapping[Key, float] | None = None) -> Judged:
+        """Holds fine positions against the references, as `homespun judge` does: a Judged.
+
+        positions: {(load, strain, law): (n, 2) or (n, 3) [m]}, of some or all levels
+        name: what the method is called
+        seconds: {level: run time} of the method, where it is known
+        """
+        output = self.folder.parent / f"{self.folder.name}-{name}"
+        words = ["--name", name, "--output", output, "--quiet", "--no-report"]
+        try:  # what was judged is a copy: it may go
+            if "judged" in json.loads((output / "run.json").read_text(encoding="utf-8"))["inputs"]:
+                words.append("--overwrite")
+        except (OSError, ValueError, KeyError):
+            pass
+        with tempfile.TemporaryDirectory(prefix="homespun-") as folder:
+            table = pathlib.Path(folder) / "positions.csv"
+            with open(table, "w", newline="", encoding="utf-8") as file:
+                rows = csv.writer(file)
+                rows.writerow(["load", "strain", "law", "file", "seconds"])
+                for (load, strain, law), fine in positions.items():
+                    path = f"{load}-{law}-{strain}.npy"
+                    numpy.save(pathlib.Path(folder) / path, numpy.asarray(fine))
+                    rows.writerow([load, repr(float(strain)), law, path,
+                                   (seconds or {}).get((load, strain, law), "")])
+            _run(["judge", self.folder, table, *words], None)
+        return Judged(output, name)
+
+    def judge_method(self, method: Method, name: str, *, periodic: Method | None = None,
+                     repeats: int = 5) -> Judged:
+        """Calls a method at every level, times it and judges what it gives.
+
+        method: f(coarse positions) -> fine positions, of the mesh `sheet`
+        periodic: the same of the mesh `periodic`; None: infinite cloth is left out
+        repeats: calls of which a run time is the median; none begins after ten seconds
+        """
+        fine: dict[Key, ArrayLike] = {}
+        seconds: dict[Key, float] = {}
+        calls = repeats
+        levels = [(level, its) for level in self.levels
+                  if (its := periodic if self._is_periodic(level) else method) is not None]
+        for n_done, (level, its) in enumerate(levels):
+            _draw_bar(n_done, len(levels), f"{name}: {level.load}, {level.law}, {level.strain:g}")
+            coarse, times = self.coarse(*level), list[float]()
+            while len(times) < repeats and sum(times) < MOST_SECONDS:
+                begin = time.perf_counter()
+                fine[level] = its(coarse)
+                times.append(time.perf_counter() - begin)
+            seconds[level], calls = statistics.median(times), min(calls, len(times))
+        _draw_bar(len(levels), len(levels), "")
+        print(f"{name}: {len(levels)} levels, run times are medians of {calls} calls",
+              file=sys.stderr)
+        return self.judge(fine, name, seconds=seconds)
+
+    @staticmethod
+    def _is_periodic(level: Level) -> bool:
+        return level.load.startswith(("periodic", "uniaxial"))
+
+    def __repr__(self) -> str:
+        return (f"<homespun.Study {self.folder}: {len(self.levels)} levels, "
+                f"{len(self.rest)} vertices>")
+
+
+def _draw_bar(n_done: int, n: int, what: str) -> None:
+    if sys.stderr.isatty():
+        bar = ("#" * (24 * n_done // max(n, 1))).ljust(24, ".")
+        print(f"\r\033[K[{bar}]  {what}" if n_done < n else "\r\033[K", end="", file=sys.stderr,
+              flush=True)
+
+
+class Judged:
+    """How far a method is from the truth: `rows` of strain.csv, and `ranks` among homespun's
+    methods, 1 where it is the closest. folder holds the study, to which the method has come."""
+
+    def __init__(self, folder: pathlib.Path, name: str) -> None:
+        self.folder, self.name = folder, name
+        table = results(folder)["strain"]
+        self.rows = table[table["method"] == name]
+        same = ["cell", "load", "strain", "reference"]
+        self.ranks = numpy.array([
+            1 + numpy.sum((table[same] == row[same]) & (table["method"] != name)
+                          & (table["error_mean_m"] < row["error_mean_m"])) for row in self.rows])
+
+    def page(self) -> pathlib.Path:
+        """Draws report.html of the folder, with the method in Figure 3, and returns its path."""
+        _run(["report", self.folder], sys.stderr)
+        return self.folder / "report.html"
+
+    def __repr__(self) -> str:
+        lines = [f"{self.name}: error in 1/1000 of strain x cell side, its bar, rank among "
+                 "homespun's methods"]
+        for row, rank in zip(self.rows, self.ranks):
+            error = 1e3 * row["error_mean_per_cell"] / row["strain"]
+            bar = error * row["error_bar_m"] / row["error_mean_m"] if row["error_mean_m"] else 0.0
+            lines.append(f"{row['load']:<13} {row['reference']:<7} {100 * row['strain']:>5.3g} % "
+                         f"{error:>9.4g} ± {bar:<8.2g} {rank:>3}")
+        return "\n".join(lines)

@@ -1,0 +1,140 @@
+# SPDX-License-Identifier: MIT
+"""Studies from Python: the program's numbers for somebody's own method, its messages as errors."""
+import contextlib
+import io
+import os
+import pathlib
+import subprocess
+import tempfile
+import unittest
+
+import numpy
+
+import homespun
+
+BUILD = pathlib.Path(os.environ["HOMESPUN_BUILD"])
+CELLS = pathlib.Path(__file__).resolve().parents[2] / "meshes" / "cells"
+
+
+def carried(mesh):
+    """The method that carries fine vertices along with their coarse triangle."""
+    triangles = mesh.coarse_triangles
+    corners = mesh.coarse_rest[triangles]
+    best, of = numpy.full(len(mesh.rest), -numpy.inf), numpy.zeros(len(mesh.rest), dtype=int)
+    shares = numpy.zeros((len(mesh.rest), 3))
+    for t, (a, b, c) in enumerate(corners):
+        two = numpy.linalg.solve(numpy.column_stack([b - a, c - a]), (mesh.rest - a).T).T
+        here = numpy.column_stack([1.0 - two.sum(axis=1), two])
+        nearer = here.min(axis=1) > best
+        best[nearer], of[nearer], shares[nearer] = here.min(axis=1)[nearer], t, here[nearer]
+    return lambda coarse: numpy.einsum("nk,nkc->nc", shares, coarse[triangles[of]])
+
+
+class Studies(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        folder = tempfile.TemporaryDirectory(prefix="homespun-python-")
+        cls.addClassCleanup(folder.cleanup)
+        cls.folder = pathlib.Path(folder.name)
+        cls.said = io.StringIO()
+        with contextlib.redirect_stderr(cls.said):
+            cls.run_ = cls.study()
+
+    @classmethod
+    def study(cls, **other):
+        return homespun.study(CELLS / "layered.prm", **{
+            "loads": ["strip-1", "periodic-11"], "strains": [0.01, 0.1], "laws": ["biot"],
+            "methods": ["affine", "localized"], "cells": 4, "output": cls.folder / "study", **other})
+
+    def setUp(self):
+        self.quiet = io.StringIO()
+        silence = contextlib.redirect_stderr(self.quiet)
+        silence.__enter__()
+        self.addCleanup(silence.__exit__, None, None, None)
+
+    def refused(self, call, *texts, kind=homespun.BadInput):
+        with self.assertRaises(kind) as caught:
+            call()
+        for text in texts:
+            self.assertIn(text, str(caught.exception))
+
+    def by_the_program(self, fine, name):
+        """Rows of strain.csv that `homespun judge` writes for positions in files."""
+        files, output = self.folder / f"files-{name}", self.folder / f"program-{name}"
+        files.mkdir()
+        for (load, strain, law), positions in fine.items():
+            numpy.save(files / f"{load}-{law}-{strain:g}.npy", positions)
+        subprocess.run([BUILD / "homespun", "judge", self.run_.folder, files, "--name", name,
+                        "--output", output, "--quiet", "--no-report"], check=False)
+        table = homespun.results(output)["strain"]
+        return table[table["method"] == name]
+
+    def test_a_study_has_what_was_kept(self):
+        run = self.run_
+        self.assertEqual(len(run.levels), 4)
+        self.assertEqual(run.triangles.max() + 1, len(run.rest))
+        self.assertEqual(len(run.phases), len(run.triangles))
+        self.assertEqual(run.reference("strip-1", 0.1, "biot").shape, run.rest.shape)
+        self.assertEqual(run.coarse("strip-1", 0.1, "biot").shape, run.sheet.coarse_rest.shape)
+        self.assertEqual(run.coarse("periodic-11", 0.1, "biot").shape,
+                         run.periodic.coarse_rest.shape)
+        numpy.testing.assert_array_equal(run.cell.lattice[:, 0].max(), run.periodic.rest[:, 0].max())
+        self.assertIn("[", self.said.getvalue())  # progress
+        again = self.study()  # nothing is run again
+        self.assertEqual(again.levels, run.levels)
+        self.assertIn("all rows are there", self.quiet.getvalue())
+        self.assertEqual(homespun.Study(run.folder).levels, run.levels)
+
+    def test_a_method_has_the_numbers_of_the_program(self):
+        run = self.run_
+        flat, cell = carried(run.sheet), carried(run.periodic)
+        judged = run.judge_method(flat, "flat", periodic=cell)
+        fine = {level: (flat if level.load == "strip-1" else cell)(run.coarse(*level))
+                for level in run.levels}
+        program = self.by_the_program(fine, "flat")
+        self.assertEqual(len(program), 4)
+        same = [name for name in program.dtype.names if name != "seconds_method"]
+        for one, two in zip(judged.rows[same], program[same]):
+            for name in same:
+                numpy.testing.assert_array_equal(one[name], two[name], err_msg=name)
+        # which are those of the coarse mesh alone; its run time has the coarse cloth's in it
+        table = homespun.results(run.folder)["strain"]
+        for row in judged.rows:
+            affine = table[(table["load"] == row["load"]) & (table["strain"] == row["strain"])
+                           & (table["method"] == "affine")][0]
+            self.assertAlmostEqual(row["error_mean_m"] / affine["error_mean_m"], 1.0, delta=1e-9)
+            self.assertGreater(row["seconds_method"], 0.0)
+        self.assertIn("4 levels, run times are medians of 5 calls", self.quiet.getvalue())
+        text = repr(judged)
+        self.assertIn("flat: error in 1/1000 of strain x cell side", text)
+        self.assertEqual(len(text.splitlines()), 5)
+
+    def test_ranks_count_the_methods_that_are_closer(self):
+        run, level = self.run_, ("strip-1", 0.1, "biot")
+        table = homespun.results(run.folder)["strain"]
+        errors = sorted(table["error_mean_m"][(table["load"] == "strip-1")
+                                              & (table["strain"] == 0.1)])
+        between = numpy.array([0.5 * (errors[0] + errors[1]), 0.0])
+        for shift, rank in ((0.0, 1), (between, 2), (4.0 * between, 3)):
+            judged = run.judge({level: run.reference(*level) + shift}, "shifted")
+            self.assertEqual(judged.ranks.tolist(), [rank])
+
+    def test_faults_are_the_messages_of_the_program(self):
+        run, level = self.run_, ("strip-1", 0.1, "biot")
+        wrong = run.reference(*level)
+        wrong[3, 1] = numpy.nan
+        self.refused(lambda: run.judge({level: wrong}, "mine"), "holds NaN")
+        self.refused(lambda: run.judge_method(lambda coarse: coarse, "mine"), "expected (")
+        self.refused(lambda: run.judge({("strip-1", 0.2, "biot"): run.rest}, "mine"),
+                     "is of no level")
+        self.refused(lambda: run.judge({level: run.rest}, "affine"), "no method of homespun")
+        self.refused(lambda: run.reference("strip-1", 0.2, "biot"), "has no level",
+                     "('strip-1', 0.1, 'biot')")
+        self.refused(lambda: self.study(loads=["strip-3"]), "unknown load `strip-3`")
+        self.refused(lambda: self.study(strains=[0.02]), "holds another run")
+        self.refused(lambda: homespun.study("absent.prm"), "absent.prm: no such file")
+        self.refused(lambda: homespun.Study(self.folder), "strain --keep")
+
+
+if __name__ == "__main__":
+    unittest.main()
