@@ -173,7 +173,7 @@ def write_results(folder):
                 "peak_memory_bytes": 1e9,
                 "left_out": [{"what": "bending", "why": "the load is in-plane"}],
                 "notes": ["a note <of> the study"],
-                "provenance": {"homespun": "0.1.0", "git": "abc1234"},
+                "provenance": {"homespun": "0.2.0", "git": "abc1234"},
             }
         ),
     )
@@ -208,7 +208,7 @@ def write_results(folder):
                 "checks": [
                     {"name": "two forms agree", "value": 1e-12, "limit": "1e-9", "verdict": "PASS"}
                 ],
-                "provenance": "homespun 0.1.0",
+                "provenance": "homespun 0.2.0",
             }
         ),
     )
