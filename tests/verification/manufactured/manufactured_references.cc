@@ -21,7 +21,7 @@ constexpr double density = 0.2; ///< [kg/m^2]
 
 std::vector<int> sizes_of(const unsigned int order)
 {
-  return order == 1 ? std::vector<int>{12, 24, 48, 96} : std::vector<int>{6, 12, 24, 48};
+  return order == 1 ? std::vector<int>{8, 16, 32, 64} : std::vector<int>{4, 8, 16, 32};
 }
 
 /// FineReference at a strain of 10 %, whose exact solution is the load's affine motion + `wave`.

@@ -26,24 +26,22 @@ class Ranks(InFolder):
         return json.loads((output / "homogenize.json").read_text())["C"]
 
     def test_stiffness_agrees_on_one_two_and_four_ranks(self):
-        for cell in ("layered", "three-stiffness"):
-            for order in (1, 2):
-                alone = self.stiffness(cell, order, 1)
-                largest = max(abs(value) for row in alone for value in row)
-                for ranks in (2, 4):
-                    together = self.stiffness(cell, order, ranks)
-                    for i in range(3):
-                        for j in range(3):
-                            self.assertAlmostEqual(together[i][j], alone[i][j],
-                                                   delta=1e-10 * largest)
+        for cell, order in (("layered", 1), ("three-stiffness", 2)):
+            alone = self.stiffness(cell, order, 1)
+            largest = max(abs(value) for row in alone for value in row)
+            for ranks in (2, 4):
+                together = self.stiffness(cell, order, ranks)
+                for i in range(3):
+                    for j in range(3):
+                        self.assertAlmostEqual(together[i][j], alone[i][j], delta=1e-10 * largest)
 
     def test_errors_of_a_study_agree_on_one_and_two_ranks(self):
         rows = {}
         for ranks in (1, 2):
             output = self.folder / f"study-{ranks}"
             result = run("strain", CELLS / "three-stiffness.prm", "--cells", 2, "--strains",
-                         "0.01,0.1", "--loads", "periodic-12,strip-2", "--no-report", "--quiet",
-                         "--output", output, ranks=ranks)
+                         "0.01,0.1", "--loads", "periodic-12,strip-2", "--no-runtime", "--no-report",
+                         "--quiet", "--output", output, ranks=ranks)
             # At 10 % the budget of a sheet may be open.
             self.assertIn(result.returncode, (0, 4), result.stderr)
             with open(output / "strain.csv", newline="", encoding="utf-8") as file:
