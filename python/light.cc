@@ -3,9 +3,11 @@
 // what does not converge is homespun.NotConverged; the interpreter runs on while this computes.
 #include "python/light.h"
 
+#include "localization/garment/placed_garment.h"
 #include "localization/upsampler.h"
 #include "meshes/files/format_version.h"
 #include "python/arrays.h"
+#include "python/laid_garment.h"
 
 #include <memory>
 #include <sstream>
@@ -45,6 +47,16 @@ std::unique_ptr<Upsampler> make_upsampler(const HomogenizedCell &cell, const Cel
   localization::UpsamplerOptions options;
   options.microscopic = microscopic;
   return std::make_unique<Upsampler>(cell, sheet.coarse, sheet.fine, options);
+}
+
+std::unique_ptr<Upsampler> make_garment_upsampler(const HomogenizedCell &cell,
+                                                  const LaidGarment &garment,
+                                                  const bool microscopic)
+{
+  localization::UpsamplerOptions options;
+  options.microscopic = microscopic;
+  return std::make_unique<Upsampler>(
+    localization::placed_garment(cell, garment.coarse, garment.fine, options));
 }
 
 py::object upsampled(const Upsampler &upsampler, const py::object &positions, py::object out)
@@ -131,6 +143,7 @@ PYBIND11_MODULE(_light, module)
              py::arg("path"), py::arg("found"), why_not);
   declare_cell(module);
   declare_sheet(module);
+  declare_garment(module);
   declare_cloth(module);
   py::class_<Upsampler>(module, "Upsampler",
                         "Fine positions from coarse positions (paper Eqs. 9-12): what runs every "
@@ -138,6 +151,9 @@ PYBIND11_MODULE(_light, module)
     .def(py::init(&make_upsampler), py::arg("cell"), py::arg("sheet"),
          py::arg("microscopic") = true, py::call_guard<py::gil_scoped_release>(),
          "microscopic=False interpolates the coarse motion alone.")
+    .def(py::init(&make_garment_upsampler), py::arg("cell"), py::arg("sheet"),
+         py::arg("microscopic") = true, py::call_guard<py::gil_scoped_release>(),
+         "sheet: a Garment of the same cell.")
     .def_property_readonly("n_fine", &Upsampler::n_fine, "Number of fine vertices.")
     .def_property_readonly("n_coarse", &Upsampler::n_coarse, "Number of coarse vertices.")
     .def("upsample", &upsampled, py::arg("positions"), py::arg("out") = py::none(),

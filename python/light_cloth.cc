@@ -3,6 +3,7 @@
 #include "meshes/cloth/cloth_mesh.h"
 #include "meshes/plain/homogenized_cell.h"
 #include "python/arrays.h"
+#include "python/laid_garment.h"
 #include "python/light.h"
 #include "shell/solver/cloth.h"
 #include "shell/terms/inertial_terms.h"
@@ -72,29 +73,6 @@ std::unique_ptr<shell::Cloth> make_cloth(const HomogenizedCell &cell, const mesh
   return cloth;
 }
 
-meshes::ClothMesh cloth_mesh(const py::object &rest, const py::object &triangles,
-                             const py::object &positions)
-{
-  meshes::ClothMesh mesh;
-  mesh.rest.vertices  = *Taken<meshes::Points>(rest, "rest");
-  mesh.rest.triangles = *Taken<meshes::Triangles>(triangles, "triangles");
-  mesh.rest.material  = Eigen::VectorXi::Zero(mesh.rest.n_triangles());
-  mesh.triangles      = mesh.rest.triangles;
-  mesh.positions      = meshes::SpacePoints::Zero(mesh.rest.n_vertices(), 3);
-  if (positions.is_none())
-    mesh.positions.leftCols<2>() = mesh.rest.vertices;
-  else
-    mesh.positions = *Taken<meshes::SpacePoints>(positions, "positions");
-  if (mesh.positions.rows() != mesh.rest.n_vertices())
-    throw meshes::BadInput("positions: found " + std::to_string(mesh.positions.rows()) +
-                           " rows; expected " + std::to_string(mesh.rest.n_vertices()) +
-                           ", one per row of `rest`");
-  const std::vector<std::string> faults = meshes::faults_of(mesh.rest, "rest mesh");
-  if (!faults.empty())
-    throw meshes::BadInput(faults);
-  return mesh;
-}
-
 std::vector<int> indices_in(const py::object &list, const std::string &name)
 {
   const Taken<Eigen::VectorXi> taken(list, name);
@@ -122,7 +100,7 @@ void declare_cloth(py::module_ &module)
            const double damping, const double viscosity, const bool bending,
            const std::string &integrator)
         {
-          const meshes::ClothMesh mesh = cloth_mesh(rest, triangles, positions);
+          const meshes::ClothMesh mesh = cloth_of(rest, triangles, positions);
           const ClothChoices choices   = {indices_in(held, "held"),
                                           vector_in(gravity, "gravity"),
                                           damping,

@@ -17,8 +17,8 @@ from __future__ import annotations
 import typing
 
 from . import plot
-from ._light import (BadInput, Bracket, BracketedCell, Cell, Cloth, NotConverged, Sheet, Upsampler,
-                     __version__)
+from ._light import (BadInput, Bracket, BracketedCell, Cell, Cloth, Garment, NotConverged, Sheet,
+                     Upsampler, __version__, read_positions)
 from .results import results
 from .study import Judged, Study, study
 
@@ -28,8 +28,9 @@ if typing.TYPE_CHECKING:
 
     from numpy.typing import ArrayLike
 
-__all__ = ["BadInput", "Bracket", "BracketedCell", "Cell", "Cloth", "Judged", "NotConverged", "Sheet",
-           "Study", "Upsampler", "__version__", "homogenize", "plot", "results", "study"]
+__all__ = ["BadInput", "Bracket", "BracketedCell", "Cell", "Cloth", "Garment", "Judged",
+           "NotConverged", "Sheet", "Study", "Upsampler", "__version__", "homogenize", "plot",
+           "read_positions", "results", "study"]
 
 
 def homogenize(cell: str | os.PathLike[str] | None = None, *,

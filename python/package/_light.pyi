@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 import os
+from typing import overload
 
 import numpy
 from numpy.typing import ArrayLike, NDArray
@@ -69,6 +70,38 @@ class Sheet:
     @property
     def coarse_triangles(self) -> NDArray[numpy.int32]: ...
 
+class Garment:
+    @overload
+    def __init__(
+        self,
+        cell: Cell,
+        file: str | os.PathLike[str],
+        *,
+        unit: float = 1.0,
+        origin: ArrayLike = (0.0, 0.0),
+        angle: float = 0.0,
+    ) -> None: ...
+    @overload
+    def __init__(
+        self,
+        cell: Cell,
+        rest: ArrayLike,
+        triangles: ArrayLike,
+        *,
+        origin: ArrayLike = (0.0, 0.0),
+        angle: float = 0.0,
+    ) -> None: ...
+    @property
+    def vertices(self) -> NDArray[numpy.float64]: ...
+    @property
+    def triangles(self) -> NDArray[numpy.int32]: ...
+    @property
+    def material(self) -> NDArray[numpy.int32]: ...
+    @property
+    def coarse_positions(self) -> NDArray[numpy.float64]: ...
+    @property
+    def coarse_triangles(self) -> NDArray[numpy.int32]: ...
+
 class Cloth:
     def __init__(
         self,
@@ -101,7 +134,7 @@ class Cloth:
     def stored_energy(self) -> float: ...
 
 class Upsampler:
-    def __init__(self, cell: Cell, sheet: Sheet, microscopic: bool = True) -> None: ...
+    def __init__(self, cell: Cell, sheet: Sheet | Garment, microscopic: bool = True) -> None: ...
     @property
     def n_fine(self) -> int: ...
     @property
@@ -110,4 +143,5 @@ class Upsampler:
         self, positions: ArrayLike, out: NDArray[numpy.float32] | None = None
     ) -> NDArray[numpy.float32]: ...
 
+def read_positions(file: str | os.PathLike[str]) -> NDArray[numpy.float64]: ...
 def fault_of_format(path: str, found: int | str) -> str: ...
