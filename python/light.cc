@@ -20,19 +20,11 @@ using meshes::HomogenizedCell;
 using Upsampler = localization::Upsampler<3, float>;
 using Fine      = Upsampler::Fine;
 
-int at_least_one(const int number, const char *const name)
-{
-  if (number < 1)
-    throw meshes::BadInput(std::string(name) + ": found " + std::to_string(number) +
-                           "; expected at least 1 cell");
-  return number;
-}
-
 /// A sheet of cells and the coarse mesh over it: two triangles per cell.
 struct CellSheet
 {
   CellSheet(const HomogenizedCell &cell, const int n1, const int n2)
-      : fine(meshes::tile(cell.mesh, cell.lattice, at_least_one(n1, "n1"), at_least_one(n2, "n2")))
+      : fine(meshes::tile(cell.mesh, cell.lattice, n1, n2))
       , coarse(meshes::coarse_sheet(fine.origin, cell.lattice.vectors, n1, n2))
   {
   }
@@ -40,6 +32,17 @@ struct CellSheet
   meshes::Sheet fine;
   meshes::TriangleMesh coarse;
 };
+
+std::unique_ptr<CellSheet> make_sheet(const HomogenizedCell &cell, const int n1, const int n2,
+                                      const long max_triangles)
+{
+  for (const auto &[name, number] : {std::pair("n1", n1), std::pair("n2", n2)})
+    if (number < 1)
+      throw meshes::BadInput(std::string(name) + ": found " + std::to_string(number) +
+                             "; expected at least 1 cell");
+  check_size(cell, static_cast<double>(n1) * n2, max_triangles);
+  return std::make_unique<CellSheet>(cell, n1, n2);
+}
 
 std::unique_ptr<Upsampler> make_upsampler(const HomogenizedCell &cell, const CellSheet &sheet,
                                           const bool microscopic)
@@ -83,10 +86,10 @@ void declare_sheet(py::module_ &module)
                         "n1 x n2 cells side by side, flat, and the coarse mesh over them: two "
                         "triangles per cell.")
     .def(
-      py::init<const HomogenizedCell &, int, int>(), py::arg("cell"), py::arg("n1"), py::arg("n2"),
-      py::call_guard<py::gil_scoped_release>(),
+      py::init(&make_sheet), py::arg("cell"), py::arg("n1"), py::arg("n2"), py::kw_only(),
+      py::arg("max_triangles") = most_triangles, py::call_guard<py::gil_scoped_release>(),
       "n1, n2: numbers of cells along the lattice vectors, at least 1. Raises BadInput where the "
-      "cell is no parallelogram.")
+      "cell is no parallelogram, or the fine mesh would have more than max_triangles.")
     .def_property_readonly("vertices",
                            field([](const CellSheet &sheet) -> const meshes::Points &
                                  { return sheet.fine.mesh.vertices; }),

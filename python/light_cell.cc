@@ -9,6 +9,7 @@
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
+#include <cmath>
 #include <filesystem>
 #include <sstream>
 #include <string>
@@ -69,6 +70,19 @@ void declare_bracket(py::module_ &module)
          });
 }
 } // namespace
+
+void check_size(const HomogenizedCell &cell, const double n_cells, const long max_triangles)
+{
+  const double n_triangles = n_cells * cell.mesh.n_triangles();
+  if (n_triangles <= static_cast<double>(max_triangles))
+    return;
+  std::ostringstream text;
+  text << "cells: " << std::lround(n_cells) << " of " << cell.mesh.n_triangles()
+       << " triangles would be a fine mesh of " << std::lround(n_triangles)
+       << "; expected at most max_triangles = " << max_triangles
+       << ": take a larger cell or a smaller mesh (is it in metres?), or raise max_triangles";
+  throw meshes::BadInput(text.str());
+}
 
 void declare_cell(py::module_ &module)
 {

@@ -37,8 +37,9 @@ ClothMesh cloth_in(const fs::path &file, const double unit)
 }
 
 std::unique_ptr<LaidGarment> laid(const HomogenizedCell &cell, ClothMesh cloth,
-                                  const meshes::Grain &grain)
+                                  const meshes::Grain &grain, const long max_triangles)
 {
+  check_size(cell, meshes::signed_areas(cloth.rest).sum() / cell.lattice.area(), max_triangles);
   meshes::FineClothOptions options;
   options.grains     = {grain};
   auto garment       = std::make_unique<LaidGarment>();
@@ -90,29 +91,32 @@ void declare_garment(py::module_ &module)
                       "outlines: what Upsampler takes where there is no Sheet.")
     .def(py::init(
            [](const HomogenizedCell &cell, const fs::path &file, const double unit,
-              const py::object &origin, const double angle)
+              const py::object &origin, const double angle, const long max_triangles)
            {
              const meshes::Grain grain = grain_of(origin, angle);
              const py::gil_scoped_release others_run;
-             return laid(cell, cloth_in(file, unit), grain);
+             return laid(cell, cloth_in(file, unit), grain, max_triangles);
            }),
          py::arg("cell"), py::arg("file"), py::kw_only(), py::arg("unit") = 1.,
          py::arg("origin") = py::make_tuple(0., 0.), py::arg("angle") = 0.,
+         py::arg("max_triangles") = most_triangles,
          "file: an OBJ whose `vt` are the panels at rest, or which is flat where it has none; or a "
          "flat PLY. unit: metres per unit of the file. origin (2,) [m]: a rest point that is a "
          "corner of a cell; angle [degrees] of the cells to the first rest axis. Raises BadInput "
-         "with what is wrong with the file.")
+         "with what is wrong with the file, or where the fine mesh would have more than "
+         "max_triangles.")
     .def(py::init(
            [](const HomogenizedCell &cell, const py::object &rest, const py::object &triangles,
-              const py::object &origin, const double angle)
+              const py::object &origin, const double angle, const long max_triangles)
            {
              ClothMesh cloth           = cloth_of(rest, triangles, py::none());
              const meshes::Grain grain = grain_of(origin, angle);
              const py::gil_scoped_release others_run;
-             return laid(cell, std::move(cloth), grain);
+             return laid(cell, std::move(cloth), grain, max_triangles);
            }),
          py::arg("cell"), py::arg("rest"), py::arg("triangles"), py::kw_only(),
          py::arg("origin") = py::make_tuple(0., 0.), py::arg("angle") = 0.,
+         py::arg("max_triangles") = most_triangles,
          "rest (n, 2) [m] and triangles (m, 3): a flat mesh, counterclockwise.")
     .def_property_readonly(
       "vertices", field([](const Garment &its) -> auto & { return its.fine.rest.vertices; }),

@@ -58,7 +58,9 @@ class BracketedCell(Cell):
     def bending_bracket(self) -> Bracket | None: ...
 
 class Sheet:
-    def __init__(self, cell: Cell, n1: int, n2: int) -> None: ...
+    def __init__(
+        self, cell: Cell, n1: int, n2: int, *, max_triangles: int = 10_000_000
+    ) -> None: ...
     @property
     def vertices(self) -> NDArray[numpy.float64]: ...
     @property
@@ -80,6 +82,7 @@ class Garment:
         unit: float = 1.0,
         origin: ArrayLike = (0.0, 0.0),
         angle: float = 0.0,
+        max_triangles: int = 10_000_000,
     ) -> None: ...
     @overload
     def __init__(
@@ -90,6 +93,7 @@ class Garment:
         *,
         origin: ArrayLike = (0.0, 0.0),
         angle: float = 0.0,
+        max_triangles: int = 10_000_000,
     ) -> None: ...
     @property
     def vertices(self) -> NDArray[numpy.float64]: ...

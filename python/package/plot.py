@@ -46,6 +46,7 @@ SHOWN_STRAIN = 0.2  # of cells that are drawn deformed
 METHODS = {"affine": ("#D55E00", "coarse mesh alone"), "localized": ("#0072B2", "paper"),
            "full": ("#000000", "full")}
 SPARE_COLOURS = ("#009E73", "#CC79A7", "#56B4E9", "#E69F00", "#882255", "#999933")
+MOST_TRIANGLES = 4_000_000  # of a picture: half a minute and 5 GB
 ROUND_OFF = 1e-11  # errors per cell side below this are not told from round-off
 
 
@@ -73,6 +74,9 @@ def _phase_colours(material: NDArray[numpy.int32]) -> Numbers:
 def _draw(axes: Axes, points: Numbers, triangles: NDArray[numpy.int32], colours: Numbers,
           unit: str) -> None:
     """Triangles in their order, points (n, 2) in the unit."""
+    if len(triangles) > MOST_TRIANGLES:
+        raise BadInput(f"picture: found {len(triangles)} triangles; expected at most "
+                       f"{MOST_TRIANGLES}: save the mesh and look at it in Blender or ParaView")
     from matplotlib.collections import PolyCollection
 
     # Edges of the colour of the face close the hairlines between neighbours.

@@ -115,6 +115,11 @@ class Garments(unittest.TestCase):
         bent = self.folder / "bent.obj"
         write_obj(bent, self.moved, self.sheet.coarse_triangles)
         self.refused(lambda: homespun.Garment(self.cell, bent), "bent.obj", "vt")
+        self.refused(lambda: homespun.Garment(self.cell, self.obj, unit=1000.),
+                     f"would be a fine mesh of {25000000 * len(self.cell.triangles)}; expected at "
+                     "most max_triangles = 10000000", "is it in metres?")
+        self.refused(lambda: homespun.Garment(self.cell, self.rest, self.sheet.coarse_triangles,
+                                              max_triangles=10), "max_triangles = 10:")
         upsampler = homespun.Upsampler(self.cell, homespun.Garment(self.cell, self.obj))
         self.refused(lambda: upsampler.upsample(self.moved[1:]), f"expected {len(self.moved)}")
 

@@ -96,6 +96,12 @@ class Cells(WithCell):
                      kind=homespun.BadInput)
         self.refused(lambda: homespun.Sheet(self.cell, 0, 1), "n1: found 0; expected at least 1")
         self.refused(lambda: homespun.Sheet(self.cell, 1, -2), "n2: found -2; expected at least 1")
+        each = len(self.cell.triangles)
+        self.refused(lambda: homespun.Sheet(self.cell, 60000, 60000),
+                     f"3600000000 of {each} triangles would be a fine mesh of {3600000000 * each}",
+                     "at most max_triangles = 10000000")
+        homespun.Sheet(self.cell, 2, 3, max_triangles=6 * each)
+        self.refused(lambda: homespun.Sheet(self.cell, 2, 3, max_triangles=6 * each - 1), "raise max")
 
 
 class Saying(WithCell):

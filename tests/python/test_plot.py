@@ -89,6 +89,13 @@ class Pictures(unittest.TestCase):
         with self.assertRaisesRegex(ValueError, r"positions: found the shape \(5, 3\); expected"):
             plot.sheet(sheet, numpy.zeros((5, 3)))
 
+    def test_a_picture_that_would_fill_the_memory_is_refused(self):
+        mesh = Mesh()
+        mesh.triangles = numpy.broadcast_to(Mesh.triangles[:1], (plot.MOST_TRIANGLES + 1, 3))
+        mesh.material = numpy.broadcast_to(Mesh.material[:1], plot.MOST_TRIANGLES + 1)
+        with self.assertRaisesRegex(ValueError, "found 4000001 triangles; expected at most 4000000"):
+            plot.sheet(mesh)
+
     def test_curves_have_the_numbers_of_the_table(self):
         rows = [(load, strain, law, method, 0.01 * error, error, 1e-4 * strain)
                 for load in ("strip-1", "periodic-11") for law in ("linear", "biot")
