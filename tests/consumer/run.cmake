@@ -72,6 +72,7 @@ else()
 endif()
 
 run("make a cell" ${MAKE_CELL} ${WORK}/cell.h5)
+run("up-sample in one call" ${WORK}/build/one_call ${WORK}/cell.h5)
 run("run the consumer" ${WORK}/build/consumer ${WORK}/cell.h5
   ${prefix}/share/homespun/scenes/skirt.obj ${WORK}/skirt.ply)
 message("${output}")
