@@ -92,13 +92,13 @@ void add_folder_options(CLI::App &command, Study &study, const std::string &plac
                      "Folder of the results, which is one run (default " + place + ")");
   CLI::Option *resume = command.add_flag_callback(
     "--resume", [&study]() { study.earlier = Earlier::resume; },
-    "Go on with the run in the folder, as without it, and refuse any other run there");
+    "Resume the run in the folder, which is the default, and refuse any other run there");
   command
     .add_flag_callback(
       "--overwrite", [&study]() { study.earlier = Earlier::overwrite; },
-      "Begin anew, whatever run the folder holds, however long that took")
+      "Start again, whatever run the folder holds and however long that took")
     ->excludes(resume);
-  command.add_flag("--quiet", study.quiet, "Print nothing but faults");
+  command.add_flag("--quiet", study.quiet, "Print errors only");
 }
 
 /// The words of a command line, with lists that blanks parted joined again: `--loads a, b` is

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Studies of an infinite cloth. `load`: under stresses and strains that are prescribed component by
 // component, its curve against that of a cloth that has C^H in place of the microstructure.
-// `stability`: where a periodic solution stops being the solution, the Bloch margin along loads and
+// `stability`: where the cells start to buckle in their plane, the Bloch margin along loads and
 // the strain of first loss.
 #pragma once
 

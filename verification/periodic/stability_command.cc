@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// homespun periodic stability: where a periodic solution stops being the solution.
+// homespun periodic stability: where the cells start to buckle in their plane.
 #include "verification/periodic/periodic_command.h"
 
 #include "homogenization/cell/parameter_text.h"
@@ -76,8 +76,8 @@ void check_stability_arguments(StabilityArguments &arguments)
 void StabilityCommand::add(CommandLine &line)
 {
   CLI::App *command = periodic(line).add_subcommand(
-    "stability", "Where a periodic solution stops being the solution: the Bloch margin against "
-                 "strain (stability.csv)");
+    "stability", "Where the cells start to buckle in their plane: the Bloch margin against strain "
+                 "(stability.csv)");
   const auto arguments         = std::make_shared<StabilityArguments>();
   StabilityStudyOptions &study = arguments->study;
   command->add_option("CELL.prm", study.cell_files, "Cell files")->required();

@@ -238,8 +238,7 @@ CellReading tell_findings(const std::string &file)
 void CheckCommand::add(CommandLine &line)
 {
   CLI::App *command = line.app.add_subcommand(
-    "check",
-    "Read and validate cells; tell every fault and all that may hurt later; solve nothing");
+    "check", "Read and check cells: all errors, and what may cause trouble later; solve nothing");
   const auto arguments = std::make_shared<CheckArguments>();
   command->add_option("CELL.prm", arguments->files, "Cell files")->required();
   command->add_option(

@@ -127,9 +127,9 @@ int run_command_line(const std::vector<std::string> &words_given, const Program 
     text = "mpirun -n " + std::to_string(n_ranks) + " " + text;
 
   CLI::App app(
-    "homespun tells how far an up-sampled cloth is from the truth, and where the error comes "
-    "from.\nA periodic unit cell is homogenized once, a coarse cloth moves with the effective "
-    "stiffness, the fine\nmesh is restored from it and held against the resolved solution.",
+    "homespun tells how far an up-sampled cloth is from the resolved one, and where the error\n"
+    "comes from. A periodic unit cell is homogenized once, a coarse cloth moves with the\n"
+    "effective stiffness, the fine mesh is restored from it and compared with the resolved one.",
     "homespun");
   app.set_version_flag("--version", program.version);
   CommandLine line{app, program.studies, text, {}, {}, {}, {}, {}};

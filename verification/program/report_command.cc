@@ -45,7 +45,7 @@ void ReportCommand::add(CommandLine &line)
   command->add_option("--format", arguments->format, "Files of the figure: pdf, svg, png")
     ->needs(figure)
     ->capture_default_str();
-  command->add_flag("--quiet", arguments->quiet, "Print nothing but faults");
+  command->add_flag("--quiet", arguments->quiet, "Print errors only");
   command->callback(
     [&line, arguments]()
     {

@@ -11,7 +11,7 @@ import re
 import sys
 from statistics import median
 
-from make import names_of
+from make import names_of, variants
 from readme_numbers import read_tables
 
 SOURCES = pathlib.Path(__file__).resolve().parents[2]
@@ -43,19 +43,21 @@ get finer. The methods are
 
 **Decided.** `full` is *nearer* than its base or *farther* if the two errors differ by more than the
 sum of their bars. Otherwise the row is open: *bars*, they differ by less; *bars x 3*, the errors on
-three discretizations do not converge, and their bars, with a factor of safety of 3 instead of 1.25,
-decide nothing; *law*, the law loses ellipticity at the strain given, beyond which no minimum need
-exist.
+three discretizations do not converge, so that their bars, with a factor of safety of 3 instead of
+1.25, decide nothing however far apart the errors are; *law*, the law loses ellipticity at the strain
+given, beyond which no minimum need exist.
 """
 SETS = {"cells": "patches, stripes, holes", "weaves": "weaves", "drawn weaves": "weaves drawn by chance"}
 DRAWN = """\
-The method was developed on the cells and weaves above. These six it had not seen: count, sett and
-cover of their yarns were drawn by chance and stored before any of them was run.
+The method was developed on the cells and weaves above. These {all} it had not seen: count, sett and
+cover of their yarns were drawn by chance and stored before any of them was run. Run at this size so
+far: {there} of the {all}.
 """
 SHORT = """\
-Medians, in brackets smallest and largest, of the rows in which the law holds; how many rows are
-*nearer*, *farther* or *open*; and in how many the paper's method is farther from the reference than
-the coarse mesh alone.
+Medians, in brackets smallest and largest, of the rows in which the law holds, open ones included;
+how many rows are *nearer*, *farther* or *open*; and in how many the paper's method is farther from
+the reference than the coarse mesh alone. A cell that is the same along both axes has equal rows
+`strip-1` and `strip-2`, and both count.
 """
 HEADING = "gain of"
 NOT_RUN = "Not run yet at this size:"
@@ -195,12 +197,14 @@ def with_gains(text, rows):
     return re.sub(old, lambda _: gains(rows), text)
 
 
+def known(rows, *methods):
+    """Those in which all methods have an error."""
+    return [row for row in rows if all(row[method] for method in methods)]
+
+
 def losses(rows, method, other):
     """Those in which a method has the larger error."""
-    return [
-        row for row in rows
-        if row[method] and row[other] and float(row[method]) > float(row[other])
-    ]
+    return [row for row in known(rows, method, other) if float(row[method]) > float(row[other])]
 
 
 def lost(rows):
@@ -212,11 +216,12 @@ def lost(rows):
         for strain, some in levels(rows).items():
             cases = [
                 f"`{row['cell']}` {row['load']} ({with_bar(row, method)} against"
-                f" {with_bar(row, other)}{', decided' if claim and row[claim] == 'FAIL' else ''})"
+                f" {with_bar(row, other)}{', decided' if claim and row[claim] == 'FAIL' else ''}"
+                f"{', law' if is_lost(row) else ''})"
                 for row in losses(some, method, other)
             ]
             items.append(
-                f"- {percent(strain)} strain, {len(cases)} of {len(some)}:"
+                f"- {percent(strain)} strain, {len(cases)} of {len(known(some, method, other))}:"
                 f" {', '.join(cases) or 'none'}."
             )
         out.append("\n".join(items) + "\n")
@@ -231,8 +236,8 @@ def open_weaves(rows):
         if row["full_against_base"] != "PASS"
     ]
     return (
-        f"In {len(names)} of {len(rows)} rows `full` is not shown to be nearer than the coarse cloth"
-        f" alone{': ' + ', '.join(names) if names else ''}.\n"
+        f"In {len(names)} of {len(rows)} rows `full` is not shown to be nearer than its"
+        f" base{': ' + ', '.join(names) if names else ''}.\n"
     )
 
 
@@ -243,22 +248,26 @@ def page(tables):
     for name, its in sets(rows).items():
         out.append(f"## {SETS[name].capitalize()}\n")
         if name == "drawn weaves":
-            out += [DRAWN, open_weaves(its)]
+            names = len({row["cell"] for row in its})
+            out += [DRAWN.format(all=len(variants(SOURCES)), there=names), open_weaves(its)]
         for strain, some in levels(its).items():
             out += [f"At {percent(strain)} strain:\n", errors(some)]
     out += [
         "## Where a method loses\n",
-        "*Decided* are the losses that are larger than the sum of both bars.\n",
+        "*Decided* are the losses that are larger than the sum of both bars; *law* marks rows beyond the"
+        " strain at which the law loses ellipticity.\n",
         *lost(rows),
         "## Guaranteed brackets on C^H\n",
-        "Relative width, on the mesh of the bracket: the shipped one, or where arcs are drawn the one "
-        "that resolves them; nothing is refined for a tolerance.\n",
+        "Width: the largest difference of the two bounds on the energy, over all macro strains, divided by"
+        " the upper one. Mesh: the shipped one, or where arcs are drawn the one that resolves them;"
+        " nothing is refined for a tolerance.\n",
         table(["cell", "triangles", "width"],
               [[f"`{row['cell']}`", row["triangles"], f"{float(row['width']):.2g}"]
                for row in brackets], 1),
         "## Claims\n",
-        "Claims of kind *method* are those that compare methods, as above: where one fails, the method"
-        " does not pay. All others are of the program and of the cell.\n",
+        "Claims of kind *method* are those that compare methods, as above: where one fails, the first method"
+        " is farther from the reference than the other. All others are of the program and of the cell."
+        " Exit status 1: a claim fails; 4: none fails and one is open; 0: all hold.\n",
         table(["command", "cell", "claims", "hold", "open", "fail", "open, method", "fail, method",
                "exit status"],
               [[f"`{row['command']}`", f"`{row['of']}`",

@@ -87,7 +87,7 @@ void check_strain_arguments(StrainStudyOptions &study, const std::string &superc
 void StrainCommand::add(CommandLine &line)
 {
   CLI::App *command = line.app.add_subcommand(
-    "strain", "Error against strain (Figure 3): up-sampled cloth held against the resolved one");
+    "strain", "Error against strain (Figure 3): up-sampled cloth compared with the resolved one");
   const auto arguments      = std::make_shared<StrainArguments>();
   StrainStudyOptions &study = arguments->study;
   study                     = default_strain_study();

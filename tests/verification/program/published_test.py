@@ -169,6 +169,13 @@ class ResultsPageTest(unittest.TestCase):
             self.assertIn(line, page)
         self.assertNotIn("`good` strip-1 (", page)
 
+    def test_losses_are_of_rows_with_both_errors_and_say_where_the_law_is_lost(self):
+        page = self.page(published_row("bad", "0.1", affine="3", law_lost_at="0.02"),
+                         published_row("stalled", "0.1", localized=""))
+        self.assertIn("- 10 % strain, 1 of 1: `bad` strip-1 (4.00 ± 0.10 against 3.00 ± 0.10,"
+                      " law).", page)
+        self.assertIn("- 10 % strain, 0 of 2: none.", page)
+
     def test_medians_are_of_one_set_and_strain_and_of_rows_in_which_the_law_holds(self):
         rows = [published_row(cell, strain, set=its, gain_of_upsampling=gain, law_lost_at=lost)
                 for its, cell, strain, gain, lost in (
@@ -182,8 +189,9 @@ class ResultsPageTest(unittest.TestCase):
                     "weaves | 1 % | 1.00 (1.00 to 1.00) | 1.50",
                     "weaves drawn by chance | 1 % | 1.00 (1.00 to 1.00) | 0.500"):
             self.assertIn(f"| {row}", page.replace("**", ""))
-        self.assertIn("In 1 of 1 rows `full` is not shown to be nearer than the coarse cloth alone:"
+        self.assertIn("In 1 of 1 rows `full` is not shown to be nearer than its base:"
                       " `d-drawn-1` strip-1 at 1 % (bars).", page)
+        self.assertIn("far: 1 of the 6.", page)
 
 
 def write_strain(folder, cell="dots", law="biot"):

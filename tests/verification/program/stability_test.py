@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""homespun periodic stability: where a periodic solution stops being the solution."""
+"""homespun periodic stability: where the cells start to buckle in their plane."""
 import json
 import unittest
 

@@ -33,6 +33,13 @@ class Elements(HTMLParser):
             self.scripts[-1] = (self.open, self.scripts[-1][1] + data)
 
 
+def with_backticks(page):
+    """Texts that a reader sees with the backticks of a terminal, and those of pictures."""
+    shown = re.sub(r"(?s)<(script|style|title)\b.*?</\1>", "", page)
+    told = [attributes.get("alt", "") for _, attributes in Elements(page).elements]
+    return [text for text in [*re.findall(r">([^<>]*)<", shown), *told] if "`" in text]
+
+
 def fetched(page):
     """Addresses that a browser would fetch by itself: none may leave the page."""
     found = [

@@ -117,7 +117,7 @@ class SentenceTest(unittest.TestCase):
                 f" {change}.",
             )
 
-    def test_what_the_law_is_worth_stands_beside_what_is_left(self):
+    def test_what_another_law_would_change_stands_beside_what_is_left(self):
         rows, forces = [], []
         for load, force in (("strip-1", 1.15), ("strip-2", 1.33), ("periodic-11", 9.0)):
             for law, error, of_law in (("biot", 5e-3, 1.0), ("green", 4e-2, force), ("linear", 1.0, 5.0)):
@@ -130,8 +130,8 @@ class SentenceTest(unittest.TestCase):
                     )
         self.assertEqual(
             answer.law_sentence(rows, forces, "biot", 0.1),
-            "What the law is worth, at 10 %: against green in place of biot sheets take 1.15 to 1.33"
-            " times the force, and what is left of the error is 8.00 times as much.",
+            "What another law would change, at 10 %: with green instead of biot sheets take 1.15 to"
+            " 1.33 times the force, and the error that is left is 8.00 times as large.",
         )
         self.assertEqual(answer.law_sentence(rows, forces, "biot", 0.01), "")
         self.assertEqual(answer.law_sentence(rows, [], "biot", 0.1), "")
@@ -228,7 +228,7 @@ class AnswerPageTest(PageTest):
         page = self.page()
         first = page[page.index("<h1>") : page.index("<nav")]
         self.assertIn("C<sup>H</sup> [N/m]", first)
-        self.assertIn("`homespun strain` makes them", first)
+        self.assertIn("<code>homespun strain</code> makes them", first)
         self.assertIn("One period of a cloth, homogenized", first)
         for name in ("cell", "directional-modulus"):
             self.assertIn(f'id="stripes-{name}"', first)

@@ -78,7 +78,7 @@ class ComparisonTest(PageTest):
         # Each claim once, a column a run.
         listed = page[claims : page.index("<h2", claims + 4)]
         self.assertEqual(listed.count("…: slope 2"), 1)
-        self.assertIn("the verdicts of 1 differ", listed)
+        self.assertIn("verdicts differ for 1, shown first", listed)
         self.assertIn('<tr class="differs">', listed)
         self.assertIn('href="#comparison"', page)
 

@@ -76,7 +76,7 @@ class HeadlineTest(unittest.TestCase):
 
         self.assertEqual(
             finer_mesh_sentence(rows, ways(0.5e-2), "biot"),
-            "2 coarse quads per cell side would take away 50 % of what the paper's method leaves"
+            "2 coarse quads per cell side would take away 50 % of the error of the paper's method"
             " (strip-1, 1 %).",
         )
         self.assertIn("would add 20 %", finer_mesh_sentence(rows, ways(1.2e-2), "biot"))

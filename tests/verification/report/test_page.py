@@ -58,6 +58,17 @@ class WholePageTest(PageTest):
         self.assertGreater(self.text.count("<figure "), 10)
         self.assertEqual(page_checks.figures_without_downloads(self.text, self.made_in), [])
 
+    def test_no_reader_sees_a_backtick(self):
+        self.assertEqual(page_checks.with_backticks(self.text), [])
+        self.assertIn("<code>homespun verify</code>", self.text)
+        planted = '<p>`a`</p><img alt="`b`"><script>`c`</script>'
+        self.assertEqual(page_checks.with_backticks(planted), ["`a`", "`b`"])
+        self.assertEqual(
+            whole_page.with_code('<p title="`a`">`b` &lt; <i>`</i></p><img src="<svg>`d`</svg>"><script>`c`</script>'),
+            '<p title="`a`"><code>b</code> &lt; <i>`</i></p><img src="<svg>`d`</svg>">'
+            "<script>`c`</script>",
+        )
+
     def test_nothing_is_fetched(self):
         self.assertEqual(page_checks.fetched(self.text), [])
         self.assertEqual(

@@ -100,7 +100,7 @@ class StabilityPage(PageTest):
         self.assertEqual(status, 0, errors)
         page = self.page()
         self.assertIn("homespun: stripes", page)
-        self.assertIn("Where a periodic state stops being the solution", page)
+        self.assertIn("Where the cells start to buckle in their plane", page)
         # Compression in the plane names wrinkling in the sentence itself.
         self.assertIn("(k = (1/2, 0)) (kept flat: a free sheet that is pressed in its plane wrinkles at"
                       " once); proved for the discrete cloth", page)

@@ -43,6 +43,7 @@ def polar_frame(axes, quantity=MODULUS):
     axes.set_rlabel_position(67.5)
     axes.yaxis.set_major_locator(pyplot.MaxNLocator(4, prune="lower"))
     axes.tick_params(axis="y", labelsize=7.5, colors="#444444")
+    pyplot.setp(axes.get_yticklabels(), bbox={"facecolor": "white", "edgecolor": "none", "pad": 0.6, "alpha": 0.8})
     axes.set_thetagrids(
         range(0, 360, 45),
         ["0° = axis 1", "45°", "90° = axis 2", "135°", "180°", "225°", "270°", "315°"],

@@ -115,7 +115,7 @@ def answer_of(results, name, gallery):
         "figure": gallery.add(
             figure,
             f"{name}-answer",
-            f"{name}: mean error per vertex, in cell sides, against strain, held against the"
+            f"{name}: mean error per vertex, in cell sides, against strain, compared with the"
             f" reference {reference}: the coarse mesh alone (affine), the paper's method"
             f" ({PAPER})"
             + (f", homespun ({listed(spoken_of)}) and its coarse cloth, not up-sampled"
@@ -278,10 +278,10 @@ def law_sentence(rows, forces, reference, strain):
         ]
         if all(ratios):
             parts.append(
-                f"against {law} in place of {reference} sheets take {span(ratios[0])} times the"
-                f" force, and what is left of the error is {span(ratios[1])} times as much"
+                f"with {law} instead of {reference} sheets take {span(ratios[0])} times the force, and"
+                f" the error that is left is {span(ratios[1])} times as large"
             )
-    return f"What the law is worth, at {percent(strain)}: {'; '.join(parts)}." if parts else ""
+    return f"What another law would change, at {percent(strain)}: {'; '.join(parts)}." if parts else ""
 
 
 def span(values):

@@ -260,7 +260,7 @@ def headings_of(sections, comparison, notes):
         (run["id"], words + (f": {run['name']}" if len(runs) > 1 else ""))
         for runs, words in (
             (sections.loads, "Given stresses and strains"),
-            (sections.stability, "Where a periodic state stops being the solution"),
+            (sections.stability, "Where the cells start to buckle in their plane"),
         )
         for run in runs
     )
@@ -289,14 +289,14 @@ def lead(sections):
     if sections.strain_shown:
         return (
             "How far an up-sampled cloth is from the resolved one: a coarse sheet with the effective"
-            " stiffness of its cell, its fine mesh restored from it, held against fine finite"
+            " stiffness of its cell, its fine mesh restored from it, compared with fine finite"
             " elements vertex by vertex."
         )
     sentences = []
     if sections.drapes:
         sentences.append(
             "Cloth in motion: a coarse cloth is run through time, its fine mesh restored from it,"
-            " and held against a cloth that is resolved, vertex by vertex."
+            " and compared with a resolved cloth, vertex by vertex."
         )
     if sections.stress:
         sentences.append(
@@ -306,7 +306,7 @@ def lead(sections):
     if sections.convergence:
         sentences.append(
             "Convergence: how fast errors fall as meshes, cells, strains and time steps become"
-            " finer, held against theory."
+            " finer, compared with theory."
         )
     if sections.loads:
         sentences.append(
@@ -315,7 +315,7 @@ def lead(sections):
         )
     if sections.stability:
         sentences.append(
-            "Where a periodic solution stops being the solution: the margin of its stiffness on"
+            "Where the cells start to buckle in their plane: the margin of the cloth's stiffness on"
             " waves over any number of cells, against strain."
         )
     return " ".join(sentences)
@@ -340,7 +340,7 @@ def summary(results, command=""):
         if info.get("ranks") is not None:
             parts.append(f"{info['ranks']} rank{'s' if info['ranks'] != 1 else ''}")
         if info.get("seconds_total") is not None:
-            what = "since it was taken up again" if info.get("resumed") else "in all"
+            what = "since it was resumed" if info.get("resumed") else "in all"
             parts.append(f"{seconds(float(info['seconds_total']))} {what}")
         if info.get("peak_memory_bytes") is not None:
             parts.append(

@@ -61,7 +61,7 @@ def sentences(cell):
         of = f" of {three(int(number(run, 'steps')))}" if number(run, "steps") > 0 else ""
         start += f" ({three(int(run['cut_steps']))}{of} steps had to be cut)"
     if not cell.references:
-        return [start + ". No reference was asked for, so that nothing is said of the error."]
+        return [start + ". No reference was computed, so the error is not known (`--references`)."]
     result = []
     order = ordered_references(reference["reference"] for reference in cell.references)
     for reference in sorted(

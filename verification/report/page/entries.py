@@ -46,7 +46,7 @@ def bracket_words(cell):
     if value is None or centre_and_bars(value, "C")[1] is None:
         return "No bracket was computed: the stiffness is that of the mesh, and has no bar."
     of = value.get("bracket_of", "mesh")
-    return f"Centre of the guaranteed bracket of the {of} ± half its width."
+    return f"Centre of the guaranteed bracket of the {of}; ± is half its width and the rounding of what is shown."
 
 
 def with_bar(text_and_bar):

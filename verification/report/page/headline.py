@@ -118,9 +118,9 @@ def finer_mesh_sentence(rows, ways, reference):
     where = f"({row['load']}, {percent(row['strain'])})"
     quads = f"{three(per_cell).rstrip('0').rstrip('.')} coarse quads per cell side"
     if abs(1.0 - left) < NO_GAIN:
-        return f"{quads} would change what the paper's method leaves by less than 5 % {where}."
+        return f"{quads} would change the error of the paper's method by less than 5 % {where}."
     change = "take away" if left < 1.0 else "add"
-    return f"{quads} would {change} {share(abs(1.0 - left))} % of what the paper's method leaves {where}."
+    return f"{quads} would {change} {share(abs(1.0 - left))} % of the error of the paper's method {where}."
 
 
 def own_methods_sentence(here):

@@ -21,8 +21,9 @@ CAPTION = (
 def with_bar(value, bar, factor=1.0):
     if math.isnan(value):
         return "–"
-    text = three(factor * value)
-    return f"{text} ± {three(factor * bar)}" if not math.isnan(bar) and bar > 0 else text
+    if math.isnan(bar) or not bar > 0:
+        return three(factor * value)
+    return f"{three(factor * value) if abs(value) > bar else '0'} ± {three(factor * bar)}"
 
 
 def end_row(path):
@@ -41,6 +42,23 @@ def found(paths):
     """Components that are strained or stressed by more than their bars."""
     some = known(paths, "strain_{}").keys() | known(paths, "stress_{}_N_per_m").keys()
     return [c for c in COMPONENTS if c in some]
+
+
+def end_sentences(paths):
+    """What the cell does at the last level, law by law: its strains and stresses that are not zero."""
+    sentences = []
+    for path in paths:
+        if path.method != "resolved" or (path.law == "linear" and len(paths) > 1):
+            continue
+        row, words = path.rows[-1], []
+        for c in known([path], "strain_{}"):
+            words.append(f"strain {c} = {three(100.0 * row[f'strain_{c}'])} %")
+        for c in known([path], "stress_{}_N_per_m"):
+            words.append(f"stress {c} = {three(row[f'stress_{c}_N_per_m'])} N/m")
+        sentences.append(
+            f"At {three(100.0 * row['factor'])} % of the load ({path.law}): {', '.join(words)}."
+        )
+    return sentences
 
 
 def coarse_sentence(paths):
@@ -116,7 +134,8 @@ def load_contents(load, gallery):
             {
                 "name": cell,
                 "picture": gallery.add(load_figure(load, cell), f"load-{cell}", Markup(caption)),
-                "sentences": [one for one in [pressed_sentence(paths)] if one]
+                "sentences": end_sentences(paths)
+                + [one for one in [pressed_sentence(paths)] if one]
                 + coarse_sentence(paths),
                 "rows": [end_row(path) for path in paths],
             }

@@ -3,6 +3,7 @@
 files, and the plotting library from Debian's package.
 """
 import os
+import re
 
 import jinja2
 from markupsafe import Markup
@@ -12,6 +13,10 @@ HERE = os.path.dirname(os.path.abspath(__file__))
 CHART = "/usr/share/javascript/chart.js/chart.min.js"
 PACKAGE = "libjs-chart.js"
 CHART_LICENCE = "/*! Chart.js, https://www.chartjs.org, (c) Chart.js contributors, MIT License */"
+
+
+# A script, the title, a tag, or code as Markdown has it; pictures in attributes hold brackets.
+CODE = re.compile(r"""<(script|style|title)\b.*?</\1>|<(?:[^<>"]|"[^"]*")*>|`([^`<>]+)`""", re.DOTALL)
 
 
 def own(name):
@@ -57,4 +62,10 @@ def render(contents):
         loader=jinja2.FileSystemLoader(os.path.join(HERE, "templates")), autoescape=True, undefined=jinja2.StrictUndefined
     )
     css = Markup(own("report.css"))
-    return environment.get_template("report.html.j2").render(css=css, scripts=scripts, **contents)
+    template = environment.get_template("report.html.j2")
+    return with_code(template.render(css=css, scripts=scripts, **contents))
+
+
+def with_code(html):
+    """Sentences have code between backticks, as a terminal shows it; a page has its own letters."""
+    return CODE.sub(lambda m: f"<code>{m.group(2)}</code>" if m.group(2) else m.group(0), html)

@@ -17,13 +17,15 @@ const plot_style = (() => {
 
   const power = (exponent) => "10" + [...String(exponent)].map((c) => SUPERSCRIPT[c]).join("");
 
+  const minus = (value) => String(value).replace(/^-/, "−");
+
   // A number with so many digits, with a power of ten where that is shorter.
   const number = (value, digits = 4) => {
     if (value === 0) return "0";
     const exponent = Math.floor(Math.log10(Math.abs(value)) + 1e-12);
-    if (exponent > -4 && exponent < 6) return String(Number(value.toPrecision(digits)));
+    if (exponent > -4 && exponent < 6) return minus(Number(value.toPrecision(digits)));
     const factor = Number((value / 10 ** exponent).toPrecision(digits));
-    return (factor === 1 ? "" : `${factor} × `) + power(exponent);
+    return (factor === 1 ? "" : `${minus(factor)} × `) + power(exponent);
   };
 
   // Ticks of a logarithmic axis: powers of ten, every other of them where there are many; 1, 2, 5 where there are few.

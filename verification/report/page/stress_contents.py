@@ -57,7 +57,7 @@ def stress_contents(stress, gallery):
             figure,
             "stress-limits",
             (
-                f"{'' if stress.name == 'stress' else stress.name + ': '}how far each axis goes:"
+                f"{'H' if stress.name == 'stress' else stress.name + ': h'}ow far each axis goes:"
                 " the bar ends at the largest value that is right, the cross is the first that is"
                 " wrong or refused. Black: where theory estimates the end, or promises that there"
                 " is none before."
