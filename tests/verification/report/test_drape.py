@@ -115,7 +115,7 @@ class DrapePageTest(PageTest):
         self.assertEqual(self.run_report(), (0, ""))
         page = self.page()
         for text in (
-            "No reference was asked for",
+            "No reference was computed",
             "Left out: pictures of layered",
             "Left out: error of layered",
             "Left out: what absent terms would have cost",

@@ -116,7 +116,7 @@ class ReportTest(PageTest):
         page = self.page()
         self.assertIn("0 of 1 claim hold, 1 fails: program: 0 of 1 claim hold, 1 fails.", page)
         self.assertIn("runs to its end; no equilibrium", page)
-        self.assertIn("One run of `homespun verify` (revision abc1234", page)
+        self.assertIn("One run of <code>homespun verify</code> (revision abc1234", page)
 
     def test_claims_stand_by_what_they_speak_of_with_where_their_limits_come_from(self):
         draw_alone(self.addCleanup)

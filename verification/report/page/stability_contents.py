@@ -48,7 +48,7 @@ def first_loss(path, way):
     else:
         what = "localization of the macroscopic law"
     return (
-        f"{subject}: first lost at {where} %, to {what} ({given['wave']}){flat}; proved for the"
+        f"{subject}: the periodic state is first lost at {where} %, to {what} ({given['wave']}){flat}; proved for the"
         " discrete cloth."
     )
 
