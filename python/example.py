@@ -22,7 +22,7 @@ triangles = numpy.concatenate([corner[:, None] + (0, 1, n + 2), corner[:, None] 
 centres = vertices[triangles].mean(axis=1)
 groups = (numpy.hypot(*(centres - side / 2).T) < side / 4).astype(int)
 cell = homespun.homogenize(
-    vertices=vertices, triangles=triangles.astype(numpy.int32), groups=groups, order=1,
+    vertices=vertices, triangles=triangles, groups=groups, order=1,
     phases=[{"E": 1e6, "nu": 0.3, "thickness": 5e-4, "density": 300.},
             {"E": 2e7, "nu": 0.4, "thickness": 6e-4, "density": 1000.}])
 print("C^H [N/m]:\n", cell.stiffness.round(1))
@@ -31,14 +31,14 @@ print("C^H [N/m]:\n", cell.stiffness.round(1))
 # in one of two seconds.
 sheet = homespun.Sheet(cell, 12, 12)
 rest = sheet.coarse_vertices
-upper = numpy.flatnonzero(rest[:, 1] > rest[:, 1].max() - 1e-9)
+left, *_, right = numpy.flatnonzero(rest[:, 1] > rest[:, 1].max() - 1e-9)
 standing = numpy.column_stack([rest[:, 0], numpy.zeros(len(rest)), rest[:, 1]])
 cloth = homespun.Cloth(cell, rest, sheet.coarse_triangles, positions=standing,
-                       held=[int(upper[0]), int(upper[-1])], damping=2.)
+                       held=[left, right], damping=2.)
 upsampler = homespun.Upsampler(cell, sheet)
 fine = numpy.empty((upsampler.n_fine, 3), dtype=numpy.float32)
 for step in range(200):
-    cloth.prescribe(int(upper[-1]), [0.12 - 0.03 * min(step / 100, 1.), 0., 0.12])
+    cloth.prescribe(right, [0.12 - 0.03 * min(step / 100, 1.), 0., 0.12])
     cloth.step(0.01)
     upsampler.upsample(cloth.positions, out=fine)
 

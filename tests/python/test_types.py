@@ -2,6 +2,7 @@
 """The stubs of the compiled modules are those of the modules, and what readers copy type-checks."""
 import ast
 import importlib
+import json
 import os
 import pathlib
 import re
@@ -119,6 +120,10 @@ class Checked(unittest.TestCase):
                 self.assertIn("import homespun", text, page)
                 shown.append(pathlib.Path(folder, re.sub(r"\W", "_", page) + ".py"))
                 shown[-1].write_text(text, encoding="utf-8")
+            notebook = json.loads((SOURCE / "python/tour.ipynb").read_text(encoding="utf-8"))
+            shown.append(pathlib.Path(folder, "tour.py"))
+            shown[-1].write_text("\n".join("".join(cell["source"]) for cell in notebook["cells"]
+                                           if cell["cell_type"] == "code"), encoding="utf-8")
             result = self.mypy(PACKAGE, SOURCE / "python/example.py", *shown)
             self.assertEqual(result.returncode, 0, result.stdout)
 
