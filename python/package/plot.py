@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: MIT
 """Pictures of cells, sheets and errors with matplotlib, which is imported when one is drawn.
 
-Every function draws into `axes` or makes a figure of its own, and gives back what it drew in:
-`.figure.savefig("cell.png")` keeps it.
+Every function gives back the figure that it drew in, its own or that of `axes`:
+`plot.cell(cell).savefig("cell.png")`.
 """
 from __future__ import annotations
 
@@ -55,7 +55,7 @@ def _new_axes(axes: Axes | None) -> Axes:
         return axes
     from matplotlib import pyplot
 
-    return pyplot.subplots(layout="constrained")[1]
+    return typing.cast("Axes", pyplot.subplots(layout="constrained")[1])
 
 
 def _unit(size: float) -> tuple[float, str]:
@@ -87,12 +87,12 @@ def _draw(axes: Axes, points: Numbers, triangles: NDArray[numpy.int32], colours:
     axes.set(xlabel=f"x [{unit}]", ylabel=f"y [{unit}]")
 
 
-def cell(cell: Cell, *, axes: Axes | None = None) -> Axes:
+def cell(cell: Cell, *, axes: Axes | None = None) -> Figure:
     """The mesh of a cell, phases from light to dark."""
     axes = _new_axes(axes)
     size, unit = _unit(float(numpy.ptp(cell.vertices, axis=0).max()))
     _draw(axes, size * cell.vertices, cell.triangles, _phase_colours(cell.material), unit)
-    return axes
+    return typing.cast("Figure", axes.figure)
 
 
 def chi(cell: Cell) -> Figure:
@@ -140,7 +140,7 @@ def _scale_bar(axes: Axes, width: float, left: float, bottom: float) -> None:
 
 
 def sheet(sheet: Meshed, positions: ArrayLike | None = None, *, elevation: float = 30.0,
-          azimuth: float = -60.0, axes: Axes | None = None) -> Axes:
+          azimuth: float = -60.0, axes: Axes | None = None) -> Figure:
     """The fine mesh of a sheet, phases from light to dark.
 
     positions: (n, 3) [m] of its vertices, such as Upsampler.upsample() gives, seen from elevation
@@ -157,7 +157,7 @@ def sheet(sheet: Meshed, positions: ArrayLike | None = None, *, elevation: float
     if points.shape[1] == 2:
         size, unit = _unit(float(numpy.ptp(points, axis=0).max()))
         _draw(axes, size * points, triangles, colours, unit)
-        return axes
+        return typing.cast("Figure", axes.figure)
     seen = _seen(points, elevation, azimuth)
     a, b, c = (seen[triangles[:, k]] for k in range(3))
     normals = numpy.cross(b - a, c - a)
@@ -170,11 +170,16 @@ def sheet(sheet: Meshed, positions: ArrayLike | None = None, *, elevation: float
     axes.set_axis_off()
     low, width = seen[:, :2].min(axis=0), float(numpy.ptp(seen[:, 0]))
     _scale_bar(axes, width, low[0], low[1] - 0.04 * width)
-    return axes
+    return typing.cast("Figure", axes.figure)
+
+
+def _names(column: NDArray[typing.Any]) -> list[str]:
+    """Each name once, in the order of the table."""
+    return list(dict.fromkeys(str(name) for name in column))
 
 
 def _law_of(table: NDArray[numpy.void], law: str | None) -> str:
-    laws: list[str] = list(dict.fromkeys(table["reference"].tolist()))
+    laws = _names(table["reference"])
     if law is None:
         return next((one for one in ("yarn", "biot") if one in laws), laws[0])
     if law not in laws:
@@ -200,14 +205,14 @@ def strain(table: NDArray[numpy.void], *, loads: Sequence[str] | None = None,
                        "`strain` of homespun.results()")
     law = _law_of(table, law)
     table = table[table["reference"] == law]
-    known = list(dict.fromkeys(table["method"].tolist()))
-    chosen = {"loads": loads or list(dict.fromkeys(table["load"].tolist())),
+    known = _names(table["method"])
+    chosen = {"loads": loads or _names(table["load"]),
               "methods": methods or [one for one in METHODS if one in known]}
     for name, column in (("loads", "load"), ("methods", "method")):
         for one in chosen[name]:
             if one not in table[column]:
                 raise BadInput(f"{name}: found {one}; expected some of "
-                               f"{', '.join(dict.fromkeys(table[column].tolist()))}")
+                               f"{', '.join(_names(table[column]))}")
     n = len(chosen["loads"])
     columns = min(n, 3)
     rows = -(-n // columns)

@@ -19,9 +19,9 @@ COLUMNS = [("load", "U16"), ("strain", float), ("reference", "U8"), ("method", "
            ("error_mean_m", float), ("error_mean_per_cell", float), ("error_bar_m", float)]
 
 
-def polygons(axes):
-    """The corners and the colours of the triangles that were drawn, in their order."""
-    (drawn,) = axes.collections
+def polygons(figure):
+    """The corners and the colours of the triangles that were drawn first, in their order."""
+    (drawn,) = figure.axes[0].collections
     corners = numpy.array([path.vertices[:3] for path in drawn.get_paths()])
     return corners, drawn.get_facecolors()[:, :3]
 
@@ -50,17 +50,16 @@ class Pictures(unittest.TestCase):
                         "assert 'matplotlib' not in sys.modules"], check=True)
 
     def test_a_cell_has_a_colour_for_each_phase(self):
-        axes = plot.cell(self.cell)
-        corners, colours = polygons(axes)
+        figure = plot.cell(self.cell)
+        corners, colours = polygons(figure)
         numpy.testing.assert_allclose(corners, 1e3 * self.cell.vertices[self.cell.triangles])
-        self.assertEqual(axes.get_xlabel(), "x [mm]")
+        self.assertEqual(figure.axes[0].get_xlabel(), "x [mm]")
         brightness = [colours[self.cell.material == phase].mean(axis=1) for phase in (0, 1)]
         self.assertGreater(brightness[0].min(), brightness[1].max() + 0.2)
 
     def test_chi_is_drawn_where_a_stretched_cell_is(self):
         figure = plot.chi(self.cell)
-        axes = figure.axes[0]
-        corners, _ = polygons(axes)
+        corners, _ = polygons(figure)
         # Stretched along axis 1 stripes stay straight, and the soft one stretches by more: there
         # are two slopes, of which the mean is that of the cell.
         x, moved = self.cell.vertices[self.cell.triangles][:, :, 0], corners[:, :, 0] / 1e3
