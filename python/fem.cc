@@ -129,7 +129,11 @@ BracketedCell homogenized(const UnitCell &cell, const Choices &choices,
 BracketedCell homogenize_file(const std::filesystem::path &file, const Choices &choices)
 {
   std::ostringstream warnings;
-  const UnitCell cell = homogenization::read_unit_cell(file, MPI_COMM_NULL, &warnings);
+  const UnitCell cell = [&]()
+  {
+    const py::gil_scoped_release others_run;
+    return homogenization::read_unit_cell(file, MPI_COMM_NULL, &warnings);
+  }();
   std::istringstream lines(warnings.str());
   for (std::string line; std::getline(lines, line);)
     warn(line.substr(line.find(": ") + 2)); // behind `warning`
