@@ -101,6 +101,9 @@ class SentenceTest(unittest.TestCase):
             " there at 1 %.",
         )
         self.assertEqual(answer.no_cause_sentence(lines[2:], "1 %"), "")
+        self.assertEqual(answer.likely_sentence(lines, "full"), "")
+        lines = [self.line(1e-2, 5e-3, {"rest": {"mean_m": 1.0}}, method="full")]
+        self.assertIn("the error of full itself was not split", answer.likely_sentence(lines, "full"))
         # Parts beside the sum are no causes.
         self.assertIn("compensate", answer.why(parts(reference=0.9, cell=0.9)))
 

@@ -313,7 +313,7 @@ class BudgetReport(PageTest):
         draw_alone(self.addCleanup)
         self.assertEqual(self.run_report(), (0, ""))
         open_page = re.sub(r"<details>.*?</details>", "", self.page(), flags=re.DOTALL)
-        self.assertIn("<p>The error of <i>localized</i>, the paper's method, whichever", open_page)
+        self.assertIn("<p>The error of the paper's method, <i>localized</i>, split into parts", open_page)
         self.assertIn("stripes: where the error of localized, the paper", open_page)
 
     def test_what_was_left_out_is_said(self):

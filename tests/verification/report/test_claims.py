@@ -39,7 +39,7 @@ class ClaimTest(unittest.TestCase):
         self.assertEqual(self.claim(text, "PASS", "method")["advice"], "")
         # What a method takes away is no reason for what it leaves.
         row = self.claim(text.replace("localized", "full"), "FAIL", "method")
-        self.assertIn("above all because cells are not small", row["why"])
+        self.assertIn("most likely because cells are not small", row["why"])
         row = self.claim(text.replace("localized is", "full is").replace("affine", "its base"),
                          "FAIL", "method", "closer-than.base")
         self.assertIn("without up-sampling", row["advice"])

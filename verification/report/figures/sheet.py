@@ -131,7 +131,7 @@ class WholeSheet:
 
 
 BARS = ("beyond the coarse mesh |x − coarse x|", "|x up-sampled − x reference|")
-SHORT = ("beyond coarse mesh", "distance")  # of narrow panels
+SHORT = ("from coarse", "distance")  # of narrow panels
 
 
 def draw_whole(figure, line, whole, titles, bars=BARS):

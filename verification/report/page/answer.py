@@ -41,6 +41,7 @@ CAUSES = {
 # What a term of a method takes away of the budget, which is that of `localized`.
 TAKEN_AWAY = {"edges": ("slip", "selvedge", "bulk", "layer"), "cubic": ("macro-law",),
               "modes": ("modes",)}
+LIKELY = "most likely because"  # an inference: the budget splits the error of `localized`
 UNTOLD = "≈ 0"  # a change that the error bars cannot tell
 SECOND_CAUSE = 0.25  # share of the error from which a second cause is named
 VALIDITY_LIMIT = 0.01  # of a cell side
@@ -108,7 +109,10 @@ def answer_of(results, name, gallery):
         "lines": lines,
         "shown": [line for line in lines if not style.is_infinite(line["load"])],
         "infinite": infinite_line(lines),
-        "no_cause": no_cause_sentence(lines, percent(strains[0])),
+        "no_cause": " ".join(
+            part for part in (no_cause_sentence(lines, percent(strains[0])),
+                              likely_sentence(lines, listed(spoken_of))) if part
+        ),
         "law": law_sentence(of_laws, [f for f in results.forces if f["cell"] == name], reference,
                             strains[-1]),
         "sheet": sheet_of_answer(results.cells.get(name), lines, gallery),
@@ -133,6 +137,16 @@ def no_cause_sentence(lines, strain):
         f"Why error is left was not measured in {listed(some)}: the error budget did not run there at"
         f" {strain}."
         if some
+        else ""
+    )
+
+
+def likely_sentence(lines, method):
+    """What a likely cause is; empty where none is named."""
+    return (
+        "Most likely: the largest part of the error of the paper's method that the terms of"
+        f" {method} do not remove; the error of {method} itself was not split."
+        if any(LIKELY in line["sentence"] for line in lines)
         else ""
     )
 
@@ -319,7 +333,7 @@ def why(parts, method=PAPER, left_m=0.0, reference=None):
         left = [part for part in left if parts[part]["mean_m"] > SECOND_CAUSE * left_m]
         if not left:
             return "for a reason that no part of the error budget has, as a higher order in strain"
-        return f"above all because {CAUSES[max(left, key=lambda part: parts[part]['mean_m'])]}"
+        return f"{LIKELY} {CAUSES[max(left, key=lambda part: parts[part]['mean_m'])]}"
     known = [(parts[part]["share"], part) for part in CAUSES if part in parts]
     known = sorted((pair for pair in known if pair[0] > 0.0), reverse=True)
     if not known:
