@@ -17,7 +17,7 @@ from matplotlib import pyplot
 import report_path  # noqa: F401
 import browser
 import page_checks
-from figures import plot_data, view_data
+from figures import plot_data, style, view_data
 from figures.decimation import area_of, decimate
 from made_up_drape import write_drape
 from made_up_study import square_mesh, write_results
@@ -68,6 +68,23 @@ class WholePageTest(PageTest):
             '<p title="`a`"><code>b</code> &lt; <i>`</i></p><img src="<svg>`d`</svg>">'
             "<script>`c`</script>",
         )
+
+    def test_every_curve_can_be_seen_on_a_dark_page(self):
+        def luminance(colour):
+            parts = (int(colour[k : k + 2], 16) / 255.0 for k in (1, 3, 5))
+            linear = (c / 12.92 if c <= 0.04045 else ((c + 0.055) / 1.055) ** 2.4 for c in parts)
+            return sum(weight * c for weight, c in zip((0.2126, 0.7152, 0.0722), linear))
+
+        lighter = dict(re.findall(r'"(#\w{6})": "(#\w{6})"', whole_page.own("plot_style.js")))
+        shown = {curve.get("colour", "#888888").lower() for panels in page_checks.data_of(self.text, "plot-data")
+                 for panel in panels for curve in panel["curves"] if not curve.get("fill")}
+        shown |= {colour.lower() for colour in (*style.COLOUR_NAMES, *style.SPARE_COLOURS)}
+        self.assertIn("#332288", shown)
+        ground = luminance("#14171a")  # of report.css
+        for colour in shown:  # 3:1 is what WCAG 2.1, 1.4.11, asks of graphics
+            with self.subTest(colour=colour):
+                seen = luminance(lighter.get(colour, colour))
+                self.assertGreater((seen + 0.05) / (ground + 0.05), 3.0)
 
     def test_nothing_is_fetched(self):
         self.assertEqual(page_checks.fetched(self.text), [])

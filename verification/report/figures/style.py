@@ -63,7 +63,7 @@ LAW_STYLES = ((":", "s", BLACK), ("-", "o", BLUE), ("--", "^", VERMILLION), ("-.
 OTHER_LAW = ("-.", "D", GREEN)
 
 # Colour and marker of the loads, in the order of the schema.
-LOAD_STYLES = ((SKY, "v"), (BLUE, "^"), (PURPLE, "D"), (YELLOW, "X"), (BLACK, "<"), ("#7F7F7F", ">"),
+LOAD_STYLES = ((SKY, "v"), (BLUE, "^"), (PURPLE, "D"), ("#999933", "X"), (BLACK, "<"), ("#7F7F7F", ">"),
                (GREEN, "s"), (ORANGE, "o"), (VERMILLION, "P"))
 
 # Two errors that differ by less than this part of a cell side are the same in double precision:

@@ -5,7 +5,7 @@ const plot_style = (() => {
   // The palette of Okabe and Ito, lighter where a colour would drown in a dark page; their order in lightness stays.
   const ON_DARK = { "#000000": "#eeeeee", "#222222": "#dddddd", "#444444": "#c4c4c4", "#555555": "#bbbbbb", "#666666": "#b0b0b0",
     "#6b6b6b": "#a6a6a6", "#777777": "#a6a6a6", "#888888": "#9a9a9a", "#0072b2": "#4b9fe0", "#56b4e9": "#a5daf8",
-    "#009e73": "#23bd92", "#d55e00": "#f0803c", "#cc79a7": "#e29bc4", "#bdbdbd": "#6a6f75" };
+    "#009e73": "#23bd92", "#d55e00": "#f0803c", "#cc79a7": "#e29bc4", "#bdbdbd": "#6a6f75", "#332288": "#a197ee", "#882255": "#dd7fa8", "#8a3a00": "#d68a55" };
   const MARKS = { o: "circle", s: "rect", "^": "triangle", v: "triangle", D: "rectRot", P: "crossRot", X: "crossRot", "<": "triangle" };
   const TURNED = { v: 180, "<": 270, P: 45 };
   const SUPERSCRIPT = { "-": "⁻", 0: "⁰", 1: "¹", 2: "²", 3: "³", 4: "⁴", 5: "⁵", 6: "⁶", 7: "⁷", 8: "⁸", 9: "⁹" };
