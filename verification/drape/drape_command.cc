@@ -81,6 +81,9 @@ void DrapeCommand::add(CommandLine &line)
   add_list(*command, "--frames", study.frames,
            "Formats of the frames, comma-separated: vtu, ply, obj");
   command->add_flag("--no-frames", arguments->no_frames, "Write no frames");
+  command->add_flag("--keep", study.keep,
+                    "Keep meshes and positions of every frame of a reference in CELL/positions/, "
+                    "for a method of your own: see `homespun judge`");
   command->add_flag("--costs", study.costs,
                     "Measure what each term that the scene leaves out would have cost");
   command->add_flag("--quick", study.is_quick, "A sheet of 4 x 4 cells, no error bar: seconds");

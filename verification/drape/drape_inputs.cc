@@ -201,6 +201,8 @@ nlohmann::ordered_json drape_inputs(const DrapeOptions &options, const Scene &sc
                                    {"cells_of_error_bar", options.n_cells_of_error_bar},
                                    {"formats", options.frames},
                                    {"costs", options.costs}};
+  if (options.keep)
+    inputs["keep"] = true;
   if (!scene.is_sheet())
     inputs["meshes"].push_back(fingerprint_of_file(scene.mesh_file));
   for (const SceneObstacle &obstacle : scene.obstacles)

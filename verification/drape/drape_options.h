@@ -18,6 +18,7 @@ struct DrapeOptions : StudyOptions
   int n_cells                     = 0;       ///< cells per side of a sheet; 0: the scene's
   int n_cells_of_error_bar        = 2;       ///< 0: no error bar
   double time_step = 0., duration = 0.;      ///< [s]; 0: the scene's
+  bool keep  = false;                        ///< positions of all frames, for `homespun judge`
   bool costs = false;                        ///< what absent terms would cost
 };
 

@@ -7,6 +7,7 @@
 #include "verification/cell/study_of_cells.h"
 #include "verification/drape/drape_inputs.h"
 #include "verification/drape/drape_verdicts.h"
+#include "verification/drape/kept_frames.h"
 #include "verification/drape/obstacle_surface.h"
 #include "verification/drape/reference_run.h"
 #include "verification/ellipticity/default_law.h"
@@ -124,6 +125,8 @@ private:
             [&]()
             {
               write_obstacles(draped);
+              if (options.keep)
+                keep_cloth(options.output, draped);
               add(checks_of_scene(draped));
               for (const CoarseCloth &cloth : cloths_of_cell(draped))
               {

@@ -7,6 +7,7 @@
 #include "verification/drape/drape_inputs.h"
 #include "verification/drape/drape_verdicts.h"
 #include "verification/drape/fine_run.h"
+#include "verification/drape/kept_frames.h"
 #include "verification/record/number_text.h"
 #include "verification/record/on_root.h"
 
@@ -161,12 +162,24 @@ private:
                    coarse.comparison->compare(reference, frame, positions, bar, output))
                 data.on_vertices.push_back(std::move(error));
               output.write(motion);
+              keep(frame, positions);
               output.write_frame({name, "fine", frame}, positions, draped.fine_triangles(), data,
                                  list.get());
               meshes::write_state(
                 {fine->positions(), velocities, fine->time(), frame, run.name, seconds},
                 state_file());
             });
+  }
+
+  /// For methods of other people, which start from the coarse cloth that is the method's.
+  void keep(const int frame, const SpacePoints &positions) const
+  {
+    const auto at = static_cast<std::size_t>(frame);
+    if (run.options.keep)
+      for (const CoarseRun &cloth : coarse.all)
+        if (cloth.is_main && cloth.frames.size() > at)
+          keep_frame(run.options.output, draped.cell.name, reference, frame,
+                     {cloth.frames[at], positions});
   }
 
   void judge(const int n_frames)

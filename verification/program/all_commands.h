@@ -7,7 +7,7 @@
 #include "verification/homogenize/homogenize_command.h"
 #include "verification/periodic/periodic_command.h"
 #include "verification/program/program_commands.h"
-#include "verification/strain/judge/judge_command.h"
+#include "verification/judge/judge_command.h"
 #include "verification/strain/strain_command.h"
 #include "verification/stress/stress_command.h"
 #include "verification/upsample/upsample_command.h"

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "verification/strain/kept_positions.h"
 
-#include "meshes/files/hdf5_reader.h"
-#include "meshes/plain/errors.h"
 #include "verification/record/number_text.h"
 #include "verification/strain/cell_references.h"
 #include "verification/strain/sheet_fields.h"
@@ -15,11 +13,6 @@ namespace homespun::verification
 std::string file_name_of(const StrainLevel &level)
 {
   return level.load + "-" + name_of(level.law) + "-" + short_text(level.strain);
-}
-
-std::string folder_of_positions(const std::string &run, const std::string &cell)
-{
-  return run + "/" + cell + "/positions";
 }
 
 void keep(const std::string &run, const StrainLevel &level, const meshes::Sheet &sheet,
@@ -35,26 +28,13 @@ void keep(const std::string &run, const StrainLevel &level, const meshes::Sheet 
     add_meshes(file, sheet, coarse_rest);
     file.finish();
   }
-  meshes::Hdf5Writer file(folder + "/" + file_name_of(level) + ".h5");
-  add_points(file, "/coarse", positions.coarse);
-  add_points(file, "/reference", positions.reference);
-  file.attribute("/", "load", level.load);
-  file.attribute("/", "law", name_of(level.law));
-  file.attribute("/", "strain", level.strain);
-  file.finish();
-}
-
-meshes::Points kept_reference(const std::string &run, const StrainLevel &level,
-                              const int n_vertices)
-{
-  const std::string path = folder_of_positions(run, level.cell) + "/" + file_name_of(level) + ".h5";
-  if (!std::filesystem::exists(path))
-    throw meshes::BadInput(path + ": is not there; expected the positions of the reference, which "
-                                  "`homespun strain --keep` leaves: run the study with it");
-  const meshes::Hdf5Reader file(path, "the positions of a level");
-  const std::vector<double> values =
-    file.numbers("/reference", {static_cast<unsigned long long>(n_vertices), 2});
-  return Eigen::Map<const meshes::Points>(values.data(), n_vertices, 2);
+  keep_state(folder, file_name_of(level), positions,
+             [&](meshes::Hdf5Writer &file)
+             {
+               file.attribute("/", "load", level.load);
+               file.attribute("/", "law", name_of(level.law));
+               file.attribute("/", "strain", level.strain);
+             });
 }
 
 std::string note_on_keeping(const StrainStudyOptions &options,

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """homespun judge: positions of other programs against the references that a study kept."""
+import importlib.util
 import json
 import pathlib
 import re
@@ -7,6 +8,7 @@ import shutil
 import subprocess
 import sys
 import tempfile
+import types
 import unittest
 
 import h5py
@@ -39,6 +41,11 @@ class Judge(InFolder):
     def reference(self, level):
         with h5py.File(self.kept / f"{level}.h5") as file:
             return file["reference"][...]
+
+    def affine(self):
+        """The rest sheet, pulled evenly."""
+        with h5py.File(self.kept / "sheet.h5") as file:
+            return file["rest"][...] * [1.1, 0.97]
 
     def write(self, name, positions):
         path = self.folder / name
@@ -148,6 +155,26 @@ class Judge(InFolder):
         rows, _ = self.judged(self.write("strip-1-biot-0.1.npy", wanted.astype("f4")))
         self.assertAlmostEqual(float(rows["strip-1-biot-0.1"]["error_mean_m"]), 2e-6, delta=1e-8)
 
+    @unittest.skipUnless(importlib.util.find_spec("meshio"), "meshio is not installed")
+    def test_meshio_reads_vtu_to_the_last_bit(self):
+        import meshio
+        rows, _ = self.judged(self.write("strip-1-biot-0.1.npy", self.affine()))
+        wanted = [rows["strip-1-biot-0.1"][key] for key in NORMS]
+        path = self.folder / "strip-1-biot-0.1.vtu"
+        in_space = numpy.column_stack([self.affine(), 0.0 * self.affine()[:, 0]])
+        for compression in ("zlib", None):
+            meshio.Mesh(in_space, [("triangle", self.triangles)]).write(path,
+                                                                        compression=compression)
+            rows, result = self.judged(path)
+            self.assertEqual([rows["strip-1-biot-0.1"][key] for key in NORMS], wanted)
+            self.assertNotIn("its numbers tell", result.stdout)
+        meshio.Mesh(in_space, [("triangle", self.triangles[::-1])]).write(path)
+        for words in ("its faces are not those", "cannot read as .vtu"):
+            result = run("judge", self.study, path)
+            self.assertEqual(result.returncode, 2)
+            self.assertIn(words, result.stderr)
+            path.write_text("<VTKFile", encoding="utf-8")
+
     def test_what_cannot_be_judged_is_refused_with_what_to_do(self):
         good = self.reference("strip-1-biot-0.1")
         nan = good.copy()
@@ -192,6 +219,77 @@ class Judge(InFolder):
             result = run("judge", study, path)
             self.assertEqual(result.returncode, 2)
             self.assertIn(words, result.stderr)
+
+
+class JudgeFrames(InFolder):
+    @classmethod
+    def setUpClass(cls):
+        folder = tempfile.TemporaryDirectory(prefix="homespun-")
+        cls.addClassCleanup(folder.cleanup)
+        cls.study = pathlib.Path(folder.name) / "study"
+        result = run("drape", CELLS.parent / "scenes" / "pull.prm", "--unit-cells",
+                     CELLS / "layered.prm", "--duration", "0.1", "--quick", "--references", "biot",
+                     "--keep", "--no-report", "--no-frames", "--output", cls.study)
+        assert result.returncode in (0, 1, 4), result.stderr
+        cls.kept = cls.study / "layered" / "positions"
+        cls.rows = rows_of(cls.study / "drape.csv")
+
+    def judged(self, frames, name, study=None):
+        files = self.folder / name
+        files.mkdir()
+        for frame, positions in frames.items():
+            numpy.save(files / f"biot-{frame:04d}.npy", positions)
+        return run("judge", study or self.study, files, "--name", name, "--output",
+                   self.folder / f"judged-{name}", "--no-report")
+
+    def kept_frame(self, frame, what="reference"):
+        with h5py.File(self.kept / f"biot-{frame:04d}.h5") as file:
+            return file[what][...]
+
+    def test_frames_of_a_method_from_outside_have_the_errors_of_the_study(self):
+        sys.path.insert(0, str(PEERS))
+        from flat import flat
+        with h5py.File(self.kept / "cloth.h5") as file:
+            mesh = types.SimpleNamespace(**{name: file[name][...] for name in file})
+        self.assertEqual(mesh.start.shape, (len(mesh.rest), 3))
+        frames = {frame: flat(mesh)(self.kept_frame(frame, "coarse")) for frame in (0, 1, 2)}
+        result = self.judged(frames, "flat")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertRegex(result.stdout, "biot, frame 2: .*; 1 of 2 methods of homespun are closer")
+        rows = rows_of(self.folder / "judged-flat" / "drape.csv")
+        self.assertEqual(rows[:len(self.rows)], self.rows)
+        affine = [row for row in self.rows if row["method"] == "affine"]
+        own = rows[len(self.rows):]
+        self.assertEqual(len(own), 3)
+        for row, like in zip(own[1:], affine[1:]):
+            for key in row:
+                if key.startswith("error"):
+                    self.assertAlmostEqual(float(row[key]) / float(like[key]), 1., delta=1e-9)
+                elif key != "method":
+                    self.assertEqual(row[key], like[key])
+
+    def test_a_shift_by_a_millionth_of_a_cell_is_seen(self):
+        self.judged({2: self.kept_frame(2) + [0., 0., 1e-8]}, "shifted")
+        own = rows_of(self.folder / "judged-shifted" / "drape.csv")[-1]
+        self.assertAlmostEqual(float(own["error_mean_m"]), 1e-8, delta=1e-15)
+
+    def test_what_cannot_be_judged_is_refused_with_what_to_do(self):
+        good = self.kept_frame(2)
+        for name, frames, words in (
+                ("flat", {2: good[:, :2]}, "expected three components"),
+                ("short", {2: good[1:]}, f"expected ({len(good)}, 2) or ({len(good)}, 3)"),
+                ("metres", {2: 1e3 * good}, "expected positions in metres"),
+                ("late", {9: good}, "as in biot-0000.npy"),
+                ("affine", {2: good}, "no method of homespun")):
+            result = self.judged(frames, name)
+            self.assertEqual(result.returncode, 2)
+            self.assertIn(words, result.stderr)
+            self.assertFalse((self.folder / f"judged-{name}").exists())
+        without = self.folder / "without"
+        shutil.copytree(self.study, without, ignore=shutil.ignore_patterns("positions"))
+        result = self.judged({2: good}, "mine", without)
+        self.assertEqual(result.returncode, 2)
+        self.assertIn("drape --keep", result.stderr)
 
 
 if __name__ == "__main__":

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
-#include "verification/strain/judge/given_positions.h"
+#include "verification/judge/given_positions.h"
 
+#include "homogenization/cell/converted_mesh.h"
+#include "homogenization/cell/mesh_formats.h"
 #include "meshes/files/hdf5_reader.h"
 #include "meshes/files/polygons.h"
 #include "meshes/plain/errors.h"
@@ -20,7 +22,7 @@ namespace homespun::verification
 namespace
 {
 using meshes::BadInput;
-using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+using Rows = PositionRows;
 
 std::string shape_text(const std::string &rows, const std::string &columns)
 {
@@ -97,16 +99,36 @@ Rows read_hdf5(const std::string &file, const int n_vertices)
   return Eigen::Map<const Rows>(values.data(), n_vertices, static_cast<Eigen::Index>(shape[1]));
 }
 
-Rows read_surface(const std::string &file, const meshes::TriangleMesh &rest)
+/// By meshio.
+meshes::Polygons read_vtu(const std::string &file)
 {
-  const meshes::Polygons found = meshes::read_polygons(file);
-  if (found.positions.rows() != rest.n_vertices())
-    refuse_shape(file, shape_text(std::to_string(found.positions.rows()), "3"), rest.n_vertices());
-  bool is_same = static_cast<int>(found.faces.size()) == rest.n_triangles();
-  for (int t = 0; is_same && t < rest.n_triangles(); ++t)
+  homogenization::MeshText text(file + ", converted to .msh",
+                                homogenization::converted_to_msh(file, MPI_COMM_NULL));
+  const homogenization::RawMesh raw = homogenization::read_msh(text);
+  meshes::Polygons found;
+  found.positions.resize(static_cast<Eigen::Index>(raw.points.size()), 3);
+  for (std::size_t k = 0; k < raw.points.size(); ++k)
+    found.positions.row(static_cast<Eigen::Index>(k)) = raw.points[k].transpose();
+  for (homogenization::RawMesh::Cell cell : raw.cells)
+  {
+    if (cell.n_corners == 3)
+      cell.corners[3] = -1;
+    found.faces.push_back(cell.corners);
+  }
+  return found;
+}
+
+Rows read_surface(const std::string &file, const meshes::Triangles &triangles, const int n)
+{
+  const bool is_vtu            = std::filesystem::path(file).extension() == ".vtu";
+  const meshes::Polygons found = is_vtu ? read_vtu(file) : meshes::read_polygons(file);
+  if (found.positions.rows() != n)
+    refuse_shape(file, shape_text(std::to_string(found.positions.rows()), "3"), n);
+  bool is_same = static_cast<Eigen::Index>(found.faces.size()) == triangles.rows();
+  for (Eigen::Index t = 0; is_same && t < triangles.rows(); ++t)
   {
     const meshes::Polygon &face = found.faces[static_cast<std::size_t>(t)];
-    is_same = face[3] < 0 && Eigen::RowVector3i(face[0], face[1], face[2]) == rest.triangles.row(t);
+    is_same = face[3] < 0 && Eigen::RowVector3i(face[0], face[1], face[2]) == triangles.row(t);
   }
   if (!is_same)
     throw BadInput(file + ": its faces are not those of the rest mesh; expected its triangles in "
@@ -128,27 +150,34 @@ double decimals_of(const Rows &values)
 }
 } // namespace
 
-GivenPositions read_positions(const std::string &file, const meshes::TriangleMesh &rest)
+GivenPositions read_positions(const std::string &file, const meshes::Triangles &triangles,
+                              const PositionRows &like)
 {
   const std::string kind = std::filesystem::path(file).extension();
-  const int n            = rest.n_vertices();
+  const int n            = static_cast<int>(like.rows());
   Rows values;
   if (kind == ".npy")
     values = read_npy(file, n);
   else if (kind == ".h5" || kind == ".hdf5")
     values = read_hdf5(file, n);
-  else if (kind == ".obj" || kind == ".ply")
-    values = read_surface(file, rest);
+  else if (kind == ".obj" || kind == ".ply" || kind == ".vtu")
+    values = read_surface(file, triangles, n);
   else
-    throw BadInput(file + ": is of a kind that is not read; expected .npy, .h5, .obj or .ply");
+    throw BadInput(file + ": is of a kind that is not read; expected .npy, .h5, .obj, .ply or "
+                          ".vtu");
   if (!values.allFinite())
     throw BadInput(file + ": holds NaN or infinite numbers; expected the position of each vertex");
-  const double length = values.cwiseAbs().maxCoeff();
-  if (values.cols() == 3 && values.col(2).cwiseAbs().maxCoeff() > 1e-9 * length)
+  const double length    = values.cwiseAbs().maxCoeff();
+  const Eigen::Index dim = like.cols();
+  if (values.cols() < dim)
+    throw BadInput(file +
+                   ": holds positions in the plane; expected three components, of a cloth in "
+                   "space");
+  if (values.cols() > dim && values.col(2).cwiseAbs().maxCoeff() > 1e-9 * length)
     throw BadInput(file + ": its third column is not zero; expected positions in the plane of the "
                           "sheet");
   const bool is_single = values.cast<float>().cast<double>() == values;
-  return {values.leftCols<2>(), is_single        ? length * std::numeric_limits<float>::epsilon()
+  return {values.leftCols(dim), is_single        ? length * std::numeric_limits<float>::epsilon()
                                 : kind == ".obj" ? decimals_of(values)
                                                  : 0.};
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "verification/strain/judge/given_files.h"
+#include "verification/judge/given_files.h"
 
 #include "meshes/plain/errors.h"
 #include "verification/law/laws.h"

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-// Somebody's own fine positions held against the references that a strain study kept. The result is
+// Somebody's own fine positions held against the references that a study kept. The result is
 // a folder with that study, to which the method has come as one more.
 #pragma once
 
+#include "verification/judge/judge_options.h"
 #include "verification/record/verdict.h"
-#include "verification/strain/judge/judge_options.h"
 
 #include <mpi.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // homespun judge: somebody's own fine positions against the references of a strain study.
-#include "verification/strain/judge/judge_command.h"
+#include "verification/judge/judge_command.h"
 
 #include "verification/command/study_arguments.h"
 #include "verification/method/method.h"
@@ -44,10 +44,11 @@ void JudgeCommand::add(CommandLine &line)
   const auto arguments = std::make_shared<StudyArguments<JudgeOptions>>();
   JudgeOptions &study  = arguments->study;
   study.command        = line.text;
-  command->add_option("RUN", study.run, "Folder of a `homespun strain --keep`")->required();
+  command->add_option("RUN", study.run, "Folder of a `homespun strain --keep` or `drape --keep`")
+    ->required();
   command
     ->add_option("POSITIONS", study.files,
-                 "Files LOAD-LAW-STRAIN.npy (.h5, .obj, .ply), each of one level, folders of "
+                 "Files LOAD-LAW-STRAIN.npy (.h5, .obj, .ply, .vtu), each of one level, folders of "
                  "them, or tables load,law,strain,file,seconds (.csv)")
     ->required();
   command
@@ -71,12 +72,19 @@ void JudgeCommand::add(CommandLine &line)
      "and\n"
      "in metres, shape (n,2) or (n,3) with zeros, and writes them to a file of the same name: "
      ".npy;\n"
-     ".h5 with a dataset /positions; .obj or .ply. Of infinite cloth (periodic.h5) positions count "
+     ".h5 with a dataset /positions; .obj, .ply or .vtu. Of infinite cloth (periodic.h5) positions "
+     "count "
      "but\n"
      "for a translation.\n"
      "The folder of the result holds the study with your method as a method more: a row of each "
      "level\n"
      "in strain.csv, claims, a curve in Figure 3. The bar of its error is that of the reference.\n"
+     "`homespun drape SCENE.prm --unit-cells CELL.prm --references biot --keep` leaves cloth.h5, "
+     "where\n"
+     "the cloth begins (/start, /triangles, /coarse_start, /coarse_triangles, of a sheet /rest,\n"
+     "/coarse_rest), and biot-FRAME.h5. Positions (n,3) in files of that name become rows of "
+     "drape.csv\n"
+     "and a curve of the error over time.\n"
      "Example:\n  homespun strain mycell.prm --quick --keep\n"
      "  homespun judge out/mycell/strain-quick mine/*.npy --name mine"},
     [](StudyArguments<JudgeOptions> &given) { check_judge(given.study); });

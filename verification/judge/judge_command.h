@@ -2,7 +2,7 @@
 #pragma once
 
 #include "verification/command/command.h"
-#include "verification/strain/judge/judge_study.h"
+#include "verification/judge/judge_study.h"
 
 namespace homespun::verification
 {

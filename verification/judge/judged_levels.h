@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "verification/judge/judged_run.h"
+
+#include <vector>
+
+namespace homespun::verification
+{
+/// Judges positions against the references of a `strain --keep`: rows of strain.csv and claims.
+/// @return the claims on the method
+/// @throws BadInput with a message per file whose positions cannot be judged, and nothing written
+std::vector<Verdict> judge_levels(JudgedRun &given);
+} // namespace homespun::verification
