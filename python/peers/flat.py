@@ -7,12 +7,13 @@ along. Writes the fine positions of all levels of a `homespun strain --keep` for
 """
 import pathlib
 import sys
+import types
 
 import h5py
 import numpy
 
 
-def weights(rest, coarse_rest, coarse_triangles):
+def shares(rest, coarse_rest, coarse_triangles):
     """(triangle, barycentric coordinates) of each fine vertex, shapes (n,) and (n,3)."""
     triangle = numpy.zeros(len(rest), dtype=int)
     inside = numpy.full((len(rest), 3), -numpy.inf)
@@ -25,6 +26,13 @@ def weights(rest, coarse_rest, coarse_triangles):
     return triangle, inside
 
 
+def flat(mesh):
+    """The method on a mesh (rest, coarse_rest, coarse_triangles): f(coarse) -> fine positions."""
+    triangle, share = shares(mesh.rest, mesh.coarse_rest, mesh.coarse_triangles)
+    corners = mesh.coarse_triangles[triangle]
+    return lambda coarse: numpy.einsum("nk,nkc->nc", share, coarse[corners])
+
+
 def main(kept, output):
     kept, output = pathlib.Path(kept), pathlib.Path(output)
     output.mkdir(parents=True, exist_ok=True)
@@ -32,14 +40,11 @@ def main(kept, output):
         levels = sorted(kept.glob(pattern))
         if not levels:
             continue
-        with h5py.File(kept / mesh_file) as mesh:
-            triangles = mesh["coarse_triangles"][...]
-            triangle, share = weights(mesh["rest"][...], mesh["coarse_rest"][...], triangles)
+        with h5py.File(kept / mesh_file) as file:
+            method = flat(types.SimpleNamespace(**{name: file[name][...] for name in file}))
         for level in levels:
             with h5py.File(level) as file:
-                coarse = file["coarse"][...]
-            fine = numpy.einsum("nk,nkc->nc", share, coarse[triangles[triangle]])
-            numpy.save(output / f"{level.stem}.npy", fine)
+                numpy.save(output / f"{level.stem}.npy", method(file["coarse"][...]))
 
 
 if __name__ == "__main__":

@@ -31,6 +31,7 @@ KEYS = {  # columns that name a row of each file
     "brackets.csv": ("cell",),
     "claims.csv": ("command", "of"),
     "limits.csv": ("axis", "of"),
+    "peers.csv": ("cell", "tested", "law", "method", "trained_on"),  # by python/peers/compare.py
 }
 
 

@@ -12,6 +12,7 @@ import sys
 from statistics import median
 
 from make import names_of, variants
+from peers_section import section
 from readme_numbers import read_tables
 
 SOURCES = pathlib.Path(__file__).resolve().parents[2]
@@ -257,6 +258,7 @@ def page(tables):
         "*Decided* are the losses that are larger than the sum of both bars; *law* marks rows beyond the"
         " strain at which the law loses ellipticity.\n",
         *lost(rows),
+        *section(tables["peers.csv"], table, three, median),
         "## Guaranteed brackets on C^H\n",
         "Width: the largest difference of the two bounds on the energy, over all macro strains, divided by"
         " the upper one. Mesh: the shipped one, or where arcs are drawn the one that resolves them;"

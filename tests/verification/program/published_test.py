@@ -23,6 +23,7 @@ from made_up_run import list_again, verdict, write_run, write_table, write_verdi
 from made_up_study import write_results, write_stress  # noqa: E402
 from read import schema  # noqa: E402
 from read.stored import BadResults  # noqa: E402
+import peers_section  # noqa: E402
 import results_page  # noqa: E402
 from readme_numbers import faults_of, is_printed_as, read_tables  # noqa: E402
 
@@ -60,6 +61,26 @@ class ReadmeTest(unittest.TestCase):
         for name, rows in read_tables(PUBLISHED).items():
             self.assertTrue(rows, name)
             self.assertTrue(all(row["run"] and row["revision"] for row in rows), name)
+
+
+    def test_no_tested_frame_of_a_peer_is_a_sum_of_frames_that_it_was_trained_on(self):
+        rows = read_tables(PUBLISHED)["peers.csv"]
+        trained = [row for row in rows if row["trained_on"]]
+        self.assertTrue(all(float(row["outside_training"]) > 1e-3 for row in trained))
+        self.assertEqual({row["method"] for row in trained},
+                         {"learned_8", "learned_32", "pod_bound"})
+
+    def test_every_case_in_which_a_peer_is_nearer_is_named(self):
+        def row(cell, method, error, on=""):
+            return {"cell": cell, "tested": "strip-1", "law": "linear", "method": method,
+                    "trained_on": on, "error": error}
+        rows = [row("dots", "full", "5.0"), row("dots", "localized", "2.0"),
+                row("dots", "smooth", "4.0"), row("dots", "pod_bound", "1.0", "both pairs"),
+                row("net", "full", "5.0"), row("net", "learned_8", "6.0", "both pairs")]
+        self.assertEqual(list(peers_section.winners(rows)), [
+            "A peer is nearer than `full` in 1 of 2 cases:\n",
+            "- `dots`, strip-1, linear: smooth 4; against 5.\n",
+            "A peer is nearer than the paper's method in 0 of 1 cases.\n"])
 
 
 class CheckerTest(unittest.TestCase):
@@ -129,7 +150,8 @@ def published_row(cell, strain, **columns):
 
 class ResultsPageTest(unittest.TestCase):
     def page(self, *rows):
-        page = results_page.page({"errors.csv": rows, "brackets.csv": [], "claims.csv": []})
+        page = results_page.page({"errors.csv": rows, "brackets.csv": [], "claims.csv": [],
+                                  "peers.csv": []})
         return page.replace(results_page.UNBROKEN, " ")
 
     def test_a_row_has_errors_with_bars_and_gains_and_whether_it_is_decided(self):
